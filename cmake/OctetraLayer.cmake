@@ -1,0 +1,27 @@
+# One folder of the house, one library: its public headers under include/octetra/<name>/ are its only
+# include root that others see, so a layer can include no other layer than those that it links.
+
+set(CMAKE_CXX_EXTENSIONS OFF)
+
+function(octetra_compile_options target)
+  target_compile_features(${target} PUBLIC cxx_std_20)
+  target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic -Wshadow -Wconversion
+                                           -Wsign-conversion -Wold-style-cast)
+  if(OCTETRA_WARNINGS_AS_ERRORS)
+    target_compile_options(${target} PRIVATE -Werror)
+  endif()
+endfunction()
+
+# octetra_layer(<name> SOURCES <file>... HEADERS <file>... [LINKS <target>...] [USES <target>...])
+# LINKS are part of the layer's interface, USES are not.
+function(octetra_layer name)
+  cmake_parse_arguments(PARSE_ARGV 1 layer "" "" "SOURCES;HEADERS;LINKS;USES")
+  add_library(octetra_${name} STATIC ${layer_SOURCES})
+  add_library(Octetra::${name} ALIAS octetra_${name})
+  set_target_properties(octetra_${name} PROPERTIES EXPORT_NAME ${name}
+                                                   VERIFY_INTERFACE_HEADER_SETS ON)
+  target_sources(octetra_${name} PUBLIC FILE_SET HEADERS BASE_DIRS include FILES ${layer_HEADERS})
+  target_include_directories(octetra_${name} PRIVATE src)
+  target_link_libraries(octetra_${name} PUBLIC ${layer_LINKS} PRIVATE ${layer_USES})
+  octetra_compile_options(octetra_${name})
+endfunction()

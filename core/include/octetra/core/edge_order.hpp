@@ -1,0 +1,46 @@
+#pragma once
+
+#include <octetra/core/point.hpp>
+
+/// The strict order of edges by length that all of Octetra bisects by.
+///
+/// Laws, for edges of one cell that is not flat:
+///  - exactly one of longer(e, f), longer(f, e) holds when e and f are different edges;
+///  - longer(e, f) does not depend on the order in which end points are given, nor on any vertex
+///    number: only on coordinates. Every process finds the same longest edge.
+/// Compile users with -ffp-contract=off (the CMake target passes it on): a fused multiply-add
+/// would round the squared length otherwise in one place than in another.
+namespace octetra {
+
+/// An edge by the positions of its end points.
+struct Segment {
+    Point a;
+    Point b;
+};
+
+[[nodiscard]] constexpr double squared_length(const Segment& s) {
+    const double dx = s.a.x - s.b.x;
+    const double dy = s.a.y - s.b.y;
+    const double dz = s.a.z - s.b.z;
+    return (dx * dx + dy * dy) + dz * dz;
+}
+
+/// Is e longer than f in the strict order: by squared length in binary64; a tie goes to the edge
+/// whose lexicographically smaller end point is larger, then to the one whose larger end point is.
+[[nodiscard]] constexpr bool longer(const Segment& e, const Segment& f) {
+    const double length_e = squared_length(e);
+    const double length_f = squared_length(f);
+    if (length_e != length_f) return length_e > length_f;
+
+    const bool e_ascends = e.a < e.b;
+    const bool f_ascends = f.a < f.b;
+    const Point& e_low = e_ascends ? e.a : e.b;
+    const Point& f_low = f_ascends ? f.a : f.b;
+    if (e_low != f_low) return e_low > f_low;
+
+    const Point& e_high = e_ascends ? e.b : e.a;
+    const Point& f_high = f_ascends ? f.b : f.a;
+    return e_high > f_high;
+}
+
+}  // namespace octetra

@@ -1,0 +1,55 @@
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <octetra/core/index.hpp>
+#include <octetra/core/mesh.hpp>
+
+/// Mesh files, by extension: TetGen `.node/.ele` (with `.face`, `.edge` beside them where present),
+/// Medit `.mesh`; VTK `.vtu` is written only.
+namespace octetra {
+
+struct ReadOptions {
+    /// Turn inverted cells round, by exchanging their last two corners, rather than refuse them.
+    bool fix_orientation = false;
+    /// Told, in a sentence, of what is in the file but not in the mesh (Medit's `Corners`, say),
+    /// and of how many cells were turned round.
+    std::function<void(const std::string&)> note = [](const std::string&) {};
+};
+
+/// Reads and checks a mesh; what holds afterwards is written at struct Mesh.
+/// For TetGen, `path` names the `.ele` or the `.node` file; both must be there.
+/// Throws InputError ("FILE:LINE: what is wrong") or SystemError.
+/// Memory beyond the mesh: a buffer of 1 MiB, and 8 bytes per vertex while facets are checked.
+[[nodiscard]] Mesh read_mesh(const std::filesystem::path& path, const ReadOptions& options = {});
+
+/// What a file can carry beside the mesh itself. Only `.vtu` does: as cell data `parent`.
+struct WriteExtras {
+    const IndexVector<CellIndex, CellIndex>* cell_to_parent = nullptr;
+};
+
+/// Writes a mesh so that it reads back to the same bits. For TetGen, `path` names the `.ele` or the
+/// `.node` file, and `.face`, `.edge` are written (or removed, if they are there from before) as
+/// the mesh has facets and edges. All files are complete before the first takes its final name;
+/// where writing fails, none does. Throws InputError for an unknown extension, else SystemError.
+/// Returns what of the mesh this format cannot hold, in a sentence, or nothing.
+[[nodiscard]] std::string write_mesh(const Mesh& mesh, const std::filesystem::path& path,
+                                     const WriteExtras& extras = {});
+
+/// Throws InputError unless `path` has an extension that can be written and stands in a folder that
+/// is writable. (To refuse before the work, not after it.)
+void check_writable(const std::filesystem::path& path);
+
+/// Reads a list of cell numbers, separated by blanks or line ends, `#` starting a comment, that
+/// count from `first_number` and are less than `cell_count` + `first_number`.
+/// Returns them ascending, each once, counted from 0. Throws InputError or SystemError.
+[[nodiscard]] std::vector<GlobalCell> read_cell_list(const std::filesystem::path& path,
+                                                     std::uint32_t first_number,
+                                                     std::size_t cell_count);
+
+}  // namespace octetra

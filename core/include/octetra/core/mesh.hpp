@@ -1,0 +1,52 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include <octetra/core/index.hpp>
+#include <octetra/core/point.hpp>
+
+/// The mesh model: flat arrays, no links between entities. Who needs adjacency builds it.
+namespace octetra {
+
+using CellVertices = std::array<VertexIndex, 4>;
+using FacetVertices = std::array<VertexIndex, 3>;
+using EdgeVertices = std::array<VertexIndex, 2>;
+using Marker = std::int32_t;
+
+/// Corners of the six edges of a cell, of its four faces (face i lies opposite corner i), and of
+/// the three edges of a triangle, as local positions.
+inline constexpr std::array<std::array<std::uint8_t, 2>, 6> cell_edges{
+    {{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 3}, {2, 3}}};
+inline constexpr std::array<std::array<std::uint8_t, 3>, 4> cell_faces{
+    {{1, 2, 3}, {0, 2, 3}, {0, 1, 3}, {0, 1, 2}}};
+inline constexpr std::array<std::array<std::uint8_t, 2>, 3> triangle_edges{
+    {{0, 1}, {0, 2}, {1, 2}}};
+
+/// A tetrahedral mesh of this process. Invariants of a mesh that read_mesh returned:
+///  - coordinates are finite; vertex numbers are in range; a cell's, facet's, edge's are different;
+///  - every cell is positively oriented, exactly;
+///  - every facet is a face of some cell, every edge an edge of some cell.
+/// A list with the remark "or empty" is empty where the file had no such column.
+struct Mesh {
+    IndexVector<VertexIndex, Point> points;
+    IndexVector<VertexIndex, Marker> point_markers;  ///< one per vertex, or empty
+    std::size_t attributes_per_point = 0;
+    std::vector<double> point_attributes;  ///< vertex by vertex, attributes_per_point each
+
+    IndexVector<CellIndex, CellVertices> cells;
+    IndexVector<CellIndex, Marker> regions;  ///< region tag of each cell, or empty
+
+    IndexVector<FacetIndex, FacetVertices> facets;  ///< listed triangles: boundaries, interfaces
+    IndexVector<FacetIndex, Marker> facet_markers;  ///< one per facet, or empty
+
+    IndexVector<EdgeIndex, EdgeVertices> edges;   ///< listed edges: ridges, wires
+    IndexVector<EdgeIndex, Marker> edge_markers;  ///< one per edge, or empty
+
+    std::uint32_t first_number = 0;  ///< what files call the first vertex, cell ...: 0 or 1
+
+    friend bool operator==(const Mesh&, const Mesh&) = default;
+};
+
+}  // namespace octetra

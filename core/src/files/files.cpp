@@ -1,0 +1,103 @@
+#include <octetra/core/files.hpp>
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include <octetra/core/error.hpp>
+
+#include "files/fields.hpp"
+#include "files/line_reader.hpp"
+#include "files/medit.hpp"
+#include "files/tetgen.hpp"
+#include "files/vtu.hpp"
+
+namespace octetra {
+namespace {
+
+namespace fs = std::filesystem;
+
+enum class Format { tetgen, medit, vtu, unknown };
+
+Format format_of(const fs::path& path) {
+    const fs::path extension = path.extension();
+    if (extension == ".ele" || extension == ".node") return Format::tetgen;
+    if (extension == ".mesh") return Format::medit;
+    if (extension == ".vtu") return Format::vtu;
+    return Format::unknown;
+}
+
+}  // namespace
+
+Mesh read_mesh(const fs::path& path, const ReadOptions& options) {
+    switch (format_of(path)) {
+        case Format::tetgen: return read_tetgen(path, options);
+        case Format::medit: return read_medit(path, options);
+        case Format::vtu:
+            throw InputError(fmt::format(
+                "{}: .vtu files are written, not read; read .ele/.node or .mesh", path.native()));
+        case Format::unknown: break;
+    }
+    throw InputError(fmt::format(
+        "{}: a mesh to read is named by its extension: .ele or .node (TetGen), .mesh (Medit)",
+        path.native()));
+}
+
+std::string write_mesh(const Mesh& mesh, const fs::path& path, const WriteExtras& extras) {
+    check_writable(path);
+    switch (format_of(path)) {
+        case Format::tetgen: write_tetgen(mesh, path); return {};
+        case Format::medit: return write_medit(mesh, path);
+        case Format::vtu: return write_vtu(mesh, path, extras);
+        case Format::unknown: break;
+    }
+    return {};
+}
+
+void check_writable(const fs::path& path) {
+    if (format_of(path) == Format::unknown) {
+        throw InputError(
+            fmt::format("{}: a mesh to write is named by its extension: .ele or .node "
+                        "(TetGen), .mesh (Medit), .vtu (VTK)",
+                        path.native()));
+    }
+    std::error_code ignored;
+    if (fs::is_directory(path, ignored)) {
+        throw InputError(fmt::format("{}: is a directory, not a file", path.native()));
+    }
+    const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
+    if (!fs::is_directory(folder, ignored)) {
+        throw InputError(fmt::format("{}: there is no folder {}; make it first", path.native(),
+                                     folder.native()));
+    }
+    if (::access(folder.c_str(), W_OK) != 0) {
+        throw InputError(
+            fmt::format("{}: the folder {} is not writable", path.native(), folder.native()));
+    }
+}
+
+std::vector<GlobalCell> read_cell_list(const fs::path& path, std::uint32_t first_number,
+                                       std::size_t cell_count) {
+    LineReader reader(path);
+    std::vector<GlobalCell> cells;
+    while (reader.next()) {
+        Fields fields(reader);
+        while (!fields.at_end()) {
+            const std::uint64_t number = fields.unsigned_integer("a cell number");
+            const std::uint64_t index = number - first_number;  // wraps round below first_number
+            if (index >= cell_count) {
+                reader.fail(fmt::format("there is no cell {}: the {} cells are numbered from {}",
+                                        number, cell_count, first_number));
+            }
+            cells.push_back(GlobalCell{index});
+        }
+    }
+    std::ranges::sort(cells);
+    cells.erase(std::ranges::unique(cells).begin(), cells.end());
+    return cells;
+}
+
+}  // namespace octetra

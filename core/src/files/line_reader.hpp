@@ -1,0 +1,56 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace octetra {
+
+/// Reads a text file line by line through one buffer, never the whole of it.
+/// Skips blank lines, cuts off `#` comments; CRLF counts as a line end.
+class LineReader {
+public:
+    /// Throws InputError if `path` is not a regular file that can be read.
+    explicit LineReader(std::filesystem::path path);
+    ~LineReader();
+    LineReader(const LineReader&) = delete;
+    LineReader& operator=(const LineReader&) = delete;
+    LineReader(LineReader&&) = delete;
+    LineReader& operator=(LineReader&&) = delete;
+
+    /// Moves to the next line that holds something; false at the end of the file.
+    [[nodiscard]] bool next();
+
+    /// The current line, with neither comment nor line end; valid until next().
+    [[nodiscard]] std::string_view line() const { return line_; }
+    /// Its number, counted from 1; after the last line, the number of lines.
+    [[nodiscard]] std::uint64_t line_number() const { return line_number_; }
+    [[nodiscard]] std::uint64_t file_size() const { return file_size_; }
+    [[nodiscard]] const std::filesystem::path& path() const { return path_; }
+
+    /// Throws InputError "PATH:LINE: what", for the current line or another.
+    [[noreturn]] void fail(std::string_view what) const { fail(what, line_number_); }
+    [[noreturn]] void fail(std::string_view what, std::uint64_t line_number) const;
+
+    /// Refuses a count of entries that the file is too small to hold, if each takes at least
+    /// `fields` numbers, so that nobody allocates for it. Also refuses what no index can number.
+    void check_count(std::uint64_t count, std::size_t fields, std::string_view what) const;
+
+private:
+    [[nodiscard]] bool next_raw_line(std::string_view& raw);
+    void fill();
+
+    std::filesystem::path path_;
+    int file_ = -1;
+    std::uint64_t file_size_ = 0;
+    std::vector<char> buffer_;
+    std::size_t begin_ = 0;  // of what is not yet handed out
+    std::size_t end_ = 0;    // of what was read
+    bool at_end_of_file_ = false;
+    std::string_view line_;
+    std::uint64_t line_number_ = 0;
+};
+
+}  // namespace octetra

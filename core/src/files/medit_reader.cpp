@@ -1,0 +1,308 @@
+#include <algorithm>
+#include <array>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include <fmt/format.h>
+
+#include <octetra/core/error.hpp>
+
+#include "files/cell_check.hpp"
+#include "files/fields.hpp"
+#include "files/line_reader.hpp"
+#include "files/listed_entities.hpp"
+#include "files/medit.hpp"
+
+namespace octetra {
+namespace {
+
+/// Keywords whose entries are read over, and how many numbers each entry has.
+struct Skipped {
+    std::string_view keyword;
+    std::size_t numbers_per_entry;
+};
+constexpr std::array<Skipped, 12> skipped_sections{{{"Corners", 1},
+                                                    {"RequiredVertices", 1},
+                                                    {"Ridges", 1},
+                                                    {"RequiredEdges", 1},
+                                                    {"RequiredTriangles", 1},
+                                                    {"RequiredTetrahedra", 1},
+                                                    {"Normals", 3},
+                                                    {"NormalAtVertices", 2},
+                                                    {"NormalAtTriangleVertices", 3},
+                                                    {"Tangents", 3},
+                                                    {"TangentAtVertices", 2},
+                                                    {"SubDomainFromMesh", 4}}};
+
+constexpr std::array<std::string_view, 6> other_cell_shapes{
+    "Quadrilaterals", "Hexahedra", "Hexaedra", "Prisms", "Pentahedra", "Pyramids"};
+
+constexpr std::array<std::string_view, 3> second_order_sections{"TetrahedraP2", "TrianglesP2",
+                                                                "EdgesP2"};
+
+/// The file as a sequence of tokens that goes on over line ends.
+class Tokens {
+public:
+    explicit Tokens(LineReader& reader) : reader_(&reader), fields_(reader, {}) {}
+
+    /// The next token as it stands; empty at the end of the file.
+    std::string_view text() { return advance() ? fields_.text() : std::string_view{}; }
+    std::uint64_t unsigned_integer(std::string_view what) {
+        require(what);
+        return fields_.unsigned_integer(what);
+    }
+    std::int32_t marker(std::string_view what) {
+        require(what);
+        return fields_.marker(what);
+    }
+    double real(std::string_view what) {
+        require(what);
+        return fields_.real(what);
+    }
+
+private:
+    bool advance() {
+        if (!fields_.at_end()) return true;
+        if (!reader_->next()) return false;
+        fields_ = Fields(*reader_);
+        return true;
+    }
+    void require(std::string_view what) {
+        if (!advance()) reader_->fail(fmt::format("the file ends where {} should be", what));
+    }
+
+    LineReader* reader_;
+    Fields fields_;
+};
+
+/// Where the entries of a section were found.
+struct Section {
+    std::uint64_t keyword_line = 0;  ///< 0: there was no such section
+    std::uint64_t first_line = 0;    ///< of the first entry
+    bool consecutive = false;        ///< entry i stands on line first_line + i
+
+    [[nodiscard]] std::uint64_t line_of(std::uint64_t entry) const {
+        return consecutive ? first_line + entry : keyword_line;
+    }
+};
+
+class MeditReader {
+public:
+    MeditReader(const std::filesystem::path& path, const ReadOptions& options)
+        : reader_(path), tokens_(reader_), options_(&options) {
+        mesh_.first_number = 1;
+    }
+
+    Mesh read() {
+        read_head();
+        while (read_section()) {
+        }
+        check_listed(mesh_.cells, tetrahedra_, "cell");
+        check_cells();
+        check_listed(mesh_.facets, triangles_, "triangle");
+        check_listed(mesh_.edges, edges_, "edge");
+        check_stray(find_stray_facet(mesh_), triangles_, "triangle", "face");
+        check_stray(find_stray_edge(mesh_), edges_, "edge", "edge");
+        drop_if_all_zero(mesh_.point_markers);
+        drop_if_all_zero(mesh_.regions);
+        drop_if_all_zero(mesh_.facet_markers);
+        drop_if_all_zero(mesh_.edge_markers);
+        return std::move(mesh_);
+    }
+
+private:
+    void read_head() {
+        if (const std::string_view token = tokens_.text(); token != "MeshVersionFormatted") {
+            reader_.fail(
+                fmt::format("a Medit file begins with MeshVersionFormatted, not {}", shown(token)));
+        }
+        (void)tokens_.unsigned_integer("the format's version");
+    }
+
+    /// Reads one section; false at the end.
+    bool read_section() {
+        const std::string keyword{tokens_.text()};
+        if (keyword.empty()) {
+            options_->note(
+                fmt::format("{}: the file ends without the keyword End", reader_.path().native()));
+            if (vertices_.keyword_line == 0) reader_.fail("there is no section Vertices");
+            return false;
+        }
+        if (keyword == "End") {
+            if (vertices_.keyword_line == 0) reader_.fail("there is no section Vertices");
+            if (!tokens_.text().empty()) reader_.fail("text after the keyword End");
+            return false;
+        }
+        if (keyword == "Dimension") {
+            const std::uint64_t dimension = tokens_.unsigned_integer("the dimension");
+            if (dimension != 3) {
+                reader_.fail(fmt::format("dimension 3 expected, {} found", dimension));
+            }
+        } else if (keyword == "Vertices") {
+            read_vertices();
+        } else if (keyword == "Tetrahedra") {
+            read_listed(mesh_.cells, mesh_.regions, tetrahedra_, "tetrahedra");
+        } else if (keyword == "Triangles") {
+            read_listed(mesh_.facets, mesh_.facet_markers, triangles_, "triangles");
+        } else if (keyword == "Edges") {
+            read_listed(mesh_.edges, mesh_.edge_markers, edges_, "edges");
+        } else {
+            read_other(keyword);
+        }
+        return true;
+    }
+
+    void read_other(const std::string& keyword) {
+        const std::uint64_t line = reader_.line_number();
+        const auto skipped = std::ranges::find(skipped_sections, keyword, &Skipped::keyword);
+        if (skipped != skipped_sections.end()) {
+            const std::uint64_t count = tokens_.unsigned_integer("the number of entries");
+            for (std::uint64_t i = 0; i < count * skipped->numbers_per_entry; ++i) {
+                (void)tokens_.real("a number of this section");
+            }
+            if (count > 0) {
+                options_->note(fmt::format("{}:{}: the {} entries of {} are not kept",
+                                           reader_.path().native(), line, count, keyword));
+            }
+            return;
+        }
+        if (std::ranges::find(second_order_sections, keyword) != second_order_sections.end()) {
+            reader_.fail(fmt::format("second-order elements ({}) are not supported", keyword));
+        }
+        if (std::ranges::find(other_cell_shapes, keyword) != other_cell_shapes.end()) {
+            if (tokens_.unsigned_integer("the number of entries") == 0) return;
+            reader_.fail(
+                fmt::format("only tetrahedral meshes are supported, and this one has {}", keyword),
+                line);
+        }
+        reader_.fail(fmt::format("a keyword expected, {} found", shown(keyword)));
+    }
+
+    /// Reads a section's count and its entries, each by read_entry().
+    Section read_entries(Section& earlier, std::size_t field_count, std::string_view name,
+                         auto&& reserve, auto&& read_entry) {
+        Section section{.keyword_line = reader_.line_number()};
+        if (earlier.keyword_line != 0) {
+            reader_.fail(fmt::format("a second section of {}; the first is on line {}", name,
+                                     earlier.keyword_line));
+        }
+        const std::uint64_t count = tokens_.unsigned_integer("the number of entries");
+        reader_.check_count(count, field_count, name);
+        reserve(count);
+        for (std::uint64_t i = 0; i < count; ++i) {
+            read_entry([&] {
+                if (i == 0) section.first_line = reader_.line_number();
+            });
+        }
+        section.consecutive = reader_.line_number() + 1 == section.first_line + count;
+        return section;
+    }
+
+    void read_vertices() {
+        vertices_ = read_entries(
+            vertices_, 4, "vertices",
+            [&](std::size_t count) {
+                mesh_.points.reserve(count);
+                mesh_.point_markers.reserve(count);
+            },
+            [&](auto&& started) {
+                const double x = tokens_.real("x");
+                started();
+                const double y = tokens_.real("y");
+                const double z = tokens_.real("z");
+                mesh_.points.push_back({x, y, z});
+                mesh_.point_markers.push_back(tokens_.marker("the vertex's reference"));
+            });
+    }
+
+    template <class I, std::size_t N>
+    void read_listed(IndexVector<I, std::array<VertexIndex, N>>& list,
+                     IndexVector<I, Marker>& markers, Section& section, std::string_view name) {
+        section = read_entries(
+            section, N + 1, name,
+            [&](std::size_t count) {
+                list.reserve(count);
+                markers.reserve(count);
+            },
+            [&](auto&& started) {
+                std::array<VertexIndex, N> vertices;
+                for (VertexIndex& vertex : vertices) {
+                    const std::uint64_t number = tokens_.unsigned_integer("a vertex number");
+                    started();
+                    if (number == 0 || number > VertexIndex::limit) {
+                        reader_.fail(fmt::format("there is no vertex {}", number));
+                    }
+                    vertex = VertexIndex{number - 1};
+                }
+                list.push_back(vertices);
+                markers.push_back(tokens_.marker("the reference"));
+            });
+    }
+
+    // The checks come last because the format lets Vertices stand behind what refers to them.
+
+    template <class I, std::size_t N>
+    void check_listed(const IndexVector<I, std::array<VertexIndex, N>>& list,
+                      const Section& section, std::string_view name) {
+        for (I i{0}; i < list.end_index(); ++i) {
+            for (std::size_t k = 0; k < N; ++k) {
+                if (list[i][k] >= mesh_.points.end_index()) {
+                    reader_.fail(
+                        fmt::format("there is no vertex {}: the file has {}",
+                                    std::uint64_t{list[i][k].value()} + 1, mesh_.points.size()),
+                        section.line_of(i.value()));
+                }
+                for (std::size_t j = 0; j < k; ++j) {
+                    if (list[i][j] == list[i][k]) {
+                        reader_.fail(fmt::format("the {} has the same vertex twice", name),
+                                     section.line_of(i.value()));
+                    }
+                }
+            }
+        }
+    }
+
+    void check_cells() {
+        CellCheck check(mesh_, options_->fix_orientation);
+        for (CellIndex c{0}; c < mesh_.cells.end_index(); ++c) {
+            const std::string_view wrong = check.judge(mesh_.cells[c]);
+            if (!wrong.empty()) reader_.fail(wrong, tetrahedra_.line_of(c.value()));
+        }
+        if (check.fixed_count() > 0) {
+            options_->note(fmt::format("{}: {} inverted cells were turned round",
+                                       reader_.path().native(), check.fixed_count()));
+        }
+    }
+
+    template <class I>
+    void check_stray(I stray, const Section& section, std::string_view name,
+                     std::string_view side) {
+        if (stray.is_none()) return;
+        reader_.fail(fmt::format("{} {} is a {} of no cell", name, stray.value() + 1, side),
+                     section.line_of(stray.value()));
+    }
+
+    // Every entity has a reference in this format; 0 says that nobody gave it one.
+    template <class I>
+    static void drop_if_all_zero(IndexVector<I, Marker>& markers) {
+        if (std::ranges::all_of(markers, [](Marker m) { return m == 0; })) markers = {};
+    }
+
+    LineReader reader_;
+    Tokens tokens_;
+    const ReadOptions* options_;
+    Mesh mesh_;
+    Section vertices_;
+    Section tetrahedra_;
+    Section triangles_;
+    Section edges_;
+};
+
+}  // namespace
+
+Mesh read_medit(const std::filesystem::path& path, const ReadOptions& options) {
+    return MeditReader(path, options).read();
+}
+
+}  // namespace octetra

@@ -1,0 +1,16 @@
+#pragma once
+
+#include <filesystem>
+
+#include <octetra/core/files.hpp>
+#include <octetra/core/mesh.hpp>
+
+/// TetGen's text files: `.node` (vertices), `.ele` (cells), `.face` (facets), `.edge` (edges).
+/// Each begins with a header line of counts; every further line begins with the entity's number.
+namespace octetra {
+
+[[nodiscard]] Mesh read_tetgen(const std::filesystem::path& path, const ReadOptions& options);
+
+void write_tetgen(const Mesh& mesh, const std::filesystem::path& path);
+
+}  // namespace octetra

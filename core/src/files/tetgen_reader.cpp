@@ -1,0 +1,221 @@
+#include <array>
+#include <optional>
+#include <string_view>
+
+#include <fmt/format.h>
+
+#include <octetra/core/error.hpp>
+
+#include "files/cell_check.hpp"
+#include "files/fields.hpp"
+#include "files/line_reader.hpp"
+#include "files/listed_entities.hpp"
+#include "files/tetgen.hpp"
+
+namespace octetra {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// The numbers of a header line; those that the line leaves out have TetGen's defaults.
+template <std::size_t N>
+std::array<std::uint64_t, N> read_header(LineReader& reader,
+                                         const std::array<std::string_view, N>& names,
+                                         const std::array<std::uint64_t, N>& defaults) {
+    if (!reader.next()) reader.fail("the file ends before its header line");
+    Fields fields(reader);
+    std::array<std::uint64_t, N> values = defaults;
+    for (std::size_t k = 0; k < N && (k == 0 || !fields.at_end()); ++k) {
+        values[k] = fields.unsigned_integer(names[k]);
+    }
+    fields.expect_end(N);
+    return values;
+}
+
+/// Where the entries of a file were found.
+struct Entries {
+    std::uint32_t first_number = 0;  ///< 0 or 1
+    std::uint64_t first_line = 0;    ///< of the first entry
+    bool consecutive = false;        ///< entry i stands on line first_line + i
+
+    [[nodiscard]] std::uint64_t line_of(std::uint64_t entry) const {
+        return consecutive ? first_line + entry : first_line;
+    }
+};
+
+/// Reads the rest of the file: `count` lines, each with its number and what read_entry(fields)
+/// takes, `field_count` fields in all.
+Entries read_entries(LineReader& reader, std::uint64_t count, std::size_t field_count,
+                     std::optional<std::uint32_t> first_number, auto&& read_entry) {
+    Entries entries{.first_number = first_number.value_or(0)};
+    for (std::uint64_t i = 0; i < count; ++i) {
+        if (!reader.next()) {
+            reader.fail(fmt::format("the file ends after {} of {} entries", i, count));
+        }
+        Fields fields(reader);
+        const std::uint64_t number = fields.unsigned_integer("the entry's number");
+        if (i == 0) {
+            entries.first_line = reader.line_number();
+            if (!first_number && number <= 1) entries.first_number = number == 1 ? 1 : 0;
+        }
+        if (number != i + entries.first_number) {
+            reader.fail(fmt::format(
+                "entry number {} expected, {} found{}", i + entries.first_number, number,
+                i == 0 && !first_number ? "; numbering begins with 0 or 1" : ""));
+        }
+        read_entry(fields);
+        fields.expect_end(field_count);
+    }
+    entries.consecutive = reader.line_number() + 1 == entries.first_line + count;
+    if (reader.next()) reader.fail(fmt::format("more lines than the {} entries announced", count));
+    return entries;
+}
+
+VertexIndex read_vertex(Fields& fields, const LineReader& reader, const Mesh& mesh) {
+    const std::uint64_t number = fields.unsigned_integer("a vertex number");
+    const std::uint64_t index = number - mesh.first_number;  // wraps round below first_number
+    if (index >= mesh.points.size()) {
+        reader.fail(fmt::format("there is no vertex {}: the {} vertices are numbered from {}",
+                                number, mesh.points.size(), mesh.first_number));
+    }
+    return VertexIndex{index};
+}
+
+void read_node(const fs::path& path, Mesh& mesh) {
+    LineReader reader(path);
+    const auto [count, dimension, attributes, markers] =
+        read_header<4>(reader,
+                       {"the number of vertices", "the dimension",
+                        "the number of attributes per vertex", "the markers flag"},
+                       {0, 3, 0, 0});
+    if (dimension != 3) reader.fail(fmt::format("dimension 3 expected, {} found", dimension));
+    if (markers > 1) reader.fail(fmt::format("the markers flag is 0 or 1, not {}", markers));
+    constexpr std::uint64_t most_attributes = 1000;
+    if (attributes > most_attributes) {
+        reader.fail(fmt::format("{} attributes per vertex; at most {} are supported", attributes,
+                                most_attributes));
+    }
+    const std::size_t field_count = 4 + attributes + markers;
+    reader.check_count(count, field_count, "vertices");
+
+    mesh.points.reserve(count);
+    mesh.attributes_per_point = attributes;
+    mesh.point_attributes.reserve(count * attributes);
+    mesh.point_markers.reserve(count * markers);
+    const Entries entries =
+        read_entries(reader, count, field_count, std::nullopt, [&](Fields& fields) {
+            const double x = fields.real("x");
+            const double y = fields.real("y");
+            const double z = fields.real("z");
+            mesh.points.push_back({x, y, z});
+            for (std::uint64_t k = 0; k < attributes; ++k) {
+                mesh.point_attributes.push_back(fields.real("an attribute of the vertex"));
+            }
+            if (markers == 1) mesh.point_markers.push_back(fields.marker("the vertex's marker"));
+        });
+    mesh.first_number = entries.first_number;
+}
+
+void read_ele(const fs::path& path, const ReadOptions& options, Mesh& mesh) {
+    LineReader reader(path);
+    const auto [count, corners, attributes] =
+        read_header<3>(reader,
+                       {"the number of cells", "the number of vertices per cell",
+                        "the number of attributes per cell"},
+                       {0, 4, 0});
+    if (corners == 10) {
+        reader.fail(
+            "these are second-order cells (10 vertices each); only those with 4 are "
+            "supported");
+    }
+    if (corners != 4) reader.fail(fmt::format("4 vertices per cell expected, {} found", corners));
+    if (attributes > 1) {
+        reader.fail(fmt::format("{} attributes per cell; only one, the region tag, is supported",
+                                attributes));
+    }
+    const std::size_t field_count = 5 + attributes;
+    reader.check_count(count, field_count, "cells");
+
+    mesh.cells.reserve(count);
+    mesh.regions.reserve(count * attributes);
+    CellCheck check(mesh, options.fix_orientation);
+    read_entries(reader, count, field_count, mesh.first_number, [&](Fields& fields) {
+        CellVertices cell;
+        for (VertexIndex& vertex : cell) vertex = read_vertex(fields, reader, mesh);
+        const std::string_view wrong = check.judge(cell);
+        if (!wrong.empty()) reader.fail(wrong);
+        mesh.cells.push_back(cell);
+        if (attributes == 1) mesh.regions.push_back(fields.marker("the region tag"));
+    });
+    if (check.fixed_count() > 0) {
+        options.note(fmt::format("{}: {} inverted cells were turned round", path.native(),
+                                 check.fixed_count()));
+    }
+}
+
+/// Reads a `.face` or `.edge` file: entities of N vertices each.
+template <class I, std::size_t N>
+void read_listed(const fs::path& path, std::string_view name,
+                 IndexVector<I, std::array<VertexIndex, N>>& list,
+                 IndexVector<I, Marker>& list_markers, I (*find_stray)(const Mesh&), Mesh& mesh) {
+    LineReader reader(path);
+    const auto [count, markers] =
+        read_header<2>(reader, {"the number of entries", "the markers flag"}, {0, 0});
+    if (markers > 1) reader.fail(fmt::format("the markers flag is 0 or 1, not {}", markers));
+    const std::size_t field_count = 1 + N + markers;
+    reader.check_count(count, field_count, "entries");
+
+    list.reserve(count);
+    list_markers.reserve(count * markers);
+    const Entries entries =
+        read_entries(reader, count, field_count, mesh.first_number, [&](Fields& fields) {
+            std::array<VertexIndex, N> vertices;
+            for (VertexIndex& vertex : vertices) vertex = read_vertex(fields, reader, mesh);
+            for (std::size_t k = 0; k < N; ++k) {
+                if (vertices[k] == vertices[(k + 1) % N]) {
+                    reader.fail(fmt::format("the {} has the same vertex twice", name));
+                }
+            }
+            list.push_back(vertices);
+            if (markers == 1) list_markers.push_back(fields.marker("the marker"));
+        });
+    const I stray = find_stray(mesh);
+    if (!stray.is_none()) {
+        reader.fail(fmt::format("{} {} is a {} of no cell", name,
+                                stray.value() + entries.first_number, name),
+                    entries.line_of(stray.value()));
+    }
+}
+
+fs::path companion(fs::path path, std::string_view extension) {
+    return path.replace_extension(extension);
+}
+
+void require_companion(const fs::path& path, const fs::path& other) {
+    if (!fs::exists(other) && fs::exists(path)) {
+        throw InputError(fmt::format("{}: the file {} is missing, which belongs to it",
+                                     path.native(), other.native()));
+    }
+}
+
+}  // namespace
+
+Mesh read_tetgen(const fs::path& path, const ReadOptions& options) {
+    const fs::path node = companion(path, ".node");
+    const fs::path ele = companion(path, ".ele");
+    require_companion(ele, node);
+    require_companion(node, ele);
+
+    Mesh mesh;
+    read_node(node, mesh);
+    read_ele(ele, options, mesh);
+    if (const fs::path face = companion(path, ".face"); fs::exists(face)) {
+        read_listed(face, "face", mesh.facets, mesh.facet_markers, find_stray_facet, mesh);
+    }
+    if (const fs::path edge = companion(path, ".edge"); fs::exists(edge)) {
+        read_listed(edge, "edge", mesh.edges, mesh.edge_markers, find_stray_edge, mesh);
+    }
+    return mesh;
+}
+
+}  // namespace octetra

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <vector>
+
+#include <octetra/core/index.hpp>
+#include <octetra/core/mesh.hpp>
+#include <octetra/core/selection.hpp>
+
+/// The serial 8T-LE refinement that defines what is right: Balman, "Tetrahedral Mesh Refinement in
+/// Distributed Environments", Figure 3, without the distribution. Written to be checked by eye.
+namespace octetra::reference {
+
+struct Refinement {
+    Mesh mesh;
+    /// For each cell of `mesh`, the cell of the input that it lies in.
+    IndexVector<CellIndex, CellIndex> cell_to_parent;
+    /// Vertex number (vertices of the input) + i of `mesh` is the midpoint of edge number i here.
+    /// Both ends are vertices of `mesh` with lower numbers. Smaller end point first.
+    std::vector<EdgeVertices> midpoint_to_edge;
+};
+
+/// Repeats `levels` times: choose cells, select their edges by `scheme`, close the selection,
+/// bisect the selected edges, bisect the cells by them.
+///
+/// Cells of the result stand in the order of their parents, children in the order of bisection;
+/// the input's vertices keep their numbers, the midpoints of a level follow in the order of their
+/// edges' (smaller, larger) end point numbers.
+/// Region tags go to the children, facets and their markers to the triangles that tile them, edges
+/// and theirs to the halves. A midpoint has the mean of its ends' attributes. Its marker is the
+/// edge's, where that is listed; else the smallest of the listed facets around the edge; else 0.
+///
+/// The mesh must satisfy the invariants of struct Mesh. Throws InputError where a midpoint, rounded
+/// to binary64, would flatten or invert a cell, or where the result has more entities than can be
+/// numbered.
+[[nodiscard]] Refinement refine(const Mesh& mesh, const Selection& selection, Scheme scheme,
+                                int levels);
+
+}  // namespace octetra::reference

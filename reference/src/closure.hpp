@@ -1,0 +1,13 @@
+#pragma once
+
+#include "edges.hpp"
+
+namespace octetra::reference {
+
+/// The smallest set that contains `selected` and, with any edge of a face of a cell, that face's
+/// longest edge. The edges so added lie along the longest-edge propagation paths (LEPP) of the
+/// selected ones. The order in which faces are visited does not matter: the rule only adds, so the
+/// least fixed point is unique.
+[[nodiscard]] EdgeSet close(EdgeSet selected, const Mesh& mesh, const EdgeTable& table);
+
+}  // namespace octetra::reference

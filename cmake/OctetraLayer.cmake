@@ -6,7 +6,9 @@ set(CMAKE_CXX_EXTENSIONS OFF)
 function(octetra_compile_options target)
   target_compile_features(${target} PUBLIC cxx_std_20)
   target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic -Wshadow -Wconversion
-                                           -Wsign-conversion -Wold-style-cast)
+                                           -Wsign-conversion -Wold-style-cast
+                                           # {.radius = 1} leaves the rest at their defaults
+                                           -Wno-missing-field-initializers)
   if(OCTETRA_WARNINGS_AS_ERRORS)
     target_compile_options(${target} PRIVATE -Werror)
   endif()

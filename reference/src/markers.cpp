@@ -7,17 +7,20 @@ namespace octetra::reference {
 IndexVector<EdgeIndex, Marker> midpoint_markers(const Mesh& mesh, const EdgeTable& table) {
     IndexVector<EdgeIndex, Marker> markers(table.edges.size(), 0);
     EdgeSet met(table.edges.size(), false);
+    const auto take = [&](EdgeIndex e, Marker marker) {
+        markers[e] = met[e] != 0 ? std::min(markers[e], marker) : marker;
+        met[e] = true;
+    };
     for (FacetIndex f{0}; f < mesh.facet_markers.end_index(); ++f) {
         for (const auto& [i, j] : triangle_edges) {
-            const EdgeIndex e = find_edge(table, mesh.facets[f][i], mesh.facets[f][j]);
-            const Marker marker = mesh.facet_markers[f];
-            markers[e] = met[e] != 0 ? std::min(markers[e], marker) : marker;
-            met[e] = true;
+            take(find_edge(table, mesh.facets[f][i], mesh.facets[f][j]), mesh.facet_markers[f]);
         }
     }
+    // A listed edge overrules the facets; listed twice, it has the smaller of its markers.
+    met.assign(met.size(), false);
     for (EdgeIndex listed{0}; listed < mesh.edge_markers.end_index(); ++listed) {
-        const EdgeIndex e = find_edge(table, mesh.edges[listed][0], mesh.edges[listed][1]);
-        markers[e] = mesh.edge_markers[listed];
+        take(find_edge(table, mesh.edges[listed][0], mesh.edges[listed][1]),
+             mesh.edge_markers[listed]);
     }
     return markers;
 }

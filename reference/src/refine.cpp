@@ -37,7 +37,7 @@ EdgeToMidpoint bisect_edges(const Mesh& mesh, const EdgeTable& table, const Edge
         const auto& [a, b] = table.edges[e];
         check_countable(fine.mesh.points.size() + 1, "vertices");
         midpoints[e] = fine.mesh.points.append(midpoint(mesh.points[a], mesh.points[b]));
-        fine.midpoint_to_edge.push_back(table.edges[e]);
+        fine.maps.midpoint_to_edge.push_back(table.edges[e]);
         if (!mesh.point_markers.empty()) fine.mesh.point_markers.append(markers[e]);
         for (std::size_t k = 0; k < attributes; ++k) {
             fine.mesh.point_attributes.push_back(
@@ -74,7 +74,7 @@ void bisect_cells(const Mesh& mesh, const EdgeTable& table, const EdgeToMidpoint
                 check_child(child, fine.mesh, cell_to_parent[c], level, mesh.first_number);
             }
             fine.mesh.cells.append(child);
-            fine.cell_to_parent.append(cell_to_parent[c]);
+            fine.maps.cell_to_parent.append(cell_to_parent[c]);
             if (!mesh.regions.empty()) fine.mesh.regions.append(mesh.regions[c]);
         }
     }
@@ -99,14 +99,16 @@ void bisect_listed(const IndexVector<I, std::array<VertexIndex, N>>& list,
 Refinement refine_once(Refinement coarse, const Selection& selection, Scheme scheme, int level) {
     const Mesh& mesh = coarse.mesh;
     const EdgeTable table = number_edges(mesh);
-    const EdgeSet selected =
-        close(select_edges(mesh, table, selection, scheme, coarse.cell_to_parent), mesh, table);
+    const EdgeSet selected = close(
+        select_edges(mesh, table, selection, scheme, coarse.maps.cell_to_parent), mesh, table);
 
     Refinement fine;
     fine.mesh.first_number = mesh.first_number;
-    fine.midpoint_to_edge = coarse.midpoint_to_edge;
+    fine.maps.first_midpoint = coarse.maps.first_midpoint;
+    fine.maps.first_number = coarse.maps.first_number;
+    fine.maps.midpoint_to_edge = coarse.maps.midpoint_to_edge;
     const EdgeToMidpoint midpoints = bisect_edges(mesh, table, selected, fine);
-    bisect_cells(mesh, table, midpoints, coarse.cell_to_parent, level, fine);
+    bisect_cells(mesh, table, midpoints, coarse.maps.cell_to_parent, level, fine);
     bisect_listed(mesh.facets, mesh.facet_markers, mesh, table, midpoints, fine.mesh.facets,
                   fine.mesh.facet_markers);
     bisect_listed(mesh.edges, mesh.edge_markers, mesh, table, midpoints, fine.mesh.edges,
@@ -117,8 +119,11 @@ Refinement refine_once(Refinement coarse, const Selection& selection, Scheme sch
 }  // namespace
 
 Refinement refine(const Mesh& mesh, const Selection& selection, Scheme scheme, int levels) {
-    Refinement result{.mesh = mesh, .cell_to_parent = {}, .midpoint_to_edge = {}};
-    for (CellIndex c{0}; c < mesh.cells.end_index(); ++c) result.cell_to_parent.append(c);
+    Refinement result;
+    result.mesh = mesh;
+    result.maps.first_number = mesh.first_number;
+    result.maps.first_midpoint = mesh.points.end_index();
+    for (CellIndex c{0}; c < mesh.cells.end_index(); ++c) result.maps.cell_to_parent.append(c);
     for (int level = 1; level <= levels; ++level) {
         result = refine_once(std::move(result), selection, scheme, level);
     }

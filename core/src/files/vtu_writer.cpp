@@ -187,8 +187,9 @@ std::string write_vtu(const Mesh& mesh, const std::filesystem::path& path,
     }
     if (extras.cell_to_parent != nullptr) {
         cell_data.push_back(array<std::int64_t>(
-            "parent", 1, mesh.cells.size(), [parents = extras.cell_to_parent](std::size_t i) {
-                return std::int64_t{(*parents)[CellIndex{i}].value()};
+            "parent", 1, mesh.cells.size(),
+            [parents = extras.cell_to_parent, first = mesh.first_number](std::size_t i) {
+                return std::int64_t{(*parents)[CellIndex{i}].value()} + first;
             }));
     }
     VtuWriter(path, mesh).write(point_data, cell_data);

@@ -28,7 +28,8 @@ struct ReadOptions {
 /// Memory beyond the mesh: a buffer of 1 MiB, and 8 bytes per vertex while facets are checked.
 [[nodiscard]] Mesh read_mesh(const std::filesystem::path& path, const ReadOptions& options = {});
 
-/// What a file can carry beside the mesh itself. Only `.vtu` does: as cell data `parent`.
+/// What a file can carry beside the mesh itself. Only `.vtu` does: as cell data `parent`, the
+/// number that the input file gives the cell's parent.
 struct WriteExtras {
     const IndexVector<CellIndex, CellIndex>* cell_to_parent = nullptr;
 };

@@ -1,8 +1,6 @@
 #pragma once
 
-#include <vector>
-
-#include <octetra/core/index.hpp>
+#include <octetra/core/maps.hpp>
 #include <octetra/core/mesh.hpp>
 #include <octetra/core/selection.hpp>
 
@@ -12,11 +10,7 @@ namespace octetra::reference {
 
 struct Refinement {
     Mesh mesh;
-    /// For each cell of `mesh`, the cell of the input that it lies in.
-    IndexVector<CellIndex, CellIndex> cell_to_parent;
-    /// Vertex number (vertices of the input) + i of `mesh` is the midpoint of edge number i here.
-    /// Both ends are vertices of `mesh` with lower numbers. Smaller end point first.
-    std::vector<EdgeVertices> midpoint_to_edge;
+    RefinementMaps maps;
 };
 
 /// Repeats `levels` times: choose cells, select their edges by `scheme`, close the selection,

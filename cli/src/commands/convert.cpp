@@ -1,0 +1,41 @@
+#include <memory>
+#include <string>
+
+#include <CLI/CLI.hpp>
+
+#include <octetra/core/files.hpp>
+
+#include "commands/commands.hpp"
+#include "commands/mesh_options.hpp"
+
+namespace octetra::cli {
+namespace {
+
+struct ConvertOptions {
+    InputOptions input;
+    std::string output;
+};
+
+void convert(const ConvertOptions& options) {
+    check_writable(options.output);
+    write_output(read_input(options.input), options.output);
+}
+
+}  // namespace
+
+void add_convert(CLI::App& program) {
+    auto options = std::make_shared<ConvertOptions>();
+    CLI::App* command = program.add_subcommand(
+        "convert", "Write a mesh in another format, coordinates bit for bit");
+    add_input_options(*command, options->input);
+    command->add_option("OUT", options->output, "where to write: .ele, .mesh or .vtu")
+        ->type_name("")
+        ->required();
+    command->footer(
+        "Example:\n"
+        "  octetra generate torus -o torus.1.ele\n"
+        "  octetra convert torus.1.ele torus.mesh");
+    command->callback([options] { convert(*options); });
+}
+
+}  // namespace octetra::cli

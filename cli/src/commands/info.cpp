@@ -1,0 +1,36 @@
+#include <memory>
+
+#include <CLI/CLI.hpp>
+
+#include "commands/commands.hpp"
+#include "commands/mesh_options.hpp"
+#include "info/mesh_statistics.hpp"
+#include "info/print_statistics.hpp"
+
+namespace octetra::cli {
+namespace {
+
+struct InfoOptions {
+    InputOptions input;
+    bool json = false;
+};
+
+}  // namespace
+
+void add_info(CLI::App& program) {
+    auto options = std::make_shared<InfoOptions>();
+    CLI::App* command = program.add_subcommand(
+        "info", "Counts, size, volume, shapes of the cells and adjacency of a mesh");
+    add_input_options(*command, options->input);
+    command->add_flag("--json", options->json, "print JSON rather than a table");
+    command->footer(
+        "Example:\n"
+        "  octetra generate kuhn 4 -o cube.1.ele\n"
+        "  octetra info cube.1.ele --json");
+    command->callback([options] {
+        const MeshStatistics statistics = measure(read_input(options->input));
+        options->json ? print_json(statistics) : print_table(statistics);
+    });
+}
+
+}  // namespace octetra::cli

@@ -1,0 +1,36 @@
+#include "commands/mesh_options.hpp"
+
+#include <cstdio>
+
+#include <fmt/format.h>
+#include <CLI/CLI.hpp>
+
+namespace octetra::cli {
+
+void add_input_options(CLI::App& subcommand, InputOptions& options) {
+    subcommand.add_option("MESH", options.path, "the mesh: .ele or .node (TetGen), .mesh (Medit)")
+        ->type_name("")
+        ->required();
+    subcommand.add_flag("--fix-orientation", options.fix_orientation,
+                        "turn inverted cells round rather than refuse them");
+}
+
+void add_output_option(CLI::App& subcommand, std::string& path) {
+    subcommand
+        .add_option("-o,--output", path, "where to write: .ele (TetGen), .mesh (Medit), .vtu (VTK)")
+        ->type_name("OUT")
+        ->required();
+}
+
+void note(std::string_view what) { fmt::print(stderr, "octetra: note: {}\n", what); }
+
+Mesh read_input(const InputOptions& options) {
+    return read_mesh(options.path, {.fix_orientation = options.fix_orientation, .note = note});
+}
+
+void write_output(const Mesh& mesh, const std::string& path, const WriteExtras& extras) {
+    const std::string lost = write_mesh(mesh, path, extras);
+    if (!lost.empty()) note(lost);
+}
+
+}  // namespace octetra::cli

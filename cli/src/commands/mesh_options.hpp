@@ -1,0 +1,35 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include <octetra/core/files.hpp>
+#include <octetra/core/mesh.hpp>
+
+namespace CLI {
+class App;
+}
+
+/// What every subcommand that reads or writes a mesh has in common.
+namespace octetra::cli {
+
+struct InputOptions {
+    std::string path;
+    bool fix_orientation = false;
+};
+
+/// Declares the positional MESH and --fix-orientation.
+void add_input_options(CLI::App& subcommand, InputOptions& options);
+
+/// Declares -o OUT.
+void add_output_option(CLI::App& subcommand, std::string& path);
+
+/// A remark on stderr that is not an error: "octetra: note: ...".
+void note(std::string_view what);
+
+[[nodiscard]] Mesh read_input(const InputOptions& options);
+
+/// Writes the mesh; notes on stderr what the format cannot hold.
+void write_output(const Mesh& mesh, const std::string& path, const WriteExtras& extras = {});
+
+}  // namespace octetra::cli

@@ -1,0 +1,105 @@
+#include "commands/selection_options.hpp"
+
+#include <cmath>
+
+#include <fmt/format.h>
+#include <CLI/CLI.hpp>
+
+#include <octetra/core/error.hpp>
+#include <octetra/core/files.hpp>
+
+#include "parse_numbers.hpp"
+
+namespace octetra::cli {
+namespace {
+
+Sphere parse_sphere(const std::string& text) {
+    const auto n = parse_reals(text, 4, "--sphere", "X,Y,Z,R");
+    if (n[3] < 0) throw InputError(fmt::format("--sphere: the radius is negative: {}", text));
+    return {{n[0], n[1], n[2]}, n[3]};
+}
+
+Box parse_box(const std::string& text) {
+    const auto n = parse_reals(text, 6, "--box", "X0,Y0,Z0,X1,Y1,Z1");
+    for (std::size_t k = 0; k < 3; ++k) {
+        if (n[k] > n[k + 3]) {
+            throw InputError(
+                fmt::format("--box: its low corner comes first, each coordinate at "
+                            "most that of the high corner: {}",
+                            text));
+        }
+    }
+    return {{n[0], n[1], n[2]}, {n[3], n[4], n[5]}};
+}
+
+}  // namespace
+
+void add_selection_options(CLI::App& subcommand, SelectionOptions& options) {
+    const std::string group = "Which cells (criteria add up; give at least one)";
+    subcommand.add_flag("--all", options.all, "every cell")->group(group);
+    subcommand
+        .add_option("--cells", options.cells_file,
+                    "cells listed in a file, numbered as MESH numbers them")
+        ->type_name("FILE")
+        ->group(group);
+    subcommand.add_option("--sphere", options.spheres, "cells with their centroid nearer than R")
+        ->type_name("X,Y,Z,R")
+        ->allow_extra_args(false)
+        ->group(group);
+    subcommand.add_option("--box", options.boxes, "cells with their centroid in the box")
+        ->type_name("X0,Y0,Z0,X1,Y1,Z1")
+        ->allow_extra_args(false)
+        ->group(group);
+    subcommand.add_option("--region", options.regions, "cells with this region tag")
+        ->type_name("TAG")
+        ->allow_extra_args(false)
+        ->group(group);
+    subcommand.add_option("--random", options.random, "about this share of the cells, 0 to 1")
+        ->type_name("FRACTION")
+        ->group(group);
+    subcommand.add_option("--seed", options.seed, "for --random [0]")->type_name("N")->group(group);
+    subcommand.add_option("--max-volume", options.max_volume, "cells of a larger volume")
+        ->type_name("V")
+        ->group(group);
+}
+
+Selection parse_selection(const SelectionOptions& options) {
+    Selection selection;
+    selection.all = options.all;
+    for (const std::string& text : options.spheres) selection.spheres.push_back(parse_sphere(text));
+    for (const std::string& text : options.boxes) selection.boxes.push_back(parse_box(text));
+    selection.regions = options.regions;
+    if (options.random) {
+        if (!(*options.random >= 0 && *options.random <= 1)) {
+            throw InputError(
+                fmt::format("--random takes a fraction from 0 to 1, not {}", *options.random));
+        }
+        selection.random = RandomShare{*options.random, options.seed};
+    }
+    if (options.max_volume && !(*options.max_volume >= 0)) {
+        throw InputError(
+            fmt::format("--max-volume takes a volume from 0, not {}", *options.max_volume));
+    }
+    selection.max_volume = options.max_volume;
+
+    const bool any = selection.all || !options.cells_file.empty() || !selection.spheres.empty() ||
+                     !selection.boxes.empty() || !selection.regions.empty() || selection.random ||
+                     selection.max_volume;
+    if (!any) {
+        throw InputError(
+            "say which cells to refine: --all, --cells, --sphere, --box, --region, --random or "
+            "--max-volume");
+    }
+    return selection;
+}
+
+void complete_selection(Selection& selection, const SelectionOptions& options, const Mesh& mesh) {
+    if (!selection.regions.empty() && mesh.regions.empty()) {
+        throw InputError("--region: the cells of this mesh have no region tags");
+    }
+    if (!options.cells_file.empty()) {
+        selection.cells = read_cell_list(options.cells_file, mesh.first_number, mesh.cells.size());
+    }
+}
+
+}  // namespace octetra::cli

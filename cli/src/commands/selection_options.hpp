@@ -1,0 +1,37 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <octetra/core/mesh.hpp>
+#include <octetra/core/selection.hpp>
+
+namespace CLI {
+class App;
+}
+
+namespace octetra::cli {
+
+/// The options of a subcommand that choose cells, as they were typed.
+struct SelectionOptions {
+    bool all = false;
+    std::string cells_file;
+    std::vector<std::string> spheres;
+    std::vector<std::string> boxes;
+    std::vector<Marker> regions;
+    std::optional<double> random;
+    std::uint64_t seed = 0;
+    std::optional<double> max_volume;
+};
+
+void add_selection_options(CLI::App& subcommand, SelectionOptions& options);
+
+/// What does not need the mesh: at least one criterion, numbers in range. Throws InputError.
+[[nodiscard]] Selection parse_selection(const SelectionOptions& options);
+
+/// The rest: the cell list, and whether the mesh has what is asked for. Throws InputError.
+void complete_selection(Selection& selection, const SelectionOptions& options, const Mesh& mesh);
+
+}  // namespace octetra::cli

@@ -1,0 +1,34 @@
+#include "parse_numbers.hpp"
+
+#include <charconv>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include <octetra/core/error.hpp>
+
+namespace octetra::cli {
+
+std::vector<double> parse_reals(const std::string& text, std::size_t count, std::string_view option,
+                                std::string_view form) {
+    std::vector<double> numbers;
+    const char* next = text.data();
+    const char* const end = next + text.size();
+    while (true) {
+        double number = 0;
+        if (next != end && *next == '+') ++next;
+        const auto [stop, error] = std::from_chars(next, end, number);
+        if (error != std::errc{} || !std::isfinite(number)) break;
+        numbers.push_back(number);
+        next = stop;
+        if (next == end || *next != ',') break;
+        ++next;
+    }
+    if (next != end || numbers.size() != count) {
+        throw InputError(
+            fmt::format("{} takes {} finite numbers as {}, not '{}'", option, count, form, text));
+    }
+    return numbers;
+}
+
+}  // namespace octetra::cli

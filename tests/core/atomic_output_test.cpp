@@ -1,0 +1,82 @@
+#include <unistd.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <octetra/core/error.hpp>
+#include <octetra/core/files.hpp>
+
+#include "support/meshes.hpp"
+#include "support/temporary_folder.hpp"
+#include "support/thrown.hpp"
+
+namespace octetra {
+namespace {
+
+using test::TemporaryFolder;
+using testing::HasSubstr;
+
+std::vector<std::string> names_in(const std::filesystem::path& folder) {
+    std::vector<std::string> names;
+    for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+        names.push_back(entry.path().filename());
+    }
+    std::ranges::sort(names);
+    return names;
+}
+
+TEST(WriteMesh, LeavesItsFilesAndNothingElse) {
+    const TemporaryFolder folder;
+    Mesh mesh = test::kuhn(1, 1, 1);
+    test::list_boundary(mesh);
+    (void)write_mesh(mesh, folder / "a.ele");
+    EXPECT_THAT(names_in(folder.path()), testing::ElementsAre("a.ele", "a.face", "a.node"));
+}
+
+TEST(WriteMesh, ThatFailsLeavesWhatWasThereBefore) {
+    const TemporaryFolder folder;
+    const Mesh mesh = test::kuhn(1, 1, 1);
+    (void)write_mesh(mesh, folder / "a.ele");
+    const std::string before = test::content_of(folder / "a.node");
+    // The second file of the set cannot take its place: a folder stands there.
+    std::filesystem::remove(folder / "a.ele");
+    std::filesystem::create_directory(folder / "a.ele");
+    EXPECT_THROW((void)write_mesh(test::kuhn(2, 2, 2), folder / "a.node"), SystemError);
+    EXPECT_EQ(test::content_of(folder / "a.node"), before);
+    EXPECT_THAT(names_in(folder.path()), testing::ElementsAre("a.ele", "a.node"));
+}
+
+TEST(WriteMesh, RefusesUnknownExtensionsAndMissingFolders) {
+    const TemporaryFolder folder;
+    const Mesh mesh = test::kuhn(1, 1, 1);
+    EXPECT_THAT(test::thrown_by<InputError>([&] { (void)write_mesh(mesh, folder / "a.stl"); }),
+                HasSubstr("a.stl: a mesh to write is named by its extension"));
+    EXPECT_THAT(test::thrown_by<InputError>([&] { (void)write_mesh(mesh, folder / "x/a.vtu"); }),
+                HasSubstr("make it first"));
+    std::filesystem::create_directory(folder / "d.vtu");
+    EXPECT_THAT(test::thrown_by<InputError>([&] { (void)write_mesh(mesh, folder / "d.vtu"); }),
+                HasSubstr("is a directory"));
+}
+
+TEST(WriteMesh, ReportsAFullDiskAndLeavesNothing) {
+    // Every write to /dev/full fails with "No space left on device".
+    const TemporaryFolder folder;
+    const Mesh mesh = test::kuhn(4, 4, 4);
+    for (const std::string extension : {"ele", "mesh", "vtu"}) {
+        const auto temporary =
+            folder / ("a." + extension + "." + std::to_string(::getpid()) + ".tmp");
+        std::filesystem::create_symlink("/dev/full", temporary);
+        EXPECT_THAT(test::thrown_by<SystemError>(
+                        [&] { (void)write_mesh(mesh, folder / ("a." + extension)); }),
+                    HasSubstr("No space left on device"));
+        EXPECT_THAT(names_in(folder.path()), testing::ElementsAre());
+    }
+}
+
+}  // namespace
+}  // namespace octetra

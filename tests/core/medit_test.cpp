@@ -1,0 +1,126 @@
+#include <ostream>
+#include <string>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <octetra/core/error.hpp>
+#include <octetra/core/files.hpp>
+
+#include "support/temporary_folder.hpp"
+#include "support/thrown.hpp"
+
+namespace octetra {
+namespace {
+
+using test::TemporaryFolder;
+using testing::HasSubstr;
+
+const std::string head = "MeshVersionFormatted 2\nDimension 3\n";
+const std::string vertices = "Vertices\n4\n0 0 0 0\n1 0 0 0\n0 1 0 0\n0 0 1 0\n";
+const std::string cells = "Tetrahedra\n1\n1 2 3 4 5\n";
+const std::string good = head + vertices + cells + "End\n";
+
+Mesh read(const std::string& text, const ReadOptions& options = {}) {
+    const TemporaryFolder folder;
+    return read_mesh(folder.write("m.mesh", text), options);
+}
+
+struct BadCase {
+    std::string name;
+    std::string text;
+    int line;
+    std::string what;
+};
+
+void PrintTo(const BadCase& test_case, std::ostream* out) { *out << test_case.name; }
+
+class BadMeditFile : public testing::TestWithParam<BadCase> {};
+
+TEST_P(BadMeditFile, IsRefusedByFileLineAndReason) {
+    const std::string message = test::thrown_by<InputError>([&] { (void)read(GetParam().text); });
+    EXPECT_THAT(message, HasSubstr("/m.mesh:" + std::to_string(GetParam().line) + ": "));
+    EXPECT_THAT(message, HasSubstr(GetParam().what));
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    , BadMeditFile,
+    testing::ValuesIn(std::vector<BadCase>{
+        {"Empty", "", 1, "the file is empty"},
+        {"Garbage", std::string("\x00\x01\x02\xff\xfe", 5), 1, "begins with MeshVersionFormatted"},
+        {"OnlyHead", head, 2, "no section Vertices"},
+        {"Dimension", "MeshVersionFormatted 2 Dimension 2", 1, "dimension 3 expected, 2 found"},
+        {"UnknownKeyword", head + vertices + "Tetraheda\n0\nEnd\n", 9, "'Tetraheda' found"},
+        {"ExtraNumber", head + "Vertices\n1\n0 0 0 0 0\nEnd\n", 5, "a keyword expected, '0' found"},
+        {"MissingNumber", head + "Vertices\n2\n0 0 0 0\n0 0 0\nEnd\n", 7,
+         "the vertex's reference should be a number, not 'End'"},
+        {"EndsEarly", head + "Vertices\n2\n0 0 0 0\n0 0", 6, "the file ends where z should be"},
+        {"CountHuge", head + "Vertices\n4000000000\n", 4, "holds at most"},
+        {"NaN", head + "Vertices\n1\n0 nan 0 0\n", 5, "y is not finite"},
+        {"VertexZero", head + vertices + "Tetrahedra\n1\n0 1 2 3 0\nEnd\n", 11,
+         "there is no vertex 0"},
+        {"VertexTooLarge", head + vertices + "Tetrahedra\n2\n1 2 3 4 0\n1 2 3 5 0\nEnd\n", 12,
+         "there is no vertex 5"},
+        {"VertexTwice", head + vertices + "Tetrahedra\n1\n1 2 2 4 0\nEnd\n", 11,
+         "the cell has the same vertex twice"},
+        {"Inverted", head + vertices + "Tetrahedra\n1\n2 1 3 4 0\nEnd\n", 11, "inverted"},
+        {"Flat", head + "Vertices 4\n0 0 0 0\n1 0 0 0\n0 1 0 0\n1 1 0 0\nTetrahedra 1\n1 2 3 4 0",
+         9, "flat"},
+        {"SecondOrder", head + vertices + "TetrahedraP2\n0\nEnd\n", 9, "second-order"},
+        {"Hexahedra", head + vertices + "Hexahedra\n1\n1 2 3 4 1 2 3 4 0\nEnd\n", 9,
+         "only tetrahedral"},
+        {"TwoSections", head + vertices + vertices + "End\n", 9, "the first is on line 3"},
+        {"AfterEnd", good + "Corners\n0\n", 13, "text after the keyword End"},
+        {"StrayTriangle", head + vertices + cells + "Triangles\n1\n1 2 2 0\nEnd\n", 14,
+         "the triangle has the same vertex twice"},
+        {"FractionalReference", head + vertices + "Tetrahedra\n1\n1 2 3 4 .5\nEnd\n", 11,
+         "the reference should be a whole number"},
+    }),
+    [](const auto& test_case) { return test_case.param.name; });
+
+TEST(MeditReader, ReportsATriangleOfNoCell) {
+    const std::string text = head + "Vertices\n5\n0 0 0 0\n1 0 0 0\n0 1 0 0\n0 0 1 0\n9 9 9 0\n" +
+                             cells + "Triangles\n2\n1 2 3 0\n1 2 5 0\nEnd\n";
+    EXPECT_THAT(test::thrown_by<InputError>([&] { (void)read(text); }),
+                HasSubstr("m.mesh:16: triangle 2 is a face of no cell"));
+}
+
+TEST(MeditReader, KeepsTagsAndDropsReferencesThatAreAllZero) {
+    const Mesh mesh = read(good);
+    EXPECT_EQ(mesh.regions.front(), 5);
+    EXPECT_TRUE(mesh.point_markers.empty());
+    EXPECT_EQ(mesh.first_number, 1U);
+}
+
+TEST(MeditReader, TakesTokensAcrossLinesInAnyOrderWithComments) {
+    EXPECT_EQ(read("# a mesh\r\nMeshVersionFormatted\r\n2 Dimension 3 Tetrahedra 1 1\r\n2 3 # ...\n"
+                   "4 5\nVertices 4 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1 0 Hexahedra 0 End"),
+              read(good));
+}
+
+TEST(MeditReader, SkipsWhatItDoesNotKeepAndSaysSo) {
+    std::string note;
+    const Mesh mesh = read(head + vertices + "Corners\n2\n1\n2\nNormals 1 0 0 1\n" + cells + "End",
+                           {.note = [&](const auto& n) { note += n + "\n"; }});
+    EXPECT_EQ(mesh, read(good));
+    EXPECT_THAT(note, HasSubstr("m.mesh:9: the 2 entries of Corners are not kept"));
+    EXPECT_THAT(note, HasSubstr("the 1 entries of Normals are not kept"));
+}
+
+TEST(MeditReader, TakesAFileThatLacksEndAndSaysSo) {
+    std::string note;
+    EXPECT_EQ(read(head + vertices + cells, {.note = [&](const auto& n) { note = n; }}),
+              read(good));
+    EXPECT_THAT(note, HasSubstr("without the keyword End"));
+}
+
+TEST(MeditReader, TurnsInvertedCellsRoundWhenAsked) {
+    const Mesh mesh =
+        read(head + vertices + "Tetrahedra\n1\n2 1 3 4 0\nEnd\n", {.fix_orientation = true});
+    EXPECT_EQ(mesh.cells.front(),
+              (CellVertices{VertexIndex{1}, VertexIndex{0}, VertexIndex{3}, VertexIndex{2}}));
+}
+
+}  // namespace
+}  // namespace octetra

@@ -1,0 +1,132 @@
+#include <cmath>
+#include <limits>
+#include <random>
+
+#include <gtest/gtest.h>
+
+#include <octetra/core/files.hpp>
+
+#include "support/bits.hpp"
+#include "support/meshes.hpp"
+#include "support/temporary_folder.hpp"
+
+namespace octetra {
+namespace {
+
+using test::TemporaryFolder;
+
+/// A mesh that has everything that files can carry.
+Mesh rich_mesh() {
+    Mesh mesh = test::shaken_kuhn(2, 0.2, 3);
+    test::list_boundary(mesh);
+    for (CellIndex c{0}; c < mesh.cells.end_index(); ++c) {
+        mesh.regions.append(static_cast<Marker>(c.value() % 3) - 1);
+    }
+    for (const auto& [i, j] : cell_edges) {
+        mesh.edges.append({mesh.cells[CellIndex{0}][i], mesh.cells[CellIndex{0}][j]});
+        mesh.edge_markers.append(static_cast<Marker>(10 * i + j));
+    }
+    for (VertexIndex v{0}; v < mesh.points.end_index(); ++v) {
+        mesh.point_markers.append(static_cast<Marker>(v.value() % 2) * 7);
+    }
+    return mesh;
+}
+
+/// The same, every coordinate a random double anywhere near the point where it was.
+Mesh awkward_numbers() {
+    Mesh mesh = test::kuhn(3, 3, 3);
+    std::mt19937_64 random(7);
+    for (Point& p : mesh.points) {
+        for (double* c : {&p.x, &p.y, &p.z}) {
+            *c = *c / 3 + static_cast<double>(random()) * 0x1p-69;
+        }
+    }
+    return mesh;
+}
+
+Mesh through_file(const Mesh& mesh, const std::string& name) {
+    const TemporaryFolder folder;
+    (void)write_mesh(mesh, folder / name);
+    return read_mesh(folder / name);
+}
+
+TEST(RoundTrip, TetgenKeepsEverything) {
+    Mesh mesh = rich_mesh();
+    mesh.attributes_per_point = 2;
+    for (std::size_t i = 0; i < 2 * mesh.points.size(); ++i) {
+        mesh.point_attributes.push_back(std::sqrt(static_cast<double>(i)));
+    }
+    for (const std::uint32_t first_number : {0U, 1U}) {
+        mesh.first_number = first_number;
+        EXPECT_EQ(through_file(mesh, "rich.1.ele"), mesh);
+        EXPECT_EQ(through_file(mesh, "rich.node"), mesh);
+    }
+}
+
+TEST(RoundTrip, MeditKeepsEverythingButAttributes) {
+    Mesh mesh = rich_mesh();
+    mesh.first_number = 1;
+    EXPECT_EQ(through_file(mesh, "rich.mesh"), mesh);
+
+    mesh.attributes_per_point = 1;
+    mesh.point_attributes.assign(mesh.points.size(), 0.5);
+    const TemporaryFolder folder;
+    EXPECT_NE(write_mesh(mesh, folder / "a.mesh"), "") << "the loss must be told";
+}
+
+TEST(RoundTrip, CoordinatesKeepEveryBit) {
+    Mesh mesh = awkward_numbers();
+    EXPECT_EQ(test::bits(through_file(mesh, "a.ele")), test::bits(mesh));
+    EXPECT_EQ(test::bits(through_file(mesh, "a.mesh")), test::bits(mesh));
+}
+
+TEST(RoundTrip, ExtremeCoordinatesKeepEveryBit) {
+    constexpr double largest = std::numeric_limits<double>::max();
+    constexpr double smallest = std::numeric_limits<double>::denorm_min();
+    const Mesh mesh = test::one_cell({{{-0.0, 0, smallest},
+                                       {largest, -smallest, 0},
+                                       {0, 0x1.fffffffffffffp-1022, -largest},
+                                       {0.1, -1.0 / 3, 5e-310}}});
+    EXPECT_EQ(test::bits(through_file(mesh, "a.ele")), test::bits(mesh));
+    EXPECT_EQ(test::bits(through_file(mesh, "a.mesh")), test::bits(mesh));
+}
+
+TEST(RoundTrip, FilesOfTheSameMeshAreTheSameBytes) {
+    const TemporaryFolder folder;
+    const Mesh mesh = rich_mesh();
+    for (const std::string extension : {"ele", "mesh"}) {
+        (void)write_mesh(mesh, folder / ("a." + extension));
+        (void)write_mesh(read_mesh(folder / ("a." + extension)), folder / ("b." + extension));
+        EXPECT_EQ(test::content_of(folder / ("a." + extension)),
+                  test::content_of(folder / ("b." + extension)));
+    }
+    for (const std::string extension : {"node", "face", "edge"}) {
+        EXPECT_EQ(test::content_of(folder / ("a." + extension)),
+                  test::content_of(folder / ("b." + extension)));
+    }
+}
+
+TEST(RoundTrip, LongFilesKeepTheirLinesAcrossBuffers) {
+    const Mesh mesh = test::kuhn(40, 40, 40, 1.0 / 3);  // 384,000 cells, 9 MB of .ele
+    EXPECT_TRUE(through_file(mesh, "a.ele") == mesh);
+    Mesh from_medit = through_file(mesh, "a.mesh");
+    from_medit.first_number = 0;
+    EXPECT_TRUE(from_medit == mesh);
+}
+
+TEST(RoundTrip, EmptyMeshesAreMeshes) { EXPECT_EQ(through_file(Mesh{}, "a.ele"), Mesh{}); }
+
+TEST(RoundTrip, TetgenLeavesNoFacesOfAnotherMeshBehind) {
+    const TemporaryFolder folder;
+    Mesh mesh = rich_mesh();
+    (void)write_mesh(mesh, folder / "a.ele");
+    mesh.facets.clear();
+    mesh.facet_markers.clear();
+    mesh.edges.clear();
+    mesh.edge_markers.clear();
+    (void)write_mesh(mesh, folder / "a.ele");
+    EXPECT_EQ(read_mesh(folder / "a.ele"), mesh);
+}
+
+}  // namespace
+}  // namespace octetra

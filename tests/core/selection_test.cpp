@@ -1,0 +1,103 @@
+#include <algorithm>
+#include <random>
+
+#include <gtest/gtest.h>
+
+#include <octetra/core/selection.hpp>
+
+#include "support/meshes.hpp"
+
+namespace octetra {
+namespace {
+
+constexpr GlobalCell any_cell{0};
+const Corners unit{{{0, 0, 0}, {4, 0, 0}, {0, 4, 0}, {0, 0, 4}}};  // centroid (1, 1, 1)
+
+TEST(Selection, ChoosesNothingUnlessTold) { EXPECT_FALSE(chooses({}, unit, 0, any_cell)); }
+
+TEST(Selection, OfAllChoosesEveryCell) { EXPECT_TRUE(chooses({.all = true}, unit, 0, any_cell)); }
+
+TEST(Selection, OfASphereNeedsTheCentroidStrictlyNearerThanTheRadius) {
+    EXPECT_FALSE(chooses({.spheres = {{{1, 1, 0}, 1}}}, unit, 0, any_cell));
+    EXPECT_TRUE(chooses({.spheres = {{{1, 1, 0}, 1.0000001}}}, unit, 0, any_cell));
+    EXPECT_FALSE(chooses({.spheres = {{{0, 0, 0}, 1.7}}}, unit, 0, any_cell));
+}
+
+TEST(Selection, OfABoxTakesItsBorderIn) {
+    EXPECT_TRUE(chooses({.boxes = {{{1, 1, 1}, {1, 1, 1}}}}, unit, 0, any_cell));
+    EXPECT_FALSE(chooses({.boxes = {{{1.1, 0, 0}, {9, 9, 9}}}}, unit, 0, any_cell));
+    EXPECT_FALSE(chooses({.boxes = {{{0, 0, 0}, {9, 9, 0.9}}}}, unit, 0, any_cell));
+}
+
+TEST(Selection, OfARegionGoesByTheTag) {
+    EXPECT_TRUE(chooses({.regions = {3, -7}}, unit, -7, any_cell));
+    EXPECT_FALSE(chooses({.regions = {3, -7}}, unit, 7, any_cell));
+}
+
+TEST(Selection, OfListedCellsGoesByTheCellOfTheInput) {
+    const Selection listed{.cells = {GlobalCell{2}, GlobalCell{5}}};
+    EXPECT_TRUE(chooses(listed, unit, 0, GlobalCell{5}));
+    EXPECT_FALSE(chooses(listed, unit, 0, GlobalCell{3}));
+}
+
+TEST(Selection, ByVolumeChoosesWhatIsLarger) {
+    EXPECT_FALSE(chooses({.max_volume = 64.0 / 6}, unit, 0, any_cell));
+    EXPECT_TRUE(chooses({.max_volume = 10.6}, unit, 0, any_cell));
+}
+
+TEST(Selection, CriteriaAddUp) {
+    const Selection both{.spheres = {{{9, 9, 9}, 1}}, .regions = {4}};
+    EXPECT_TRUE(chooses(both, unit, 4, any_cell));
+    EXPECT_FALSE(chooses(both, unit, 5, any_cell));
+}
+
+TEST(Selection, AtRandomTakesAboutItsShare) {
+    const Mesh mesh = test::shaken_kuhn(10, 0.1, 5);
+    for (const double share : {0.0, 0.01, 0.3, 0.9, 1.0}) {
+        const Selection selection{.random = RandomShare{share, 17}};
+        const auto chosen = std::ranges::count_if(mesh.cells, [&](const CellVertices& cell) {
+            const Corners corners{mesh.points[cell[0]], mesh.points[cell[1]], mesh.points[cell[2]],
+                                  mesh.points[cell[3]]};
+            return chooses(selection, corners, 0, any_cell);
+        });
+        const auto count = static_cast<double>(mesh.cells.size());
+        const double deviation = std::sqrt(count * share * (1 - share));
+        EXPECT_NEAR(static_cast<double>(chosen), share * count, 4 * deviation) << share;
+    }
+}
+
+TEST(Selection, AtRandomDrawsOtherCellsForAnotherSeed) {
+    const Mesh mesh = test::kuhn(4, 4, 4);
+    std::size_t different = 0;
+    for (const CellVertices& cell : mesh.cells) {
+        const Corners corners{mesh.points[cell[0]], mesh.points[cell[1]], mesh.points[cell[2]],
+                              mesh.points[cell[3]]};
+        const bool first = chooses({.random = RandomShare{0.5, 1}}, corners, 0, any_cell);
+        const bool second = chooses({.random = RandomShare{0.5, 2}}, corners, 0, any_cell);
+        if (first != second) ++different;
+    }
+    EXPECT_GT(different, mesh.cells.size() / 3);
+    EXPECT_LT(different, 2 * mesh.cells.size() / 3);
+}
+
+TEST(Selection, DoesNotDependOnTheOrderOfTheCorners) {
+    std::mt19937_64 random(11);
+    const auto number = [&] { return static_cast<double>(random()) * 0x1p-64; };
+    for (int i = 0; i < 500; ++i) {
+        Corners corners;
+        for (Point& p : corners) p = {number(), number(), number()};
+        std::ranges::sort(corners, std::less<>{});
+        const Point centre = centroid(corners);
+        const double size = volume(corners);
+        const Selection drawn{.random = RandomShare{0.5, 3}};
+        const bool chosen = chooses(drawn, corners, 0, any_cell);
+        while (std::next_permutation(corners.begin(), corners.end())) {
+            ASSERT_EQ(centroid(corners), centre);
+            ASSERT_EQ(volume(corners), size);
+            ASSERT_EQ(chooses(drawn, corners, 0, any_cell), chosen);
+        }
+    }
+}
+
+}  // namespace
+}  // namespace octetra

@@ -1,0 +1,219 @@
+#include <ostream>
+#include <string>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <octetra/core/error.hpp>
+#include <octetra/core/files.hpp>
+
+#include "support/temporary_folder.hpp"
+#include "support/thrown.hpp"
+
+namespace octetra {
+namespace {
+
+using test::TemporaryFolder;
+using testing::HasSubstr;
+
+const std::string good_node = "4 3 0 0\n0 0 0 0\n1 1 0 0\n2 0 1 0\n3 0 0 1\n";
+const std::string good_ele = "1 4 0\n0 0 1 2 3\n";
+
+struct Files {
+    std::string node = good_node;
+    std::string ele = good_ele;
+    std::string face = {};
+    std::string edge = {};
+};
+
+Mesh read(const Files& files, const ReadOptions& options = {}) {
+    const TemporaryFolder folder;
+    (void)folder.write("m.node", files.node);
+    (void)folder.write("m.ele", files.ele);
+    if (!files.face.empty()) (void)folder.write("m.face", files.face);
+    if (!files.edge.empty()) (void)folder.write("m.edge", files.edge);
+    return read_mesh(folder / "m.ele", options);
+}
+
+struct BadCase {
+    std::string name;
+    Files files;
+    std::string place;  ///< file name and line
+    std::string what;
+};
+
+void PrintTo(const BadCase& test_case, std::ostream* out) { *out << test_case.name; }
+
+class BadTetgenFile : public testing::TestWithParam<BadCase> {};
+
+TEST_P(BadTetgenFile, IsRefusedByFileLineAndReason) {
+    const std::string message = test::thrown_by<InputError>([&] { (void)read(GetParam().files); });
+    EXPECT_THAT(message, HasSubstr("/" + GetParam().place + ": "));
+    EXPECT_THAT(message, HasSubstr(GetParam().what));
+}
+
+std::string with_line(std::string text, int line, const std::string& replacement) {
+    std::size_t begin = 0;
+    for (int i = 1; i < line; ++i) begin = text.find('\n', begin) + 1;
+    return text.replace(begin, text.find('\n', begin) - begin, replacement);
+}
+
+Files node_line(int line, const std::string& text) {
+    return {.node = with_line(good_node, line, text)};
+}
+Files ele_line(int line, const std::string& text) {
+    return {.ele = with_line(good_ele, line, text)};
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    , BadTetgenFile,
+    testing::ValuesIn(std::vector<BadCase>{
+        {"EmptyNode", {.node = "", .ele = good_ele}, "m.node:1", "the file is empty"},
+        {"OnlyComments", {.node = "# nothing\n\n"}, "m.node:2", "ends before its header"},
+        {"Garbage",
+         {.node = std::string("\x7f"
+                              "ELF\x02\x00\x01\xff",
+                              8)},
+         "m.node:1",
+         "should be a whole number from 0, not '\\x7fELF"},
+        {"GarbageWithoutLineEnds",
+         {.node = std::string(3U << 20U, '\xfe')},
+         "m.node:1",
+         "longer than 1 MiB"},
+        {"MissingCoordinate", node_line(3, "1 1 0"), "m.node:3", "z is missing"},
+        {"ExtraField", node_line(3, "1 1 0 0 9 8"), "m.node:3",
+         "4 fields expected, 6 found; the first extra one is '9'"},
+        {"NotANumber", node_line(4, "2 0 one 0"), "m.node:4", "y should be a number, not 'one'"},
+        {"HalfANumber", node_line(4, "2 0 1x 0"), "m.node:4", "not '1x'"},
+        {"NaN", node_line(4, "2 0 nan 0"), "m.node:4", "y is not finite: 'nan'"},
+        {"Infinity", node_line(4, "2 -inf 0 0"), "m.node:4", "x is not finite: '-inf'"},
+        {"BeyondDoubles", node_line(4, "2 0 1e999 0"), "m.node:4", "y is out of range: '1e999'"},
+        {"Numbering", node_line(4, "7 0 1 0"), "m.node:4", "entry number 2 expected, 7 found"},
+        {"FirstNumber", {.node = "1 3 0 0\n5 0 0 0\n"}, "m.node:2", "begins with 0 or 1"},
+        {"CountTooLarge", node_line(1, "5 3 0 0"), "m.node:5", "ends after 4 of 5 entries"},
+        {"CountTooSmall", node_line(1, "3 3 0 0"), "m.node:5", "more lines than the 3"},
+        {"CountHuge", node_line(1, "99999999999 3 0 0"), "m.node:1", "holds at most"},
+        {"CountNegative", node_line(1, "-4 3 0 0"), "m.node:1", "should be a whole number from 0"},
+        {"CountBeyond64Bits", node_line(1, "99999999999999999999999 3 0 0"), "m.node:1",
+         "out of range"},
+        {"AttributesHuge", node_line(1, "4 3 18446744073709551615 0"), "m.node:1",
+         "attributes per vertex"},
+        {"Dimension", node_line(1, "4 2 0 0"), "m.node:1", "dimension 3 expected, 2 found"},
+        {"HeaderTooLong", node_line(1, "4 3 0 0 0"), "m.node:1", "4 fields expected, 5 found"},
+        {"MarkersFlag", node_line(1, "4 3 0 2"), "m.node:1", "0 or 1, not 2"},
+        {"EmptyEle", {.node = good_node, .ele = ""}, "m.ele:1", "the file is empty"},
+        {"SecondOrder", ele_line(1, "1 10 0"), "m.ele:1", "second-order"},
+        {"FiveCorners", ele_line(1, "1 5 0"), "m.ele:1", "4 vertices per cell expected, 5 found"},
+        {"TwoAttributes", ele_line(1, "1 4 2"), "m.ele:1", "only one, the region tag"},
+        {"FractionalRegion",
+         {.node = good_node, .ele = "1 4 1\n0 0 1 2 3 1.5\n"},
+         "m.ele:2",
+         "the region tag should be a whole number"},
+        {"HugeRegion",
+         {.node = good_node, .ele = "1 4 1\n0 0 1 2 3 3e9\n"},
+         "m.ele:2",
+         "whole number of 32 bits"},
+        {"CornerMissing", ele_line(2, "0 0 1 2"), "m.ele:2", "a vertex number is missing"},
+        {"CornerOutOfRange", ele_line(2, "0 0 1 2 4"), "m.ele:2", "there is no vertex 4"},
+        {"CornerNegative", ele_line(2, "0 0 1 2 -1"), "m.ele:2", "should be a whole number"},
+        {"CornerBeyond32Bits", ele_line(2, "0 0 1 2 4294967299"), "m.ele:2",
+         "there is no vertex 4294967299"},
+        {"CornerTwice", ele_line(2, "0 0 1 1 3"), "m.ele:2", "same vertex twice"},
+        {"Inverted", ele_line(2, "0 1 0 2 3"), "m.ele:2", "inverted"},
+        {"Flat", {.node = with_line(good_node, 5, "3 1 1 0")}, "m.ele:2", "flat"},
+        {"OtherFirstNumber", ele_line(2, "1 0 1 2 3"), "m.ele:2", "entry number 0 expected"},
+        {"StrayFace",
+         {.node = "5 3\n0 0 0 0\n1 1 0 0\n2 0 1 0\n3 0 0 1\n4 5 5 5\n",
+          .ele = good_ele,
+          .face = "2 1\n0 0 1 2 7\n# the next one is stray\n1 0 1 4 7\n"},
+         "m.face:2",
+         "face 1 is a face of no cell"},
+        {"StrayFaceOnItsLine",
+         {.node = "5 3\n0 0 0 0\n1 1 0 0\n2 0 1 0\n3 0 0 1\n4 5 5 5\n",
+          .ele = good_ele,
+          .face = "2 1\n0 0 1 2 7\n1 0 1 4 7\n"},
+         "m.face:3",
+         "face 1 is a face of no cell"},
+        {"FaceTwice", {.face = "1 0\n0 0 1 0\n"}, "m.face:2", "same vertex twice"},
+        {"FaceExtraField", {.face = "1 0\n0 0 1 2 -1\n"}, "m.face:2", "4 fields expected, 5 found"},
+        {"StrayEdge",
+         {.node = "5 3\n0 0 0 0\n1 1 0 0\n2 0 1 0\n3 0 0 1\n4 5 5 5\n",
+          .ele = good_ele,
+          .edge = "1 0\n0 0 4\n"},
+         "m.edge:2",
+         "edge 0 is a edge of no cell"},
+        {"EdgeMarkerMissing", {.edge = "1 1\n0 0 1\n"}, "m.edge:2", "the marker is missing"},
+    }),
+    [](const auto& test_case) { return test_case.param.name; });
+
+TEST(TetgenReader, TakesCommentsBlankLinesTabsAndCarriageReturns) {
+    const Mesh plain = read({});
+    const Files oddly_set{
+        .node =
+            "# head\r\n\r\n 4\t3 0 0 # counts\r\n0 0 0 0\r\n\n1 +1 0 0\r\n  2 0 1e0 0  \r\n"
+            "3 0 0 1.000 # last\r\n# tail",
+        .ele = "1 4 0\r\n\r\n0\t0\t1\t2\t3"};
+    EXPECT_EQ(read(oddly_set), plain);
+}
+
+TEST(TetgenReader, TakesHeadersThatLeaveTheDefaultsOut) {
+    EXPECT_EQ(read({.node = with_line(good_node, 1, "4"), .ele = with_line(good_ele, 1, "1")}),
+              read({}));
+}
+
+TEST(TetgenReader, KeepsTheNumberingFromOne) {
+    const Mesh mesh = read(
+        {.node = "4 3 0 0\n1 0 0 0\n2 1 0 0\n3 0 1 0\n4 0 0 1\n", .ele = "1 4 0\n1 1 2 3 4\n"});
+    EXPECT_EQ(mesh.first_number, 1U);
+    EXPECT_EQ(mesh.cells.front()[0], VertexIndex{0});
+}
+
+TEST(TetgenReader, TurnsInvertedCellsRoundWhenAskedAndSaysHowMany) {
+    std::string note;
+    const Mesh mesh = read({.ele = "1 4 0\n0 1 0 2 3\n"},
+                           {.fix_orientation = true, .note = [&](const auto& n) { note = n; }});
+    EXPECT_EQ(mesh.cells.front(),
+              (CellVertices{VertexIndex{1}, VertexIndex{0}, VertexIndex{3}, VertexIndex{2}}));
+    EXPECT_THAT(note, HasSubstr("1 inverted"));
+}
+
+TEST(TetgenReader, NamesTheCompanionThatIsMissing) {
+    const TemporaryFolder folder;
+    (void)folder.write("m.ele", good_ele);
+    EXPECT_THAT(test::thrown_by<InputError>([&] { (void)read_mesh(folder / "m.ele"); }),
+                testing::AllOf(HasSubstr("m.ele: "), HasSubstr("m.node is missing")));
+    (void)folder.write("n.node", good_node);
+    EXPECT_THAT(test::thrown_by<InputError>([&] { (void)read_mesh(folder / "n.node"); }),
+                HasSubstr("n.ele is missing"));
+}
+
+TEST(TetgenReader, RefusesWhatIsNotAFile) {
+    const TemporaryFolder folder;
+    EXPECT_THAT(test::thrown_by<InputError>([&] { (void)read_mesh(folder / "none.ele"); }),
+                HasSubstr("none.node: cannot be opened: No such file"));
+    std::filesystem::create_directory(folder / "d.mesh");
+    EXPECT_THAT(test::thrown_by<InputError>([&] { (void)read_mesh(folder / "d.mesh"); }),
+                HasSubstr("is not a file"));
+    EXPECT_THAT(test::thrown_by<InputError>([&] { (void)read_mesh(folder / "m.stl"); }),
+                HasSubstr("is named by its extension"));
+}
+
+TEST(CellList, IsReadAscendingAndOnce) {
+    const TemporaryFolder folder;
+    const auto list = folder.write("cells", "7 3 # two\r\n\n3\t1");
+    EXPECT_THAT(read_cell_list(list, 1, 8),
+                testing::ElementsAre(GlobalCell{0}, GlobalCell{2}, GlobalCell{6}));
+}
+
+TEST(CellList, RefusesCellsThatThereAreNot) {
+    const TemporaryFolder folder;
+    for (const std::string wrong : {"1\n9", "1\n0", "1\n-1", "1\nx", "1\n1.5"}) {
+        const auto list = folder.write("cells", wrong);
+        EXPECT_THAT(test::thrown_by<InputError>([&] { (void)read_cell_list(list, 1, 8); }),
+                    HasSubstr("cells:2: "));
+    }
+}
+
+}  // namespace
+}  // namespace octetra

@@ -1,0 +1,109 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <numeric>
+#include <random>
+#include <vector>
+
+#include <octetra/core/mesh.hpp>
+#include <octetra/core/orientation.hpp>
+
+/// Meshes that tests make by themselves, so that they do not lean on the generator.
+namespace octetra::test {
+
+/// A mesh of the given points and cells; cells that come inverted are turned round.
+inline Mesh mesh_of(const std::vector<Point>& points,
+                    const std::vector<std::array<std::size_t, 4>>& cells) {
+    Mesh mesh;
+    for (const Point& p : points) mesh.points.append(p);
+    for (const auto& [a, b, c, d] : cells) {
+        CellVertices cell{VertexIndex{a}, VertexIndex{b}, VertexIndex{c}, VertexIndex{d}};
+        if (orientation(points[a], points[b], points[c], points[d]) < 0)
+            std::swap(cell[2], cell[3]);
+        mesh.cells.append(cell);
+    }
+    return mesh;
+}
+
+inline Mesh one_cell(const std::array<Point, 4>& corners) {
+    return mesh_of({corners.begin(), corners.end()}, {{0, 1, 2, 3}});
+}
+
+/// nx * ny * nz cubes of side `side`, each of six cells round its diagonal: a lattice full of ties.
+inline Mesh kuhn(std::size_t nx, std::size_t ny, std::size_t nz, double side = 1) {
+    std::vector<Point> points;
+    for (std::size_t k = 0; k <= nz; ++k) {
+        for (std::size_t j = 0; j <= ny; ++j) {
+            for (std::size_t i = 0; i <= nx; ++i) {
+                points.push_back({static_cast<double>(i) * side, static_cast<double>(j) * side,
+                                  static_cast<double>(k) * side});
+            }
+        }
+    }
+    const std::array<std::size_t, 3> stride{1, nx + 1, (nx + 1) * (ny + 1)};
+    std::vector<std::array<std::size_t, 4>> cells;
+    for (std::size_t k = 0; k < nz; ++k) {
+        for (std::size_t j = 0; j < ny; ++j) {
+            for (std::size_t i = 0; i < nx; ++i) {
+                const std::size_t low = i * stride[0] + j * stride[1] + k * stride[2];
+                std::array<std::size_t, 3> axis{0, 1, 2};
+                do {  // one cell for each way from the low corner to the high one
+                    const std::size_t second = low + stride[axis[0]];
+                    const std::size_t third = second + stride[axis[1]];
+                    cells.push_back({low, second, third, third + stride[axis[2]]});
+                } while (std::ranges::next_permutation(axis).found);
+            }
+        }
+    }
+    return mesh_of(points, cells);
+}
+
+/// The same lattice with every vertex moved at random by up to `amount` of the side, on a grid of
+/// 2^-20: no ties to speak of, and coordinates that stay exact through many levels.
+inline Mesh shaken_kuhn(std::size_t n, double amount, std::uint64_t seed) {
+    Mesh mesh = kuhn(n, n, n);
+    std::mt19937_64 random(seed);
+    constexpr double grid = 0x1p-20;
+    const auto steps = static_cast<std::uint64_t>(amount / grid);
+    const auto move = [&] {
+        const auto step = static_cast<double>(random() % (2 * steps + 1));
+        return (step - static_cast<double>(steps)) * grid;
+    };
+    for (Point& p : mesh.points) p = {p.x + move(), p.y + move(), p.z + move()};
+    return mesh;
+}
+
+/// Lists every boundary face as a facet and gives it a marker: 1 + its number modulo 5.
+inline void list_boundary(Mesh& mesh) {
+    std::vector<std::pair<std::array<VertexIndex, 3>, FacetVertices>> faces;
+    for (const CellVertices& cell : mesh.cells) {
+        for (const auto& [i, j, k] : cell_faces) {
+            FacetVertices face{cell[i], cell[j], cell[k]};
+            auto sorted = face;
+            std::ranges::sort(sorted);
+            faces.emplace_back(sorted, face);
+        }
+    }
+    std::ranges::sort(faces);
+    for (std::size_t f = 0; f < faces.size(); ++f) {
+        const bool twice = (f > 0 && faces[f - 1].first == faces[f].first) ||
+                           (f + 1 < faces.size() && faces[f + 1].first == faces[f].first);
+        if (twice) continue;
+        const FacetIndex number = mesh.facets.append(faces[f].second);
+        mesh.facet_markers.append(1 + static_cast<Marker>(number.value() % 5));
+    }
+}
+
+/// The regular tetrahedron and its like, by integer coordinates.
+inline const std::array<Point, 4> regular_corners{
+    {{1, 1, 1}, {1, -1, -1}, {-1, 1, -1}, {-1, -1, 1}}};
+inline const std::array<Point, 4> kuhn_corners{{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {1, 1, 1}}};
+inline const std::array<Point, 4> cube_corner{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
+inline const std::array<Point, 4> sommerville_corners{
+    {{0, 0, 0}, {2, 0, 0}, {1, 1, 1}, {1, 1, -1}}};
+inline const std::array<Point, 4> tie_free_corners{{{0, 0, 0}, {7, 0, 0}, {2, 5, 0}, {1, 2, 6}}};
+inline const std::array<Point, 4> type_o_corners{
+    {{99, 99, 101}, {102, -100, -98}, {-99, 98, -98}, {-98, -102, 98}}};
+
+}  // namespace octetra::test

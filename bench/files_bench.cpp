@@ -1,0 +1,71 @@
+/// How fast mesh files are read and written, in bytes of the files a second. Files in the page
+/// cache.
+
+#include <filesystem>
+#include <string>
+
+#include <benchmark/benchmark.h>
+
+#include <octetra/core/files.hpp>
+
+#include "support/meshes.hpp"
+#include "support/temporary_folder.hpp"
+
+namespace octetra {
+namespace {
+
+/// 1.03 million cells with coordinates of full length and all lists.
+const Mesh& large_mesh() {
+    static const Mesh mesh = [] {
+        Mesh m = test::kuhn(56, 56, 55, 1.0 / 3);
+        for (Point& p : m.points) p = {p.x / 7, p.y / 11, p.z / 13};
+        test::list_boundary(m);
+        m.regions.assign(m.cells.size(), 3);
+        return m;
+    }();
+    return mesh;
+}
+
+std::uint64_t bytes_in(const std::filesystem::path& folder) {
+    std::uint64_t bytes = 0;
+    for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+        bytes += entry.file_size();
+    }
+    return bytes;
+}
+
+void set_rate(benchmark::State& state, const std::filesystem::path& folder) {
+    const auto bytes = static_cast<std::int64_t>(bytes_in(folder));
+    state.SetBytesProcessed(state.iterations() * bytes);
+    state.counters["file MB"] = static_cast<double>(bytes) * 1e-6;
+    state.counters["cells/s"] = benchmark::Counter(
+        static_cast<double>(state.iterations()) * static_cast<double>(large_mesh().cells.size()),
+        benchmark::Counter::kIsRate);
+}
+
+void write_file(benchmark::State& state, const std::string& name) {
+    const test::TemporaryFolder folder;
+    for (auto _ : state) (void)write_mesh(large_mesh(), folder / name);
+    set_rate(state, folder.path());
+}
+
+void read_file(benchmark::State& state, const std::string& name) {
+    const test::TemporaryFolder folder;
+    (void)write_mesh(large_mesh(), folder / name);
+    for (auto _ : state) {
+        const Mesh mesh = read_mesh(folder / name);
+        benchmark::DoNotOptimize(mesh.points.data());
+    }
+    set_rate(state, folder.path());
+}
+
+BENCHMARK_CAPTURE(write_file, tetgen, "a.ele")->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(write_file, medit, "a.mesh")->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(write_file, vtu, "a.vtu")->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(read_file, tetgen, "a.ele")->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(read_file, medit, "a.mesh")->Unit(benchmark::kMillisecond);
+
+}  // namespace
+}  // namespace octetra
+
+BENCHMARK_MAIN();

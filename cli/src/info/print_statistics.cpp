@@ -1,0 +1,179 @@
+#include "info/print_statistics.hpp"
+
+#include <algorithm>
+#include <iterator>
+#include <numeric>
+#include <string_view>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "grouped.hpp"
+
+namespace octetra::cli {
+namespace {
+
+/// How many regions or markers are shown; a mesh may have one per cell.
+constexpr std::size_t shown_tags = 20;
+
+std::string shown(double number) {
+    return fmt::format("{:.6g}", number + 0.0);  // -0 becomes 0
+}
+
+std::string shown(std::size_t count) { return grouped(count); }
+
+/// Builds the text: headings, and rows of right-aligned columns under them.
+class Table {
+public:
+    template <class... Titles>
+    void heading(std::string_view title, const Titles&... titles) {
+        if (!text_.empty()) text_ += '\n';
+        line(title, std::string_view(titles)...);
+    }
+
+    template <class... Cells>
+    void row(std::string_view name, const Cells&... cells) {
+        line(fmt::format("  {}", name), std::string_view(cells)...);
+    }
+
+    /// A number of bins with bars; the longest bar stands for the largest count.
+    void histogram(std::string_view title, const Histogram& histogram) {
+        heading(title, "count", "share");
+        const auto& counts = histogram.counts;
+        const std::size_t total = std::reduce(counts.begin(), counts.end());
+        const std::size_t largest = std::ranges::max(counts);
+        for (std::size_t i = 0; i < counts.size(); ++i) {
+            const std::string bin =
+                fmt::format("{:>4} .. {:<4}", histogram.bound(i), histogram.bound(i + 1));
+            row(bin, shown(counts[i]), share(counts[i], total));
+            text_.pop_back();
+            text_ += counts[i] == 0 ? "\n" : fmt::format("  {}\n", bar(counts[i], largest));
+        }
+    }
+
+    [[nodiscard]] std::string take() && { return std::move(text_); }
+
+private:
+    static constexpr std::size_t name_width = 30;
+    static constexpr std::size_t column_width = 15;
+    static constexpr std::size_t bar_width = 16;  // what 80 columns leave
+
+    template <class... Cells>
+    void line(std::string_view name, const Cells&... cells) {
+        fmt::format_to(std::back_inserter(text_), "{:<{}}", name, name_width);
+        (fmt::format_to(std::back_inserter(text_), "{:>{}}", cells, column_width), ...);
+        text_.erase(text_.find_last_not_of(' ') + 1);
+        text_ += '\n';
+    }
+
+    static std::string share(std::size_t count, std::size_t total) {
+        if (total == 0) return "-";
+        return fmt::format("{:.2f} %",
+                           100 * static_cast<double>(count) / static_cast<double>(total));
+    }
+
+    /// Never empty: few are told from none.
+    static std::string bar(std::size_t count, std::size_t largest) {
+        const double part = static_cast<double>(count) / static_cast<double>(largest);
+        const auto length = static_cast<std::size_t>(part * static_cast<double>(bar_width) + 0.5);
+        return std::string(std::max(length, std::size_t{1}), '#');
+    }
+
+    std::string text_;
+};
+
+void add_counts(Table& table, const EntityCounts& counts) {
+    table.heading("Counts");
+    table.row("vertices", shown(counts.vertices));
+    table.row("edges", shown(counts.edges));
+    table.row("faces", shown(counts.faces));
+    table.row("cells", shown(counts.cells));
+    table.row("boundary faces", shown(counts.boundary_faces));
+    table.row("listed facets", shown(counts.listed_facets));
+    table.row("listed edges", shown(counts.listed_edges));
+    table.row("unused vertices", shown(counts.unused_vertices));
+    table.row("faces of more than two cells", shown(counts.nonmanifold_faces));
+    table.row("connected components", shown(counts.components));
+    table.row("Euler characteristic", fmt::format("{}", counts.euler_characteristic));
+}
+
+void add_extent(Table& table, const MeshStatistics& s) {
+    table.heading("Extent, in the mesh's units", "minimum", "maximum", "size");
+    const auto row = [&](const char* name, double low, double high) {
+        table.row(name, shown(low), shown(high), shown(high - low));
+    };
+    if (s.bounding_box) {
+        const auto& [low, high] = *s.bounding_box;
+        row("x", low.x, high.x);
+        row("y", low.y, high.y);
+        row("z", low.z, high.z);
+    } else {
+        table.row("bounding box", "none", "none", "none");
+    }
+    table.row("total volume", "", "", shown(s.volume));
+    table.row("boundary area", "", "", shown(s.boundary_area));
+}
+
+void add_shapes(Table& table, const MeshStatistics& s) {
+    table.heading("Shape", "minimum", "maximum", "mean");
+    const auto row = [&](const char* name, const std::optional<Range>& range) {
+        if (range)
+            table.row(name, shown(range->min), shown(range->max));
+        else
+            table.row(name, "none", "none");
+    };
+    row("edge length", s.edge_length);
+    row("cell volume", s.cell_volume);
+    row("face angle, degrees", s.face_angle);
+    row("dihedral angle, degrees", s.dihedral_angle);
+    if (s.eta)
+        table.row("eta (regular: 1)", shown(s.eta->min), shown(s.eta->max), shown(s.eta->mean));
+    else
+        table.row("eta (regular: 1)", "none", "none", "none");
+}
+
+void add_adjacency(Table& table, const std::optional<Adjacency>& adjacency) {
+    table.heading("Adjacency", "mean", "maximum");
+    if (!adjacency) {
+        table.row("none");
+        return;
+    }
+    table.row("cells at an edge", shown(adjacency->cells_per_edge),
+              shown(adjacency->max_cells_at_edge));
+    table.row("cells at a vertex", shown(adjacency->cells_per_vertex),
+              shown(adjacency->max_cells_at_vertex));
+    table.row("edges at a vertex", shown(adjacency->edges_per_vertex));
+    table.row("faces at an edge", shown(adjacency->faces_per_edge));
+}
+
+void add_tags(Table& table, const std::vector<TagTotal>& totals, const char* title,
+              const char* count, const char* size) {
+    if (totals.empty()) return;
+    table.heading(title, count, size);
+    const std::size_t shown_count = std::min(shown_tags, totals.size());
+    for (std::size_t i = 0; i < shown_count; ++i) {
+        table.row(fmt::format("{}", totals[i].tag), shown(totals[i].count), shown(totals[i].size));
+    }
+    if (shown_count < totals.size()) {
+        table.row(fmt::format("and {} more; --json has all", grouped(totals.size() - shown_count)));
+    }
+}
+
+}  // namespace
+
+std::string format_table(const MeshStatistics& s) {
+    Table table;
+    add_counts(table, s.counts);
+    add_extent(table, s);
+    add_tags(table, s.regions, "Region", "cells", "volume");
+    add_tags(table, s.facet_markers, "Facet marker", "facets", "area");
+    add_shapes(table, s);
+    add_adjacency(table, s.adjacency);
+    table.histogram("Dihedral angle, degrees", s.dihedral_histogram);
+    table.histogram("Eta", s.eta_histogram);
+    return std::move(table).take();
+}
+
+void print_table(const MeshStatistics& statistics) { fmt::print("{}", format_table(statistics)); }
+
+}  // namespace octetra::cli

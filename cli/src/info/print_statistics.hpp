@@ -1,0 +1,42 @@
+#pragma once
+
+#include <string>
+
+#include "info/mesh_statistics.hpp"
+
+/// Mesh statistics for people and for programs.
+///
+/// The JSON is one object. Names stay; new ones may be added. Numbers are as measured, written so
+/// that they read back to the same bits; null stands for what a mesh without cells does not have,
+/// and for a number that is not finite.
+///
+///     counts               vertices, edges, faces, cells, boundary_faces, nonmanifold_faces,
+///                          listed_facets, listed_edges, unused_vertices, components,
+///                          euler_characteristic: integers; see EntityCounts
+///     bounding_box         {low: [x, y, z], high: [x, y, z]}, or null
+///     volume               of all cells
+///     boundary_area        of all faces of exactly one cell
+///     regions              [{tag, cells, volume}, ...] ascending by tag; [] without tags
+///     facet_markers        [{marker, facets, area}, ...] ascending by marker, of listed facets
+///     edge_length          {min, max}, or null
+///     cell_volume          {min, max}, or null
+///     face_angle           {min, max} in degrees, or null
+///     dihedral_angle       {min, max} in degrees, or null
+///     eta                  {min, mean, max}, or null; 1 is a regular tetrahedron
+///     dihedral_histogram   {low, high, counts: [...]}: bins of equal width over low..high degrees
+///     eta_histogram        likewise
+///     adjacency            cells_per_edge, cells_per_vertex, edges_per_vertex, faces_per_edge
+///                          (means), max_cells_at_edge, max_cells_at_vertex; or null
+namespace octetra::cli {
+
+/// Lines of at most 80 columns, numbers with six significant digits.
+[[nodiscard]] std::string format_table(const MeshStatistics& statistics);
+
+/// Indented JSON, and a line end.
+[[nodiscard]] std::string format_json(const MeshStatistics& statistics);
+
+/// The same, to stdout. Throws std::system_error where that fails.
+void print_table(const MeshStatistics& statistics);
+void print_json(const MeshStatistics& statistics);
+
+}  // namespace octetra::cli

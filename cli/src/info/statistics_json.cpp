@@ -1,0 +1,87 @@
+#include <optional>
+#include <vector>
+
+#include <fmt/core.h>
+#include <nlohmann/json.hpp>
+
+#include "info/print_statistics.hpp"
+
+namespace octetra::cli {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json json(const Point& p) { return {p.x, p.y, p.z}; }
+
+Json json(const Box& box) { return {{"low", json(box.low)}, {"high", json(box.high)}}; }
+
+Json json(const Range& range) { return {{"min", range.min}, {"max", range.max}}; }
+
+Json json(const Quality& quality) {
+    return {{"min", quality.min}, {"mean", quality.mean}, {"max", quality.max}};
+}
+
+Json json(const Histogram& histogram) {
+    return {{"low", histogram.low}, {"high", histogram.high}, {"counts", histogram.counts}};
+}
+
+Json json(const Adjacency& adjacency) {
+    return {{"cells_per_edge", adjacency.cells_per_edge},
+            {"cells_per_vertex", adjacency.cells_per_vertex},
+            {"edges_per_vertex", adjacency.edges_per_vertex},
+            {"faces_per_edge", adjacency.faces_per_edge},
+            {"max_cells_at_edge", adjacency.max_cells_at_edge},
+            {"max_cells_at_vertex", adjacency.max_cells_at_vertex}};
+}
+
+Json json(const EntityCounts& counts) {
+    return {{"vertices", counts.vertices},
+            {"edges", counts.edges},
+            {"faces", counts.faces},
+            {"cells", counts.cells},
+            {"boundary_faces", counts.boundary_faces},
+            {"nonmanifold_faces", counts.nonmanifold_faces},
+            {"listed_facets", counts.listed_facets},
+            {"listed_edges", counts.listed_edges},
+            {"unused_vertices", counts.unused_vertices},
+            {"components", counts.components},
+            {"euler_characteristic", counts.euler_characteristic}};
+}
+
+template <class T>
+Json json(const std::optional<T>& value) {
+    return value ? json(*value) : Json(nullptr);
+}
+
+Json json(const std::vector<TagTotal>& totals, const char* tag, const char* count,
+          const char* size) {
+    Json out = Json::array();
+    for (const TagTotal& total : totals) {
+        out.push_back({{tag, total.tag}, {count, total.count}, {size, total.size}});
+    }
+    return out;
+}
+
+}  // namespace
+
+std::string format_json(const MeshStatistics& s) {
+    const Json out{{"counts", json(s.counts)},
+                   {"bounding_box", json(s.bounding_box)},
+                   {"volume", s.volume},
+                   {"boundary_area", s.boundary_area},
+                   {"regions", json(s.regions, "tag", "cells", "volume")},
+                   {"facet_markers", json(s.facet_markers, "marker", "facets", "area")},
+                   {"edge_length", json(s.edge_length)},
+                   {"cell_volume", json(s.cell_volume)},
+                   {"face_angle", json(s.face_angle)},
+                   {"dihedral_angle", json(s.dihedral_angle)},
+                   {"eta", json(s.eta)},
+                   {"dihedral_histogram", json(s.dihedral_histogram)},
+                   {"eta_histogram", json(s.eta_histogram)},
+                   {"adjacency", json(s.adjacency)}};
+    return out.dump(2) + "\n";
+}
+
+void print_json(const MeshStatistics& statistics) { fmt::print("{}", format_json(statistics)); }
+
+}  // namespace octetra::cli

@@ -1,0 +1,157 @@
+#!/usr/bin/python3
+"""Reads a .vtu file with VTK, not with Octetra, and prints what VTK found in it, as JSON.
+
+    points, cells     how many
+    cell_types        {VTK cell type number: how many cells}; a tetrahedron is 10
+    signed_volume     the sum over all tetrahedra, correctly rounded from the volumes of each
+    min_signed_volume the smallest of them, or null; negative for an inverted cell
+    point_data,       [{name, type, components, range}, ...] in the file's order; range has one
+    cell_data         [smallest, largest] for each component, or is null for an array without values
+    coordinates_type  of the points: "double" unless the writer lost precision
+
+--points prints the coordinates instead, one vertex a line, as hexadecimal floats; --cells the
+vertex numbers of each cell, one cell a line. Both are exact, to be compared as text.
+
+Exit status: 0 read without any complaint; 1 VTK complained, or a cell names a vertex that is not
+there; 2 bad usage.
+"""
+
+import argparse
+import collections
+import json
+import math
+import os
+import sys
+
+from vtkmodules.vtkCommonCore import vtkLogger, vtkOutputWindow
+from vtkmodules.vtkCommonDataModel import VTK_TETRA
+from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridReader
+
+
+def read(path):
+    """The grid of the file, and all that VTK complained of meanwhile."""
+    complaints = []
+
+    def note(source, event, text):
+        complaints.append(text.strip())
+
+    note.CallDataType = "string0"
+    for event in ("ErrorEvent", "WarningEvent"):
+        vtkOutputWindow.GetInstance().AddObserver(event, note)
+    vtkOutputWindow.GetInstance().SetDisplayModeToNever()
+    vtkLogger.SetStderrVerbosity(vtkLogger.VERBOSITY_OFF)
+
+    reader = vtkXMLUnstructuredGridReader()
+    # The parser and the reader's other parts complain on their own, through the output window;
+    # the reader itself to those who observe it.
+    for event in ("ErrorEvent", "WarningEvent"):
+        reader.AddObserver(event, note)
+    if not os.path.isfile(path):
+        return None, [f"{path}: no such file"]
+    if not reader.CanReadFile(path):
+        return None, [f"{path}: VTK does not take it for a .vtu file"]
+    reader.SetFileName(path)
+    reader.Update()
+    if reader.GetErrorCode() != 0:
+        complaints.append(f"{path}: VTK error code {reader.GetErrorCode()}")
+    return reader.GetOutput(), complaints
+
+
+def connectivity(grid):
+    """For each cell, its vertex numbers."""
+    if grid.GetNumberOfCells() == 0:
+        return
+    vertices = memoryview(grid.GetCells().GetConnectivityArray()).tolist()
+    ends = memoryview(grid.GetCells().GetOffsetsArray()).tolist()
+    for begin, end in zip(ends, ends[1:]):
+        yield vertices[begin:end]
+
+
+def strays(grid):
+    """A complaint about the first cell that names a vertex which is not there. (VTK has none.)"""
+    last = grid.GetNumberOfPoints() - 1
+    for i, vertices in enumerate(connectivity(grid)):
+        if min(vertices) < 0 or max(vertices) > last:
+            return [f"cell {i} has vertices {vertices}, but the last vertex is {last}"]
+    return []
+
+
+def coordinates(grid):
+    if grid.GetNumberOfPoints() == 0:
+        return []
+    return memoryview(grid.GetPoints().GetData()).tolist()
+
+
+def cell_types(grid):
+    counts = collections.Counter(grid.GetCellType(i) for i in range(grid.GetNumberOfCells()))
+    return {str(kind): counts[kind] for kind in sorted(counts)}
+
+
+def signed_volumes(grid):
+    points = coordinates(grid)
+    for i, vertices in enumerate(connectivity(grid)):
+        if grid.GetCellType(i) != VTK_TETRA:
+            continue
+        a, *others = (points[v] for v in vertices)
+        u, v, w = ([q - p for p, q in zip(a, other)] for other in others)
+        yield (u[0] * (v[1] * w[2] - v[2] * w[1]) - u[1] * (v[0] * w[2] - v[2] * w[0])
+               + u[2] * (v[0] * w[1] - v[1] * w[0])) / 6
+
+
+def arrays(data):
+    described = []
+    for i in range(data.GetNumberOfArrays()):
+        array = data.GetAbstractArray(i)
+        components = array.GetNumberOfComponents()
+        has_range = array.GetNumberOfTuples() > 0 and hasattr(array, "GetRange")
+        described.append({
+            "name": array.GetName(),
+            "type": array.GetDataTypeAsString(),
+            "components": components,
+            "range": [array.GetRange(c) for c in range(components)] if has_range else None,
+        })
+    return described
+
+
+def summary(grid):
+    volumes = list(signed_volumes(grid))
+    return {
+        "points": grid.GetNumberOfPoints(),
+        "cells": grid.GetNumberOfCells(),
+        "cell_types": cell_types(grid),
+        "signed_volume": math.fsum(volumes),
+        "min_signed_volume": min(volumes, default=None),
+        "point_data": arrays(grid.GetPointData()),
+        "cell_data": arrays(grid.GetCellData()),
+        "coordinates_type": grid.GetPoints().GetData().GetDataTypeAsString(),
+    }
+
+
+def main():
+    parser = argparse.ArgumentParser(
+        description="Print what VTK reads in a .vtu file, as JSON.",
+        epilog="example: check_vtu.py fine.vtu --points | sha256sum")
+    parser.add_argument("file", metavar="FILE.vtu")
+    what = parser.add_mutually_exclusive_group()
+    what.add_argument("--points", action="store_true", help="coordinates, as hexadecimal floats")
+    what.add_argument("--cells", action="store_true", help="vertex numbers of the cells")
+    options = parser.parse_args()
+
+    grid, complaints = read(options.file)
+    complaints = complaints or strays(grid)
+    if complaints:
+        print("\n".join(complaints), file=sys.stderr)
+        return 1
+    if options.points:
+        for point in coordinates(grid):
+            print(*map(float.hex, point))
+    elif options.cells:
+        for vertices in connectivity(grid):
+            print(*vertices)
+    else:
+        print(json.dumps(summary(grid), indent=2))
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -27,6 +27,7 @@ struct RefineOptions {
     SelectionOptions selection;
     Scheme scheme = Scheme::eight;
     int levels = 1;
+    std::string engine = "reference";
     bool quiet = false;
 };
 
@@ -93,6 +94,10 @@ void add_refine(CLI::App& program) {
                      "a chosen cell selects all its edges, its faces' longest, or its longest [8t]")
         ->type_name("8t|4t|2t")
         ->transform(CLI::CheckedTransformer(schemes).description(""));
+    refine_command
+        ->add_option("--engine", options->engine, "the serial reference is the only one so far")
+        ->type_name("reference")
+        ->check(CLI::IsMember({"reference"}).description(""));
     refine_command
         ->add_option("--maps", options->maps,
                      "also write each cell's parent and each midpoint's edge, as text")

@@ -1,0 +1,48 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "cli/octetra_program.hpp"
+
+namespace octetra {
+namespace {
+
+using test::TemporaryFolder;
+using testing::HasSubstr;
+
+TEST(Convert, ThereAndBackGivesTheSameBytes) {
+    const TemporaryFolder folder;
+    ASSERT_EQ(test::octetra("generate gear -o gear.1.ele", folder).status, 0);
+    ASSERT_EQ(test::octetra("convert gear.1.ele gear.mesh", folder).status, 0);
+    ASSERT_EQ(test::octetra("convert gear.mesh back.ele", folder).status, 0);
+    ASSERT_EQ(test::octetra("convert back.ele again.mesh", folder).status, 0);
+    EXPECT_EQ(test::content_of(folder / "gear.mesh"), test::content_of(folder / "again.mesh"));
+    Mesh back = read_mesh(folder / "back.ele");
+    EXPECT_EQ(back.first_number, 1U) << "Medit counts from 1, and so does what came from it";
+    back.first_number = 0;
+    EXPECT_EQ(back, read_mesh(folder / "gear.1.ele"));
+}
+
+TEST(Convert, SaysWhatTheFormatCannotHold) {
+    const TemporaryFolder folder;
+    ASSERT_EQ(test::octetra("generate kuhn 2 -o cube.ele", folder).status, 0);
+    const test::Outcome run = test::octetra("convert cube.ele cube.vtu", folder);
+    EXPECT_EQ(run.status, 0);
+    EXPECT_THAT(run.err, HasSubstr("octetra: note: the .vtu file holds cells only"));
+}
+
+TEST(Convert, ToAFullDiskEndsInStatus3) {
+    const TemporaryFolder folder;
+    ASSERT_EQ(test::octetra("generate kuhn 2 -o cube.ele", folder).status, 0);
+    // The shell limits the size of files that the program may write, and lets it see the error.
+    const auto run =
+        test::run_program({"sh", "-c",
+                           "trap '' XFSZ; ulimit -f 1; exec " + std::string(OCTETRA_PROGRAM) +
+                               " refine cube.ele --all --levels 2 -o fine.mesh"},
+                          folder.path());
+    EXPECT_EQ(run.status, 3);
+    EXPECT_THAT(run.err, HasSubstr("octetra: fine.mesh: writing failed"));
+    EXPECT_FALSE(std::filesystem::exists(folder / "fine.mesh"));
+}
+
+}  // namespace
+}  // namespace octetra

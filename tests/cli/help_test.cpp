@@ -1,0 +1,93 @@
+#include <sstream>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "cli/octetra_program.hpp"
+
+namespace octetra {
+namespace {
+
+using test::TemporaryFolder;
+using testing::HasSubstr;
+using testing::StartsWith;
+
+std::vector<std::string> examples_in(const std::string& help) {
+    std::vector<std::string> commands;
+    std::istringstream lines(help.substr(help.find("Example:")));
+    for (std::string line; std::getline(lines, line);) {
+        if (line.starts_with("  octetra ")) commands.push_back(line.substr(10));
+    }
+    return commands;
+}
+
+class Help : public testing::TestWithParam<std::string> {};
+
+TEST_P(Help, ShowsAnExampleThatWorksWhenPasted) {
+    const TemporaryFolder folder;
+    const test::Outcome help = test::octetra(GetParam() + " --help", folder);
+    EXPECT_EQ(help.status, 0);
+    EXPECT_EQ(help.err, "");
+    const auto examples = examples_in(help.out);
+    EXPECT_FALSE(examples.empty());
+    for (const std::string& example : examples) {
+        const test::Outcome run = test::octetra(example, folder);
+        EXPECT_EQ(run.status, 0) << example << "\n" << run.err;
+        EXPECT_NE(run.out, "") << example;
+    }
+}
+
+TEST_P(Help, FitsATerminal) {
+    const TemporaryFolder folder;
+    std::istringstream lines(test::octetra(GetParam() + " --help", folder).out);
+    for (std::string line; std::getline(lines, line);) EXPECT_LE(line.size(), 120U) << line;
+}
+
+INSTANTIATE_TEST_SUITE_P(Subcommands, Help,
+                         testing::Values("", "refine", "info", "convert", "generate",
+                                         "generate kuhn", "generate bcc", "generate regular",
+                                         "generate random", "generate slivers", "generate sphere",
+                                         "generate fichera", "generate torus", "generate gear",
+                                         "generate two-material"));
+
+class BadUsage : public testing::TestWithParam<std::string> {};
+
+TEST_P(BadUsage, EndsInStatus2AndOneMessageAndWritesNothing) {
+    const TemporaryFolder folder;
+    ASSERT_EQ(test::octetra("generate kuhn 1 -o cube.ele", folder).status, 0);
+    const test::Outcome run = test::octetra(GetParam(), folder);
+    EXPECT_EQ(run.status, 2);
+    EXPECT_EQ(run.out, "");
+    EXPECT_THAT(run.err, StartsWith("octetra: "));
+    EXPECT_FALSE(std::filesystem::exists(folder / "out.ele"));
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    CommandLines, BadUsage,
+    testing::Values(
+        "", "nonsense", "refine", "refine cube.ele", "refine cube.ele -o out.ele",
+        "refine cube.ele --all", "refine missing.ele --all -o out.ele",
+        "refine cube.ele --all -o out.stl", "refine cube.ele --all -o no/out.ele",
+        "refine cube.ele --all --scheme 3t -o out.ele",
+        "refine cube.ele --all --levels -1 -o out.ele",
+        "refine cube.ele --all --levels x -o out.ele", "refine cube.ele --sphere 0,0,0 -o out.ele",
+        "refine cube.ele --sphere 0,0,0,nan -o out.ele",
+        "refine cube.ele --sphere 0,0,0,-1 -o out.ele",
+        "refine cube.ele --box 0,0,0,1,1 -o out.ele",
+        "refine cube.ele --box 1,0,0,0,1,1 -o out.ele", "refine cube.ele --random 1.5 -o out.ele",
+        "refine cube.ele --random nan -o out.ele", "refine cube.ele --max-volume -1 -o out.ele",
+        "refine cube.ele --region 1 -o out.ele", "refine cube.ele --cells missing.txt -o out.ele",
+        "refine cube.ele extra.ele --all -o out.ele", "info", "info missing.mesh",
+        "convert cube.ele", "convert cube.ele out.obj", "generate", "generate cube",
+        "generate kuhn 0 -o out.ele", "generate kuhn 1 2 -o out.ele",
+        "generate kuhn 99999999999 -o out.ele", "generate kuhn 2",
+        "generate gear --bore 5 -o out.ele", "generate sphere --edge 0 -o out.ele",
+        "generate random 3 -o out.ele"));
+
+TEST(Version, IsPrinted) {
+    const TemporaryFolder folder;
+    EXPECT_THAT(test::octetra("--version", folder).out, StartsWith("octetra "));
+}
+
+}  // namespace
+}  // namespace octetra

@@ -1,0 +1,99 @@
+#include <cmath>
+#include <cstdio>
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "cli/octetra_program.hpp"
+#include "support/meshes.hpp"
+
+/// What VTK's own reader, which is ParaView's, finds in the .vtu files.
+namespace octetra {
+namespace {
+
+using nlohmann::json;
+using test::TemporaryFolder;
+
+test::Outcome read_by_vtk(const std::string& arguments, const TemporaryFolder& folder) {
+    // Debian's interpreter: only that one sees Debian's VTK.
+    return test::run_program(
+        test::words("/usr/bin/python3 " OCTETRA_SOURCE_DIR "/tests/vtu/check_vtu.py " + arguments),
+        folder.path());
+}
+
+TEST(Vtu, OfARefinedGearIsReadByVtkWithItsParents) {
+    const TemporaryFolder folder;
+    ASSERT_EQ(test::octetra("generate gear -o gear.1.ele", folder).status, 0);
+    const std::string refine = "refine gear.1.ele --sphere 1,0,0.1,0.3 --levels 2 -o ";
+    ASSERT_EQ(test::octetra(refine + "fine.vtu", folder).status, 0);
+    ASSERT_EQ(test::octetra(refine + "fine.ele", folder).status, 0);
+    const Mesh fine = read_mesh(folder / "fine.ele");
+
+    const test::Outcome run = read_by_vtk("fine.vtu", folder);
+    ASSERT_EQ(run.status, 0) << run.err;
+    const json found = json::parse(run.out);
+    EXPECT_EQ(found["points"], fine.points.size());
+    EXPECT_EQ(found["cells"], fine.cells.size());
+    EXPECT_EQ(found["cell_types"], json({{"10", fine.cells.size()}}));
+    EXPECT_GT(found["min_signed_volume"], 0);
+    EXPECT_EQ(found["coordinates_type"], "double");
+    EXPECT_EQ(found["cell_data"][0]["name"], "parent");
+    EXPECT_EQ(found["cell_data"][0]["range"],
+              json({{0, read_mesh(folder / "gear.1.ele").cells.size() - 1}}));
+}
+
+TEST(Vtu, HoldsEveryBitOfTheCoordinatesAndEveryCell) {
+    const TemporaryFolder folder;
+    // More than one compressed block of every array: 20^3 * 6 cells, 9,261 vertices.
+    Mesh mesh = test::kuhn(20, 20, 20, 1.0 / 3);
+    for (Point& p : mesh.points) p = {p.x / 7, std::sqrt(p.y), -p.z * 1e-300};
+    (void)write_mesh(mesh, folder / "a.mesh", {});
+    ASSERT_EQ(test::octetra("convert a.mesh a.vtu", folder).status, 2) << "mirrored: inverted";
+    ASSERT_EQ(test::octetra("convert a.mesh a.vtu --fix-orientation", folder).status, 0);
+    mesh = read_mesh(folder / "a.mesh", {.fix_orientation = true});
+
+    std::string points;
+    for (const Point& p : mesh.points) points += fmt::format("{:a} {:a} {:a}\n", p.x, p.y, p.z);
+    std::string cells;
+    for (const auto& c : mesh.cells) {
+        cells +=
+            fmt::format("{} {} {} {}\n", c[0].value(), c[1].value(), c[2].value(), c[3].value());
+    }
+    const auto parsed = [](const std::string& text) {
+        std::istringstream in(text);
+        std::vector<double> numbers;
+        for (std::string word; in >> word;) numbers.push_back(std::strtod(word.c_str(), nullptr));
+        return numbers;
+    };
+    EXPECT_EQ(parsed(read_by_vtk("--points a.vtu", folder).out), parsed(points));
+    EXPECT_EQ(read_by_vtk("--cells a.vtu", folder).out, cells);
+}
+
+TEST(Vtu, HoldsRegionsMarkersAndAttributes) {
+    const TemporaryFolder folder;
+    Mesh mesh = test::one_cell(test::cube_corner);
+    mesh.regions = {-4};
+    mesh.point_markers = {1, 2, 3, -9};
+    mesh.attributes_per_point = 2;
+    mesh.point_attributes = {0, 1, 2, 3, 4, 5, 6, 0.125};
+    (void)write_mesh(mesh, folder / "a.vtu");
+    const json found = json::parse(read_by_vtk("a.vtu", folder).out);
+    EXPECT_EQ(found["cell_data"][0]["name"], "region");
+    EXPECT_EQ(found["cell_data"][0]["range"], json({{-4, -4}}));
+    EXPECT_EQ(found["point_data"][0]["name"], "marker");
+    EXPECT_EQ(found["point_data"][0]["range"], json({{-9, 3}}));
+    EXPECT_EQ(found["point_data"][1]["name"], "attributes");
+    EXPECT_EQ(found["point_data"][1]["range"], json({{0, 6}, {0.125, 5}}));
+}
+
+TEST(Vtu, OfAnEmptyMeshIsRead) {
+    const TemporaryFolder folder;
+    (void)write_mesh(Mesh{}, folder / "a.vtu");
+    const test::Outcome run = read_by_vtk("a.vtu", folder);
+    ASSERT_EQ(run.status, 0) << run.err;
+    EXPECT_EQ(json::parse(run.out)["cells"], 0);
+}
+
+}  // namespace
+}  // namespace octetra

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <span>
+#include <vector>
+
+namespace octetra::generator {
+
+/// The child's end of the pipe to its parent.
+class ToParent {
+public:
+    explicit ToParent(int file) : file_(file) {}
+
+    template <class T>
+    void send(const T* items, std::size_t count) {
+        send(std::as_bytes(std::span(items, count)));
+    }
+    /// Ends the process if the parent does not listen any more.
+    void send(std::span<const std::byte> bytes);
+
+private:
+    int file_;
+};
+
+struct ChildResult {
+    std::vector<std::byte> sent;
+    int exit_status = 0;  ///< what `work` returned, if the child ended itself
+    int signal = 0;       ///< what ended it, or 0
+};
+
+/// Runs `work` in a copy of this process, with nowhere to print to, and waits for it.
+/// Throws SystemError if there can be no such process.
+[[nodiscard]] ChildResult run_in_child(const std::function<int(ToParent&)>& work);
+
+}  // namespace octetra::generator

@@ -17,8 +17,7 @@ EdgeTable number_edges(const Mesh& mesh) {
         for (const auto& [i, j] : cell_edges) table.edges.append(ascending(cell[i], cell[j]));
     }
     std::ranges::sort(table.edges);
-    const auto repeated = std::ranges::unique(table.edges);
-    table.edges.erase(repeated.begin(), repeated.end());
+    table.edges.erase(std::unique(table.edges.begin(), table.edges.end()), table.edges.end());
 
     for (const CellVertices& cell : mesh.cells) {
         std::array<EdgeIndex, 6> numbers;

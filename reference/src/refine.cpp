@@ -96,7 +96,8 @@ void bisect_listed(const IndexVector<I, std::array<VertexIndex, N>>& list,
     }
 }
 
-Refinement refine_once(Refinement coarse, const Selection& selection, Scheme scheme, int level) {
+Refinement refine_once(const Refinement& coarse, const Selection& selection, Scheme scheme,
+                       int level) {
     const Mesh& mesh = coarse.mesh;
     const EdgeTable table = number_edges(mesh);
     const EdgeSet selected = close(
@@ -125,7 +126,7 @@ Refinement refine(const Mesh& mesh, const Selection& selection, Scheme scheme, i
     result.maps.first_midpoint = mesh.points.end_index();
     for (CellIndex c{0}; c < mesh.cells.end_index(); ++c) result.maps.cell_to_parent.append(c);
     for (int level = 1; level <= levels; ++level) {
-        result = refine_once(std::move(result), selection, scheme, level);
+        result = refine_once(result, selection, scheme, level);
     }
     return result;
 }

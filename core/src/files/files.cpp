@@ -96,7 +96,7 @@ std::vector<GlobalCell> read_cell_list(const fs::path& path, std::uint32_t first
         }
     }
     std::ranges::sort(cells);
-    cells.erase(std::ranges::unique(cells).begin(), cells.end());
+    cells.erase(std::unique(cells.begin(), cells.end()), cells.end());
     return cells;
 }
 

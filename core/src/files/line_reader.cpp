@@ -6,6 +6,7 @@
 
 #include <cerrno>
 #include <cstring>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -31,7 +32,8 @@ std::string_view without_comment_and_line_end(std::string_view raw) {
 }  // namespace
 
 LineReader::LineReader(std::filesystem::path path) : path_(std::move(path)), buffer_(buffer_size) {
-    file_ = ::open(path_.c_str(), O_RDONLY | O_CLOEXEC);
+    // O_NONBLOCK: a named pipe must be refused, not waited for.
+    file_ = ::open(path_.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
     if (file_ < 0) {
         throw InputError(
             fmt::format("{}: cannot be opened: {}", path_.native(), std::strerror(errno)));

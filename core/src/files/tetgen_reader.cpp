@@ -83,11 +83,14 @@ VertexIndex read_vertex(Fields& fields, const LineReader& reader, const Mesh& me
 
 void read_node(const fs::path& path, Mesh& mesh) {
     LineReader reader(path);
-    const auto [count, dimension, attributes, markers] =
-        read_header<4>(reader,
-                       {"the number of vertices", "the dimension",
-                        "the number of attributes per vertex", "the markers flag"},
-                       {0, 3, 0, 0});
+    const auto header = read_header<4>(reader,
+                                       {"the number of vertices", "the dimension",
+                                        "the number of attributes per vertex", "the markers flag"},
+                                       {0, 3, 0, 0});
+    const std::uint64_t count = header[0];
+    const std::uint64_t dimension = header[1];
+    const std::uint64_t attributes = header[2];
+    const std::uint64_t markers = header[3];
     if (dimension != 3) reader.fail(fmt::format("dimension 3 expected, {} found", dimension));
     if (markers > 1) reader.fail(fmt::format("the markers flag is 0 or 1, not {}", markers));
     constexpr std::uint64_t most_attributes = 1000;
@@ -118,11 +121,13 @@ void read_node(const fs::path& path, Mesh& mesh) {
 
 void read_ele(const fs::path& path, const ReadOptions& options, Mesh& mesh) {
     LineReader reader(path);
-    const auto [count, corners, attributes] =
-        read_header<3>(reader,
-                       {"the number of cells", "the number of vertices per cell",
-                        "the number of attributes per cell"},
-                       {0, 4, 0});
+    const auto header = read_header<3>(reader,
+                                       {"the number of cells", "the number of vertices per cell",
+                                        "the number of attributes per cell"},
+                                       {0, 4, 0});
+    const std::uint64_t count = header[0];
+    const std::uint64_t corners = header[1];
+    const std::uint64_t attributes = header[2];
     if (corners == 10) {
         reader.fail(
             "these are second-order cells (10 vertices each); only those with 4 are "
@@ -159,8 +164,10 @@ void read_listed(const fs::path& path, std::string_view name,
                  IndexVector<I, std::array<VertexIndex, N>>& list,
                  IndexVector<I, Marker>& list_markers, I (*find_stray)(const Mesh&), Mesh& mesh) {
     LineReader reader(path);
-    const auto [count, markers] =
+    const auto header =
         read_header<2>(reader, {"the number of entries", "the markers flag"}, {0, 0});
+    const std::uint64_t count = header[0];
+    const std::uint64_t markers = header[1];
     if (markers > 1) reader.fail(fmt::format("the markers flag is 0 or 1, not {}", markers));
     const std::size_t field_count = 1 + N + markers;
     reader.check_count(count, field_count, "entries");

@@ -1,8 +1,11 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <cstdint>
+#include <cstring>
 #include <functional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <fmt/format.h>
@@ -29,22 +32,19 @@ struct DataArray {
 };
 
 template <class T>
-constexpr const char* vtk_type() {
-    if constexpr (std::is_same_v<T, double>)
-        return "Float64";
-    else if constexpr (std::is_same_v<T, std::int64_t>)
-        return "Int64";
-    else if constexpr (std::is_same_v<T, std::int32_t>)
-        return "Int32";
-    else
-        return "UInt8";
-}
+constexpr const char* vtk_type = "UInt8";
+template <>
+constexpr const char* vtk_type<double> = "Float64";
+template <>
+constexpr const char* vtk_type<std::int64_t> = "Int64";
+template <>
+constexpr const char* vtk_type<std::int32_t> = "Int32";
 
 /// An array whose value number i is value(i).
 template <class T>
 DataArray array(std::string_view name, std::size_t components, std::size_t value_count,
                 auto value) {
-    return {fmt::format(R"(type="{}" Name="{}" NumberOfComponents="{}")", vtk_type<T>(), name,
+    return {fmt::format(R"(type="{}" Name="{}" NumberOfComponents="{}")", vtk_type<T>, name,
                         components),
             value_count, sizeof(T), [value](std::size_t first, std::size_t count, char* out) {
                 for (std::size_t i = 0; i < count; ++i) {

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <functional>
 #include <limits>
+#include <utility>
 #include <vector>
 
 /// Numbers typed by role. A vertex number does not convert to a cell number, nor to or from a

@@ -70,6 +70,11 @@ INSTANTIATE_TEST_SUITE_P(
         {"SecondOrder", head + vertices + "TetrahedraP2\n0\nEnd\n", 9, "second-order"},
         {"Hexahedra", head + vertices + "Hexahedra\n1\n1 2 3 4 1 2 3 4 0\nEnd\n", 9,
          "only tetrahedral"},
+        {"SkippedCountThatOverflows", head + vertices + "Normals 6148914691236517206\n1 2\nEnd\n",
+         9, "holds at most"},
+        {"FlatAmongScatteredLines",
+         head + "Vertices 4\n0 0 0 0\n1 0 0 0\n0 1 0 0\n1 1 0 0\nTetrahedra\n1\n1 2\n3 4 0", 8,
+         "cell 1 of this section: the cell is flat"},
         {"TwoSections", head + vertices + vertices + "End\n", 9, "the first is on line 3"},
         {"AfterEnd", good + "Corners\n0\n", 13, "text after the keyword End"},
         {"StrayTriangle", head + vertices + cells + "Triangles\n1\n1 2 2 0\nEnd\n", 14,
@@ -83,7 +88,7 @@ TEST(MeditReader, ReportsATriangleOfNoCell) {
     const std::string text = head + "Vertices\n5\n0 0 0 0\n1 0 0 0\n0 1 0 0\n0 0 1 0\n9 9 9 0\n" +
                              cells + "Triangles\n2\n1 2 3 0\n1 2 5 0\nEnd\n";
     EXPECT_THAT(test::thrown_by<InputError>([&] { (void)read(text); }),
-                HasSubstr("m.mesh:16: triangle 2 is a face of no cell"));
+                HasSubstr("m.mesh:16: triangle 2 belongs to no cell"));
 }
 
 TEST(MeditReader, KeepsTagsAndDropsReferencesThatAreAllZero) {

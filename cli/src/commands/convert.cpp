@@ -14,11 +14,14 @@ namespace {
 struct ConvertOptions {
     InputOptions input;
     std::string output;
+    bool quiet = false;
 };
 
 void convert(const ConvertOptions& options) {
     check_writable(options.output);
-    write_output(read_input(options.input), options.output);
+    const Mesh mesh = read_input(options.input);
+    write_output(mesh, options.output);
+    if (!options.quiet) report_written(mesh, options.output);
 }
 
 }  // namespace
@@ -31,6 +34,7 @@ void add_convert(CLI::App& program) {
     command->add_option("OUT", options->output, "where to write: .ele, .mesh or .vtu")
         ->type_name("")
         ->required();
+    command->add_flag("--quiet", options->quiet, "print nothing but errors");
     command->footer(
         "Example:\n"
         "  octetra generate torus -o torus.1.ele\n"

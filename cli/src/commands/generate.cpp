@@ -13,7 +13,6 @@
 
 #include "commands/commands.hpp"
 #include "commands/mesh_options.hpp"
-#include "grouped.hpp"
 #include "parse_numbers.hpp"
 
 namespace octetra::cli {
@@ -39,10 +38,7 @@ public:
             check_writable(common->output);
             const Mesh mesh = make();
             write_output(mesh, common->output);
-            if (common->quiet) return;
-            fmt::print("wrote {}: {} vertices, {} cells, {} facets\n", common->output,
-                       grouped(mesh.points.size()), grouped(mesh.cells.size()),
-                       grouped(mesh.facets.size()));
+            if (!common->quiet) report_written(mesh, common->output);
         });
     }
 

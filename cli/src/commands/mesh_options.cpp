@@ -3,7 +3,9 @@
 #include <cstdio>
 
 #include <fmt/format.h>
+
 #include <CLI/CLI.hpp>
+#include "grouped.hpp"
 
 namespace octetra::cli {
 
@@ -23,6 +25,11 @@ void add_output_option(CLI::App& subcommand, std::string& path) {
 }
 
 void note(std::string_view what) { fmt::print(stderr, "octetra: note: {}\n", what); }
+
+void report_written(const Mesh& mesh, const std::string& path) {
+    fmt::print("wrote {}: {} vertices, {} cells, {} facets\n", path, grouped(mesh.points.size()),
+               grouped(mesh.cells.size()), grouped(mesh.facets.size()));
+}
 
 Mesh read_input(const InputOptions& options) {
     return read_mesh(options.path, {.fix_orientation = options.fix_orientation, .note = note});

@@ -29,6 +29,9 @@ void note(std::string_view what);
 
 [[nodiscard]] Mesh read_input(const InputOptions& options);
 
+/// "wrote PATH: ... vertices, ... cells, ... facets" on stdout.
+void report_written(const Mesh& mesh, const std::string& path);
+
 /// Writes the mesh; notes on stderr what the format cannot hold.
 void write_output(const Mesh& mesh, const std::string& path, const WriteExtras& extras = {});
 

@@ -54,8 +54,8 @@ void refine(const RefineOptions& options) {
 
     Stopwatch watch;
     const Mesh mesh = read_input(options.input);
-    report(options, fmt::format("read {}", options.input.path), mesh, watch.lap());
     complete_selection(selection, options.selection, mesh);
+    report(options, fmt::format("read {}", options.input.path), mesh, watch.lap());
 
     const reference::Refinement fine = run_engine(mesh, selection, options);
     report(options,

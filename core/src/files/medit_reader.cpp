@@ -22,7 +22,7 @@ struct Skipped {
     std::string_view keyword;
     std::size_t numbers_per_entry;
 };
-constexpr std::array<Skipped, 12> skipped_sections{{{"Corners", 1},
+constexpr std::array<Skipped, 13> skipped_sections{{{"Corners", 1},
                                                     {"RequiredVertices", 1},
                                                     {"Ridges", 1},
                                                     {"RequiredEdges", 1},
@@ -33,6 +33,7 @@ constexpr std::array<Skipped, 12> skipped_sections{{{"Corners", 1},
                                                     {"NormalAtTriangleVertices", 3},
                                                     {"Tangents", 3},
                                                     {"TangentAtVertices", 2},
+                                                    {"SubDomainFromGeom", 4},
                                                     {"SubDomainFromMesh", 4}}};
 
 constexpr std::array<std::string_view, 6> other_cell_shapes{
@@ -81,10 +82,6 @@ struct Section {
     std::uint64_t keyword_line = 0;  ///< 0: there was no such section
     std::uint64_t first_line = 0;    ///< of the first entry
     bool consecutive = false;        ///< entry i stands on line first_line + i
-
-    [[nodiscard]] std::uint64_t line_of(std::uint64_t entry) const {
-        return consecutive ? first_line + entry : keyword_line;
-    }
 };
 
 class MeditReader {
@@ -102,8 +99,8 @@ public:
         check_cells();
         check_listed(mesh_.facets, triangles_, "triangle");
         check_listed(mesh_.edges, edges_, "edge");
-        check_stray(find_stray_facet(mesh_), triangles_, "triangle", "face");
-        check_stray(find_stray_edge(mesh_), edges_, "edge", "edge");
+        check_stray(find_stray_facet(mesh_), triangles_, "triangle");
+        check_stray(find_stray_edge(mesh_), edges_, "edge");
         drop_if_all_zero(mesh_.point_markers);
         drop_if_all_zero(mesh_.regions);
         drop_if_all_zero(mesh_.facet_markers);
@@ -158,6 +155,7 @@ private:
         const auto skipped = std::ranges::find(skipped_sections, keyword, &Skipped::keyword);
         if (skipped != skipped_sections.end()) {
             const std::uint64_t count = tokens_.unsigned_integer("the number of entries");
+            reader_.check_count(count, skipped->numbers_per_entry, "entries");
             for (std::uint64_t i = 0; i < count * skipped->numbers_per_entry; ++i) {
                 (void)tokens_.real("a number of this section");
             }
@@ -192,7 +190,7 @@ private:
         reserve(count);
         for (std::uint64_t i = 0; i < count; ++i) {
             read_entry([&] {
-                if (i == 0) section.first_line = reader_.line_number();
+                if (section.first_line == 0) section.first_line = reader_.line_number();
             });
         }
         section.consecutive = reader_.line_number() + 1 == section.first_line + count;
@@ -242,22 +240,30 @@ private:
 
     // The checks come last because the format lets Vertices stand behind what refers to them.
 
+    template <class I>
+    [[noreturn]] void fail_entry(const Section& section, I entry, std::string_view name,
+                                 std::string_view what) const {
+        if (section.consecutive) reader_.fail(what, section.first_line + entry.value());
+        reader_.fail(
+            fmt::format("{} {} of this section: {}", name, std::uint64_t{entry.value()} + 1, what),
+            section.keyword_line);
+    }
+
     template <class I, std::size_t N>
     void check_listed(const IndexVector<I, std::array<VertexIndex, N>>& list,
                       const Section& section, std::string_view name) {
         for (I i{0}; i < list.end_index(); ++i) {
             for (std::size_t k = 0; k < N; ++k) {
                 if (list[i][k] >= mesh_.points.end_index()) {
-                    reader_.fail(
+                    fail_entry(
+                        section, i, name,
                         fmt::format("there is no vertex {}: the file has {}",
-                                    std::uint64_t{list[i][k].value()} + 1, mesh_.points.size()),
-                        section.line_of(i.value()));
+                                    std::uint64_t{list[i][k].value()} + 1, mesh_.points.size()));
                 }
                 for (std::size_t j = 0; j < k; ++j) {
-                    if (list[i][j] == list[i][k]) {
-                        reader_.fail(fmt::format("the {} has the same vertex twice", name),
-                                     section.line_of(i.value()));
-                    }
+                    if (list[i][j] != list[i][k]) continue;
+                    fail_entry(section, i, name,
+                               fmt::format("the {} has the same vertex twice", name));
                 }
             }
         }
@@ -267,7 +273,7 @@ private:
         CellCheck check(mesh_, options_->fix_orientation);
         for (CellIndex c{0}; c < mesh_.cells.end_index(); ++c) {
             const std::string_view wrong = check.judge(mesh_.cells[c]);
-            if (!wrong.empty()) reader_.fail(wrong, tetrahedra_.line_of(c.value()));
+            if (!wrong.empty()) fail_entry(tetrahedra_, c, "cell", wrong);
         }
         if (check.fixed_count() > 0) {
             options_->note(fmt::format("{}: {} inverted cells were turned round",
@@ -276,11 +282,10 @@ private:
     }
 
     template <class I>
-    void check_stray(I stray, const Section& section, std::string_view name,
-                     std::string_view side) {
+    void check_stray(I stray, const Section& section, std::string_view name) {
         if (stray.is_none()) return;
-        reader_.fail(fmt::format("{} {} is a {} of no cell", name, stray.value() + 1, side),
-                     section.line_of(stray.value()));
+        fail_entry(section, stray, name,
+                   fmt::format("{} {} belongs to no cell", name, stray.value() + 1));
     }
 
     // Every entity has a reference in this format; 0 says that nobody gave it one.

@@ -32,43 +32,35 @@ std::array<std::uint64_t, N> read_header(LineReader& reader,
     return values;
 }
 
-/// Where the entries of a file were found.
-struct Entries {
-    std::uint32_t first_number = 0;  ///< 0 or 1
-    std::uint64_t first_line = 0;    ///< of the first entry
-    bool consecutive = false;        ///< entry i stands on line first_line + i
-
-    [[nodiscard]] std::uint64_t line_of(std::uint64_t entry) const {
-        return consecutive ? first_line + entry : first_line;
-    }
-};
-
 /// Reads the rest of the file: `count` lines, each with its number and what read_entry(fields)
-/// takes, `field_count` fields in all.
-Entries read_entries(LineReader& reader, std::uint64_t count, std::size_t field_count,
-                     std::optional<std::uint32_t> first_number, auto&& read_entry) {
-    Entries entries{.first_number = first_number.value_or(0)};
+/// takes, `field_count` fields in all. Returns the first entry's number: 0 or 1.
+std::uint32_t read_entries(LineReader& reader, std::uint64_t count, std::size_t field_count,
+                           std::optional<std::uint32_t> first_number, auto&& read_entry) {
+    std::uint32_t first = first_number.value_or(0);
     for (std::uint64_t i = 0; i < count; ++i) {
         if (!reader.next()) {
             reader.fail(fmt::format("the file ends after {} of {} entries", i, count));
         }
         Fields fields(reader);
         const std::uint64_t number = fields.unsigned_integer("the entry's number");
-        if (i == 0) {
-            entries.first_line = reader.line_number();
-            if (!first_number && number <= 1) entries.first_number = number == 1 ? 1 : 0;
-        }
-        if (number != i + entries.first_number) {
-            reader.fail(fmt::format(
-                "entry number {} expected, {} found{}", i + entries.first_number, number,
-                i == 0 && !first_number ? "; numbering begins with 0 or 1" : ""));
+        if (i == 0 && !first_number && number == 1) first = 1;
+        if (number != i + first) {
+            reader.fail(
+                fmt::format("entry number {} expected, {} found{}", i + first, number,
+                            i == 0 && !first_number ? "; numbering begins with 0 or 1" : ""));
         }
         read_entry(fields);
         fields.expect_end(field_count);
     }
-    entries.consecutive = reader.line_number() + 1 == entries.first_line + count;
     if (reader.next()) reader.fail(fmt::format("more lines than the {} entries announced", count));
-    return entries;
+    return first;
+}
+
+/// The line on which an entry of a file stands. (Reads it again: only errors ask.)
+std::uint64_t line_of_entry(const fs::path& path, std::uint64_t entry) {
+    LineReader reader(path);
+    for (std::uint64_t line = 0; line < entry + 2; ++line) (void)reader.next();  // the header, too
+    return reader.line_number();
 }
 
 VertexIndex read_vertex(Fields& fields, const LineReader& reader, const Mesh& mesh) {
@@ -105,18 +97,16 @@ void read_node(const fs::path& path, Mesh& mesh) {
     mesh.attributes_per_point = attributes;
     mesh.point_attributes.reserve(count * attributes);
     mesh.point_markers.reserve(count * markers);
-    const Entries entries =
-        read_entries(reader, count, field_count, std::nullopt, [&](Fields& fields) {
-            const double x = fields.real("x");
-            const double y = fields.real("y");
-            const double z = fields.real("z");
-            mesh.points.push_back({x, y, z});
-            for (std::uint64_t k = 0; k < attributes; ++k) {
-                mesh.point_attributes.push_back(fields.real("an attribute of the vertex"));
-            }
-            if (markers == 1) mesh.point_markers.push_back(fields.marker("the vertex's marker"));
-        });
-    mesh.first_number = entries.first_number;
+    mesh.first_number = read_entries(reader, count, field_count, std::nullopt, [&](Fields& fields) {
+        const double x = fields.real("x");
+        const double y = fields.real("y");
+        const double z = fields.real("z");
+        mesh.points.push_back({x, y, z});
+        for (std::uint64_t k = 0; k < attributes; ++k) {
+            mesh.point_attributes.push_back(fields.real("an attribute of the vertex"));
+        }
+        if (markers == 1) mesh.point_markers.push_back(fields.marker("the vertex's marker"));
+    });
 }
 
 void read_ele(const fs::path& path, const ReadOptions& options, Mesh& mesh) {
@@ -174,23 +164,22 @@ void read_listed(const fs::path& path, std::string_view name,
 
     list.reserve(count);
     list_markers.reserve(count * markers);
-    const Entries entries =
-        read_entries(reader, count, field_count, mesh.first_number, [&](Fields& fields) {
-            std::array<VertexIndex, N> vertices;
-            for (VertexIndex& vertex : vertices) vertex = read_vertex(fields, reader, mesh);
-            for (std::size_t k = 0; k < N; ++k) {
-                if (vertices[k] == vertices[(k + 1) % N]) {
-                    reader.fail(fmt::format("the {} has the same vertex twice", name));
-                }
+    read_entries(reader, count, field_count, mesh.first_number, [&](Fields& fields) {
+        std::array<VertexIndex, N> vertices;
+        for (VertexIndex& vertex : vertices) vertex = read_vertex(fields, reader, mesh);
+        for (std::size_t k = 0; k < N; ++k) {
+            if (vertices[k] == vertices[(k + 1) % N]) {
+                reader.fail(fmt::format("the {} has the same vertex twice", name));
             }
-            list.push_back(vertices);
-            if (markers == 1) list_markers.push_back(fields.marker("the marker"));
-        });
+        }
+        list.push_back(vertices);
+        if (markers == 1) list_markers.push_back(fields.marker("the marker"));
+    });
     const I stray = find_stray(mesh);
     if (!stray.is_none()) {
-        reader.fail(fmt::format("{} {} is a {} of no cell", name,
-                                stray.value() + entries.first_number, name),
-                    entries.line_of(stray.value()));
+        reader.fail(
+            fmt::format("{} {} belongs to no cell", name, stray.value() + mesh.first_number),
+            line_of_entry(path, stray.value()));
     }
 }
 

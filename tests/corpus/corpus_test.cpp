@@ -1,0 +1,173 @@
+#include <algorithm>
+#include <fstream>
+#include <ostream>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <octetra/core/error.hpp>
+#include <octetra/core/files.hpp>
+#include <octetra/core/orientation.hpp>
+#include <octetra/reference/refine.hpp>
+
+#include "support/conformity.hpp"
+#include "support/meshes.hpp"
+#include "support/refinement.hpp"
+#include "support/run_program.hpp"
+#include "support/thrown.hpp"
+
+/// Every entry of corpus/manifest.json: what must be read is read and refined, what must be refused
+/// is refused as the manifest says.
+namespace octetra {
+namespace {
+
+using nlohmann::json;
+using test::TemporaryFolder;
+using testing::HasSubstr;
+using testing::StartsWith;
+
+const std::filesystem::path corpus = std::filesystem::path(OCTETRA_SOURCE_DIR) / "corpus";
+
+struct Entry {
+    json content;
+};
+
+void PrintTo(const Entry& entry, std::ostream* out) {
+    *out << entry.content["name"].get<std::string>();
+}
+
+std::vector<Entry> entries(const std::string& list) {
+    std::ifstream in(corpus / "manifest.json");
+    std::vector<Entry> result;
+    const json manifest = json::parse(in);
+    for (const json& entry : manifest.at(list)) result.push_back({entry});
+    return result;
+}
+
+std::string name_of(const testing::TestParamInfo<Entry>& test_case) {
+    std::string name = test_case.param.content["name"];
+    std::ranges::replace_if(
+        name, [](unsigned char c) { return std::isalnum(c) == 0; }, '_');
+    return name;
+}
+
+/// The mesh file of an entry: in the corpus, or generated into `folder`.
+std::filesystem::path file_of(const json& entry, const TemporaryFolder& folder) {
+    if (entry.contains("file")) return corpus / entry["file"].get<std::string>();
+    std::vector<std::string> command{OCTETRA_PROGRAM, "generate"};
+    for (const json& word : entry["generate"]) command.push_back(word);
+    command.insert(command.end(), {"-o", "generated.ele"});
+    const test::Outcome run = test::run_program(command, folder.path());
+    EXPECT_EQ(run.status, 0) << run.err;
+    return folder / "generated.ele";
+}
+
+class CorpusMesh : public testing::TestWithParam<Entry> {
+protected:
+    const TemporaryFolder folder;
+    const json& entry = GetParam().content;
+    const Mesh mesh = read_mesh(file_of(entry, folder));
+};
+
+TEST_P(CorpusMesh, HasTheCountsOfTheManifest) {
+    const json& expect = entry["expect"];
+    EXPECT_EQ(mesh.points.size(), expect["vertices"]);
+    EXPECT_EQ(mesh.cells.size(), expect["cells"]);
+    EXPECT_EQ(mesh.facets.size(), expect["facets"]);
+    EXPECT_EQ(mesh.edges.size(), expect["listed_edges"]);
+    EXPECT_EQ(test::cells_at_edges(mesh).size(), expect["edges"]);
+}
+
+TEST_P(CorpusMesh, KeepsEverythingThroughFiles) {
+    (void)write_mesh(mesh, folder / "copy.ele");
+    EXPECT_EQ(read_mesh(folder / "copy.ele"), mesh);
+    Mesh copy = mesh;
+    copy.attributes_per_point = 0;
+    copy.point_attributes.clear();
+    (void)write_mesh(copy, folder / "copy.mesh");
+    (void)write_mesh(read_mesh(folder / "copy.mesh"), folder / "again.mesh");
+    EXPECT_EQ(test::content_of(folder / "copy.mesh"), test::content_of(folder / "again.mesh"));
+}
+
+/// Counts that any refinement must keep in step: a mesh is a valid one where its faces are.
+void expect_valid_refinement(const Mesh& coarse, const Mesh& fine) {
+    const auto census = test::count_faces(fine);
+    ASSERT_EQ(census.faults, 0U);
+    // Every boundary face of the coarse mesh is tiled, and nothing else is at the boundary: listed
+    // as facets, they stay the boundary.
+    Mesh listed = coarse;
+    listed.facets.clear();
+    listed.facet_markers.clear();
+    test::list_boundary(listed);
+    EXPECT_GE(census.boundary_faces, listed.facets.size());
+    for (CellIndex c{0}; c < fine.cells.end_index(); ++c) {
+        const Corners p = test::corners_of(fine, c);
+        ASSERT_EQ(orientation(p[0], p[1], p[2], p[3]), 1);
+    }
+}
+
+TEST_P(CorpusMesh, IsRefinedByEverySchemeOrRefusedForRounding) {
+    const std::vector<Selection> selections{{.all = true}, {.random = RandomShare{0.1, 1}}};
+    for (const Selection& selection : selections) {
+        for (const Scheme scheme : {Scheme::eight, Scheme::four, Scheme::two}) {
+            try {
+                const Mesh fine = reference::refine(mesh, selection, scheme, 2).mesh;
+                expect_valid_refinement(mesh, fine);
+                if (selection.all && scheme == Scheme::eight) {
+                    EXPECT_EQ(fine.cells.size(), 64 * mesh.cells.size());
+                }
+            } catch (const InputError& error) {
+                EXPECT_THAT(error.what(), HasSubstr("cannot be rounded to double precision"));
+            }
+        }
+    }
+}
+
+TEST_P(CorpusMesh, HasItsBoundaryTiledByTheFinerBoundary) {
+    Mesh listed = mesh;
+    listed.facets.clear();
+    listed.facet_markers.clear();
+    test::list_boundary(listed);
+    const Mesh fine =
+        reference::refine(listed, {.random = RandomShare{0.3, 2}}, Scheme::eight, 1).mesh;
+    EXPECT_EQ(test::count_faces(fine).boundary_faces, fine.facets.size());
+}
+
+INSTANTIATE_TEST_SUITE_P(, CorpusMesh, testing::ValuesIn(entries("meshes")), name_of);
+
+class BadFile : public testing::TestWithParam<Entry> {
+protected:
+    const json& entry = GetParam().content;
+    /// "FILE:LINE: " or "FILE: ", as the manifest has it.
+    std::string place() const {
+        const std::string file = corpus / entry["blamed"].get<std::string>();
+        if (entry["line"].is_null()) return file + ": ";
+        return file + ":" + std::to_string(entry["line"].get<int>()) + ": ";
+    }
+};
+
+TEST_P(BadFile, IsRefusedForItsFaultAndForNoOther) {
+    const std::string message = test::thrown_by<InputError>(
+        [&] { (void)read_mesh(corpus / entry["file"].get<std::string>()); });
+    EXPECT_THAT(message, StartsWith(place()));
+    EXPECT_THAT(message, HasSubstr(entry["message"].get<std::string>()));
+}
+
+TEST_P(BadFile, EndsTheProgramInStatus2WithOneLineAndNoOutput) {
+    const TemporaryFolder folder;
+    const test::Outcome run =
+        test::run_program({OCTETRA_PROGRAM, "refine", corpus / entry["file"].get<std::string>(),
+                           "--all", "-o", "fine.mesh"},
+                          folder.path());
+    EXPECT_EQ(run.status, 2);
+    EXPECT_EQ(run.out, "");
+    EXPECT_THAT(run.err, StartsWith("octetra: " + place()));
+    EXPECT_EQ(std::ranges::count(run.err, '\n'), 1);
+    EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
+}
+
+INSTANTIATE_TEST_SUITE_P(, BadFile, testing::ValuesIn(entries("bad")), name_of);
+
+}  // namespace
+}  // namespace octetra

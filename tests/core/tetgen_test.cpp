@@ -135,7 +135,7 @@ INSTANTIATE_TEST_SUITE_P(
           .face = "2 1\n0 0 1 2 7\n1 0 1 4 7\n"},
          "m.face:3",
          "face 1 belongs to no cell"},
-        {"FaceTwice", {.face = "1 0\n0 0 1 0\n"}, "m.face:4", "same vertex twice"},
+        {"FaceTwice", {.face = "1 0\n0 0 1 0\n"}, "m.face:2", "same vertex twice"},
         {"FaceExtraField", {.face = "1 0\n0 0 1 2 -1\n"}, "m.face:2", "4 fields expected, 5 found"},
         {"StrayEdge",
          {.node = "5 3\n0 0 0 0\n1 1 0 0\n2 0 1 0\n3 0 0 1\n4 5 5 5\n",

@@ -1,0 +1,51 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <numeric>
+#include <vector>
+
+#include <octetra/core/index.hpp>
+
+namespace octetra {
+
+/// The entities of a list (facets, edges), findable by their vertices in whatever order: put into
+/// buckets by smallest vertex. Keeps a pointer to the list. Memory: 4 bytes per vertex and entity.
+template <class I, std::size_t N>
+class VertexBuckets {
+public:
+    using Vertices = std::array<VertexIndex, N>;
+
+    /// Vertex numbers must be less than `vertex_count`.
+    VertexBuckets(const IndexVector<I, Vertices>& list, std::size_t vertex_count)
+        : list_(&list), bucket_begin_(vertex_count + 1, 0), members_(list.size()) {
+        for (const Vertices& vertices : list) ++bucket_begin_[smallest(vertices)];
+        std::exclusive_scan(bucket_begin_.begin(), bucket_begin_.end(), bucket_begin_.begin(), 0U);
+        auto next = bucket_begin_;
+        for (I i{0}; i < list.end_index(); ++i) members_[next[smallest(list[i])]++] = i;
+    }
+
+    /// Calls found(i) for each entity i of the list that has these vertices.
+    void find(const Vertices& vertices, auto&& found) const {
+        const std::uint32_t bucket = smallest(vertices);
+        for (auto k = bucket_begin_[bucket]; k < bucket_begin_[bucket + 1]; ++k) {
+            if (sorted((*list_)[members_[k]]) == sorted(vertices)) found(members_[k]);
+        }
+    }
+
+private:
+    static Vertices sorted(Vertices vertices) {
+        std::ranges::sort(vertices);
+        return vertices;
+    }
+    static std::uint32_t smallest(const Vertices& vertices) {
+        return std::ranges::min(vertices).value();
+    }
+
+    const IndexVector<I, Vertices>* list_;
+    std::vector<std::uint32_t> bucket_begin_;
+    std::vector<I> members_;
+};
+
+}  // namespace octetra

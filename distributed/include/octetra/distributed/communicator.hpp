@@ -1,0 +1,125 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+#include <type_traits>
+#include <vector>
+
+/// What the distributed engine needs of MPI, in terms of vectors. Nothing here includes mpi.h.
+namespace octetra::distributed {
+
+/// A group of processes that work on one mesh. Copies speak for the same group.
+///
+/// Collective functions are called by every process of the group, in the same order. A group of one
+/// process never calls MPI, so that a program runs without mpirun and without MPI's start-up.
+class Communicator {
+public:
+    /// This process alone.
+    Communicator();
+
+    [[nodiscard]] int rank() const;
+    [[nodiscard]] int size() const;
+    [[nodiscard]] bool is_first() const { return rank() == 0; }
+
+    /// Collective. Sum, maximum and sum over lower ranks of one number from each process.
+    [[nodiscard]] std::uint64_t sum(std::uint64_t number) const;
+    [[nodiscard]] std::uint64_t max(std::uint64_t number) const;
+    [[nodiscard]] std::uint64_t sum_before(std::uint64_t number) const;
+
+    /// Collective. Every process gets the first one's values.
+    template <class T>
+    void broadcast(std::vector<T>& values) const {
+        static_assert(std::is_trivially_copyable_v<T>);
+        values.resize(broadcast_size(values.size()));
+        broadcast_bytes(values.data(), values.size() * sizeof(T));
+    }
+
+    /// Collective. to_each[r] goes to rank r; the result's [r] came from rank r.
+    template <class T>
+    [[nodiscard]] std::vector<std::vector<T>> all_to_all(
+        const std::vector<std::vector<T>>& to_each) const {
+        return exchange_with<T>(every_rank(), to_each);
+    }
+
+    /// Collective among neighbours. outboxes[i] goes to rank neighbours[i]; the result's [i] came
+    /// from there. Who is whose neighbour must be mutual. One message to each, empty or not.
+    template <class T>
+    [[nodiscard]] std::vector<std::vector<T>> exchange_with(
+        const std::vector<int>& neighbours, const std::vector<std::vector<T>>& outboxes) const {
+        static_assert(std::is_trivially_copyable_v<T>);
+        std::vector<std::span<const std::byte>> bytes;
+        for (const std::vector<T>& box : outboxes) bytes.push_back(std::as_bytes(std::span(box)));
+        std::vector<std::vector<T>> inboxes(neighbours.size());
+        exchange_bytes(neighbours, bytes, [&](std::size_t i, std::size_t size) {
+            inboxes[i].resize(size / sizeof(T));
+            return reinterpret_cast<std::byte*>(inboxes[i].data());
+        });
+        return inboxes;
+    }
+
+    /// Collective. The first process gets what each one has, by rank; the others get nothing.
+    template <class T>
+    [[nodiscard]] std::vector<std::vector<T>> gather(const std::vector<T>& values) const {
+        if (!is_first()) {
+            (void)exchange_with<T>({0}, {values});
+            return {};
+        }
+        std::vector<std::vector<T>> nothing(static_cast<std::size_t>(size()));
+        nothing.front() = values;
+        return exchange_with<T>(every_rank(), nothing);
+    }
+
+    /// Collective. Rank r gets to_each[r] of the first process.
+    template <class T>
+    [[nodiscard]] std::vector<T> scatter(const std::vector<std::vector<T>>& to_each) const {
+        if (!is_first()) return exchange_with<T>({0}, {{}}).front();
+        return exchange_with<T>(every_rank(), to_each).front();
+    }
+
+    struct Mpi;  // wraps an MPI communicator; see octetra/distributed/mpi.hpp
+    explicit Communicator(std::shared_ptr<const Mpi> mpi);
+
+private:
+    using Allocate = std::byte* (*)(void* context, std::size_t i, std::size_t size);
+
+    [[nodiscard]] std::vector<int> every_rank() const;
+    [[nodiscard]] std::size_t broadcast_size(std::size_t size) const;
+    void broadcast_bytes(void* data, std::size_t size) const;
+    void exchange_bytes(const std::vector<int>& neighbours,
+                        const std::vector<std::span<const std::byte>>& outboxes, Allocate allocate,
+                        void* context) const;
+    template <class F>
+    void exchange_bytes(const std::vector<int>& neighbours,
+                        const std::vector<std::span<const std::byte>>& outboxes, F&& f) const {
+        exchange_bytes(
+            neighbours, outboxes,
+            [](void* context, std::size_t i, std::size_t size) {
+                return (*static_cast<std::remove_reference_t<F>*>(context))(i, size);
+            },
+            &f);
+    }
+
+    std::shared_ptr<const Mpi> mpi_;  // none: this process alone
+};
+
+/// Starts MPI if the program was started by mpirun, and ends it in the end.
+class MpiSession {
+public:
+    MpiSession(int* argc, char*** argv);
+    ~MpiSession();
+    MpiSession(const MpiSession&) = delete;
+    MpiSession& operator=(const MpiSession&) = delete;
+    MpiSession(MpiSession&&) = delete;
+    MpiSession& operator=(MpiSession&&) = delete;
+
+    /// All processes that mpirun started, or this one alone.
+    [[nodiscard]] const Communicator& world() const { return world_; }
+
+private:
+    Communicator world_;
+};
+
+}  // namespace octetra::distributed

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include <octetra/core/mesh.hpp>
+
+/// Which process gets which cell. The result of a refinement does not depend on it; how much must
+/// be told between processes does.
+namespace octetra::distributed {
+
+enum class PartitionMethod {
+    lepp,    ///< METIS on the graph that joins cells through their longest edges (the paper's)
+    dual,    ///< METIS on the graph that joins cells through faces
+    block,   ///< equal shares in the order of the input
+    random,  ///< by lot
+    file,    ///< as a file says
+};
+
+struct Partition {
+    PartitionMethod method = PartitionMethod::lepp;
+    std::uint64_t seed = 0;      ///< for random
+    std::filesystem::path path;  ///< for file: part numbers from 0, one for each cell, in order
+};
+
+/// "lepp", "dual", "block", "random:SEED" or "file:PATH". Throws InputError.
+[[nodiscard]] Partition parse_partition(const std::string& text);
+
+/// The part, 0 to parts-1, of each cell; parts may be empty. Not collective: one process decides.
+/// Throws InputError where a part file does not fit the mesh.
+[[nodiscard]] std::vector<int> partition_cells(const Mesh& mesh, int parts,
+                                               const Partition& partition);
+
+}  // namespace octetra::distributed

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <cstdint>
+
+#include <octetra/core/selection.hpp>
+#include <octetra/distributed/distributed_mesh.hpp>
+
+/// 8T-LE refinement of a distributed mesh: Balman, "Tetrahedral Mesh Refinement in Distributed
+/// Environments", Figure 3.
+namespace octetra::distributed {
+
+/// How processes tell each other which shared edges they have selected.
+enum class Synchronisation {
+    neighbour,  ///< processes that share an edge tell each other
+    gateway,    ///< the first process collects all, drops what is known, informs those concerned
+};
+
+struct RefineOptions {
+    Scheme scheme = Scheme::eight;
+    int levels = 1;
+    Synchronisation synchronisation = Synchronisation::neighbour;
+};
+
+/// What synchronisation took, on this process, summed over the levels.
+struct SynchronisationCounts {
+    std::uint64_t rounds = 0;    ///< the same on all processes
+    std::uint64_t messages = 0;  ///< sent by this process
+    std::uint64_t edges = 0;     ///< selections sent by this process
+};
+
+/// Collective. Refines in place; the mesh stays distributed. What is in which order afterwards, and
+/// what it is, does not depend on the number of processes, the partition or the synchronisation.
+/// Throws InputError on all processes alike where a rounded midpoint would flatten or invert a
+/// cell; the mesh is then not usable any more.
+SynchronisationCounts refine(DistributedMesh& mesh, const Selection& selection,
+                             const RefineOptions& options);
+
+}  // namespace octetra::distributed

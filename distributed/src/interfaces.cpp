@@ -1,0 +1,134 @@
+#include "interfaces.hpp"
+
+#include <algorithm>
+#include <iterator>
+#include <map>
+
+#include "sharers.hpp"
+#include "triangle.hpp"
+
+namespace octetra::distributed {
+namespace {
+
+/// The processes that share each vertex, ascending, as pieces of one array.
+class VertexSharers {
+public:
+    explicit VertexSharers(const DistributedMesh& mesh) : begin_(mesh.points.size() + 1, 0) {
+        std::vector<std::array<std::uint64_t, 1>> keys;
+        for (const GlobalVertex v : mesh.input_vertices) {
+            keys.push_back({static_cast<std::uint64_t>(v)});
+        }
+        sharers_ = find_sharers(mesh.processes, keys);
+        for (const Sharer& s : sharers_) ++begin_[s.key + 1];
+        for (std::size_t v = 1; v < begin_.size(); ++v) begin_[v] += begin_[v - 1];
+    }
+
+    /// Is there another process that has all of these vertices?
+    template <std::size_t N>
+    [[nodiscard]] bool may_be_shared(const std::array<VertexIndex, N>& vertices) const {
+        return std::ranges::any_of(of(vertices.front()), [&](const Sharer& first) {
+            return std::ranges::all_of(vertices, [&](VertexIndex v) {
+                return std::ranges::binary_search(of(v), first.rank, {}, &Sharer::rank);
+            });
+        });
+    }
+
+private:
+    [[nodiscard]] std::span<const Sharer> of(VertexIndex v) const {
+        return std::span(sharers_).subspan(begin_[v.value()],
+                                           begin_[v.value() + 1U] - begin_[v.value()]);
+    }
+    std::vector<Sharer> sharers_;
+    std::vector<std::size_t> begin_;
+};
+
+template <std::size_t N>
+using VertexLists = std::vector<std::array<VertexIndex, N>>;
+
+VertexLists<2> candidate_edges(const DistributedMesh& mesh, const VertexSharers& sharers) {
+    VertexLists<2> candidates;
+    const EdgeStars stars(mesh.points.size(), mesh.cells);
+    for (VertexIndex low{0}; low < mesh.points.end_index(); ++low) {
+        for (EdgeIndex e = stars.begin_of(low); e < stars.end_of(low); ++e) {
+            const EdgeVertices edge{low, stars.high_end(e)};
+            if (sharers.may_be_shared(edge)) candidates.push_back(edge);
+        }
+    }
+    return candidates;
+}
+
+VertexLists<3> candidate_faces(const DistributedMesh& mesh, const VertexSharers& sharers) {
+    VertexLists<3> candidates;
+    for (const CellVertices& cell : mesh.cells) {
+        for (const auto& [i, j, k] : cell_faces) {
+            FacetVertices face{cell[i], cell[j], cell[k]};
+            std::ranges::sort(face);
+            if (sharers.may_be_shared(face)) candidates.push_back(face);
+        }
+    }
+    return candidates;
+}
+
+/// Calls share(rank, vertices) for each of the candidates that other processes really have, in
+/// ascending order of the vertices, which is the order of their global numbers.
+template <std::size_t N>
+void find_shared(const DistributedMesh& mesh, VertexLists<N> candidates, auto&& share) {
+    std::ranges::sort(candidates);
+    candidates.erase(std::unique(candidates.begin(), candidates.end()), candidates.end());
+    std::vector<std::array<std::uint64_t, N>> keys;
+    for (const auto& vertices : candidates) {
+        auto& key = keys.emplace_back();
+        std::ranges::transform(vertices, key.begin(), [&](VertexIndex v) {
+            return static_cast<std::uint64_t>(mesh.input_vertices[v.value()]);
+        });
+    }
+    for (const Sharer& s : find_sharers(mesh.processes, keys)) share(s.rank, candidates[s.key]);
+}
+
+}  // namespace
+
+std::vector<Interface> find_interfaces(const DistributedMesh& mesh) {
+    if (mesh.processes.size() == 1) return {};
+    const VertexSharers sharers(mesh);
+    std::map<int, Interface> by_rank;
+    find_shared(mesh, candidate_edges(mesh, sharers),
+                [&](int rank, const EdgeVertices& edge) { by_rank[rank].edges.push_back(edge); });
+    find_shared(mesh, candidate_faces(mesh, sharers),
+                [&](int rank, const FacetVertices& face) { by_rank[rank].faces.push_back(face); });
+    std::vector<Interface> interfaces;
+    for (auto& [rank, interface] : by_rank) {
+        interface.rank = rank;
+        interfaces.push_back(std::move(interface));
+    }
+    return interfaces;
+}
+
+std::vector<Interface> refined_interfaces(const std::vector<Interface>& interfaces,
+                                          const IndexVector<VertexIndex, Point>& points,
+                                          const EdgeStars& stars,
+                                          const IndexVector<EdgeIndex, VertexIndex>& midpoints) {
+    std::vector<Interface> result;
+    for (const Interface& coarse : interfaces) {
+        Interface& fine = result.emplace_back();
+        fine.rank = coarse.rank;
+        for (const auto& [a, b] : coarse.edges) {
+            const VertexIndex midpoint = midpoints[stars.find(a, b)];
+            if (midpoint.is_none()) {
+                fine.edges.push_back({a, b});
+            } else {
+                fine.edges.push_back({a, midpoint});
+                fine.edges.push_back({midpoint, b});
+            }
+        }
+        for (const FacetVertices& face : coarse.faces) {
+            const BisectedTriangle bisected = bisect_triangle(face, points, stars, midpoints);
+            std::copy_n(bisected.pieces.begin(), bisected.piece_count,
+                        std::back_inserter(fine.faces));
+            std::copy_n(bisected.inner_edges.begin(), bisected.inner_edge_count,
+                        std::back_inserter(fine.edges));
+        }
+    }
+    return result;
+}
+
+}  // namespace octetra::distributed

@@ -1,0 +1,97 @@
+#include "midpoints.hpp"
+
+#include <algorithm>
+
+namespace octetra::distributed {
+namespace {
+
+/// Is (a + b) / 2 exactly that? What the sum rounds away is computed exactly (Knuth's two-sum); the
+/// halving is exact but for numbers so small that they lose their last bit.
+bool half_sum_is_exact(double a, double b) {
+    const double sum = a + b;
+    const double b_part = sum - a;
+    const double lost = (a - (sum - b_part)) + (b - b_part);
+    return lost == 0 && (sum / 2) * 2 == sum;
+}
+
+bool is_exact(const Point& a, const Point& b) {
+    return half_sum_is_exact(a.x, b.x) && half_sum_is_exact(a.y, b.y) &&
+           half_sum_is_exact(a.z, b.z);
+}
+
+/// How each edge's midpoint would be marked: by the smallest marker among the listed copies of the
+/// edge, or else among the listed facets around it.
+void take(MidpointMarker& known, MidpointMarker::Source source, Marker marker) {
+    if (source < known.source) return;
+    if (source > known.source || marker < known.marker) known = {source, marker};
+}
+
+IndexVector<EdgeIndex, MidpointMarker> edge_markers(const DistributedMesh& mesh,
+                                                    const EdgeStars& stars) {
+    IndexVector<EdgeIndex, MidpointMarker> markers(stars.end_index().value());
+    const Lineage& facets = mesh.facet_lineage;
+    for (std::size_t r = 0; r < facets.markers.size(); ++r) {
+        for (FacetIndex f{facets.first[r]}; f < FacetIndex{facets.first[r + 1]}; ++f) {
+            for (const auto& [i, j] : triangle_edges) {
+                take(markers[stars.find(mesh.facets[f][i], mesh.facets[f][j])],
+                     MidpointMarker::Source::facet, facets.markers[r]);
+            }
+        }
+    }
+    const Lineage& edges = mesh.edge_lineage;
+    for (std::size_t r = 0; r < edges.markers.size(); ++r) {
+        for (EdgeIndex e{edges.first[r]}; e < EdgeIndex{edges.first[r + 1]}; ++e) {
+            take(markers[stars.find(mesh.edges[e][0], mesh.edges[e][1])],
+                 MidpointMarker::Source::edge, edges.markers[r]);
+        }
+    }
+    return markers;
+}
+
+void append_attributes(DistributedMesh& mesh, VertexIndex a, VertexIndex b) {
+    const std::size_t count = mesh.attributes_per_point;
+    for (std::size_t k = 0; k < count; ++k) {
+        const double sum = mesh.point_attributes[a.value() * count + k] +
+                           mesh.point_attributes[b.value() * count + k];
+        mesh.point_attributes.push_back(sum / 2);
+    }
+}
+
+}  // namespace
+
+Midpoints bisect_edges(DistributedMesh& mesh, const EdgeStars& stars, const Closure& closure) {
+    const bool has_markers = !mesh.input_vertex_markers.empty();
+    const auto markers =
+        has_markers ? edge_markers(mesh, stars) : IndexVector<EdgeIndex, MidpointMarker>{};
+    Midpoints midpoints;
+    midpoints.of_edge.assign(stars.end_index().value(), VertexIndex::none());
+    const VertexIndex old_end = mesh.points.end_index();
+    mesh.level_begin.push_back(old_end);
+
+    const std::size_t count = closure.selected_count();
+    mesh.points.reserve(mesh.points.size() + count);
+    mesh.midpoint_to_edge.reserve(mesh.midpoint_to_edge.size() + count);
+    midpoints.rounded.reserve(count);
+
+    std::vector<EdgeIndex> selected;  // those of one lower end
+    for (VertexIndex low{0}; low < old_end; ++low) {
+        selected.clear();
+        for (EdgeIndex e = stars.begin_of(low); e < stars.end_of(low); ++e) {
+            if (closure.is_selected(e)) selected.push_back(e);
+        }
+        std::ranges::sort(selected, {}, [&](EdgeIndex e) { return stars.high_end(e); });
+        for (const EdgeIndex e : selected) {
+            const VertexIndex high = stars.high_end(e);
+            const Point a = mesh.points[low];
+            const Point b = mesh.points[high];
+            midpoints.of_edge[e] = mesh.points.append(midpoint(a, b));
+            midpoints.rounded.push_back(!is_exact(a, b));
+            mesh.midpoint_to_edge.push_back({low, high});
+            append_attributes(mesh, low, high);
+            if (has_markers) mesh.midpoint_markers.push_back(markers[e]);
+        }
+    }
+    return midpoints;
+}
+
+}  // namespace octetra::distributed

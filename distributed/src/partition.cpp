@@ -1,0 +1,116 @@
+#include <octetra/distributed/partition.hpp>
+
+#include <metis.h>
+
+#include <charconv>
+#include <fstream>
+#include <random>
+
+#include <fmt/format.h>
+
+#include <octetra/core/error.hpp>
+
+#include "cell_graph.hpp"
+
+namespace octetra::distributed {
+namespace {
+
+/// METIS does not take more parts than it has vertices to give to each, and there is nothing to
+/// gain.
+bool is_worth_a_cut(const Mesh& mesh, int parts) {
+    constexpr std::size_t cells_per_part = 8;
+    return mesh.cells.size() >= cells_per_part * static_cast<std::size_t>(parts);
+}
+
+std::vector<int> partition_graph(CellGraph graph, int parts) {
+    static_assert(sizeof(idx_t) == sizeof(std::int32_t));
+    idx_t vertex_count = static_cast<idx_t>(graph.begin.size()) - 1;
+    std::vector<int> part(static_cast<std::size_t>(vertex_count), 0);
+    if (parts == 1) return part;
+    idx_t constraints = 1;
+    idx_t part_count = parts;
+    idx_t cut = 0;
+    std::array<idx_t, METIS_NOPTIONS> options{};
+    METIS_SetDefaultOptions(options.data());
+    options[METIS_OPTION_SEED] = 1;
+    const int status = METIS_PartGraphKway(
+        &vertex_count, &constraints, graph.begin.data(), graph.neighbours.data(), nullptr, nullptr,
+        graph.weights.data(), &part_count, nullptr, nullptr, options.data(), &cut, part.data());
+    if (status != METIS_OK) throw SystemError("METIS could not partition the mesh");
+    return part;
+}
+
+std::vector<int> equal_blocks(std::size_t cells, int parts) {
+    std::vector<int> part(cells);
+    for (std::size_t c = 0; c < cells; ++c) {
+        part[c] = static_cast<int>(c * static_cast<std::size_t>(parts) / cells);
+    }
+    return part;
+}
+
+std::vector<int> by_lot(std::size_t cells, int parts, std::uint64_t seed) {
+    std::mt19937_64 random(seed);
+    std::vector<int> part(cells);
+    for (int& p : part) p = static_cast<int>(random() % static_cast<std::uint64_t>(parts));
+    return part;
+}
+
+std::vector<int> from_file(const std::filesystem::path& path, std::size_t cells, int parts) {
+    std::ifstream in(path);
+    if (!in) throw InputError(fmt::format("{}: cannot be opened", path.native()));
+    std::vector<int> part;
+    std::size_t line_number = 0;
+    for (std::string line; std::getline(in, line);) {
+        ++line_number;
+        if (line.empty() || line.front() == '#') continue;
+        int number = -1;
+        const auto [stop, error] = std::from_chars(line.data(), line.data() + line.size(), number);
+        const bool whole = stop == line.data() + line.size() || *stop == '\r';
+        if (error != std::errc{} || !whole || number < 0 || number >= parts) {
+            throw InputError(fmt::format("{}:{}: a part number from 0 to {} expected",
+                                         path.native(), line_number, parts - 1));
+        }
+        part.push_back(number);
+    }
+    if (part.size() != cells) {
+        throw InputError(fmt::format("{}:{}: {} part numbers found for a mesh of {} cells",
+                                     path.native(), line_number, part.size(), cells));
+    }
+    return part;
+}
+
+}  // namespace
+
+Partition parse_partition(const std::string& text) {
+    if (text == "lepp") return {.method = PartitionMethod::lepp};
+    if (text == "dual") return {.method = PartitionMethod::dual};
+    if (text == "block") return {.method = PartitionMethod::block};
+    if (text.starts_with("file:") && text.size() > 5) {
+        return {.method = PartitionMethod::file, .path = text.substr(5)};
+    }
+    if (text.starts_with("random:")) {
+        Partition partition{.method = PartitionMethod::random};
+        const char* const end = text.data() + text.size();
+        const auto [stop, error] = std::from_chars(text.data() + 7, end, partition.seed);
+        if (error == std::errc{} && stop == end) return partition;
+    }
+    throw InputError(fmt::format(
+        "--partition takes lepp, dual, block, random:SEED or file:PATH, not '{}'", text));
+}
+
+std::vector<int> partition_cells(const Mesh& mesh, int parts, const Partition& partition) {
+    const std::size_t cells = mesh.cells.size();
+    const bool by_graph =
+        partition.method == PartitionMethod::lepp || partition.method == PartitionMethod::dual;
+    if (by_graph && !is_worth_a_cut(mesh, parts)) return equal_blocks(cells, parts);
+    switch (partition.method) {
+        case PartitionMethod::lepp: return partition_graph(lepp_graph(mesh), parts);
+        case PartitionMethod::dual: return partition_graph(face_dual_graph(mesh), parts);
+        case PartitionMethod::block: return equal_blocks(cells, parts);
+        case PartitionMethod::random: return by_lot(cells, parts, partition.seed);
+        case PartitionMethod::file: return from_file(partition.path, cells, parts);
+    }
+    return {};
+}
+
+}  // namespace octetra::distributed

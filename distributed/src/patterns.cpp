@@ -1,0 +1,125 @@
+#include "patterns.hpp"
+
+#include <algorithm>
+#include <map>
+#include <numeric>
+
+#include <octetra/core/mesh.hpp>
+
+namespace octetra::distributed {
+namespace {
+
+using LongestFirst = std::array<std::uint8_t, 6>;
+
+constexpr std::array<EdgeMask, 4> edges_of_face{0b111000, 0b100110, 0b010101, 0b001011};
+
+constexpr EdgeMask bit(std::size_t edge) { return static_cast<EdgeMask>(1U << edge); }
+
+Comparisons comparisons_of(const LongestFirst& longest_first) {
+    std::array<std::size_t, 6> rank{};
+    for (std::size_t r = 0; r < 6; ++r) rank[longest_first[r]] = r;
+    unsigned comparisons = 0;
+    unsigned pair = 0;
+    for (std::size_t i = 0; i < 6; ++i) {
+        for (std::size_t j = i + 1; j < 6; ++j, ++pair) {
+            if (rank[i] < rank[j]) comparisons |= 1U << pair;
+        }
+    }
+    return static_cast<Comparisons>(comparisons);
+}
+
+/// The longest edge of a non-empty set.
+std::uint8_t longest_in(EdgeMask set, const LongestFirst& longest_first) {
+    for (const std::uint8_t e : longest_first) {
+        if ((set & bit(e)) != 0) return e;
+    }
+    return 6;
+}
+
+EdgeMask closure_of(EdgeMask selected, const LongestFirst& longest_first) {
+    EdgeMask closed = selected;
+    while (true) {
+        EdgeMask next = closed;
+        for (const EdgeMask face : edges_of_face) {
+            if ((next & face) != 0) next |= bit(longest_in(face, longest_first));
+        }
+        if (next == closed) return closed;
+        closed = next;
+    }
+}
+
+/// Bisects by the edges from longest to shortest: each pass cuts every piece that has the edge. A
+/// piece's own longest selected edge is met first, so this is the recursion of the rule, breadth
+/// first; and as each cut puts its two halves where the piece stood, in the order of the recursion.
+Pattern pattern_of(EdgeMask selected, const LongestFirst& longest_first) {
+    std::vector<std::array<Place, 4>> pieces{{0, 1, 2, 3}};
+    for (const std::uint8_t edge : longest_first) {
+        if ((selected & bit(edge)) == 0) continue;
+        const auto& [low, high] = cell_edges[edge];
+        const auto midpoint = static_cast<Place>(4 + edge);
+        std::vector<std::array<Place, 4>> halves;
+        for (const auto& piece : pieces) {
+            // An original corner never leaves its position but for a midpoint.
+            if (piece[low] != low || piece[high] != high) {
+                halves.push_back(piece);
+                continue;
+            }
+            halves.push_back(piece);
+            halves.back()[high] = midpoint;
+            halves.push_back(piece);
+            halves.back()[low] = midpoint;
+        }
+        pieces = std::move(halves);
+    }
+    Pattern pattern;
+    pattern.child_count = static_cast<std::uint8_t>(pieces.size());
+    std::ranges::copy(pieces, pattern.children.begin());
+    return pattern;
+}
+
+/// A pattern as two numbers, for comparison: four bits for each place.
+using Code = std::array<std::uint64_t, 2>;
+
+Code code_of(const Pattern& pattern) {
+    Code code{};
+    for (std::size_t k = 0; k < 8; ++k) {
+        for (const Place place : pattern.children[k]) code[k / 4] = code[k / 4] << 4U | place;
+    }
+    return code;
+}
+
+}  // namespace
+
+PatternTable::PatternTable()
+    : order_by_comparisons_(std::size_t{1} << 15U, 0),
+      closure_(order_count * mask_count),
+      pattern_number_(order_count * mask_count, 0) {
+    LongestFirst longest_first{0, 1, 2, 3, 4, 5};
+    std::map<Code, std::uint16_t> known;
+    for (LengthOrder order = 0; order < order_count; ++order) {
+        order_by_comparisons_[comparisons_of(longest_first)] = order;
+        longest_edge_[order] = longest_first.front();
+        for (const EdgeMask face : edges_of_face) {
+            face_longest_edges_[order] |= bit(longest_in(face, longest_first));
+        }
+        for (unsigned mask = 0; mask < mask_count; ++mask) {
+            const auto selected = static_cast<EdgeMask>(mask);
+            const std::size_t entry = order * mask_count + mask;
+            closure_[entry] = closure_of(selected, longest_first);
+            if (closure_[entry] != selected) continue;
+            const Pattern pattern = pattern_of(selected, longest_first);
+            const auto [place, fresh] =
+                known.try_emplace(code_of(pattern), static_cast<std::uint16_t>(patterns_.size()));
+            if (fresh) patterns_.push_back(pattern);
+            pattern_number_[entry] = place->second;
+        }
+        std::ranges::next_permutation(longest_first);
+    }
+}
+
+const PatternTable& PatternTable::get() {
+    static const PatternTable table;
+    return table;
+}
+
+}  // namespace octetra::distributed

@@ -1,0 +1,19 @@
+#include <octetra/distributed/refine.hpp>
+
+#include "refine_level.hpp"
+
+namespace octetra::distributed {
+
+SynchronisationCounts refine(DistributedMesh& mesh, const Selection& selection,
+                             const RefineOptions& options) {
+    SynchronisationCounts total;
+    for (int level = 1; level <= options.levels; ++level) {
+        const SynchronisationCounts counts = refine_level(mesh, selection, options, level);
+        total.rounds += counts.rounds;
+        total.messages += counts.messages;
+        total.edges += counts.edges;
+    }
+    return total;
+}
+
+}  // namespace octetra::distributed

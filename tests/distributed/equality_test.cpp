@@ -1,0 +1,192 @@
+#include <random>
+#include <set>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <octetra/core/error.hpp>
+#include <octetra/distributed/partition.hpp>
+#include <octetra/distributed/refine.hpp>
+#include <octetra/reference/refine.hpp>
+
+#include "distributed/world.hpp"
+#include "support/meshes.hpp"
+#include "support/thrown.hpp"
+
+/// The distributed engine against the reference: the same mesh, numbers and all, and the same maps.
+namespace octetra::distributed {
+namespace {
+
+using testing::HasSubstr;
+
+/// Everything that a mesh can carry.
+Mesh marked(Mesh mesh, std::uint64_t seed) {
+    std::mt19937_64 random(seed);
+    const auto marker = [&] { return static_cast<Marker>(random() % 9) - 4; };
+    test::list_boundary(mesh);
+    for (const CellVertices& cell : mesh.cells) {
+        mesh.regions.append(static_cast<Marker>(random() % 4));
+        if (random() % 5 == 0) {  // inner facets too, some of them twice
+            mesh.facets.append({cell[2], cell[0], cell[1]});
+            mesh.facet_markers.append(marker());
+        }
+        if (random() % 5 == 0) {
+            mesh.edges.append({cell[3], cell[1]});
+            mesh.edge_markers.append(marker());
+        }
+    }
+    mesh.attributes_per_point = 2;
+    for (std::size_t v = 0; v < mesh.points.size(); ++v) {
+        mesh.point_markers.append(marker());
+        mesh.point_attributes.push_back(static_cast<double>(random()) * 0x1p-60);
+        mesh.point_attributes.push_back(static_cast<double>(v));
+    }
+    mesh.first_number = static_cast<std::uint32_t>(seed % 2);
+    return mesh;
+}
+
+struct Run {
+    Selection selection;
+    RefineOptions options;
+    Partition partition;
+};
+
+Collected refined(const Mesh& mesh, const Run& run) {
+    const auto parts = partition_cells(mesh, test::world().size(), run.partition);
+    DistributedMesh part = distribute(test::world(), mesh, parts);
+    refine(part, run.selection, run.options);
+    return collect(std::move(part));
+}
+
+void expect_equal(const Mesh& mesh, const Run& run) {
+    const Collected whole = refined(mesh, run);
+    if (!test::world().is_first()) {
+        EXPECT_EQ(whole.mesh.points.size(), 0U);
+        return;
+    }
+    const reference::Refinement expected =
+        reference::refine(mesh, run.selection, run.options.scheme, run.options.levels);
+    EXPECT_TRUE(whole.mesh.points == expected.mesh.points);
+    EXPECT_TRUE(whole.mesh.cells == expected.mesh.cells);
+    EXPECT_TRUE(whole.mesh == expected.mesh);
+    EXPECT_TRUE(whole.maps == expected.maps);
+}
+
+const std::vector<Partition> partitions{
+    {.method = PartitionMethod::lepp},
+    {.method = PartitionMethod::dual},
+    {.method = PartitionMethod::block},
+    {.method = PartitionMethod::random, .seed = 1},
+    {.method = PartitionMethod::random, .seed = 2},
+};
+
+class Equality : public testing::TestWithParam<std::tuple<Scheme, Synchronisation, int>> {
+protected:
+    const Scheme scheme = std::get<0>(GetParam());
+    const Synchronisation synchronisation = std::get<1>(GetParam());
+    const int levels = std::get<2>(GetParam());
+
+    void expect_equal_by_every_partition(const Mesh& mesh,
+                                         const std::vector<Selection>& selections) const {
+        for (const Partition& partition : partitions) {
+            for (const Selection& selection : selections) {
+                expect_equal(mesh, {selection, {scheme, levels, synchronisation}, partition});
+            }
+        }
+    }
+};
+
+TEST_P(Equality, OnAShakenLatticeWithEverythingMarked) {
+    expect_equal_by_every_partition(
+        marked(test::shaken_kuhn(3, 0.3, 5), 1),
+        {{.random = RandomShare{0.1, 3}}, {.spheres = {{{1, 1, 1}, 0.6}}}, {.regions = {2}}});
+}
+
+TEST_P(Equality, OnALatticeFullOfTies) {
+    expect_equal_by_every_partition(
+        marked(test::kuhn(3, 2, 2), 2),
+        {{.boxes = {{{0, 0, 0}, {1, 1, 2}}}}, {.cells = {GlobalCell{0}, GlobalCell{40}}}});
+}
+
+TEST_P(Equality, OnCoordinatesThatRound) {
+    Mesh mesh = test::kuhn(2, 2, 3, 1.0 / 3);
+    for (Point& p : mesh.points) p = {p.x / 7 + 1, p.y * 0.3, p.z * 1e-3};
+    expect_equal_by_every_partition(mesh, {{.random = RandomShare{0.2, 3}}, {.max_volume = 2e-7}});
+}
+
+TEST_P(Equality, OnCellsThatMeetAtAVertexOrAnEdgeOnlyOrNotAtAll) {
+    const Mesh mesh = test::mesh_of({{0, 0, 0},
+                                     {2, 0, 0},
+                                     {0, 3, 0},
+                                     {0, 0, 4},
+                                     {-1, -2, -3},
+                                     {-3, -1, -2},
+                                     {-2, -3, -1.5},
+                                     {5, 5, 5},
+                                     {6, 5, 5},
+                                     {5, 7, 5},
+                                     {5, 5, 8},
+                                     {0, -3, -1},
+                                     {0, -4, 1}},
+                                    {{0, 1, 2, 3}, {0, 4, 5, 6}, {7, 8, 9, 10}, {0, 1, 11, 12}});
+    expect_equal_by_every_partition(
+        mesh, {{.all = true}, {.cells = {GlobalCell{0}}}, {.cells = {GlobalCell{2}}}});
+}
+
+INSTANTIATE_TEST_SUITE_P(SchemesSynchronisationsLevels, Equality,
+                         testing::Combine(testing::Values(Scheme::eight, Scheme::four, Scheme::two),
+                                          testing::Values(Synchronisation::neighbour,
+                                                          Synchronisation::gateway),
+                                          testing::Values(1, 2, 3)));
+
+TEST(Edges, EqualTheReferenceThroughFourUniformLevelsOfOneCellOnManyRanks) {
+    for (const auto& corners :
+         {test::tie_free_corners, test::type_o_corners, test::regular_corners}) {
+        expect_equal(test::one_cell(corners), {{.all = true}, {.levels = 4}, partitions[2]});
+    }
+}
+
+TEST(Edges, EmptyMeshesAndVerticesOfNoCellStayAsTheyAre) {
+    Mesh mesh;
+    expect_equal(mesh, {{.all = true}, {.levels = 2}, partitions[0]});
+    mesh = test::one_cell(test::cube_corner);
+    mesh.points.insert(mesh.points.begin(), Point{9, 9, 9});
+    for (VertexIndex& v : mesh.cells.front()) v = VertexIndex{v.value() + 1U};
+    expect_equal(mesh, {{.all = true}, {.levels = 2}, partitions[0]});
+}
+
+TEST(Rounding, IsRefusedOnAllRanksWithTheWordsOfTheReference) {
+    Mesh mesh = test::kuhn(2, 2, 2);
+    for (Point& p : mesh.points) p = {p.x * 2 + 0x1p52, p.y, p.z};
+    for (const Partition& partition : partitions) {
+        const std::string expected = test::thrown_by<InputError>(
+            [&] { (void)reference::refine(mesh, {.all = true}, Scheme::eight, 3); });
+        const std::string message = test::thrown_by<InputError>([&] {
+            (void)refined(mesh, {{.all = true}, {.levels = 3}, partition});
+        });
+        EXPECT_EQ(message, expected);
+        EXPECT_THAT(message, HasSubstr("level 2"));
+    }
+}
+
+TEST(Communicator, SumsBeforeAndAllToAllAndBroadcast) {
+    const Communicator& world = test::world();
+    const auto rank = static_cast<std::uint64_t>(world.rank());
+    const auto size = static_cast<std::uint64_t>(world.size());
+    EXPECT_EQ(world.sum(rank + 1), size * (size + 1) / 2);
+    EXPECT_EQ(world.max(rank), size - 1);
+    EXPECT_EQ(world.sum_before(rank + 1), rank * (rank + 1) / 2);
+    std::vector<std::vector<std::uint64_t>> outboxes(size);
+    for (std::uint64_t r = 0; r < size; ++r) outboxes[r].assign(r, rank);
+    const auto inboxes = world.all_to_all(outboxes);
+    for (std::uint64_t r = 0; r < size; ++r) {
+        EXPECT_EQ(inboxes[r], std::vector<std::uint64_t>(rank, r));
+    }
+    std::vector<int> values;
+    if (world.is_first()) values = {3, 1, 4};
+    world.broadcast(values);
+    EXPECT_THAT(values, testing::ElementsAre(3, 1, 4));
+}
+
+}  // namespace
+}  // namespace octetra::distributed

@@ -1,0 +1,8 @@
+#!/bin/sh
+# mpirun.sh RANKS COMMAND...: mpirun with what tests need: more ranks than cores, and as root in a
+# container, where the kernel also refuses one process to copy from another's memory.
+ranks=$1
+shift
+export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1
+export OMPI_MCA_btl_vader_single_copy_mechanism=none OMPI_MCA_rmaps_base_oversubscribe=1
+exec mpirun -n "$ranks" "$@"

@@ -63,6 +63,13 @@ def numbers(count):
     return parse
 
 
+def direction(text):
+    values = numbers(3)(text)
+    if values[:2] == [0, 0]:
+        raise argparse.ArgumentTypeError(f"'{text}' should lean away from the z axis, which is up")
+    return values
+
+
 def clip_plane(text):
     values = numbers(6)(text)
     if values[3:] == [0, 0, 0]:
@@ -82,7 +89,7 @@ def joined(arguments):
     """With "--clip X" made "--clip=X", for argparse takes an X with a minus for an option."""
     out = []
     for argument in arguments:
-        if out and out[-1] == "--clip":
+        if out and out[-1] in ("--clip", "--view"):
             out[-1] += "=" + argument
         else:
             out.append(argument)
@@ -100,6 +107,9 @@ def parse_command_line():
     parser.add_argument("--clip", metavar="X,Y,Z,NX,NY,NZ", type=clip_plane,
                         help="remove the cells that lie wholly on the side of the plane through "
                              "X,Y,Z that the normal NX,NY,NZ points to")
+    parser.add_argument("--view", metavar="X,Y,Z", type=direction,
+                        help="direction from the mesh to the eye; z is up in the picture. Without "
+                             "it: half from above, on the open side of a clip")
     parser.add_argument("--size", metavar="WxH", type=picture_size, default=(1600, 900),
                         help="of the picture in pixels (1600x900)")
     parser.add_argument("--color", choices=["region", "parent", "quality", "none"],
@@ -330,28 +340,34 @@ def unit(v):
     return tuple(a / length for a in v)
 
 
-def view_direction(clip):
-    """From the mesh to the eye: half from above; on the open side of a clip."""
-    direction = [0.6, -1.0, 0.55]
-    if clip:
-        direction = [-d if d * n < 0 else d for d, n in zip(direction, clip[3:])]
-    return unit(direction)
+def view_direction(options):
+    """From the mesh to the eye: as asked, else half from above, on the open side of a clip."""
+    if options.view:
+        return unit(options.view)
+    towards_eye = [0.6, -1.0, 0.55]
+    if options.clip:
+        towards_eye = [-d if d * n < 0 else d for d, n in zip(towards_eye, options.clip[3:])]
+    return unit(towards_eye)
 
 
-def aim(camera, bounds, aspect, towards_eye):
-    """Sees the box as large as it fits, in parallel projection."""
-    low, high = bounds[0::2], bounds[1::2]
-    centre = [(a + b) / 2 for a, b in zip(low, high)]
-    half = [(b - a) / 2 for a, b in zip(low, high)]
+def aim(camera, surfaces, aspect, towards_eye):
+    """Sees the surfaces as large as they fit, in parallel projection."""
     right = unit(cross((0, 0, 1), towards_eye))
-    up = cross(towards_eye, right)
-    width, height = (sum(abs(a * h) for a, h in zip(axis, half)) for axis in (right, up))
+    axes = (right, cross(towards_eye, right), towards_eye)  # of the picture: x, y, to the eye
+    points = [surface.GetPoint(i) for surface in surfaces
+              for i in range(surface.GetNumberOfPoints())]
+    middle, half = [], []
+    for axis in axes:
+        places = [dot(axis, point) for point in points]
+        middle.append((max(places) + min(places)) / 2)
+        half.append((max(places) - min(places)) / 2)
+    centre = [sum(m * axis[i] for m, axis in zip(middle, axes)) for i in range(3)]
     distance = 4 * dot(half, half) ** 0.5
     camera.ParallelProjectionOn()
     camera.SetFocalPoint(centre)
     camera.SetPosition([c + distance * t for c, t in zip(centre, towards_eye)])
     camera.SetViewUp(0, 0, 1)
-    camera.SetParallelScale(1.08 * max(height, width / aspect))
+    camera.SetParallelScale(1.04 * max(half[1], half[0] / aspect))
 
 
 def union_of(bounds):
@@ -377,7 +393,7 @@ def draw(surfaces, captions, bounds, options, color):
         renderer = add_renderer(window, (left, middle, right, 1), actor_of(surface, edge_width))
         if camera is None:
             camera = renderer.GetActiveCamera()
-            aim(camera, bounds, aspect, view_direction(options.clip))
+            aim(camera, surfaces, aspect, view_direction(options))
         renderer.SetActiveCamera(camera)
         renderer.ResetCameraClippingRange(bounds)
         add_renderer(window, (left, bottom, right, middle), caption(text, font_size))

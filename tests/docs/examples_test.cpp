@@ -1,0 +1,96 @@
+#include <algorithm>
+#include <regex>
+
+#include <gtest/gtest.h>
+
+#include <octetra/generator/tetgen.hpp>
+
+#include "docs/pages.hpp"
+#include "support/run_program.hpp"
+
+/// The examples of README.md work when pasted, and print what the page says they print.
+///
+/// A block ```console holds commands behind "$ " and below each what it prints, where a line "..."
+/// stands for any lines left out. A block ```sh whose first line begins with "octetra " holds
+/// commands alone. All run in one folder, in the order of the page.
+namespace octetra::test {
+namespace {
+
+struct Example {
+    std::size_t line = 0;  ///< of its block
+    std::string command;
+    std::vector<std::string> printed;
+};
+
+void take_console_line(std::vector<Example>& examples, std::size_t block, const std::string& line) {
+    if (line.starts_with("$ ")) {
+        examples.push_back({block, line.substr(2), {}});
+    } else if (!examples.empty()) {
+        examples.back().printed.push_back(line);
+    }
+}
+
+std::vector<Example> examples_of(const std::string& page_name) {
+    std::vector<Example> examples;
+    for (const FencedBlock& block : page(page_name).blocks) {
+        if (block.lines.empty()) continue;
+        if (block.language == "console") {
+            for (const std::string& line : block.lines) {
+                take_console_line(examples, block.line, line);
+            }
+        } else if (block.language == "sh" && block.lines.front().starts_with("octetra ")) {
+            for (const std::string& line : block.lines) examples.push_back({block.line, line, {}});
+        }
+    }
+    return examples;
+}
+
+/// Without what may differ from run to run and from screen to screen: seconds, widths of columns.
+std::string comparable(const std::string& line) {
+    const std::string timeless = std::regex_replace(line, std::regex(R"(\d+\.\d+ s$)"), "T s");
+    std::string result;
+    for (const std::string& word : words(timeless)) result += word + ' ';
+    return result;
+}
+
+void expect_printed(const Example& example, const std::string& output) {
+    std::vector<std::string> lines;
+    std::istringstream in(output);
+    for (std::string line; std::getline(in, line);) lines.push_back(comparable(line));
+
+    auto next = lines.begin();
+    bool some_left_out = false;
+    for (const std::string& expected : example.printed) {
+        if (expected == "...") {
+            some_left_out = true;
+            continue;
+        }
+        const auto found = std::find(next, lines.end(), comparable(expected));
+        ASSERT_NE(found, lines.end()) << "not printed: " << expected << "\nbut:\n" << output;
+        ASSERT_TRUE(found == next || some_left_out) << "lines before: " << expected;
+        next = found + 1;
+        some_left_out = false;
+    }
+    EXPECT_TRUE(next == lines.end() || some_left_out)
+        << "lines after the last one shown: " << *next;
+}
+
+TEST(Readme, ExamplesWorkAndPrintWhatThePageSays) {
+    if (!generator::has_tetgen()) GTEST_SKIP() << "the examples begin with a mesh by TetGen";
+    const TemporaryFolder folder;
+    const std::string path =
+        "PATH=" + std::filesystem::path(OCTETRA_PROGRAM).parent_path().string() + ":$PATH\n";
+    const auto examples = examples_of("README.md");
+    EXPECT_GE(examples.size(), 8U) << "the examples were not found";
+    for (const Example& example : examples) {
+        SCOPED_TRACE("README.md, block on line " + std::to_string(example.line) + ": " +
+                     example.command);
+        const Outcome run =
+            run_program({"/bin/sh", "-ec", path + example.command + " 2>&1"}, folder.path());
+        ASSERT_EQ(run.status, 0) << run.out;
+        if (!example.printed.empty()) expect_printed(example, run.out);
+    }
+}
+
+}  // namespace
+}  // namespace octetra::test

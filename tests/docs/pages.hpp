@@ -1,0 +1,45 @@
+#pragma once
+
+#include <filesystem>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "support/temporary_folder.hpp"
+
+/// The Markdown pages of the repository, taken apart as far as the tests need it.
+namespace octetra::test {
+
+inline const std::filesystem::path repository = OCTETRA_SOURCE_DIR;
+
+struct FencedBlock {
+    std::string language;  ///< what stands behind the opening fence
+    std::size_t line = 0;  ///< of that fence, from 1
+    std::vector<std::string> lines;
+};
+
+struct Page {
+    std::vector<FencedBlock> blocks;
+    std::vector<std::string> prose;  ///< the lines outside of the blocks
+};
+
+inline Page page(const std::string& name) {
+    std::istringstream in(content_of(repository / name));
+    Page result;
+    bool in_block = false;
+    std::size_t number = 0;
+    for (std::string line; std::getline(in, line);) {
+        ++number;
+        if (line.starts_with("```")) {
+            in_block = !in_block;
+            if (in_block) result.blocks.push_back({line.substr(3), number, {}});
+        } else if (in_block) {
+            result.blocks.back().lines.push_back(line);
+        } else {
+            result.prose.push_back(line);
+        }
+    }
+    return result;
+}
+
+}  // namespace octetra::test

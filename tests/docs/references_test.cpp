@@ -1,0 +1,100 @@
+#include <algorithm>
+#include <regex>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "docs/pages.hpp"
+
+/// What the pages refer to is in the repository: links, paths and the names of tests.
+namespace octetra::test {
+namespace {
+
+std::vector<std::string> matches(const std::string& text, const std::string& pattern) {
+    const std::regex expression(pattern);
+    std::vector<std::string> found;
+    for (std::sregex_iterator i(text.begin(), text.end(), expression), end; i != end; ++i) {
+        found.push_back((*i)[1]);
+    }
+    return found;
+}
+
+/// Is it there, a path with one `*` at its end matching anything that begins so?
+bool exists(const std::string& path) {
+    const std::filesystem::path full = repository / path;
+    if (!path.ends_with('*')) return std::filesystem::exists(full);
+    const std::string beginning = full.filename().string();
+    const auto begins_so = [&](const auto& entry) {
+        return entry.path().filename().string().starts_with(
+            beginning.substr(0, beginning.size() - 1));
+    };
+    return std::ranges::any_of(std::filesystem::directory_iterator(full.parent_path()), begins_so);
+}
+
+class Markdown : public testing::TestWithParam<std::string> {};
+
+TEST_P(Markdown, LinksLeadSomewhere) {
+    const std::filesystem::path folder = std::filesystem::path(GetParam()).parent_path();
+    for (const std::string& line : page(GetParam()).prose) {
+        for (const std::string& target : matches(line, R"(\]\(([^)#\s]+)[^)]*\))")) {
+            if (target.starts_with("http")) continue;
+            EXPECT_TRUE(std::filesystem::exists(repository / folder / target))
+                << GetParam() << " links to " << target;
+        }
+    }
+}
+
+/// A path is what stands in backquotes, or begins a line of a block ```text, and whose first part
+/// is a folder of the sources.
+TEST_P(Markdown, PathsExist) {
+    const std::string sources =
+        "((?:core|reference|cli|corpus|tests|tools|bench|docs|cmake|\\.ci)/[^`\\s]*)";
+    const Page content = page(GetParam());
+    const auto expect_all = [&](const std::vector<std::string>& lines, const std::string& pattern) {
+        for (const std::string& line : lines) {
+            for (const std::string& path : matches(line, pattern)) {
+                EXPECT_TRUE(exists(path)) << GetParam() << " speaks of " << path;
+            }
+        }
+    };
+    expect_all(content.prose, "`" + sources + "`");
+    for (const FencedBlock& block : content.blocks) {
+        if (block.language == "text") expect_all(block.lines, "^ *" + sources);
+    }
+}
+
+/// `program.Suite.Case` is a test of that program.
+TEST_P(Markdown, TestsExist) {
+    for (const std::string& line : page(GetParam()).prose) {
+        for (const std::string& name : matches(line, R"(`([a-z]+\.[A-Z]\w*\.[A-Z]\w*)`)")) {
+            const auto first = name.find('.');
+            const auto last = name.rfind('.');
+            std::string declared = "(";
+            declared += name.substr(first + 1, last - first - 1);
+            declared += ", ";
+            declared += name.substr(last + 1);
+            declared += ")";
+            const auto folder = repository / "tests" / name.substr(0, first);
+            ASSERT_TRUE(std::filesystem::exists(folder)) << name;
+            const auto declares = [&](const auto& entry) {
+                return entry.path().extension() == ".cpp" &&
+                       content_of(entry.path()).find(declared) != std::string::npos;
+            };
+            EXPECT_TRUE(std::ranges::any_of(std::filesystem::directory_iterator(folder), declares))
+                << GetParam() << " names the test " << name;
+        }
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(, Markdown,
+                         testing::Values("README.md", "ARCHITECTURE.md", "TESTING.md",
+                                         "corpus/README.md", "bench/README.md"),
+                         [](const auto& test_case) {
+                             std::string name = test_case.param;
+                             std::ranges::replace_if(
+                                 name, [](unsigned char c) { return std::isalnum(c) == 0; }, '_');
+                             return name;
+                         });
+
+}  // namespace
+}  // namespace octetra::test

@@ -67,8 +67,7 @@ void join_through_faces(const Mesh& mesh, std::vector<Link>& links) {
     }
 }
 
-void join_through_longest_edges(const Mesh& mesh, std::vector<Link>& links) {
-    constexpr std::int32_t weight = 4;  // against 1 for a face
+void join_through_longest_edges(const Mesh& mesh, std::int32_t weight, std::vector<Link>& links) {
     const EdgeStars stars(mesh.points.size(), mesh.cells);
     // All cells at an edge that is some cell's longest are joined to that cell.
     std::vector<std::uint32_t> begin(std::size_t{stars.end_index().value()} + 1, 0);
@@ -98,10 +97,17 @@ CellGraph face_dual_graph(const Mesh& mesh) {
     return graph_of(std::move(links), mesh.cells.size());
 }
 
+CellGraph longest_edge_graph(const Mesh& mesh) {
+    std::vector<Link> links;
+    join_through_longest_edges(mesh, 1, links);
+    return graph_of(std::move(links), mesh.cells.size());
+}
+
 CellGraph lepp_graph(const Mesh& mesh) {
+    constexpr std::int32_t longest_edge_weight = 4;  // against 1 for a face
     std::vector<Link> links;
     join_through_faces(mesh, links);
-    join_through_longest_edges(mesh, links);
+    join_through_longest_edges(mesh, longest_edge_weight, links);
     return graph_of(std::move(links), mesh.cells.size());
 }
 

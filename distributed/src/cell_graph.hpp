@@ -18,8 +18,13 @@ struct CellGraph {
 /// Cells that share a face, with weight 1.
 [[nodiscard]] CellGraph face_dual_graph(const Mesh& mesh);
 
-/// The same, and each cell joined to every other one at its longest edge, with a greater weight: a
-/// selection propagates from a cell to those. So that a cut seldom crosses a propagation path.
+/// Each cell joined to every other one at its longest edge, with weight 1, or 2 where both have
+/// that edge as their longest: the first steps of the longest-edge propagation paths.
+[[nodiscard]] CellGraph longest_edge_graph(const Mesh& mesh);
+
+/// The face-dual graph, and each cell joined to every other one at its longest edge, with a greater
+/// weight: a selection propagates from a cell to those. So that a cut seldom crosses a propagation
+/// path.
 [[nodiscard]] CellGraph lepp_graph(const Mesh& mesh);
 
 }  // namespace octetra::distributed

@@ -8,7 +8,8 @@ SynchronisationCounts refine(DistributedMesh& mesh, const Selection& selection,
                              const RefineOptions& options) {
     SynchronisationCounts total;
     for (int level = 1; level <= options.levels; ++level) {
-        const SynchronisationCounts counts = refine_level(mesh, selection, options, level);
+        const auto [counts, changed] = refine_level(mesh, selection, options, level);
+        if (!changed) break;  // and so it would be at all further levels
         total.rounds += counts.rounds;
         total.messages += counts.messages;
         total.edges += counts.edges;

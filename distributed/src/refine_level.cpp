@@ -219,8 +219,8 @@ void bisect_listed_edges(DistributedMesh& mesh, const EdgeStars& stars,
 
 }  // namespace
 
-SynchronisationCounts refine_level(DistributedMesh& mesh, const Selection& selection,
-                                   const RefineOptions& options, int level) {
+LevelOutcome refine_level(DistributedMesh& mesh, const Selection& selection,
+                          const RefineOptions& options, int level) {
     const EdgeStars stars(mesh.points.size(), mesh.cells);
     const auto orders = length_orders(mesh);
     Closure closure(stars, orders, mesh.interfaces);
@@ -229,6 +229,8 @@ SynchronisationCounts refine_level(DistributedMesh& mesh, const Selection& selec
                                              ? synchronise_by_neighbours(closure, mesh)
                                              : synchronise_by_gateway(closure, mesh);
 
+    if (mesh.processes.max(closure.selected_count()) == 0) return {.counts = counts};
+
     check_countable(mesh, mesh.points.size() + closure.selected_count(), "vertices");
     const VertexIndex first_midpoint = mesh.points.end_index();
     const Midpoints midpoints = bisect_edges(mesh, stars, closure);
@@ -236,7 +238,7 @@ SynchronisationCounts refine_level(DistributedMesh& mesh, const Selection& selec
     bisect_facets(mesh, stars, midpoints);
     bisect_listed_edges(mesh, stars, midpoints);
     mesh.interfaces = refined_interfaces(mesh.interfaces, mesh.points, stars, midpoints.of_edge);
-    return counts;
+    return {.counts = counts, .changed = true};
 }
 
 }  // namespace octetra::distributed

@@ -4,8 +4,13 @@
 
 namespace octetra::distributed {
 
+struct LevelOutcome {
+    SynchronisationCounts counts;
+    bool changed = false;  ///< was any edge of the whole mesh bisected?
+};
+
 /// Collective. One level of refine(): level number `level`, counted from 1, for messages.
-SynchronisationCounts refine_level(DistributedMesh& mesh, const Selection& selection,
-                                   const RefineOptions& options, int level);
+LevelOutcome refine_level(DistributedMesh& mesh, const Selection& selection,
+                          const RefineOptions& options, int level);
 
 }  // namespace octetra::distributed

@@ -58,6 +58,33 @@ TEST(Partition, NamesAreChecked) {
     }
 }
 
+TEST(PartitionStatistics, CountCutsOfACubeOfSixCellsByHand) {
+    const Mesh mesh = test::kuhn(1, 1, 1);  // a ring of six cells, all with the same longest edge
+    const auto part = partition_cells(mesh, 1, parse_partition("block"));
+    const PartitionStatistics whole = measure_partition(mesh, part, 1);
+    EXPECT_EQ(whole.inner_faces, 6U);
+    EXPECT_EQ(whole.cut_faces, 0U);
+    EXPECT_EQ(whole.longest_edge_links, 15U);
+    EXPECT_THAT(whole.shared_vertices_of_part, testing::ElementsAre(0));
+
+    const PartitionStatistics one_cell = measure_partition(mesh, {1, 0, 0, 0, 0, 0}, 3);
+    EXPECT_THAT(one_cell.cells_of_part, testing::ElementsAre(5, 1, 0));
+    EXPECT_EQ(one_cell.cut_faces, 2U);
+    EXPECT_EQ(one_cell.cut_longest_edge_links, 5U);
+    EXPECT_THAT(one_cell.shared_vertices_of_part, testing::ElementsAre(4, 4, 0));
+    EXPECT_THAT(one_cell.neighbours_of_part, testing::ElementsAre(1, 1, 0));
+}
+
+TEST(Partition, OfTheLeppGraphCutsFewerPropagationStepsThanBlocksOrLots) {
+    const Mesh mesh = test::shaken_kuhn(8, 0.2, 1);
+    const auto cut = [&](const std::string& method) {
+        const auto part = partition_cells(mesh, 4, parse_partition(method));
+        return measure_partition(mesh, part, 4).cut_longest_edge_links;
+    };
+    EXPECT_LT(cut("lepp"), cut("block"));
+    EXPECT_LT(cut("lepp"), cut("random:1") / 4);
+}
+
 TEST(CellGraph, JoinsCellsThroughFacesBothWays) {
     const Mesh mesh = test::kuhn(1, 1, 1);  // six cells round a diagonal: each has two neighbours
     const CellGraph graph = face_dual_graph(mesh);

@@ -33,4 +33,21 @@ struct Partition {
 [[nodiscard]] std::vector<int> partition_cells(const Mesh& mesh, int parts,
                                                const Partition& partition);
 
+/// How good a partition is. Less cut, fewer shared vertices and an even balance are better.
+struct PartitionStatistics {
+    std::vector<std::uint64_t> cells_of_part;
+    std::vector<std::uint64_t> shared_vertices_of_part;  ///< that some other part has as well
+    std::vector<std::uint64_t> neighbours_of_part;       ///< parts with which it shares a vertex
+    std::uint64_t inner_faces = 0;
+    std::uint64_t cut_faces = 0;  ///< between cells of different parts
+    /// Pairs of cells of which one has its longest edge in the other: the steps that selections
+    /// take.
+    std::uint64_t longest_edge_links = 0;
+    std::uint64_t cut_longest_edge_links = 0;
+};
+
+[[nodiscard]] PartitionStatistics measure_partition(const Mesh& mesh,
+                                                    const std::vector<int>& cell_to_part,
+                                                    int parts);
+
 }  // namespace octetra::distributed

@@ -1,6 +1,4 @@
 #include <algorithm>
-#include <fstream>
-#include <ostream>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -12,6 +10,7 @@
 #include <octetra/reference/refine.hpp>
 
 #include "support/conformity.hpp"
+#include "support/manifest.hpp"
 #include "support/meshes.hpp"
 #include "support/refinement.hpp"
 #include "support/run_program.hpp"
@@ -27,30 +26,9 @@ using test::TemporaryFolder;
 using testing::HasSubstr;
 using testing::StartsWith;
 
-const std::filesystem::path corpus = std::filesystem::path(OCTETRA_SOURCE_DIR) / "corpus";
+using test::CorpusEntry;
 
-struct Entry {
-    json content;
-};
-
-void PrintTo(const Entry& entry, std::ostream* out) {
-    *out << entry.content["name"].get<std::string>();
-}
-
-std::vector<Entry> entries(const std::string& list) {
-    std::ifstream in(corpus / "manifest.json");
-    std::vector<Entry> result;
-    const json manifest = json::parse(in);
-    for (const json& entry : manifest.at(list)) result.push_back({entry});
-    return result;
-}
-
-std::string name_of(const testing::TestParamInfo<Entry>& test_case) {
-    std::string name = test_case.param.content["name"];
-    std::ranges::replace_if(
-        name, [](unsigned char c) { return std::isalnum(c) == 0; }, '_');
-    return name;
-}
+const std::filesystem::path corpus = test::corpus_folder();
 
 /// The mesh file of an entry: in the corpus, or generated into `folder`.
 std::filesystem::path file_of(const json& entry, const TemporaryFolder& folder) {
@@ -63,7 +41,7 @@ std::filesystem::path file_of(const json& entry, const TemporaryFolder& folder) 
     return folder / "generated.ele";
 }
 
-class CorpusMesh : public testing::TestWithParam<Entry> {
+class CorpusMesh : public testing::TestWithParam<CorpusEntry> {
 protected:
     const TemporaryFolder folder;
     const json& entry = GetParam().content;
@@ -134,9 +112,10 @@ TEST_P(CorpusMesh, HasItsBoundaryTiledByTheFinerBoundary) {
     EXPECT_EQ(test::count_faces(fine).boundary_faces, fine.facets.size());
 }
 
-INSTANTIATE_TEST_SUITE_P(, CorpusMesh, testing::ValuesIn(entries("meshes")), name_of);
+INSTANTIATE_TEST_SUITE_P(, CorpusMesh, testing::ValuesIn(test::corpus_entries("meshes")),
+                         test::corpus_name);
 
-class BadFile : public testing::TestWithParam<Entry> {
+class BadFile : public testing::TestWithParam<CorpusEntry> {
 protected:
     const json& entry = GetParam().content;
     /// "FILE:LINE: " or "FILE: ", as the manifest has it.
@@ -167,7 +146,8 @@ TEST_P(BadFile, EndsTheProgramInStatus2WithOneLineAndNoOutput) {
     EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
 }
 
-INSTANTIATE_TEST_SUITE_P(, BadFile, testing::ValuesIn(entries("bad")), name_of);
+INSTANTIATE_TEST_SUITE_P(, BadFile, testing::ValuesIn(test::corpus_entries("bad")),
+                         test::corpus_name);
 
 }  // namespace
 }  // namespace octetra

@@ -1,7 +1,10 @@
+#include <cmath>
+#include <numbers>
 #include <ostream>
 #include <string>
 #include <vector>
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -197,6 +200,38 @@ TEST(TetgenReader, RefusesWhatIsNotAFile) {
                 HasSubstr("is not a file"));
     EXPECT_THAT(test::thrown_by<InputError>([&] { (void)read_mesh(folder / "m.stl"); }),
                 HasSubstr("is named by its extension"));
+}
+
+/// `count` cells round one edge of two hubs, their faces at that edge's lower end listed.
+Files fan(int count) {
+    Files files{.node = fmt::format("{} 3\n0 0 0 -1\n1 0 0 1\n", count + 2),
+                .ele = fmt::format("{} 4\n", count),
+                .face = fmt::format("{} 0\n", count)};
+    for (int i = 0; i < count; ++i) {
+        const double angle = 2 * std::numbers::pi * i / count;
+        files.node += fmt::format("{} {} {} 0\n", i + 2, std::cos(angle), std::sin(angle));
+        files.ele += fmt::format("{} 0 {} {} 1\n", i, i + 2, (i + 1) % count + 2);
+        files.face += fmt::format("{} {} {} 0\n", i, (i + 1) % count + 2, i + 2);
+    }
+    return files;
+}
+
+TEST(TetgenReader, TakesFansInTimeThatDoesNotGrowWithTheSquareOfTheirSize) {
+    constexpr int count = 100000;  // the square of it takes longer than any test may
+    EXPECT_EQ(read(fan(count)).facets.size(), std::size_t{count});
+}
+
+TEST(TetgenReader, FindsTheFirstOfStrayFacesAmongMany) {
+    Files files = fan(50);
+    const std::string last = files.face.substr(files.face.rfind("49 "));
+    files.face.replace(files.face.size() - last.size(), last.size(), "49 0 20 9\n");
+    EXPECT_THAT(test::thrown_by<InputError>([&] { (void)read(files); }),
+                HasSubstr("m.face:51: face 49 belongs to no cell"));
+}
+
+TEST(TetgenReader, TakesFacesThatAreListedTwice) {
+    EXPECT_EQ(read({.face = "3 1\n0 0 1 2 7\n1 2 1 0 8\n2 0 1 2 7\n"}).facet_markers,
+              (IndexVector<FacetIndex, Marker>{7, 8, 7}));
 }
 
 TEST(CellList, IsReadAscendingAndOnce) {

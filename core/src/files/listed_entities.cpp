@@ -13,32 +13,44 @@ std::array<VertexIndex, N> sorted(std::array<VertexIndex, N> vertices) {
     return vertices;
 }
 
-/// The entities of a list, findable by their vertices: bucketed by the smallest vertex.
+/// The entities of a list, findable by their vertices: bucketed by the smallest vertex, and sorted
+/// within a bucket, because thousands may meet at the hub of a fan.
 template <class I, std::size_t N>
 class Buckets {
+    using Vertices = std::array<VertexIndex, N>;
+
 public:
-    Buckets(const IndexVector<I, std::array<VertexIndex, N>>& list, std::size_t vertex_count)
+    Buckets(const IndexVector<I, Vertices>& list, std::size_t vertex_count)
         : list_(&list), bucket_begin_(vertex_count + 1, 0), members_(list.size()) {
-        for (const auto& vertices : list) ++bucket_begin_[smallest(vertices)];
+        for (const Vertices& vertices : list) ++bucket_begin_[smallest(vertices)];
         std::exclusive_scan(bucket_begin_.begin(), bucket_begin_.end(), bucket_begin_.begin(), 0U);
         auto next = bucket_begin_;
         for (I i{0}; i < list.end_index(); ++i) members_[next[smallest(list[i])]++] = i;
-    }
-
-    /// Calls found(i) for each entity of the list with these vertices, in whatever order.
-    void find(const std::array<VertexIndex, N>& vertices, auto&& found) const {
-        const std::uint32_t bucket = smallest(vertices);
-        for (auto k = bucket_begin_[bucket]; k < bucket_begin_[bucket + 1]; ++k) {
-            if (sorted((*list_)[members_[k]]) == sorted(vertices)) found(members_[k]);
+        for (std::size_t bucket = 0; bucket < vertex_count; ++bucket) {
+            std::sort(begin_of(bucket), begin_of(bucket + 1),
+                      [&](I i, I j) { return sorted(list[i]) < sorted(list[j]); });
         }
     }
 
-private:
-    static std::uint32_t smallest(const std::array<VertexIndex, N>& vertices) {
-        return std::ranges::min(vertices).value();
+    /// One entity of the list with these vertices, in whatever order, and always the same one;
+    /// none() if there is no such entity.
+    [[nodiscard]] I find(const Vertices& vertices) const {
+        const Vertices wanted = sorted(vertices);
+        const auto first = members_.begin() + bucket_begin_[wanted.front().value()];
+        const auto last = members_.begin() + bucket_begin_[wanted.front().value() + 1];
+        const auto found = std::lower_bound(first, last, wanted, [&](I i, const Vertices& other) {
+            return sorted((*list_)[i]) < other;
+        });
+        return found != last && sorted((*list_)[*found]) == wanted ? *found : I::none();
     }
 
-    const IndexVector<I, std::array<VertexIndex, N>>* list_;
+private:
+    static std::uint32_t smallest(const Vertices& vertices) {
+        return std::ranges::min(vertices).value();
+    }
+    auto begin_of(std::size_t bucket) { return members_.begin() + bucket_begin_[bucket]; }
+
+    const IndexVector<I, Vertices>* list_;
     std::vector<std::uint32_t> bucket_begin_;
     std::vector<I> members_;
 };
@@ -49,16 +61,19 @@ I find_stray(const Mesh& mesh, const IndexVector<I, std::array<VertexIndex, N>>&
              const std::array<std::array<std::uint8_t, N>, Sides>& sides) {
     if (list.empty()) return I::none();
     const Buckets<I, N> buckets(list, mesh.points.size());
+    // Of an entity that is listed twice, only the one that is found counts as met.
     std::vector<bool> met(list.size(), false);
     for (const CellVertices& cell : mesh.cells) {
         for (const auto& side : sides) {
             std::array<VertexIndex, N> vertices;
             for (std::size_t k = 0; k < N; ++k) vertices[k] = cell[side[k]];
-            buckets.find(vertices, [&](I i) { met[i.value()] = true; });
+            if (const I i = buckets.find(vertices); !i.is_none()) met[i.value()] = true;
         }
     }
-    const auto stray = std::ranges::find(met, false);
-    return stray == met.end() ? I::none() : I{static_cast<std::size_t>(stray - met.begin())};
+    for (I i{0}; i < list.end_index(); ++i) {
+        if (!met[buckets.find(list[i]).value()]) return i;
+    }
+    return I::none();
 }
 
 }  // namespace

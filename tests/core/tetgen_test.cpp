@@ -202,6 +202,21 @@ TEST(TetgenReader, RefusesWhatIsNotAFile) {
                 HasSubstr("is named by its extension"));
 }
 
+TEST(TetgenReader, ReportsWhatIsThereAndCannotBeOpened) {
+    const TemporaryFolder folder;
+    std::filesystem::create_symlink("loop.ele", folder / "loop.ele");
+    std::filesystem::create_symlink("loop.node", folder / "loop.node");
+    EXPECT_THAT(test::thrown_by<InputError>([&] { (void)read_mesh(folder / "loop.ele"); }),
+                HasSubstr("loop.node: cannot be opened: Too many levels of symbolic links"));
+    (void)folder.write("m.node", good_node);
+    (void)folder.write("m.ele", good_ele);
+    for (const std::string extension : {"edge", "face"}) {
+        std::filesystem::create_symlink("gone", folder / ("m." + extension));
+        EXPECT_THAT(test::thrown_by<InputError>([&] { (void)read_mesh(folder / "m.ele"); }),
+                    HasSubstr("m." + extension + ": cannot be opened: No such file"));
+    }
+}
+
 /// `count` cells round one edge of two hubs, their faces at that edge's lower end listed.
 Files fan(int count) {
     Files files{.node = fmt::format("{} 3\n0 0 0 -1\n1 0 0 1\n", count + 2),

@@ -51,6 +51,17 @@ TEST(WriteMesh, ThatFailsLeavesWhatWasThereBefore) {
     EXPECT_THAT(names_in(folder.path()), testing::ElementsAre("a.ele", "a.node"));
 }
 
+TEST(WriteMesh, RemovesNoFolderThatStandsWhereFacesOfAnotherMeshMight) {
+    for (const std::string extension : {"face", "edge"}) {
+        const TemporaryFolder folder;
+        std::filesystem::create_directory(folder / ("a." + extension));
+        EXPECT_THAT(test::thrown_by<SystemError>(
+                        [&] { (void)write_mesh(test::kuhn(1, 1, 1), folder / "a.ele"); }),
+                    HasSubstr("a." + extension + ": is a directory"));
+        EXPECT_THAT(names_in(folder.path()), testing::ElementsAre("a." + extension));
+    }
+}
+
 TEST(WriteMesh, RefusesUnknownExtensionsAndMissingFolders) {
     const TemporaryFolder folder;
     const Mesh mesh = test::kuhn(1, 1, 1);

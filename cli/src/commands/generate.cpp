@@ -46,7 +46,7 @@ private:
     std::shared_ptr<GenerateOptions> declare_common() {
         auto common = std::make_shared<GenerateOptions>();
         add_output_option(*generate_, common->output);
-        generate_->add_flag("--quiet", common->quiet, "print nothing but errors");
+        generate_->add_flag("--quiet", common->quiet, "print nothing but notes and errors");
         return common;
     }
 

@@ -118,7 +118,7 @@ void add_refine(CLI::App& program) {
         ->add_option("--maps", options->maps,
                      "also write each cell's parent and each midpoint's edge, as text")
         ->type_name("FILE");
-    refine_command->add_flag("--quiet", options->quiet, "print nothing but errors");
+    refine_command->add_flag("--quiet", options->quiet, "print nothing but notes and errors");
     refine_command->footer(
         "Example:\n"
         "  octetra generate gear -o gear.1.ele\n"

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <ostream>
 #include <string>
 #include <vector>
@@ -106,6 +107,12 @@ TEST(MeditReader, TakesTokensAcrossLinesInAnyOrderWithComments) {
     EXPECT_EQ(read("# a mesh\r\nMeshVersionFormatted\r\n2 Dimension 3 Tetrahedra 1 1\r\n2 3 # ...\n"
                    "4 5\nVertices 4 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1 0 Hexahedra 0 End"),
               read(good));
+}
+
+TEST(MeditReader, TakesCarriageReturnsAloneForBlanks) {
+    std::string text = good;
+    std::ranges::replace(text, '\n', '\r');
+    EXPECT_EQ(read(text), read(good));
 }
 
 TEST(MeditReader, SkipsWhatItDoesNotKeepAndSaysSo) {

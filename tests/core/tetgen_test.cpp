@@ -1,4 +1,7 @@
+#include <sys/stat.h>
+
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <ostream>
 #include <string>
@@ -89,6 +92,7 @@ INSTANTIATE_TEST_SUITE_P(
          "4 fields expected, 6 found; the first extra one is '9'"},
         {"NotANumber", node_line(4, "2 0 one 0"), "m.node:4", "y should be a number, not 'one'"},
         {"HalfANumber", node_line(4, "2 0 1x 0"), "m.node:4", "not '1x'"},
+        {"TwoSigns", node_line(4, "2 0 +-1 0"), "m.node:4", "y should be a number, not '+-1'"},
         {"NaN", node_line(4, "2 0 nan 0"), "m.node:4", "y is not finite: 'nan'"},
         {"Infinity", node_line(4, "2 -inf 0 0"), "m.node:4", "x is not finite: '-inf'"},
         {"BeyondDoubles", node_line(4, "2 0 1e999 0"), "m.node:4", "y is out of range: '1e999'"},
@@ -115,6 +119,10 @@ INSTANTIATE_TEST_SUITE_P(
          "the region tag should be a whole number"},
         {"HugeRegion",
          {.node = good_node, .ele = "1 4 1\n0 0 1 2 3 3e9\n"},
+         "m.ele:2",
+         "whole number of 32 bits"},
+        {"HugeNegativeRegion",
+         {.node = good_node, .ele = "1 4 1\n0 0 1 2 3 -2147483649\n"},
          "m.ele:2",
          "whole number of 32 bits"},
         {"CornerMissing", ele_line(2, "0 0 1 2"), "m.ele:2", "a vertex number is missing"},
@@ -201,6 +209,9 @@ TEST(TetgenReader, RefusesWhatIsNotAFile) {
     std::filesystem::create_directory(folder / "d.mesh");
     EXPECT_THAT(test::thrown_by<InputError>([&] { (void)read_mesh(folder / "d.mesh"); }),
                 HasSubstr("is not a file"));
+    ASSERT_EQ(::mkfifo((folder / "p.mesh").c_str(), 0600), 0);  // and do not wait for a writer
+    EXPECT_THAT(test::thrown_by<InputError>([&] { (void)read_mesh(folder / "p.mesh"); }),
+                HasSubstr("is not a file"));
     EXPECT_THAT(test::thrown_by<InputError>([&] { (void)read_mesh(folder / "m.stl"); }),
                 HasSubstr("is named by its extension"));
 }
@@ -245,6 +256,12 @@ TEST(TetgenReader, FindsTheFirstOfStrayFacesAmongMany) {
     files.face.replace(files.face.size() - last.size(), last.size(), "49 0 20 9\n");
     EXPECT_THAT(test::thrown_by<InputError>([&] { (void)read(files); }),
                 HasSubstr("m.face:51: face 49 belongs to no cell"));
+}
+
+TEST(TetgenReader, TakesEveryMarkerOf32Bits) {
+    EXPECT_EQ(read({.face = "2 1\n0 0 1 2 -2147483648\n1 1 2 3 2147483647\n"}).facet_markers,
+              (IndexVector<FacetIndex, Marker>{std::numeric_limits<Marker>::min(),
+                                               std::numeric_limits<Marker>::max()}));
 }
 
 TEST(TetgenReader, TakesFacesThatAreListedTwice) {

@@ -14,17 +14,18 @@ std::vector<double> parse_reals(const std::string& text, std::size_t count, std:
     std::vector<double> numbers;
     const char* next = text.data();
     const char* const end = next + text.size();
-    while (true) {
+    bool another = true;  // a comma asks for another number
+    while (another) {
         double number = 0;
-        if (next != end && *next == '+') ++next;
+        if (next != end && *next == '+' && next + 1 != end && next[1] != '-') ++next;
         const auto [stop, error] = std::from_chars(next, end, number);
         if (error != std::errc{} || !std::isfinite(number)) break;
         numbers.push_back(number);
         next = stop;
-        if (next == end || *next != ',') break;
-        ++next;
+        another = next != end && *next == ',';
+        if (another) ++next;
     }
-    if (next != end || numbers.size() != count) {
+    if (another || next != end || numbers.size() != count) {
         throw InputError(
             fmt::format("{} takes {} finite numbers as {}, not '{}'", option, count, form, text));
     }

@@ -1,5 +1,6 @@
 #include "program.hpp"
 
+#include <csignal>
 #include <cstdio>
 #include <exception>
 #include <filesystem>
@@ -40,6 +41,10 @@ int parse_and_run(CLI::App& program, int argc, char** argv) {
 }  // namespace
 
 int run(int argc, char** argv) {
+    // Beyond a limit on file sizes a write then fails like one to a full disk, and is cleaned up
+    // after, rather than that the signal ends the program.
+    std::signal(SIGXFSZ, SIG_IGN);
+
     CLI::App program(
         "Refines tetrahedral meshes by longest-edge bisection (8T-LE).\n"
         "Files by extension: .ele/.node (TetGen), .mesh (Medit), .vtu (VTK, written only).",

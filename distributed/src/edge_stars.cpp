@@ -17,12 +17,11 @@ EdgeStars::EdgeStars(std::size_t vertex_count, const IndexVector<CellIndex, Cell
         const CellVertices& cell = cells[c];
         for (std::size_t e = 0; e < 6; ++e) {
             const auto [low, high] = std::minmax(cell[cell_edges[e][0]], cell[cell_edges[e][1]]);
-            std::uint32_t slot = begin_[low.value()];
-            const std::uint32_t end = end_[low.value()];
-            while (slot < end && high_end_[slot] != high) ++slot;
-            if (slot == end) {
+            const std::uint32_t slot = find_slot(low, high);
+            if (slot == end_[low.value()]) {
                 high_end_[slot] = high;
-                end_[low.value()] = end + 1;
+                ++end_[low.value()];
+                if (slot - begin_[low.value()] >= searched) hub_edges_.emplace(key(low, high), slot);
             }
             cell_to_edges_[c][e] = EdgeIndex{slot};
         }

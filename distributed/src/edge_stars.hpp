@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <unordered_map>
 #include <vector>
 
 #include <octetra/core/mesh.hpp>
@@ -31,10 +32,8 @@ public:
     [[nodiscard]] EdgeIndex find(VertexIndex a, VertexIndex b) const {
         const VertexIndex low = std::min(a, b);
         const VertexIndex high = std::max(a, b);
-        for (std::uint32_t slot = begin_[low.value()]; slot < end_[low.value()]; ++slot) {
-            if (high_end_[slot] == high) return EdgeIndex{slot};
-        }
-        return EdgeIndex::none();
+        const std::uint32_t slot = find_slot(low, high);
+        return slot == end_[low.value()] ? EdgeIndex::none() : EdgeIndex{slot};
     }
 
     /// The edges whose lower end is `low` are begin_of(low) .. end_of(low)-1, in no order.
@@ -45,10 +44,27 @@ public:
     [[nodiscard]] VertexIndex high_end(EdgeIndex edge) const { return high_end_[edge.value()]; }
 
 private:
+    static constexpr std::uint32_t searched = 64;
+
+    static std::uint64_t key(VertexIndex low, VertexIndex high) {
+        return std::uint64_t{low.value()} << 32U | high.value();
+    }
+    /// The slot of the edge, or the end of its bucket.
+    [[nodiscard]] std::uint32_t find_slot(VertexIndex low, VertexIndex high) const {
+        std::uint32_t slot = begin_[low.value()];
+        const std::uint32_t end = end_[low.value()];
+        const std::uint32_t stop = std::min(end, slot + searched);
+        while (slot < stop && high_end_[slot] != high) ++slot;
+        if (slot < stop || stop == end) return slot;
+        const auto hub_edge = hub_edges_.find(key(low, high));
+        return hub_edge == hub_edges_.end() ? end : hub_edge->second;
+    }
+
     std::vector<std::uint32_t> begin_;
     std::vector<std::uint32_t> end_;
     std::vector<VertexIndex> high_end_;
     IndexVector<CellIndex, std::array<EdgeIndex, 6>> cell_to_edges_;
+    std::unordered_map<std::uint64_t, std::uint32_t> hub_edges_;
 };
 
 }  // namespace octetra::distributed

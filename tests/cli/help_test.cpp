@@ -73,16 +73,25 @@ INSTANTIATE_TEST_SUITE_P(
         "refine cube.ele --all --levels x -o out.ele", "refine cube.ele --sphere 0,0,0 -o out.ele",
         "refine cube.ele --sphere 0,0,0,nan -o out.ele",
         "refine cube.ele --sphere 0,0,0,-1 -o out.ele",
+        "refine cube.ele --sphere 0,0,0,1, -o out.ele",
+        "refine cube.ele --sphere +-1,0,0,1 -o out.ele",
+        "refine cube.ele --sphere 0,,0,1 -o out.ele",
+        "refine cube.ele --sphere 0,0,0,inf -o out.ele", "refine cube.ele --sphere= -o out.ele",
+        "refine cube.ele --random .5 --seed -1 -o out.ele",
         "refine cube.ele --box 0,0,0,1,1 -o out.ele",
         "refine cube.ele --box 1,0,0,0,1,1 -o out.ele", "refine cube.ele --random 1.5 -o out.ele",
         "refine cube.ele --random nan -o out.ele", "refine cube.ele --max-volume -1 -o out.ele",
         "refine cube.ele --region 1 -o out.ele", "refine cube.ele --cells missing.txt -o out.ele",
+        "refine cube.ele --all -o out.ele --maps out.ele",
+        "refine cube.ele --all -o out.ele --maps cube.node",
+        "refine cube.ele --all -o out.ele --maps no/maps.txt",
+        "refine cube.ele --all -o out.ele --maps /dev/null",
         "refine cube.ele extra.ele --all -o out.ele", "info", "info missing.mesh",
         "convert cube.ele", "convert cube.ele out.obj", "generate", "generate cube",
         "generate kuhn 0 -o out.ele", "generate kuhn 1 2 -o out.ele",
         "generate kuhn 99999999999 -o out.ele", "generate kuhn 2",
         "generate gear --bore 5 -o out.ele", "generate sphere --edge 0 -o out.ele",
-        "generate random 3 -o out.ele"));
+        "generate random 3 -o out.ele", "generate random 9 --seed -1 -o out.ele"));
 
 TEST(Version, IsPrinted) {
     const TemporaryFolder folder;

@@ -156,6 +156,36 @@ TEST(Refine, CarriesRegionsFacetsAndEdgesOfASolid) {
     EXPECT_EQ(after["regions"][1]["cells"], 64 * before["regions"][1]["cells"].get<int>());
 }
 
+TEST(Refine, BeyondALimitOnFileSizesIsAFailureOfTheSystemThatLeavesNothing) {
+    const TemporaryFolder folder;
+    ASSERT_EQ(test::octetra("generate kuhn 8 -o cube.mesh", folder).status, 0);
+    const test::Outcome run = test::run_program(
+        {"/bin/bash", "-c", "ulimit -f 8; " OCTETRA_PROGRAM " refine cube.mesh --all -o f.mesh"},
+        folder.path());
+    EXPECT_EQ(run.status, 3);
+    EXPECT_EQ(run.err, "octetra: f.mesh: writing failed: File too large\n");
+    std::filesystem::remove(folder / "cube.mesh");
+    EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
+}
+
+TEST(Refine, OutOfMemoryIsAFailureOfTheSystemThatLeavesNothing) {
+    const TemporaryFolder folder;
+    ASSERT_EQ(test::octetra("generate kuhn 8 -o cube.mesh", folder).status, 0);
+    const auto with_little_memory = [&](const std::string& arguments) {
+        return test::run_program(
+            {"/bin/bash", "-c", "ulimit -v 200000; " OCTETRA_PROGRAM " " + arguments},
+            folder.path());
+    };
+    if (with_little_memory("--version").status != 0) {
+        GTEST_SKIP() << "built to need much address space, as with the address sanitizer";
+    }
+    const auto run = with_little_memory("refine cube.mesh --all --levels 50 -o f.mesh");
+    EXPECT_EQ(run.status, 3);
+    EXPECT_EQ(run.err, "octetra: out of memory\n");
+    std::filesystem::remove(folder / "cube.mesh");
+    EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
+}
+
 TEST(Refine, TurnsInvertedCellsRoundOnlyWhenAsked) {
     const TemporaryFolder folder;
     (void)folder.write("m.node", "4 3 0 0\n0 0 0 0\n1 1 0 0\n2 0 1 0\n3 0 0 1\n");

@@ -1,3 +1,4 @@
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -10,6 +11,7 @@
 
 #include <octetra/core/error.hpp>
 #include <octetra/core/files.hpp>
+#include <octetra/core/maps.hpp>
 
 #include "support/meshes.hpp"
 #include "support/temporary_folder.hpp"
@@ -49,6 +51,31 @@ TEST(WriteMesh, ThatFailsLeavesWhatWasThereBefore) {
     EXPECT_THROW((void)write_mesh(test::kuhn(2, 2, 2), folder / "a.node"), SystemError);
     EXPECT_EQ(test::content_of(folder / "a.node"), before);
     EXPECT_THAT(names_in(folder.path()), testing::ElementsAre("a.ele", "a.node"));
+}
+
+TEST(WriteMesh, RemovesNoFolderThatStandsWhereFacesOfAnotherMeshMight) {
+    for (const std::string extension : {"face", "edge"}) {
+        const TemporaryFolder folder;
+        std::filesystem::create_directory(folder / ("a." + extension));
+        EXPECT_THAT(test::thrown_by<SystemError>(
+                        [&] { (void)write_mesh(test::kuhn(1, 1, 1), folder / "a.ele"); }),
+                    HasSubstr("a." + extension + ": is a directory"));
+        EXPECT_THAT(names_in(folder.path()), testing::ElementsAre("a." + extension));
+    }
+}
+
+TEST(WriteMesh, TakesThePlaceOfNothingButAFile) {
+    const TemporaryFolder folder;
+    const Mesh mesh = test::kuhn(1, 1, 1);
+    ASSERT_EQ(::mkfifo((folder / "a.mesh").c_str(), 0600), 0);
+    EXPECT_THAT(test::thrown_by<InputError>([&] { (void)write_mesh(mesh, folder / "a.mesh"); }),
+                HasSubstr("a.mesh: is a device or the like"));
+    ASSERT_EQ(::mkfifo((folder / "a.node").c_str(), 0600), 0);
+    EXPECT_THROW((void)write_mesh(mesh, folder / "a.ele"), SystemError);
+    EXPECT_THROW(write_maps({}, folder / "a.node"), SystemError);
+    EXPECT_TRUE(std::filesystem::is_fifo(folder / "a.mesh"));
+    EXPECT_TRUE(std::filesystem::is_fifo(folder / "a.node"));
+    EXPECT_THAT(names_in(folder.path()), testing::ElementsAre("a.mesh", "a.node"));
 }
 
 TEST(WriteMesh, RefusesUnknownExtensionsAndMissingFolders) {

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <ostream>
 #include <string>
 #include <vector>
@@ -75,6 +76,10 @@ INSTANTIATE_TEST_SUITE_P(
         {"FlatAmongScatteredLines",
          head + "Vertices 4\n0 0 0 0\n1 0 0 0\n0 1 0 0\n1 1 0 0\nTetrahedra\n1\n1 2\n3 4 0", 8,
          "cell 1 of this section: the cell is flat"},
+        {"FlatAmongLinesThatOnlyAddUp",
+         head + "Vertices 5\n0 0 0 0\n1 0 0 0\n0 1 0 0\n1 1 0 0\n0 0 1 0\nTetrahedra\n3\n1 2\n" +
+             "3 5 0\n1 2 3 5 0 1 2 3 4 0\n",
+         9, "cell 3 of this section: the cell is flat"},
         {"TwoSections", head + vertices + vertices + "End\n", 9, "the first is on line 3"},
         {"AfterEnd", good + "Corners\n0\n", 13, "text after the keyword End"},
         {"StrayTriangle", head + vertices + cells + "Triangles\n1\n1 2 2 0\nEnd\n", 14,
@@ -104,6 +109,12 @@ TEST(MeditReader, TakesTokensAcrossLinesInAnyOrderWithComments) {
               read(good));
 }
 
+TEST(MeditReader, TakesCarriageReturnsAloneForBlanks) {
+    std::string text = good;
+    std::ranges::replace(text, '\n', '\r');
+    EXPECT_EQ(read(text), read(good));
+}
+
 TEST(MeditReader, SkipsWhatItDoesNotKeepAndSaysSo) {
     std::string note;
     const Mesh mesh = read(head + vertices + "Corners\n2\n1\n2\nNormals 1 0 0 1\n" + cells + "End",
@@ -118,6 +129,10 @@ TEST(MeditReader, TakesAFileThatLacksEndAndSaysSo) {
     EXPECT_EQ(read(head + vertices + cells, {.note = [&](const auto& n) { note = n; }}),
               read(good));
     EXPECT_THAT(note, HasSubstr("without the keyword End"));
+}
+
+TEST(MeditReader, SaysOnlyOneThingOfAFileThatIsAllHead) {
+    EXPECT_THROW((void)read(head, {.note = [](const auto& n) { FAIL() << n; }}), InputError);
 }
 
 TEST(MeditReader, TurnsInvertedCellsRoundWhenAsked) {

@@ -80,6 +80,14 @@ TEST(RoundTrip, CoordinatesKeepEveryBit) {
     EXPECT_EQ(test::bits(through_file(mesh, "a.mesh")), test::bits(mesh));
 }
 
+TEST(RoundTrip, CoordinatesTakeNoMoreDigitsThanTheyNeed) {
+    const TemporaryFolder folder;
+    (void)write_mesh(test::one_cell({{{0.1, 0, 0}, {1.1, 0, 0}, {0.3, 1e300, 0}, {0, 0, 2.5e-9}}}),
+                     folder / "a.ele");
+    EXPECT_EQ(test::content_of(folder / "a.node"),
+              "4 3 0 0\n0 0.1 0 0\n1 1.1 0 0\n2 0.3 1e+300 0\n3 0 0 2.5e-09\n");
+}
+
 TEST(RoundTrip, ExtremeCoordinatesKeepEveryBit) {
     constexpr double largest = std::numeric_limits<double>::max();
     constexpr double smallest = std::numeric_limits<double>::denorm_min();

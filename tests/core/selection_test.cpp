@@ -29,6 +29,19 @@ TEST(Selection, OfABoxTakesItsBorderIn) {
     EXPECT_FALSE(chooses({.boxes = {{{0, 0, 0}, {9, 9, 0.9}}}}, unit, 0, any_cell));
 }
 
+TEST(Selection, OfABoxBoundsEveryCoordinateFromBothSides) {
+    const Box around{{0.5, 0.5, 0.5}, {1.5, 1.5, 1.5}};
+    EXPECT_TRUE(chooses({.boxes = {around}}, unit, 0, any_cell));
+    for (double Point::*coordinate : {&Point::x, &Point::y, &Point::z}) {
+        Box beyond = around;
+        beyond.low.*coordinate = 1.25;
+        EXPECT_FALSE(chooses({.boxes = {beyond}}, unit, 0, any_cell));
+        Box before = around;
+        before.high.*coordinate = 0.75;
+        EXPECT_FALSE(chooses({.boxes = {before}}, unit, 0, any_cell));
+    }
+}
+
 TEST(Selection, OfARegionGoesByTheTag) {
     EXPECT_TRUE(chooses({.regions = {3, -7}}, unit, -7, any_cell));
     EXPECT_FALSE(chooses({.regions = {3, -7}}, unit, 7, any_cell));
@@ -78,6 +91,17 @@ TEST(Selection, AtRandomDrawsOtherCellsForAnotherSeed) {
     }
     EXPECT_GT(different, mesh.cells.size() / 3);
     EXPECT_LT(different, 2 * mesh.cells.size() / 3);
+}
+
+TEST(Selection, AtRandomTakesMinusZeroForZero) {
+    Corners negative = unit;
+    for (Point& p : negative) {
+        for (double* c : {&p.x, &p.y, &p.z}) *c = *c == 0 ? -0.0 : *c;
+    }
+    for (std::uint64_t seed = 0; seed < 64; ++seed) {
+        const Selection drawn{.random = RandomShare{0.5, seed}};
+        EXPECT_EQ(chooses(drawn, negative, 0, any_cell), chooses(drawn, unit, 0, any_cell));
+    }
 }
 
 TEST(Selection, DoesNotDependOnTheOrderOfTheCorners) {

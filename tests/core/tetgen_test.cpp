@@ -1,7 +1,13 @@
+#include <sys/stat.h>
+
+#include <cmath>
+#include <limits>
+#include <numbers>
 #include <ostream>
 #include <string>
 #include <vector>
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -86,6 +92,7 @@ INSTANTIATE_TEST_SUITE_P(
          "4 fields expected, 6 found; the first extra one is '9'"},
         {"NotANumber", node_line(4, "2 0 one 0"), "m.node:4", "y should be a number, not 'one'"},
         {"HalfANumber", node_line(4, "2 0 1x 0"), "m.node:4", "not '1x'"},
+        {"TwoSigns", node_line(4, "2 0 +-1 0"), "m.node:4", "y should be a number, not '+-1'"},
         {"NaN", node_line(4, "2 0 nan 0"), "m.node:4", "y is not finite: 'nan'"},
         {"Infinity", node_line(4, "2 -inf 0 0"), "m.node:4", "x is not finite: '-inf'"},
         {"BeyondDoubles", node_line(4, "2 0 1e999 0"), "m.node:4", "y is out of range: '1e999'"},
@@ -114,6 +121,10 @@ INSTANTIATE_TEST_SUITE_P(
          {.node = good_node, .ele = "1 4 1\n0 0 1 2 3 3e9\n"},
          "m.ele:2",
          "whole number of 32 bits"},
+        {"HugeNegativeRegion",
+         {.node = good_node, .ele = "1 4 1\n0 0 1 2 3 -2147483649\n"},
+         "m.ele:2",
+         "whole number of 32 bits"},
         {"CornerMissing", ele_line(2, "0 0 1 2"), "m.ele:2", "a vertex number is missing"},
         {"CornerOutOfRange", ele_line(2, "0 0 1 2 4"), "m.ele:2", "there is no vertex 4"},
         {"CornerNegative", ele_line(2, "0 0 1 2 -1"), "m.ele:2", "should be a whole number"},
@@ -122,6 +133,9 @@ INSTANTIATE_TEST_SUITE_P(
         {"CornerTwice", ele_line(2, "0 0 1 1 3"), "m.ele:2", "same vertex twice"},
         {"Inverted", ele_line(2, "0 1 0 2 3"), "m.ele:2", "inverted"},
         {"Flat", {.node = with_line(good_node, 5, "3 1 1 0")}, "m.ele:2", "flat"},
+        {"CellCountHuge", ele_line(1, "99999999999 4 0"), "m.ele:1", "cells announced"},
+        {"FaceCountHuge", {.face = "99999999999 0\n0 0 1 2\n"}, "m.face:1", "holds at most"},
+        {"EdgeCountHuge", {.edge = "99999999999 0\n0 0 1\n"}, "m.edge:1", "holds at most"},
         {"OtherFirstNumber", ele_line(2, "1 0 1 2 3"), "m.ele:2", "entry number 0 expected"},
         {"StrayFace",
          {.node = "5 3\n0 0 0 0\n1 1 0 0\n2 0 1 0\n3 0 0 1\n4 5 5 5\n",
@@ -195,8 +209,64 @@ TEST(TetgenReader, RefusesWhatIsNotAFile) {
     std::filesystem::create_directory(folder / "d.mesh");
     EXPECT_THAT(test::thrown_by<InputError>([&] { (void)read_mesh(folder / "d.mesh"); }),
                 HasSubstr("is not a file"));
+    ASSERT_EQ(::mkfifo((folder / "p.mesh").c_str(), 0600), 0);  // and do not wait for a writer
+    EXPECT_THAT(test::thrown_by<InputError>([&] { (void)read_mesh(folder / "p.mesh"); }),
+                HasSubstr("is not a file"));
     EXPECT_THAT(test::thrown_by<InputError>([&] { (void)read_mesh(folder / "m.stl"); }),
                 HasSubstr("is named by its extension"));
+}
+
+TEST(TetgenReader, ReportsWhatIsThereAndCannotBeOpened) {
+    const TemporaryFolder folder;
+    std::filesystem::create_symlink("loop.ele", folder / "loop.ele");
+    std::filesystem::create_symlink("loop.node", folder / "loop.node");
+    EXPECT_THAT(test::thrown_by<InputError>([&] { (void)read_mesh(folder / "loop.ele"); }),
+                HasSubstr("loop.node: cannot be opened: Too many levels of symbolic links"));
+    (void)folder.write("m.node", good_node);
+    (void)folder.write("m.ele", good_ele);
+    for (const std::string extension : {"edge", "face"}) {
+        std::filesystem::create_symlink("gone", folder / ("m." + extension));
+        EXPECT_THAT(test::thrown_by<InputError>([&] { (void)read_mesh(folder / "m.ele"); }),
+                    HasSubstr("m." + extension + ": cannot be opened: No such file"));
+    }
+}
+
+/// `count` cells round one edge of two hubs, their faces at that edge's lower end listed.
+Files fan(int count) {
+    Files files{.node = fmt::format("{} 3\n0 0 0 -1\n1 0 0 1\n", count + 2),
+                .ele = fmt::format("{} 4\n", count),
+                .face = fmt::format("{} 0\n", count)};
+    for (int i = 0; i < count; ++i) {
+        const double angle = 2 * std::numbers::pi * i / count;
+        files.node += fmt::format("{} {} {} 0\n", i + 2, std::cos(angle), std::sin(angle));
+        files.ele += fmt::format("{} 0 {} {} 1\n", i, i + 2, (i + 1) % count + 2);
+        files.face += fmt::format("{} {} {} 0\n", i, (i + 1) % count + 2, i + 2);
+    }
+    return files;
+}
+
+TEST(TetgenReader, TakesFansInTimeThatDoesNotGrowWithTheSquareOfTheirSize) {
+    constexpr int count = 100000;  // the square of it takes longer than any test may
+    EXPECT_EQ(read(fan(count)).facets.size(), std::size_t{count});
+}
+
+TEST(TetgenReader, FindsTheFirstOfStrayFacesAmongMany) {
+    Files files = fan(50);
+    const std::string last = files.face.substr(files.face.rfind("49 "));
+    files.face.replace(files.face.size() - last.size(), last.size(), "49 0 20 9\n");
+    EXPECT_THAT(test::thrown_by<InputError>([&] { (void)read(files); }),
+                HasSubstr("m.face:51: face 49 belongs to no cell"));
+}
+
+TEST(TetgenReader, TakesEveryMarkerOf32Bits) {
+    EXPECT_EQ(read({.face = "2 1\n0 0 1 2 -2147483648\n1 1 2 3 2147483647\n"}).facet_markers,
+              (IndexVector<FacetIndex, Marker>{std::numeric_limits<Marker>::min(),
+                                               std::numeric_limits<Marker>::max()}));
+}
+
+TEST(TetgenReader, TakesFacesThatAreListedTwice) {
+    EXPECT_EQ(read({.face = "3 1\n0 0 1 2 7\n1 2 1 0 8\n2 0 1 2 7\n"}).facet_markers,
+              (IndexVector<FacetIndex, Marker>{7, 8, 7}));
 }
 
 TEST(CellList, IsReadAscendingAndOnce) {

@@ -121,6 +121,14 @@ TEST(Counts, ApproachTheLimitsOfUniformRefinement) {
     EXPECT_NEAR(2 * edges / vertices, 14, 1);
 }
 
+TEST(Numbering, GoesOnFromWhereTheInputBegins) {
+    Mesh mesh = test::one_cell(test::tie_free_corners);
+    mesh.first_number = 1;
+    const Refinement fine = refine(mesh, everything, Scheme::eight, 2);
+    EXPECT_EQ(fine.mesh.first_number, 1U);
+    EXPECT_EQ(fine.maps.first_number, 1U);
+}
+
 TEST(Counts, StayAsTheyAreWhereNothingIsChosen) {
     const Mesh mesh = test::shaken_kuhn(2, 0.2, 1);
     EXPECT_EQ(refine(mesh, {}, Scheme::eight, 3).mesh, mesh);

@@ -81,6 +81,16 @@ TEST(Rounding, NamesTheCellAsTheFileNumbersIt) {
         HasSubstr("cell 2, level 1"));
 }
 
+TEST(Rounding, AtALaterLevelNamesTheCellOfTheInput) {
+    Mesh mesh = test::one_cell(test::cube_corner);
+    const Mesh small = cell_of_side(4);  // two levels are exact, the third is not possible
+    mesh.points.insert(mesh.points.end(), small.points.begin(), small.points.end());
+    mesh.cells.append({VertexIndex{4}, VertexIndex{5}, VertexIndex{6}, VertexIndex{7}});
+    EXPECT_THAT(
+        test::thrown_by<InputError>([&] { (void)refine(mesh, {.all = true}, Scheme::eight, 3); }),
+        HasSubstr("cell 1, level 3"));
+}
+
 TEST(Rounding, ThatWouldInvertAChildIsReported) {
     // A sliver one grid step thick, whose midpoints' rounding carries a vertex through a face.
     std::size_t inverted = 0;
@@ -111,8 +121,16 @@ TEST(Rounding, ThatWouldInvertAChildIsReported) {
 
 TEST(Rounding, OfMidpointsBeyondTheLargestDoubleIsReported) {
     const double big = 0x1.8p1023;
-    const Mesh mesh = test::one_cell({{{big, 0, 0}, {big, big, 0}, {big, 0, big}, {0, 0, 0}}});
-    EXPECT_THROW((void)refine(mesh, {.all = true}, Scheme::eight, 1), InputError);
+    const std::vector<std::array<Point, 4>> cells{
+        {{{big, 0, 0}, {big, 1, 0}, {big, 0, 1}, {0, 0, 0}}},
+        {{{0, big, 0}, {1, big, 0}, {0, big, 1}, {0, 0, 0}}},
+        {{{0, 0, big}, {1, 0, big}, {0, 1, big}, {0, 0, 0}}}};
+    for (const auto& corners : cells) {
+        EXPECT_THAT(test::thrown_by<InputError>([&] {
+                        (void)refine(test::one_cell(corners), {.all = true}, Scheme::eight, 1);
+                    }),
+                    HasSubstr("cannot be rounded"));
+    }
 }
 
 TEST(Rounding, OfInexactMidpointsKeepsAllChildrenPositive) {

@@ -140,6 +140,7 @@ TEST(Vertices, AtMidpointsHaveTheMeanOfTheAttributesOfTheEnds) {
     mesh.attributes_per_point = 2;
     mesh.point_attributes = {0, 10, 1, 20, 4, 40, 9, 80};
     const Mesh fine = refine(mesh, {.all = true}, Scheme::two, 1).mesh;  // midpoint of 13
+    EXPECT_EQ(fine.attributes_per_point, 2U);
     EXPECT_EQ(fine.point_attributes, (std::vector<double>{0, 10, 1, 20, 4, 40, 9, 80, 5, 50}));
 }
 

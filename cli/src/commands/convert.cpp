@@ -34,7 +34,7 @@ void add_convert(CLI::App& program) {
     command->add_option("OUT", options->output, "where to write: .ele, .mesh or .vtu")
         ->type_name("")
         ->required();
-    command->add_flag("--quiet", options->quiet, "print nothing but errors");
+    command->add_flag("--quiet", options->quiet, "print nothing but notes and errors");
     command->footer(
         "Example:\n"
         "  octetra generate torus -o torus.1.ele\n"

@@ -1,3 +1,4 @@
+#include <concepts>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -46,7 +47,7 @@ private:
     std::shared_ptr<GenerateOptions> declare_common() {
         auto common = std::make_shared<GenerateOptions>();
         add_output_option(*generate_, common->output);
-        generate_->add_flag("--quiet", common->quiet, "print nothing but errors");
+        generate_->add_flag("--quiet", common->quiet, "print nothing but notes and errors");
         return common;
     }
 
@@ -59,7 +60,12 @@ template <class Number>
 std::shared_ptr<Number> option(CLI::App& shape, const std::string& name, Number standard,
                                const std::string& description, const std::string& type = "LENGTH") {
     auto value = std::make_shared<Number>(standard);
-    shape.add_option(name, *value, fmt::format("{} [{}]", description, standard))->type_name(type);
+    CLI::Option* declared =
+        shape.add_option(name, *value, fmt::format("{} [{}]", description, standard));
+    declared->type_name(type);
+    if (std::unsigned_integral<Number>) {  // else -1 would be taken for 2^64 - 1
+        declared->check(CLI::NonNegativeNumber.description(""));
+    }
     return value;
 }
 

@@ -1,7 +1,11 @@
+#include <algorithm>
+#include <array>
 #include <cstdio>
+#include <filesystem>
 #include <map>
 #include <memory>
 #include <string>
+#include <string_view>
 
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
@@ -48,9 +52,21 @@ reference::Refinement run_engine(const Mesh& mesh, const Selection& selection,
     }
 }
 
+/// The maps may not take the place of a mesh, be it the input or one of the files just written.
+void check_maps_path(const std::filesystem::path& path) {
+    constexpr std::array<std::string_view, 6> mesh_files{".ele",  ".node", ".face",
+                                                         ".edge", ".mesh", ".vtu"};
+    if (std::ranges::find(mesh_files, path.extension()) != mesh_files.end()) {
+        throw InputError(fmt::format("--maps: {} is the name of a mesh file; give the maps another",
+                                     path.native()));
+    }
+    check_place(path);
+}
+
 void refine(const RefineOptions& options) {
     Selection selection = parse_selection(options.selection);
     check_writable(options.output);
+    if (!options.maps.empty()) check_maps_path(options.maps);
 
     Stopwatch watch;
     const Mesh mesh = read_input(options.input);
@@ -102,7 +118,7 @@ void add_refine(CLI::App& program) {
         ->add_option("--maps", options->maps,
                      "also write each cell's parent and each midpoint's edge, as text")
         ->type_name("FILE");
-    refine_command->add_flag("--quiet", options->quiet, "print nothing but errors");
+    refine_command->add_flag("--quiet", options->quiet, "print nothing but notes and errors");
     refine_command->footer(
         "Example:\n"
         "  octetra generate gear -o gear.1.ele\n"

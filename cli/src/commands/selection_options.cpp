@@ -57,7 +57,10 @@ void add_selection_options(CLI::App& subcommand, SelectionOptions& options) {
     subcommand.add_option("--random", options.random, "about this share of the cells, 0 to 1")
         ->type_name("FRACTION")
         ->group(group);
-    subcommand.add_option("--seed", options.seed, "for --random [0]")->type_name("N")->group(group);
+    subcommand.add_option("--seed", options.seed, "for --random [0]")
+        ->type_name("N")
+        ->check(CLI::NonNegativeNumber.description(""))  // else -1 would be taken for 2^64 - 1
+        ->group(group);
     subcommand.add_option("--max-volume", options.max_volume, "cells of a larger volume")
         ->type_name("V")
         ->group(group);

@@ -64,9 +64,17 @@ void check_writable(const fs::path& path) {
                         "(TetGen), .mesh (Medit), .vtu (VTK)",
                         path.native()));
     }
+    check_place(path);
+}
+
+void check_place(const fs::path& path) {
     std::error_code ignored;
-    if (fs::is_directory(path, ignored)) {
+    const fs::file_status there = fs::status(path, ignored);
+    if (fs::is_directory(there)) {
         throw InputError(fmt::format("{}: is a directory, not a file", path.native()));
+    }
+    if (fs::exists(there) && !fs::is_regular_file(there)) {
+        throw InputError(fmt::format("{}: is a device or the like, not a file", path.native()));
     }
     const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
     if (!fs::is_directory(folder, ignored)) {

@@ -81,7 +81,7 @@ private:
 struct Section {
     std::uint64_t keyword_line = 0;  ///< 0: there was no such section
     std::uint64_t first_line = 0;    ///< of the first entry
-    bool consecutive = false;        ///< entry i stands on line first_line + i
+    bool consecutive = true;         ///< entry i begins on line first_line + i
 };
 
 class MeditReader {
@@ -121,9 +121,9 @@ private:
     bool read_section() {
         const std::string keyword{tokens_.text()};
         if (keyword.empty()) {
+            if (vertices_.keyword_line == 0) reader_.fail("there is no section Vertices");
             options_->note(
                 fmt::format("{}: the file ends without the keyword End", reader_.path().native()));
-            if (vertices_.keyword_line == 0) reader_.fail("there is no section Vertices");
             return false;
         }
         if (keyword == "End") {
@@ -191,9 +191,9 @@ private:
         for (std::uint64_t i = 0; i < count; ++i) {
             read_entry([&] {
                 if (section.first_line == 0) section.first_line = reader_.line_number();
+                if (reader_.line_number() != section.first_line + i) section.consecutive = false;
             });
         }
-        section.consecutive = reader_.line_number() + 1 == section.first_line + count;
         return section;
     }
 

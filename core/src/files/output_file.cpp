@@ -21,8 +21,13 @@ OutputFile::OutputFile(std::filesystem::path path)
     : path_(std::move(path)),
       temporary_(fmt::format("{}.{}.tmp", path_.native(), ::getpid())),
       buffer_(buffer_size) {
-    if (std::error_code ignored; std::filesystem::is_directory(path_, ignored)) {
-        throw SystemError(fmt::format("{}: is a directory, not a file", path_.native()));
+    // Taking the name of a device would put an end to the device: think of /dev/null.
+    std::error_code ignored;
+    if (const auto there = std::filesystem::status(path_, ignored);
+        std::filesystem::exists(there) && !std::filesystem::is_regular_file(there)) {
+        throw SystemError(fmt::format(
+            "{}: {}, not a file", path_.native(),
+            std::filesystem::is_directory(there) ? "is a directory" : "is a device or the like"));
     }
     constexpr mode_t read_write_for_all = 0666;  // less what the umask takes away
     file_ =

@@ -1,6 +1,7 @@
 #include <array>
 #include <optional>
 #include <string_view>
+#include <system_error>
 
 #include <fmt/format.h>
 
@@ -187,8 +188,14 @@ fs::path companion(fs::path path, std::string_view extension) {
     return path.replace_extension(extension);
 }
 
+/// Is there anything of this name? What is there but cannot be read must be opened, to be reported.
+bool is_there(const fs::path& path) {
+    std::error_code ignored;
+    return fs::symlink_status(path, ignored).type() != fs::file_type::not_found;
+}
+
 void require_companion(const fs::path& path, const fs::path& other) {
-    if (!fs::exists(other) && fs::exists(path)) {
+    if (!is_there(other) && is_there(path)) {
         throw InputError(fmt::format("{}: the file {} is missing, which belongs to it",
                                      path.native(), other.native()));
     }
@@ -205,10 +212,10 @@ Mesh read_tetgen(const fs::path& path, const ReadOptions& options) {
     Mesh mesh;
     read_node(node, mesh);
     read_ele(ele, options, mesh);
-    if (const fs::path face = companion(path, ".face"); fs::exists(face)) {
+    if (const fs::path face = companion(path, ".face"); is_there(face)) {
         read_listed(face, "face", mesh.facets, mesh.facet_markers, find_stray_facet, mesh);
     }
-    if (const fs::path edge = companion(path, ".edge"); fs::exists(edge)) {
+    if (const fs::path edge = companion(path, ".edge"); is_there(edge)) {
         read_listed(edge, "edge", mesh.edges, mesh.edge_markers, find_stray_edge, mesh);
     }
     return mesh;

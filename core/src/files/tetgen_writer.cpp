@@ -1,5 +1,10 @@
 #include <memory>
+#include <system_error>
 #include <vector>
+
+#include <fmt/format.h>
+
+#include <octetra/core/error.hpp>
 
 #include "files/output_file.hpp"
 #include "files/tetgen.hpp"
@@ -56,6 +61,13 @@ void write_entries(OutputFile& out, const IndexVector<I, std::array<VertexIndex,
     }
 }
 
+/// To fail on what cannot be removed before anything has been put in place, not after it.
+void refuse_directory(const fs::path& stale) {
+    if (std::error_code ignored; fs::is_directory(stale, ignored)) {
+        throw SystemError(fmt::format("{}: is a directory, not a file", stale.native()));
+    }
+}
+
 }  // namespace
 
 void write_tetgen(const Mesh& mesh, const fs::path& path) {
@@ -88,6 +100,7 @@ void write_tetgen(const Mesh& mesh, const fs::path& path) {
         write_entries(edge, mesh.edges, mesh.edge_markers, mesh.first_number);
     }
 
+    for (const fs::path& file : stale) refuse_directory(file);
     for (const auto& file : files) file->close();
     for (const auto& file : files) file->commit();
     // Left from another mesh, these would be read as this one's.

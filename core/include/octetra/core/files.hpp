@@ -43,9 +43,13 @@ struct WriteExtras {
 [[nodiscard]] std::string write_mesh(const Mesh& mesh, const std::filesystem::path& path,
                                      const WriteExtras& extras = {});
 
-/// Throws InputError unless `path` has an extension that can be written and stands in a folder that
-/// is writable. (To refuse before the work, not after it.)
+/// Throws InputError unless `path` has an extension that can be written and stands where
+/// check_place lets it. (To refuse before the work, not after it.)
 void check_writable(const std::filesystem::path& path);
+
+/// Throws InputError unless a file can be put at `path`: in a folder that is writable, and in place
+/// of nothing but a file.
+void check_place(const std::filesystem::path& path);
 
 /// Reads a list of cell numbers, separated by blanks or line ends, `#` starting a comment, that
 /// count from `first_number` and are less than `cell_count` + `first_number`.

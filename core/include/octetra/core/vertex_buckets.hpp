@@ -11,7 +11,8 @@
 namespace octetra {
 
 /// The entities of a list (facets, edges), findable by their vertices in whatever order: put into
-/// buckets by smallest vertex. Keeps a pointer to the list. Memory: 4 bytes per vertex and entity.
+/// buckets by smallest vertex, and sorted within a bucket, because thousands may meet at the hub of a
+/// fan. Keeps a pointer to the list. Memory: 4 bytes per vertex and entity.
 template <class I, std::size_t N>
 class VertexBuckets {
 public:
@@ -24,14 +25,21 @@ public:
         std::exclusive_scan(bucket_begin_.begin(), bucket_begin_.end(), bucket_begin_.begin(), 0U);
         auto next = bucket_begin_;
         for (I i{0}; i < list.end_index(); ++i) members_[next[smallest(list[i])]++] = i;
+        for (std::size_t bucket = 0; bucket < vertex_count; ++bucket) {
+            std::ranges::sort(members_.begin() + bucket_begin_[bucket],
+                              members_.begin() + bucket_begin_[bucket + 1], {},
+                              [&](I i) { return sorted(list[i]); });
+        }
     }
 
     /// Calls found(i) for each entity i of the list that has these vertices.
     void find(const Vertices& vertices, auto&& found) const {
-        const std::uint32_t bucket = smallest(vertices);
-        for (auto k = bucket_begin_[bucket]; k < bucket_begin_[bucket + 1]; ++k) {
-            if (sorted((*list_)[members_[k]]) == sorted(vertices)) found(members_[k]);
-        }
+        const Vertices wanted = sorted(vertices);
+        const std::uint32_t bucket = wanted.front().value();
+        const auto end = members_.begin() + bucket_begin_[bucket + 1];
+        auto member = std::ranges::lower_bound(members_.begin() + bucket_begin_[bucket], end, wanted,
+                                               {}, [&](I i) { return sorted((*list_)[i]); });
+        for (; member != end && sorted((*list_)[*member]) == wanted; ++member) found(*member);
     }
 
 private:

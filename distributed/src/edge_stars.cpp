@@ -21,7 +21,8 @@ EdgeStars::EdgeStars(std::size_t vertex_count, const IndexVector<CellIndex, Cell
             if (slot == end_[low.value()]) {
                 high_end_[slot] = high;
                 ++end_[low.value()];
-                if (slot - begin_[low.value()] >= searched) hub_edges_.emplace(key(low, high), slot);
+                if (slot - begin_[low.value()] >= searched)
+                    hub_edges_.emplace(key(low, high), slot);
             }
             cell_to_edges_[c][e] = EdgeIndex{slot};
         }

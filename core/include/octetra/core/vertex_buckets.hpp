@@ -11,8 +11,8 @@
 namespace octetra {
 
 /// The entities of a list (facets, edges), findable by their vertices in whatever order: put into
-/// buckets by smallest vertex, and sorted within a bucket, because thousands may meet at the hub of a
-/// fan. Keeps a pointer to the list. Memory: 4 bytes per vertex and entity.
+/// buckets by smallest vertex, and sorted within a bucket, because thousands may meet at the hub of
+/// a fan. Keeps a pointer to the list. Memory: 4 bytes per vertex and entity.
 template <class I, std::size_t N>
 class VertexBuckets {
 public:
@@ -37,8 +37,9 @@ public:
         const Vertices wanted = sorted(vertices);
         const std::uint32_t bucket = wanted.front().value();
         const auto end = members_.begin() + bucket_begin_[bucket + 1];
-        auto member = std::ranges::lower_bound(members_.begin() + bucket_begin_[bucket], end, wanted,
-                                               {}, [&](I i) { return sorted((*list_)[i]); });
+        auto member =
+            std::ranges::lower_bound(members_.begin() + bucket_begin_[bucket], end, wanted, {},
+                                     [&](I i) { return sorted((*list_)[i]); });
         for (; member != end && sorted((*list_)[*member]) == wanted; ++member) found(*member);
     }
 

@@ -11,26 +11,38 @@
 #include <CLI/CLI.hpp>
 
 #include <octetra/core/error.hpp>
+#include <octetra/distributed/communicator.hpp>
 
 #include "commands/commands.hpp"
 
 namespace octetra::cli {
 namespace {
 
-int fail(Status status, std::string_view what) {
-    fmt::print(stderr, "octetra: {}\n", what);
+int fail(Status status, std::string_view what, const distributed::Communicator& world) {
+    if (world.is_first()) fmt::print(stderr, "octetra: {}\n", what);
     return static_cast<int>(status);
 }
 
-int parse_and_run(CLI::App& program, int argc, char** argv) {
+/// What one process met alone, and the others may be waiting for it.
+int fail_alone(std::string_view what, const distributed::Communicator& world) {
+    constexpr auto status = static_cast<int>(Status::system_failed);
+    if (world.size() == 1) return fail(Status::system_failed, what, world);
+    fmt::print(stderr, "octetra: rank {}: {}\n", world.rank(), what);
+    std::fflush(stderr);
+    distributed::MpiSession::abort(status);
+}
+
+int parse_and_run(CLI::App& program, int argc, char** argv,
+                  const distributed::Communicator& world) {
     try {
         program.parse(argc, argv);
     } catch (const CLI::Success& help_or_version) {
-        return program.exit(help_or_version);
+        return world.is_first() ? program.exit(help_or_version) : 0;
     } catch (const CLI::ParseError& error) {
-        fmt::print(stderr, "octetra: {}\nTry octetra --help, or octetra SUBCOMMAND --help.\n",
-                   error.what());
-        return static_cast<int>(Status::bad_input);
+        return fail(
+            Status::bad_input,
+            fmt::format("{}\nTry octetra --help, or octetra SUBCOMMAND --help.", error.what()),
+            world);
     }
     std::fflush(stdout);
     // Whoever reads the results from a pipe or a full disk must hear of it.
@@ -45,6 +57,9 @@ int run(int argc, char** argv) {
     // after, rather than that the signal ends the program.
     std::signal(SIGXFSZ, SIG_IGN);
 
+    const distributed::MpiSession session(&argc, &argv);
+    const distributed::Communicator& world = session.world();
+
     CLI::App program(
         "Refines tetrahedral meshes by longest-edge bisection (8T-LE).\n"
         "Files by extension: .ele/.node (TetGen), .mesh (Medit), .vtu (VTK, written only).",
@@ -56,20 +71,23 @@ int run(int argc, char** argv) {
         "Example:\n"
         "  octetra generate gear -o gear.1.ele\n"
         "  octetra refine gear.1.ele --sphere 1,0,0.1,0.3 --levels 2 -o fine.vtu\n"
+        "  mpirun -n 4 octetra refine gear.1.ele --all -o fine.1.ele    (the same bytes)\n"
         "Exit status: 0 done; 1 the answer is no; 2 bad usage or input; 3 the system failed.");
-    add_refine(program);
-    add_info(program);
-    add_generate(program);
-    add_convert(program);
+    add_refine(program, world);
+    add_info(program, world);
+    add_generate(program, world);
+    add_convert(program, world);
 
     try {
-        return parse_and_run(program, argc, argv);
+        return parse_and_run(program, argc, argv, world);
     } catch (const InputError& error) {
-        return fail(Status::bad_input, error.what());
+        return fail(Status::bad_input, error.what(), world);
+    } catch (const SystemError& error) {
+        return fail(Status::system_failed, error.what(), world);
     } catch (const std::bad_alloc&) {
-        return fail(Status::system_failed, "out of memory");
-    } catch (const std::exception& error) {  // SystemError, filesystem_error ...
-        return fail(Status::system_failed, error.what());
+        return fail_alone("out of memory", world);
+    } catch (const std::exception& error) {  // filesystem_error ...
+        return fail_alone(error.what(), world);
     }
 }
 

@@ -9,7 +9,7 @@
 namespace octetra::distributed {
 namespace {
 
-enum class Outcome : char { done, bad_input, system_failed, out_of_memory };
+enum class Outcome : char { done, bad_input, system_failed };
 
 Outcome run(const std::function<void()>& work, std::string& what) {
     try {
@@ -19,7 +19,8 @@ Outcome run(const std::function<void()>& work, std::string& what) {
         what = error.what();
         return Outcome::bad_input;
     } catch (const std::bad_alloc&) {
-        return Outcome::out_of_memory;
+        what = "out of memory";
+        return Outcome::system_failed;
     } catch (const std::exception& error) {
         what = error.what();
         return Outcome::system_failed;
@@ -41,7 +42,6 @@ void on_first(const Communicator& processes, const std::function<void()>& work) 
         case Outcome::done: return;
         case Outcome::bad_input: throw InputError(what);
         case Outcome::system_failed: throw SystemError(what);
-        case Outcome::out_of_memory: throw std::bad_alloc();
     }
 }
 

@@ -147,6 +147,11 @@ MpiSession::MpiSession(int* argc, char*** argv) {
     world_ = communicator_of(MPI_COMM_WORLD);
 }
 
+void MpiSession::abort(int status) {
+    MPI_Abort(MPI_COMM_WORLD, status);
+    std::_Exit(status);  // not reached; MPI_Abort is not declared not to return
+}
+
 MpiSession::~MpiSession() {
     world_ = Communicator();
     int initialized = 0;

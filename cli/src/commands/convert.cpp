@@ -5,6 +5,8 @@
 
 #include <octetra/core/files.hpp>
 
+#include <octetra/distributed/agreement.hpp>
+
 #include "commands/commands.hpp"
 #include "commands/mesh_options.hpp"
 
@@ -26,7 +28,7 @@ void convert(const ConvertOptions& options) {
 
 }  // namespace
 
-void add_convert(CLI::App& program) {
+void add_convert(CLI::App& program, const distributed::Communicator& world) {
     auto options = std::make_shared<ConvertOptions>();
     CLI::App* command = program.add_subcommand(
         "convert", "Write a mesh in another format, coordinates bit for bit");
@@ -39,7 +41,8 @@ void add_convert(CLI::App& program) {
         "Example:\n"
         "  octetra generate torus -o torus.1.ele\n"
         "  octetra convert torus.1.ele torus.mesh");
-    command->callback([options] { convert(*options); });
+    command->callback(
+        [options, world] { distributed::on_first(world, [&] { convert(*options); }); });
 }
 
 }  // namespace octetra::cli

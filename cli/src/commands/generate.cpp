@@ -8,6 +8,7 @@
 #include <CLI/CLI.hpp>
 
 #include <octetra/core/error.hpp>
+#include <octetra/distributed/agreement.hpp>
 #include <octetra/generator/clouds.hpp>
 #include <octetra/generator/lattices.hpp>
 #include <octetra/generator/solids.hpp>
@@ -24,9 +25,17 @@ struct GenerateOptions {
     bool quiet = false;
 };
 
+void generate(const GenerateOptions& options, const std::function<Mesh()>& make) {
+    check_writable(options.output);
+    const Mesh mesh = make();
+    write_output(mesh, options.output);
+    if (!options.quiet) report_written(mesh, options.output);
+}
+
 class Shapes {
 public:
-    explicit Shapes(CLI::App& generate) : generate_(&generate), common_(declare_common()) {}
+    Shapes(CLI::App& generate, const distributed::Communicator& world)
+        : generate_(&generate), world_(world), common_(declare_common()) {}
 
     /// Declares one shape. `declare(subcommand)` declares its options and returns what makes the
     /// mesh.
@@ -35,11 +44,8 @@ public:
         CLI::App* shape = generate_->add_subcommand(name, description);
         shape->fallthrough();  // -o belongs to `generate`, and may stand behind the shape
         shape->footer(fmt::format("Example:\n  octetra generate {}", example));
-        shape->callback([common = common_, make = declare(*shape)] {
-            check_writable(common->output);
-            const Mesh mesh = make();
-            write_output(mesh, common->output);
-            if (!common->quiet) report_written(mesh, common->output);
+        shape->callback([common = common_, world = world_, make = declare(*shape)] {
+            distributed::on_first(world, [&] { generate(*common, make); });
         });
     }
 
@@ -52,6 +58,7 @@ private:
     }
 
     CLI::App* generate_;
+    distributed::Communicator world_;
     std::shared_ptr<GenerateOptions> common_;
 };
 
@@ -167,7 +174,7 @@ void add_solids(Shapes& shapes) {
 
 }  // namespace
 
-void add_generate(CLI::App& program) {
+void add_generate(CLI::App& program, const distributed::Communicator& world) {
     CLI::App* generate =
         program.add_subcommand("generate", "Make a mesh: lattices, random points, solids");
     generate->require_subcommand(1);
@@ -175,7 +182,7 @@ void add_generate(CLI::App& program) {
         "Example:\n"
         "  octetra generate gear -o gear.1.ele\n"
         "Each shape has a --help of its own: octetra generate gear --help");
-    Shapes shapes(*generate);
+    Shapes shapes(*generate, world);
     add_lattices(shapes);
     add_clouds(shapes);
     add_solids(shapes);

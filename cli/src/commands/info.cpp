@@ -2,6 +2,8 @@
 
 #include <CLI/CLI.hpp>
 
+#include <octetra/distributed/agreement.hpp>
+
 #include "commands/commands.hpp"
 #include "commands/mesh_options.hpp"
 #include "info/mesh_statistics.hpp"
@@ -17,7 +19,7 @@ struct InfoOptions {
 
 }  // namespace
 
-void add_info(CLI::App& program) {
+void add_info(CLI::App& program, const distributed::Communicator& world) {
     auto options = std::make_shared<InfoOptions>();
     CLI::App* command = program.add_subcommand(
         "info", "Counts, size, volume, shapes of the cells and adjacency of a mesh");
@@ -27,9 +29,11 @@ void add_info(CLI::App& program) {
         "Example:\n"
         "  octetra generate kuhn 4 -o cube.1.ele\n"
         "  octetra info cube.1.ele --json");
-    command->callback([options] {
-        const MeshStatistics statistics = measure(read_input(options->input));
-        options->json ? print_json(statistics) : print_table(statistics);
+    command->callback([options, world] {
+        distributed::on_first(world, [&] {
+            const MeshStatistics statistics = measure(read_input(options->input));
+            options->json ? print_json(statistics) : print_table(statistics);
+        });
     });
 }
 

@@ -13,6 +13,9 @@
 #include <octetra/core/error.hpp>
 #include <octetra/core/files.hpp>
 #include <octetra/core/maps.hpp>
+#include <octetra/distributed/agreement.hpp>
+#include <octetra/distributed/partition.hpp>
+#include <octetra/distributed/refine.hpp>
 #include <octetra/reference/refine.hpp>
 
 #include "commands/commands.hpp"
@@ -24,6 +27,8 @@
 namespace octetra::cli {
 namespace {
 
+enum class Engine { distributed, reference };
+
 struct RefineOptions {
     InputOptions input;
     std::string output;
@@ -31,7 +36,9 @@ struct RefineOptions {
     SelectionOptions selection;
     Scheme scheme = Scheme::eight;
     int levels = 1;
-    std::string engine = "reference";
+    Engine engine = Engine::distributed;
+    std::string partition = "lepp";
+    distributed::Synchronisation synchronisation = distributed::Synchronisation::neighbour;
     bool quiet = false;
 };
 
@@ -43,13 +50,54 @@ void report(const RefineOptions& options, std::string_view doing, const Mesh& me
     std::fflush(stdout);
 }
 
-reference::Refinement run_engine(const Mesh& mesh, const Selection& selection,
-                                 const RefineOptions& options) {
+std::string refined_line(const RefineOptions& options, const distributed::Communicator& world) {
+    const std::string levels =
+        fmt::format("refined, {} level{}", options.levels, options.levels == 1 ? "" : "s");
+    return world.size() == 1 ? levels : fmt::format("{}, {} ranks", levels, world.size());
+}
+
+/// What an engine makes of a mesh; of several processes the first one has it.
+struct Refined {
+    Mesh mesh;
+    RefinementMaps maps;
+};
+
+/// Runs an engine; what it finds wrong with the mesh gets the mesh's name in front.
+auto naming_the_mesh(const RefineOptions& options, auto&& engine) {
     try {
-        return reference::refine(mesh, selection, options.scheme, options.levels);
+        return engine();
     } catch (const InputError& error) {
         throw InputError(fmt::format("{}: {}", options.input.path, error.what()));
     }
+}
+
+Refined refine_by_reference(const Mesh& mesh, const Selection& selection,
+                            const RefineOptions& options, const distributed::Communicator& world) {
+    Refined fine;
+    distributed::on_first(world, [&] {
+        auto result = naming_the_mesh(options, [&] {
+            return reference::refine(mesh, selection, options.scheme, options.levels);
+        });
+        fine = {std::move(result.mesh), std::move(result.maps)};
+    });
+    return fine;
+}
+
+Refined refine_distributed(Mesh mesh, const Selection& selection, const RefineOptions& options,
+                           const distributed::Partition& partition,
+                           const distributed::Communicator& world) {
+    std::vector<int> cell_to_rank;
+    distributed::on_first(world, [&] {
+        if (world.size() == 1) return;
+        cell_to_rank = distributed::partition_cells(mesh, world.size(), partition);
+    });
+    auto parts = distributed::distribute(world, std::move(mesh), cell_to_rank);
+    auto whole = naming_the_mesh(options, [&] {
+        distributed::refine(parts, selection,
+                            {options.scheme, options.levels, options.synchronisation});
+        return distributed::collect(std::move(parts));
+    });
+    return {std::move(whole.mesh), std::move(whole.maps)};
 }
 
 /// The maps may not take the place of a mesh, be it the input or one of the files just written.
@@ -63,32 +111,66 @@ void check_maps_path(const std::filesystem::path& path) {
     check_place(path);
 }
 
-void refine(const RefineOptions& options) {
+void refine(const RefineOptions& options, const distributed::Communicator& world) {
     Selection selection = parse_selection(options.selection);
-    check_writable(options.output);
-    if (!options.maps.empty()) check_maps_path(options.maps);
-
+    const auto partition = distributed::parse_partition(options.partition);
     Stopwatch watch;
-    const Mesh mesh = read_input(options.input);
-    complete_selection(selection, options.selection, mesh);
-    report(options, fmt::format("read {}", options.input.path), mesh, watch.lap());
+    Mesh mesh;
+    distributed::on_first(world, [&] {
+        check_writable(options.output);
+        if (!options.maps.empty()) check_maps_path(options.maps);
+        mesh = read_input(options.input);
+        complete_selection(selection, options.selection, mesh);
+        report(options, fmt::format("read {}", options.input.path), mesh, watch.lap());
+    });
+    world.broadcast(selection.cells);
 
-    const reference::Refinement fine = run_engine(mesh, selection, options);
-    report(options,
-           fmt::format("refined, {} level{}", options.levels, options.levels == 1 ? "" : "s"),
-           fine.mesh, watch.lap());
-    if (options.levels > 0 && fine.mesh.cells.size() == mesh.cells.size()) {
-        note("no cell was chosen: the mesh stays as it is");
-    }
+    const std::size_t cells_before = mesh.cells.size();
+    const Refined fine =
+        options.engine == Engine::reference
+            ? refine_by_reference(mesh, selection, options, world)
+            : refine_distributed(std::move(mesh), selection, options, partition, world);
+    distributed::on_first(world, [&] {
+        report(options, refined_line(options, world), fine.mesh, watch.lap());
+        if (options.levels > 0 && fine.mesh.cells.size() == cells_before) {
+            note("no cell was chosen: the mesh stays as it is");
+        }
+        write_output(fine.mesh, options.output, {.cell_to_parent = &fine.maps.cell_to_parent});
+        if (!options.maps.empty()) write_maps(fine.maps, options.maps);
+        report(options, fmt::format("wrote {}", options.output), fine.mesh, watch.lap());
+    });
+}
 
-    write_output(fine.mesh, options.output, {.cell_to_parent = &fine.maps.cell_to_parent});
-    if (!options.maps.empty()) write_maps(fine.maps, options.maps);
-    report(options, fmt::format("wrote {}", options.output), fine.mesh, watch.lap());
+void add_engine_options(CLI::App& command, RefineOptions& options) {
+    const std::string group = "How it is done (the result is the same bytes)";
+    const std::map<std::string, Engine> engines{{"distributed", Engine::distributed},
+                                                {"reference", Engine::reference}};
+    command
+        .add_option("--engine", options.engine,
+                    "the fast one, over MPI under mpirun, or the serial reference [distributed]")
+        ->type_name("distributed|reference")
+        ->transform(CLI::CheckedTransformer(engines).description(""))
+        ->group(group);
+    command
+        .add_option("--partition", options.partition,
+                    "which rank gets which cell: lepp, dual, block, random:SEED, file:PATH [lepp]")
+        ->type_name("METHOD")
+        ->group(group);
+    using distributed::Synchronisation;
+    const std::map<std::string, Synchronisation> ways{{"neighbour", Synchronisation::neighbour},
+                                                      {"gateway", Synchronisation::gateway}};
+    command
+        .add_option("--sync", options.synchronisation,
+                    "ranks tell their neighbours, or the first rank, which tells the others "
+                    "[neighbour]")
+        ->type_name("neighbour|gateway")
+        ->transform(CLI::CheckedTransformer(ways).description(""))
+        ->group(group);
 }
 
 }  // namespace
 
-void add_refine(CLI::App& program) {
+void add_refine(CLI::App& program, const distributed::Communicator& world) {
     auto options = std::make_shared<RefineOptions>();
     CLI::App* refine_command =
         program.add_subcommand("refine",
@@ -110,10 +192,7 @@ void add_refine(CLI::App& program) {
                      "a chosen cell selects all its edges, its faces' longest, or its longest [8t]")
         ->type_name("8t|4t|2t")
         ->transform(CLI::CheckedTransformer(schemes).description(""));
-    refine_command
-        ->add_option("--engine", options->engine, "the serial reference is the only one so far")
-        ->type_name("reference")
-        ->check(CLI::IsMember({"reference"}).description(""));
+    add_engine_options(*refine_command, *options);
     refine_command
         ->add_option("--maps", options->maps,
                      "also write each cell's parent and each midpoint's edge, as text")
@@ -122,8 +201,9 @@ void add_refine(CLI::App& program) {
     refine_command->footer(
         "Example:\n"
         "  octetra generate gear -o gear.1.ele\n"
-        "  octetra refine gear.1.ele --sphere 1,0,0.1,0.3 --levels 2 -o fine.vtu");
-    refine_command->callback([options] { refine(*options); });
+        "  octetra refine gear.1.ele --sphere 1,0,0.1,0.3 --levels 2 -o fine.vtu\n"
+        "On four ranks: mpirun -n 4 octetra refine ...");
+    refine_command->callback([options, world] { refine(*options, world); });
 }
 
 }  // namespace octetra::cli

@@ -7,7 +7,7 @@
 namespace octetra::distributed {
 
 /// Collective. Runs `work` on the first process, while the others wait. What it throws there is
-/// thrown on all: an InputError, a SystemError or std::bad_alloc as such, all else as SystemError.
+/// thrown on all: an InputError as such, all else as SystemError.
 void on_first(const Communicator& processes, const std::function<void()>& work);
 
 }  // namespace octetra::distributed

@@ -118,6 +118,10 @@ public:
     /// All processes that mpirun started, or this one alone.
     [[nodiscard]] const Communicator& world() const { return world_; }
 
+    /// Ends all processes at once with this exit status: for a failure that this one alone has met,
+    /// while the others may be waiting for it.
+    [[noreturn]] static void abort(int status);
+
 private:
     Communicator world_;
 };

@@ -1,0 +1,123 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "cli/octetra_program.hpp"
+#include "support/meshes.hpp"
+
+/// The program under mpirun: the same bytes in every file, one message, one exit status.
+namespace octetra {
+namespace {
+
+using test::TemporaryFolder;
+using testing::HasSubstr;
+using testing::Not;
+
+test::Outcome octetra_on(int ranks, const std::string& arguments, const TemporaryFolder& folder) {
+    return test::run_program(
+        test::words(std::string(OCTETRA_SOURCE_DIR "/tests/support/mpirun.sh ") +
+                    std::to_string(ranks) + " " + OCTETRA_PROGRAM + " " + arguments),
+        folder.path());
+}
+
+std::size_t occurrences(const std::string& text, const std::string& part) {
+    std::size_t count = 0;
+    for (auto at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++count;
+    return count;
+}
+
+class Parallel : public testing::Test {
+protected:
+    Parallel() {
+        EXPECT_EQ(test::octetra("generate gear -o gear.1.ele --quiet", folder).status, 0);
+    }
+    void expect_same_files(const std::string& a, const std::string& b) const {
+        for (const std::string extension : {"node", "ele", "face", "edge"}) {
+            EXPECT_EQ(test::content_of(folder / (a + "." + extension)),
+                      test::content_of(folder / (b + "." + extension)))
+                << b << "." << extension;
+        }
+    }
+    const TemporaryFolder folder;
+    const std::string refine = "refine gear.1.ele --sphere 1,0,0.15,0.4 --levels 2 ";
+};
+
+TEST_F(Parallel, WritesTheSameBytesOnAnyNumberOfRanksAndByTheReference) {
+    ASSERT_EQ(test::octetra(refine + "--engine reference -o r.ele --maps r.txt", folder).status, 0);
+    ASSERT_EQ(test::octetra(refine + "-o d.ele --maps d.txt", folder).status, 0);
+    expect_same_files("r", "d");
+    EXPECT_EQ(test::content_of(folder / "r.txt"), test::content_of(folder / "d.txt"));
+    ASSERT_EQ(test::octetra(refine + "-o r.mesh", folder).status, 0);
+    ASSERT_EQ(test::octetra(refine + "-o r.vtu", folder).status, 0);
+    for (const int ranks : {1, 2, 3, 4}) {
+        for (const std::string how :
+             {"", "--sync gateway --partition dual", "--partition random:7"}) {
+            const auto run = octetra_on(ranks, refine + how + " -o p.ele --maps p.txt", folder);
+            ASSERT_EQ(run.status, 0) << run.err;
+            expect_same_files("r", "p");
+            EXPECT_EQ(test::content_of(folder / "r.txt"), test::content_of(folder / "p.txt"));
+        }
+        for (const std::string extension : {"mesh", "vtu"}) {
+            ASSERT_EQ(octetra_on(ranks, refine + " -o p." + extension, folder).status, 0);
+            EXPECT_EQ(test::content_of(folder / ("r." + extension)),
+                      test::content_of(folder / ("p." + extension)));
+        }
+    }
+}
+
+TEST_F(Parallel, PrintsOnceWhatOneProcessPrints) {
+    const auto run = octetra_on(3, refine + "-o p.ele", folder);
+    EXPECT_EQ(occurrences(run.out, "read gear.1.ele"), 1U) << run.out;
+    EXPECT_THAT(run.out, HasSubstr("refined, 2 levels, 3 ranks"));
+    EXPECT_EQ(occurrences(octetra_on(2, "info gear.1.ele", folder).out, "Euler"), 1U);
+    EXPECT_EQ(occurrences(octetra_on(2, "--help", folder).out, "Exit status"), 1U);
+}
+
+TEST_F(Parallel, EndsInOneMessageAndTheSameStatusOnAllRanks) {
+    (void)folder.write("bad.ele", "1 4 0\n0 0 1 2\n");
+    (void)folder.write("bad.node", "4 3 0 0\n0 0 0 0\n1 1 0 0\n2 0 1 0\n3 0 0 1\n");
+    (void)folder.write("parts.txt", "0\n0\n");
+    const std::vector<std::pair<std::string, std::string>> failures{
+        {"refine bad.ele --all -o p.ele", "octetra: bad.ele:2: a vertex number is missing"},
+        {"refine gear.1.ele --region 3 -o p.ele", "octetra: --region: "},
+        {"refine gear.1.ele --all --partition file:parts.txt -o p.ele", "octetra: parts.txt:2: "},
+        {"refine gear.1.ele --all --partition metis -o p.ele", "octetra: --partition takes"},
+        {"refine gear.1.ele --all -o no/p.ele", "octetra: no/p.ele: "},
+        {"refine gear.1.ele -o p.ele", "octetra: say which cells"},
+        {"refine gear.1.ele --nonsense -o p.ele", "octetra: "},
+    };
+    for (const auto& [command, message] : failures) {
+        const auto run = octetra_on(3, command, folder);
+        EXPECT_EQ(run.status, 2) << command << "\n" << run.err;
+        EXPECT_EQ(occurrences(run.err, message), 1U) << command << "\n" << run.err;
+        EXPECT_EQ(occurrences(run.err, "octetra: "), 1U) << command << "\n" << run.err;
+        EXPECT_FALSE(std::filesystem::exists(folder / "p.ele"));
+    }
+}
+
+TEST_F(Parallel, ReportsRoundingAsOneProcessDoes) {
+    Mesh mesh = test::kuhn(2, 2, 2);
+    for (Point& p : mesh.points) p = {p.x * 2 + 0x1p52, p.y, p.z};
+    (void)write_mesh(mesh, folder / "far.ele");
+    const std::string command = "refine far.ele --all --levels 3 -o p.ele";
+    const auto serial = test::octetra(command + " --engine reference", folder);
+    EXPECT_THAT(serial.err, HasSubstr("octetra: far.ele: cell "));
+    const auto parallel = octetra_on(4, command, folder);
+    EXPECT_EQ(parallel.status, 2);
+    EXPECT_THAT(parallel.err, HasSubstr(serial.err));
+}
+
+TEST_F(Parallel, EndsAtOnceWhenARankIsKilledAndKeepsTheOutput) {
+    (void)folder.write("p.mesh", "as it was");
+    // Rank 1 kills itself before it starts on its part.
+    const auto run = test::run_program(
+        {OCTETRA_SOURCE_DIR "/tests/support/mpirun.sh", "3", "sh", "-c",
+         "if [ \"$OMPI_COMM_WORLD_RANK\" = 1 ]; then (sleep 0.5; kill -9 $$) & fi; exec " +
+             std::string(OCTETRA_PROGRAM) +
+             " refine gear.1.ele --all --levels 4 --quiet -o p.mesh"},
+        folder.path());
+    EXPECT_NE(run.status, 0);
+    EXPECT_EQ(test::content_of(folder / "p.mesh"), "as it was");
+}
+
+}  // namespace
+}  // namespace octetra

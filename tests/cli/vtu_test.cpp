@@ -70,6 +70,17 @@ TEST(Vtu, HoldsEveryBitOfTheCoordinatesAndEveryCell) {
     EXPECT_EQ(read_by_vtk("--cells a.vtu", folder).out, cells);
 }
 
+TEST(Vtu, NumbersParentsAsTheInputDoes) {
+    const TemporaryFolder folder;
+    Mesh mesh = test::kuhn(1, 1, 1);
+    mesh.first_number = 1;
+    (void)write_mesh(mesh, folder / "a.ele");
+    ASSERT_EQ(test::octetra("refine a.ele --all -o a.vtu", folder).status, 0);
+    const json found = json::parse(read_by_vtk("a.vtu", folder).out);
+    EXPECT_EQ(found["cell_data"][0]["name"], "parent");
+    EXPECT_EQ(found["cell_data"][0]["range"], json({{1, 6}}));
+}
+
 TEST(Vtu, HoldsRegionsMarkersAndAttributes) {
     const TemporaryFolder folder;
     Mesh mesh = test::one_cell(test::cube_corner);

@@ -87,9 +87,15 @@ void add_icosphere(Complex& complex, const Point& centre, double radius, std::ui
         };
         for (std::uint32_t i = 0; i < frequency; ++i) {
             for (std::uint32_t j = 0; i + j < frequency; ++j) {
-                add_facet(at(i, j), at(i + 1, j), at(i, j + 1));
+                // Points get their numbers here. One statement each: the arguments of a call would
+                // be evaluated, and the points numbered, in an order that each compiler chooses.
+                const std::uint32_t right = at(i, j + 1);
+                const std::uint32_t left = at(i + 1, j);
+                const std::uint32_t near = at(i, j);
+                add_facet(near, left, right);
                 if (i + j + 1 == frequency) continue;
-                add_facet(at(i + 1, j), at(i + 1, j + 1), at(i, j + 1));
+                const std::uint32_t far = at(i + 1, j + 1);
+                add_facet(left, far, right);
             }
         }
     }

@@ -77,6 +77,7 @@ int run(int argc, char** argv) {
     add_info(program, world);
     add_generate(program, world);
     add_convert(program, world);
+    add_partition(program, world);
 
     try {
         return parse_and_run(program, argc, argv, world);

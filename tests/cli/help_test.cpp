@@ -44,7 +44,7 @@ TEST_P(Help, FitsATerminal) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Subcommands, Help,
-                         testing::Values("", "refine", "info", "convert", "generate",
+                         testing::Values("", "refine", "info", "convert", "partition", "generate",
                                          "generate kuhn", "generate bcc", "generate regular",
                                          "generate random", "generate slivers", "generate sphere",
                                          "generate fichera", "generate torus", "generate gear",
@@ -87,8 +87,11 @@ INSTANTIATE_TEST_SUITE_P(
         "refine cube.ele --all -o out.ele --maps no/maps.txt",
         "refine cube.ele --all -o out.ele --maps /dev/null",
         "refine cube.ele extra.ele --all -o out.ele", "info", "info missing.mesh",
-        "convert cube.ele", "convert cube.ele out.obj", "generate", "generate cube",
-        "generate kuhn 0 -o out.ele", "generate kuhn 1 2 -o out.ele",
+        "convert cube.ele", "partition cube.ele", "partition cube.ele -n 0",
+        "partition cube.ele -n 2 --partition metis", "partition missing.ele -n 2",
+        "refine cube.ele --all --partition x -o out.ele",
+        "refine cube.ele --all --sync x -o out.ele", "convert cube.ele out.obj", "generate",
+        "generate cube", "generate kuhn 0 -o out.ele", "generate kuhn 1 2 -o out.ele",
         "generate kuhn 99999999999 -o out.ele", "generate kuhn 2",
         "generate gear --bore 5 -o out.ele", "generate sphere --edge 0 -o out.ele",
         "generate random 3 -o out.ele", "generate random 9 --seed -1 -o out.ele"));

@@ -16,6 +16,7 @@ namespace octetra::cli {
 void add_convert(CLI::App& program, const distributed::Communicator& world);
 void add_generate(CLI::App& program, const distributed::Communicator& world);
 void add_info(CLI::App& program, const distributed::Communicator& world);
+void add_partition(CLI::App& program, const distributed::Communicator& world);
 void add_refine(CLI::App& program, const distributed::Communicator& world);
 
 }  // namespace octetra::cli

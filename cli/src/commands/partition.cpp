@@ -1,0 +1,98 @@
+#include <algorithm>
+#include <fstream>
+#include <memory>
+#include <numeric>
+#include <string>
+
+#include <fmt/format.h>
+#include <CLI/CLI.hpp>
+
+#include <octetra/core/error.hpp>
+#include <octetra/distributed/agreement.hpp>
+#include <octetra/distributed/partition.hpp>
+
+#include "commands/commands.hpp"
+#include "commands/mesh_options.hpp"
+#include "grouped.hpp"
+
+namespace octetra::cli {
+namespace {
+
+struct PartitionOptions {
+    InputOptions input;
+    int parts = 0;
+    std::string method = "lepp";
+    std::string output;
+};
+
+void print_counts(std::string_view what, const std::vector<std::uint64_t>& counts) {
+    const auto sum = std::accumulate(counts.begin(), counts.end(), std::uint64_t{0});
+    const auto mean = static_cast<double>(sum) / static_cast<double>(counts.size());
+    const std::uint64_t most = std::ranges::max(counts);
+    fmt::print("{:<34} {:>11} {:>13.1f} {:>13} {:>9.3f}\n", what, grouped(std::ranges::min(counts)),
+               mean, grouped(most), mean > 0 ? static_cast<double>(most) / mean : 1.0);
+}
+
+void print_cut(std::string_view what, std::uint64_t cut, std::uint64_t all) {
+    const double share = all == 0 ? 0 : 100 * static_cast<double>(cut) / static_cast<double>(all);
+    fmt::print("{:<34} {:>11} of {:>13}   {:6.2f} %\n", what, grouped(cut), grouped(all), share);
+}
+
+void print_statistics(const distributed::PartitionStatistics& statistics) {
+    print_cut("cut faces", statistics.cut_faces, statistics.inner_faces);
+    print_cut("cut links through longest edges", statistics.cut_longest_edge_links,
+              statistics.longest_edge_links);
+    fmt::print("\n{:<34} {:>11} {:>13} {:>13} {:>9}\n", "of a part", "least", "mean", "most",
+               "most/mean");
+    print_counts("cells", statistics.cells_of_part);
+    print_counts("vertices shared with other parts", statistics.shared_vertices_of_part);
+    print_counts("neighbouring parts", statistics.neighbours_of_part);
+}
+
+void write_parts(const std::vector<int>& cell_to_part, const std::string& path) {
+    std::ofstream out(path);
+    for (const int part : cell_to_part) out << part << '\n';
+    out.close();
+    if (!out) throw SystemError(fmt::format("{}: cannot be written", path));
+}
+
+void partition(const PartitionOptions& options) {
+    const auto method = distributed::parse_partition(options.method);
+    const Mesh mesh = read_input(options.input);
+    const auto cell_to_part = distributed::partition_cells(mesh, options.parts, method);
+    fmt::print("{}: {} cells in {} parts by {}\n\n", options.input.path, grouped(mesh.cells.size()),
+               options.parts, options.method);
+    print_statistics(distributed::measure_partition(mesh, cell_to_part, options.parts));
+    if (options.output.empty()) return;
+    write_parts(cell_to_part, options.output);
+    fmt::print("\nwrote {}: the part of each cell, for --partition file:{}\n", options.output,
+               options.output);
+}
+
+}  // namespace
+
+void add_partition(CLI::App& program, const distributed::Communicator& world) {
+    auto options = std::make_shared<PartitionOptions>();
+    CLI::App* command = program.add_subcommand(
+        "partition", "Share a mesh out among ranks, and say how good the shares are");
+    add_input_options(*command, options->input);
+    constexpr int most_parts = 1'000'000;
+    command->add_option("-n,--parts", options->parts, "how many parts")
+        ->type_name("P")
+        ->required()
+        ->check(CLI::Range(1, most_parts));
+    command
+        ->add_option("--partition", options->method,
+                     "lepp, dual, block, random:SEED or file:PATH [lepp]")
+        ->type_name("METHOD");
+    command->add_option("-o,--output", options->output, "also write each cell's part, a line each")
+        ->type_name("FILE");
+    command->footer(
+        "Example:\n"
+        "  octetra generate gear -o gear.1.ele\n"
+        "  octetra partition gear.1.ele -n 4");
+    command->callback(
+        [options, world] { distributed::on_first(world, [&] { partition(*options); }); });
+}
+
+}  // namespace octetra::cli

@@ -57,6 +57,8 @@ void measure(const distributed::Communicator& world, std::size_t n, int levels, 
 
 int main(int argc, char** argv) {
     const octetra::distributed::MpiSession session(&argc, &argv);
+    // `./dev bench` passes the arguments of Google Benchmark to all.
+    if (argc > 1 && argv[1][0] == '-') argc = 1;
     const std::size_t n = argc > 1 ? std::strtoul(argv[1], nullptr, 10) : 55;
     const int levels = argc > 2 ? std::atoi(argv[2]) : 1;
     const double radius = argc > 3 ? std::atof(argv[3]) : 0;

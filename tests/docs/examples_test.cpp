@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <regex>
+#include <string_view>
 
 #include <gtest/gtest.h>
 
@@ -12,7 +13,8 @@
 ///
 /// A block ```console holds commands behind "$ " and below each what it prints, where a line "..."
 /// stands for any lines left out. A block ```sh whose first line begins with "octetra " holds
-/// commands alone. All run in one folder, in the order of the page.
+/// commands alone. All run in one folder, in the order of the page; `mpirun -n N` as
+/// tests/support/mpirun.sh runs it.
 namespace octetra::test {
 namespace {
 
@@ -43,6 +45,17 @@ std::vector<Example> examples_of(const std::string& page_name) {
         }
     }
     return examples;
+}
+
+/// As it is run here: mpirun is told what it needs in containers and on machines of few cores.
+std::string runnable(const std::string& command) {
+    constexpr std::string_view mpirun = "mpirun -n ";
+    if (!command.starts_with(mpirun)) return command;
+    std::string result = "'";
+    result += (repository / "tests/support/mpirun.sh").string();
+    result += "' ";
+    result += command.substr(mpirun.size());
+    return result;
 }
 
 /// Without what may differ from run to run and from screen to screen: seconds, widths of columns.
@@ -85,8 +98,8 @@ TEST(Readme, ExamplesWorkAndPrintWhatThePageSays) {
     for (const Example& example : examples) {
         SCOPED_TRACE("README.md, block on line " + std::to_string(example.line) + ": " +
                      example.command);
-        const Outcome run =
-            run_program({"/bin/sh", "-ec", path + example.command + " 2>&1"}, folder.path());
+        const Outcome run = run_program(
+            {"/bin/sh", "-ec", path + runnable(example.command) + " 2>&1"}, folder.path());
         ASSERT_EQ(run.status, 0) << run.out;
         if (!example.printed.empty()) expect_printed(example, run.out);
     }

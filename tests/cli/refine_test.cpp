@@ -168,6 +168,15 @@ TEST(Refine, BeyondALimitOnFileSizesIsAFailureOfTheSystemThatLeavesNothing) {
     EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
 }
 
+TEST(Info, ToAFullDiskIsAFailureOfTheSystem) {
+    const TemporaryFolder folder;
+    ASSERT_EQ(test::octetra("generate regular -o one.mesh", folder).status, 0);
+    const test::Outcome run = test::run_program(
+        {"/bin/bash", "-c", OCTETRA_PROGRAM " info one.mesh > /dev/full"}, folder.path());
+    EXPECT_EQ(run.status, 3);
+    EXPECT_EQ(run.err, "octetra: standard output cannot be written\n");
+}
+
 TEST(Refine, OutOfMemoryIsAFailureOfTheSystemThatLeavesNothing) {
     const TemporaryFolder folder;
     ASSERT_EQ(test::octetra("generate kuhn 8 -o cube.mesh", folder).status, 0);

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <octetra/core/files.hpp>
+#include <octetra/core/maps.hpp>
 
 #include "support/bits.hpp"
 #include "support/meshes.hpp"
@@ -120,6 +121,21 @@ TEST(RoundTrip, LongFilesKeepTheirLinesAcrossBuffers) {
     Mesh from_medit = through_file(mesh, "a.mesh");
     from_medit.first_number = 0;
     EXPECT_TRUE(from_medit == mesh);
+}
+
+TEST(WriteMaps, NumbersEverythingAsTheMeshFilesDo) {
+    const TemporaryFolder folder;
+    RefinementMaps maps;
+    maps.cell_to_parent = {CellIndex{0}, CellIndex{0}, CellIndex{1}};
+    maps.first_midpoint = VertexIndex{5};
+    maps.midpoint_to_edge = {{VertexIndex{0}, VertexIndex{3}}, {VertexIndex{1}, VertexIndex{5}}};
+    write_maps(maps, folder / "from-0");
+    EXPECT_EQ(test::content_of(folder / "from-0"),
+              "cells 3\n0 0\n1 0\n2 1\nmidpoints 2\n5 0 3\n6 1 5\n");
+    maps.first_number = 1;
+    write_maps(maps, folder / "from-1");
+    EXPECT_EQ(test::content_of(folder / "from-1"),
+              "cells 3\n1 1\n2 1\n3 2\nmidpoints 2\n6 1 4\n7 2 6\n");
 }
 
 TEST(RoundTrip, EmptyMeshesAreMeshes) { EXPECT_EQ(through_file(Mesh{}, "a.ele"), Mesh{}); }

@@ -1,7 +1,6 @@
 #pragma once
 
-#include <stdlib.h>
-
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
@@ -32,7 +31,8 @@ public:
         return path_ / name;
     }
 
-    std::filesystem::path write(const std::string& name, const std::string& content) const {
+    [[nodiscard]] std::filesystem::path write(const std::string& name,
+                                              const std::string& content) const {
         std::ofstream(path_ / name, std::ios::binary) << content;
         return path_ / name;
     }

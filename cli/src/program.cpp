@@ -11,12 +11,29 @@
 #include <CLI/CLI.hpp>
 
 #include <octetra/core/error.hpp>
+#include <octetra/core/files.hpp>
 #include <octetra/distributed/communicator.hpp>
 
 #include "commands/commands.hpp"
 
 namespace octetra::cli {
 namespace {
+
+extern "C" void remove_files_and_end(int signal) {
+    remove_unfinished_files();
+    std::signal(signal, SIG_DFL);
+    std::raise(signal);
+}
+
+void handle_signals() {
+    // Beyond a limit on file sizes a write then fails like one to a full disk, and is cleaned up
+    // after, rather than that the signal ends the program.
+    std::signal(SIGXFSZ, SIG_IGN);
+    for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+        // Who is started to ignore a signal, as by nohup, goes on ignoring it.
+        if (std::signal(signal, remove_files_and_end) == SIG_IGN) std::signal(signal, SIG_IGN);
+    }
+}
 
 int fail(Status status, std::string_view what, const distributed::Communicator& world) {
     if (world.is_first()) fmt::print(stderr, "octetra: {}\n", what);
@@ -53,10 +70,7 @@ int parse_and_run(CLI::App& program, int argc, char** argv,
 }  // namespace
 
 int run(int argc, char** argv) {
-    // Beyond a limit on file sizes a write then fails like one to a full disk, and is cleaned up
-    // after, rather than that the signal ends the program.
-    std::signal(SIGXFSZ, SIG_IGN);
-
+    handle_signals();
     const distributed::MpiSession session(&argc, &argv);
     const distributed::Communicator& world = session.world();
 

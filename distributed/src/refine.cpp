@@ -13,6 +13,8 @@ SynchronisationCounts refine(DistributedMesh& mesh, const Selection& selection,
         total.rounds += counts.rounds;
         total.messages += counts.messages;
         total.edges += counts.edges;
+        const std::uint64_t cells = mesh.processes.sum(mesh.cells.size());
+        if (options.on_level && mesh.processes.is_first()) options.on_level(level, cells);
     }
     return total;
 }

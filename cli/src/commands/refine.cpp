@@ -1,5 +1,7 @@
+#include <unistd.h>
 #include <algorithm>
 #include <array>
+
 #include <cstdio>
 #include <filesystem>
 #include <map>
@@ -83,6 +85,15 @@ Refined refine_by_reference(const Mesh& mesh, const Selection& selection,
     return fine;
 }
 
+/// Where people watch, a line that each level writes over.
+std::function<void(int, std::uint64_t)> level_progress(const RefineOptions& options) {
+    if (options.quiet || ::isatty(STDERR_FILENO) == 0) return {};
+    return [levels = options.levels](int level, std::uint64_t cells) {
+        fmt::print(stderr, "\rlevel {} of {}: {} cells ", level, levels, grouped(cells));
+        std::fflush(stderr);
+    };
+}
+
 Refined refine_distributed(Mesh mesh, const Selection& selection, const RefineOptions& options,
                            const distributed::Partition& partition,
                            const distributed::Communicator& world) {
@@ -92,11 +103,13 @@ Refined refine_distributed(Mesh mesh, const Selection& selection, const RefineOp
         cell_to_rank = distributed::partition_cells(mesh, world.size(), partition);
     });
     auto parts = distributed::distribute(world, std::move(mesh), cell_to_rank);
+    const auto progress = level_progress(options);
     auto whole = naming_the_mesh(options, [&] {
         distributed::refine(parts, selection,
-                            {options.scheme, options.levels, options.synchronisation});
+                            {options.scheme, options.levels, options.synchronisation, progress});
         return distributed::collect(std::move(parts));
     });
+    if (progress) fmt::print(stderr, "\r{:60}\r", "");
     return {std::move(whole.mesh), std::move(whole.maps)};
 }
 

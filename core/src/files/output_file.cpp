@@ -20,6 +20,7 @@ constexpr std::size_t buffer_size = std::size_t{1} << 20U;
 OutputFile::OutputFile(std::filesystem::path path)
     : path_(std::move(path)),
       temporary_(fmt::format("{}.{}.tmp", path_.native(), ::getpid())),
+      unfinished_(temporary_),
       buffer_(buffer_size) {
     // Taking the name of a device would put an end to the device: think of /dev/null.
     std::error_code ignored;

@@ -7,6 +7,8 @@
 #include <string_view>
 #include <vector>
 
+#include "files/unfinished_files.hpp"
+
 namespace octetra {
 
 /// A file that is written under a temporary name beside its final one and takes that name only on
@@ -53,6 +55,7 @@ private:
 
     std::filesystem::path path_;
     std::filesystem::path temporary_;
+    UnfinishedFile unfinished_;
     int file_ = -1;
     std::vector<char> buffer_;
     std::size_t used_ = 0;

@@ -51,6 +51,10 @@ void check_writable(const std::filesystem::path& path);
 /// of nothing but a file.
 void check_place(const std::filesystem::path& path);
 
+/// Removes the temporary files of everything that is being written at the moment. For a signal
+/// handler that ends the program: it calls nothing but unlink().
+void remove_unfinished_files() noexcept;
+
 /// Reads a list of cell numbers, separated by blanks or line ends, `#` starting a comment, that
 /// count from `first_number` and are less than `cell_count` + `first_number`.
 /// Returns them ascending, each once, counted from 0. Throws InputError or SystemError.

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 
 #include <octetra/core/selection.hpp>
 #include <octetra/distributed/distributed_mesh.hpp>
@@ -19,6 +20,9 @@ struct RefineOptions {
     Scheme scheme = Scheme::eight;
     int levels = 1;
     Synchronisation synchronisation = Synchronisation::neighbour;
+    /// Told on the first process, after each level, of the level (from 1) and of the cells that the
+    /// whole mesh now has. May be empty.
+    std::function<void(int level, std::uint64_t cells)> on_level;
 };
 
 /// What synchronisation took, on this process, summed over the levels.

@@ -89,6 +89,7 @@ INSTANTIATE_TEST_SUITE_P(
         "refine cube.ele extra.ele --all -o out.ele", "info", "info missing.mesh",
         "convert cube.ele", "partition cube.ele", "partition cube.ele -n 0",
         "partition cube.ele -n 2 --partition metis", "partition missing.ele -n 2",
+        "partition cube.ele -n 2 -o out.ele", "partition cube.ele -n 2 -o no/parts.txt",
         "refine cube.ele --all --partition x -o out.ele",
         "refine cube.ele --all --sync x -o out.ele", "convert cube.ele out.obj", "generate",
         "generate cube", "generate kuhn 0 -o out.ele", "generate kuhn 1 2 -o out.ele",

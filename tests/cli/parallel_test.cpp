@@ -64,6 +64,16 @@ TEST_F(Parallel, WritesTheSameBytesOnAnyNumberOfRanksAndByTheReference) {
     }
 }
 
+TEST_F(Parallel, TakesThePartsThatPartitionWrote) {
+    const auto parts = test::octetra("partition gear.1.ele -n 3 -o parts.txt", folder);
+    ASSERT_EQ(parts.status, 0) << parts.err;
+    EXPECT_THAT(parts.out, HasSubstr("cut faces"));
+    ASSERT_EQ(test::octetra(refine + "-o r.ele", folder).status, 0);
+    const auto run = octetra_on(3, refine + "--partition file:parts.txt -o p.ele", folder);
+    ASSERT_EQ(run.status, 0) << run.err;
+    expect_same_files("r", "p");
+}
+
 TEST_F(Parallel, PrintsOnceWhatOneProcessPrints) {
     const auto run = octetra_on(3, refine + "-o p.ele", folder);
     EXPECT_EQ(occurrences(run.out, "read gear.1.ele"), 1U) << run.out;
@@ -108,7 +118,7 @@ TEST_F(Parallel, ReportsRoundingAsOneProcessDoes) {
 
 TEST_F(Parallel, EndsAtOnceWhenARankIsKilledAndKeepsTheOutput) {
     (void)folder.write("p.mesh", "as it was");
-    // Rank 1 kills itself before it starts on its part.
+    // Rank 1 is killed half a second after the start; the work takes several.
     const auto run = test::run_program(
         {OCTETRA_SOURCE_DIR "/tests/support/mpirun.sh", "3", "sh", "-c",
          "if [ \"$OMPI_COMM_WORLD_RANK\" = 1 ]; then (sleep 0.5; kill -9 $$) & fi; exec " +

@@ -1,10 +1,14 @@
 #include "commands/mesh_options.hpp"
 
+#include <algorithm>
+#include <array>
 #include <cstdio>
 
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <octetra/core/error.hpp>
+
 #include "grouped.hpp"
 
 namespace octetra::cli {
@@ -22,6 +26,16 @@ void add_output_option(CLI::App& subcommand, std::string& path) {
         .add_option("-o,--output", path, "where to write: .ele (TetGen), .mesh (Medit), .vtu (VTK)")
         ->type_name("OUT")
         ->required();
+}
+
+void check_side_file(std::string_view option, const std::filesystem::path& path) {
+    constexpr std::array<std::string_view, 6> mesh_files{".ele",  ".node", ".face",
+                                                         ".edge", ".mesh", ".vtu"};
+    if (std::ranges::find(mesh_files, path.extension()) != mesh_files.end()) {
+        throw InputError(fmt::format("{}: {} is the name of a mesh file; choose another", option,
+                                     path.native()));
+    }
+    check_place(path);
 }
 
 void note(std::string_view what) { fmt::print(stderr, "octetra: note: {}\n", what); }

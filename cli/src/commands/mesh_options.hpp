@@ -1,5 +1,6 @@
 #pragma once
 
+#include <filesystem>
 #include <string>
 #include <string_view>
 
@@ -23,6 +24,10 @@ void add_input_options(CLI::App& subcommand, InputOptions& options);
 
 /// Declares -o OUT.
 void add_output_option(CLI::App& subcommand, std::string& path);
+
+/// Refuses, before the work, a path for a file beside the mesh (maps, parts) that cannot be written
+/// or would take the place of a mesh. Throws InputError.
+void check_side_file(std::string_view option, const std::filesystem::path& path);
 
 /// A remark on stderr that is not an error: "octetra: note: ...".
 void note(std::string_view what);

@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <fstream>
 #include <memory>
 #include <numeric>
 #include <string>
@@ -7,7 +6,7 @@
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
-#include <octetra/core/error.hpp>
+#include <octetra/core/files.hpp>
 #include <octetra/distributed/agreement.hpp>
 #include <octetra/distributed/partition.hpp>
 
@@ -49,22 +48,16 @@ void print_statistics(const distributed::PartitionStatistics& statistics) {
     print_counts("neighbouring parts", statistics.neighbours_of_part);
 }
 
-void write_parts(const std::vector<int>& cell_to_part, const std::string& path) {
-    std::ofstream out(path);
-    for (const int part : cell_to_part) out << part << '\n';
-    out.close();
-    if (!out) throw SystemError(fmt::format("{}: cannot be written", path));
-}
-
 void partition(const PartitionOptions& options) {
     const auto method = distributed::parse_partition(options.method);
+    if (!options.output.empty()) check_side_file("-o", options.output);
     const Mesh mesh = read_input(options.input);
     const auto cell_to_part = distributed::partition_cells(mesh, options.parts, method);
     fmt::print("{}: {} cells in {} parts by {}\n\n", options.input.path, grouped(mesh.cells.size()),
                options.parts, options.method);
     print_statistics(distributed::measure_partition(mesh, cell_to_part, options.parts));
     if (options.output.empty()) return;
-    write_parts(cell_to_part, options.output);
+    write_list(cell_to_part, options.output);
     fmt::print("\nwrote {}: the part of each cell, for --partition file:{}\n", options.output,
                options.output);
 }

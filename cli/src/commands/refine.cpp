@@ -55,7 +55,8 @@ void report(const RefineOptions& options, std::string_view doing, const Mesh& me
 std::string refined_line(const RefineOptions& options, const distributed::Communicator& world) {
     const std::string levels =
         fmt::format("refined, {} level{}", options.levels, options.levels == 1 ? "" : "s");
-    return world.size() == 1 ? levels : fmt::format("{}, {} ranks", levels, world.size());
+    const bool alone = world.size() == 1 || options.engine == Engine::reference;
+    return alone ? levels : fmt::format("{}, {} ranks", levels, world.size());
 }
 
 /// What an engine makes of a mesh; of several processes the first one has it.
@@ -113,17 +114,6 @@ Refined refine_distributed(Mesh mesh, const Selection& selection, const RefineOp
     return {std::move(whole.mesh), std::move(whole.maps)};
 }
 
-/// The maps may not take the place of a mesh, be it the input or one of the files just written.
-void check_maps_path(const std::filesystem::path& path) {
-    constexpr std::array<std::string_view, 6> mesh_files{".ele",  ".node", ".face",
-                                                         ".edge", ".mesh", ".vtu"};
-    if (std::ranges::find(mesh_files, path.extension()) != mesh_files.end()) {
-        throw InputError(fmt::format("--maps: {} is the name of a mesh file; give the maps another",
-                                     path.native()));
-    }
-    check_place(path);
-}
-
 void refine(const RefineOptions& options, const distributed::Communicator& world) {
     Selection selection = parse_selection(options.selection);
     const auto partition = distributed::parse_partition(options.partition);
@@ -131,7 +121,7 @@ void refine(const RefineOptions& options, const distributed::Communicator& world
     Mesh mesh;
     distributed::on_first(world, [&] {
         check_writable(options.output);
-        if (!options.maps.empty()) check_maps_path(options.maps);
+        if (!options.maps.empty()) check_side_file("--maps", options.maps);
         mesh = read_input(options.input);
         complete_selection(selection, options.selection, mesh);
         report(options, fmt::format("read {}", options.input.path), mesh, watch.lap());

@@ -12,6 +12,7 @@
 #include "files/fields.hpp"
 #include "files/line_reader.hpp"
 #include "files/medit.hpp"
+#include "files/output_file.hpp"
 #include "files/tetgen.hpp"
 #include "files/vtu.hpp"
 
@@ -106,6 +107,15 @@ std::vector<GlobalCell> read_cell_list(const fs::path& path, std::uint32_t first
     std::ranges::sort(cells);
     cells.erase(std::unique(cells.begin(), cells.end()), cells.end());
     return cells;
+}
+
+void write_list(const std::vector<int>& numbers, const fs::path& path) {
+    OutputFile out(path);
+    for (const int number : numbers) {
+        out.put(number);
+        out.put('\n');
+    }
+    out.commit();
 }
 
 }  // namespace octetra

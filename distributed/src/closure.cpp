@@ -26,22 +26,30 @@ Closure::Closure(const EdgeStars& stars, const IndexVector<CellIndex, LengthOrde
     std::ranges::sort(shared_edges_, {}, &SharedEdge::edge);
 }
 
-void Closure::select(EdgeIndex edge) { mark(edge, nobody); }
-
-void Closure::select_from(std::size_t interface, std::uint32_t position) {
-    mark(interface_edges_[interface][position], interface);
+void Closure::select(EdgeIndex edge) {
+    if (selected_[edge] != 0) return;
+    mark(edge);
+    tell_sharers(edge);
 }
 
-void Closure::mark(EdgeIndex edge, std::size_t told_by) {
-    if (selected_[edge] != 0) return;
+// Who told has told all that share the edge.
+void Closure::select_from(std::size_t interface, std::uint32_t position) {
+    const EdgeIndex edge = interface_edges_[interface][position];
+    if (selected_[edge] == 0) mark(edge);
+}
+
+void Closure::mark(EdgeIndex edge) {
     selected_[edge] = 1;
     ++selected_count_;
     // Before the sweep every cell is yet to be looked at.
     if (swept_) queue_.push_back(edge);
+}
+
+void Closure::tell_sharers(EdgeIndex edge) {
     if (shared_.empty() || shared_[edge] == 0) return;
     auto shared = std::ranges::lower_bound(shared_edges_, edge, {}, &SharedEdge::edge);
     for (; shared != shared_edges_.end() && shared->edge == edge; ++shared) {
-        if (shared->interface != told_by) outboxes_[shared->interface].push_back(shared->position);
+        outboxes_[shared->interface].push_back(shared->position);
     }
 }
 
@@ -57,7 +65,7 @@ void Closure::close(CellIndex cell) {
     const auto missing =
         static_cast<EdgeMask>(table_->closure((*orders_)[cell], mask) & ~unsigned{mask});
     for (std::size_t e = 0; missing >> e != 0; ++e) {
-        if ((missing >> e & 1U) != 0) mark(stars_->edges_of(cell)[e], nobody);
+        if ((missing >> e & 1U) != 0) select(stars_->edges_of(cell)[e]);
     }
 }
 

@@ -17,7 +17,8 @@ public:
     Closure(const EdgeStars& stars, const IndexVector<CellIndex, LengthOrder>& orders,
             const std::vector<Interface>& interfaces);
 
-    /// Selects an edge of this process's own will, without following its path.
+    /// Selects an edge of this process's own will, without following its path. All that share the
+    /// edge will be told.
     void select(EdgeIndex edge);
     /// Selects the edge at this position of an interface's list, on the other side's word.
     void select_from(std::size_t interface, std::uint32_t position);
@@ -40,11 +41,10 @@ private:
         std::uint32_t position = 0;
     };
 
-    void mark(EdgeIndex edge, std::size_t told_by);
+    void mark(EdgeIndex edge);
+    void tell_sharers(EdgeIndex edge);
     void close(CellIndex cell);
     void index_cells_at_edges();
-
-    static constexpr std::size_t nobody = ~std::size_t{0};
 
     const EdgeStars* stars_;
     const IndexVector<CellIndex, LengthOrder>* orders_;

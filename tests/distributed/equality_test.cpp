@@ -1,3 +1,4 @@
+#include <limits>
 #include <random>
 #include <set>
 
@@ -167,6 +168,19 @@ TEST(Rounding, IsRefusedOnAllRanksWithTheWordsOfTheReference) {
         EXPECT_EQ(message, expected);
         EXPECT_THAT(message, HasSubstr("level 2"));
     }
+}
+
+TEST(Rounding, OfTheSmallestNumbersThereAreIsRefusedToo) {
+    // Sums of these are exact, and half of an odd one is not.
+    constexpr double smallest = std::numeric_limits<double>::denorm_min();
+    const Mesh mesh =
+        test::one_cell({{{0, 0, 0}, {smallest, 0, 0}, {0, smallest, 0}, {0, 0, smallest}}});
+    const std::string expected = test::thrown_by<InputError>(
+        [&] { (void)reference::refine(mesh, {.all = true}, Scheme::eight, 1); });
+    EXPECT_EQ(test::thrown_by<InputError>([&] {
+                  (void)refined(mesh, {{.all = true}, {.levels = 1}, partitions[2]});
+              }),
+              expected);
 }
 
 TEST(Communicator, SumsBeforeAndAllToAllAndBroadcast) {

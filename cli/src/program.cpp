@@ -82,11 +82,11 @@ int run(int argc, char** argv) {
     program.require_subcommand(1);
     program.get_formatter()->column_width(34);
     program.footer(
+        "Exit status: 0 done; 1 the answer is no; 2 bad usage or input; 3 the system failed.\n"
         "Example:\n"
         "  octetra generate gear -o gear.1.ele\n"
         "  octetra refine gear.1.ele --sphere 1,0,0.1,0.3 --levels 2 -o fine.vtu\n"
-        "  mpirun -n 4 octetra refine gear.1.ele --all -o fine.1.ele    (the same bytes)\n"
-        "Exit status: 0 done; 1 the answer is no; 2 bad usage or input; 3 the system failed.");
+        "  mpirun -n 4 octetra refine gear.1.ele --sphere 1,0,0.1,0.3 --levels 2 -o fine.vtu");
     add_refine(program, world);
     add_info(program, world);
     add_generate(program, world);

@@ -16,7 +16,11 @@ std::vector<std::string> examples_in(const std::string& help) {
     std::vector<std::string> commands;
     std::istringstream lines(help.substr(help.find("Example:")));
     for (std::string line; std::getline(lines, line);) {
-        if (line.starts_with("  octetra ")) commands.push_back(line.substr(10));
+        if (line.starts_with("  octetra "))
+            commands.push_back(line.substr(10));
+        else if (!line.starts_with("  mpirun ") && line != "Example:" && !line.empty()) {
+            ADD_FAILURE() << "not to be pasted: " << line;
+        }
     }
     return commands;
 }
@@ -91,9 +95,9 @@ INSTANTIATE_TEST_SUITE_P(
         "partition cube.ele -n 2 --partition metis", "partition missing.ele -n 2",
         "partition cube.ele -n 2 -o out.ele", "partition cube.ele -n 2 -o no/parts.txt",
         "refine cube.ele --all --partition x -o out.ele",
-        "refine cube.ele --all --sync x -o out.ele", "convert cube.ele out.obj", "generate",
-        "generate cube", "generate kuhn 0 -o out.ele", "generate kuhn 1 2 -o out.ele",
-        "generate kuhn 99999999999 -o out.ele", "generate kuhn 2",
+        "refine cube.ele --all --sync x -o out.ele", "refine cube.ele --all --scheme 0 -o out.ele",
+        "convert cube.ele out.obj", "generate", "generate cube", "generate kuhn 0 -o out.ele",
+        "generate kuhn 1 2 -o out.ele", "generate kuhn 99999999999 -o out.ele", "generate kuhn 2",
         "generate gear --bore 5 -o out.ele", "generate sphere --edge 0 -o out.ele",
         "generate random 3 -o out.ele", "generate random 9 --seed -1 -o out.ele"));
 

@@ -192,6 +192,20 @@ TEST(TetgenReader, TurnsInvertedCellsRoundWhenAskedAndSaysHowMany) {
     EXPECT_THAT(note, HasSubstr("1 inverted"));
 }
 
+TEST(TetgenReader, ReadsOverTheAdjacentCellsThatTetgenAddsWithNnAndSaysSo) {
+    std::string notes;
+    const ReadOptions options{.note = [&](const auto& n) { notes += n + "\n"; }};
+    const Files with_adjacency{.face = "2 1\n0 0 1 2 7 0 -1\n1 0 1 3 8 -1 0\n",
+                               .edge = "2 1\n0 0 1 5 0\n1 0 2 6 0\n"};
+    const Files without{.face = "2 1\n0 0 1 2 7\n1 0 1 3 8\n", .edge = "2 1\n0 0 1 5\n1 0 2 6\n"};
+    EXPECT_EQ(read(with_adjacency, options), read(without));
+    EXPECT_THAT(notes, HasSubstr("the adjacent cells of each face are not kept"));
+    EXPECT_THAT(notes, HasSubstr("the adjacent cells of each edge are not kept"));
+    EXPECT_THAT(test::thrown_by<InputError>(
+                    [&] { (void)read({.face = "2 1\n0 0 1 2 7 0 -1\n1 0 1 3 8\n"}); }),
+                HasSubstr("m.face:3: an adjacent cell is missing"));
+}
+
 TEST(TetgenReader, NamesTheCompanionThatIsMissing) {
     const TemporaryFolder folder;
     (void)folder.write("m.ele", good_ele);
@@ -205,7 +219,7 @@ TEST(TetgenReader, NamesTheCompanionThatIsMissing) {
 TEST(TetgenReader, RefusesWhatIsNotAFile) {
     const TemporaryFolder folder;
     EXPECT_THAT(test::thrown_by<InputError>([&] { (void)read_mesh(folder / "none.ele"); }),
-                HasSubstr("none.node: cannot be opened: No such file"));
+                HasSubstr("none.ele: cannot be opened: No such file"));
     std::filesystem::create_directory(folder / "d.mesh");
     EXPECT_THAT(test::thrown_by<InputError>([&] { (void)read_mesh(folder / "d.mesh"); }),
                 HasSubstr("is not a file"));

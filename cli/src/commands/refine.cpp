@@ -4,7 +4,6 @@
 
 #include <cstdio>
 #include <filesystem>
-#include <map>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -20,6 +19,7 @@
 #include <octetra/distributed/refine.hpp>
 #include <octetra/reference/refine.hpp>
 
+#include "choice.hpp"
 #include "commands/commands.hpp"
 #include "commands/mesh_options.hpp"
 #include "commands/selection_options.hpp"
@@ -31,16 +31,33 @@ namespace {
 
 enum class Engine { distributed, reference };
 
+constexpr std::array<Word<Scheme>, 3> schemes{
+    {{"8t", Scheme::eight}, {"4t", Scheme::four}, {"2t", Scheme::two}}};
+constexpr std::array<Word<Engine>, 2> engines{
+    {{"distributed", Engine::distributed}, {"reference", Engine::reference}}};
+constexpr std::array<Word<distributed::Synchronisation>, 2> synchronisations{
+    {{"neighbour", distributed::Synchronisation::neighbour},
+     {"gateway", distributed::Synchronisation::gateway}}};
+
+/// What the options mean, once they are known to mean something.
+struct Plan {
+    Selection selection;
+    Scheme scheme = Scheme::eight;
+    Engine engine = Engine::distributed;
+    distributed::Partition partition;
+    distributed::Synchronisation synchronisation = distributed::Synchronisation::neighbour;
+};
+
 struct RefineOptions {
     InputOptions input;
     std::string output;
     std::string maps;
     SelectionOptions selection;
-    Scheme scheme = Scheme::eight;
+    std::string scheme = "8t";
     int levels = 1;
-    Engine engine = Engine::distributed;
+    std::string engine = "distributed";
     std::string partition = "lepp";
-    distributed::Synchronisation synchronisation = distributed::Synchronisation::neighbour;
+    std::string synchronisation = "neighbour";
     bool quiet = false;
 };
 
@@ -52,17 +69,24 @@ void report(const RefineOptions& options, std::string_view doing, const Mesh& me
     std::fflush(stdout);
 }
 
-std::string refined_line(const RefineOptions& options, const distributed::Communicator& world) {
-    const std::string levels =
-        fmt::format("refined, {} level{}", options.levels, options.levels == 1 ? "" : "s");
-    const bool alone = world.size() == 1 || options.engine == Engine::reference;
-    return alone ? levels : fmt::format("{}, {} ranks", levels, world.size());
+Plan plan_of(const RefineOptions& options) {
+    return {.selection = parse_selection(options.selection),
+            .scheme = parse_choice("--scheme", options.scheme, schemes),
+            .engine = parse_choice("--engine", options.engine, engines),
+            .partition = distributed::parse_partition(options.partition),
+            .synchronisation = parse_choice("--sync", options.synchronisation, synchronisations)};
+}
+
+std::string refined_line(int levels, int ranks) {
+    const std::string line = fmt::format("refined, {} level{}", levels, levels == 1 ? "" : "s");
+    return ranks == 1 ? line : fmt::format("{}, {} ranks", line, ranks);
 }
 
 /// What an engine makes of a mesh; of several processes the first one has it.
 struct Refined {
     Mesh mesh;
     RefinementMaps maps;
+    int levels = 0;  ///< that changed something, as far as the engine tells
 };
 
 /// Runs an engine; what it finds wrong with the mesh gets the mesh's name in front.
@@ -74,14 +98,14 @@ auto naming_the_mesh(const RefineOptions& options, auto&& engine) {
     }
 }
 
-Refined refine_by_reference(const Mesh& mesh, const Selection& selection,
-                            const RefineOptions& options, const distributed::Communicator& world) {
+Refined refine_by_reference(const Mesh& mesh, const Plan& plan, const RefineOptions& options,
+                            const distributed::Communicator& world) {
     Refined fine;
     distributed::on_first(world, [&] {
         auto result = naming_the_mesh(options, [&] {
-            return reference::refine(mesh, selection, options.scheme, options.levels);
+            return reference::refine(mesh, plan.selection, plan.scheme, options.levels);
         });
-        fine = {std::move(result.mesh), std::move(result.maps)};
+        fine = {std::move(result.mesh), std::move(result.maps), options.levels};
     });
     return fine;
 }
@@ -95,49 +119,59 @@ std::function<void(int, std::uint64_t)> level_progress(const RefineOptions& opti
     };
 }
 
-Refined refine_distributed(Mesh mesh, const Selection& selection, const RefineOptions& options,
-                           const distributed::Partition& partition,
+Refined refine_distributed(Mesh mesh, const Plan& plan, const RefineOptions& options,
                            const distributed::Communicator& world) {
     std::vector<int> cell_to_rank;
     distributed::on_first(world, [&] {
         if (world.size() == 1) return;
-        cell_to_rank = distributed::partition_cells(mesh, world.size(), partition);
+        cell_to_rank = distributed::partition_cells(mesh, world.size(), plan.partition);
     });
     auto parts = distributed::distribute(world, std::move(mesh), cell_to_rank);
-    const auto progress = level_progress(options);
+    int levels = 0;
+    const auto show = level_progress(options);
+    const auto on_level = [&](int level, std::uint64_t cells) {
+        levels = level;
+        if (show) show(level, cells);
+    };
     auto whole = naming_the_mesh(options, [&] {
-        distributed::refine(parts, selection,
-                            {options.scheme, options.levels, options.synchronisation, progress});
+        distributed::refine(parts, plan.selection,
+                            {plan.scheme, options.levels, plan.synchronisation, on_level});
         return distributed::collect(std::move(parts));
     });
-    if (progress) fmt::print(stderr, "\r{:60}\r", "");
-    return {std::move(whole.mesh), std::move(whole.maps)};
+    if (show) fmt::print(stderr, "\r{:60}\r", "");
+    return {std::move(whole.mesh), std::move(whole.maps), levels};
+}
+
+/// Says so where there was less to do than was asked for, or more is left than there may seem.
+void note_idle_levels(const RefineOptions& options, int levels) {
+    if (levels == options.levels) return;
+    note(levels == 0 ? std::string("no cell was chosen: the mesh stays as it is")
+                     : fmt::format("no cell was chosen any more after level {} of {}", levels,
+                                   options.levels));
 }
 
 void refine(const RefineOptions& options, const distributed::Communicator& world) {
-    Selection selection = parse_selection(options.selection);
-    const auto partition = distributed::parse_partition(options.partition);
+    Plan plan = plan_of(options);
     Stopwatch watch;
     Mesh mesh;
     distributed::on_first(world, [&] {
         check_writable(options.output);
         if (!options.maps.empty()) check_side_file("--maps", options.maps);
         mesh = read_input(options.input);
-        complete_selection(selection, options.selection, mesh);
+        complete_selection(plan.selection, options.selection, mesh);
         report(options, fmt::format("read {}", options.input.path), mesh, watch.lap());
     });
-    world.broadcast(selection.cells);
+    world.broadcast(plan.selection.cells);
 
+    const bool by_reference = plan.engine == Engine::reference;
     const std::size_t cells_before = mesh.cells.size();
-    const Refined fine =
-        options.engine == Engine::reference
-            ? refine_by_reference(mesh, selection, options, world)
-            : refine_distributed(std::move(mesh), selection, options, partition, world);
+    Refined fine = by_reference ? refine_by_reference(mesh, plan, options, world)
+                                : refine_distributed(std::move(mesh), plan, options, world);
     distributed::on_first(world, [&] {
-        report(options, refined_line(options, world), fine.mesh, watch.lap());
-        if (options.levels > 0 && fine.mesh.cells.size() == cells_before) {
-            note("no cell was chosen: the mesh stays as it is");
-        }
+        if (fine.mesh.cells.size() == cells_before) fine.levels = 0;
+        report(options, refined_line(fine.levels, by_reference ? 1 : world.size()), fine.mesh,
+               watch.lap());
+        note_idle_levels(options, fine.levels);
         write_output(fine.mesh, options.output, {.cell_to_parent = &fine.maps.cell_to_parent});
         if (!options.maps.empty()) write_maps(fine.maps, options.maps);
         report(options, fmt::format("wrote {}", options.output), fine.mesh, watch.lap());
@@ -146,28 +180,21 @@ void refine(const RefineOptions& options, const distributed::Communicator& world
 
 void add_engine_options(CLI::App& command, RefineOptions& options) {
     const std::string group = "How it is done (the result is the same bytes)";
-    const std::map<std::string, Engine> engines{{"distributed", Engine::distributed},
-                                                {"reference", Engine::reference}};
     command
         .add_option("--engine", options.engine,
                     "the fast one, over MPI under mpirun, or the serial reference [distributed]")
         ->type_name("distributed|reference")
-        ->transform(CLI::CheckedTransformer(engines).description(""))
         ->group(group);
     command
         .add_option("--partition", options.partition,
                     "which rank gets which cell: lepp, dual, block, random:SEED, file:PATH [lepp]")
         ->type_name("METHOD")
         ->group(group);
-    using distributed::Synchronisation;
-    const std::map<std::string, Synchronisation> ways{{"neighbour", Synchronisation::neighbour},
-                                                      {"gateway", Synchronisation::gateway}};
     command
         .add_option("--sync", options.synchronisation,
                     "ranks tell their neighbours, or the first rank, which tells the others "
                     "[neighbour]")
         ->type_name("neighbour|gateway")
-        ->transform(CLI::CheckedTransformer(ways).description(""))
         ->group(group);
 }
 
@@ -188,13 +215,10 @@ void add_refine(CLI::App& program, const distributed::Communicator& world) {
             "how often to choose and bisect; what is chosen is judged afresh each time [1]")
         ->type_name("L")
         ->check(CLI::Range(0, 50));
-    const std::map<std::string, Scheme> schemes{
-        {"8t", Scheme::eight}, {"4t", Scheme::four}, {"2t", Scheme::two}};
     refine_command
         ->add_option("--scheme", options->scheme,
                      "a chosen cell selects all its edges, its faces' longest, or its longest [8t]")
-        ->type_name("8t|4t|2t")
-        ->transform(CLI::CheckedTransformer(schemes).description(""));
+        ->type_name("8t|4t|2t");
     add_engine_options(*refine_command, *options);
     refine_command
         ->add_option("--maps", options->maps,
@@ -205,7 +229,7 @@ void add_refine(CLI::App& program, const distributed::Communicator& world) {
         "Example:\n"
         "  octetra generate gear -o gear.1.ele\n"
         "  octetra refine gear.1.ele --sphere 1,0,0.1,0.3 --levels 2 -o fine.vtu\n"
-        "On four ranks: mpirun -n 4 octetra refine ...");
+        "  mpirun -n 4 octetra refine gear.1.ele --sphere 1,0,0.1,0.3 --levels 2 -o fine.vtu");
     refine_command->callback([options, world] { refine(*options, world); });
 }
 

@@ -43,7 +43,8 @@ Mesh read_mesh(const fs::path& path, const ReadOptions& options) {
         case Format::unknown: break;
     }
     throw InputError(fmt::format(
-        "{}: a mesh to read is named by its extension: .ele or .node (TetGen), .mesh (Medit)",
+        "{}: a mesh to read is named by its extension: .ele or .node (TetGen), .mesh (Medit; "
+        "Gmsh writes it, too: gmsh FILE.msh -save -format mesh)",
         path.native()));
 }
 

@@ -153,7 +153,8 @@ void read_ele(const fs::path& path, const ReadOptions& options, Mesh& mesh) {
 template <class I, std::size_t N>
 void read_listed(const fs::path& path, std::string_view name,
                  IndexVector<I, std::array<VertexIndex, N>>& list,
-                 IndexVector<I, Marker>& list_markers, I (*find_stray)(const Mesh&), Mesh& mesh) {
+                 IndexVector<I, Marker>& list_markers, I (*find_stray)(const Mesh&),
+                 const ReadOptions& options, Mesh& mesh) {
     LineReader reader(path);
     const auto header =
         read_header<2>(reader, {"the number of entries", "the markers flag"}, {0, 0});
@@ -165,6 +166,9 @@ void read_listed(const fs::path& path, std::string_view name,
 
     list.reserve(count);
     list_markers.reserve(count * markers);
+    // With -nn TetGen adds the cells at each face (two) or edge (one), and tells nobody.
+    constexpr std::size_t adjacent_cells = N == 3 ? 2 : 1;
+    bool has_adjacent_cells = false;
     read_entries(reader, count, field_count, mesh.first_number, [&](Fields& fields) {
         std::array<VertexIndex, N> vertices;
         for (VertexIndex& vertex : vertices) vertex = read_vertex(fields, reader, mesh);
@@ -175,7 +179,17 @@ void read_listed(const fs::path& path, std::string_view name,
         }
         list.push_back(vertices);
         if (markers == 1) list_markers.push_back(fields.marker("the marker"));
+        if (list.size() == 1 && markers == 1) {
+            has_adjacent_cells = fields.count_left() == adjacent_cells;
+        }
+        for (std::size_t k = 0; has_adjacent_cells && k < adjacent_cells; ++k) {
+            (void)fields.marker("an adjacent cell");
+        }
     });
+    if (has_adjacent_cells) {
+        options.note(
+            fmt::format("{}: the adjacent cells of each {} are not kept", path.native(), name));
+    }
     const I stray = find_stray(mesh);
     if (!stray.is_none()) {
         reader.fail(
@@ -206,6 +220,7 @@ void require_companion(const fs::path& path, const fs::path& other) {
 Mesh read_tetgen(const fs::path& path, const ReadOptions& options) {
     const fs::path node = companion(path, ".node");
     const fs::path ele = companion(path, ".ele");
+    if (!is_there(ele) && !is_there(node)) LineReader missing(path);  // says so by its name
     require_companion(ele, node);
     require_companion(node, ele);
 
@@ -213,10 +228,10 @@ Mesh read_tetgen(const fs::path& path, const ReadOptions& options) {
     read_node(node, mesh);
     read_ele(ele, options, mesh);
     if (const fs::path face = companion(path, ".face"); is_there(face)) {
-        read_listed(face, "face", mesh.facets, mesh.facet_markers, find_stray_facet, mesh);
+        read_listed(face, "face", mesh.facets, mesh.facet_markers, find_stray_facet, options, mesh);
     }
     if (const fs::path edge = companion(path, ".edge"); is_there(edge)) {
-        read_listed(edge, "edge", mesh.edges, mesh.edge_markers, find_stray_edge, mesh);
+        read_listed(edge, "edge", mesh.edges, mesh.edge_markers, find_stray_edge, options, mesh);
     }
     return mesh;
 }

@@ -208,32 +208,41 @@ TEST(Refine, TurnsInvertedCellsRoundOnlyWhenAsked) {
     EXPECT_THAT(fixed.err, HasSubstr("1 inverted"));
 }
 
+/// Refines and sends a signal as soon as the temporary file is there.
+test::Outcome refine_interrupted_by(const std::string& signal, const TemporaryFolder& folder) {
+    return test::run_program(
+        {"sh", "-c",
+         std::string(OCTETRA_PROGRAM) +
+             " refine cube.ele --all --levels 2 --quiet -o fine.vtu & child=$!\n"
+             "while ! ls fine.vtu.*.tmp >/dev/null 2>&1 && kill -0 $child 2>/dev/null; do :; done\n"
+             "kill -s " +
+             signal + " $child; wait $child"},
+        folder.path());
+}
+
 TEST(Refine, EndedByASignalWhileItWritesLeavesNothingBehind) {
     const TemporaryFolder folder;
     ASSERT_EQ(test::octetra("generate kuhn 16 -o cube.ele --quiet", folder).status, 0);
-    for (const std::string signal : {"TERM", "INT", "HUP"}) {
-        // Python would be more to write than this: wait for the temporary file, then send the
-        // signal.
-        const auto run = test::run_program(
-            {"sh", "-c",
-             std::string(OCTETRA_PROGRAM) +
-                 " refine cube.ele --all --levels 2 --quiet -o fine.vtu & child=$!\n"
-                 "while ! ls fine.vtu.*.tmp >/dev/null 2>&1 && kill -0 $child 2>/dev/null; do :; "
-                 "done\n"
-                 "kill -s " +
-                 signal + " $child; wait $child"},
-            folder.path());
-        // A shell starts children in the background with SIGINT ignored, and that is respected.
-        if (signal == "INT") {
-            EXPECT_EQ(run.status, 0);
+    for (const std::string signal : {"TERM", "HUP"}) {
+        test::Outcome run;
+        // On a busy machine the program may be done before the signal comes: then once more.
+        for (int attempt = 0; attempt < 10 && run.status <= 0; ++attempt) {
             std::filesystem::remove(folder / "fine.vtu");
-            continue;
+            run = refine_interrupted_by(signal, folder);
         }
         EXPECT_GT(run.status, 128) << "it should have been ended by the signal";
         for (const auto& entry : std::filesystem::directory_iterator(folder.path())) {
             EXPECT_THAT(entry.path().filename().string(), testing::StartsWith("cube."));
         }
     }
+}
+
+TEST(Refine, GoesOnWhereItWasStartedToIgnoreASignal) {
+    // As nohup does; a shell that starts a program in the background does it with SIGINT.
+    const TemporaryFolder folder;
+    ASSERT_EQ(test::octetra("generate kuhn 16 -o cube.ele --quiet", folder).status, 0);
+    EXPECT_EQ(refine_interrupted_by("INT", folder).status, 0);
+    EXPECT_TRUE(std::filesystem::exists(folder / "fine.vtu"));
 }
 
 }  // namespace

@@ -78,7 +78,7 @@ int run(int argc, char** argv) {
         "Refines tetrahedral meshes by longest-edge bisection (8T-LE).\n"
         "Files by extension: .ele/.node (TetGen), .mesh (Medit), .vtu (VTK, written only).",
         "octetra");
-    program.set_version_flag("--version", "octetra 0.1.0");
+    program.set_version_flag("--version", "octetra " OCTETRA_VERSION);
     program.require_subcommand(1);
     program.get_formatter()->column_width(34);
     program.footer(

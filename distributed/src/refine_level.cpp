@@ -1,6 +1,7 @@
 #include "refine_level.hpp"
 
 #include <algorithm>
+#include <iterator>
 #include <limits>
 #include <utility>
 
@@ -174,47 +175,37 @@ private:
     RoundingFailure failure_;
 };
 
-void bisect_facets(DistributedMesh& mesh, const EdgeStars& stars, const Midpoints& midpoints) {
-    IndexVector<FacetIndex, FacetVertices> pieces;
-    Lineage& lineage = mesh.facet_lineage;
+/// Replaces the entities of a list by their pieces: append_pieces(entity, pieces) for each, in
+/// order.
+template <class I, class Vertices>
+void replace_by_pieces(IndexVector<I, Vertices>& list, Lineage& lineage, auto&& append_pieces) {
+    IndexVector<I, Vertices> pieces;
     for (std::size_t r = 0; r < lineage.roots.size(); ++r) {
-        const FacetIndex end{lineage.first[r + 1]};
-        FacetIndex f{lineage.first[r]};
+        const I end{lineage.first[r + 1]};
+        I i{lineage.first[r]};
         lineage.first[r] = pieces.end_index().value();
-        for (; f < end; ++f) {
-            const BisectedTriangle bisected =
-                bisect_triangle(mesh.facets[f], mesh.points, stars, midpoints.of_edge);
-            pieces.insert(
-                pieces.end(), bisected.pieces.begin(),
-                bisected.pieces.begin() + static_cast<std::ptrdiff_t>(bisected.piece_count));
-        }
+        for (; i < end; ++i) append_pieces(list[i], pieces);
     }
     lineage.first.back() = pieces.end_index().value();
-    mesh.facets = std::move(pieces);
+    list = std::move(pieces);
 }
 
-void bisect_listed_edges(DistributedMesh& mesh, const EdgeStars& stars,
-                         const Midpoints& midpoints) {
-    IndexVector<EdgeIndex, EdgeVertices> pieces;
-    Lineage& lineage = mesh.edge_lineage;
-    for (std::size_t r = 0; r < lineage.roots.size(); ++r) {
-        const EdgeIndex end{lineage.first[r + 1]};
-        EdgeIndex e{lineage.first[r]};
-        lineage.first[r] = pieces.end_index().value();
-        for (; e < end; ++e) {
-            // Which half comes first is a matter of the end points' positions in the list.
-            const auto& [a, b] = mesh.edges[e];
-            const VertexIndex midpoint = midpoints.of_edge[stars.find(a, b)];
-            if (midpoint.is_none()) {
-                pieces.append({a, b});
-            } else {
-                pieces.append({a, midpoint});
-                pieces.append({midpoint, b});
-            }
+void bisect_listed(DistributedMesh& mesh, const EdgeStars& stars, const Midpoints& midpoints) {
+    replace_by_pieces(mesh.facets, mesh.facet_lineage, [&](const FacetVertices& facet, auto& all) {
+        const BisectedTriangle bisected =
+            bisect_triangle(facet, mesh.points, stars, midpoints.of_edge);
+        std::copy_n(bisected.pieces.begin(), bisected.piece_count, std::back_inserter(all));
+    });
+    replace_by_pieces(mesh.edges, mesh.edge_lineage, [&](const EdgeVertices& edge, auto& all) {
+        // Which half comes first is a matter of the end points' positions in the list.
+        const VertexIndex midpoint = midpoints.of_edge[stars.find(edge[0], edge[1])];
+        if (midpoint.is_none()) {
+            all.append(edge);
+        } else {
+            all.append({edge[0], midpoint});
+            all.append({midpoint, edge[1]});
         }
-    }
-    lineage.first.back() = pieces.end_index().value();
-    mesh.edges = std::move(pieces);
+    });
 }
 
 }  // namespace
@@ -235,8 +226,7 @@ LevelOutcome refine_level(DistributedMesh& mesh, const Selection& selection,
     const VertexIndex first_midpoint = mesh.points.end_index();
     const Midpoints midpoints = bisect_edges(mesh, stars, closure);
     CellBisection(mesh, stars, orders, closure, midpoints, first_midpoint).run(level);
-    bisect_facets(mesh, stars, midpoints);
-    bisect_listed_edges(mesh, stars, midpoints);
+    bisect_listed(mesh, stars, midpoints);
     mesh.interfaces = refined_interfaces(mesh.interfaces, mesh.points, stars, midpoints.of_edge);
     return {.counts = counts, .changed = true};
 }

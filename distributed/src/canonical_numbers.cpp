@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <array>
+#include <utility>
+#include <vector>
 
 namespace octetra::distributed {
 namespace {
@@ -9,16 +11,30 @@ namespace {
 using Ends = std::array<std::uint64_t, 2>;
 
 /// Collective. The places of these pairs among the different pairs of all processes, in ascending
-/// order; adds their number to `total`. The lower ends are less than `end_count`.
-std::vector<std::uint64_t> ranked(const Communicator& processes, const std::vector<Ends>& pairs,
+/// order; adds their number to `total`. The pairs are ascending in their lower ends, which are less
+/// than `end_count`: each process answers for a block of lower ends.
+std::vector<std::uint64_t> ranked(const Communicator& processes, std::vector<Ends> pairs,
                                   std::uint64_t end_count, std::uint64_t& total) {
     const auto process_count = static_cast<std::size_t>(processes.size());
     const std::uint64_t block = end_count / process_count + 1;
-    std::vector<std::vector<Ends>> questions(process_count);
-    for (const Ends& pair : pairs) questions[pair[0] / block].push_back(pair);
-    const auto asked = processes.all_to_all(questions);
+    std::vector<std::vector<Ends>> asked;
+    {
+        std::vector<std::vector<Ends>> questions(process_count);
+        auto begin = pairs.begin();
+        for (std::size_t r = 0; r < process_count; ++r) {
+            const auto end = std::partition_point(
+                begin, pairs.end(), [&](const Ends& pair) { return pair[0] / block == r; });
+            questions[r].assign(begin, end);
+            begin = end;
+        }
+        pairs = {};
+        asked = processes.all_to_all(questions);
+    }
 
     std::vector<Ends> known;
+    std::size_t known_count = 0;
+    for (const auto& from_one : asked) known_count += from_one.size();
+    known.reserve(known_count);
     for (const auto& from_one : asked) known.insert(known.end(), from_one.begin(), from_one.end());
     std::ranges::sort(known);
     known.erase(std::unique(known.begin(), known.end()), known.end());
@@ -32,10 +48,10 @@ std::vector<std::uint64_t> ranked(const Communicator& processes, const std::vect
             const auto place = std::ranges::lower_bound(known, pair);
             answers[r].push_back(first + static_cast<std::uint64_t>(place - known.begin()));
         }
+        asked[r] = {};
     }
-    // The pairs are ascending in their lower ends, so the answers come in their order.
+    // The pairs were ascending in their lower ends, so the answers come in their order.
     std::vector<std::uint64_t> places;
-    places.reserve(pairs.size());
     for (const auto& from_one : processes.all_to_all(answers)) {
         places.insert(places.end(), from_one.begin(), from_one.end());
     }
@@ -56,12 +72,13 @@ CanonicalNumbers canonical_numbers(const DistributedMesh& mesh) {
         const VertexIndex end = level + 1 < mesh.level_begin.size() ? mesh.level_begin[level + 1]
                                                                     : mesh.points.end_index();
         std::vector<Ends> pairs;
+        pairs.reserve(end.value() - mesh.level_begin[level].value());
         for (VertexIndex v = mesh.level_begin[level]; v < end; ++v) {
             const auto& [a, b] = mesh.midpoint_to_edge[v.value() - mesh.input_vertices.size()];
             pairs.push_back({number(a), number(b)});
         }
         for (const std::uint64_t place :
-             ranked(mesh.processes, pairs, numbers.vertex_count, numbers.vertex_count)) {
+             ranked(mesh.processes, std::move(pairs), numbers.vertex_count, numbers.vertex_count)) {
             numbers.of_vertex.push_back(GlobalVertex{place});
         }
     }

@@ -1,7 +1,9 @@
 #include <algorithm>
 #include <array>
 #include <numeric>
+#include <span>
 #include <utility>
+#include <vector>
 
 #include <octetra/core/vertex_buckets.hpp>
 #include <octetra/distributed/distributed_mesh.hpp>
@@ -17,115 +19,181 @@ struct Facts {
     std::uint64_t cells = 0;
     std::uint64_t attributes_per_point = 0;
     std::uint32_t first_number = 0;
-    bool has_point_markers = false;
-    bool has_regions = false;
-    bool has_facet_markers = false;
-    bool has_edge_markers = false;
 };
 
 Facts facts_of(const Mesh& mesh) {
-    return {mesh.points.size(),          mesh.cells.size(),           mesh.attributes_per_point,
-            mesh.first_number,           !mesh.point_markers.empty(), !mesh.regions.empty(),
-            !mesh.facet_markers.empty(), !mesh.edge_markers.empty()};
+    return {mesh.points.size(), mesh.cells.size(), mesh.attributes_per_point, mesh.first_number};
 }
 
-template <class T>
-using PerRank = std::vector<std::vector<T>>;
+/// Entities of one kind that go to one process.
+template <std::size_t N>
+struct ListShare {
+    std::vector<std::uint64_t> numbers;                ///< in the input, ascending
+    std::vector<std::array<VertexIndex, N>> vertices;  ///< numbered locally
+    std::vector<Marker> markers;                       ///< or empty
+};
 
-/// The ranks of the cells at hand, taken apart: for each rank, what goes there.
-class Sender {
+/// All that goes to one process.
+struct Share {
+    std::vector<GlobalVertex> vertices;  ///< ascending
+    std::vector<Point> points;
+    std::vector<Marker> point_markers;
+    std::vector<double> point_attributes;
+    ListShare<4> cells;
+    ListShare<3> facets;
+    ListShare<2> edges;
+
+    /// Calls f on each array, on all processes in the same order.
+    void for_each_array(auto&& f) {
+        f(vertices), f(points), f(point_markers), f(point_attributes);
+        const auto list = [&](auto& l) { f(l.numbers), f(l.vertices), f(l.markers); };
+        list(cells), list(facets), list(edges);
+    }
+};
+
+/// The numbers of a list's entities, by the ranks that they go to.
+class ByRank {
 public:
-    Sender(const Communicator& processes, const Mesh& mesh, const std::vector<int>& cell_to_rank)
-        : processes_(&processes), mesh_(&mesh), cell_to_rank_(&cell_to_rank) {
-        if (!processes.is_first()) return;
-        const auto count = static_cast<std::size_t>(processes.size());
-        cells_.resize(count);
-        for (std::size_t c = 0; c < cell_to_rank.size(); ++c) {
-            cells_[static_cast<std::size_t>(cell_to_rank[c])].push_back(
-                static_cast<std::uint32_t>(c));
+    ByRank() = default;
+    ByRank(const std::vector<int>& ranks, int rank_count)
+        : begin_(static_cast<std::size_t>(rank_count) + 1, 0), numbers_(ranks.size()) {
+        for (const int rank : ranks) ++begin_[static_cast<std::size_t>(rank) + 1];
+        std::partial_sum(begin_.begin(), begin_.end(), begin_.begin());
+        auto next = begin_;
+        for (std::uint32_t i = 0; i < ranks.size(); ++i) {
+            numbers_[next[static_cast<std::size_t>(ranks[i])]++] = i;
         }
-        vertices_.resize(count);
-        for (std::size_t r = 0; r < count; ++r) {
-            for (const std::uint32_t c : cells_[r]) {
-                const CellVertices& cell = mesh.cells[CellIndex{c}];
-                vertices_[r].insert(vertices_[r].end(), cell.begin(), cell.end());
-            }
-            std::ranges::sort(vertices_[r]);
-            vertices_[r].erase(std::unique(vertices_[r].begin(), vertices_[r].end()),
-                               vertices_[r].end());
-        }
-        // A vertex that no cell has belongs to the first process, so that it is not lost.
-        std::vector<bool> used(mesh.points.size(), false);
-        for (const CellVertices& cell : mesh.cells) {
-            for (const VertexIndex v : cell) used[v.value()] = true;
-        }
-        for (VertexIndex v{0}; v < mesh.points.end_index(); ++v) {
-            if (!used[v.value()]) vertices_.front().push_back(v);
-        }
-        std::ranges::sort(vertices_.front());
     }
-
-    [[nodiscard]] const PerRank<std::uint32_t>& cells() const { return cells_; }
-    [[nodiscard]] const PerRank<VertexIndex>& vertices() const { return vertices_; }
-
-    /// For each rank, value(i) for each i of the rank's list.
-    template <class T, class I>
-    [[nodiscard]] std::vector<T> scatter(const PerRank<I>& lists, auto&& value) const {
-        PerRank<T> to_each(lists.size());
-        for (std::size_t r = 0; r < lists.size(); ++r) {
-            to_each[r].reserve(lists[r].size());
-            for (const I i : lists[r]) to_each[r].push_back(value(i));
-        }
-        return processes_->scatter(to_each);
-    }
-
-    /// For each rank, the entities of a list whose cells it has: each goes to the rank of the first
-    /// cell that has it among its `sides`.
-    template <class I, std::size_t N, std::size_t Sides>
-    [[nodiscard]] PerRank<std::uint32_t> owned(
-        const IndexVector<I, std::array<VertexIndex, N>>& list,
-        const std::array<std::array<std::uint8_t, N>, Sides>& sides) const {
-        if (!processes_->is_first()) return {};
-        PerRank<std::uint32_t> owned(cells_.size());
-        const VertexBuckets<I, N> buckets(list, mesh_->points.size());
-        IndexVector<I, int> owner(list.size(), 0);
-        for (CellIndex c{mesh_->cells.size()}; c > CellIndex{0};) {  // the first one comes last
-            c = CellIndex{c.value() - 1U};
-            for (const auto& side : sides) {
-                std::array<VertexIndex, N> vertices;
-                for (std::size_t k = 0; k < N; ++k) vertices[k] = mesh_->cells[c][side[k]];
-                buckets.find(vertices, [&](I i) { owner[i] = (*cell_to_rank_)[c.value()]; });
-            }
-        }
-        for (I i{0}; i < list.end_index(); ++i) {
-            owned[static_cast<std::size_t>(owner[i])].push_back(i.value());
-        }
-        return owned;
+    [[nodiscard]] std::span<const std::uint32_t> of(int rank) const {
+        const auto r = static_cast<std::size_t>(rank);
+        return std::span(numbers_).subspan(begin_[r], begin_[r + 1] - begin_[r]);
     }
 
 private:
-    const Communicator* processes_;
-    const Mesh* mesh_;
-    const std::vector<int>* cell_to_rank_;
-    PerRank<std::uint32_t> cells_;
-    PerRank<VertexIndex> vertices_;
+    std::vector<std::size_t> begin_;
+    std::vector<std::uint32_t> numbers_;
 };
 
-/// Numbers vertices of the input locally: their positions in this process's ascending list.
-template <class I, std::size_t N>
-IndexVector<I, std::array<VertexIndex, N>> numbered_locally(
-    const std::vector<std::array<VertexIndex, N>>& entities,
-    const std::vector<GlobalVertex>& input_vertices) {
-    IndexVector<I, std::array<VertexIndex, N>> result;
-    result.reserve(entities.size());
-    for (std::array<VertexIndex, N> vertices : entities) {
-        for (VertexIndex& v : vertices) {
-            const auto place = std::ranges::lower_bound(input_vertices, GlobalVertex{v.value()});
-            v = VertexIndex{static_cast<std::size_t>(place - input_vertices.begin())};
+/// The rank of each entity of a list: that of the first cell that has it among its `sides`.
+template <class I, std::size_t N, std::size_t Sides>
+std::vector<int> ranks_of(const Mesh& mesh, const std::vector<int>& cell_to_rank,
+                          const IndexVector<I, std::array<VertexIndex, N>>& list,
+                          const std::array<std::array<std::uint8_t, N>, Sides>& sides) {
+    std::vector<int> ranks(list.size(), 0);
+    if (list.empty()) return ranks;
+    const VertexBuckets<I, N> buckets(list, mesh.points.size());
+    for (CellIndex c{mesh.cells.size()}; c > CellIndex{0};) {  // the first one comes last
+        c = CellIndex{c.value() - 1U};
+        for (const auto& side : sides) {
+            std::array<VertexIndex, N> vertices;
+            for (std::size_t k = 0; k < N; ++k) vertices[k] = mesh.cells[c][side[k]];
+            buckets.find(vertices, [&](I i) { ranks[i.value()] = cell_to_rank[c.value()]; });
         }
-        result.push_back(vertices);
     }
-    return result;
+    return ranks;
+}
+
+/// Takes a mesh apart, one process's share at a time. The first process's comes last: vertices that
+/// no cell has are in it, so that they are not lost.
+class Cutter {
+public:
+    Cutter(const Mesh& mesh, const std::vector<int>& cell_to_rank, int rank_count)
+        : mesh_(&mesh),
+          cells_(cell_to_rank, rank_count),
+          facets_(ranks_of(mesh, cell_to_rank, mesh.facets, cell_faces), rank_count),
+          edges_(ranks_of(mesh, cell_to_rank, mesh.edges, cell_edges), rank_count),
+          seen_by_(mesh.points.size(), nobody),
+          local_(mesh.points.size()) {}
+
+    [[nodiscard]] Share share_of(int rank) {
+        Share share;
+        share.vertices = vertices_of(rank);
+        share.points.reserve(share.vertices.size());
+        for (std::size_t i = 0; i < share.vertices.size(); ++i) {
+            const VertexIndex v{static_cast<std::uint64_t>(share.vertices[i])};
+            local_[v] = VertexIndex{i};
+            share.points.push_back(mesh_->points[v]);
+            if (!mesh_->point_markers.empty()) {
+                share.point_markers.push_back(mesh_->point_markers[v]);
+            }
+            const std::size_t count = mesh_->attributes_per_point;
+            const auto begin =
+                mesh_->point_attributes.begin() + static_cast<std::ptrdiff_t>(v.value() * count);
+            share.point_attributes.insert(share.point_attributes.end(), begin,
+                                          begin + static_cast<std::ptrdiff_t>(count));
+        }
+        share.cells = list_share(cells_.of(rank), mesh_->cells, mesh_->regions);
+        share.facets = list_share(facets_.of(rank), mesh_->facets, mesh_->facet_markers);
+        share.edges = list_share(edges_.of(rank), mesh_->edges, mesh_->edge_markers);
+        return share;
+    }
+
+private:
+    static constexpr int nobody = -1;
+
+    std::vector<GlobalVertex> vertices_of(int rank) {
+        std::vector<GlobalVertex> vertices;
+        for (const std::uint32_t c : cells_.of(rank)) {
+            for (const VertexIndex v : mesh_->cells[CellIndex{c}]) {
+                if (seen_by_[v] == rank) continue;
+                seen_by_[v] = rank;
+                vertices.push_back(GlobalVertex{v.value()});
+            }
+        }
+        if (rank == 0) {
+            for (VertexIndex v{0}; v < mesh_->points.end_index(); ++v) {
+                if (seen_by_[v] == nobody) vertices.push_back(GlobalVertex{v.value()});
+            }
+        }
+        std::ranges::sort(vertices);
+        return vertices;
+    }
+
+    template <class I, std::size_t N>
+    [[nodiscard]] ListShare<N> list_share(std::span<const std::uint32_t> numbers,
+                                          const IndexVector<I, std::array<VertexIndex, N>>& list,
+                                          const IndexVector<I, Marker>& markers) const {
+        ListShare<N> share;
+        share.numbers.assign(numbers.begin(), numbers.end());
+        share.vertices.reserve(numbers.size());
+        for (const std::uint32_t i : numbers) {
+            auto vertices = list[I{i}];
+            for (VertexIndex& v : vertices) v = local_[v];
+            share.vertices.push_back(vertices);
+            if (!markers.empty()) share.markers.push_back(markers[I{i}]);
+        }
+        return share;
+    }
+
+    const Mesh* mesh_;
+    ByRank cells_;
+    ByRank facets_;
+    ByRank edges_;
+    IndexVector<VertexIndex, int> seen_by_;        ///< the last rank that a vertex went to
+    IndexVector<VertexIndex, VertexIndex> local_;  ///< its number there
+};
+
+/// Collective. The first process sends each other one its share, and keeps its own; it holds no
+/// more than one share at a time beside the mesh.
+Share share_out(const Communicator& processes, const Mesh& mesh,
+                const std::vector<int>& cell_to_rank) {
+    Share share;
+    if (!processes.is_first()) {
+        share.for_each_array([&]<class T>(std::vector<T>& values) {
+            values = std::move(processes.exchange_with<T>({0}, {{}}).front());
+        });
+        return share;
+    }
+    Cutter cutter(mesh, cell_to_rank, processes.size());
+    for (int rank = 1; rank < processes.size(); ++rank) {
+        share = cutter.share_of(rank);
+        share.for_each_array([&]<class T>(std::vector<T>& values) {
+            std::vector<std::vector<T>> outbox(1);
+            outbox.front() = std::move(values);
+            (void)processes.exchange_with<T>({rank}, outbox);
+        });
+    }
+    return cutter.share_of(0);
 }
 
 Lineage lineage_of(std::vector<std::uint64_t> roots, std::vector<Marker> markers) {
@@ -135,48 +203,21 @@ Lineage lineage_of(std::vector<std::uint64_t> roots, std::vector<Marker> markers
     return lineage;
 }
 
-/// Entities of one kind, their numbers in the input, and their markers.
 template <class I, std::size_t N>
-void scatter_entities(const Sender& sender, const PerRank<std::uint32_t>& numbers,
-                      const IndexVector<I, std::array<VertexIndex, N>>& all,
-                      const IndexVector<I, Marker>& all_markers, bool has_markers,
-                      const std::vector<GlobalVertex>& input_vertices,
-                      IndexVector<I, std::array<VertexIndex, N>>& entities, Lineage& lineage) {
-    auto roots =
-        sender.scatter<std::uint64_t>(numbers, [](std::uint32_t i) { return std::uint64_t{i}; });
-    std::vector<Marker> markers;
-    if (has_markers) {
-        markers =
-            sender.scatter<Marker>(numbers, [&](std::uint32_t i) { return all_markers[I{i}]; });
-    }
-    entities = numbered_locally<I, N>(sender.scatter<std::array<VertexIndex, N>>(
-                                          numbers, [&](std::uint32_t i) { return all[I{i}]; }),
-                                      input_vertices);
-    lineage = lineage_of(std::move(roots), std::move(markers));
+void take_list(ListShare<N> share, IndexVector<I, std::array<VertexIndex, N>>& entities,
+               Lineage& lineage) {
+    entities.assign(share.vertices.begin(), share.vertices.end());
+    lineage = lineage_of(std::move(share.numbers), std::move(share.markers));
 }
 
-void scatter_vertices(const Sender& sender, const Mesh& mesh, const Facts& facts,
-                      DistributedMesh& part) {
-    part.input_vertices = sender.scatter<GlobalVertex>(
-        sender.vertices(), [](VertexIndex v) { return GlobalVertex{v.value()}; });
-    const auto points =
-        sender.scatter<Point>(sender.vertices(), [&](VertexIndex v) { return mesh.points[v]; });
-    part.points.assign(points.begin(), points.end());
-    if (facts.has_point_markers) {
-        part.input_vertex_markers = sender.scatter<Marker>(
-            sender.vertices(), [&](VertexIndex v) { return mesh.point_markers[v]; });
-    }
-    const std::size_t count = facts.attributes_per_point;
-    part.attributes_per_point = count;
-    part.point_attributes.resize(count * part.points.size());
-    for (std::size_t k = 0; k < count; ++k) {
-        const auto attribute = sender.scatter<double>(sender.vertices(), [&](VertexIndex v) {
-            return mesh.point_attributes[v.value() * count + k];
-        });
-        for (std::size_t v = 0; v < attribute.size(); ++v) {
-            part.point_attributes[v * count + k] = attribute[v];
-        }
-    }
+void take_share(Share share, DistributedMesh& part) {
+    part.input_vertices = std::move(share.vertices);
+    part.points.assign(share.points.begin(), share.points.end());
+    part.input_vertex_markers = std::move(share.point_markers);
+    part.point_attributes = std::move(share.point_attributes);
+    take_list(std::move(share.cells), part.cells, part.cell_lineage);
+    take_list(std::move(share.facets), part.facets, part.facet_lineage);
+    take_list(std::move(share.edges), part.edges, part.edge_lineage);
 }
 
 /// The whole mesh on one process: nothing to send, and nothing to copy.
@@ -186,7 +227,6 @@ void take_over(Mesh mesh, DistributedMesh& part) {
         std::iota(numbers.begin(), numbers.end(), std::uint64_t{0});
         return numbers;
     };
-    part.attributes_per_point = mesh.attributes_per_point;
     part.point_attributes = std::move(mesh.point_attributes);
     part.input_vertices.reserve(mesh.points.size());
     for (VertexIndex v{0}; v < mesh.points.end_index(); ++v) {
@@ -212,6 +252,7 @@ DistributedMesh distribute(const Communicator& processes, Mesh mesh,
 
     DistributedMesh part;
     part.processes = processes;
+    part.attributes_per_point = facts.attributes_per_point;
     part.input_vertex_count = facts.vertices;
     part.input_cell_count = facts.cells;
     part.first_number = facts.first_number;
@@ -219,14 +260,8 @@ DistributedMesh distribute(const Communicator& processes, Mesh mesh,
         take_over(std::move(mesh), part);
         return part;
     }
-    const Sender sender(processes, mesh, cell_to_rank);
-    scatter_vertices(sender, mesh, facts, part);
-    scatter_entities(sender, sender.cells(), mesh.cells, mesh.regions, facts.has_regions,
-                     part.input_vertices, part.cells, part.cell_lineage);
-    scatter_entities(sender, sender.owned(mesh.facets, cell_faces), mesh.facets, mesh.facet_markers,
-                     facts.has_facet_markers, part.input_vertices, part.facets, part.facet_lineage);
-    scatter_entities(sender, sender.owned(mesh.edges, cell_edges), mesh.edges, mesh.edge_markers,
-                     facts.has_edge_markers, part.input_vertices, part.edges, part.edge_lineage);
+    take_share(share_out(processes, mesh, cell_to_rank), part);
+    mesh = {};  // no longer needed, and large
     part.interfaces = find_interfaces(part);
     return part;
 }

@@ -106,7 +106,6 @@ Refinement refine_once(const Refinement& coarse, const Selection& selection, Sch
     Refinement fine;
     fine.mesh.first_number = mesh.first_number;
     fine.maps.first_midpoint = coarse.maps.first_midpoint;
-    fine.maps.first_number = coarse.maps.first_number;
     fine.maps.midpoint_to_edge = coarse.maps.midpoint_to_edge;
     const EdgeToMidpoint midpoints = bisect_edges(mesh, table, selected, fine);
     bisect_cells(mesh, table, midpoints, coarse.maps.cell_to_parent, level, fine);
@@ -122,7 +121,6 @@ Refinement refine_once(const Refinement& coarse, const Selection& selection, Sch
 Refinement refine(const Mesh& mesh, const Selection& selection, Scheme scheme, int levels) {
     Refinement result;
     result.mesh = mesh;
-    result.maps.first_number = mesh.first_number;
     result.maps.first_midpoint = mesh.points.end_index();
     for (CellIndex c{0}; c < mesh.cells.end_index(); ++c) result.maps.cell_to_parent.append(c);
     for (int level = 1; level <= levels; ++level) {

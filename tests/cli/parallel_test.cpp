@@ -116,6 +116,23 @@ TEST_F(Parallel, ReportsRoundingAsOneProcessDoes) {
     EXPECT_THAT(parallel.err, HasSubstr(serial.err));
 }
 
+/// No rank may write a file longer than 50 KiB: whichever meets the limit, all end alike.
+TEST_F(Parallel, EndsInOneMessageWhereARankCannotWriteAndLeavesNothing) {
+    for (const std::string output : {"p.ele", "p.mesh", "p.vtu", "p.pvtu"}) {
+        const auto run =
+            test::run_program({OCTETRA_SOURCE_DIR "/tests/support/mpirun.sh", "3", "sh", "-c",
+                               "ulimit -f 100; exec " + std::string(OCTETRA_PROGRAM) +
+                                   " refine gear.1.ele --all --quiet -o " + output},
+                              folder.path());
+        EXPECT_EQ(run.status, 3) << output << "\n" << run.err;
+        EXPECT_EQ(occurrences(run.err, "octetra: "), 1U) << output << "\n" << run.err;
+        EXPECT_THAT(run.err, HasSubstr("writing failed: File too large")) << output;
+        for (const auto& entry : std::filesystem::directory_iterator(folder.path())) {
+            EXPECT_THAT(entry.path().filename().native(), testing::StartsWith("gear.1."));
+        }
+    }
+}
+
 TEST_F(Parallel, EndsAtOnceWhenARankIsKilledAndKeepsTheOutput) {
     (void)folder.write("p.mesh", "as it was");
     // Rank 1 is killed half a second after the start; the work takes several.

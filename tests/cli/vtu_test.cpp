@@ -48,7 +48,7 @@ TEST(Vtu, HoldsEveryBitOfTheCoordinatesAndEveryCell) {
     // More than one compressed block of every array: 20^3 * 6 cells, 9,261 vertices.
     Mesh mesh = test::kuhn(20, 20, 20, 1.0 / 3);
     for (Point& p : mesh.points) p = {p.x / 7, std::sqrt(p.y), -p.z * 1e-300};
-    (void)write_mesh(mesh, folder / "a.mesh", {});
+    (void)write_mesh(mesh, folder / "a.mesh");
     ASSERT_EQ(test::octetra("convert a.mesh a.vtu", folder).status, 2) << "mirrored: inverted";
     ASSERT_EQ(test::octetra("convert a.mesh a.vtu --fix-orientation", folder).status, 0);
     mesh = read_mesh(folder / "a.mesh", {.fix_orientation = true});
@@ -68,6 +68,43 @@ TEST(Vtu, HoldsEveryBitOfTheCoordinatesAndEveryCell) {
     };
     EXPECT_EQ(parsed(read_by_vtk("--points a.vtu", folder).out), parsed(points));
     EXPECT_EQ(read_by_vtk("--cells a.vtu", folder).out, cells);
+}
+
+TEST(Vtu, InPiecesIsTheWholeMeshForVtk) {
+    const TemporaryFolder folder;
+    Mesh mesh = test::shaken_kuhn(4, 0.2, 1);
+    mesh.first_number = 1;
+    test::list_boundary(mesh);
+    for (std::size_t v = 0; v < mesh.points.size(); ++v) {
+        mesh.point_markers.append(static_cast<Marker>(v % 5));
+    }
+    (void)write_mesh(mesh, folder / "a.ele");
+    const std::string refine = "refine a.ele --box 0,0,0,2,2,4 --levels 2 -o ";
+    ASSERT_EQ(test::octetra(refine + "one.pvtu", folder).status, 0);
+    ASSERT_EQ(test::octetra(refine + "serial.pvtu --engine reference", folder).status, 0);
+    const auto by_number = [&](const std::string& file) {
+        const test::Outcome run = read_by_vtk("--by-number " + file, folder);
+        EXPECT_EQ(run.status, 0) << run.err;
+        return run.out;
+    };
+    const std::string expected = by_number("one.pvtu");
+    EXPECT_GT(expected.size(), 100'000U);
+    EXPECT_EQ(by_number("serial.pvtu"), expected);
+    const json one = json::parse(read_by_vtk("one.pvtu", folder).out);
+
+    const test::Outcome run = test::run_program(
+        test::words(OCTETRA_SOURCE_DIR "/tests/support/mpirun.sh 3 " OCTETRA_PROGRAM " " + refine +
+                    "three.pvtu"),
+        folder.path());
+    ASSERT_EQ(run.status, 0) << run.err;
+    EXPECT_EQ(by_number("three.pvtu"), expected);
+    const json three = json::parse(read_by_vtk("three.pvtu", folder).out);
+    EXPECT_EQ(three["cells"], one["cells"]);
+    EXPECT_GT(three["points"], one["points"]) << "shared ones come twice";
+    EXPECT_EQ(three["cell_data"][0], one["cell_data"][0]) << "parent";
+    EXPECT_EQ(three["cell_data"][1]["name"], "rank");
+    EXPECT_EQ(three["cell_data"][1]["range"], json({{0, 2}}));
+    EXPECT_EQ(three["point_data"], one["point_data"]) << "marker and vertex";
 }
 
 TEST(Vtu, NumbersParentsAsTheInputDoes) {

@@ -125,17 +125,21 @@ TEST(RoundTrip, LongFilesKeepTheirLinesAcrossBuffers) {
 
 TEST(WriteMaps, NumbersEverythingAsTheMeshFilesDo) {
     const TemporaryFolder folder;
+    Mesh mesh;
+    mesh.points.resize(7);
+    mesh.cells.resize(3);
     RefinementMaps maps;
     maps.cell_to_parent = {CellIndex{0}, CellIndex{0}, CellIndex{1}};
     maps.first_midpoint = VertexIndex{5};
     maps.midpoint_to_edge = {{VertexIndex{0}, VertexIndex{3}}, {VertexIndex{1}, VertexIndex{5}}};
-    write_maps(maps, folder / "from-0");
-    EXPECT_EQ(test::content_of(folder / "from-0"),
-              "cells 3\n0 0\n1 0\n2 1\nmidpoints 2\n5 0 3\n6 1 5\n");
-    maps.first_number = 1;
-    write_maps(maps, folder / "from-1");
-    EXPECT_EQ(test::content_of(folder / "from-1"),
-              "cells 3\n1 1\n2 1\n3 2\nmidpoints 2\n6 1 4\n7 2 6\n");
+    const auto written = [&](std::uint32_t first_number) {
+        mesh.first_number = first_number;
+        WholeMesh source(mesh, &maps);
+        write_maps(source, folder / "maps");
+        return test::content_of(folder / "maps");
+    };
+    EXPECT_EQ(written(0), "cells 3\n0 0\n1 0\n2 1\nmidpoints 2\n5 0 3\n6 1 5\n");
+    EXPECT_EQ(written(1), "cells 3\n1 1\n2 1\n3 2\nmidpoints 2\n6 1 4\n7 2 6\n");
 }
 
 TEST(RoundTrip, EmptyMeshesAreMeshes) { EXPECT_EQ(through_file(Mesh{}, "a.ele"), Mesh{}); }

@@ -126,7 +126,6 @@ TEST(Numbering, GoesOnFromWhereTheInputBegins) {
     mesh.first_number = 1;
     const Refinement fine = refine(mesh, everything, Scheme::eight, 2);
     EXPECT_EQ(fine.mesh.first_number, 1U);
-    EXPECT_EQ(fine.maps.first_number, 1U);
 }
 
 TEST(Counts, StayAsTheyAreWhereNothingIsChosen) {

@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Reads a .vtu file with VTK, not with Octetra, and prints what VTK found in it, as JSON.
+"""Reads a .vtu or .pvtu file with VTK, not with Octetra, and prints what VTK found in it, as JSON.
 
     points, cells     how many
     cell_types        {VTK cell type number: how many cells}; a tetrahedron is 10
@@ -10,7 +10,10 @@
     coordinates_type  of the points: "double" unless the writer lost precision
 
 --points prints the coordinates instead, one vertex a line, as hexadecimal floats; --cells the
-vertex numbers of each cell, one cell a line. Both are exact, to be compared as text.
+vertex numbers of each cell, one cell a line. Both are exact, to be compared as text. --by-number
+prints, of a file whose points have a number in the whole mesh as point data `vertex`, a line "p
+number x y z marker" for each different point, and for each cell a line "c number number number number",
+in ascending order of the lines.
 
 Exit status: 0 read without any complaint; 1 VTK complained, or a cell names a vertex that is not
 there; 2 bad usage.
@@ -25,7 +28,7 @@ import sys
 
 from vtkmodules.vtkCommonCore import vtkLogger, vtkOutputWindow
 from vtkmodules.vtkCommonDataModel import VTK_TETRA
-from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridReader
+from vtkmodules.vtkIOXML import vtkXMLPUnstructuredGridReader, vtkXMLUnstructuredGridReader
 
 
 def read(path):
@@ -41,7 +44,8 @@ def read(path):
     vtkOutputWindow.GetInstance().SetDisplayModeToNever()
     vtkLogger.SetStderrVerbosity(vtkLogger.VERBOSITY_OFF)
 
-    reader = vtkXMLUnstructuredGridReader()
+    pieces = path.endswith(".pvtu")
+    reader = vtkXMLPUnstructuredGridReader() if pieces else vtkXMLUnstructuredGridReader()
     # The parser and the reader's other parts complain on their own, through the output window;
     # the reader itself to those who observe it.
     for event in ("ErrorEvent", "WarningEvent"):
@@ -80,6 +84,17 @@ def coordinates(grid):
     if grid.GetNumberOfPoints() == 0:
         return []
     return memoryview(grid.GetPoints().GetData()).tolist()
+
+
+def by_number(grid):
+    """The mesh that pieces make up, as lines."""
+    numbers = memoryview(grid.GetPointData().GetArray("vertex")).tolist()
+    marker = grid.GetPointData().GetArray("marker")
+    markers = memoryview(marker).tolist() if marker else [None] * len(numbers)
+    points = {f"p {n} {' '.join(map(float.hex, p))} {m}"
+              for n, p, m in zip(numbers, coordinates(grid), markers)}
+    cells = [f"c {' '.join(str(numbers[v]) for v in cell)}" for cell in connectivity(grid)]
+    return sorted(points) + sorted(cells)
 
 
 def cell_types(grid):
@@ -135,6 +150,7 @@ def main():
     what = parser.add_mutually_exclusive_group()
     what.add_argument("--points", action="store_true", help="coordinates, as hexadecimal floats")
     what.add_argument("--cells", action="store_true", help="vertex numbers of the cells")
+    what.add_argument("--by-number", action="store_true", help="by the numbers in the whole mesh")
     options = parser.parse_args()
 
     grid, complaints = read(options.file)
@@ -148,6 +164,8 @@ def main():
     elif options.cells:
         for vertices in connectivity(grid):
             print(*vertices)
+    elif options.by_number:
+        print(*by_number(grid), sep="\n")
     else:
         print(json.dumps(summary(grid), indent=2))
     return 0

@@ -23,14 +23,15 @@ void add_input_options(CLI::App& subcommand, InputOptions& options) {
 
 void add_output_option(CLI::App& subcommand, std::string& path) {
     subcommand
-        .add_option("-o,--output", path, "where to write: .ele (TetGen), .mesh (Medit), .vtu (VTK)")
+        .add_option("-o,--output", path,
+                    "where to write: .ele (TetGen), .mesh (Medit), .vtu or .pvtu (VTK)")
         ->type_name("OUT")
         ->required();
 }
 
 void check_side_file(std::string_view option, const std::filesystem::path& path) {
-    constexpr std::array<std::string_view, 6> mesh_files{".ele",  ".node", ".face",
-                                                         ".edge", ".mesh", ".vtu"};
+    constexpr std::array<std::string_view, 7> mesh_files{".ele",  ".node", ".face", ".edge",
+                                                         ".mesh", ".vtu",  ".pvtu"};
     if (std::ranges::find(mesh_files, path.extension()) != mesh_files.end()) {
         throw InputError(fmt::format("{}: {} is the name of a mesh file; choose another", option,
                                      path.native()));
@@ -49,8 +50,8 @@ Mesh read_input(const InputOptions& options) {
     return read_mesh(options.path, {.fix_orientation = options.fix_orientation, .note = note});
 }
 
-void write_output(const Mesh& mesh, const std::string& path, const WriteExtras& extras) {
-    const std::string lost = write_mesh(mesh, path, extras);
+void write_output(const Mesh& mesh, const std::string& path) {
+    const std::string lost = write_mesh(mesh, path);
     if (!lost.empty()) note(lost);
 }
 

@@ -38,6 +38,6 @@ void note(std::string_view what);
 void report_written(const Mesh& mesh, const std::string& path);
 
 /// Writes the mesh; notes on stderr what the format cannot hold.
-void write_output(const Mesh& mesh, const std::string& path, const WriteExtras& extras = {});
+void write_output(const Mesh& mesh, const std::string& path);
 
 }  // namespace octetra::cli

@@ -13,8 +13,9 @@
 
 #include <octetra/core/error.hpp>
 #include <octetra/core/files.hpp>
-#include <octetra/core/maps.hpp>
+#include <octetra/core/mesh_source.hpp>
 #include <octetra/distributed/agreement.hpp>
+#include <octetra/distributed/canonical_mesh.hpp>
 #include <octetra/distributed/partition.hpp>
 #include <octetra/distributed/refine.hpp>
 #include <octetra/reference/refine.hpp>
@@ -61,11 +62,11 @@ struct RefineOptions {
     bool quiet = false;
 };
 
-void report(const RefineOptions& options, std::string_view doing, const Mesh& mesh,
-            double seconds) {
+void report(const RefineOptions& options, std::string_view doing, std::uint64_t vertices,
+            std::uint64_t cells, double seconds) {
     if (options.quiet) return;
-    fmt::print("{:<30} {:>13} vertices {:>13} cells {:>8.2f} s\n", doing,
-               grouped(mesh.points.size()), grouped(mesh.cells.size()), seconds);
+    fmt::print("{:<30} {:>13} vertices {:>13} cells {:>8.2f} s\n", doing, grouped(vertices),
+               grouped(cells), seconds);
     std::fflush(stdout);
 }
 
@@ -82,13 +83,6 @@ std::string refined_line(int levels, int ranks) {
     return ranks == 1 ? line : fmt::format("{}, {} ranks", line, ranks);
 }
 
-/// What an engine makes of a mesh; of several processes the first one has it.
-struct Refined {
-    Mesh mesh;
-    RefinementMaps maps;
-    int levels = 0;  ///< that changed something, as far as the engine tells
-};
-
 /// Runs an engine; what it finds wrong with the mesh gets the mesh's name in front.
 auto naming_the_mesh(const RefineOptions& options, auto&& engine) {
     try {
@@ -96,18 +90,6 @@ auto naming_the_mesh(const RefineOptions& options, auto&& engine) {
     } catch (const InputError& error) {
         throw InputError(fmt::format("{}: {}", options.input.path, error.what()));
     }
-}
-
-Refined refine_by_reference(const Mesh& mesh, const Plan& plan, const RefineOptions& options,
-                            const distributed::Communicator& world) {
-    Refined fine;
-    distributed::on_first(world, [&] {
-        auto result = naming_the_mesh(options, [&] {
-            return reference::refine(mesh, plan.selection, plan.scheme, options.levels);
-        });
-        fine = {std::move(result.mesh), std::move(result.maps), options.levels};
-    });
-    return fine;
 }
 
 /// Where people watch, a line that each level writes over.
@@ -119,35 +101,68 @@ std::function<void(int, std::uint64_t)> level_progress(const RefineOptions& opti
     };
 }
 
-Refined refine_distributed(Mesh mesh, const Plan& plan, const RefineOptions& options,
-                           const distributed::Communicator& world) {
-    std::vector<int> cell_to_rank;
-    distributed::on_first(world, [&] {
-        if (world.size() == 1) return;
-        cell_to_rank = distributed::partition_cells(mesh, world.size(), plan.partition);
-    });
-    auto parts = distributed::distribute(world, std::move(mesh), cell_to_rank);
-    int levels = 0;
-    const auto show = level_progress(options);
-    const auto on_level = [&](int level, std::uint64_t cells) {
-        levels = level;
-        if (show) show(level, cells);
-    };
-    auto whole = naming_the_mesh(options, [&] {
-        distributed::refine(parts, plan.selection,
-                            {plan.scheme, options.levels, plan.synchronisation, on_level});
-        return distributed::collect(std::move(parts));
-    });
-    if (show) fmt::print(stderr, "\r{:60}\r", "");
-    return {std::move(whole.mesh), std::move(whole.maps), levels};
-}
-
 /// Says so where there was less to do than was asked for, or more is left than there may seem.
 void note_idle_levels(const RefineOptions& options, int levels) {
     if (levels == options.levels) return;
     note(levels == 0 ? std::string("no cell was chosen: the mesh stays as it is")
                      : fmt::format("no cell was chosen any more after level {} of {}", levels,
                                    options.levels));
+}
+
+void report_refined(const RefineOptions& options, int levels, int ranks, const MeshFacts& facts,
+                    double seconds) {
+    report(options, refined_line(levels, ranks), facts.vertices, facts.cells, seconds);
+    note_idle_levels(options, levels);
+}
+
+void report_written(const RefineOptions& options, const std::string& lost, const MeshFacts& facts,
+                    double seconds) {
+    if (!lost.empty()) note(lost);
+    report(options, fmt::format("wrote {}", options.output), facts.vertices, facts.cells, seconds);
+}
+
+/// On the first process alone.
+void refine_by_reference(const Mesh& mesh, const Plan& plan, const RefineOptions& options,
+                         Stopwatch& watch) {
+    const auto fine = naming_the_mesh(options, [&] {
+        return reference::refine(mesh, plan.selection, plan.scheme, options.levels);
+    });
+    WholeMesh source(fine.mesh, &fine.maps);
+    const int levels = fine.mesh.cells.size() == mesh.cells.size() ? 0 : options.levels;
+    report_refined(options, levels, 1, source.facts(), watch.lap());
+    const std::string lost = write_mesh(source, options.output);
+    if (!options.maps.empty()) write_maps(source, options.maps);
+    report_written(options, lost, source.facts(), watch.lap());
+}
+
+/// Collective.
+void refine_distributed(Mesh mesh, const Plan& plan, const RefineOptions& options,
+                        const distributed::Communicator& world, Stopwatch& watch) {
+    std::vector<int> cell_to_rank;
+    distributed::on_first(world, [&] {
+        if (world.size() == 1) return;
+        cell_to_rank = distributed::partition_cells(mesh, world.size(), plan.partition);
+    });
+    auto parts = distributed::distribute(world, std::move(mesh), cell_to_rank);
+    cell_to_rank = {};
+    int levels = 0;
+    const auto show = level_progress(options);
+    const auto on_level = [&](int level, std::uint64_t cells) {
+        levels = level;
+        if (show) show(level, cells);
+    };
+    auto fine = naming_the_mesh(options, [&] {
+        distributed::refine(parts, plan.selection,
+                            {plan.scheme, options.levels, plan.synchronisation, on_level});
+        return distributed::CanonicalMesh(std::move(parts));
+    });
+    if (world.is_first()) {
+        if (show) fmt::print(stderr, "\r{:60}\r", "");
+        report_refined(options, levels, world.size(), fine.facts(), watch.lap());
+    }
+    const std::string lost = distributed::write_mesh(fine, options.output);
+    if (!options.maps.empty()) write_maps(fine.whole(), options.maps);
+    if (world.is_first()) report_written(options, lost, fine.facts(), watch.lap());
 }
 
 void refine(const RefineOptions& options, const distributed::Communicator& world) {
@@ -159,23 +174,15 @@ void refine(const RefineOptions& options, const distributed::Communicator& world
         if (!options.maps.empty()) check_side_file("--maps", options.maps);
         mesh = read_input(options.input);
         complete_selection(plan.selection, options.selection, mesh);
-        report(options, fmt::format("read {}", options.input.path), mesh, watch.lap());
+        report(options, fmt::format("read {}", options.input.path), mesh.points.size(),
+               mesh.cells.size(), watch.lap());
     });
     world.broadcast(plan.selection.cells);
-
-    const bool by_reference = plan.engine == Engine::reference;
-    const std::size_t cells_before = mesh.cells.size();
-    Refined fine = by_reference ? refine_by_reference(mesh, plan, options, world)
-                                : refine_distributed(std::move(mesh), plan, options, world);
-    distributed::on_first(world, [&] {
-        if (fine.mesh.cells.size() == cells_before) fine.levels = 0;
-        report(options, refined_line(fine.levels, by_reference ? 1 : world.size()), fine.mesh,
-               watch.lap());
-        note_idle_levels(options, fine.levels);
-        write_output(fine.mesh, options.output, {.cell_to_parent = &fine.maps.cell_to_parent});
-        if (!options.maps.empty()) write_maps(fine.maps, options.maps);
-        report(options, fmt::format("wrote {}", options.output), fine.mesh, watch.lap());
-    });
+    if (plan.engine == Engine::reference) {
+        distributed::on_first(world, [&] { refine_by_reference(mesh, plan, options, watch); });
+    } else {
+        refine_distributed(std::move(mesh), plan, options, world, watch);
+    }
 }
 
 void add_engine_options(CLI::App& command, RefineOptions& options) {

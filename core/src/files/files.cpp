@@ -21,13 +21,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
-enum class Format { tetgen, medit, vtu, unknown };
+enum class Format { tetgen, medit, vtu, pvtu, unknown };
 
 Format format_of(const fs::path& path) {
     const fs::path extension = path.extension();
     if (extension == ".ele" || extension == ".node") return Format::tetgen;
     if (extension == ".mesh") return Format::medit;
     if (extension == ".vtu") return Format::vtu;
+    if (extension == ".pvtu") return Format::pvtu;
     return Format::unknown;
 }
 
@@ -38,8 +39,10 @@ Mesh read_mesh(const fs::path& path, const ReadOptions& options) {
         case Format::tetgen: return read_tetgen(path, options);
         case Format::medit: return read_medit(path, options);
         case Format::vtu:
-            throw InputError(fmt::format(
-                "{}: .vtu files are written, not read; read .ele/.node or .mesh", path.native()));
+        case Format::pvtu:
+            throw InputError(
+                fmt::format("{}: {} files are written, not read; read .ele/.node or .mesh",
+                            path.native(), path.extension().native()));
         case Format::unknown: break;
     }
     throw InputError(fmt::format(
@@ -48,22 +51,35 @@ Mesh read_mesh(const fs::path& path, const ReadOptions& options) {
         path.native()));
 }
 
-std::string write_mesh(const Mesh& mesh, const fs::path& path, const WriteExtras& extras) {
-    check_writable(path);
+std::string write_mesh(MeshSource& mesh, const fs::path& path) {
+    mesh.group().on_first([&] { check_writable(path); });
     switch (format_of(path)) {
         case Format::tetgen: write_tetgen(mesh, path); return {};
         case Format::medit: return write_medit(mesh, path);
-        case Format::vtu: return write_vtu(mesh, path, extras);
+        case Format::vtu: return write_vtu(mesh, path);
+        case Format::pvtu: return write_pieces(mesh, WriterGroup::alone(), path);
         case Format::unknown: break;
     }
     return {};
+}
+
+std::string write_mesh(const Mesh& mesh, const fs::path& path) {
+    WholeMesh source(mesh);
+    return write_mesh(source, path);
+}
+
+bool is_in_pieces(const fs::path& path) { return format_of(path) == Format::pvtu; }
+
+std::string write_pieces(MeshSource& piece, const WriterGroup& group, const fs::path& path) {
+    group.on_first([&] { check_writable(path); });
+    return write_pvtu(piece, group, path);
 }
 
 void check_writable(const fs::path& path) {
     if (format_of(path) == Format::unknown) {
         throw InputError(
             fmt::format("{}: a mesh to write is named by its extension: .ele or .node "
-                        "(TetGen), .mesh (Medit), .vtu (VTK)",
+                        "(TetGen), .mesh (Medit), .vtu or .pvtu (VTK)",
                         path.native()));
     }
     check_place(path);

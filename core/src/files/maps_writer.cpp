@@ -1,36 +1,49 @@
-#include <octetra/core/maps.hpp>
+#include <octetra/core/files.hpp>
 
 #include "files/output_file.hpp"
+#include "files/text_slices.hpp"
 
 namespace octetra {
+namespace {
 
-void write_maps(const RefinementMaps& maps, const std::filesystem::path& path) {
-    OutputFile out(path);
-    const auto number = [&](auto index) {
-        return std::uint64_t{index.value()} + maps.first_number;
+void put_heading(OutputFile& out, const WriterGroup& group, std::string_view what,
+                 std::uint64_t count) {
+    if (!group.is_first()) return;
+    out.put(what);
+    out.put(count);
+    out.put('\n');
+}
+
+}  // namespace
+
+void write_maps(MeshSource& mesh, const std::filesystem::path& path) {
+    const MeshFacts& facts = mesh.facts();
+    const WriterGroup& group = mesh.group();
+    const auto put_number = [first = facts.first_number](OutputFile& out, std::uint64_t number) {
+        out.put(number + first);
     };
-    out.put(std::string_view{"cells "});
-    out.put(maps.cell_to_parent.size());
-    out.put(std::string_view{"\n"});
-    for (CellIndex c{0}; c < maps.cell_to_parent.end_index(); ++c) {
-        out.put(number(c));
-        out.put(' ');
-        out.put(number(maps.cell_to_parent[c]));
-        out.put('\n');
-    }
-    out.put(std::string_view{"midpoints "});
-    out.put(maps.midpoint_to_edge.size());
-    out.put(std::string_view{"\n"});
-    VertexIndex midpoint = maps.first_midpoint;
-    for (const auto& [a, b] : maps.midpoint_to_edge) {
-        out.put(number(midpoint));
-        out.put(' ');
-        out.put(number(a));
-        out.put(' ');
-        out.put(number(b));
-        out.put('\n');
-        ++midpoint;
-    }
+    OutputFile out(path, group);
+    put_heading(out, group, "cells ", facts.cells);
+    put_list(out, facts.cells, group, [&](const Window& window, std::uint64_t cell) {
+        for (const CellIndex parent : mesh.parents(window)) {
+            put_number(out, cell++);
+            out.put(' ');
+            put_number(out, parent.value());
+            out.put('\n');
+        }
+    });
+    const std::uint64_t midpoints = facts.vertices - facts.first_midpoint;
+    put_heading(out, group, "midpoints ", midpoints);
+    put_list(out, midpoints, group, [&](const Window& window, std::uint64_t midpoint) {
+        for (const auto& [a, b] : mesh.midpoint_ends(window)) {
+            put_number(out, facts.first_midpoint + midpoint++);
+            out.put(' ');
+            put_number(out, a.value());
+            out.put(' ');
+            put_number(out, b.value());
+            out.put('\n');
+        }
+    });
     out.commit();
 }
 

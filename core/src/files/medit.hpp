@@ -4,6 +4,7 @@
 
 #include <octetra/core/files.hpp>
 #include <octetra/core/mesh.hpp>
+#include <octetra/core/mesh_source.hpp>
 
 /// Medit's text format `.mesh`: free-form tokens; a keyword, a count, that many entries, each
 /// ending in a reference number (our markers and region tags). Entities are numbered from 1.
@@ -11,7 +12,7 @@ namespace octetra {
 
 [[nodiscard]] Mesh read_medit(const std::filesystem::path& path, const ReadOptions& options);
 
-/// Returns what of the mesh the format cannot hold, in a sentence, or nothing.
-[[nodiscard]] std::string write_medit(const Mesh& mesh, const std::filesystem::path& path);
+/// Collective. Returns what of the mesh the format cannot hold, in a sentence, or nothing.
+[[nodiscard]] std::string write_medit(MeshSource& mesh, const std::filesystem::path& path);
 
 }  // namespace octetra

@@ -1,58 +1,99 @@
+#include <array>
+#include <span>
+#include <string_view>
+
 #include <fmt/format.h>
 
 #include "files/medit.hpp"
 #include "files/output_file.hpp"
+#include "files/text_slices.hpp"
 
 namespace octetra {
 namespace {
 
-template <class I>
-Marker marker_or_zero(const IndexVector<I, Marker>& markers, I i) {
-    return markers.empty() ? 0 : markers[i];
-}
+/// Where the entities of a section come from, and their reference numbers, which are 0 where the
+/// mesh has no markers.
+template <std::size_t N>
+struct Section {
+    std::string_view keyword;
+    std::uint64_t count;
+    std::span<const std::array<VertexIndex, N>> (MeshSource::*vertices)(const Window&);
+    bool has_markers;
+    std::span<const Marker> (MeshSource::*markers)(const Window&);
+};
 
-template <class I, std::size_t N>
-void write_section(OutputFile& out, std::string_view keyword,
-                   const IndexVector<I, std::array<VertexIndex, N>>& list,
-                   const IndexVector<I, Marker>& markers) {
+void put_heading(OutputFile& out, const WriterGroup& group, std::string_view keyword,
+                 std::uint64_t count) {
+    if (!group.is_first()) return;
     out.put(keyword);
     out.put('\n');
-    out.put(list.size());
+    out.put(count);
     out.put('\n');
-    for (I i{0}; i < list.end_index(); ++i) {
-        for (const VertexIndex vertex : list[i]) {
-            out.put(std::uint64_t{vertex.value()} + 1);
-            out.put(' ');
+}
+
+template <std::size_t N>
+void write_section(OutputFile& out, MeshSource& mesh, const Section<N>& section) {
+    put_heading(out, mesh.group(), section.keyword, section.count);
+    put_list(out, section.count, mesh.group(), [&](const Window& window, std::uint64_t) {
+        const auto entities = (mesh.*section.vertices)(window);
+        std::span<const Marker> markers;
+        if (section.has_markers) markers = (mesh.*section.markers)(window);
+        for (std::size_t i = 0; i < entities.size(); ++i) {
+            for (const VertexIndex vertex : entities[i]) {
+                out.put(std::uint64_t{vertex.value()} + 1);
+                out.put(' ');
+            }
+            out.put(markers.empty() ? 0 : markers[i]);
+            out.put('\n');
         }
-        out.put(marker_or_zero(markers, i));
-        out.put('\n');
-    }
+    });
+}
+
+void write_vertices(OutputFile& out, MeshSource& mesh) {
+    const MeshFacts& facts = mesh.facts();
+    put_heading(out, mesh.group(), "Vertices", facts.vertices);
+    put_list(out, facts.vertices, mesh.group(), [&](const Window& window, std::uint64_t) {
+        const std::span<const Point> points = mesh.points(window);
+        std::span<const Marker> markers;
+        if (facts.has_point_markers) markers = mesh.point_markers(window);
+        for (std::size_t v = 0; v < points.size(); ++v) {
+            for (const double coordinate : {points[v].x, points[v].y, points[v].z}) {
+                out.put(coordinate);
+                out.put(' ');
+            }
+            out.put(markers.empty() ? 0 : markers[v]);
+            out.put('\n');
+        }
+    });
 }
 
 }  // namespace
 
-std::string write_medit(const Mesh& mesh, const std::filesystem::path& path) {
-    OutputFile out(path);
-    out.put(std::string_view{"MeshVersionFormatted 2\nDimension 3\nVertices\n"});
-    out.put(mesh.points.size());
-    out.put('\n');
-    for (VertexIndex v{0}; v < mesh.points.end_index(); ++v) {
-        for (const double coordinate : {mesh.points[v].x, mesh.points[v].y, mesh.points[v].z}) {
-            out.put(coordinate);
-            out.put(' ');
-        }
-        out.put(marker_or_zero(mesh.point_markers, v));
-        out.put('\n');
+std::string write_medit(MeshSource& mesh, const std::filesystem::path& path) {
+    const MeshFacts& facts = mesh.facts();
+    const WriterGroup& group = mesh.group();
+    OutputFile out(path, group);
+    if (group.is_first()) out.put(std::string_view{"MeshVersionFormatted 2\nDimension 3\n"});
+    write_vertices(out, mesh);
+    write_section<4>(
+        out, mesh,
+        {"Tetrahedra", facts.cells, &MeshSource::cells, facts.has_regions, &MeshSource::regions});
+    if (facts.facets > 0) {
+        write_section<3>(out, mesh,
+                         {"Triangles", facts.facets, &MeshSource::facets, facts.has_facet_markers,
+                          &MeshSource::facet_markers});
     }
-    write_section(out, "Tetrahedra", mesh.cells, mesh.regions);
-    if (!mesh.facets.empty()) write_section(out, "Triangles", mesh.facets, mesh.facet_markers);
-    if (!mesh.edges.empty()) write_section(out, "Edges", mesh.edges, mesh.edge_markers);
-    out.put(std::string_view{"End\n"});
+    if (facts.edges > 0) {
+        write_section<2>(out, mesh,
+                         {"Edges", facts.edges, &MeshSource::edges, facts.has_edge_markers,
+                          &MeshSource::edge_markers});
+    }
+    if (group.is_first()) out.put(std::string_view{"End\n"});
     out.commit();
 
-    if (mesh.attributes_per_point == 0) return {};
+    if (facts.attributes_per_point == 0) return {};
     return fmt::format("Medit's format has no place for the {} attribute(s) of each vertex",
-                       mesh.attributes_per_point);
+                       facts.attributes_per_point);
 }
 
 }  // namespace octetra

@@ -3,6 +3,7 @@
 #include <fcntl.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <utility>
@@ -12,28 +13,45 @@
 #include <octetra/core/error.hpp>
 
 namespace octetra {
-
 namespace {
+
 constexpr std::size_t buffer_size = std::size_t{1} << 20U;
+
+/// A name that no other run uses at the same time, and that all processes of this one know.
+std::filesystem::path temporary_beside(const std::filesystem::path& path,
+                                       const WriterGroup& group) {
+    const auto number = group.of_first(static_cast<std::uint64_t>(::getpid()));
+    return fmt::format("{}.{}.tmp", path.native(), number);
 }
 
-OutputFile::OutputFile(std::filesystem::path path)
-    : path_(std::move(path)),
-      temporary_(fmt::format("{}.{}.tmp", path_.native(), ::getpid())),
+}  // namespace
+
+OutputFile::OutputFile(std::filesystem::path path, const WriterGroup& group)
+    : group_(&group),
+      path_(std::move(path)),
+      temporary_(temporary_beside(path_, group)),
       unfinished_(temporary_),
       buffer_(buffer_size) {
-    // Taking the name of a device would put an end to the device: think of /dev/null.
-    std::error_code ignored;
-    if (const auto there = std::filesystem::status(path_, ignored);
-        std::filesystem::exists(there) && !std::filesystem::is_regular_file(there)) {
-        throw SystemError(fmt::format(
-            "{}: {}, not a file", path_.native(),
-            std::filesystem::is_directory(there) ? "is a directory" : "is a device or the like"));
+    try {
+        // Taking the name of a device would put an end to the device: think of /dev/null.
+        std::error_code ignored;
+        if (const auto there = std::filesystem::status(path_, ignored);
+            std::filesystem::exists(there) && !std::filesystem::is_regular_file(there)) {
+            failure_ =
+                fmt::format("{}: {}, not a file", path_.native(),
+                            std::filesystem::is_directory(there) ? "is a directory"
+                                                                 : "is a device or the like");
+        }
+        agree();
+        if (group_->is_first()) open();
+        agree();
+        if (!group_->is_first()) open();
+        agree();
+    } catch (const SystemError&) {
+        if (file_ >= 0) ::close(file_);
+        if (group_->is_first() && file_ >= 0) ::unlink(temporary_.c_str());
+        throw;
     }
-    constexpr mode_t read_write_for_all = 0666;  // less what the umask takes away
-    file_ =
-        ::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, read_write_for_all);
-    if (file_ < 0) fail("cannot be written");
 }
 
 OutputFile::~OutputFile() {
@@ -44,60 +62,85 @@ OutputFile::~OutputFile() {
 void OutputFile::put(std::string_view text) { put_bytes(text.data(), text.size()); }
 
 void OutputFile::put_bytes(const void* data, std::size_t size) {
-    if (buffer_.size() - used_ < size) flush();
-    if (size > buffer_.size()) {
-        write_all(static_cast<const char*>(data), size);
+    if (is_alone() && size > buffer_.size()) {
+        end_turn();
+        write_at(flushed_, data, size);
         flushed_ += size;
         return;
     }
     if (size == 0) return;
+    if (buffer_.size() - used_ < size) make_room(size);
     std::memcpy(buffer_.data() + used_, data, size);
     used_ += size;
 }
 
 void OutputFile::overwrite(std::uint64_t position, const void* data, std::size_t size) {
-    flush();
+    if (is_alone()) end_turn();
+    write_at(position, data, size);
+}
+
+void OutputFile::end_turn() {
+    const auto [before, total] = group_->share_of(used_);
+    write_at(flushed_ + before, buffer_.data(), used_);
+    flushed_ += total;
+    used_ = 0;
+}
+
+void OutputFile::close() {
+    end_turn();
+    const int file = std::exchange(file_, -1);
+    if (::close(file) != 0) fail("writing failed");
+    agree();
+}
+
+void OutputFile::commit() {
+    if (file_ >= 0) close();
+    if (group_->is_first() && ::rename(temporary_.c_str(), path_.c_str()) != 0) {
+        fail("cannot be put in place");
+    }
+    agree();
+    committed_ = true;
+}
+
+/// One process alone writes what it has; one of a group keeps it until its turn.
+void OutputFile::make_room(std::size_t size) {
+    if (is_alone()) {
+        end_turn();
+    } else {
+        buffer_.resize(std::max(2 * buffer_.size(), used_ + size));
+    }
+}
+
+void OutputFile::open() {
+    constexpr mode_t read_write_for_all = 0666;  // less what the umask takes away
+    const int create = group_->is_first() ? O_CREAT | O_TRUNC : 0;
+    file_ = ::open(temporary_.c_str(), O_WRONLY | O_CLOEXEC | create, read_write_for_all);
+    if (file_ >= 0) return;
+    fail(group_->is_first() ? "cannot be written"
+                            : "cannot be written by all ranks; do they share this folder?");
+}
+
+void OutputFile::write_at(std::uint64_t position, const void* data, std::size_t size) {
+    if (!failure_.empty()) return;  // all will hear of it at the end
     const char* bytes = static_cast<const char*>(data);
     while (size > 0) {
         const ssize_t written = ::pwrite(file_, bytes, size, static_cast<off_t>(position));
         if (written < 0 && errno == EINTR) continue;
-        if (written < 0) fail("writing failed");
+        if (written < 0) return fail("writing failed");
         bytes += written;
         position += static_cast<std::uint64_t>(written);
         size -= static_cast<std::size_t>(written);
     }
 }
 
-void OutputFile::close() {
-    flush();
-    const int file = std::exchange(file_, -1);
-    if (::close(file) != 0) fail("writing failed");
-}
-
-void OutputFile::commit() {
-    if (file_ >= 0) close();
-    if (::rename(temporary_.c_str(), path_.c_str()) != 0) fail("cannot be put in place");
-    committed_ = true;
-}
-
-void OutputFile::flush() {
-    write_all(buffer_.data(), used_);
-    flushed_ += used_;
-    used_ = 0;
-}
-
-void OutputFile::write_all(const char* data, std::size_t size) {
-    while (size > 0) {
-        const ssize_t written = ::write(file_, data, size);
-        if (written < 0 && errno == EINTR) continue;
-        if (written < 0) fail("writing failed");
-        data += written;
-        size -= static_cast<std::size_t>(written);
+void OutputFile::fail(std::string_view doing) {
+    if (failure_.empty()) {
+        failure_ = fmt::format("{}: {}: {}", path_.native(), doing, std::strerror(errno));
     }
+    // The others of a group may be waiting for this process's turn.
+    if (is_alone()) throw SystemError(failure_);
 }
 
-void OutputFile::fail(std::string_view doing) const {
-    throw SystemError(fmt::format("{}: {}: {}", path_.native(), doing, std::strerror(errno)));
-}
+void OutputFile::agree() { group_->agree(failure_); }
 
 }  // namespace octetra

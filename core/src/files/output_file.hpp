@@ -4,8 +4,11 @@
 #include <concepts>
 #include <cstdint>
 #include <filesystem>
+#include <string>
 #include <string_view>
 #include <vector>
+
+#include <octetra/core/mesh_source.hpp>
 
 #include "files/unfinished_files.hpp"
 
@@ -13,9 +16,14 @@ namespace octetra {
 
 /// A file that is written under a temporary name beside its final one and takes that name only on
 /// commit(). Destroyed before, it leaves no trace. Every failure throws SystemError.
+///
+/// A group of processes writes one file by taking turns: what each has put since the last turn
+/// follows what the lower ranks have put. Constructing, end_turn(), close() and commit() are
+/// collective, and failures are thrown there, on all processes. One process alone needs no turns.
 class OutputFile {
 public:
-    explicit OutputFile(std::filesystem::path path);
+    explicit OutputFile(std::filesystem::path path,
+                        const WriterGroup& group = WriterGroup::alone());
     ~OutputFile();
     OutputFile(const OutputFile&) = delete;
     OutputFile& operator=(const OutputFile&) = delete;
@@ -23,7 +31,7 @@ public:
     OutputFile& operator=(OutputFile&&) = delete;
 
     void put(char c) {
-        if (used_ == buffer_.size()) flush();
+        if (used_ == buffer_.size()) make_room(1);
         buffer_[used_++] = c;
     }
     void put(std::string_view text);
@@ -32,9 +40,13 @@ public:
     void put(std::integral auto number) { put_number(number); }
     void put_bytes(const void* data, std::size_t size);
 
-    /// How many bytes have been put so far: where the next one will stand.
+    /// Brings what has been put to the file.
+    void end_turn();
+
+    /// How many bytes have been put so far: where the next one will stand. For a group: at the end
+    /// of a turn, and the same on all processes.
     [[nodiscard]] std::uint64_t position() const { return flushed_ + used_; }
-    /// Replaces bytes that were put before.
+    /// Replaces bytes that were put before (in earlier turns, by whichever process).
     void overwrite(std::uint64_t position, const void* data, std::size_t size);
 
     /// Brings everything to the file and closes it. Call it on all files of a set, then commit().
@@ -44,15 +56,19 @@ public:
 private:
     void put_number(auto number) {
         constexpr std::size_t longest_number = 32;
-        if (buffer_.size() - used_ < longest_number) flush();
+        if (buffer_.size() - used_ < longest_number) make_room(longest_number);
         char* first = buffer_.data() + used_;
         const auto result = std::to_chars(first, buffer_.data() + buffer_.size(), number);
         used_ += static_cast<std::size_t>(result.ptr - first);
     }
-    void flush();
-    void write_all(const char* data, std::size_t size);
-    [[noreturn]] void fail(std::string_view doing) const;
+    [[nodiscard]] bool is_alone() const { return group_->size() == 1; }
+    void make_room(std::size_t size);
+    void open();
+    void write_at(std::uint64_t position, const void* data, std::size_t size);
+    void fail(std::string_view doing);
+    void agree();
 
+    const WriterGroup* group_;
     std::filesystem::path path_;
     std::filesystem::path temporary_;
     UnfinishedFile unfinished_;
@@ -61,6 +77,7 @@ private:
     std::size_t used_ = 0;
     std::uint64_t flushed_ = 0;
     bool committed_ = false;
+    std::string failure_;  ///< the first one, until it is thrown
 };
 
 }  // namespace octetra

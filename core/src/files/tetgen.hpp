@@ -4,6 +4,7 @@
 
 #include <octetra/core/files.hpp>
 #include <octetra/core/mesh.hpp>
+#include <octetra/core/mesh_source.hpp>
 
 /// TetGen's text files: `.node` (vertices), `.ele` (cells), `.face` (facets), `.edge` (edges).
 /// Each begins with a header line of counts; every further line begins with the entity's number.
@@ -11,6 +12,7 @@ namespace octetra {
 
 [[nodiscard]] Mesh read_tetgen(const std::filesystem::path& path, const ReadOptions& options);
 
-void write_tetgen(const Mesh& mesh, const std::filesystem::path& path);
+/// Collective.
+void write_tetgen(MeshSource& mesh, const std::filesystem::path& path);
 
 }  // namespace octetra

@@ -1,4 +1,5 @@
 #include <memory>
+#include <span>
 #include <system_error>
 #include <vector>
 
@@ -8,6 +9,7 @@
 
 #include "files/output_file.hpp"
 #include "files/tetgen.hpp"
+#include "files/text_slices.hpp"
 
 namespace octetra {
 namespace {
@@ -24,41 +26,67 @@ void put_line(OutputFile& out, auto... numbers) {
     out.put('\n');
 }
 
-void write_node(OutputFile& out, const Mesh& mesh) {
-    const std::size_t attributes = mesh.attributes_per_point;
-    const bool markers = !mesh.point_markers.empty();
-    put_line(out, mesh.points.size(), 3, attributes, markers ? 1 : 0);
-    for (VertexIndex v{0}; v < mesh.points.end_index(); ++v) {
-        const Point& p = mesh.points[v];
-        put_fields(out, mesh.first_number + v.value(), p.x, p.y, p.z);
-        for (std::size_t k = 0; k < attributes; ++k) {
-            out.put(' ');
-            out.put(mesh.point_attributes[v.value() * attributes + k]);
-        }
-        if (markers) {
-            out.put(' ');
-            out.put(mesh.point_markers[v]);
-        }
-        out.put('\n');
-    }
+/// Collective. The first process's part of a turn of its own.
+void put_header(OutputFile& out, const WriterGroup& group, auto... numbers) {
+    if (group.is_first()) put_line(out, numbers...);
 }
 
+void write_node(OutputFile& out, MeshSource& mesh) {
+    const MeshFacts& facts = mesh.facts();
+    const std::size_t attributes = facts.attributes_per_point;
+    put_header(out, mesh.group(), facts.vertices, 3, attributes, facts.has_point_markers ? 1 : 0);
+    put_list(out, facts.vertices, mesh.group(), [&](const Window& window, std::uint64_t number) {
+        const std::span<const Point> points = mesh.points(window);
+        std::span<const double> values;
+        std::span<const Marker> markers;
+        if (attributes > 0) values = mesh.point_attributes(window);
+        if (facts.has_point_markers) markers = mesh.point_markers(window);
+        for (std::size_t v = 0; v < points.size(); ++v, ++number) {
+            const Point& p = points[v];
+            put_fields(out, facts.first_number + number, p.x, p.y, p.z);
+            for (std::size_t k = 0; k < attributes; ++k) {
+                out.put(' ');
+                out.put(values[v * attributes + k]);
+            }
+            if (!markers.empty()) {
+                out.put(' ');
+                out.put(markers[v]);
+            }
+            out.put('\n');
+        }
+    });
+}
+
+/// Where the entities of a list come from, and their markers.
+template <std::size_t N>
+struct List {
+    std::uint64_t count;
+    std::span<const std::array<VertexIndex, N>> (MeshSource::*vertices)(const Window&);
+    bool has_markers;
+    std::span<const Marker> (MeshSource::*markers)(const Window&);
+};
+
 /// Writes the entities of a list, their vertices and, where there are any, their markers.
-template <class I, std::size_t N>
-void write_entries(OutputFile& out, const IndexVector<I, std::array<VertexIndex, N>>& list,
-                   const IndexVector<I, Marker>& markers, std::uint32_t first_number) {
-    for (I i{0}; i < list.end_index(); ++i) {
-        out.put(first_number + i.value());
-        for (const VertexIndex vertex : list[i]) {
-            out.put(' ');
-            out.put(first_number + vertex.value());
+template <std::size_t N>
+void write_list(OutputFile& out, MeshSource& mesh, const List<N>& list) {
+    const std::uint32_t first_number = mesh.facts().first_number;
+    put_list(out, list.count, mesh.group(), [&](const Window& window, std::uint64_t number) {
+        const auto entities = (mesh.*list.vertices)(window);
+        std::span<const Marker> markers;
+        if (list.has_markers) markers = (mesh.*list.markers)(window);
+        for (std::size_t i = 0; i < entities.size(); ++i, ++number) {
+            out.put(first_number + number);
+            for (const VertexIndex vertex : entities[i]) {
+                out.put(' ');
+                out.put(first_number + vertex.value());
+            }
+            if (!markers.empty()) {
+                out.put(' ');
+                out.put(markers[i]);
+            }
+            out.put('\n');
         }
-        if (!markers.empty()) {
-            out.put(' ');
-            out.put(markers[i]);
-        }
-        out.put('\n');
-    }
+    });
 }
 
 /// To fail on what cannot be removed before anything has been put in place, not after it.
@@ -70,41 +98,52 @@ void refuse_directory(const fs::path& stale) {
 
 }  // namespace
 
-void write_tetgen(const Mesh& mesh, const fs::path& path) {
+void write_tetgen(MeshSource& mesh, const fs::path& path) {
+    const MeshFacts& facts = mesh.facts();
+    const WriterGroup& group = mesh.group();
     std::vector<std::unique_ptr<OutputFile>> files;
     std::vector<fs::path> stale;
     const auto companion = [&](const char* extension) {
         return fs::path(path).replace_extension(extension);
     };
     const auto create = [&](const char* extension) -> OutputFile& {
-        return *files.emplace_back(std::make_unique<OutputFile>(companion(extension)));
+        return *files.emplace_back(std::make_unique<OutputFile>(companion(extension), group));
     };
 
     write_node(create(".node"), mesh);
     OutputFile& ele = create(".ele");
-    put_line(ele, mesh.cells.size(), 4, mesh.regions.empty() ? 0 : 1);
-    write_entries(ele, mesh.cells, mesh.regions, mesh.first_number);
+    put_header(ele, group, facts.cells, 4, facts.has_regions ? 1 : 0);
+    write_list<4>(ele, mesh,
+                  {facts.cells, &MeshSource::cells, facts.has_regions, &MeshSource::regions});
 
-    if (mesh.facets.empty()) {
+    if (facts.facets == 0) {
         stale.push_back(companion(".face"));
     } else {
         OutputFile& face = create(".face");
-        put_line(face, mesh.facets.size(), mesh.facet_markers.empty() ? 0 : 1);
-        write_entries(face, mesh.facets, mesh.facet_markers, mesh.first_number);
+        put_header(face, group, facts.facets, facts.has_facet_markers ? 1 : 0);
+        write_list<3>(face, mesh,
+                      {facts.facets, &MeshSource::facets, facts.has_facet_markers,
+                       &MeshSource::facet_markers});
     }
-    if (mesh.edges.empty()) {
+    if (facts.edges == 0) {
         stale.push_back(companion(".edge"));
     } else {
         OutputFile& edge = create(".edge");
-        put_line(edge, mesh.edges.size(), mesh.edge_markers.empty() ? 0 : 1);
-        write_entries(edge, mesh.edges, mesh.edge_markers, mesh.first_number);
+        put_header(edge, group, facts.edges, facts.has_edge_markers ? 1 : 0);
+        write_list<2>(
+            edge, mesh,
+            {facts.edges, &MeshSource::edges, facts.has_edge_markers, &MeshSource::edge_markers});
     }
 
-    for (const fs::path& file : stale) refuse_directory(file);
+    group.on_first([&] {
+        for (const fs::path& file : stale) refuse_directory(file);
+    });
     for (const auto& file : files) file->close();
     for (const auto& file : files) file->commit();
     // Left from another mesh, these would be read as this one's.
-    for (const fs::path& file : stale) fs::remove(file);
+    group.on_first([&] {
+        for (const fs::path& file : stale) fs::remove(file);
+    });
 }
 
 }  // namespace octetra

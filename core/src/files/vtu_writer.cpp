@@ -1,101 +1,87 @@
+#include <zlib.h>
+
 #include <algorithm>
-#include <array>
 #include <bit>
 #include <cstdint>
-#include <cstring>
-#include <functional>
+#include <new>
+#include <numeric>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include <fmt/format.h>
-#include <zlib.h>
-
-#include <octetra/core/error.hpp>
 
 #include "files/output_file.hpp"
 #include "files/vtu.hpp"
+#include "files/vtu_arrays.hpp"
 
 namespace octetra {
 namespace {
 
-/// How many bytes are compressed at a time: what is held in memory, and what a reader can skip to.
-constexpr std::size_t block_size = std::size_t{1} << 17U;
-
-/// One array of the file: what the XML says of it, and where its values come from.
-struct DataArray {
-    std::string attributes;  ///< type, name and number of components
-    std::size_t value_count = 0;
-    std::size_t value_size = 0;
-    /// Writes values first .. first+count-1 to `out`.
-    std::function<void(std::size_t first, std::size_t count, char* out)> copy;
+/// The lengths of consecutive compressed blocks of an array.
+struct PackedLengths {
+    std::uint64_t first_block = 0;
+    std::vector<std::uint64_t> bytes;
 };
 
-template <class T>
-constexpr const char* vtk_type = "UInt8";
-template <>
-constexpr const char* vtk_type<double> = "Float64";
-template <>
-constexpr const char* vtk_type<std::int64_t> = "Int64";
-template <>
-constexpr const char* vtk_type<std::int32_t> = "Int32";
-
-/// An array whose value number i is value(i).
-template <class T>
-DataArray array(std::string_view name, std::size_t components, std::size_t value_count,
-                auto value) {
-    return {fmt::format(R"(type="{}" Name="{}" NumberOfComponents="{}")", vtk_type<T>, name,
-                        components),
-            value_count, sizeof(T), [value](std::size_t first, std::size_t count, char* out) {
-                for (std::size_t i = 0; i < count; ++i) {
-                    const T v = value(first + i);
-                    std::memcpy(out + i * sizeof(T), &v, sizeof(T));
-                }
-            }};
+/// Slices that begin at whole blocks, so that each block is one process's; large enough for few
+/// turns, small enough for a buffer, and of a small array about an equal share.
+std::uint64_t slice_length(const VtuArray& array, const WriterGroup& group) {
+    constexpr std::uint64_t most_bytes = 8 * vtu_block_size;
+    const std::uint64_t unit = vtu_block_size / std::gcd(vtu_block_size, array.entity_size());
+    const std::uint64_t share = array.entities / static_cast<std::uint64_t>(group.size());
+    const std::uint64_t most = most_bytes / (unit * array.entity_size());
+    return unit * std::clamp(share / unit, std::uint64_t{1}, std::max(most, std::uint64_t{1}));
 }
 
-class VtuWriter {
+class VtuFile {
 public:
-    VtuWriter(const std::filesystem::path& path, const Mesh& mesh) : out_(path), mesh_(&mesh) {}
+    VtuFile(OutputFile& out, const WriterGroup& group) : out_(&out), group_(&group) {}
 
-    void write(const std::vector<DataArray>& point_data, const std::vector<DataArray>& cell_data) {
+    void write(MeshSource& mesh, const VtuData& data) {
         static_assert(std::endian::native == std::endian::little);
         put("<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" "
             "byte_order=\"LittleEndian\" header_type=\"UInt64\" "
             "compressor=\"vtkZLibDataCompressor\">\n  <UnstructuredGrid>\n");
         put(fmt::format("    <Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">\n",
-                        mesh_->points.size(), mesh_->cells.size()));
-        declare("Points", {coordinates()});
-        declare("Cells", {connectivity(), offsets(), types()});
-        declare("PointData", point_data);
-        declare("CellData", cell_data);
+                        mesh.facts().vertices, mesh.facts().cells));
+        declare("Points", {vtu_coordinates(mesh)});
+        declare("Cells", vtu_cells(mesh));
+        declare("PointData", data.of_points);
+        declare("CellData", data.of_cells);
         put("    </Piece>\n  </UnstructuredGrid>\n  <AppendedData encoding=\"raw\">\n   _");
-        const std::uint64_t data_begin = out_.position();
+        out_->end_turn();
+        const std::uint64_t data_begin = out_->position();
         for (const Declared& declared : declared_) {
-            const std::string offset = fmt::format("{}\"", out_.position() - data_begin);
-            out_.overwrite(declared.offset_position, offset.data(), offset.size());
+            if (group_->is_first()) {
+                const std::string offset = fmt::format("{}\"", out_->position() - data_begin);
+                out_->overwrite(declared.offset_position, offset.data(), offset.size());
+            }
             append(declared.array);
         }
         put("\n  </AppendedData>\n</VTKFile>\n");
-        out_.commit();
+        out_->end_turn();
     }
 
 private:
     struct Declared {
-        DataArray array;
-        std::uint64_t offset_position;
+        VtuArray array;
+        std::uint64_t offset_position;  // of the first process
     };
 
-    void put(std::string_view text) { out_.put(text); }
+    /// What is said once is the first process's to say.
+    void put(std::string_view text) {
+        if (group_->is_first()) out_->put(text);
+    }
 
-    void declare(std::string_view element, const std::vector<DataArray>& arrays) {
+    void declare(std::string_view element, const std::vector<VtuArray>& arrays) {
         put(fmt::format("      <{}>\n", element));
-        for (const DataArray& array : arrays) {
+        for (const VtuArray& array : arrays) {
             put(fmt::format("        <DataArray {} format=\"appended\" offset=\"",
-                            array.attributes));
+                            vtu_attributes(array)));
             // The offset is known only when the arrays before it are compressed: leave room.
             constexpr std::string_view room = "                     ";
-            declared_.push_back({array, out_.position()});
+            declared_.push_back({array, out_->position()});
             put(room);
             put("/>\n");
         }
@@ -103,102 +89,72 @@ private:
     }
 
     /// The compressed blocks, and before them their number, size, last one's size and lengths.
-    void append(const DataArray& array) {
-        const std::size_t size = array.value_count * array.value_size;
-        const std::size_t values_per_block = block_size / array.value_size;
-        const std::size_t blocks = (size + block_size - 1) / block_size;
-        std::vector<std::uint64_t> header{blocks, block_size, size % block_size};
-        header.resize(3 + blocks, 0);
-        const std::uint64_t header_position = out_.position();
-        put_header(header);
-
-        std::vector<char> plain(block_size);
-        std::vector<Bytef> packed(compressBound(block_size));
-        for (std::size_t b = 0; b < blocks; ++b) {
-            const std::size_t first = b * values_per_block;
-            const std::size_t count = std::min(values_per_block, array.value_count - first);
-            array.copy(first, count, plain.data());
-            uLongf packed_size = packed.size();
-            const int status =
-                compress2(packed.data(), &packed_size, reinterpret_cast<const Bytef*>(plain.data()),
-                          count * array.value_size, Z_BEST_SPEED);
-            if (status != Z_OK) throw SystemError("zlib failed to compress a block");
-            out_.put_bytes(packed.data(), packed_size);
-            header[3 + b] = packed_size;
+    void append(const VtuArray& array) {
+        const std::uint64_t size = array.entities * array.entity_size();
+        std::vector<std::uint64_t> header{(size + vtu_block_size - 1) / vtu_block_size,
+                                          vtu_block_size, size % vtu_block_size};
+        const std::uint64_t lengths_position = out_->position() + header.size() * sizeof(header[0]);
+        header.resize(header.size() + header[0], 0);
+        if (group_->is_first()) {
+            out_->put_bytes(header.data(), header.size() * sizeof(header[0]));
         }
-        out_.overwrite(header_position, header.data(), header.size() * sizeof(header[0]));
+        out_->end_turn();
+        for (const PackedLengths& packed : put_slices(array)) {
+            const std::uint64_t place = packed.first_block * sizeof(packed.bytes[0]);
+            out_->overwrite(lengths_position + place, packed.bytes.data(),
+                            packed.bytes.size() * sizeof(packed.bytes[0]));
+        }
     }
 
-    void put_header(const std::vector<std::uint64_t>& header) {
-        out_.put_bytes(header.data(), header.size() * sizeof(header[0]));
+    std::vector<PackedLengths> put_slices(const VtuArray& array) {
+        std::vector<PackedLengths> lengths;
+        const std::uint64_t length = slice_length(array, *group_);
+        const std::uint64_t stride = length * static_cast<std::uint64_t>(group_->size());
+        for (Window w{0, length, array.entities}; w.begin < w.count; w.begin += stride) {
+            array.bytes_of_slice(w, slice_);
+            PackedLengths& packed = lengths.emplace_back();
+            packed.first_block = w.begin_of(group_->rank()) * array.entity_size() / vtu_block_size;
+            for (std::size_t begin = 0; begin < slice_.size(); begin += vtu_block_size) {
+                const std::size_t count = std::min(vtu_block_size, slice_.size() - begin);
+                packed.bytes.push_back(put_compressed(slice_.data() + begin, count));
+            }
+            if (group_->size() > 1) out_->end_turn();
+        }
+        return lengths;
     }
 
-    [[nodiscard]] DataArray coordinates() const {
-        return array<double>("Points", 3, 3 * mesh_->points.size(), [mesh = mesh_](std::size_t i) {
-            const Point& p = mesh->points[VertexIndex{i / 3}];
-            return i % 3 == 0 ? p.x : i % 3 == 1 ? p.y : p.z;
-        });
+    std::uint64_t put_compressed(const char* bytes, std::size_t count) {
+        uLongf packed_size = packed_.size();
+        const int status = compress2(packed_.data(), &packed_size,
+                                     reinterpret_cast<const Bytef*>(bytes), count, Z_BEST_SPEED);
+        if (status != Z_OK) throw std::bad_alloc();  // there is room for the worst case
+        out_->put_bytes(packed_.data(), packed_size);
+        return packed_size;
     }
 
-    [[nodiscard]] DataArray connectivity() const {
-        return array<std::int64_t>(
-            "connectivity", 1, 4 * mesh_->cells.size(), [mesh = mesh_](std::size_t i) {
-                return std::int64_t{mesh->cells[CellIndex{i / 4}][i % 4].value()};
-            });
-    }
-
-    [[nodiscard]] DataArray offsets() const {
-        return array<std::int64_t>("offsets", 1, mesh_->cells.size(), [](std::size_t i) {
-            return static_cast<std::int64_t>(4 * (i + 1));
-        });
-    }
-
-    [[nodiscard]] DataArray types() const {
-        constexpr std::uint8_t vtk_tetra = 10;
-        return array<std::uint8_t>("types", 1, mesh_->cells.size(),
-                                   [](std::size_t) { return vtk_tetra; });
-    }
-
-    OutputFile out_;
-    const Mesh* mesh_;
+    OutputFile* out_;
+    const WriterGroup* group_;
     std::vector<Declared> declared_;
+    std::vector<char> slice_;
+    std::vector<Bytef> packed_ = std::vector<Bytef>(compressBound(vtu_block_size));
 };
 
 }  // namespace
 
-std::string write_vtu(const Mesh& mesh, const std::filesystem::path& path,
-                      const WriteExtras& extras) {
-    std::vector<DataArray> point_data;
-    if (!mesh.point_markers.empty()) {
-        point_data.push_back(array<Marker>("marker", 1, mesh.points.size(), [&](std::size_t i) {
-            return mesh.point_markers[VertexIndex{i}];
-        }));
-    }
-    if (mesh.attributes_per_point > 0) {
-        point_data.push_back(
-            array<double>("attributes", mesh.attributes_per_point, mesh.point_attributes.size(),
-                          [&](std::size_t i) { return mesh.point_attributes[i]; }));
-    }
-    std::vector<DataArray> cell_data;
-    if (!mesh.regions.empty()) {
-        cell_data.push_back(array<Marker>("region", 1, mesh.cells.size(), [&](std::size_t i) {
-            return mesh.regions[CellIndex{i}];
-        }));
-    }
-    if (extras.cell_to_parent != nullptr) {
-        cell_data.push_back(array<std::int64_t>(
-            "parent", 1, mesh.cells.size(),
-            [parents = extras.cell_to_parent, first = mesh.first_number](std::size_t i) {
-                return std::int64_t{(*parents)[CellIndex{i}].value()} + first;
-            }));
-    }
-    VtuWriter(path, mesh).write(point_data, cell_data);
+void put_vtu(OutputFile& out, MeshSource& mesh, const VtuData& data) {
+    VtuFile(out, mesh.group()).write(mesh, data);
+}
 
-    if (mesh.facets.empty() && mesh.edges.empty()) return {};
+std::string write_vtu(MeshSource& mesh, const std::filesystem::path& path) {
+    OutputFile out(path, mesh.group());
+    put_vtu(out, mesh, vtu_data(mesh));
+    out.commit();
+    const MeshFacts& facts = mesh.facts();
+    if (facts.facets == 0 && facts.edges == 0) return {};
     return fmt::format(
-        "the .vtu file holds cells only, not the {} listed faces and {} listed "
+        "the {} file holds cells only, not the {} listed faces and {} listed "
         "edges with their markers; .mesh and .ele hold them",
-        mesh.facets.size(), mesh.edges.size());
+        path.extension().native(), facts.facets, facts.edges);
 }
 
 }  // namespace octetra

@@ -10,9 +10,10 @@
 
 #include <octetra/core/index.hpp>
 #include <octetra/core/mesh.hpp>
+#include <octetra/core/mesh_source.hpp>
 
 /// Mesh files, by extension: TetGen `.node/.ele` (with `.face`, `.edge` beside them where present),
-/// Medit `.mesh`; VTK `.vtu` is written only.
+/// Medit `.mesh`; VTK `.vtu` and `.pvtu` are written only.
 namespace octetra {
 
 struct ReadOptions {
@@ -29,19 +30,30 @@ struct ReadOptions {
 /// Memory beyond the mesh: a buffer of 1 MiB, and 8 bytes per vertex while facets are checked.
 [[nodiscard]] Mesh read_mesh(const std::filesystem::path& path, const ReadOptions& options = {});
 
-/// What a file can carry beside the mesh itself. Only `.vtu` does: as cell data `parent`, the
-/// number that the input file gives the cell's parent.
-struct WriteExtras {
-    const IndexVector<CellIndex, CellIndex>* cell_to_parent = nullptr;
-};
-
-/// Writes a mesh so that it reads back to the same bits. For TetGen, `path` names the `.ele` or the
-/// `.node` file, and `.face`, `.edge` are written (or removed, if they are there from before) as
-/// the mesh has facets and edges. All files are complete before the first takes its final name;
-/// where writing fails, none does. Throws InputError for an unknown extension, else SystemError.
+/// Collective in the mesh's group. Writes a mesh so that it reads back to the same bits, which do
+/// not depend on the number of processes. For TetGen, `path` names the `.ele` or the `.node` file,
+/// and `.face`, `.edge` are written (or removed, if they are there from before) as the mesh has
+/// facets and edges. Of maps, `.vtu` carries the parents, as cell data. All files are complete
+/// before the first takes its final name; where writing fails, none does.
+/// Throws InputError for an unknown extension, else SystemError.
 /// Returns what of the mesh this format cannot hold, in a sentence, or nothing.
-[[nodiscard]] std::string write_mesh(const Mesh& mesh, const std::filesystem::path& path,
-                                     const WriteExtras& extras = {});
+[[nodiscard]] std::string write_mesh(MeshSource& mesh, const std::filesystem::path& path);
+
+/// The same of a mesh that this process has all of.
+[[nodiscard]] std::string write_mesh(const Mesh& mesh, const std::filesystem::path& path);
+
+/// Does this file name pieces, one for each process, rather than holding the mesh? (`.pvtu`)
+[[nodiscard]] bool is_in_pieces(const std::filesystem::path& path);
+
+/// Collective in the group. Writes a mesh of which each process has a piece, in its own order and
+/// with its own numbers, as pieces that `path`, a `.pvtu`, then names. As write_mesh else.
+[[nodiscard]] std::string write_pieces(MeshSource& piece, const WriterGroup& group,
+                                       const std::filesystem::path& path);
+
+/// Collective in the mesh's group. Writes how a mesh descends from its input as text, entities
+/// numbered as in the mesh's files: a line `cells N`, then N lines "cell parent"; a line
+/// `midpoints M`, then M lines "vertex end end". Throws SystemError.
+void write_maps(MeshSource& mesh, const std::filesystem::path& path);
 
 /// Throws InputError unless `path` has an extension that can be written and stands where
 /// check_place lets it. (To refuse before the work, not after it.)

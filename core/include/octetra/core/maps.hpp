@@ -18,13 +18,8 @@ struct RefinementMaps {
     /// Vertex first_midpoint + i is the midpoint of edge i here, smaller end point first. Both ends
     /// are vertices of the refined mesh with lower numbers.
     std::vector<EdgeVertices> midpoint_to_edge;
-    std::uint32_t first_number = 0;  ///< what files call the first vertex and cell
 
     friend bool operator==(const RefinementMaps&, const RefinementMaps&) = default;
 };
-
-/// Writes the maps as text, entities numbered as in the mesh's files: a line `cells N`, then N
-/// lines "cell parent"; a line `midpoints M`, then M lines "vertex end end". Throws SystemError.
-void write_maps(const RefinementMaps& maps, const std::filesystem::path& path);
 
 }  // namespace octetra

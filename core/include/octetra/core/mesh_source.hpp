@@ -1,0 +1,157 @@
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <string>
+
+#include <octetra/core/error.hpp>
+#include <octetra/core/index.hpp>
+#include <octetra/core/maps.hpp>
+#include <octetra/core/mesh.hpp>
+
+/// Where the writers of files get a mesh from: slice by slice, so that it need not be in any one
+/// memory as a whole, and nothing here need know how processes talk to each other.
+namespace octetra {
+
+/// The processes that write a file together: this class is one process alone, a derived one speaks
+/// for more. Collective functions are called by all of them, in the same order.
+class WriterGroup {
+public:
+    WriterGroup() = default;
+    virtual ~WriterGroup() = default;
+    WriterGroup(const WriterGroup&) = delete;
+    WriterGroup& operator=(const WriterGroup&) = delete;
+    WriterGroup(WriterGroup&&) = delete;
+    WriterGroup& operator=(WriterGroup&&) = delete;
+
+    [[nodiscard]] virtual int rank() const { return 0; }
+    [[nodiscard]] virtual int size() const { return 1; }
+    [[nodiscard]] bool is_first() const { return rank() == 0; }
+
+    struct Share {
+        std::uint64_t before = 0;  ///< sum over the lower ranks
+        std::uint64_t total = 0;   ///< sum over all
+    };
+    /// Collective.
+    [[nodiscard]] virtual Share share_of(std::uint64_t number) const { return {0, number}; }
+
+    /// Collective. The first process's number.
+    [[nodiscard]] virtual std::uint64_t of_first(std::uint64_t number) const { return number; }
+
+    /// Collective. Runs `work` on the first process; what it throws there is thrown on all.
+    virtual void on_first(const std::function<void()>& work) const { work(); }
+
+    /// Collective. Throws a SystemError on all if one of them has met a failure, "" being none.
+    virtual void agree(const std::string& failure) const {
+        if (!failure.empty()) throw SystemError(failure);
+    }
+
+    /// For files that one process writes on its own.
+    [[nodiscard]] static const WriterGroup& alone() {
+        static const WriterGroup group;
+        return group;
+    }
+};
+
+/// A stretch of the canonical order of a kind of entity, cut into slices of equal length, one for
+/// each process of a group, by rank. At the end of the order slices are shorter, or empty.
+struct Window {
+    std::uint64_t begin = 0;         ///< number of the first entity
+    std::uint64_t slice_length = 0;  ///< entities of a slice
+    std::uint64_t count = 0;         ///< entities of the kind in all
+
+    [[nodiscard]] std::uint64_t begin_of(int rank) const {
+        return std::min(count, begin + slice_length * static_cast<std::uint64_t>(rank));
+    }
+    [[nodiscard]] std::uint64_t end_of(int rank) const { return begin_of(rank + 1); }
+};
+
+/// Everything in the first process's slice.
+[[nodiscard]] inline Window whole_window(std::uint64_t count) { return {0, count, count}; }
+
+/// What is the same on all processes.
+struct MeshFacts {
+    std::uint64_t vertices = 0;
+    std::uint64_t cells = 0;
+    std::uint64_t facets = 0;
+    std::uint64_t edges = 0;  ///< listed ones
+    std::size_t attributes_per_point = 0;
+    std::uint32_t first_number = 0;
+    /// Vertices from here on are midpoints; the number of vertices where that is not known.
+    std::uint64_t first_midpoint = 0;
+    bool has_point_markers = false;
+    bool has_regions = false;
+    bool has_facet_markers = false;
+    bool has_edge_markers = false;
+    bool has_parents = false;
+    bool has_vertex_numbers = false;
+};
+
+/// A mesh in its canonical order, in slices. All functions but facts() and group() are collective
+/// and return this process's slice of a window; it is valid until the same function is called
+/// again. Vertices are numbered as in the whole mesh. What facts() does not tell of is not asked
+/// for, and need not be overridden.
+class MeshSource {
+public:
+    MeshSource() = default;
+    virtual ~MeshSource() = default;
+    MeshSource(const MeshSource&) = delete;
+    MeshSource& operator=(const MeshSource&) = delete;
+    MeshSource(MeshSource&&) = delete;
+    MeshSource& operator=(MeshSource&&) = delete;
+
+    [[nodiscard]] virtual const MeshFacts& facts() const = 0;
+    [[nodiscard]] virtual const WriterGroup& group() const { return WriterGroup::alone(); }
+
+    [[nodiscard]] virtual std::span<const Point> points(const Window& window) = 0;
+    [[nodiscard]] virtual std::span<const CellVertices> cells(const Window& window) = 0;
+
+    [[nodiscard]] virtual std::span<const Marker> point_markers(const Window&) { return {}; }
+    /// attributes_per_point for each vertex of the slice.
+    [[nodiscard]] virtual std::span<const double> point_attributes(const Window&) { return {}; }
+    /// For vertices that have a number elsewhere: this is it.
+    [[nodiscard]] virtual std::span<const std::uint64_t> vertex_numbers(const Window&) {
+        return {};
+    }
+    /// Of a window of midpoints, number 0 being vertex first_midpoint: the ends of the edges that
+    /// they halve, smaller first.
+    [[nodiscard]] virtual std::span<const EdgeVertices> midpoint_ends(const Window&) { return {}; }
+
+    [[nodiscard]] virtual std::span<const Marker> regions(const Window&) { return {}; }
+    /// The cells of the input that the cells lie in.
+    [[nodiscard]] virtual std::span<const CellIndex> parents(const Window&) { return {}; }
+
+    [[nodiscard]] virtual std::span<const FacetVertices> facets(const Window&) { return {}; }
+    [[nodiscard]] virtual std::span<const Marker> facet_markers(const Window&) { return {}; }
+    [[nodiscard]] virtual std::span<const EdgeVertices> edges(const Window&) { return {}; }
+    [[nodiscard]] virtual std::span<const Marker> edge_markers(const Window&) { return {}; }
+};
+
+/// A mesh that this process has all of. Refers to the mesh, and to the maps if there are any.
+class WholeMesh final : public MeshSource {
+public:
+    explicit WholeMesh(const Mesh& mesh, const RefinementMaps* maps = nullptr);
+
+    [[nodiscard]] const MeshFacts& facts() const override { return facts_; }
+    [[nodiscard]] std::span<const Point> points(const Window& window) override;
+    [[nodiscard]] std::span<const Marker> point_markers(const Window& window) override;
+    [[nodiscard]] std::span<const double> point_attributes(const Window& window) override;
+    [[nodiscard]] std::span<const EdgeVertices> midpoint_ends(const Window& window) override;
+    [[nodiscard]] std::span<const CellVertices> cells(const Window& window) override;
+    [[nodiscard]] std::span<const Marker> regions(const Window& window) override;
+    [[nodiscard]] std::span<const CellIndex> parents(const Window& window) override;
+    [[nodiscard]] std::span<const FacetVertices> facets(const Window& window) override;
+    [[nodiscard]] std::span<const Marker> facet_markers(const Window& window) override;
+    [[nodiscard]] std::span<const EdgeVertices> edges(const Window& window) override;
+    [[nodiscard]] std::span<const Marker> edge_markers(const Window& window) override;
+
+private:
+    const Mesh* mesh_;
+    const RefinementMaps* maps_;
+    MeshFacts facts_;
+};
+
+}  // namespace octetra

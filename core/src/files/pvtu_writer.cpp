@@ -1,0 +1,97 @@
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include <octetra/core/error.hpp>
+
+#include "files/output_file.hpp"
+#include "files/vtu.hpp"
+#include "files/vtu_arrays.hpp"
+
+namespace octetra {
+namespace {
+
+namespace fs = std::filesystem;
+
+fs::path piece_path(const fs::path& path, int rank) {
+    return path.parent_path() / fmt::format("{}_{}.vtu", path.stem().native(), rank);
+}
+
+/// File names may have characters that mean something else in XML.
+std::string escaped(const std::string& text) {
+    std::string result;
+    for (const char c : text) {
+        switch (c) {
+            case '&': result += "&amp;"; break;
+            case '<': result += "&lt;"; break;
+            case '>': result += "&gt;"; break;
+            case '"': result += "&quot;"; break;
+            default: result += c;
+        }
+    }
+    return result;
+}
+
+void put_declarations(OutputFile& out, std::string_view element,
+                      const std::vector<VtuArray>& arrays) {
+    out.put(fmt::format("    <{}>\n", element));
+    for (const VtuArray& array : arrays) {
+        out.put(fmt::format("      <PDataArray {}/>\n", vtu_attributes(array)));
+    }
+    out.put(fmt::format("    </{}>\n", element));
+}
+
+void write_index(const fs::path& path, MeshSource& piece, const VtuData& data, int pieces) {
+    OutputFile out(path);
+    out.put(
+        std::string_view{"<?xml version=\"1.0\"?>\n<VTKFile type=\"PUnstructuredGrid\" "
+                         "version=\"1.0\" byte_order=\"LittleEndian\" "
+                         "header_type=\"UInt64\">\n  <PUnstructuredGrid GhostLevel=\"0\">\n"});
+    put_declarations(out, "PPoints", {vtu_coordinates(piece)});
+    put_declarations(out, "PPointData", data.of_points);
+    put_declarations(out, "PCellData", data.of_cells);
+    for (int rank = 0; rank < pieces; ++rank) {
+        out.put(fmt::format("    <Piece Source=\"{}\"/>\n",
+                            escaped(piece_path(path, rank).filename().native())));
+    }
+    out.put(std::string_view{"  </PUnstructuredGrid>\n</VTKFile>\n"});
+    out.commit();
+}
+
+/// Collective. What fails for this process is told to all.
+void together(const WriterGroup& group, auto&& work) {
+    std::string failure;
+    try {
+        work();
+    } catch (const SystemError& error) {
+        failure = error.what();
+    }
+    group.agree(failure);
+}
+
+}  // namespace
+
+std::string write_pvtu(MeshSource& piece, const WriterGroup& group, const fs::path& path) {
+    const VtuData data = vtu_data_of_piece(piece, group.rank());
+    std::unique_ptr<OutputFile> out;
+    together(group, [&] {
+        out = std::make_unique<OutputFile>(piece_path(path, group.rank()));
+        put_vtu(*out, piece, data);
+        out->close();
+    });
+    together(group, [&] { out->commit(); });
+    group.on_first([&] { write_index(path, piece, data, group.size()); });
+
+    const std::uint64_t facets = group.share_of(piece.facts().facets).total;
+    const std::uint64_t edges = group.share_of(piece.facts().edges).total;
+    if (facets == 0 && edges == 0) return {};
+    return fmt::format(
+        "the .pvtu file holds cells only, not the {} listed faces and {} listed "
+        "edges with their markers; .mesh and .ele hold them",
+        facets, edges);
+}
+
+}  // namespace octetra

@@ -1,0 +1,47 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include <octetra/core/mesh_source.hpp>
+
+namespace octetra {
+
+/// How many bytes are compressed at a time: what a reader can skip to.
+constexpr std::size_t vtu_block_size = std::size_t{1} << 17U;
+
+/// One array of a .vtu file: what the XML says of it, and where its values come from.
+struct VtuArray {
+    std::string name;
+    const char* type = "";  ///< VTK's name of it
+    std::size_t value_size = 0;
+    std::size_t components = 1;         ///< as the XML declares them
+    std::size_t values_per_entity = 1;  ///< these, or 4 for the connectivity, a flat list
+    std::uint64_t entities = 0;
+    /// Collective. The bytes of this process's slice.
+    std::function<void(const Window&, std::vector<char>&)> bytes_of_slice;
+
+    [[nodiscard]] std::size_t entity_size() const { return value_size * values_per_entity; }
+};
+
+/// What each point and each cell has beside its place, in the order of the file.
+struct VtuData {
+    std::vector<VtuArray> of_points;
+    std::vector<VtuArray> of_cells;
+};
+
+[[nodiscard]] VtuArray vtu_coordinates(MeshSource& mesh);
+/// connectivity, offsets, types.
+[[nodiscard]] std::vector<VtuArray> vtu_cells(MeshSource& mesh);
+
+/// Markers, attributes, region tags and parents, as far as the mesh has them.
+[[nodiscard]] VtuData vtu_data(MeshSource& mesh);
+/// These, and for a piece of a mesh the numbers of its vertices in the whole, and the piece's rank.
+[[nodiscard]] VtuData vtu_data_of_piece(MeshSource& piece, int rank);
+
+/// `type="..." Name="..." NumberOfComponents="..."`.
+[[nodiscard]] std::string vtu_attributes(const VtuArray& array);
+
+}  // namespace octetra

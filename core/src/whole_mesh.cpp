@@ -1,0 +1,58 @@
+#include <octetra/core/mesh_source.hpp>
+
+namespace octetra {
+namespace {
+
+/// This process's slice of a list, `per_entity` elements for each entity.
+template <class T>
+std::span<const T> slice(const std::vector<T>& list, const Window& window,
+                         std::size_t per_entity = 1) {
+    const std::uint64_t begin = window.begin_of(0);
+    return std::span(list).subspan(begin * per_entity, (window.end_of(0) - begin) * per_entity);
+}
+
+}  // namespace
+
+WholeMesh::WholeMesh(const Mesh& mesh, const RefinementMaps* maps)
+    : mesh_(&mesh),
+      maps_(maps),
+      facts_{.vertices = mesh.points.size(),
+             .cells = mesh.cells.size(),
+             .facets = mesh.facets.size(),
+             .edges = mesh.edges.size(),
+             .attributes_per_point = mesh.attributes_per_point,
+             .first_number = mesh.first_number,
+             .first_midpoint = maps == nullptr ? mesh.points.size() : maps->first_midpoint.value(),
+             .has_point_markers = !mesh.point_markers.empty(),
+             .has_regions = !mesh.regions.empty(),
+             .has_facet_markers = !mesh.facet_markers.empty(),
+             .has_edge_markers = !mesh.edge_markers.empty(),
+             .has_parents = maps != nullptr} {}
+
+std::span<const Point> WholeMesh::points(const Window& w) { return slice(mesh_->points, w); }
+std::span<const Marker> WholeMesh::point_markers(const Window& w) {
+    return slice(mesh_->point_markers, w);
+}
+std::span<const double> WholeMesh::point_attributes(const Window& w) {
+    return slice(mesh_->point_attributes, w, mesh_->attributes_per_point);
+}
+std::span<const EdgeVertices> WholeMesh::midpoint_ends(const Window& w) {
+    return slice(maps_->midpoint_to_edge, w);
+}
+std::span<const CellVertices> WholeMesh::cells(const Window& w) { return slice(mesh_->cells, w); }
+std::span<const Marker> WholeMesh::regions(const Window& w) { return slice(mesh_->regions, w); }
+std::span<const CellIndex> WholeMesh::parents(const Window& w) {
+    return slice(maps_->cell_to_parent, w);
+}
+std::span<const FacetVertices> WholeMesh::facets(const Window& w) {
+    return slice(mesh_->facets, w);
+}
+std::span<const Marker> WholeMesh::facet_markers(const Window& w) {
+    return slice(mesh_->facet_markers, w);
+}
+std::span<const EdgeVertices> WholeMesh::edges(const Window& w) { return slice(mesh_->edges, w); }
+std::span<const Marker> WholeMesh::edge_markers(const Window& w) {
+    return slice(mesh_->edge_markers, w);
+}
+
+}  // namespace octetra

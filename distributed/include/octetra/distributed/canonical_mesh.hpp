@@ -1,0 +1,42 @@
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <string>
+
+#include <octetra/core/mesh_source.hpp>
+#include <octetra/distributed/distributed_mesh.hpp>
+
+namespace octetra::distributed {
+
+/// A distributed mesh whose vertices, cells, facets and listed edges are numbered in the canonical
+/// order: what is written to files. Every process still holds only its part.
+class CanonicalMesh {
+public:
+    /// Collective. Throws InputError on all processes where 32 bits cannot number the mesh.
+    explicit CanonicalMesh(DistributedMesh mesh);
+    ~CanonicalMesh();
+    CanonicalMesh(const CanonicalMesh&) = delete;
+    CanonicalMesh& operator=(const CanonicalMesh&) = delete;
+    CanonicalMesh(CanonicalMesh&&) noexcept;
+    CanonicalMesh& operator=(CanonicalMesh&&) noexcept;
+
+    /// The same on all processes.
+    [[nodiscard]] const MeshFacts& facts() const;
+
+    /// The whole mesh, in slices that its processes exchange: octetra::write_mesh and write_maps
+    /// with it are collective, and no process ever holds more than its part and a few slices.
+    [[nodiscard]] MeshSource& whole();
+
+    struct Parts;
+
+private:
+    std::unique_ptr<Parts> parts_;
+    friend std::string write_mesh(CanonicalMesh& mesh, const std::filesystem::path& path);
+};
+
+/// Collective. Writes one file, the same whatever the number of processes and the partition, or, of
+/// a `.pvtu`, each process's part as a piece. Errors and result as octetra::write_mesh.
+[[nodiscard]] std::string write_mesh(CanonicalMesh& mesh, const std::filesystem::path& path);
+
+}  // namespace octetra::distributed

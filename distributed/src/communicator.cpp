@@ -88,33 +88,37 @@ void Communicator::broadcast_bytes(void* data, std::size_t size) const {
     }
 }
 
-// One message to each neighbour, empty or not. Only one that fills a whole message is followed by
+// One message to each receiver, empty or not. Only one that fills a whole message is followed by
 // another, so that the receiver knows when it has all.
-void Communicator::exchange_bytes(const std::vector<int>& neighbours,
-                                  const std::vector<std::span<const std::byte>>& outboxes,
-                                  Allocate allocate, void* context) const {
+void Communicator::send_and_receive_bytes(const std::vector<int>& receivers,
+                                          const std::vector<std::span<const std::byte>>& outboxes,
+                                          const std::vector<int>& senders, Allocate allocate,
+                                          void* context) const {
     std::vector<MPI_Request> requests;
-    for (std::size_t i = 0; i < neighbours.size(); ++i) {
+    std::span<const std::byte> to_itself;
+    for (std::size_t i = 0; i < receivers.size(); ++i) {
         const std::span<const std::byte> outbox = outboxes[i];
-        if (neighbours[i] == rank()) {
-            std::byte* inbox = allocate(context, i, outbox.size());
-            std::ranges::copy(outbox, inbox);
+        if (receivers[i] == rank()) {
+            to_itself = outbox;
             continue;
         }
         for (std::size_t offset = 0; offset <= outbox.size(); offset += most_bytes) {
             const std::size_t count = std::min(outbox.size() - offset, most_bytes);
-            MPI_Isend(outbox.data() + offset, static_cast<int>(count), MPI_BYTE, neighbours[i],
+            MPI_Isend(outbox.data() + offset, static_cast<int>(count), MPI_BYTE, receivers[i],
                       exchange_tag, mpi_->comm, &requests.emplace_back());
         }
     }
-    for (std::size_t i = 0; i < neighbours.size(); ++i) {
-        if (neighbours[i] == rank()) continue;
+    for (std::size_t i = 0; i < senders.size(); ++i) {
+        if (senders[i] == rank()) {
+            std::ranges::copy(to_itself, allocate(context, i, to_itself.size()));
+            continue;
+        }
         std::size_t received = 0;
         int count = 0;
         do {
             MPI_Message message = MPI_MESSAGE_NULL;
             MPI_Status status;
-            MPI_Mprobe(neighbours[i], exchange_tag, mpi_->comm, &message, &status);
+            MPI_Mprobe(senders[i], exchange_tag, mpi_->comm, &message, &status);
             MPI_Get_count(&status, MPI_BYTE, &count);
             const auto size = static_cast<std::size_t>(count);
             std::byte* inbox = allocate(context, i, received + size);

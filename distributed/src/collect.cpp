@@ -5,6 +5,7 @@
 
 #include <octetra/core/error.hpp>
 #include <octetra/distributed/distributed_mesh.hpp>
+#include <octetra/distributed/profile.hpp>
 
 #include "canonical_numbers.hpp"
 
@@ -227,6 +228,8 @@ Collected gather(const DistributedMesh& part) {
 }  // namespace
 
 Collected collect(DistributedMesh mesh) {
+    const Communicator processes = mesh.processes;  // the mesh may be gone before the phase ends
+    const Phase phase(processes, "collect");
     const std::uint32_t first_number = mesh.first_number;
     const VertexIndex first_midpoint{mesh.input_vertex_count};
     Collected whole = mesh.processes.size() == 1 ? hand_over(std::move(mesh)) : gather(mesh);

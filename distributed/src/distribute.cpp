@@ -5,6 +5,7 @@
 
 #include <octetra/core/vertex_buckets.hpp>
 #include <octetra/distributed/distributed_mesh.hpp>
+#include <octetra/distributed/profile.hpp>
 
 #include "interfaces.hpp"
 
@@ -206,6 +207,7 @@ void take_over(Mesh mesh, DistributedMesh& part) {
 
 DistributedMesh distribute(const Communicator& processes, Mesh mesh,
                            const std::vector<int>& cell_to_rank) {
+    const Phase phase(processes, "distribute");
     std::vector<Facts> shared{facts_of(mesh)};
     processes.broadcast(shared);
     const Facts facts = shared.front();
@@ -227,6 +229,7 @@ DistributedMesh distribute(const Communicator& processes, Mesh mesh,
                      facts.has_facet_markers, part.input_vertices, part.facets, part.facet_lineage);
     scatter_entities(sender, sender.owned(mesh.edges, cell_edges), mesh.edges, mesh.edge_markers,
                      facts.has_edge_markers, part.input_vertices, part.edges, part.edge_lineage);
+    const Phase finding(processes, "interfaces");
     part.interfaces = find_interfaces(part);
     return part;
 }

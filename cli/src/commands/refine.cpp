@@ -16,12 +16,14 @@
 #include <octetra/core/maps.hpp>
 #include <octetra/distributed/agreement.hpp>
 #include <octetra/distributed/partition.hpp>
+#include <octetra/distributed/profile.hpp>
 #include <octetra/distributed/refine.hpp>
 #include <octetra/reference/refine.hpp>
 
 #include "choice.hpp"
 #include "commands/commands.hpp"
 #include "commands/mesh_options.hpp"
+#include "commands/profile_options.hpp"
 #include "commands/selection_options.hpp"
 #include "grouped.hpp"
 #include "stopwatch.hpp"
@@ -58,6 +60,7 @@ struct RefineOptions {
     std::string engine = "distributed";
     std::string partition = "lepp";
     std::string synchronisation = "neighbour";
+    ProfileOptions profile;
     bool quiet = false;
 };
 
@@ -100,6 +103,7 @@ auto naming_the_mesh(const RefineOptions& options, auto&& engine) {
 
 Refined refine_by_reference(const Mesh& mesh, const Plan& plan, const RefineOptions& options,
                             const distributed::Communicator& world) {
+    const distributed::Phase phase(world, "refine");
     Refined fine;
     distributed::on_first(world, [&] {
         auto result = naming_the_mesh(options, [&] {
@@ -122,9 +126,11 @@ std::function<void(int, std::uint64_t)> level_progress(const RefineOptions& opti
 Refined refine_distributed(Mesh mesh, const Plan& plan, const RefineOptions& options,
                            const distributed::Communicator& world) {
     std::vector<int> cell_to_rank;
-    distributed::on_first(world, [&] {
-        if (world.size() == 1) return;
-        cell_to_rank = distributed::partition_cells(mesh, world.size(), plan.partition);
+    distributed::in_phase(world, "partition", [&] {
+        distributed::on_first(world, [&] {
+            if (world.size() == 1) return;
+            cell_to_rank = distributed::partition_cells(mesh, world.size(), plan.partition);
+        });
     });
     auto parts = distributed::distribute(world, std::move(mesh), cell_to_rank);
     int levels = 0;
@@ -150,32 +156,56 @@ void note_idle_levels(const RefineOptions& options, int levels) {
                                    options.levels));
 }
 
-void refine(const RefineOptions& options, const distributed::Communicator& world) {
+/// Refuses files beside the mesh that cannot be written or would take each other's place.
+void check_side_files(const RefineOptions& options) {
+    const std::array<std::pair<std::string_view, std::filesystem::path>, 3> files{
+        {{"--maps", options.maps},
+         {"--profile", options.profile.profile},
+         {"--trace", options.profile.trace}}};
+    for (const auto& [option, path] : files) {
+        if (path.empty()) continue;
+        check_side_file(option, path);
+        for (const auto& [other_option, other] : files) {
+            if (option == other_option) break;
+            if (path.lexically_normal() != other.lexically_normal()) continue;
+            throw InputError(fmt::format("{} and {} name the same file, {}", other_option, option,
+                                         path.native()));
+        }
+    }
+}
+
+void refine(const RefineOptions& options, const distributed::Communicator& all) {
     Plan plan = plan_of(options);
     Stopwatch watch;
+    const distributed::Communicator world = measured(all, options.profile);
     Mesh mesh;
-    distributed::on_first(world, [&] {
-        check_writable(options.output);
-        if (!options.maps.empty()) check_side_file("--maps", options.maps);
-        mesh = read_input(options.input);
-        complete_selection(plan.selection, options.selection, mesh);
-        report(options, fmt::format("read {}", options.input.path), mesh, watch.lap());
+    distributed::in_phase(world, "read", [&] {
+        distributed::on_first(world, [&] {
+            check_writable(options.output);
+            check_side_files(options);
+            mesh = read_input(options.input);
+            complete_selection(plan.selection, options.selection, mesh);
+            report(options, fmt::format("read {}", options.input.path), mesh, watch.lap());
+        });
+        world.broadcast(plan.selection.cells);
     });
-    world.broadcast(plan.selection.cells);
 
     const bool by_reference = plan.engine == Engine::reference;
     const std::size_t cells_before = mesh.cells.size();
     Refined fine = by_reference ? refine_by_reference(mesh, plan, options, world)
                                 : refine_distributed(std::move(mesh), plan, options, world);
-    distributed::on_first(world, [&] {
-        if (fine.mesh.cells.size() == cells_before) fine.levels = 0;
-        report(options, refined_line(fine.levels, by_reference ? 1 : world.size()), fine.mesh,
-               watch.lap());
-        note_idle_levels(options, fine.levels);
-        write_output(fine.mesh, options.output, {.cell_to_parent = &fine.maps.cell_to_parent});
-        if (!options.maps.empty()) write_maps(fine.maps, options.maps);
-        report(options, fmt::format("wrote {}", options.output), fine.mesh, watch.lap());
+    distributed::in_phase(world, "write", [&] {
+        distributed::on_first(world, [&] {
+            if (fine.mesh.cells.size() == cells_before) fine.levels = 0;
+            report(options, refined_line(fine.levels, by_reference ? 1 : world.size()), fine.mesh,
+                   watch.lap());
+            note_idle_levels(options, fine.levels);
+            write_output(fine.mesh, options.output, {.cell_to_parent = &fine.maps.cell_to_parent});
+            if (!options.maps.empty()) write_maps(fine.maps, options.maps);
+            report(options, fmt::format("wrote {}", options.output), fine.mesh, watch.lap());
+        });
     });
+    write_profile(world, options.profile, options.quiet);
 }
 
 void add_engine_options(CLI::App& command, RefineOptions& options) {
@@ -224,6 +254,7 @@ void add_refine(CLI::App& program, const distributed::Communicator& world) {
         ->add_option("--maps", options->maps,
                      "also write each cell's parent and each midpoint's edge, as text")
         ->type_name("FILE");
+    add_profile_options(*refine_command, options->profile);
     refine_command->add_flag("--quiet", options->quiet, "print nothing but notes and errors");
     refine_command->footer(
         "Example:\n"

@@ -12,6 +12,8 @@
 /// What the distributed engine needs of MPI, in terms of vectors. Nothing here includes mpi.h.
 namespace octetra::distributed {
 
+class Profile;  // see octetra/distributed/profile.hpp
+
 /// A group of processes that work on one mesh. Copies speak for the same group.
 ///
 /// Collective functions are called by every process of the group, in the same order. A group of one
@@ -24,6 +26,10 @@ public:
     [[nodiscard]] int rank() const;
     [[nodiscard]] int size() const;
     [[nodiscard]] bool is_first() const { return rank() == 0; }
+
+    /// What measures this process's phases and messages, or null; copies share it.
+    [[nodiscard]] Profile* profile() const { return profile_.get(); }
+    [[nodiscard]] Communicator with_profile(std::shared_ptr<Profile> profile) const;
 
     /// Collective. Sum, maximum and sum over lower ranks of one number from each process.
     [[nodiscard]] std::uint64_t sum(std::uint64_t number) const;
@@ -101,6 +107,7 @@ private:
                                 void* context) const;
 
     std::shared_ptr<const Mpi> mpi_;  // none: this process alone
+    std::shared_ptr<Profile> profile_;
 };
 
 /// Starts MPI if the program was started by mpirun, and ends it in the end.

@@ -8,22 +8,11 @@
 namespace octetra {
 namespace {
 
+using test::occurrences;
+using test::octetra_on;
 using test::TemporaryFolder;
 using testing::HasSubstr;
 using testing::Not;
-
-test::Outcome octetra_on(int ranks, const std::string& arguments, const TemporaryFolder& folder) {
-    return test::run_program(
-        test::words(std::string(OCTETRA_SOURCE_DIR "/tests/support/mpirun.sh ") +
-                    std::to_string(ranks) + " " + OCTETRA_PROGRAM + " " + arguments),
-        folder.path());
-}
-
-std::size_t occurrences(const std::string& text, const std::string& part) {
-    std::size_t count = 0;
-    for (auto at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++count;
-    return count;
-}
 
 class Parallel : public testing::Test {
 protected:

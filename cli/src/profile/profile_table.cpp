@@ -80,7 +80,7 @@ std::string times(const std::vector<double>& seconds_of_rank, const Unit& unit) 
 
 std::string phase_line(std::string_view name, const std::vector<PhaseCounts>& of_rank,
                        const Unit& unit) {
-    return fmt::format("{:<18}{} {} {:>10} {:>9} {:>6}\n", name,
+    return fmt::format("{:<17}{} {} {:>10} {:>9} {:>6}\n", name,
                        times(each(of_rank, &PhaseCounts::computing_seconds), unit),
                        times(each(of_rank, &PhaseCounts::communicating_seconds), unit),
                        grouped(spread(each(of_rank, &PhaseCounts::messages)).sum),
@@ -97,9 +97,9 @@ std::string phase_table(const GatheredProfile& profile) {
     const std::size_t ranks = profile.seconds_of_rank.size();
     const Unit unit = unit_of(profile);
     std::string text = fmt::format(
-        "{:<18} {:>26}  {:>26}\n", fmt::format("{} rank{}", ranks, ranks == 1 ? "" : "s"),
+        "{:<17} {:>26}  {:>26}\n", fmt::format("{} rank{}", ranks, ranks == 1 ? "" : "s"),
         fmt::format("computing, {}", unit.name), fmt::format("communicating, {}", unit.name));
-    text += fmt::format("{:<18} {:>8} {:>8} {:>8}  {:>8} {:>8} {:>8} {:>10} {:>9} {:>6}\n", "phase",
+    text += fmt::format("{:<17} {:>8} {:>8} {:>8}  {:>8} {:>8} {:>8} {:>10} {:>9} {:>6}\n", "phase",
                         "min", "mean", "max", "min", "mean", "max", "messages", "bytes", "rounds");
     std::vector<PhaseCounts> total;
     for (const ProfiledPhase& phase : summed_over_levels(profile)) {
@@ -116,11 +116,11 @@ std::string level_line(const GatheredProfile& profile, const ProfiledLevel& leve
     }
     const auto cells = spread(level.cells_of_rank);
     const std::string what =
-        fmt::format("{:<7} {:>14} {:>13} {:>15.1f} {:>13}",
+        fmt::format("{:<7} {:>15} {:>16} {:>15.1f} {:>15}",
                     level.level == 0 ? "before" : std::to_string(level.level), grouped(cells.sum),
                     grouped(cells.min), cells.mean, grouped(cells.max));
     if (level.level == 0) return what + "\n";
-    return what + fmt::format(" {:>11} {:>9} {:>6}\n",
+    return what + fmt::format(" {:>10} {:>9} {:>6}\n",
                               grouped(spread(each(counts, &PhaseCounts::messages)).sum),
                               bytes_for_people(spread(each(counts, &PhaseCounts::bytes)).sum),
                               spread(each(counts, &PhaseCounts::rounds)).max);
@@ -129,7 +129,7 @@ std::string level_line(const GatheredProfile& profile, const ProfiledLevel& leve
 std::string level_table(const GatheredProfile& profile) {
     if (profile.levels.empty()) return {};
     std::string text =
-        fmt::format("\n{:<7} {:>14} {:>13} {:>15} {:>13} {:>11} {:>9} {:>6}\n", "level", "cells",
+        fmt::format("\n{:<7} {:>15} {:>16} {:>15} {:>15} {:>10} {:>9} {:>6}\n", "level", "cells",
                     "of a rank: min", "mean", "max", "messages", "bytes", "rounds");
     for (const ProfiledLevel& level : profile.levels) text += level_line(profile, level);
     return text;

@@ -1,6 +1,7 @@
 #include <octetra/distributed/canonical_mesh.hpp>
 
 #include <octetra/core/files.hpp>
+#include <octetra/distributed/profile.hpp>
 
 #include "canonical_slices.hpp"
 #include "own_piece.hpp"
@@ -15,6 +16,7 @@ struct CanonicalMesh::Parts {
     std::unique_ptr<WholeMesh> whole;
 
     explicit Parts(DistributedMesh parts) {
+        const Phase phase(parts.processes, "number vertices");
         if (parts.processes.size() == 1) {
             collected = collect(std::move(parts));
             whole = std::make_unique<WholeMesh>(collected.mesh, &collected.maps);

@@ -1,6 +1,7 @@
 #include <utility>
 
 #include <octetra/distributed/distributed_mesh.hpp>
+#include <octetra/distributed/profile.hpp>
 
 #include "canonical_slices.hpp"
 
@@ -74,6 +75,8 @@ Collected gather(const DistributedMesh& part) {
 }  // namespace
 
 Collected collect(DistributedMesh mesh) {
+    const Communicator processes = mesh.processes;  // the mesh may be gone before the phase ends
+    const Phase phase(processes, "collect");
     const std::uint32_t first_number = mesh.first_number;
     const VertexIndex first_midpoint{mesh.input_vertex_count};
     Collected whole = mesh.processes.size() == 1 ? hand_over(std::move(mesh)) : gather(mesh);

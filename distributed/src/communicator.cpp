@@ -9,6 +9,8 @@
 
 #include <octetra/distributed/mpi.hpp>
 
+#include "recorder.hpp"
+
 namespace octetra::distributed {
 
 struct Communicator::Mpi {
@@ -39,7 +41,9 @@ constexpr std::size_t most_bytes = std::size_t{1} << 30U;
 
 constexpr int exchange_tag = 1;
 
-std::uint64_t reduced(std::uint64_t number, MPI_Op operation, MPI_Comm comm) {
+std::uint64_t reduced(std::uint64_t number, MPI_Op operation, MPI_Comm comm, Profile* profile) {
+    const Communication communication(profile, "reduction");
+    communication.count_collective(sizeof number);
     MPI_Allreduce(MPI_IN_PLACE, &number, 1, MPI_UINT64_T, operation, comm);
     return number;
 }
@@ -53,16 +57,24 @@ Communicator::Communicator(std::shared_ptr<const Mpi> mpi)
 int Communicator::rank() const { return mpi_ ? mpi_->rank : 0; }
 int Communicator::size() const { return mpi_ ? mpi_->size : 1; }
 
+Communicator Communicator::with_profile(std::shared_ptr<Profile> profile) const {
+    Communicator same = *this;
+    same.profile_ = std::move(profile);
+    return same;
+}
+
 std::uint64_t Communicator::sum(std::uint64_t number) const {
-    return mpi_ ? reduced(number, MPI_SUM, mpi_->comm) : number;
+    return mpi_ ? reduced(number, MPI_SUM, mpi_->comm, profile()) : number;
 }
 
 std::uint64_t Communicator::max(std::uint64_t number) const {
-    return mpi_ ? reduced(number, MPI_MAX, mpi_->comm) : number;
+    return mpi_ ? reduced(number, MPI_MAX, mpi_->comm, profile()) : number;
 }
 
 std::uint64_t Communicator::sum_before(std::uint64_t number) const {
     if (!mpi_) return 0;
+    const Communication communication(profile(), "reduction");
+    communication.count_collective(sizeof number);
     std::uint64_t sum = 0;
     MPI_Exscan(&number, &sum, 1, MPI_UINT64_T, MPI_SUM, mpi_->comm);
     return mpi_->rank == 0 ? 0 : sum;
@@ -75,46 +87,58 @@ std::vector<int> Communicator::every_rank() const {
 }
 
 std::size_t Communicator::broadcast_size(std::size_t size) const {
+    if (!mpi_) return size;
+    const Communication communication(profile(), "broadcast");
     std::uint64_t number = size;
-    if (mpi_) MPI_Bcast(&number, 1, MPI_UINT64_T, 0, mpi_->comm);
+    communication.count_collective(sizeof number);
+    MPI_Bcast(&number, 1, MPI_UINT64_T, 0, mpi_->comm);
     return number;
 }
 
 void Communicator::broadcast_bytes(void* data, std::size_t size) const {
     if (!mpi_) return;
+    const Communication communication(profile(), "broadcast");
     for (std::size_t offset = 0; offset < size; offset += most_bytes) {
-        MPI_Bcast(static_cast<std::byte*>(data) + offset,
-                  static_cast<int>(std::min(size - offset, most_bytes)), MPI_BYTE, 0, mpi_->comm);
+        const std::size_t count = std::min(size - offset, most_bytes);
+        communication.count_collective(count);
+        MPI_Bcast(static_cast<std::byte*>(data) + offset, static_cast<int>(count), MPI_BYTE, 0,
+                  mpi_->comm);
     }
 }
 
-// One message to each neighbour, empty or not. Only one that fills a whole message is followed by
+// One message to each receiver, empty or not. Only one that fills a whole message is followed by
 // another, so that the receiver knows when it has all.
-void Communicator::exchange_bytes(const std::vector<int>& neighbours,
-                                  const std::vector<std::span<const std::byte>>& outboxes,
-                                  Allocate allocate, void* context) const {
+void Communicator::send_and_receive_bytes(const std::vector<int>& receivers,
+                                          const std::vector<std::span<const std::byte>>& outboxes,
+                                          const std::vector<int>& senders, Allocate allocate,
+                                          void* context) const {
+    const Communication communication(mpi_ ? profile() : nullptr, "exchange");
     std::vector<MPI_Request> requests;
-    for (std::size_t i = 0; i < neighbours.size(); ++i) {
+    std::span<const std::byte> to_itself;
+    for (std::size_t i = 0; i < receivers.size(); ++i) {
         const std::span<const std::byte> outbox = outboxes[i];
-        if (neighbours[i] == rank()) {
-            std::byte* inbox = allocate(context, i, outbox.size());
-            std::ranges::copy(outbox, inbox);
+        if (receivers[i] == rank()) {
+            to_itself = outbox;
             continue;
         }
         for (std::size_t offset = 0; offset <= outbox.size(); offset += most_bytes) {
             const std::size_t count = std::min(outbox.size() - offset, most_bytes);
-            MPI_Isend(outbox.data() + offset, static_cast<int>(count), MPI_BYTE, neighbours[i],
+            communication.count_message(count);
+            MPI_Isend(outbox.data() + offset, static_cast<int>(count), MPI_BYTE, receivers[i],
                       exchange_tag, mpi_->comm, &requests.emplace_back());
         }
     }
-    for (std::size_t i = 0; i < neighbours.size(); ++i) {
-        if (neighbours[i] == rank()) continue;
+    for (std::size_t i = 0; i < senders.size(); ++i) {
+        if (senders[i] == rank()) {
+            std::ranges::copy(to_itself, allocate(context, i, to_itself.size()));
+            continue;
+        }
         std::size_t received = 0;
         int count = 0;
         do {
             MPI_Message message = MPI_MESSAGE_NULL;
             MPI_Status status;
-            MPI_Mprobe(neighbours[i], exchange_tag, mpi_->comm, &message, &status);
+            MPI_Mprobe(senders[i], exchange_tag, mpi_->comm, &message, &status);
             MPI_Get_count(&status, MPI_BYTE, &count);
             const auto size = static_cast<std::size_t>(count);
             std::byte* inbox = allocate(context, i, received + size);

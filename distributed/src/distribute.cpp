@@ -7,6 +7,7 @@
 
 #include <octetra/core/vertex_buckets.hpp>
 #include <octetra/distributed/distributed_mesh.hpp>
+#include <octetra/distributed/profile.hpp>
 
 #include "interfaces.hpp"
 
@@ -180,18 +181,14 @@ Share share_out(const Communicator& processes, const Mesh& mesh,
     Share share;
     if (!processes.is_first()) {
         share.for_each_array([&]<class T>(std::vector<T>& values) {
-            values = std::move(processes.exchange_with<T>({0}, {{}}).front());
+            values = processes.receive<T>(0);
         });
         return share;
     }
     Cutter cutter(mesh, cell_to_rank, processes.size());
     for (int rank = 1; rank < processes.size(); ++rank) {
         share = cutter.share_of(rank);
-        share.for_each_array([&]<class T>(std::vector<T>& values) {
-            std::vector<std::vector<T>> outbox(1);
-            outbox.front() = std::move(values);
-            (void)processes.exchange_with<T>({rank}, outbox);
-        });
+        share.for_each_array([&](const auto& values) { processes.send(values, rank); });
     }
     return cutter.share_of(0);
 }
@@ -246,6 +243,7 @@ void take_over(Mesh mesh, DistributedMesh& part) {
 
 DistributedMesh distribute(const Communicator& processes, Mesh mesh,
                            const std::vector<int>& cell_to_rank) {
+    const Phase phase(processes, "distribute");
     std::vector<Facts> shared{facts_of(mesh)};
     processes.broadcast(shared);
     const Facts facts = shared.front();
@@ -262,6 +260,7 @@ DistributedMesh distribute(const Communicator& processes, Mesh mesh,
     }
     take_share(share_out(processes, mesh, cell_to_rank), part);
     mesh = {};  // no longer needed, and large
+    const Phase finding(processes, "interfaces");
     part.interfaces = find_interfaces(part);
     return part;
 }

@@ -9,6 +9,7 @@
 
 #include <octetra/core/error.hpp>
 #include <octetra/core/orientation.hpp>
+#include <octetra/distributed/profile.hpp>
 
 #include "closure.hpp"
 #include "edge_stars.hpp"
@@ -212,21 +213,33 @@ void bisect_listed(DistributedMesh& mesh, const EdgeStars& stars, const Midpoint
 
 LevelOutcome refine_level(DistributedMesh& mesh, const Selection& selection,
                           const RefineOptions& options, int level) {
-    const EdgeStars stars(mesh.points.size(), mesh.cells);
-    const auto orders = length_orders(mesh);
-    Closure closure(stars, orders, mesh.interfaces);
-    select_chosen(mesh, selection, options.scheme, stars, orders, closure);
-    const SynchronisationCounts counts = options.synchronisation == Synchronisation::neighbour
-                                             ? synchronise_by_neighbours(closure, mesh)
-                                             : synchronise_by_gateway(closure, mesh);
+    const Communicator& processes = mesh.processes;
+    const auto stars = in_phase(processes, "number edges",
+                                [&] { return EdgeStars(mesh.points.size(), mesh.cells); });
+    const auto orders = in_phase(processes, "order edges", [&] { return length_orders(mesh); });
+    auto closure = in_phase(processes, "select", [&] {
+        Closure chosen(stars, orders, mesh.interfaces);
+        select_chosen(mesh, selection, options.scheme, stars, orders, chosen);
+        return chosen;
+    });
+    const auto counts = in_phase(processes, "synchronise", [&] {
+        return options.synchronisation == Synchronisation::neighbour
+                   ? synchronise_by_neighbours(closure, mesh)
+                   : synchronise_by_gateway(closure, mesh);
+    });
 
-    if (mesh.processes.max(closure.selected_count()) == 0) return {.counts = counts};
+    if (processes.max(closure.selected_count()) == 0) return {.counts = counts};
 
     check_countable(mesh, mesh.points.size() + closure.selected_count(), "vertices");
     const VertexIndex first_midpoint = mesh.points.end_index();
-    const Midpoints midpoints = bisect_edges(mesh, stars, closure);
-    CellBisection(mesh, stars, orders, closure, midpoints, first_midpoint).run(level);
-    bisect_listed(mesh, stars, midpoints);
+    const auto midpoints =
+        in_phase(processes, "bisect edges", [&] { return bisect_edges(mesh, stars, closure); });
+    {
+        const Phase phase(processes, "bisect tetrahedra");
+        CellBisection(mesh, stars, orders, closure, midpoints, first_midpoint).run(level);
+        bisect_listed(mesh, stars, midpoints);
+    }
+    const Phase phase(processes, "interfaces");
     mesh.interfaces = refined_interfaces(mesh.interfaces, mesh.points, stars, midpoints.of_edge);
     return {.counts = counts, .changed = true};
 }

@@ -4,6 +4,8 @@
 #include <set>
 #include <tuple>
 
+#include <octetra/distributed/profile.hpp>
+
 namespace octetra::distributed {
 namespace {
 
@@ -15,10 +17,17 @@ std::vector<int> neighbours_of(const DistributedMesh& mesh) {
     return ranks;
 }
 
-std::uint64_t count(const Outboxes& outboxes) {
+template <class T>
+std::uint64_t count(const std::vector<std::vector<T>>& boxes) {
     std::uint64_t sum = 0;
-    for (const auto& box : outboxes) sum += box.size();
+    for (const auto& box : boxes) sum += box.size();
     return sum;
+}
+
+/// The local closure of the paper: everything that needs no word from others.
+void close_locally(Closure& closure, const DistributedMesh& mesh) {
+    const Phase phase(mesh.processes, "closure");
+    closure.drain();
 }
 
 /// A selection on its way through the gateway: the edge at a position of the list that two ranks
@@ -74,12 +83,14 @@ SynchronisationCounts synchronise_by_neighbours(Closure& closure, const Distribu
     const std::vector<int> neighbours = neighbours_of(mesh);
     SynchronisationCounts counts;
     while (true) {
-        closure.drain();
+        close_locally(closure, mesh);
         const Outboxes outboxes = closure.take_outboxes();
         if (mesh.processes.sum(count(outboxes)) == 0) return counts;
+        note_round(mesh.processes);
         ++counts.rounds;
         counts.messages += neighbours.size();
         counts.edges += count(outboxes);
+        counts.bytes += count(outboxes) * sizeof outboxes[0][0];
         const auto inboxes = mesh.processes.exchange_with(neighbours, outboxes);
         for (std::size_t i = 0; i < inboxes.size(); ++i) {
             for (const std::uint32_t position : inboxes[i]) closure.select_from(i, position);
@@ -93,16 +104,22 @@ SynchronisationCounts synchronise_by_gateway(Closure& closure, const Distributed
     Gateway gateway;
     SynchronisationCounts counts;
     while (true) {
-        closure.drain();
+        close_locally(closure, mesh);
         const auto selections = addressed(closure.take_outboxes(), mesh);
         if (processes.sum(selections.size()) == 0) return counts;
+        note_round(processes);
         ++counts.rounds;
+        const auto from_each = processes.gather(selections);
+        std::vector<std::vector<BorderSelection>> to_each;
+        std::uint64_t edges = selections.size();
+        if (processes.is_first()) {  // what it says to itself, and hears from itself, is no message
+            to_each = gateway.route(from_each);
+            edges = count(to_each) - to_each.front().size();
+        }
         counts.messages +=
             processes.is_first() ? static_cast<std::uint64_t>(processes.size()) - 1 : 1;
-        counts.edges += selections.size();
-        const auto from_each = processes.gather(selections);
-        auto to_each = processes.is_first() ? gateway.route(from_each)
-                                            : std::vector<std::vector<BorderSelection>>{};
+        counts.edges += edges;
+        counts.bytes += edges * sizeof(BorderSelection);
         for (const BorderSelection& s : processes.scatter(to_each)) {
             const auto sender = std::ranges::lower_bound(neighbours, s.from);
             closure.select_from(static_cast<std::size_t>(sender - neighbours.begin()), s.position);

@@ -1,3 +1,5 @@
+#include <chrono>
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -8,22 +10,11 @@
 namespace octetra {
 namespace {
 
+using test::occurrences;
+using test::octetra_on;
 using test::TemporaryFolder;
 using testing::HasSubstr;
 using testing::Not;
-
-test::Outcome octetra_on(int ranks, const std::string& arguments, const TemporaryFolder& folder) {
-    return test::run_program(
-        test::words(std::string(OCTETRA_SOURCE_DIR "/tests/support/mpirun.sh ") +
-                    std::to_string(ranks) + " " + OCTETRA_PROGRAM + " " + arguments),
-        folder.path());
-}
-
-std::size_t occurrences(const std::string& text, const std::string& part) {
-    std::size_t count = 0;
-    for (auto at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++count;
-    return count;
-}
 
 class Parallel : public testing::Test {
 protected:
@@ -133,17 +124,44 @@ TEST_F(Parallel, EndsInOneMessageWhereARankCannotWriteAndLeavesNothing) {
     }
 }
 
-TEST_F(Parallel, EndsAtOnceWhenARankIsKilledAndKeepsTheOutput) {
-    (void)folder.write("p.mesh", "as it was");
-    // Rank 1 is killed half a second after the start; the work takes several.
-    const auto run = test::run_program(
-        {OCTETRA_SOURCE_DIR "/tests/support/mpirun.sh", "3", "sh", "-c",
-         "if [ \"$OMPI_COMM_WORLD_RANK\" = 1 ]; then (sleep 0.5; kill -9 $$) & fi; exec " +
-             std::string(OCTETRA_PROGRAM) +
-             " refine gear.1.ele --all --levels 4 --quiet -o p.mesh"},
+/// Runs a refinement of which a rank kills itself at one of its calls of MPI; see
+/// tests/support/mpi_killer.cpp.
+test::Outcome run_with_a_kill(int rank, int at, const std::string& arguments,
+                              const TemporaryFolder& folder) {
+    return test::run_program(
+        test::words(
+            std::string(OCTETRA_SOURCE_DIR "/tests/support/mpirun.sh 3") +
+            " -x LD_PRELOAD=" OCTETRA_MPI_KILLER + " -x OCTETRA_KILL_RANK=" + std::to_string(rank) +
+            " -x OCTETRA_KILL_AT=" + std::to_string(at) + " " + OCTETRA_PROGRAM + " " + arguments),
         folder.path());
-    EXPECT_NE(run.status, 0);
-    EXPECT_EQ(test::content_of(folder / "p.mesh"), "as it was");
+}
+
+int calls_of_mpi(int rank, const std::string& arguments, const TemporaryFolder& folder) {
+    const auto run = run_with_a_kill(rank, 0, arguments, folder);
+    EXPECT_EQ(run.status, 0) << run.err;
+    const std::string before = "calls of MPI: ";
+    const auto place = run.err.find(before);
+    if (place == std::string::npos) return 0;
+    return std::stoi(run.err.substr(place + before.size()));
+}
+
+TEST_F(Parallel, EndsAtOnceWhereverARankIsKilledAndKeepsTheOutput) {
+    const std::string command = refine + "--quiet -o p.mesh";
+    const int calls = calls_of_mpi(2, command, folder);
+    ASSERT_GT(calls, 40) << "the calls are not caught";
+    const std::string complete = test::content_of(folder / "p.mesh");
+    // In the last one it waits while the first rank writes, which may just be done.
+    for (const auto& [rank, at] : {std::pair{2, 1}, {0, calls / 3}, {2, calls / 2}, {2, calls}}) {
+        SCOPED_TRACE(testing::Message() << "rank " << rank << ", call " << at << " of " << calls);
+        (void)folder.write("p.mesh", "as it was");
+        const auto start = std::chrono::steady_clock::now();
+        const auto run = run_with_a_kill(rank, at, command, folder);
+        EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(30));
+        EXPECT_NE(run.status, 0);
+        EXPECT_THAT(run.err, HasSubstr("signal 9"));
+        const std::string content = test::content_of(folder / "p.mesh");
+        EXPECT_TRUE(content == "as it was" || (at == calls && content == complete));
+    }
 }
 
 }  // namespace

@@ -107,5 +107,18 @@ TEST(WriteMesh, ReportsAFullDiskAndLeavesNothing) {
     }
 }
 
+TEST(WriteText, ReplacesAFileWholeOrNotAtAll) {
+    const TemporaryFolder folder;
+    write_text("one\n", folder / "a.json");
+    write_text("two\n", folder / "a.json");
+    EXPECT_EQ(test::content_of(folder / "a.json"), "two\n");
+    const auto temporary = folder / ("a.json." + std::to_string(::getpid()) + ".tmp");
+    std::filesystem::create_symlink("/dev/full", temporary);
+    EXPECT_THAT(test::thrown_by<SystemError>([&] { write_text("three", folder / "a.json"); }),
+                HasSubstr("No space left on device"));
+    EXPECT_EQ(test::content_of(folder / "a.json"), "two\n");
+    EXPECT_THAT(names_in(folder.path()), testing::ElementsAre("a.json"));
+}
+
 }  // namespace
 }  // namespace octetra

@@ -17,12 +17,14 @@
 #include <octetra/distributed/agreement.hpp>
 #include <octetra/distributed/canonical_mesh.hpp>
 #include <octetra/distributed/partition.hpp>
+#include <octetra/distributed/profile.hpp>
 #include <octetra/distributed/refine.hpp>
 #include <octetra/reference/refine.hpp>
 
 #include "choice.hpp"
 #include "commands/commands.hpp"
 #include "commands/mesh_options.hpp"
+#include "commands/profile_options.hpp"
 #include "commands/selection_options.hpp"
 #include "grouped.hpp"
 #include "stopwatch.hpp"
@@ -59,6 +61,7 @@ struct RefineOptions {
     std::string engine = "distributed";
     std::string partition = "lepp";
     std::string synchronisation = "neighbour";
+    ProfileOptions profile;
     bool quiet = false;
 };
 
@@ -123,13 +126,16 @@ void report_written(const RefineOptions& options, const std::string& lost, const
 
 /// On the first process alone.
 void refine_by_reference(const Mesh& mesh, const Plan& plan, const RefineOptions& options,
-                         Stopwatch& watch) {
-    const auto fine = naming_the_mesh(options, [&] {
-        return reference::refine(mesh, plan.selection, plan.scheme, options.levels);
+                         const distributed::Communicator& world, Stopwatch& watch) {
+    const auto fine = distributed::in_phase(world, "refine", [&] {
+        return naming_the_mesh(options, [&] {
+            return reference::refine(mesh, plan.selection, plan.scheme, options.levels);
+        });
     });
     WholeMesh source(fine.mesh, &fine.maps);
     const int levels = fine.mesh.cells.size() == mesh.cells.size() ? 0 : options.levels;
     report_refined(options, levels, 1, source.facts(), watch.lap());
+    const distributed::Phase phase(world, "write");
     const std::string lost = write_mesh(source, options.output);
     if (!options.maps.empty()) write_maps(source, options.maps);
     report_written(options, lost, source.facts(), watch.lap());
@@ -139,9 +145,11 @@ void refine_by_reference(const Mesh& mesh, const Plan& plan, const RefineOptions
 void refine_distributed(Mesh mesh, const Plan& plan, const RefineOptions& options,
                         const distributed::Communicator& world, Stopwatch& watch) {
     std::vector<int> cell_to_rank;
-    distributed::on_first(world, [&] {
-        if (world.size() == 1) return;
-        cell_to_rank = distributed::partition_cells(mesh, world.size(), plan.partition);
+    distributed::in_phase(world, "partition", [&] {
+        distributed::on_first(world, [&] {
+            if (world.size() == 1) return;
+            cell_to_rank = distributed::partition_cells(mesh, world.size(), plan.partition);
+        });
     });
     auto parts = distributed::distribute(world, std::move(mesh), cell_to_rank);
     cell_to_rank = {};
@@ -160,29 +168,53 @@ void refine_distributed(Mesh mesh, const Plan& plan, const RefineOptions& option
         if (show) fmt::print(stderr, "\r{:60}\r", "");
         report_refined(options, levels, world.size(), fine.facts(), watch.lap());
     }
+    const distributed::Phase phase(world, "write");
     const std::string lost = distributed::write_mesh(fine, options.output);
     if (!options.maps.empty()) write_maps(fine.whole(), options.maps);
     if (world.is_first()) report_written(options, lost, fine.facts(), watch.lap());
 }
 
-void refine(const RefineOptions& options, const distributed::Communicator& world) {
+/// Refuses files beside the mesh that cannot be written or would take each other's place.
+void check_side_files(const RefineOptions& options) {
+    const std::array<std::pair<std::string_view, std::filesystem::path>, 3> files{
+        {{"--maps", options.maps},
+         {"--profile", options.profile.profile},
+         {"--trace", options.profile.trace}}};
+    for (const auto& [option, path] : files) {
+        if (path.empty()) continue;
+        check_side_file(option, path);
+        for (const auto& [other_option, other] : files) {
+            if (option == other_option) break;
+            if (path.lexically_normal() != other.lexically_normal()) continue;
+            throw InputError(fmt::format("{} and {} name the same file, {}", other_option, option,
+                                         path.native()));
+        }
+    }
+}
+
+void refine(const RefineOptions& options, const distributed::Communicator& all) {
     Plan plan = plan_of(options);
     Stopwatch watch;
+    const distributed::Communicator world = measured(all, options.profile);
     Mesh mesh;
-    distributed::on_first(world, [&] {
-        check_writable(options.output);
-        if (!options.maps.empty()) check_side_file("--maps", options.maps);
-        mesh = read_input(options.input);
-        complete_selection(plan.selection, options.selection, mesh);
-        report(options, fmt::format("read {}", options.input.path), mesh.points.size(),
-               mesh.cells.size(), watch.lap());
+    distributed::in_phase(world, "read", [&] {
+        distributed::on_first(world, [&] {
+            check_writable(options.output);
+            check_side_files(options);
+            mesh = read_input(options.input);
+            complete_selection(plan.selection, options.selection, mesh);
+            report(options, fmt::format("read {}", options.input.path), mesh.points.size(),
+                   mesh.cells.size(), watch.lap());
+        });
+        world.broadcast(plan.selection.cells);
     });
-    world.broadcast(plan.selection.cells);
     if (plan.engine == Engine::reference) {
-        distributed::on_first(world, [&] { refine_by_reference(mesh, plan, options, watch); });
+        distributed::on_first(world,
+                              [&] { refine_by_reference(mesh, plan, options, world, watch); });
     } else {
         refine_distributed(std::move(mesh), plan, options, world, watch);
     }
+    write_profile(world, options.profile, options.quiet);
 }
 
 void add_engine_options(CLI::App& command, RefineOptions& options) {
@@ -231,6 +263,7 @@ void add_refine(CLI::App& program, const distributed::Communicator& world) {
         ->add_option("--maps", options->maps,
                      "also write each cell's parent and each midpoint's edge, as text")
         ->type_name("FILE");
+    add_profile_options(*refine_command, options->profile);
     refine_command->add_flag("--quiet", options->quiet, "print nothing but notes and errors");
     refine_command->footer(
         "Example:\n"

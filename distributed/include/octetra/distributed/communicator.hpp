@@ -6,10 +6,13 @@
 #include <span>
 #include <string>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 /// What the distributed engine needs of MPI, in terms of vectors. Nothing here includes mpi.h.
 namespace octetra::distributed {
+
+class Profile;  // see octetra/distributed/profile.hpp
 
 /// A group of processes that work on one mesh. Copies speak for the same group.
 ///
@@ -23,6 +26,10 @@ public:
     [[nodiscard]] int rank() const;
     [[nodiscard]] int size() const;
     [[nodiscard]] bool is_first() const { return rank() == 0; }
+
+    /// What measures this process's phases and messages, or null; copies share it.
+    [[nodiscard]] Profile* profile() const { return profile_.get(); }
+    [[nodiscard]] Communicator with_profile(std::shared_ptr<Profile> profile) const;
 
     /// Collective. Sum, maximum and sum over lower ranks of one number from each process.
     [[nodiscard]] std::uint64_t sum(std::uint64_t number) const;
@@ -49,34 +56,31 @@ public:
     template <class T>
     [[nodiscard]] std::vector<std::vector<T>> exchange_with(
         const std::vector<int>& neighbours, const std::vector<std::vector<T>>& outboxes) const {
-        static_assert(std::is_trivially_copyable_v<T>);
-        std::vector<std::span<const std::byte>> bytes;
-        for (const std::vector<T>& box : outboxes) bytes.push_back(std::as_bytes(std::span(box)));
-        std::vector<std::vector<T>> inboxes(neighbours.size());
-        exchange_bytes(neighbours, bytes, [&](std::size_t i, std::size_t size) {
-            inboxes[i].resize(size / sizeof(T));
-            return reinterpret_cast<std::byte*>(inboxes[i].data());
-        });
-        return inboxes;
+        return send_and_receive<T>(neighbours, outboxes, neighbours);
+    }
+
+    /// Between two processes: one sends to the other, which receives. Both wait until it is done.
+    template <class T>
+    void send(const std::vector<T>& values, int receiver) const {
+        (void)send_and_receive<T>({receiver}, std::span(&values, 1), {});
+    }
+    template <class T>
+    [[nodiscard]] std::vector<T> receive(int sender) const {
+        return std::move(send_and_receive<T>({}, {}, {sender}).front());
     }
 
     /// Collective. The first process gets what each one has, by rank; the others get nothing.
     template <class T>
     [[nodiscard]] std::vector<std::vector<T>> gather(const std::vector<T>& values) const {
-        if (!is_first()) {
-            (void)exchange_with<T>({0}, {values});
-            return {};
-        }
-        std::vector<std::vector<T>> nothing(static_cast<std::size_t>(size()));
-        nothing.front() = values;
-        return exchange_with<T>(every_rank(), nothing);
+        const std::vector<int> senders = is_first() ? every_rank() : std::vector<int>{};
+        return send_and_receive<T>({0}, std::span(&values, 1), senders);
     }
 
     /// Collective. Rank r gets to_each[r] of the first process.
     template <class T>
     [[nodiscard]] std::vector<T> scatter(const std::vector<std::vector<T>>& to_each) const {
-        if (!is_first()) return exchange_with<T>({0}, {{}}).front();
-        return exchange_with<T>(every_rank(), to_each).front();
+        const std::vector<int> receivers = is_first() ? every_rank() : std::vector<int>{};
+        return std::move(send_and_receive<T>(receivers, to_each, {0}).front());
     }
 
     struct Mpi;  // wraps an MPI communicator; see octetra/distributed/mpi.hpp
@@ -88,21 +92,32 @@ private:
     [[nodiscard]] std::vector<int> every_rank() const;
     [[nodiscard]] std::size_t broadcast_size(std::size_t size) const;
     void broadcast_bytes(void* data, std::size_t size) const;
-    void exchange_bytes(const std::vector<int>& neighbours,
-                        const std::vector<std::span<const std::byte>>& outboxes, Allocate allocate,
-                        void* context) const;
-    template <class F>
-    void exchange_bytes(const std::vector<int>& neighbours,
-                        const std::vector<std::span<const std::byte>>& outboxes, F&& f) const {
-        exchange_bytes(
-            neighbours, outboxes,
-            [](void* context, std::size_t i, std::size_t size) {
-                return (*static_cast<std::remove_reference_t<F>*>(context))(i, size);
-            },
-            &f);
+    /// outboxes[i] goes to rank receivers[i]; the result's [i] came from senders[i].
+    template <class T>
+    [[nodiscard]] std::vector<std::vector<T>> send_and_receive(
+        const std::vector<int>& receivers, std::span<const std::vector<T>> outboxes,
+        const std::vector<int>& senders) const {
+        static_assert(std::is_trivially_copyable_v<T>);
+        std::vector<std::span<const std::byte>> bytes;
+        for (std::size_t i = 0; i < receivers.size(); ++i) {
+            bytes.push_back(std::as_bytes(std::span(outboxes[i])));
+        }
+        std::vector<std::vector<T>> inboxes(senders.size());
+        const auto allocate = [](void* context, std::size_t i, std::size_t size) {
+            std::vector<T>& inbox = (*static_cast<std::vector<std::vector<T>>*>(context))[i];
+            inbox.resize(size / sizeof(T));
+            return reinterpret_cast<std::byte*>(inbox.data());
+        };
+        send_and_receive_bytes(receivers, bytes, senders, allocate, &inboxes);
+        return inboxes;
     }
+    void send_and_receive_bytes(const std::vector<int>& receivers,
+                                const std::vector<std::span<const std::byte>>& outboxes,
+                                const std::vector<int>& senders, Allocate allocate,
+                                void* context) const;
 
     std::shared_ptr<const Mpi> mpi_;  // none: this process alone
+    std::shared_ptr<Profile> profile_;
 };
 
 /// Starts MPI if the program was started by mpirun, and ends it in the end.

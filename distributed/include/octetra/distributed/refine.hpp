@@ -25,11 +25,13 @@ struct RefineOptions {
     std::function<void(int level, std::uint64_t cells)> on_level;
 };
 
-/// What synchronisation took, on this process, summed over the levels.
+/// What synchronisation took, on this process, summed over the levels. Beside its messages every
+/// round, and once more every level, takes a sum over all processes.
 struct SynchronisationCounts {
     std::uint64_t rounds = 0;    ///< the same on all processes
-    std::uint64_t messages = 0;  ///< sent by this process
-    std::uint64_t edges = 0;     ///< selections sent by this process
+    std::uint64_t messages = 0;  ///< sent by this process; by the gateway, also those passed on
+    std::uint64_t bytes = 0;     ///< in these messages
+    std::uint64_t edges = 0;     ///< selections in these messages
 };
 
 /// Collective. Refines in place; the mesh stays distributed. What is in which order afterwards, and

@@ -1,0 +1,50 @@
+#include "commands/profile_options.hpp"
+
+#include <cstdio>
+
+#include <fmt/format.h>
+#include <CLI/CLI.hpp>
+
+#include <octetra/core/files.hpp>
+#include <octetra/distributed/agreement.hpp>
+#include <octetra/distributed/profile.hpp>
+
+#include "profile/format_profile.hpp"
+
+namespace octetra::cli {
+
+void add_profile_options(CLI::App& subcommand, ProfileOptions& options) {
+    const std::string group = "What it took";
+    subcommand
+        .add_option("--profile", options.profile,
+                    "print seconds, messages and bytes of every phase, and write them as JSON")
+        ->type_name("FILE")
+        ->group(group);
+    subcommand
+        .add_option("--trace", options.trace,
+                    "write what each rank did when, as JSON for ui.perfetto.dev")
+        ->type_name("FILE")
+        ->group(group);
+}
+
+distributed::Communicator measured(const distributed::Communicator& world,
+                                   const ProfileOptions& options) {
+    if (options.profile.empty() && options.trace.empty()) return world;
+    return distributed::profiled(world, options.trace.empty() ? distributed::ProfileDetail::sums
+                                                              : distributed::ProfileDetail::spans);
+}
+
+void write_profile(const distributed::Communicator& measured, const ProfileOptions& options,
+                   bool quiet) {
+    if (measured.profile() == nullptr) return;
+    const auto profile = distributed::gather_profile(measured);
+    distributed::on_first(measured, [&] {
+        if (!options.profile.empty()) {
+            if (!quiet) fmt::print("\n{}", format_profile_table(profile));
+            write_text(format_profile_json(profile), options.profile);
+        }
+        if (!options.trace.empty()) write_text(format_trace(profile), options.trace);
+    });
+}
+
+}  // namespace octetra::cli

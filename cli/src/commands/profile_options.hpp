@@ -1,0 +1,30 @@
+#pragma once
+
+#include <string>
+
+#include <octetra/distributed/communicator.hpp>
+
+namespace CLI {
+class App;
+}
+
+namespace octetra::cli {
+
+struct ProfileOptions {
+    std::string profile;
+    std::string trace;
+};
+
+/// Declares --profile and --trace.
+void add_profile_options(CLI::App& subcommand, ProfileOptions& options);
+
+/// Collective. The same processes, measuring themselves if the options ask for it.
+[[nodiscard]] distributed::Communicator measured(const distributed::Communicator& world,
+                                                 const ProfileOptions& options);
+
+/// Collective. Writes what the options ask for, after all the rest is done; the table of --profile
+/// to stdout, unless `quiet`. Throws SystemError on all processes.
+void write_profile(const distributed::Communicator& measured, const ProfileOptions& options,
+                   bool quiet);
+
+}  // namespace octetra::cli

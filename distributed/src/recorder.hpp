@@ -1,0 +1,105 @@
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <string_view>
+#include <vector>
+
+#include <octetra/distributed/profile.hpp>
+
+namespace octetra::distributed {
+
+/// What one process measures. At any moment one phase is the current one, and time goes either to
+/// its computing or to its communicating: the time since the last change is booked at each change.
+class Profile {
+public:
+    using Nanoseconds = std::int64_t;
+
+    /// The figures of one phase of one level; the names point to literals.
+    struct Record {
+        const char* name = nullptr;
+        int level = 0;
+        Nanoseconds computing = 0;
+        Nanoseconds communicating = 0;
+        PhaseCounts counts;  // without the seconds
+    };
+    struct LevelRecord {
+        int level = 0;
+        std::uint64_t cells = 0;
+        std::uint64_t peak_memory = 0;
+    };
+
+    /// Starts the clock, in the phase "rest".
+    explicit Profile(ProfileDetail detail);
+
+    void begin_phase(const char* name) { begin_phase(name, current().level); }
+    void begin_phase(const char* name, int level);
+    void end_phase();
+    void begin_communication(const char* name);
+    void end_communication();
+    [[nodiscard]] PhaseCounts& counts() { return current().counts; }
+    void note_cells(int level, std::uint64_t cells);
+
+    /// Books the last stretch of time. No phase may be open; throws std::logic_error.
+    void finish();
+
+    [[nodiscard]] const std::vector<Record>& records() const { return records_; }
+    [[nodiscard]] const std::vector<LevelRecord>& levels() const { return levels_; }
+    [[nodiscard]] const std::vector<Span>& spans() const { return spans_; }
+
+private:
+    struct Open {
+        std::size_t record = 0;
+        std::size_t span = 0;
+    };
+
+    [[nodiscard]] Record& current() { return records_[open_.back().record]; }
+    [[nodiscard]] std::size_t record_of(std::string_view name, int level);
+    Nanoseconds book();
+    void begin_span(const char* name, Nanoseconds now, bool is_communication);
+
+    std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+    bool keeps_spans_;
+    bool communicates_ = false;
+    Nanoseconds booked_ = 0;  // all time until then is booked
+    std::vector<Record> records_;
+    std::vector<Open> open_;     // the innermost phase last; "rest" first
+    PhaseCounts counts_before_;  // of the phase, when the communication began
+    std::vector<LevelRecord> levels_;
+    std::vector<Span> spans_;
+};
+
+/// The most memory that this process has held resident, in bytes; 0 where the system does not tell.
+[[nodiscard]] std::uint64_t peak_memory();
+
+/// Time from here to the end of the scope is communication of the current phase. Null: nothing is
+/// measured.
+class Communication {
+public:
+    Communication(Profile* profile, const char* name) : profile_(profile) {
+        if (profile_ != nullptr) profile_->begin_communication(name);
+    }
+    ~Communication() {
+        if (profile_ != nullptr) profile_->end_communication();
+    }
+    Communication(const Communication&) = delete;
+    Communication& operator=(const Communication&) = delete;
+    Communication(Communication&&) = delete;
+    Communication& operator=(Communication&&) = delete;
+
+    void count_message(std::size_t bytes) const {
+        if (profile_ == nullptr) return;
+        profile_->counts().messages += 1;
+        profile_->counts().bytes += bytes;
+    }
+    void count_collective(std::size_t bytes) const {
+        if (profile_ == nullptr) return;
+        profile_->counts().collectives += 1;
+        profile_->counts().collective_bytes += bytes;
+    }
+
+private:
+    Profile* profile_;
+};
+
+}  // namespace octetra::distributed

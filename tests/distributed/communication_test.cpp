@@ -1,0 +1,114 @@
+#include <gtest/gtest.h>
+
+#include <octetra/distributed/partition.hpp>
+#include <octetra/distributed/profile.hpp>
+#include <octetra/distributed/refine.hpp>
+
+#include "distributed/world.hpp"
+#include "support/meshes.hpp"
+
+/// How much synchronisation may send: bounds that hold for every mesh, partition and rank. The
+/// figures are those of the profile, which profile_test.cpp holds against MPI's.
+namespace octetra::distributed {
+namespace {
+
+/// What a rank shares with others before a level.
+struct Border {
+    std::uint64_t neighbours = 0;
+    std::uint64_t edges = 0;  ///< in the lists of all its interfaces
+};
+
+Border border_of(const DistributedMesh& mesh) {
+    Border border{.neighbours = mesh.interfaces.size()};
+    for (const Interface& interface : mesh.interfaces) border.edges += interface.edges.size();
+    return border;
+}
+
+struct LevelFigures {
+    std::vector<std::vector<Border>> borders;  ///< [rank], one each
+    std::vector<PhaseCounts> of_rank;          ///< in the phase "synchronise"
+};
+
+/// Collective. Refines once; the first process gets the figures.
+LevelFigures refine_once(DistributedMesh& mesh, const Selection& selection, Scheme scheme,
+                         Synchronisation synchronisation) {
+    LevelFigures figures;
+    figures.borders = test::world().gather(std::vector{border_of(mesh)});
+    mesh.processes = profiled(test::world(), ProfileDetail::sums);
+    refine(mesh, selection, {scheme, 1, synchronisation});
+    for (ProfiledPhase& phase : gather_profile(mesh.processes).phases) {
+        if (phase.name == "synchronise") figures.of_rank = std::move(phase.of_rank);
+    }
+    mesh.processes = test::world();
+    return figures;
+}
+
+DistributedMesh distributed_lattice(std::size_t n, const Partition& partition) {
+    const Mesh mesh = test::shaken_kuhn(n, 0.3, 5);
+    return distribute(test::world(), mesh, partition_cells(mesh, test::world().size(), partition));
+}
+
+/// Three levels by every scheme and some partitions; check(figures, rank) for each rank and level.
+void for_each_level(Synchronisation synchronisation, auto&& check) {
+    std::uint64_t bytes = 0;
+    for (const Partition& partition :
+         {Partition{.method = PartitionMethod::lepp}, Partition{.method = PartitionMethod::block},
+          Partition{.method = PartitionMethod::random, .seed = 1}}) {
+        for (const Scheme scheme : {Scheme::eight, Scheme::four, Scheme::two}) {
+            DistributedMesh mesh = distributed_lattice(4, partition);
+            for (int level = 1; level <= 3; ++level) {
+                const LevelFigures figures =
+                    refine_once(mesh, {.random = RandomShare{0.2, 3}}, scheme, synchronisation);
+                for (std::size_t r = 0; r < figures.of_rank.size(); ++r) {
+                    check(figures, r);
+                    bytes += figures.of_rank[r].bytes;
+                }
+            }
+        }
+    }
+    if (!test::world().is_first()) return;
+    EXPECT_EQ(bytes > 0, test::world().size() > 1);
+}
+
+TEST(Communication, OfNeighboursIsAMessageARoundAndAtMostFourBytesAnEdgeOfTheBorder) {
+    for_each_level(Synchronisation::neighbour, [](const LevelFigures& figures, std::size_t r) {
+        const PhaseCounts& counts = figures.of_rank[r];
+        const Border& border = figures.borders[r].front();
+        EXPECT_LE(counts.messages, counts.rounds * border.neighbours);
+        EXPECT_LE(counts.bytes, 4 * border.edges);
+        // Beside them a sum over all ranks in each round, and one that finds nothing left to tell.
+        EXPECT_EQ(counts.collectives, test::world().size() > 1 ? counts.rounds + 1 : 0);
+    });
+}
+
+TEST(Communication, ThroughTheGatewayIsAMessageARoundEachWayAndTwelveBytesASelection) {
+    for_each_level(Synchronisation::gateway, [](const LevelFigures& figures, std::size_t r) {
+        const PhaseCounts& counts = figures.of_rank[r];
+        const std::uint64_t others = figures.of_rank.size() - 1;
+        std::uint64_t edges = figures.borders[r].front().edges;
+        if (r == 0) {
+            for (std::size_t other = 1; other <= others; ++other) {
+                edges += figures.borders[other].front().edges;
+            }
+        }
+        EXPECT_LE(counts.messages, counts.rounds * (r == 0 ? others : 1));
+        EXPECT_LE(counts.bytes, 12 * edges);
+    });
+}
+
+TEST(Communication, TakesNoMoreRoundsAsTheMeshGrows) {
+    for (const Scheme scheme : {Scheme::eight, Scheme::two}) {
+        std::vector<std::uint64_t> rounds;
+        for (const std::size_t n : {5U, 10U, 20U}) {
+            DistributedMesh mesh = distributed_lattice(n, {.method = PartitionMethod::block});
+            const Selection selection{.random = RandomShare{0.05, 3}};
+            rounds.push_back(refine(mesh, selection, {.scheme = scheme, .levels = 1}).rounds);
+        }
+        // The larger meshes have 8 and 64 times as many cells, and longer paths by chance alone.
+        EXPECT_LE(rounds[1], rounds[0] + 1);
+        EXPECT_LE(rounds[2], rounds[0] + 1);
+    }
+}
+
+}  // namespace
+}  // namespace octetra::distributed

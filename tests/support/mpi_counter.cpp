@@ -1,0 +1,80 @@
+#include "support/mpi_counter.hpp"
+
+#include <mpi.h>
+
+#include <chrono>
+
+namespace octetra::test {
+namespace {
+
+MpiCounts& counts() {
+    static MpiCounts all;
+    return all;
+}
+
+std::uint64_t bytes_of(int count, MPI_Datatype type) {
+    int size = 0;
+    PMPI_Type_size(type, &size);
+    return static_cast<std::uint64_t>(count) * static_cast<std::uint64_t>(size);
+}
+
+int timed(auto&& call) {
+    const auto start = std::chrono::steady_clock::now();
+    const int result = call();
+    counts().nanoseconds +=
+        std::chrono::nanoseconds(std::chrono::steady_clock::now() - start).count();
+    return result;
+}
+
+int collective(int count, MPI_Datatype type, auto&& call) {
+    ++counts().collectives;
+    counts().collective_bytes += bytes_of(count, type);
+    return timed(call);
+}
+
+}  // namespace
+
+MpiCounts mpi_counts() { return counts(); }
+
+}  // namespace octetra::test
+
+using octetra::test::collective;
+using octetra::test::timed;
+
+// Those of MPI that the engine calls and that take time.
+
+int MPI_Isend(const void* buffer, int count, MPI_Datatype type, int receiver, int tag,
+              MPI_Comm comm, MPI_Request* request) {
+    ++octetra::test::counts().messages;
+    octetra::test::counts().bytes += octetra::test::bytes_of(count, type);
+    return timed([&] { return PMPI_Isend(buffer, count, type, receiver, tag, comm, request); });
+}
+
+int MPI_Mprobe(int sender, int tag, MPI_Comm comm, MPI_Message* message, MPI_Status* status) {
+    return timed([&] { return PMPI_Mprobe(sender, tag, comm, message, status); });
+}
+
+int MPI_Mrecv(void* buffer, int count, MPI_Datatype type, MPI_Message* message,
+              MPI_Status* status) {
+    return timed([&] { return PMPI_Mrecv(buffer, count, type, message, status); });
+}
+
+int MPI_Waitall(int count, MPI_Request* requests, MPI_Status* statuses) {
+    return timed([&] { return PMPI_Waitall(count, requests, statuses); });
+}
+
+int MPI_Allreduce(const void* mine, void* result, int count, MPI_Datatype type, MPI_Op operation,
+                  MPI_Comm comm) {
+    return collective(count, type,
+                      [&] { return PMPI_Allreduce(mine, result, count, type, operation, comm); });
+}
+
+int MPI_Exscan(const void* mine, void* result, int count, MPI_Datatype type, MPI_Op operation,
+               MPI_Comm comm) {
+    return collective(count, type,
+                      [&] { return PMPI_Exscan(mine, result, count, type, operation, comm); });
+}
+
+int MPI_Bcast(void* buffer, int count, MPI_Datatype type, int root, MPI_Comm comm) {
+    return collective(count, type, [&] { return PMPI_Bcast(buffer, count, type, root, comm); });
+}

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string_view>
+
+/// What this process asks of MPI, counted where it asks: mpi_counter.cpp stands between the program
+/// and MPI (the profiling interface, PMPI), and knows nothing of the engine's own counting.
+namespace octetra::test {
+
+struct MpiCounts {
+    std::uint64_t messages = 0;
+    std::uint64_t bytes = 0;
+    std::uint64_t collectives = 0;
+    std::uint64_t collective_bytes = 0;
+    std::int64_t nanoseconds = 0;  ///< in calls that send, wait, receive, or are collective
+};
+
+/// The calls that are counted.
+inline constexpr std::array<std::string_view, 7> counted_calls{
+    "MPI_Isend",     "MPI_Mprobe", "MPI_Mrecv", "MPI_Waitall",
+    "MPI_Allreduce", "MPI_Exscan", "MPI_Bcast"};
+
+/// Since the program began.
+[[nodiscard]] MpiCounts mpi_counts();
+
+}  // namespace octetra::test

@@ -1,0 +1,71 @@
+/// To be preloaded (LD_PRELOAD) into a program under mpirun: rank OCTETRA_KILL_RANK kills itself at
+/// its call number OCTETRA_KILL_AT, from 1, of those of MPI that send, wait or are collective. With
+/// 0 it lives, and says on stderr how many calls it made. It stands between the program and MPI
+/// (the profiling interface, PMPI).
+
+#include <mpi.h>
+
+#include <csignal>
+#include <cstdio>
+#include <cstdlib>
+
+namespace {
+
+int number_in_environment(const char* name) {
+    const char* const text = std::getenv(name);
+    return text == nullptr ? 0 : std::atoi(text);
+}
+
+class Victim {
+public:
+    ~Victim() {
+        if (is_this_one_ && kill_at_ == 0) std::fprintf(stderr, "calls of MPI: %d\n", calls_);
+    }
+    void call() {
+        ++calls_;
+        if (is_this_one_ && calls_ == kill_at_) std::raise(SIGKILL);
+    }
+
+private:
+    bool is_this_one_ =
+        number_in_environment("OMPI_COMM_WORLD_RANK") == number_in_environment("OCTETRA_KILL_RANK");
+    int kill_at_ = number_in_environment("OCTETRA_KILL_AT");
+    int calls_ = 0;
+};
+
+Victim victim;
+
+}  // namespace
+
+int MPI_Isend(const void* buffer, int count, MPI_Datatype type, int receiver, int tag,
+              MPI_Comm comm, MPI_Request* request) {
+    victim.call();
+    return PMPI_Isend(buffer, count, type, receiver, tag, comm, request);
+}
+
+int MPI_Mprobe(int sender, int tag, MPI_Comm comm, MPI_Message* message, MPI_Status* status) {
+    victim.call();
+    return PMPI_Mprobe(sender, tag, comm, message, status);
+}
+
+int MPI_Waitall(int count, MPI_Request* requests, MPI_Status* statuses) {
+    victim.call();
+    return PMPI_Waitall(count, requests, statuses);
+}
+
+int MPI_Allreduce(const void* mine, void* result, int count, MPI_Datatype type, MPI_Op operation,
+                  MPI_Comm comm) {
+    victim.call();
+    return PMPI_Allreduce(mine, result, count, type, operation, comm);
+}
+
+int MPI_Exscan(const void* mine, void* result, int count, MPI_Datatype type, MPI_Op operation,
+               MPI_Comm comm) {
+    victim.call();
+    return PMPI_Exscan(mine, result, count, type, operation, comm);
+}
+
+int MPI_Bcast(void* buffer, int count, MPI_Datatype type, int root, MPI_Comm comm) {
+    victim.call();
+    return PMPI_Bcast(buffer, count, type, root, comm);
+}

@@ -1,0 +1,163 @@
+#include "support/mpi_shuffler.hpp"
+
+#include <mpi.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstdlib>
+#include <numeric>
+#include <random>
+#include <thread>
+#include <vector>
+
+namespace octetra::test {
+namespace {
+
+/// A send that the program believes to be under way. Its buffer stays until the program has waited.
+struct HeldSend {
+    const void* buffer;
+    int count;
+    MPI_Datatype type;
+    int receiver;
+    int tag;
+    MPI_Comm comm;
+    std::uint64_t number;
+};
+
+class Shuffler {
+public:
+    void hold(HeldSend send) {
+        send.number = counts.held_back++;
+        held_.push_back(send);
+    }
+
+    /// Lets one message go: the oldest to a random receiver.
+    void release_one() {
+        if (held_.empty()) return;
+        const int receiver = held_[random() % held_.size()].receiver;
+        const auto send = std::ranges::find(held_, receiver, &HeldSend::receiver);
+        const bool is_overtaken = send->number < last_released_;
+        if (is_overtaken) ++counts.overtaken;
+        last_released_ = std::max(last_released_, send->number);
+        PMPI_Isend(send->buffer, send->count, send->type, receiver, send->tag, send->comm,
+                   &under_way_.emplace_back());
+        held_.erase(send);
+    }
+
+    void finish_all() {
+        while (!held_.empty()) {
+            release_one();
+            maybe_sleep();
+        }
+        PMPI_Waitall(static_cast<int>(under_way_.size()), under_way_.data(), MPI_STATUSES_IGNORE);
+        under_way_.clear();
+    }
+
+    /// Mostly not; else up to a tenth of a millisecond, rarely a whole one.
+    void maybe_sleep() {
+        const auto lot = random() % 64;
+        if (lot > 4) return;
+        ++counts.late_calls;
+        const auto most = lot == 0 ? 1000U : 100U;
+        std::this_thread::sleep_for(std::chrono::microseconds(random() % most));
+    }
+
+    std::uint64_t random() {
+        if (!is_seeded_) {
+            int rank = 0;
+            PMPI_Comm_rank(MPI_COMM_WORLD, &rank);
+            std::seed_seq seeds{shuffle_seed(), static_cast<std::uint64_t>(rank)};
+            random_.seed(seeds);
+            is_seeded_ = true;
+        }
+        return random_();
+    }
+
+    ShuffleCounts counts;
+
+private:
+    std::vector<HeldSend> held_;
+    std::vector<MPI_Request> under_way_;
+    std::uint64_t last_released_ = 0;
+    bool is_seeded_ = false;
+    std::mt19937_64 random_;
+};
+
+Shuffler& shuffler() {
+    static Shuffler only;
+    return only;
+}
+
+/// From whom a message may come, in random order.
+std::vector<int> candidates(int sender, MPI_Comm comm) {
+    if (sender != MPI_ANY_SOURCE) return {sender};
+    int size = 0;
+    PMPI_Comm_size(comm, &size);
+    std::vector<int> ranks(static_cast<std::size_t>(size));
+    std::iota(ranks.begin(), ranks.end(), 0);
+    for (std::size_t i = ranks.size(); i > 1; --i) {
+        std::swap(ranks[i - 1], ranks[shuffler().random() % i]);
+    }
+    return ranks;
+}
+
+/// Everybody must have what he waits for before all meet.
+void meet() {
+    shuffler().maybe_sleep();
+    shuffler().finish_all();
+}
+
+}  // namespace
+
+ShuffleCounts shuffle_counts() { return shuffler().counts; }
+
+std::uint64_t shuffle_seed() {
+    const char* const given = std::getenv("OCTETRA_SHUFFLE_SEED");
+    return given == nullptr ? 1 : std::strtoull(given, nullptr, 10);
+}
+
+}  // namespace octetra::test
+
+using octetra::test::shuffler;
+
+int MPI_Isend(const void* buffer, int count, MPI_Datatype type, int receiver, int tag,
+              MPI_Comm comm, MPI_Request* request) {
+    shuffler().hold({buffer, count, type, receiver, tag, comm, 0});
+    *request = MPI_REQUEST_NULL;  // MPI_Waitall is caught, too, and waits for all that are held
+    return MPI_SUCCESS;
+}
+
+int MPI_Mprobe(int sender, int tag, MPI_Comm comm, MPI_Message* message, MPI_Status* status) {
+    while (true) {
+        shuffler().maybe_sleep();
+        for (const int candidate : octetra::test::candidates(sender, comm)) {
+            int is_there = 0;
+            PMPI_Improbe(candidate, tag, comm, &is_there, message, status);
+            if (is_there != 0) return MPI_SUCCESS;
+        }
+        shuffler().release_one();
+        std::this_thread::yield();
+    }
+}
+
+int MPI_Waitall(int count, MPI_Request* requests, MPI_Status* statuses) {
+    shuffler().finish_all();
+    return PMPI_Waitall(count, requests, statuses);
+}
+
+int MPI_Allreduce(const void* mine, void* result, int count, MPI_Datatype type, MPI_Op operation,
+                  MPI_Comm comm) {
+    octetra::test::meet();
+    return PMPI_Allreduce(mine, result, count, type, operation, comm);
+}
+
+int MPI_Exscan(const void* mine, void* result, int count, MPI_Datatype type, MPI_Op operation,
+               MPI_Comm comm) {
+    octetra::test::meet();
+    return PMPI_Exscan(mine, result, count, type, operation, comm);
+}
+
+int MPI_Bcast(void* buffer, int count, MPI_Datatype type, int root, MPI_Comm comm) {
+    octetra::test::meet();
+    return PMPI_Bcast(buffer, count, type, root, comm);
+}

@@ -180,9 +180,8 @@ Share share_out(const Communicator& processes, const Mesh& mesh,
                 const std::vector<int>& cell_to_rank) {
     Share share;
     if (!processes.is_first()) {
-        share.for_each_array([&]<class T>(std::vector<T>& values) {
-            values = processes.receive<T>(0);
-        });
+        share.for_each_array(
+            [&]<class T>(std::vector<T>& values) { values = processes.receive<T>(0); });
         return share;
     }
     Cutter cutter(mesh, cell_to_rank, processes.size());

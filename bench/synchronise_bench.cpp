@@ -1,12 +1,12 @@
-/// What ranks tell each other, by partition and scheme: `mpirun -n P bench_synchronise [N]` refines
-/// a shaken lattice of N^3 cubes twice at random places. Counts, not times: any machine gives the
-/// same.
+/// What ranks tell each other, by partition and scheme: `mpirun -n P bench_synchronise [N | MESH]`
+/// refines a shaken lattice of N^3 cubes, or a mesh, twice at random places. Counts, not times: any
+/// machine gives the same.
 
-#include <cstdlib>
 #include <string>
 
 #include <fmt/format.h>
 
+#include <octetra/core/files.hpp>
 #include <octetra/distributed/partition.hpp>
 #include <octetra/distributed/refine.hpp>
 
@@ -15,14 +15,19 @@
 namespace octetra {
 namespace {
 
-void count(const distributed::Communicator& world, const Mesh& lattice, double share, Scheme scheme,
+std::string name_of(Scheme scheme) {
+    if (scheme == Scheme::eight) return "8t";
+    return scheme == Scheme::four ? "4t" : "2t";
+}
+
+void count(const distributed::Communicator& world, const Mesh& input, double share, Scheme scheme,
            const std::string& method) {
     std::vector<int> cell_to_rank;
     if (world.is_first()) {
-        cell_to_rank = distributed::partition_cells(lattice, world.size(),
-                                                    distributed::parse_partition(method));
+        cell_to_rank =
+            distributed::partition_cells(input, world.size(), distributed::parse_partition(method));
     }
-    auto mesh = distributed::distribute(world, lattice, cell_to_rank);
+    auto mesh = distributed::distribute(world, input, cell_to_rank);
     const Selection selection{.random = RandomShare{share, 1}};
     const auto counts = distributed::refine(mesh, selection, {.scheme = scheme, .levels = 2});
     const auto messages = world.sum(counts.messages);
@@ -30,17 +35,21 @@ void count(const distributed::Communicator& world, const Mesh& lattice, double s
     const auto cells = world.sum(mesh.cells.size());
     if (!world.is_first()) return;
     fmt::print("{}  {:4.0f} % chosen  {:<5} {:>9} cells, {} rounds, {:>4} messages, {:>6} edges\n",
-               scheme == Scheme::eight ? "8t" : "2t", 100 * share, method, cells, counts.rounds,
-               messages, edges);
+               name_of(scheme), 100 * share, method, cells, counts.rounds, messages, edges);
 }
 
-void count_all(const distributed::Communicator& world, std::size_t n) {
-    const Mesh lattice = world.is_first() ? test::shaken_kuhn(n, 0.2, 1) : Mesh{};
+Mesh mesh_of_argument(const std::string& argument) {
+    const bool is_number = argument.find_first_not_of("0123456789") == std::string::npos;
+    return is_number ? test::shaken_kuhn(std::stoul(argument), 0.2, 1) : read_mesh(argument);
+}
+
+void count_all(const distributed::Communicator& world, const std::string& argument) {
+    const Mesh mesh = world.is_first() ? mesh_of_argument(argument) : Mesh{};
     if (world.is_first()) fmt::print("on {} ranks\n", world.size());
-    for (const Scheme scheme : {Scheme::eight, Scheme::two}) {
+    for (const Scheme scheme : {Scheme::eight, Scheme::four, Scheme::two}) {
         for (const double share : {0.01, 0.1}) {
             for (const std::string method : {"lepp", "dual", "block"}) {
-                count(world, lattice, share, scheme, method);
+                count(world, mesh, share, scheme, method);
             }
         }
     }
@@ -52,5 +61,5 @@ void count_all(const distributed::Communicator& world, std::size_t n) {
 int main(int argc, char** argv) {
     const octetra::distributed::MpiSession session(&argc, &argv);
     const bool is_given = argc > 1 && argv[1][0] != '-';
-    octetra::count_all(session.world(), is_given ? std::strtoul(argv[1], nullptr, 10) : 20);
+    octetra::count_all(session.world(), is_given ? argv[1] : "20");
 }

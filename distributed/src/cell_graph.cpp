@@ -1,114 +1,156 @@
 #include "cell_graph.hpp"
 
 #include <algorithm>
-#include <array>
+#include <limits>
 #include <numeric>
+#include <span>
 
-#include "edge_stars.hpp"
-#include "length_order.hpp"
+#include <fmt/format.h>
+
+#include <octetra/core/error.hpp>
+
+#include "cell_groups.hpp"
+#include "longest_edges.hpp"
+#include "neighbours.hpp"
 
 namespace octetra::distributed {
 namespace {
 
+/// What a face adds to the weight of a link, and what each cell adds that has its longest edge in
+/// the face.
+struct LinkWeights {
+    std::int32_t face;
+    std::int32_t path;
+};
+
+/// The cells of each node, ascending, node after node.
+class CellsOfNodes {
+public:
+    explicit CellsOfNodes(const std::vector<std::int32_t>& cell_to_node)
+        : cells_(cell_to_node.size()) {
+        const auto last = std::ranges::max_element(cell_to_node);
+        const auto count = last == cell_to_node.end() ? 0 : static_cast<std::size_t>(*last) + 1;
+        begin_.assign(count + 1, 0);
+        for (const std::int32_t node : cell_to_node) ++begin_[static_cast<std::size_t>(node)];
+        std::inclusive_scan(begin_.begin(), begin_.end(), begin_.begin());
+        // Filled from behind, after which every beginning is where it belongs.
+        for (std::size_t c = cells_.size(); c-- > 0;) {
+            cells_[--begin_[static_cast<std::size_t>(cell_to_node[c])]] = CellIndex{c};
+        }
+    }
+
+    [[nodiscard]] std::size_t count() const { return begin_.size() - 1; }
+    [[nodiscard]] std::span<const CellIndex> operator[](std::size_t node) const {
+        return {cells_.data() + begin_[node], cells_.data() + begin_[node + 1]};
+    }
+
+private:
+    std::vector<std::uint32_t> begin_;
+    std::vector<CellIndex> cells_;
+};
+
 struct Link {
-    std::int32_t cell;
-    std::int32_t neighbour;
+    std::int32_t node;
     std::int32_t weight;
 };
 
-void join(std::vector<Link>& links, CellIndex a, CellIndex b, std::int32_t weight) {
-    const auto number = [](CellIndex c) { return static_cast<std::int32_t>(c.value()); };
-    links.push_back({number(a), number(b), weight});
-    links.push_back({number(b), number(a), weight});
-}
+/// The links of one node, while they add up.
+class Row {
+public:
+    explicit Row(std::size_t nodes) : place_of_node_(nodes, none) {}
 
-/// Puts the links in order; several between the same cells add up.
-CellGraph graph_of(std::vector<Link> links, std::size_t cell_count) {
-    std::ranges::sort(links, [](const Link& a, const Link& b) {
-        return std::array{a.cell, a.neighbour} < std::array{b.cell, b.neighbour};
-    });
-    CellGraph graph;
-    graph.begin.assign(cell_count + 1, 0);
-    for (std::size_t i = 0; i < links.size(); ++i) {
-        const Link& link = links[i];
-        const bool repeated =
-            i > 0 && links[i - 1].cell == link.cell && links[i - 1].neighbour == link.neighbour;
-        if (repeated) {
-            graph.weights.back() += link.weight;
-            continue;
+    void add(const Link& link) {
+        std::uint32_t& place = place_of_node_[static_cast<std::size_t>(link.node)];
+        if (place == none) {
+            place = static_cast<std::uint32_t>(links_.size());
+            links_.push_back({link.node, 0});
         }
-        graph.neighbours.push_back(link.neighbour);
-        graph.weights.push_back(link.weight);
-        ++graph.begin[static_cast<std::size_t>(link.cell) + 1];
+        links_[place].weight += link.weight;
     }
-    std::partial_sum(graph.begin.begin(), graph.begin.end(), graph.begin.begin());
+    [[nodiscard]] const std::vector<Link>& links() const { return links_; }
+    void clear() {
+        for (const Link& link : links_) place_of_node_[static_cast<std::size_t>(link.node)] = none;
+        links_.clear();
+    }
+
+private:
+    static constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
+    std::vector<std::uint32_t> place_of_node_;
+    std::vector<Link> links_;
+};
+
+CellGraph graph_of(const Neighbours& neighbours, std::vector<std::int32_t> cell_to_node,
+                   const LinkWeights& weights) {
+    const CellsOfNodes nodes(cell_to_node);
+    CellGraph graph;
+    graph.begin.reserve(nodes.count() + 1);
+    graph.begin.push_back(0);
+    graph.cells_of_node.reserve(nodes.count());
+    Row row(nodes.count());
+    for (std::size_t node = 0; node < nodes.count(); ++node) {
+        for (const CellIndex c : nodes[node]) {
+            for (const Neighbour neighbour : neighbours[c]) {
+                if (neighbour.cell == Neighbour::none) break;
+                const std::int32_t other = cell_to_node[neighbour.cell];
+                if (static_cast<std::size_t>(other) == node) continue;
+                const auto paths = static_cast<std::int32_t>(neighbour.paths);
+                row.add({other, weights.face + paths * weights.path});
+            }
+        }
+        for (const Link& link : row.links()) {
+            graph.neighbours.push_back(link.node);
+            graph.weights.push_back(link.weight);
+        }
+        row.clear();
+        graph.begin.push_back(static_cast<std::int32_t>(graph.neighbours.size()));
+        graph.cells_of_node.push_back(static_cast<std::int32_t>(nodes[node].size()));
+    }
+    graph.cell_to_node = std::move(cell_to_node);
     return graph;
 }
 
-void join_through_faces(const Mesh& mesh, std::vector<Link>& links) {
-    struct Face {
-        FacetVertices vertices;
-        CellIndex cell;
-    };
-    std::vector<Face> faces;
-    faces.reserve(4 * mesh.cells.size());
-    for (CellIndex c{0}; c < mesh.cells.end_index(); ++c) {
-        for (const auto& [i, j, k] : cell_faces) {
-            FacetVertices face{mesh.cells[c][i], mesh.cells[c][j], mesh.cells[c][k]};
-            std::ranges::sort(face);
-            faces.push_back({face, c});
-        }
-    }
-    std::ranges::sort(faces, {}, &Face::vertices);
-    for (std::size_t f = 1; f < faces.size(); ++f) {
-        if (faces[f - 1].vertices == faces[f].vertices) {
-            join(links, faces[f - 1].cell, faces[f].cell, 1);
-        }
-    }
-}
-
-void join_through_longest_edges(const Mesh& mesh, std::int32_t weight, std::vector<Link>& links) {
-    const EdgeStars stars(mesh.points.size(), mesh.cells);
-    // All cells at an edge that is some cell's longest are joined to that cell.
-    std::vector<std::uint32_t> begin(std::size_t{stars.end_index().value()} + 1, 0);
-    for (CellIndex c{0}; c < mesh.cells.end_index(); ++c) {
-        for (const EdgeIndex e : stars.edges_of(c)) ++begin[e.value()];
-    }
-    std::exclusive_scan(begin.begin(), begin.end(), begin.begin(), 0U);
-    std::vector<CellIndex> cells(begin.back());
-    auto next = begin;
-    for (CellIndex c{0}; c < mesh.cells.end_index(); ++c) {
-        for (const EdgeIndex e : stars.edges_of(c)) cells[next[e.value()]++] = c;
-    }
-    for (CellIndex c{0}; c < mesh.cells.end_index(); ++c) {
-        const LengthOrder order = length_order(mesh.points, mesh.cells[c]);
-        const EdgeIndex longest = stars.edges_of(c)[PatternTable::get().longest_edge(order)];
-        for (auto k = begin[longest.value()]; k < begin[longest.value() + 1U]; ++k) {
-            if (cells[k] != c) join(links, c, cells[k], weight);
-        }
-    }
+bool has(const FacetVertices& face, const EdgeVertices& edge) {
+    return std::ranges::count(face, edge[0]) + std::ranges::count(face, edge[1]) == 2;
 }
 
 }  // namespace
 
+void check_graph_size(std::uint64_t cells) {
+    // A cell has four links at most, and each is counted at both of its ends.
+    constexpr std::uint64_t most = std::numeric_limits<std::int32_t>::max() / 4;
+    if (cells <= most) return;
+    throw InputError(
+        fmt::format("{} cells are more than METIS can share out, which is {}; use --partition "
+                    "block, or a part file with --partition file:PATH",
+                    cells, most));
+}
+
 CellGraph face_dual_graph(const Mesh& mesh) {
-    std::vector<Link> links;
-    join_through_faces(mesh, links);
-    return graph_of(std::move(links), mesh.cells.size());
+    check_graph_size(mesh.cells.size());
+    const auto neighbours =
+        neighbours_of_cells(mesh, [](const FacetVertices&, CellIndex, CellIndex) { return 0U; });
+    std::vector<std::int32_t> cell_to_node(mesh.cells.size());
+    std::iota(cell_to_node.begin(), cell_to_node.end(), 0);
+    return graph_of(neighbours, std::move(cell_to_node), {.face = 1, .path = 0});
 }
 
-CellGraph longest_edge_graph(const Mesh& mesh) {
-    std::vector<Link> links;
-    join_through_longest_edges(mesh, 1, links);
-    return graph_of(std::move(links), mesh.cells.size());
-}
-
-CellGraph lepp_graph(const Mesh& mesh) {
-    constexpr std::int32_t longest_edge_weight = 4;  // against 1 for a face
-    std::vector<Link> links;
-    join_through_faces(mesh, links);
-    join_through_longest_edges(mesh, longest_edge_weight, links);
-    return graph_of(std::move(links), mesh.cells.size());
+CellGraph lepp_graph(const Mesh& mesh, std::size_t most_cells) {
+    check_graph_size(mesh.cells.size());
+    std::vector<std::int32_t> cell_to_node;
+    Neighbours neighbours;
+    {
+        const LongestEdges edges(mesh);
+        cell_to_node = groups_of_longest_edges(edges, most_cells);
+        neighbours =
+            neighbours_of_cells(mesh, [&](const FacetVertices& face, CellIndex a, CellIndex b) {
+                return static_cast<unsigned>(has(face, edges.longest_of(a))) +
+                       static_cast<unsigned>(has(face, edges.longest_of(b)));
+            });
+    }  // the edges make room for the graph
+    constexpr std::size_t most_with_lone_cells = 6;
+    join_lone_cells(neighbours, std::min(most_cells, most_with_lone_cells), cell_to_node);
+    // The ratio was measured: see bench/README.md.
+    return graph_of(neighbours, std::move(cell_to_node), {.face = 1, .path = 1});
 }
 
 }  // namespace octetra::distributed

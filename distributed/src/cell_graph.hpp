@@ -7,24 +7,27 @@
 
 namespace octetra::distributed {
 
-/// An undirected weighted graph of the cells: the neighbours of cell c are
-/// neighbours[begin[c]] .. neighbours[begin[c+1] - 1], ascending.
+/// An undirected weighted graph of cells, or of groups of cells, as METIS wants it: the neighbours
+/// of node n are neighbours[begin[n]] .. neighbours[begin[n+1] - 1], each once.
 struct CellGraph {
     std::vector<std::int32_t> begin;
     std::vector<std::int32_t> neighbours;
-    std::vector<std::int32_t> weights;
+    std::vector<std::int32_t> weights;        ///< of the links
+    std::vector<std::int32_t> cells_of_node;  ///< how many there are in each: its weight
+    std::vector<std::int32_t> cell_to_node;
 };
 
-/// Cells that share a face, with weight 1.
+/// Throws InputError where a graph of so many cells might not fit METIS, which counts in 32 bits.
+void check_graph_size(std::uint64_t cells);
+
+/// Each cell a node; joined, with weight 1, are those that share a face. Throws InputError where
+/// there are too many cells.
 [[nodiscard]] CellGraph face_dual_graph(const Mesh& mesh);
 
-/// Each cell joined to every other one at its longest edge, with weight 1, or 2 where both have
-/// that edge as their longest: the first steps of the longest-edge propagation paths.
-[[nodiscard]] CellGraph longest_edge_graph(const Mesh& mesh);
-
-/// The face-dual graph, and each cell joined to every other one at its longest edge, with a greater
-/// weight: a selection propagates from a cell to those. So that a cut seldom crosses a propagation
-/// path.
-[[nodiscard]] CellGraph lepp_graph(const Mesh& mesh);
+/// Cells with the same longest edge in one node, but no more than `most_cells`, and lone ones with
+/// a neighbour (cell_groups.hpp). Nodes are joined through the faces between their cells. A face
+/// weighs more if its cells have their longest edge in it, because then selections go through it.
+/// Throws InputError where there are too many cells.
+[[nodiscard]] CellGraph lepp_graph(const Mesh& mesh, std::size_t most_cells);
 
 }  // namespace octetra::distributed

@@ -22,22 +22,33 @@ bool is_worth_a_cut(const Mesh& mesh, int parts) {
     return mesh.cells.size() >= cells_per_part * static_cast<std::size_t>(parts);
 }
 
+/// How many cells with the same longest edge may be one node of the graph: so few that METIS can
+/// still balance the parts.
+std::size_t most_cells_of_a_node(const Mesh& mesh, int parts) {
+    constexpr std::size_t nodes_per_part = 20;
+    return mesh.cells.size() / (nodes_per_part * static_cast<std::size_t>(parts));
+}
+
 std::vector<int> partition_graph(CellGraph graph, int parts) {
     static_assert(sizeof(idx_t) == sizeof(std::int32_t));
-    idx_t vertex_count = static_cast<idx_t>(graph.begin.size()) - 1;
-    std::vector<int> part(static_cast<std::size_t>(vertex_count), 0);
-    if (parts == 1) return part;
+    auto node_count = static_cast<idx_t>(graph.cells_of_node.size());
+    std::vector<int> node_to_part(graph.cells_of_node.size());
     idx_t constraints = 1;
     idx_t part_count = parts;
     idx_t cut = 0;
     std::array<idx_t, METIS_NOPTIONS> options{};
     METIS_SetDefaultOptions(options.data());
     options[METIS_OPTION_SEED] = 1;
-    const int status = METIS_PartGraphKway(
-        &vertex_count, &constraints, graph.begin.data(), graph.neighbours.data(), nullptr, nullptr,
-        graph.weights.data(), &part_count, nullptr, nullptr, options.data(), &cut, part.data());
+    const int status =
+        METIS_PartGraphKway(&node_count, &constraints, graph.begin.data(), graph.neighbours.data(),
+                            graph.cells_of_node.data(), nullptr, graph.weights.data(), &part_count,
+                            nullptr, nullptr, options.data(), &cut, node_to_part.data());
     if (status != METIS_OK) throw SystemError("METIS could not partition the mesh");
-    return part;
+    std::vector<int> cell_to_part(graph.cell_to_node.size());
+    for (std::size_t c = 0; c < cell_to_part.size(); ++c) {
+        cell_to_part[c] = node_to_part[static_cast<std::size_t>(graph.cell_to_node[c])];
+    }
+    return cell_to_part;
 }
 
 std::vector<int> equal_blocks(std::size_t cells, int parts) {
@@ -102,9 +113,10 @@ std::vector<int> partition_cells(const Mesh& mesh, int parts, const Partition& p
     const std::size_t cells = mesh.cells.size();
     const bool by_graph =
         partition.method == PartitionMethod::lepp || partition.method == PartitionMethod::dual;
-    if (by_graph && !is_worth_a_cut(mesh, parts)) return equal_blocks(cells, parts);
+    if (by_graph && (parts == 1 || !is_worth_a_cut(mesh, parts))) return equal_blocks(cells, parts);
     switch (partition.method) {
-        case PartitionMethod::lepp: return partition_graph(lepp_graph(mesh), parts);
+        case PartitionMethod::lepp:
+            return partition_graph(lepp_graph(mesh, most_cells_of_a_node(mesh, parts)), parts);
         case PartitionMethod::dual: return partition_graph(face_dual_graph(mesh), parts);
         case PartitionMethod::block: return equal_blocks(cells, parts);
         case PartitionMethod::random: return by_lot(cells, parts, partition.seed);

@@ -1,6 +1,7 @@
 #include "info/print_statistics.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 #include <numeric>
 #include <string_view>
@@ -75,7 +76,8 @@ private:
     /// Never empty: few are told from none.
     static std::string bar(std::size_t count, std::size_t largest) {
         const double part = static_cast<double>(count) / static_cast<double>(largest);
-        const auto length = static_cast<std::size_t>(part * static_cast<double>(bar_width) + 0.5);
+        const auto length =
+            static_cast<std::size_t>(std::lround(part * static_cast<double>(bar_width)));
         return std::string(std::max(length, std::size_t{1}), '#');
     }
 
@@ -117,19 +119,21 @@ void add_extent(Table& table, const MeshStatistics& s) {
 void add_shapes(Table& table, const MeshStatistics& s) {
     table.heading("Shape", "minimum", "maximum", "mean");
     const auto row = [&](const char* name, const std::optional<Range>& range) {
-        if (range)
+        if (range) {
             table.row(name, shown(range->min), shown(range->max));
-        else
+        } else {
             table.row(name, "none", "none");
+        }
     };
     row("edge length", s.edge_length);
     row("cell volume", s.cell_volume);
     row("face angle, degrees", s.face_angle);
     row("dihedral angle, degrees", s.dihedral_angle);
-    if (s.eta)
+    if (s.eta) {
         table.row("eta (regular: 1)", shown(s.eta->min), shown(s.eta->max), shown(s.eta->mean));
-    else
+    } else {
         table.row("eta (regular: 1)", "none", "none", "none");
+    }
 }
 
 void add_adjacency(Table& table, const std::optional<Adjacency>& adjacency) {

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "longest_edges.hpp"
+#include "neighbours.hpp"
+
+/// Cells that are to stay together become one node of the graph that METIS cuts. Groups are
+/// numbered from 0 without gaps.
+namespace octetra::distributed {
+
+/// Cells with the same longest edge are a group: whatever is selected in one of them selects that
+/// edge, so that they are bisected together. But if they are more than `most_cells`, as in a wheel,
+/// each of them remains alone. Groups are in the order of their edges.
+[[nodiscard]] std::vector<std::int32_t> groups_of_longest_edges(const LongestEdges& edges,
+                                                                std::size_t most_cells);
+
+/// Every cell that is alone joins the group of a neighbour, if it can in a direction in which
+/// selections go, and of those in that direction the smallest; none gets more than `most_cells`.
+void join_lone_cells(const Neighbours& neighbours, std::size_t most_cells,
+                     std::vector<std::int32_t>& cell_to_group);
+
+}  // namespace octetra::distributed

@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include <gtest/gtest.h>
 
 #include <octetra/core/error.hpp>
@@ -71,6 +73,58 @@ TEST_P(CorpusEquality, ByEverySchemePartitionAndSynchronisation) {
                     ASSERT_EQ(found.error, expected.error) << method;
                     ASSERT_TRUE(found == expected) << method;
                 }
+            }
+        }
+    }
+}
+
+/// One of each kind that the program offers, about the middle of the mesh where there is a choice.
+std::vector<Selection> selectors(const Mesh& mesh) {
+    Point low = mesh.points.front();
+    Point high = low;
+    for (const Point& p : mesh.points) {
+        low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
+        high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
+    }
+    const Point middle = midpoint(low, high);
+    Corners corners;
+    for (std::size_t k = 0; k < 4; ++k) corners[k] = mesh.points[mesh.cells.front()[k]];
+    return {{.all = true},
+            {.cells = {GlobalCell{0}, GlobalCell{mesh.cells.size() - 1}}},
+            {.spheres = {{middle, (high.x - low.x) / 4}}},
+            {.boxes = {{low, middle}}},
+            {.regions = {mesh.regions.empty() ? 0 : mesh.regions.front()}},
+            {.random = RandomShare{0.1, 3}},
+            {.max_volume = volume(corners) * 0.9}};
+}
+
+/// Partitions and synchronisations take turns, so that all are met with every selector.
+TEST_P(CorpusEquality, BySelectorsOfEveryKindOverOneToFourLevels) {
+    const Communicator& world = test::world();
+    if (mesh.cells.empty()) return;
+    constexpr std::uint64_t enough_cells = 4000;
+    const std::vector<std::string> methods{"lepp", "random:5", "dual", "block", "random:6"};
+    std::size_t turn = 0;
+    for (const Selection& selection : selectors(mesh)) {
+        for (const Scheme scheme : {Scheme::eight, Scheme::four, Scheme::two}) {
+            std::uint64_t cells = mesh.cells.size();
+            for (int level = 1; level <= 4 && (level == 1 || cells < enough_cells); ++level) {
+                const std::string& method = methods[turn % methods.size()];
+                const auto synchronisation =
+                    turn % 2 == 0 ? Synchronisation::neighbour : Synchronisation::gateway;
+                ++turn;
+                const Outcome found = outcome_of([&] {
+                    DistributedMesh part = distribute(
+                        world, mesh, partition_cells(mesh, world.size(), parse_partition(method)));
+                    refine(part, selection, {scheme, level, synchronisation});
+                    cells = world.sum(part.cells.size());
+                    return collect(std::move(part));
+                });
+                if (!world.is_first()) continue;
+                const Outcome expected =
+                    outcome_of([&] { return reference::refine(mesh, selection, scheme, level); });
+                ASSERT_EQ(found.error, expected.error) << method << ", level " << level;
+                ASSERT_TRUE(found == expected) << method << ", level " << level;
             }
         }
     }

@@ -87,7 +87,7 @@ private:
 
 }  // namespace
 
-void ToParent::send(std::span<const std::byte> bytes) {
+void ToParent::send(std::span<const std::byte> bytes) const {
     while (!bytes.empty()) {
         const ssize_t put = ::write(file_, bytes.data(), bytes.size());
         if (put < 0 && errno == EINTR) continue;

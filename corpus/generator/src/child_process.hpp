@@ -13,11 +13,11 @@ public:
     explicit ToParent(int file) : file_(file) {}
 
     template <class T>
-    void send(const T* items, std::size_t count) {
+    void send(const T* items, std::size_t count) const {
         send(std::as_bytes(std::span(items, count)));
     }
     /// Ends the process if the parent does not listen any more.
-    void send(std::span<const std::byte> bytes);
+    void send(std::span<const std::byte> bytes) const;
 
 private:
     int file_;

@@ -11,8 +11,10 @@ namespace {
 
 /// A number in base 3 has a digit 0, 1 or 2 for each coordinate -1, 0 or 1, the last one for x.
 Point lattice_point(std::uint32_t code) {
-    return {static_cast<double>(code % 3) - 1, static_cast<double>(code / 3 % 3) - 1,
-            static_cast<double>(code / 9) - 1};
+    const std::uint32_t x = code % 3;
+    const std::uint32_t y = code / 3 % 3;
+    const std::uint32_t z = code / 9;
+    return {static_cast<double>(x) - 1, static_cast<double>(y) - 1, static_cast<double>(z) - 1};
 }
 
 struct Corners {

@@ -138,7 +138,7 @@ TEST_P(Profiled, LevelsHaveTheirCellsAndPhases) {
         cells_before = sum;
     }
     const auto& at_first = profile.levels.front().cells_of_rank;
-    EXPECT_EQ(std::accumulate(at_first.begin(), at_first.end(), 0U), 6U * 4 * 4 * 4);
+    EXPECT_EQ(std::accumulate(at_first.begin(), at_first.end(), std::uint64_t{0}), 6U * 4 * 4 * 4);
     for (const std::string name : {"level", "number edges", "order edges", "select", "synchronise",
                                    "closure", "bisect edges", "bisect tetrahedra", "interfaces"}) {
         for (const int level : {1, 2, 3}) {

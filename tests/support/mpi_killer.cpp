@@ -18,6 +18,11 @@ int number_in_environment(const char* name) {
 
 class Victim {
 public:
+    Victim() = default;
+    Victim(const Victim&) = delete;
+    Victim& operator=(const Victim&) = delete;
+    Victim(Victim&&) = delete;
+    Victim& operator=(Victim&&) = delete;
     ~Victim() {
         if (is_this_one_ && kill_at_ == 0) std::fprintf(stderr, "calls of MPI: %d\n", calls_);
     }

@@ -27,7 +27,7 @@ struct HeldSend {
 class Shuffler {
 public:
     void hold(HeldSend send) {
-        send.number = counts.held_back++;
+        send.number = counts_.held_back++;
         held_.push_back(send);
     }
 
@@ -37,7 +37,7 @@ public:
         const int receiver = held_[random() % held_.size()].receiver;
         const auto send = std::ranges::find(held_, receiver, &HeldSend::receiver);
         const bool is_overtaken = send->number < last_released_;
-        if (is_overtaken) ++counts.overtaken;
+        if (is_overtaken) ++counts_.overtaken;
         last_released_ = std::max(last_released_, send->number);
         PMPI_Isend(send->buffer, send->count, send->type, receiver, send->tag, send->comm,
                    &under_way_.emplace_back());
@@ -57,7 +57,7 @@ public:
     void maybe_sleep() {
         const auto lot = random() % 64;
         if (lot > 4) return;
-        ++counts.late_calls;
+        ++counts_.late_calls;
         const auto most = lot == 0 ? 1000U : 100U;
         std::this_thread::sleep_for(std::chrono::microseconds(random() % most));
     }
@@ -73,9 +73,10 @@ public:
         return random_();
     }
 
-    ShuffleCounts counts;
+    [[nodiscard]] const ShuffleCounts& counts() const { return counts_; }
 
 private:
+    ShuffleCounts counts_;
     std::vector<HeldSend> held_;
     std::vector<MPI_Request> under_way_;
     std::uint64_t last_released_ = 0;
@@ -109,7 +110,7 @@ void meet() {
 
 }  // namespace
 
-ShuffleCounts shuffle_counts() { return shuffler().counts; }
+ShuffleCounts shuffle_counts() { return shuffler().counts(); }
 
 std::uint64_t shuffle_seed() {
     const char* const given = std::getenv("OCTETRA_SHUFFLE_SEED");

@@ -14,6 +14,7 @@
 #include <octetra/core/files.hpp>
 #include <octetra/distributed/communicator.hpp>
 
+#include "answer.hpp"
 #include "commands/commands.hpp"
 
 namespace octetra::cli {
@@ -51,8 +52,11 @@ int fail_alone(std::string_view what, const distributed::Communicator& world) {
 
 int parse_and_run(CLI::App& program, int argc, char** argv,
                   const distributed::Communicator& world) {
+    auto status = Status::done;
     try {
         program.parse(argc, argv);
+    } catch (const AnswerIsNo&) {
+        status = Status::no;
     } catch (const CLI::Success& help_or_version) {
         return world.is_first() ? program.exit(help_or_version) : 0;
     } catch (const CLI::ParseError& error) {
@@ -64,7 +68,7 @@ int parse_and_run(CLI::App& program, int argc, char** argv,
     std::fflush(stdout);
     // Whoever reads the results from a pipe or a full disk must hear of it.
     if (std::ferror(stdout) != 0) throw SystemError("standard output cannot be written");
-    return static_cast<int>(Status::done);
+    return static_cast<int>(status);
 }
 
 }  // namespace
@@ -92,6 +96,8 @@ int run(int argc, char** argv) {
     add_generate(program, world);
     add_convert(program, world);
     add_partition(program, world);
+    add_verify(program, world);
+    add_compare(program, world);
 
     try {
         return parse_and_run(program, argc, argv, world);

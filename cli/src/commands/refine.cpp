@@ -22,7 +22,7 @@
 #include "choice.hpp"
 #include "commands/commands.hpp"
 #include "commands/mesh_options.hpp"
-#include "commands/selection_options.hpp"
+#include "commands/refinement_options.hpp"
 #include "grouped.hpp"
 #include "stopwatch.hpp"
 
@@ -31,8 +31,6 @@ namespace {
 
 enum class Engine { distributed, reference };
 
-constexpr std::array<Word<Scheme>, 3> schemes{
-    {{"8t", Scheme::eight}, {"4t", Scheme::four}, {"2t", Scheme::two}}};
 constexpr std::array<Word<Engine>, 2> engines{
     {{"distributed", Engine::distributed}, {"reference", Engine::reference}}};
 constexpr std::array<Word<distributed::Synchronisation>, 2> synchronisations{
@@ -52,9 +50,7 @@ struct RefineOptions {
     InputOptions input;
     std::string output;
     std::string maps;
-    SelectionOptions selection;
-    std::string scheme = "8t";
-    int levels = 1;
+    RefinementOptions refinement;
     std::string engine = "distributed";
     std::string partition = "lepp";
     std::string synchronisation = "neighbour";
@@ -70,8 +66,8 @@ void report(const RefineOptions& options, std::string_view doing, const Mesh& me
 }
 
 Plan plan_of(const RefineOptions& options) {
-    return {.selection = parse_selection(options.selection),
-            .scheme = parse_choice("--scheme", options.scheme, schemes),
+    return {.selection = parse_selection(options.refinement.selection),
+            .scheme = parse_scheme(options.refinement),
             .engine = parse_choice("--engine", options.engine, engines),
             .partition = distributed::parse_partition(options.partition),
             .synchronisation = parse_choice("--sync", options.synchronisation, synchronisations)};
@@ -103,9 +99,9 @@ Refined refine_by_reference(const Mesh& mesh, const Plan& plan, const RefineOpti
     Refined fine;
     distributed::on_first(world, [&] {
         auto result = naming_the_mesh(options, [&] {
-            return reference::refine(mesh, plan.selection, plan.scheme, options.levels);
+            return reference::refine(mesh, plan.selection, plan.scheme, options.refinement.levels);
         });
-        fine = {std::move(result.mesh), std::move(result.maps), options.levels};
+        fine = {std::move(result.mesh), std::move(result.maps), options.refinement.levels};
     });
     return fine;
 }
@@ -113,7 +109,7 @@ Refined refine_by_reference(const Mesh& mesh, const Plan& plan, const RefineOpti
 /// Where people watch, a line that each level writes over.
 std::function<void(int, std::uint64_t)> level_progress(const RefineOptions& options) {
     if (options.quiet || ::isatty(STDERR_FILENO) == 0) return {};
-    return [levels = options.levels](int level, std::uint64_t cells) {
+    return [levels = options.refinement.levels](int level, std::uint64_t cells) {
         fmt::print(stderr, "\rlevel {} of {}: {} cells ", level, levels, grouped(cells));
         std::fflush(stderr);
     };
@@ -134,8 +130,9 @@ Refined refine_distributed(Mesh mesh, const Plan& plan, const RefineOptions& opt
         if (show) show(level, cells);
     };
     auto whole = naming_the_mesh(options, [&] {
-        distributed::refine(parts, plan.selection,
-                            {plan.scheme, options.levels, plan.synchronisation, on_level});
+        distributed::refine(
+            parts, plan.selection,
+            {plan.scheme, options.refinement.levels, plan.synchronisation, on_level});
         return distributed::collect(std::move(parts));
     });
     if (show) fmt::print(stderr, "\r{:60}\r", "");
@@ -144,10 +141,10 @@ Refined refine_distributed(Mesh mesh, const Plan& plan, const RefineOptions& opt
 
 /// Says so where there was less to do than was asked for, or more is left than there may seem.
 void note_idle_levels(const RefineOptions& options, int levels) {
-    if (levels == options.levels) return;
+    if (levels == options.refinement.levels) return;
     note(levels == 0 ? std::string("no cell was chosen: the mesh stays as it is")
                      : fmt::format("no cell was chosen any more after level {} of {}", levels,
-                                   options.levels));
+                                   options.refinement.levels));
 }
 
 void refine(const RefineOptions& options, const distributed::Communicator& world) {
@@ -158,7 +155,7 @@ void refine(const RefineOptions& options, const distributed::Communicator& world
         check_writable(options.output);
         if (!options.maps.empty()) check_side_file("--maps", options.maps);
         mesh = read_input(options.input);
-        complete_selection(plan.selection, options.selection, mesh);
+        complete_selection(plan.selection, options.refinement.selection, mesh);
         report(options, fmt::format("read {}", options.input.path), mesh, watch.lap());
     });
     world.broadcast(plan.selection.cells);
@@ -208,17 +205,8 @@ void add_refine(CLI::App& program, const distributed::Communicator& world) {
                                "conformity asks");
     add_input_options(*refine_command, options->input);
     add_output_option(*refine_command, options->output);
-    add_selection_options(*refine_command, options->selection);
-    refine_command
-        ->add_option(
-            "--levels", options->levels,
-            "how often to choose and bisect; what is chosen is judged afresh each time [1]")
-        ->type_name("L")
-        ->check(CLI::Range(0, 50));
-    refine_command
-        ->add_option("--scheme", options->scheme,
-                     "a chosen cell selects all its edges, its faces' longest, or its longest [8t]")
-        ->type_name("8t|4t|2t");
+    add_refinement_options(*refine_command, options->refinement,
+                           "Which cells (criteria add up; give at least one)");
     add_engine_options(*refine_command, *options);
     refine_command
         ->add_option("--maps", options->maps,

@@ -119,4 +119,10 @@ void write_list(const std::vector<int>& numbers, const fs::path& path) {
     out.commit();
 }
 
+void write_text(std::string_view text, const fs::path& path) {
+    OutputFile out(path);
+    out.put(text);
+    out.commit();
+}
+
 }  // namespace octetra

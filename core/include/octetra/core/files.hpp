@@ -59,6 +59,9 @@ void check_place(const std::filesystem::path& path);
 /// Writes numbers as text, a line each. Throws SystemError.
 void write_list(const std::vector<int>& numbers, const std::filesystem::path& path);
 
+/// Writes a text as a file. Throws SystemError.
+void write_text(std::string_view text, const std::filesystem::path& path);
+
 /// Removes the temporary files of everything that is being written at the moment. For a signal
 /// handler that ends the program: it calls nothing but unlink().
 void remove_unfinished_files() noexcept;

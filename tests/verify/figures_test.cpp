@@ -57,15 +57,23 @@ TEST(Angles, AreComparedExactlyAlsoWhereTheyAreEqual) {
         EXPECT_TRUE(is_under(shape.corners, std::nextafter(shape.min_dihedral, up)));
         EXPECT_FALSE(is_under(shape.corners, std::nextafter(shape.min_dihedral, 0)));
     }
-    EXPECT_TRUE(is_under(test::regular_corners, 70.528779365509309));  // acos(1/3) = ...30863...
-    EXPECT_FALSE(is_under(test::regular_corners, 70.528779365509307));
+    EXPECT_TRUE(is_under(test::regular_corners, std::nextafter(regular_dihedral, up)));
+    EXPECT_FALSE(is_under(test::regular_corners, std::nextafter(regular_dihedral, 0)));
     EXPECT_FALSE(is_under(test::kuhn_corners, 0));
     EXPECT_TRUE(is_under(test::kuhn_corners, 180));
 }
 
+/// A factor that leaves shapes as they are, and lets no product of coordinates fit 53 bits.
+constexpr double awkward = 0x1p27 + 1;
+
 TEST(Angles, TakeExactArithmeticOnlyWhereTheyMust) {
-    const Verdict near = verify_mesh(test::one_cell(test::kuhn_corners), {.min_dihedral = 45});
-    const Verdict far = verify_mesh(test::one_cell(test::regular_corners), {.min_dihedral = 45});
+    const auto judge = [](std::array<Point, 4> corners) {
+        for (Point& p : corners) p = {p.x * awkward, p.y * awkward, p.z * awkward};
+        return verify_mesh(test::one_cell(corners), {.min_dihedral = 45});
+    };
+    const Verdict near = judge(test::kuhn_corners);
+    const Verdict far = judge(test::regular_corners);
+    EXPECT_TRUE(near.valid());
     EXPECT_GT(near.arithmetic.exact, far.arithmetic.exact);
     EXPECT_EQ(far.arithmetic.exact, 0U);
     EXPECT_GT(far.arithmetic.filtered, 0U);
@@ -80,10 +88,11 @@ TEST(FaceAngles, OfAnEquilateralTriangleMayBeHalvedAndNoMore) {
     EXPECT_TRUE(exact::keeps_half_of_smallest_angle(whole, whole, arithmetic));
     EXPECT_FALSE(exact::keeps_half_of_smallest_angle(less, half, arithmetic) &&
                  exact::keeps_half_of_smallest_angle(less, whole, arithmetic));
-    // 1, 2, 2 isosceles with integers: its apex angle is exactly halved by the height.
-    const std::array<Point, 3> isosceles{{{-1, 0, 0}, {1, 0, 0}, {0, 7, 0}}};
-    const std::array<Point, 3> exact_half{{{0, 0, 0}, {1, 0, 0}, {0, 7, 0}}};
-    const std::array<Point, 3> under{{{0, 0, 0}, {1 - 0x1p-50, 0, 0}, {0, 7, 0}}};
+    // The apex angle of an isosceles triangle is exactly halved by its height.
+    constexpr double a = awkward;
+    const std::array<Point, 3> isosceles{{{-a, 0, 0}, {a, 0, 0}, {0, 7 * a, 0}}};
+    const std::array<Point, 3> exact_half{{{0, 0, 0}, {a, 0, 0}, {0, 7 * a, 0}}};
+    const std::array<Point, 3> under{{{0, 0, 0}, {std::nextafter(a, 0), 0, 0}, {0, 7 * a, 0}}};
     const auto exact_before = arithmetic.exact;
     EXPECT_TRUE(exact::keeps_half_of_smallest_angle(exact_half, isosceles, arithmetic));
     EXPECT_FALSE(exact::keeps_half_of_smallest_angle(under, isosceles, arithmetic));

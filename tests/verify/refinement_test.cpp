@@ -242,10 +242,9 @@ TEST_F(Sums, OfVolumesShowAVertexMovedByAnUlpBetweenCells) {
 }
 
 TEST_F(Sums, OfVolumesShowAWrongParent) {
-    std::swap(descent.parent[CellIndex{0}], descent.parent[CellIndex{100}]);
-    EXPECT_EQ(codes_of_sums(), "");  // all cells are of one volume: nothing to see
     descent.parent[CellIndex{0}] = CellIndex{1};
-    EXPECT_EQ(codes_of_sums(), "wrong_volume");
+    (void)codes_of_sums();
+    EXPECT_EQ(findings.verdict().count(Code::wrong_volume), 2U);
 }
 
 TEST_F(Sums, OfAreasShowAVertexMovedByAnUlpOutOfTheBoundary) {

@@ -134,9 +134,9 @@ std::vector<Item<1>> vertices_of(const Mesh& mesh, const Colours& colours) {
 }
 
 template <std::size_t N>
-std::string shown(const Item<N>& item, std::string_view tag) {
+std::string shown(const Item<N>& item, std::string_view tag, bool with_turn = false) {
     std::string text = fmt::format("{} {}", tag, item.marker);
-    if (item.turned) text += ", the other way round";
+    if (with_turn) text += item.turned ? ", corners in odd order" : ", corners in even order";
     if (!item.attributes.empty()) {
         text += fmt::format(", attributes {}", fmt::join(item.attributes, ", "));
     }
@@ -167,7 +167,8 @@ public:
                 ++k;
             } else {
                 if (a[i].tags() != b[k].tags()) {
-                    report(kind, a[i], shown(a[i], tag), shown(b[k], tag));
+                    const bool turned = a[i].turned != b[k].turned;
+                    report(kind, a[i], shown(a[i], tag, turned), shown(b[k], tag, turned));
                 }
                 ++i;
                 ++k;

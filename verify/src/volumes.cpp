@@ -113,16 +113,21 @@ double check_cell_volumes(const Subject& coarse, const Subject& fine, const Desc
 
 double check_boundary_areas(const Subject& coarse, const Subject& fine, const Descent& descent,
                             Findings& findings) {
+    constexpr std::uint32_t not_on_boundary = 0xffffffffU;
     const std::vector<CellFace> coarse_faces = boundary_faces(coarse);
-    std::vector<std::uint32_t> number_of(4 * coarse.mesh.cells.size(), 0xffffffffU);
+    std::vector<std::uint32_t> number_of(4 * coarse.mesh.cells.size(), not_on_boundary);
     for (std::uint32_t i = 0; i < coarse_faces.size(); ++i) number_of[tag_of(coarse_faces[i])] = i;
 
-    const std::vector<CellFace> fine_faces = boundary_faces(fine);
-    std::vector<std::uint32_t> coarse_of(fine_faces.size());
-    for (std::size_t i = 0; i < fine_faces.size(); ++i) {
-        const CellFace f = fine_faces[i];
-        const auto face = static_cast<std::size_t>(descent.face_of_parent[f.cell][f.face]);
-        coarse_of[i] = number_of[tag_of({descent.parent[f.cell], face})];
+    std::vector<CellFace> fine_faces;
+    std::vector<std::uint32_t> coarse_of;
+    for (const CellFace f : boundary_faces(fine)) {
+        const int of_parent = descent.face_of_parent[f.cell][f.face];
+        if (of_parent < 0) continue;  // an open face, which check_cover has reported
+        const std::uint32_t number =
+            number_of[tag_of({descent.parent[f.cell], static_cast<std::size_t>(of_parent)})];
+        if (number == not_on_boundary) continue;
+        fine_faces.push_back(f);
+        coarse_of.push_back(number);
     }
     const Grouped pieces = group(coarse_faces.size(), coarse_of);
     exact::AreaSum difference;

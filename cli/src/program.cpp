@@ -89,7 +89,8 @@ int run(int argc, char** argv) {
         "Exit status: 0 done; 1 the answer is no; 2 bad usage or input; 3 the system failed.\n"
         "Example:\n"
         "  octetra generate gear -o gear.1.ele\n"
-        "  octetra refine gear.1.ele --sphere 1,0,0.1,0.3 --levels 2 -o fine.vtu\n"
+        "  octetra refine gear.1.ele --sphere 1,0,0.1,0.3 --levels 2 -o fine.1.ele\n"
+        "  octetra verify gear.1.ele fine.1.ele\n"
         "  mpirun -n 4 octetra refine gear.1.ele --sphere 1,0,0.1,0.3 --levels 2 -o fine.vtu");
     add_refine(program, world);
     add_info(program, world);

@@ -29,13 +29,13 @@ std::int64_t volume(const Tetrahedron& t) {
     return dot(cross(minus(t[1], t[0]), minus(t[2], t[0])), minus(t[3], t[0]));
 }
 
-/// The corners of a cell, times four. Coordinates are small integers or quarters.
+/// The corners of a cell, times eight. Coordinates are small integers or eighths.
 Tetrahedron tetrahedron(const Mesh& mesh, const CellVertices& cell) {
     Tetrahedron t;
     for (std::size_t k = 0; k < 4; ++k) {
         const Point& p = mesh.points[cell[k]];
-        t[k] = {static_cast<std::int64_t>(4 * p.x), static_cast<std::int64_t>(4 * p.y),
-                static_cast<std::int64_t>(4 * p.z)};
+        t[k] = {static_cast<std::int64_t>(8 * p.x), static_cast<std::int64_t>(8 * p.y),
+                static_cast<std::int64_t>(8 * p.z)};
     }
     return t;
 }
@@ -161,14 +161,30 @@ bool is_valid_by_brute_force(const Mesh& mesh) {
     return true;
 }
 
+/// A cell between any four vertices, in the place of as many others as one would think it touches.
+void append_random_cell(Mesh& mesh, std::mt19937_64& random) {
+    CellVertices cell;
+    for (VertexIndex& v : cell) v = VertexIndex{random() % mesh.points.size()};
+    const auto six_volumes = volume(tetrahedron(mesh, cell));
+    if (six_volumes == 0) return;
+    if (six_volumes < 0) std::swap(cell[0], cell[1]);
+    for (std::size_t c = mesh.cells.size(); c-- > 0;) {
+        const auto common = std::count_if(cell.begin(), cell.end(), [&](VertexIndex v) {
+            return has(mesh.cells[CellIndex{c}], v);
+        });
+        if (common >= 3 || (common >= 2 && random() % 2 == 0)) test::drop_cell(mesh, CellIndex{c});
+    }
+    mesh.cells.push_back(cell);
+}
+
 /// Breaks a mesh in a way drawn by lot, or leaves it as it is. Coordinates stay
-/// small integers or, by one bisection after the other, quarters.
+/// small integers or, by one bisection after the other, eighths.
 void mutate(Mesh& mesh, std::mt19937_64& random) {
     const auto below = [&](std::size_t n) { return static_cast<std::size_t>(random() % n); };
     const VertexIndex v{below(mesh.points.size())};
     const CellIndex c{below(mesh.cells.size())};
     const auto step = [&] { return static_cast<double>(below(9)) - 4; };
-    switch (below(9)) {
+    switch (below(12)) {
         case 0:
         case 1:
         case 2: {
@@ -182,6 +198,7 @@ void mutate(Mesh& mesh, std::mt19937_64& random) {
         case 6: test::replace_corner(mesh, c, below(4), v); break;
         case 7: test::unmerge_vertex(mesh, c, below(4)); break;
         case 8: test::bisect_alone(mesh, c, below(6)); break;
+        default: append_random_cell(mesh, random); break;
     }
 }
 
@@ -209,8 +226,8 @@ TEST(BruteForce, AgreesWithTheCertificateOnValidAndBrokenMeshes) {
     int broken = 0;
     for (int round = 0; round < 4000; ++round) {
         // A side of 4 leaves room for halves, and for moves that break nothing.
-        Mesh mesh = round % 2 == 0 ? test::kuhn(2, 1, 1, 4) : test::kuhn(1, 1, 1, 4);
-        const std::size_t mutations = 1 + random() % 2;
+        Mesh mesh = round % 2 == 0 ? test::kuhn(2, 2, 1, 4) : test::kuhn(1, 1, 1, 4);
+        const std::size_t mutations = 1 + random() % 3;
         for (std::size_t i = 0; i < mutations; ++i) mutate(mesh, random);
         if (round % 5 != 0) drop_unused(mesh);
         const Verdict verdict = verify_mesh(mesh);

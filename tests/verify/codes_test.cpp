@@ -149,6 +149,24 @@ const std::vector<MeshCase> broken_meshes{
                                {1, 1, 90}},
                               {{0, 1, 2, 3}, {4, 5, 6, 7}});
      }},
+    {Code::boundary_crosses, "diagonals_that_differ",  // of the square between two pyramids
+     [] {
+         return test::mesh_of({{0, 0, 0}, {2, 0, 0}, {2, 2, 0}, {0, 2, 0}, {1, 1, 1}, {1, 1, -1}},
+                              {{0, 1, 2, 4}, {0, 2, 3, 4}, {0, 1, 3, 5}, {1, 2, 3, 5}});
+     }},
+    {Code::boundary_crosses, "cell_among_others_by_their_vertices",
+     [] {  // every second corner of the cube in the middle
+         Mesh mesh = test::kuhn(3, 3, 3);
+         const auto at = [](std::size_t x, std::size_t y, std::size_t z) {
+             return vertex(x + 4 * y + 16 * z);
+         };
+         test::append_cell(mesh, {at(1, 1, 1), at(2, 2, 1), at(2, 1, 2), at(1, 2, 2)}, cell(0));
+         const Verdict verdict = verify_mesh(mesh);
+         if (verdict.count(Code::inverted_cell) > 0) {
+             test::flip_cell(mesh, CellIndex{mesh.cells.size() - 1});
+         }
+         return mesh;
+     }},
     {Code::boundary_crosses, "edges_that_cross_in_a_plane",
      [] {
          return test::mesh_of({{0, 0, 0},

@@ -31,6 +31,86 @@ void report(const Subject& subject, CellIndex c, VertexIndex v, int touched, Fin
                  });
 }
 
+/// Edges against faces. Two that have no vertex in common must not meet. With one in common, an
+/// edge that lies in the plane of the face must not leave it through the opposite side. (It cannot
+/// end within: check_hanging would have found that.)
+class CrossingCheck {
+public:
+    CrossingCheck(const Subject& subject, Findings& findings)
+        : subject_(subject), mesh_(subject.mesh), findings_(findings) {
+        for (const CellFace f : boundary_faces(subject)) {
+            faces_.push_back(outward_face(mesh_.cells[f.cell], f.face));
+        }
+        const Buckets<2> edges(mesh_.points.size(), [&](auto&& visit) {
+            for (const FacetVertices& f : faces_) {
+                for (const auto& [i, j] : triangle_edges) visit(EdgeVertices{f[i], f[j]}, 0);
+            }
+        });
+        edges.for_each_group([&](const EdgeVertices& edge, auto) { edges_.push_back(edge); });
+    }
+
+    void run() {
+        const BoxTree boundary_faces = tree_of(faces_);
+        subject_.edges.for_each_group([&](const EdgeVertices& edge, auto) {
+            boundary_faces.for_each_meeting(bounds_of(places(edge)), [&](std::uint32_t number) {
+                judge(edge, faces_[number]);
+            });
+        });
+        const BoxTree boundary_edges = tree_of(edges_);
+        subject_.faces.for_each_group([&](const FacetVertices& face, auto cells) {
+            if (cells.size() == 1) return;  // with all edges, above
+            boundary_edges.for_each_meeting(bounds_of(places(face)), [&](std::uint32_t number) {
+                judge(edges_[number], face);
+            });
+        });
+    }
+
+private:
+    template <std::size_t N>
+    [[nodiscard]] std::array<Point, N> places(const std::array<VertexIndex, N>& vertices) const {
+        std::array<Point, N> points;
+        for (std::size_t k = 0; k < N; ++k) points[k] = mesh_.points[vertices[k]];
+        return points;
+    }
+
+    template <std::size_t N>
+    [[nodiscard]] BoxTree tree_of(const std::vector<std::array<VertexIndex, N>>& entities) const {
+        std::vector<Bounds> boxes;
+        boxes.reserve(entities.size());
+        for (const auto& entity : entities) boxes.push_back(bounds_of(places(entity)));
+        return BoxTree(std::move(boxes));
+    }
+
+    void judge(const EdgeVertices& edge, const FacetVertices& face) {
+        std::size_t shared = 0;
+        std::size_t where = 0;
+        for (std::size_t k = 0; k < 3; ++k) {
+            if (face[k] != edge[0] && face[k] != edge[1]) continue;
+            ++shared;
+            where = k;
+        }
+        if (shared == 2) return;
+        const bool meeting =
+            shared == 0
+                ? exact::meet(places(edge), places(face), findings_.arithmetic())
+                : exact::meet(places(edge),
+                              places(EdgeVertices{face[(where + 1) % 3], face[(where + 2) % 3]}),
+                              findings_.arithmetic());
+        if (!meeting) return;
+        findings_.add(Code::boundary_crosses, [&]() -> Findings::Description {
+            return {{entity(edge, subject_.which), entity(face, subject_.which)},
+                    "the edge meets the face",
+                    "no point in common but vertices"};
+        });
+    }
+
+    const Subject& subject_;
+    const Mesh& mesh_;
+    Findings& findings_;
+    std::vector<FacetVertices> faces_;  ///< of the boundary
+    std::vector<EdgeVertices> edges_;   ///< of these faces
+};
+
 }  // namespace
 
 std::string check_hanging(const Subject& subject, Findings& findings) {
@@ -60,41 +140,7 @@ std::string check_hanging(const Subject& subject, Findings& findings) {
 }
 
 std::string check_boundary_crossings(const Subject& subject, Findings& findings) {
-    const Mesh& mesh = subject.mesh;
-    std::vector<FacetVertices> faces;
-    for (const CellFace f : boundary_faces(subject)) {
-        if (subject.sign[f.cell.value()] != 0) {
-            faces.push_back(outward_face(mesh.cells[f.cell], f.face));
-        }
-    }
-    const auto corners = [&](const FacetVertices& f) {
-        return std::array<Point, 3>{mesh.points[f[0]], mesh.points[f[1]], mesh.points[f[2]]};
-    };
-    std::vector<Bounds> boxes;
-    boxes.reserve(faces.size());
-    for (const FacetVertices& f : faces) boxes.push_back(bounds_of(corners(f)));
-    const BoxTree tree(std::move(boxes));
-
-    const Buckets<2> edges(mesh.points.size(), [&](auto&& visit) {
-        for (const FacetVertices& f : faces) {
-            for (const auto& [i, j] : triangle_edges) visit(EdgeVertices{f[i], f[j]}, 0);
-        }
-    });
-    edges.for_each_group([&](const EdgeVertices& edge, auto) {
-        const std::array<Point, 2> segment{mesh.points[edge[0]], mesh.points[edge[1]]};
-        tree.for_each_meeting(bounds_of(segment), [&](std::uint32_t number) {
-            const FacetVertices& face = faces[number];
-            for (const VertexIndex v : face) {
-                if (v == edge[0] || v == edge[1]) return;
-            }
-            if (!exact::meet(segment, corners(face), findings.arithmetic())) return;
-            findings.add(Code::boundary_crosses, [&]() -> Findings::Description {
-                return {{entity(edge, subject.which), entity(face, subject.which)},
-                        "the edge meets the face",
-                        "no common point, as they have no vertex in common"};
-            });
-        });
-    });
+    CrossingCheck(subject, findings).run();
     return {};
 }
 

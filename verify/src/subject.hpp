@@ -79,7 +79,8 @@ std::string check_faces(const Subject& subject, Findings& findings);
 /// No vertex on or in a cell that does not have it, exactly.
 std::string check_hanging(const Subject& subject, Findings& findings);
 
-/// No edge of the boundary meets a face of the boundary with which it has no vertex in common.
+/// No edge meets a face of the boundary, and no edge of the boundary a face, but in a vertex of
+/// both or as a side. Every cell must be positive, and check_hanging must have passed.
 std::string check_boundary_crossings(const Subject& subject, Findings& findings);
 
 /// Faces of one cell, by their tags.

@@ -18,13 +18,16 @@
 #include <octetra/distributed/partition.hpp>
 #include <octetra/distributed/refine.hpp>
 #include <octetra/reference/refine.hpp>
+#include <octetra/verify/verify.hpp>
 
+#include "answer.hpp"
 #include "choice.hpp"
 #include "commands/commands.hpp"
 #include "commands/mesh_options.hpp"
 #include "commands/refinement_options.hpp"
 #include "grouped.hpp"
 #include "stopwatch.hpp"
+#include "verdict/print_verdict.hpp"
 
 namespace octetra::cli {
 namespace {
@@ -54,6 +57,7 @@ struct RefineOptions {
     std::string engine = "distributed";
     std::string partition = "lepp";
     std::string synchronisation = "neighbour";
+    bool verify = false;
     bool quiet = false;
 };
 
@@ -147,16 +151,39 @@ void note_idle_levels(const RefineOptions& options, int levels) {
                                    options.refinement.levels));
 }
 
+/// Judges what an engine has made. If it is not valid, says why.
+bool is_valid(const Mesh& coarse, const Refined& fine, const Plan& plan,
+              const RefineOptions& options) {
+    constexpr std::size_t described_of_each_code = 100;
+    const auto verdict = verify::verify_refinement(
+        coarse, fine.mesh,
+        {.request = verify::Request{plan.selection, plan.scheme, options.refinement.levels},
+         .maps = &fine.maps,
+         .kept_per_code = described_of_each_code});
+    if (verdict.valid()) return true;
+    print_verdict(
+        verdict, {options.output, options.input.path, fine.mesh.first_number, coarse.first_number});
+    fmt::print("nothing was written\n");
+    return false;
+}
+
+void write_result(const Refined& fine, const RefineOptions& options) {
+    write_output(fine.mesh, options.output, {.cell_to_parent = &fine.maps.cell_to_parent});
+    if (!options.maps.empty()) write_maps(fine.maps, options.maps);
+}
+
 void refine(const RefineOptions& options, const distributed::Communicator& world) {
     Plan plan = plan_of(options);
     Stopwatch watch;
     Mesh mesh;
+    Mesh coarse;  // the first process's, if it is to judge
     distributed::on_first(world, [&] {
         check_writable(options.output);
         if (!options.maps.empty()) check_side_file("--maps", options.maps);
         mesh = read_input(options.input);
         complete_selection(plan.selection, options.refinement.selection, mesh);
         report(options, fmt::format("read {}", options.input.path), mesh, watch.lap());
+        if (options.verify) coarse = mesh;
     });
     world.broadcast(plan.selection.cells);
 
@@ -164,15 +191,22 @@ void refine(const RefineOptions& options, const distributed::Communicator& world
     const std::size_t cells_before = mesh.cells.size();
     Refined fine = by_reference ? refine_by_reference(mesh, plan, options, world)
                                 : refine_distributed(std::move(mesh), plan, options, world);
+    std::vector<char> valid{1};
     distributed::on_first(world, [&] {
         if (fine.mesh.cells.size() == cells_before) fine.levels = 0;
         report(options, refined_line(fine.levels, by_reference ? 1 : world.size()), fine.mesh,
                watch.lap());
         note_idle_levels(options, fine.levels);
-        write_output(fine.mesh, options.output, {.cell_to_parent = &fine.maps.cell_to_parent});
-        if (!options.maps.empty()) write_maps(fine.maps, options.maps);
+        if (options.verify) {
+            valid.front() = is_valid(coarse, fine, plan, options) ? 1 : 0;
+            if (valid.front() == 0) return;
+            report(options, "verified", fine.mesh, watch.lap());
+        }
+        write_result(fine, options);
         report(options, fmt::format("wrote {}", options.output), fine.mesh, watch.lap());
     });
+    world.broadcast(valid);
+    if (valid.front() == 0) throw AnswerIsNo{};
 }
 
 void add_engine_options(CLI::App& command, RefineOptions& options) {
@@ -212,6 +246,9 @@ void add_refine(CLI::App& program, const distributed::Communicator& world) {
         ->add_option("--maps", options->maps,
                      "also write each cell's parent and each midpoint's edge, as text")
         ->type_name("FILE");
+    refine_command->add_flag(
+        "--verify", options->verify,
+        "judge the result as octetra verify does, and write it if it is valid");
     refine_command->add_flag("--quiet", options->quiet, "print nothing but notes and errors");
     refine_command->footer(
         "Example:\n"

@@ -28,7 +28,7 @@ enum class Code : std::uint8_t {
     cells_on_one_side,    ///< two cells lie on the same side of their face
     hanging_vertex,       ///< a vertex on an edge or face of a cell that does not have it
     vertex_in_cell,       ///< a vertex inside a cell
-    boundary_crosses,     ///< an edge of the boundary meets a boundary face that it does not touch
+    boundary_crosses,     ///< an edge meets a face, one of them on the boundary, not in a vertex
     // of a refinement
     lost_vertex,           ///< a vertex of the coarse mesh is not in the fine one
     not_a_midpoint,        ///< a new vertex halves no edge

@@ -18,6 +18,7 @@
 #include <octetra/core/files.hpp>
 #include <octetra/distributed/communicator.hpp>
 
+#include "answer.hpp"
 #include "commands/commands.hpp"
 
 namespace octetra::cli {
@@ -65,8 +66,11 @@ int fail_alone(std::string_view what, const distributed::Communicator& world) {
 
 int parse_and_run(CLI::App& program, int argc, char** argv,
                   const distributed::Communicator& world) {
+    auto status = Status::done;
     try {
         program.parse(argc, argv);
+    } catch (const AnswerIsNo&) {
+        status = Status::no;
     } catch (const CLI::Success& help_or_version) {
         return world.is_first() ? program.exit(help_or_version) : 0;
     } catch (const CLI::ParseError& error) {
@@ -78,7 +82,7 @@ int parse_and_run(CLI::App& program, int argc, char** argv,
     std::fflush(stdout);
     // Whoever reads the results from a pipe or a full disk must hear of it.
     if (std::ferror(stdout) != 0) throw SystemError("standard output cannot be written");
-    return static_cast<int>(Status::done);
+    return static_cast<int>(status);
 }
 
 }  // namespace
@@ -101,13 +105,16 @@ int run(int argc, char** argv) {
         "Exit status: 0 done; 1 the answer is no; 2 bad usage or input; 3 the system failed.\n"
         "Example:\n"
         "  octetra generate gear -o gear.1.ele\n"
-        "  octetra refine gear.1.ele --sphere 1,0,0.1,0.3 --levels 2 -o fine.vtu\n"
+        "  octetra refine gear.1.ele --sphere 1,0,0.1,0.3 --levels 2 -o fine.1.ele\n"
+        "  octetra verify gear.1.ele fine.1.ele\n"
         "  mpirun -n 4 octetra refine gear.1.ele --sphere 1,0,0.1,0.3 --levels 2 -o fine.vtu");
     add_refine(program, world);
     add_info(program, world);
     add_generate(program, world);
     add_convert(program, world);
     add_partition(program, world);
+    add_verify(program, world);
+    add_compare(program, world);
 
     try {
         return parse_and_run(program, argc, argv, world);

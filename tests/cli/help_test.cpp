@@ -48,11 +48,11 @@ TEST_P(Help, FitsATerminal) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Subcommands, Help,
-                         testing::Values("", "refine", "info", "convert", "partition", "generate",
-                                         "generate kuhn", "generate bcc", "generate regular",
-                                         "generate random", "generate slivers", "generate sphere",
-                                         "generate fichera", "generate torus", "generate gear",
-                                         "generate two-material"));
+                         testing::Values("", "refine", "info", "convert", "partition", "verify",
+                                         "compare", "generate", "generate kuhn", "generate bcc",
+                                         "generate regular", "generate random", "generate slivers",
+                                         "generate sphere", "generate fichera", "generate torus",
+                                         "generate gear", "generate two-material"));
 
 class BadUsage : public testing::TestWithParam<std::string> {};
 
@@ -91,7 +91,10 @@ INSTANTIATE_TEST_SUITE_P(
         "refine cube.ele --all -o out.ele --maps no/maps.txt",
         "refine cube.ele --all -o out.ele --maps /dev/null",
         "refine cube.ele extra.ele --all -o out.ele", "info", "info missing.mesh",
-        "convert cube.ele", "partition cube.ele", "partition cube.ele -n 0",
+        "convert cube.ele", "verify", "verify cube.ele --all", "verify cube.ele --maps cube.ele",
+        "verify cube.ele cube.ele --min-dihedral 181", "verify missing.ele",
+        "verify cube.ele --report cube.ele", "verify cube.ele --fast --min-dihedral 3",
+        "compare cube.ele", "partition cube.ele", "partition cube.ele -n 0",
         "partition cube.ele -n 2 --partition metis", "partition missing.ele -n 2",
         "partition cube.ele -n 2 -o out.ele", "partition cube.ele -n 2 -o no/parts.txt",
         "refine cube.ele --all --partition x -o out.ele",

@@ -8,6 +8,7 @@
 #include <octetra/core/files.hpp>
 #include <octetra/core/orientation.hpp>
 #include <octetra/reference/refine.hpp>
+#include <octetra/verify/verify.hpp>
 
 #include "support/conformity.hpp"
 #include "support/manifest.hpp"
@@ -100,6 +101,23 @@ TEST_P(CorpusMesh, IsRefinedByEverySchemeOrRefusedForRounding) {
             }
         }
     }
+}
+
+/// Generated meshes, too; tests/verify has all schemes and levels of those in the corpus itself.
+TEST_P(CorpusMesh, IsRefinedToWhatTheVerifierFindsValid) {
+    const Selection selection{.random = RandomShare{0.1, 1}};
+    Mesh fine;
+    try {
+        fine = reference::refine(mesh, selection, Scheme::eight, 2).mesh;
+    } catch (const InputError&) {
+        return;  // rounding, as tested above
+    }
+    const auto verdict = verify::verify_refinement(
+        mesh, fine, {.request = verify::Request{selection, Scheme::eight, 2}});
+    for (const auto& violation : verdict.violations) {
+        ADD_FAILURE() << name(violation.code) << ": " << violation.found;
+    }
+    EXPECT_TRUE(verdict.valid());
 }
 
 INSTANTIATE_TEST_SUITE_P(, CorpusMesh, testing::ValuesIn(test::corpus_entries("meshes")),

@@ -13,10 +13,12 @@ class Communicator;
 /// are thrown on all.
 namespace octetra::cli {
 
+void add_compare(CLI::App& program, const distributed::Communicator& world);
 void add_convert(CLI::App& program, const distributed::Communicator& world);
 void add_generate(CLI::App& program, const distributed::Communicator& world);
 void add_info(CLI::App& program, const distributed::Communicator& world);
 void add_partition(CLI::App& program, const distributed::Communicator& world);
 void add_refine(CLI::App& program, const distributed::Communicator& world);
+void add_verify(CLI::App& program, const distributed::Communicator& world);
 
 }  // namespace octetra::cli

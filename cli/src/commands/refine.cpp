@@ -20,22 +20,23 @@
 #include <octetra/distributed/profile.hpp>
 #include <octetra/distributed/refine.hpp>
 #include <octetra/reference/refine.hpp>
+#include <octetra/verify/verify.hpp>
 
+#include "answer.hpp"
 #include "choice.hpp"
 #include "commands/commands.hpp"
 #include "commands/mesh_options.hpp"
 #include "commands/profile_options.hpp"
-#include "commands/selection_options.hpp"
+#include "commands/refinement_options.hpp"
 #include "grouped.hpp"
 #include "stopwatch.hpp"
+#include "verdict/print_verdict.hpp"
 
 namespace octetra::cli {
 namespace {
 
 enum class Engine { distributed, reference };
 
-constexpr std::array<Word<Scheme>, 3> schemes{
-    {{"8t", Scheme::eight}, {"4t", Scheme::four}, {"2t", Scheme::two}}};
 constexpr std::array<Word<Engine>, 2> engines{
     {{"distributed", Engine::distributed}, {"reference", Engine::reference}}};
 constexpr std::array<Word<distributed::Synchronisation>, 2> synchronisations{
@@ -55,13 +56,12 @@ struct RefineOptions {
     InputOptions input;
     std::string output;
     std::string maps;
-    SelectionOptions selection;
-    std::string scheme = "8t";
-    int levels = 1;
+    RefinementOptions refinement;
     std::string engine = "distributed";
     std::string partition = "lepp";
     std::string synchronisation = "neighbour";
     ProfileOptions profile;
+    bool verify = false;
     bool quiet = false;
 };
 
@@ -74,8 +74,8 @@ void report(const RefineOptions& options, std::string_view doing, std::uint64_t 
 }
 
 Plan plan_of(const RefineOptions& options) {
-    return {.selection = parse_selection(options.selection),
-            .scheme = parse_choice("--scheme", options.scheme, schemes),
+    return {.selection = parse_selection(options.refinement.selection),
+            .scheme = parse_scheme(options.refinement),
             .engine = parse_choice("--engine", options.engine, engines),
             .partition = distributed::parse_partition(options.partition),
             .synchronisation = parse_choice("--sync", options.synchronisation, synchronisations)};
@@ -98,7 +98,7 @@ auto naming_the_mesh(const RefineOptions& options, auto&& engine) {
 /// Where people watch, a line that each level writes over.
 std::function<void(int, std::uint64_t)> level_progress(const RefineOptions& options) {
     if (options.quiet || ::isatty(STDERR_FILENO) == 0) return {};
-    return [levels = options.levels](int level, std::uint64_t cells) {
+    return [levels = options.refinement.levels](int level, std::uint64_t cells) {
         fmt::print(stderr, "\rlevel {} of {}: {} cells ", level, levels, grouped(cells));
         std::fflush(stderr);
     };
@@ -106,10 +106,10 @@ std::function<void(int, std::uint64_t)> level_progress(const RefineOptions& opti
 
 /// Says so where there was less to do than was asked for, or more is left than there may seem.
 void note_idle_levels(const RefineOptions& options, int levels) {
-    if (levels == options.levels) return;
+    if (levels == options.refinement.levels) return;
     note(levels == 0 ? std::string("no cell was chosen: the mesh stays as it is")
                      : fmt::format("no cell was chosen any more after level {} of {}", levels,
-                                   options.levels));
+                                   options.refinement.levels));
 }
 
 void report_refined(const RefineOptions& options, int levels, int ranks, const MeshFacts& facts,
@@ -124,26 +124,65 @@ void report_written(const RefineOptions& options, const std::string& lost, const
     report(options, fmt::format("wrote {}", options.output), facts.vertices, facts.cells, seconds);
 }
 
-/// On the first process alone.
-void refine_by_reference(const Mesh& mesh, const Plan& plan, const RefineOptions& options,
-                         const distributed::Communicator& world, Stopwatch& watch) {
-    const auto fine = distributed::in_phase(world, "refine", [&] {
-        return naming_the_mesh(options, [&] {
-            return reference::refine(mesh, plan.selection, plan.scheme, options.levels);
-        });
-    });
-    WholeMesh source(fine.mesh, &fine.maps);
-    const int levels = fine.mesh.cells.size() == mesh.cells.size() ? 0 : options.levels;
-    report_refined(options, levels, 1, source.facts(), watch.lap());
-    const distributed::Phase phase(world, "write");
-    const std::string lost = write_mesh(source, options.output);
-    if (!options.maps.empty()) write_maps(source, options.maps);
-    report_written(options, lost, source.facts(), watch.lap());
+/// Judges what an engine has made. If it is not valid, says why.
+bool is_valid(const Mesh& coarse, const Mesh& fine, const RefinementMaps& maps, const Plan& plan,
+              const RefineOptions& options) {
+    constexpr std::size_t described_of_each_code = 100;
+    const auto verdict = verify::verify_refinement(
+        coarse, fine,
+        {.request = verify::Request{plan.selection, plan.scheme, options.refinement.levels},
+         .maps = &maps,
+         .kept_per_code = described_of_each_code});
+    if (verdict.valid()) return true;
+    print_verdict(verdict,
+                  {options.output, options.input.path, fine.first_number, coarse.first_number});
+    fmt::print("nothing was written\n");
+    return false;
 }
 
-/// Collective.
-void refine_distributed(Mesh mesh, const Plan& plan, const RefineOptions& options,
-                        const distributed::Communicator& world, Stopwatch& watch) {
+/// Collective. What the first process has all of is judged there, if it is to be, and written.
+/// False, on all processes, if it is not valid.
+bool judge_and_write(const Mesh& coarse, const Mesh& fine, const RefinementMaps& maps,
+                     const Plan& plan, const RefineOptions& options,
+                     const distributed::Communicator& world, Stopwatch& watch) {
+    std::vector<char> valid{1};
+    distributed::on_first(world, [&] {
+        WholeMesh source(fine, &maps);
+        if (options.verify) {
+            const distributed::Phase phase(world, "verify");
+            valid.front() = is_valid(coarse, fine, maps, plan, options) ? 1 : 0;
+            if (valid.front() == 0) return;
+            report(options, "verified", fine.points.size(), fine.cells.size(), watch.lap());
+        }
+        const distributed::Phase phase(world, "write");
+        const std::string lost = write_mesh(source, options.output);
+        if (!options.maps.empty()) write_maps(source, options.maps);
+        report_written(options, lost, source.facts(), watch.lap());
+    });
+    world.broadcast(valid);
+    return valid.front() == 1;
+}
+
+/// Collective; the first process works, the others wait. False if the result is not valid.
+bool refine_by_reference(const Mesh& mesh, const Plan& plan, const RefineOptions& options,
+                         const distributed::Communicator& world, Stopwatch& watch) {
+    reference::Refinement fine;
+    distributed::on_first(world, [&] {
+        const distributed::Phase phase(world, "refine");
+        const int levels = options.refinement.levels;
+        fine = naming_the_mesh(options, [&] {
+            return reference::refine(mesh, plan.selection, plan.scheme, levels);
+        });
+        const bool idle = fine.mesh.cells.size() == mesh.cells.size();
+        report_refined(options, idle ? 0 : levels, 1, WholeMesh(fine.mesh, &fine.maps).facts(),
+                       watch.lap());
+    });
+    return judge_and_write(mesh, fine.mesh, fine.maps, plan, options, world, watch);
+}
+
+/// Collective. The parts of a mesh that the first process has.
+distributed::DistributedMesh share_out(Mesh mesh, const Plan& plan,
+                                       const distributed::Communicator& world) {
     std::vector<int> cell_to_rank;
     distributed::in_phase(world, "partition", [&] {
         distributed::on_first(world, [&] {
@@ -151,27 +190,44 @@ void refine_distributed(Mesh mesh, const Plan& plan, const RefineOptions& option
             cell_to_rank = distributed::partition_cells(mesh, world.size(), plan.partition);
         });
     });
-    auto parts = distributed::distribute(world, std::move(mesh), cell_to_rank);
-    cell_to_rank = {};
+    return distributed::distribute(world, std::move(mesh), cell_to_rank);
+}
+
+/// Collective. False, on all processes, if the result is not valid.
+bool refine_distributed(Mesh mesh, const Plan& plan, const RefineOptions& options,
+                        const distributed::Communicator& world, Stopwatch& watch) {
+    const Mesh coarse = options.verify ? mesh : Mesh{};
+    auto parts = share_out(std::move(mesh), plan, world);
     int levels = 0;
     const auto show = level_progress(options);
     const auto on_level = [&](int level, std::uint64_t cells) {
         levels = level;
         if (show) show(level, cells);
     };
-    auto fine = naming_the_mesh(options, [&] {
-        distributed::refine(parts, plan.selection,
-                            {plan.scheme, options.levels, plan.synchronisation, on_level});
-        return distributed::CanonicalMesh(std::move(parts));
-    });
-    if (world.is_first()) {
+    const auto report_parts = [&](const MeshFacts& facts) {
+        if (!world.is_first()) return;
         if (show) fmt::print(stderr, "\r{:60}\r", "");
-        report_refined(options, levels, world.size(), fine.facts(), watch.lap());
+        report_refined(options, levels, world.size(), facts, watch.lap());
+    };
+    naming_the_mesh(options, [&] {
+        distributed::refine(
+            parts, plan.selection,
+            {plan.scheme, options.refinement.levels, plan.synchronisation, on_level});
+    });
+    if (options.verify) {
+        const auto fine =
+            naming_the_mesh(options, [&] { return distributed::collect(std::move(parts)); });
+        report_parts(WholeMesh(fine.mesh, &fine.maps).facts());
+        return judge_and_write(coarse, fine.mesh, fine.maps, plan, options, world, watch);
     }
+    auto fine =
+        naming_the_mesh(options, [&] { return distributed::CanonicalMesh(std::move(parts)); });
+    report_parts(fine.facts());
     const distributed::Phase phase(world, "write");
     const std::string lost = distributed::write_mesh(fine, options.output);
     if (!options.maps.empty()) write_maps(fine.whole(), options.maps);
     if (world.is_first()) report_written(options, lost, fine.facts(), watch.lap());
+    return true;
 }
 
 /// Refuses files beside the mesh that cannot be written or would take each other's place.
@@ -202,19 +258,17 @@ void refine(const RefineOptions& options, const distributed::Communicator& all) 
             check_writable(options.output);
             check_side_files(options);
             mesh = read_input(options.input);
-            complete_selection(plan.selection, options.selection, mesh);
+            complete_selection(plan.selection, options.refinement.selection, mesh);
             report(options, fmt::format("read {}", options.input.path), mesh.points.size(),
                    mesh.cells.size(), watch.lap());
         });
         world.broadcast(plan.selection.cells);
     });
-    if (plan.engine == Engine::reference) {
-        distributed::on_first(world,
-                              [&] { refine_by_reference(mesh, plan, options, world, watch); });
-    } else {
-        refine_distributed(std::move(mesh), plan, options, world, watch);
-    }
+    const bool done = plan.engine == Engine::reference
+                          ? refine_by_reference(mesh, plan, options, world, watch)
+                          : refine_distributed(std::move(mesh), plan, options, world, watch);
     write_profile(world, options.profile, options.quiet);
+    if (!done) throw AnswerIsNo{};
 }
 
 void add_engine_options(CLI::App& command, RefineOptions& options) {
@@ -247,23 +301,17 @@ void add_refine(CLI::App& program, const distributed::Communicator& world) {
                                "conformity asks");
     add_input_options(*refine_command, options->input);
     add_output_option(*refine_command, options->output);
-    add_selection_options(*refine_command, options->selection);
-    refine_command
-        ->add_option(
-            "--levels", options->levels,
-            "how often to choose and bisect; what is chosen is judged afresh each time [1]")
-        ->type_name("L")
-        ->check(CLI::Range(0, 50));
-    refine_command
-        ->add_option("--scheme", options->scheme,
-                     "a chosen cell selects all its edges, its faces' longest, or its longest [8t]")
-        ->type_name("8t|4t|2t");
+    add_refinement_options(*refine_command, options->refinement,
+                           "Which cells (criteria add up; give at least one)");
     add_engine_options(*refine_command, *options);
     refine_command
         ->add_option("--maps", options->maps,
                      "also write each cell's parent and each midpoint's edge, as text")
         ->type_name("FILE");
     add_profile_options(*refine_command, options->profile);
+    refine_command->add_flag(
+        "--verify", options->verify,
+        "judge the result as octetra verify does, on the first rank, and write it if it is valid");
     refine_command->add_flag("--quiet", options->quiet, "print nothing but notes and errors");
     refine_command->footer(
         "Example:\n"

@@ -34,8 +34,8 @@ Box parse_box(const std::string& text) {
 
 }  // namespace
 
-void add_selection_options(CLI::App& subcommand, SelectionOptions& options) {
-    const std::string group = "Which cells (criteria add up; give at least one)";
+void add_selection_options(CLI::App& subcommand, SelectionOptions& options,
+                           const std::string& group) {
     subcommand.add_flag("--all", options.all, "every cell")->group(group);
     subcommand
         .add_option("--cells", options.cells_file,
@@ -66,6 +66,12 @@ void add_selection_options(CLI::App& subcommand, SelectionOptions& options) {
         ->group(group);
 }
 
+bool has_criterion(const SelectionOptions& options) {
+    return options.all || !options.cells_file.empty() || !options.spheres.empty() ||
+           !options.boxes.empty() || !options.regions.empty() || options.random ||
+           options.max_volume;
+}
+
 Selection parse_selection(const SelectionOptions& options) {
     Selection selection;
     selection.all = options.all;
@@ -84,11 +90,7 @@ Selection parse_selection(const SelectionOptions& options) {
             fmt::format("--max-volume takes a volume from 0, not {}", *options.max_volume));
     }
     selection.max_volume = options.max_volume;
-
-    const bool any = selection.all || !options.cells_file.empty() || !selection.spheres.empty() ||
-                     !selection.boxes.empty() || !selection.regions.empty() || selection.random ||
-                     selection.max_volume;
-    if (!any) {
+    if (!has_criterion(options)) {
         throw InputError(
             "say which cells to refine: --all, --cells, --sphere, --box, --region, --random or "
             "--max-volume");

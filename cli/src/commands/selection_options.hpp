@@ -26,7 +26,12 @@ struct SelectionOptions {
     std::optional<double> max_volume;
 };
 
-void add_selection_options(CLI::App& subcommand, SelectionOptions& options);
+/// Declares them, under the headline `group` of the help.
+void add_selection_options(CLI::App& subcommand, SelectionOptions& options,
+                           const std::string& group);
+
+/// Was any cell asked for?
+[[nodiscard]] bool has_criterion(const SelectionOptions& options);
 
 /// What does not need the mesh: at least one criterion, numbers in range. Throws InputError.
 [[nodiscard]] Selection parse_selection(const SelectionOptions& options);

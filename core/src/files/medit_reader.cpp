@@ -99,8 +99,10 @@ public:
         check_cells();
         check_listed(mesh_.facets, triangles_, "triangle");
         check_listed(mesh_.edges, edges_, "edge");
-        check_stray(find_stray_facet(mesh_), triangles_, "triangle");
-        check_stray(find_stray_edge(mesh_), edges_, "edge");
+        if (!options_->only_syntax) {
+            check_stray(find_stray_facet(mesh_), triangles_, "triangle");
+            check_stray(find_stray_edge(mesh_), edges_, "edge");
+        }
         drop_if_all_zero(mesh_.point_markers);
         drop_if_all_zero(mesh_.regions);
         drop_if_all_zero(mesh_.facet_markers);
@@ -261,7 +263,7 @@ private:
                                     std::uint64_t{list[i][k].value()} + 1, mesh_.points.size()));
                 }
                 for (std::size_t j = 0; j < k; ++j) {
-                    if (list[i][j] != list[i][k]) continue;
+                    if (list[i][j] != list[i][k] || options_->only_syntax) continue;
                     fail_entry(section, i, name,
                                fmt::format("the {} has the same vertex twice", name));
                 }
@@ -270,7 +272,7 @@ private:
     }
 
     void check_cells() {
-        CellCheck check(mesh_, options_->fix_orientation);
+        CellCheck check(mesh_, *options_);
         for (CellIndex c{0}; c < mesh_.cells.end_index(); ++c) {
             const std::string_view wrong = check.judge(mesh_.cells[c]);
             if (!wrong.empty()) fail_entry(tetrahedra_, c, "cell", wrong);

@@ -134,7 +134,7 @@ void read_ele(const fs::path& path, const ReadOptions& options, Mesh& mesh) {
 
     mesh.cells.reserve(count);
     mesh.regions.reserve(count * attributes);
-    CellCheck check(mesh, options.fix_orientation);
+    CellCheck check(mesh, options);
     read_entries(reader, count, field_count, mesh.first_number, [&](Fields& fields) {
         CellVertices cell;
         for (VertexIndex& vertex : cell) vertex = read_vertex(fields, reader, mesh);
@@ -173,7 +173,7 @@ void read_listed(const fs::path& path, std::string_view name,
         std::array<VertexIndex, N> vertices;
         for (VertexIndex& vertex : vertices) vertex = read_vertex(fields, reader, mesh);
         for (std::size_t k = 0; k < N; ++k) {
-            if (vertices[k] == vertices[(k + 1) % N]) {
+            if (!options.only_syntax && vertices[k] == vertices[(k + 1) % N]) {
                 reader.fail(fmt::format("the {} has the same vertex twice", name));
             }
         }
@@ -190,7 +190,7 @@ void read_listed(const fs::path& path, std::string_view name,
         options.note(
             fmt::format("{}: the adjacent cells of each {} are not kept", path.native(), name));
     }
-    const I stray = find_stray(mesh);
+    const I stray = options.only_syntax ? I::none() : find_stray(mesh);
     if (!stray.is_none()) {
         reader.fail(
             fmt::format("{} {} belongs to no cell", name, stray.value() + mesh.first_number),

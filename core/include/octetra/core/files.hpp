@@ -19,12 +19,17 @@ namespace octetra {
 struct ReadOptions {
     /// Turn inverted cells round, by exchanging their last two corners, rather than refuse them.
     bool fix_orientation = false;
+    /// Take cells, facets and edges as they stand: cells may be inverted, flat or have a vertex
+    /// twice, facets and edges may belong to no cell. For whoever judges the mesh; vertex numbers
+    /// are still in range and coordinates finite.
+    bool only_syntax = false;
     /// Told, in a sentence, of what is in the file but not in the mesh (Medit's `Corners`, say),
     /// and of how many cells were turned round.
     std::function<void(const std::string&)> note = [](const std::string&) {};
 };
 
-/// Reads and checks a mesh; what holds afterwards is written at struct Mesh.
+/// Reads and checks a mesh; what holds afterwards is written at struct Mesh
+/// (and with ReadOptions::only_syntax, the first line of it but for repeated vertices).
 /// For TetGen, `path` names the `.ele` or the `.node` file; both must be there.
 /// Throws InputError ("FILE:LINE: what is wrong") or SystemError.
 /// Memory beyond the mesh: a buffer of 1 MiB, and 8 bytes per vertex while facets are checked.

@@ -1,0 +1,57 @@
+#include <memory>
+#include <string>
+
+#include <CLI/CLI.hpp>
+
+#include <octetra/core/files.hpp>
+#include <octetra/distributed/agreement.hpp>
+#include <octetra/verify/compare.hpp>
+
+#include "answer.hpp"
+#include "commands/commands.hpp"
+#include "commands/mesh_options.hpp"
+#include "verdict/print_verdict.hpp"
+
+namespace octetra::cli {
+namespace {
+
+struct CompareOptions {
+    std::string a;
+    std::string b;
+    bool identical = false;
+};
+
+bool run(const CompareOptions& options) {
+    const ReadOptions as_it_stands{.only_syntax = true, .note = note};
+    const auto comparison =
+        verify::compare(read_mesh(options.a, as_it_stands), read_mesh(options.b, as_it_stands));
+    print_comparison(comparison, options.a, options.b);
+    return comparison.likeness == verify::Likeness::identical ||
+           (!options.identical && comparison.likeness == verify::Likeness::up_to_numbering);
+}
+
+}  // namespace
+
+void add_compare(CLI::App& program, const distributed::Communicator& world) {
+    auto options = std::make_shared<CompareOptions>();
+    CLI::App* command = program.add_subcommand(
+        "compare",
+        "Are two meshes the same, be it with other numbers?\n"
+        "Ends with status 0 if they are, 1 if not, 2 if one cannot be read.");
+    command->add_option("A", options->a, "a mesh")->type_name("")->required();
+    command->add_option("B", options->b, "another")->type_name("")->required();
+    command->add_flag("--identical", options->identical, "numbers must be the same, too");
+    command->footer(
+        "Example:\n"
+        "  octetra generate gear -o gear.1.ele\n"
+        "  octetra convert gear.1.ele gear.mesh\n"
+        "  octetra compare gear.1.ele gear.mesh");
+    command->callback([options, world] {
+        std::vector<char> same{0};
+        distributed::on_first(world, [&] { same.front() = run(*options) ? 1 : 0; });
+        world.broadcast(same);
+        if (same.front() == 0) throw AnswerIsNo{};
+    });
+}
+
+}  // namespace octetra::cli

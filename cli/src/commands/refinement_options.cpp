@@ -1,0 +1,31 @@
+#include "commands/refinement_options.hpp"
+
+#include <array>
+
+#include <CLI/CLI.hpp>
+
+#include "choice.hpp"
+
+namespace octetra::cli {
+
+void add_refinement_options(CLI::App& subcommand, RefinementOptions& options,
+                            const std::string& group) {
+    add_selection_options(subcommand, options.selection, group);
+    subcommand
+        .add_option("--levels", options.levels,
+                    "how often to choose and bisect; what is chosen is judged afresh each time [1]")
+        ->type_name("L")
+        ->check(CLI::Range(0, 50));
+    subcommand
+        .add_option("--scheme", options.scheme,
+                    "a chosen cell selects all its edges, its faces' longest, or its longest [8t]")
+        ->type_name("8t|4t|2t");
+}
+
+Scheme parse_scheme(const RefinementOptions& options) {
+    constexpr std::array<Word<Scheme>, 3> schemes{
+        {{"8t", Scheme::eight}, {"4t", Scheme::four}, {"2t", Scheme::two}}};
+    return parse_choice("--scheme", options.scheme, schemes);
+}
+
+}  // namespace octetra::cli

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <string>
+
+#include <octetra/core/selection.hpp>
+
+#include "commands/selection_options.hpp"
+
+namespace octetra::cli {
+
+/// The options of a subcommand that say which refinement is meant, as they were typed.
+struct RefinementOptions {
+    SelectionOptions selection;
+    std::string scheme = "8t";
+    int levels = 1;
+};
+
+/// Declares the selection under the headline `group`, --levels and --scheme.
+void add_refinement_options(CLI::App& subcommand, RefinementOptions& options,
+                            const std::string& group);
+
+/// Throws InputError for a word that is no scheme.
+[[nodiscard]] Scheme parse_scheme(const RefinementOptions& options);
+
+}  // namespace octetra::cli

@@ -1,0 +1,129 @@
+#include <memory>
+#include <optional>
+#include <string>
+
+#include <CLI/CLI.hpp>
+
+#include <octetra/core/error.hpp>
+#include <octetra/core/files.hpp>
+#include <octetra/distributed/agreement.hpp>
+#include <octetra/verify/verify.hpp>
+
+#include "answer.hpp"
+#include "commands/commands.hpp"
+#include "commands/mesh_options.hpp"
+#include "commands/refinement_options.hpp"
+#include "verdict/print_verdict.hpp"
+
+namespace octetra::cli {
+namespace {
+
+struct VerifyCommandOptions {
+    std::string first;   ///< the mesh, or the coarse one
+    std::string second;  ///< the fine one, or empty
+    bool fast = false;
+    std::optional<double> min_dihedral;
+    std::string report;
+    std::string maps;
+    RefinementOptions refinement;
+};
+
+/// A report of a million faults helps nobody; they are counted all the same.
+constexpr std::size_t described_of_each_code = 100'000;
+
+/// What the options ask for beyond the meshes; what the selection needs of the mesh is still to
+/// come.
+verify::VerifyOptions options_of(const VerifyCommandOptions& given) {
+    verify::VerifyOptions options{.fast = given.fast,
+                                  .min_dihedral = given.min_dihedral,
+                                  .kept_per_code = described_of_each_code};
+    if (has_criterion(given.refinement.selection)) {
+        options.request = {parse_selection(given.refinement.selection),
+                           parse_scheme(given.refinement), given.refinement.levels};
+    }
+    if (given.second.empty() && options.request) {
+        throw InputError("verify: a selection can only be checked of COARSE and REFINED");
+    }
+    if (given.second.empty() && !given.maps.empty()) {
+        throw InputError("verify: --maps can only be checked of COARSE and REFINED");
+    }
+    if (given.fast && given.min_dihedral) {
+        throw InputError("verify: --min-dihedral is not checked with --fast");
+    }
+    return options;
+}
+
+verify::Verdict judge(const VerifyCommandOptions& given, verify::VerifyOptions options,
+                      Judged& judged) {
+    const ReadOptions as_it_stands{.only_syntax = true, .note = note};
+    const Mesh first = read_mesh(given.first, as_it_stands);
+    if (given.second.empty()) {
+        judged = {.fine = given.first, .fine_first_number = first.first_number};
+        return verify_mesh(first, options);
+    }
+    const Mesh second = read_mesh(given.second, as_it_stands);
+    judged = {given.second, given.first, second.first_number, first.first_number};
+    if (options.request) {
+        complete_selection(options.request->selection, given.refinement.selection, first);
+    }
+    std::optional<RefinementMaps> maps;
+    if (!given.maps.empty()) {
+        maps = read_maps(given.maps, second.first_number);
+        options.maps = &*maps;
+    }
+    return verify_refinement(first, second, options);
+}
+
+bool run(const VerifyCommandOptions& given, const verify::VerifyOptions& options) {
+    if (!given.report.empty()) check_side_file("--report", given.report);
+    Judged judged;
+    const verify::Verdict verdict = judge(given, options, judged);
+    print_verdict(verdict, judged);
+    if (!given.report.empty()) write_text(format_json(verdict, judged), given.report);
+    return verdict.valid();
+}
+
+}  // namespace
+
+void add_verify(CLI::App& program, const distributed::Communicator& world) {
+    auto options = std::make_shared<VerifyCommandOptions>();
+    CLI::App* command = program.add_subcommand(
+        "verify",
+        "Judge a mesh, or a mesh as the refinement of another, by exact arithmetic.\n"
+        "Ends with status 0 if it is valid, 1 if it is not, 2 if it cannot be read.");
+    command->add_option("MESH", options->first, "the mesh; or, with REFINED, the coarse one")
+        ->type_name("")
+        ->required();
+    command->add_option("REFINED", options->second, "the mesh that claims to refine MESH")
+        ->type_name("");
+    command->add_flag("--fast", options->fast,
+                      "leave out what takes a search in space, exact sums or angles");
+    command
+        ->add_option("--min-dihedral", options->min_dihedral,
+                     "no dihedral angle may be less than D degrees; compared exactly")
+        ->type_name("D")
+        ->check(CLI::Range(0.0, 180.0));
+    command->add_option("--report", options->report, "also write all that was found, as JSON")
+        ->type_name("FILE");
+    command
+        ->add_option("--maps", options->maps,
+                     "check the parents and midpoints that refine --maps has written")
+        ->type_name("FILE");
+    add_refinement_options(*command, options->refinement,
+                           "Is it the 8T-LE refinement of these cells? (as for refine)");
+    command->footer(
+        "Example:\n"
+        "  octetra generate gear -o gear.1.ele\n"
+        "  octetra refine gear.1.ele --sphere 1,0,0.1,0.3 --levels 2 -o fine.1.ele\n"
+        "  octetra verify fine.1.ele\n"
+        "  octetra verify gear.1.ele fine.1.ele --sphere 1,0,0.1,0.3 --levels 2");
+    command->callback([options, world] {
+        std::vector<char> valid{0};
+        distributed::on_first(world,
+                              [&] { valid.front() = run(*options, options_of(*options)) ? 1 : 0; });
+        world.broadcast(valid);
+        if (valid.front() == 0) throw AnswerIsNo{};
+    });
+}
+
+}  // namespace octetra::cli

@@ -1,0 +1,113 @@
+#include "verdict/print_verdict.hpp"
+
+#include <array>
+#include <numbers>
+
+#include <fmt/format.h>
+
+#include "grouped.hpp"
+#include "verdict/describe.hpp"
+
+namespace octetra::cli {
+namespace {
+
+using verify::Code;
+using verify::Verdict;
+using verify::Violation;
+
+constexpr std::size_t shown_of_each_code = 5;
+
+void print_checks(const Verdict& verdict) {
+    for (const verify::Check& check : verdict.checks) {
+        fmt::print("{:<22} {:<8} {}\n", check.name, word_of(check.status), check.note);
+    }
+}
+
+void print_violation(const Violation& violation, const Judged& judged) {
+    std::string entities;
+    for (const verify::Entity& entity : violation.entities) {
+        entities += (entities.empty() ? "" : ", ") + describe(entity, judged);
+    }
+    fmt::print("  {}{}found {}; expected {}\n", entities, entities.empty() ? "" : ": ",
+               violation.found, violation.expected);
+}
+
+void print_violations(const Verdict& verdict, const Judged& judged) {
+    for (std::size_t code = 0; code < verify::code_count; ++code) {
+        const std::uint64_t count = verdict.counts[code];
+        if (count == 0) continue;
+        fmt::print("\n{}: {}\n", name(static_cast<Code>(code)), grouped(count));
+        std::size_t shown = 0;
+        for (const Violation& violation : verdict.violations) {
+            if (violation.code != static_cast<Code>(code)) continue;
+            if (shown++ == shown_of_each_code) break;
+            print_violation(violation, judged);
+        }
+        if (count > shown_of_each_code) {
+            fmt::print("  and {} more\n", grouped(count - shown_of_each_code));
+        }
+    }
+}
+
+void print_fact(std::string_view what, const std::string& value) {
+    fmt::print("{:<30} {:>16}\n", what, value);
+}
+
+void print_angles(std::string_view of, const verify::AngleFigures& angles) {
+    print_fact(fmt::format("{}dihedral angles, degrees", of),
+               fmt::format("{:.6g} .. {:.6g}", angles.min_dihedral, angles.max_dihedral));
+    print_fact(fmt::format("{}least solid angle, sr", of), fmt::format("{:.6g}", angles.min_solid));
+    print_fact(fmt::format("{}least eta", of), fmt::format("{:.6g}", angles.min_eta));
+}
+
+void print_facts(const Verdict& verdict, bool of_refinement) {
+    const verify::Facts& facts = verdict.facts;
+    fmt::print("\n");
+    print_fact("vertices", grouped(facts.vertices));
+    print_fact("cells", grouped(facts.cells));
+    print_fact("boundary faces", grouped(facts.boundary_faces));
+    print_fact("singular edges", grouped(facts.singular_edges));
+    print_fact("singular vertices", grouped(facts.singular_vertices));
+    if (of_refinement) {
+        print_fact("coarse cells left whole", grouped(facts.cells_kept));
+        print_fact("midpoints", grouped(facts.bisected_edges));
+        print_fact("rounded midpoints", grouped(facts.rounded_midpoints));
+    }
+    if (verdict.coarse_angles && facts.cells > 0) print_angles("coarse ", *verdict.coarse_angles);
+    if (verdict.angles && facts.cells > 0) print_angles("", *verdict.angles);
+    print_fact("decisions by filters", grouped(verdict.arithmetic.filtered));
+    print_fact("decisions by exact arithmetic", grouped(verdict.arithmetic.exact));
+}
+
+}  // namespace
+
+void print_verdict(const Verdict& verdict, const Judged& judged) {
+    print_checks(verdict);
+    print_violations(verdict, judged);
+    print_facts(verdict, !judged.coarse.empty());
+    const std::string_view answer = verdict.valid() ? "valid" : "NOT VALID";
+    if (judged.coarse.empty()) {
+        fmt::print("\n{}: {}\n", judged.fine, answer);
+    } else {
+        fmt::print("\n{} as a refinement of {}: {}\n", judged.fine, judged.coarse, answer);
+    }
+}
+
+void print_comparison(const verify::Comparison& comparison, const std::string& a,
+                      const std::string& b) {
+    for (const verify::Difference& difference : comparison.differences) {
+        std::string corners;
+        for (const Point& p : difference.corners) {
+            corners += fmt::format(" ({}, {}, {})", p.x, p.y, p.z);
+        }
+        fmt::print("{} at{}: {} in {}, {} in {}\n", difference.kind, corners, difference.in_a, a,
+                   difference.in_b, b);
+    }
+    const std::uint64_t more = comparison.difference_count - comparison.differences.size();
+    if (more > 0) fmt::print("and {} more differences\n", grouped(more));
+    constexpr std::array<std::string_view, 3> answers{"identical", "the same up to numbering",
+                                                      "different"};
+    fmt::print("{}, {}: {}\n", a, b, answers[static_cast<std::size_t>(comparison.likeness)]);
+}
+
+}  // namespace octetra::cli

@@ -1,0 +1,96 @@
+#include <nlohmann/json.hpp>
+
+#include "verdict/describe.hpp"
+
+namespace octetra::cli {
+namespace {
+
+using Json = nlohmann::ordered_json;
+using verify::Code;
+
+Json json(const verify::Entity& entity, const Judged& judged) {
+    const bool coarse = entity.mesh == verify::Which::coarse;
+    const std::uint64_t first = coarse ? judged.coarse_first_number : judged.fine_first_number;
+    Json out{{"kind", kind_of(entity)}, {"mesh", coarse ? "coarse" : "fine"}};
+    if (entity.vertices.empty()) {
+        out["number"] = entity.number + first;
+    } else {
+        for (const VertexIndex v : entity.vertices) out["vertices"].push_back(v.value() + first);
+    }
+    return out;
+}
+
+Json json(const verify::Violation& violation, const Judged& judged) {
+    Json out{{"code", name(violation.code)},
+             {"entities", Json::array()},
+             {"found", violation.found},
+             {"expected", violation.expected}};
+    for (const auto& entity : violation.entities) out["entities"].push_back(json(entity, judged));
+    return out;
+}
+
+Json json(const verify::Facts& facts, bool of_refinement) {
+    Json out{{"vertices", facts.vertices},
+             {"cells", facts.cells},
+             {"edges", facts.edges},
+             {"faces", facts.faces},
+             {"boundary_faces", facts.boundary_faces},
+             {"singular_edges", facts.singular_edges},
+             {"singular_vertices", facts.singular_vertices}};
+    if (of_refinement) {
+        out["cells_kept"] = facts.cells_kept;
+        out["midpoints"] = facts.bisected_edges;
+        out["rounded_midpoints"] = facts.rounded_midpoints;
+        out["deepest"] = facts.deepest;
+        out["rounding_bound"] = facts.rounding_bound;
+    }
+    return out;
+}
+
+Json json(const std::optional<verify::AngleFigures>& angles, std::uint32_t first_number) {
+    if (!angles || angles->min_dihedral_at.is_none()) return nullptr;
+    return {{"min_dihedral", angles->min_dihedral},
+            {"min_dihedral_cell", angles->min_dihedral_at.value() + std::uint64_t{first_number}},
+            {"max_dihedral", angles->max_dihedral},
+            {"min_solid", angles->min_solid},
+            {"min_eta", angles->min_eta}};
+}
+
+}  // namespace
+
+std::string format_json(const verify::Verdict& verdict, const Judged& judged) {
+    const bool of_refinement = !judged.coarse.empty();
+    Json out{{"schema", "octetra-verdict-1"}, {"valid", verdict.valid()}, {"mesh", judged.fine}};
+    out["coarse_mesh"] = of_refinement ? Json(judged.coarse) : Json(nullptr);
+    out["checks"] = Json::array();
+    for (const verify::Check& check : verdict.checks) {
+        out["checks"].push_back({{"name", check.name},
+                                 {"status", word_of(check.status)},
+                                 {"note", check.note},
+                                 {"seconds", check.seconds}});
+    }
+    out["violation_counts"] = Json::object();
+    for (std::size_t code = 0; code < verify::code_count; ++code) {
+        if (verdict.counts[code] == 0) continue;
+        out["violation_counts"][std::string(name(static_cast<Code>(code)))] = verdict.counts[code];
+    }
+    out["violations"] = Json::array();
+    for (const auto& violation : verdict.violations) {
+        out["violations"].push_back(json(violation, judged));
+    }
+    out["facts"] = json(verdict.facts, of_refinement);
+    out["angles"] = json(verdict.angles, judged.fine_first_number);
+    out["coarse_angles"] = json(verdict.coarse_angles, judged.coarse_first_number);
+    out["angles_by_depth"] = Json::array();
+    for (const verify::DepthFigures& figures : verdict.by_depth) {
+        out["angles_by_depth"].push_back({{"depth", figures.depth},
+                                          {"cells", figures.cells},
+                                          {"min_dihedral", figures.min_dihedral},
+                                          {"min_eta", figures.min_eta}});
+    }
+    out["arithmetic"] = {{"filtered", verdict.arithmetic.filtered},
+                         {"exact", verdict.arithmetic.exact}};
+    return out.dump(2) + "\n";
+}
+
+}  // namespace octetra::cli

@@ -1,0 +1,157 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "cli/octetra_program.hpp"
+#include "support/manifest.hpp"
+
+/// octetra verify, octetra compare and refine --verify, as people run them.
+namespace octetra {
+namespace {
+
+using test::TemporaryFolder;
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::Not;
+
+class Verify : public testing::Test {
+protected:
+    Verify() {
+        expect_status(0, "generate gear -o gear.1.ele --quiet");
+        expect_status(0, refine + " -o fine.1.ele --maps fine.maps --quiet");
+    }
+    test::Outcome expect_status(int status, const std::string& arguments) const {
+        test::Outcome run = test::octetra(arguments, folder);
+        EXPECT_EQ(run.status, status) << arguments << "\n" << run.out << run.err;
+        return run;
+    }
+    nlohmann::json report() const { return nlohmann::json::parse(test::content_of(folder / "r")); }
+
+    const TemporaryFolder folder;
+    const std::string selection = " --sphere 1,0,0.15,0.4 --levels 2";
+    const std::string refine = "refine gear.1.ele" + selection;
+};
+
+TEST_F(Verify, FindsWhatWeMakeValid) {
+    EXPECT_THAT(expect_status(0, "verify gear.1.ele").out, HasSubstr("gear.1.ele: valid"));
+    const auto run = expect_status(0, "verify gear.1.ele fine.1.ele --maps fine.maps" + selection);
+    EXPECT_THAT(run.out, HasSubstr("fine.1.ele as a refinement of gear.1.ele: valid"));
+    EXPECT_EQ(run.err, "");
+    expect_status(0, "verify gear.1.ele fine.1.ele --fast");
+    expect_status(0, "verify gear.1.ele fine.1.ele --min-dihedral 10");
+}
+
+TEST_F(Verify, EndsWithStatus1WhereTheAnswerIsNo) {
+    const auto run = expect_status(1, "verify gear.1.ele fine.1.ele --all");
+    EXPECT_THAT(run.out, AllOf(HasSubstr("missing_bisection"), HasSubstr("NOT VALID")));
+    EXPECT_EQ(run.err, "");
+    expect_status(1, "verify gear.1.ele fine.1.ele --min-dihedral 20");
+    expect_status(1, "verify gear.1.ele --min-dihedral 10.5");
+    expect_status(1, "verify fine.1.ele gear.1.ele");
+}
+
+TEST_F(Verify, JudgesFilesThatOthersRefuse) {
+    const std::string bad = (test::corpus_folder() / "bad").string() + "/";
+    const std::vector<std::pair<std::string, std::string>> cases{
+        {"medit-inverted-cell.mesh", "repeated_cell: 1"}, {"flat-cell.ele", "flat_cell: 1"},
+        {"nearly-flat-cell.ele", "NOT VALID"},     {"repeated-vertex.ele", "repeated_vertex: 1"},
+        {"face-of-no-cell.ele", "stray_facet: 1"}, {"medit-edge-of-no-cell.mesh", "stray_edge: 1"},
+    };
+    for (const auto& [file, what] : cases) {
+        EXPECT_THAT(expect_status(1, "verify " + bad + file).out, HasSubstr(what));
+    }
+    for (const std::string file : {"index-out-of-range.ele", "nan.ele", "empty.mesh"}) {
+        EXPECT_THAT(expect_status(2, "verify " + bad + file).err, HasSubstr(file.substr(0, 3)));
+    }
+}
+
+TEST_F(Verify, ReportsAsJson) {
+    expect_status(0, "verify gear.1.ele fine.1.ele --report r" + selection);
+    const auto good = report();
+    EXPECT_EQ(good["schema"], "octetra-verdict-1");
+    EXPECT_EQ(good["valid"], true);
+    EXPECT_EQ(good["mesh"], "fine.1.ele");
+    EXPECT_EQ(good["coarse_mesh"], "gear.1.ele");
+    EXPECT_TRUE(good["violations"].empty());
+    EXPECT_TRUE(good["violation_counts"].empty());
+    EXPECT_EQ(good["facts"]["cells"], 18246);
+    EXPECT_GT(good["arithmetic"]["filtered"], 0);
+    EXPECT_GT(good["arithmetic"]["exact"], 0);
+    EXPECT_FALSE(good["angles_by_depth"].empty());
+
+    expect_status(1, "verify gear.1.ele fine.1.ele --min-dihedral 12 --report r");
+    const auto bad = report();
+    EXPECT_EQ(bad["valid"], false);
+    const std::size_t count = bad["violation_counts"]["dihedral_too_small"];
+    EXPECT_EQ(bad["violations"].size(), count);
+    EXPECT_EQ(bad["violations"][0]["code"], "dihedral_too_small");
+    EXPECT_EQ(bad["violations"][0]["entities"][0]["kind"], "cell");
+    EXPECT_EQ(bad["checks"].back()["status"], "failed");
+}
+
+TEST_F(Verify, ReadsTheMapsThatRefineWrites) {
+    const std::string maps = test::content_of(folder / "fine.maps");
+    const auto changed = [&](const std::string& from, const std::string& to) {
+        std::string text = maps;
+        text.replace(text.find(from), from.size(), to);
+        (void)folder.write("changed.maps", text);
+    };
+    changed("\n0 0\n", "\n0 7\n");
+    EXPECT_THAT(expect_status(1, "verify gear.1.ele fine.1.ele --maps changed.maps").out,
+                HasSubstr("wrong_parent: 1"));
+    changed("\n0 0\n", "\n2 0\n");
+    EXPECT_THAT(expect_status(2, "verify gear.1.ele fine.1.ele --maps changed.maps").err,
+                HasSubstr("changed.maps:2: cell number 0 expected"));
+    changed("midpoints", "halves");
+    EXPECT_THAT(expect_status(2, "verify gear.1.ele fine.1.ele --maps changed.maps").err,
+                HasSubstr("'midpoints' expected"));
+    changed("cells ", "cells 9");
+    expect_status(2, "verify gear.1.ele fine.1.ele --maps changed.maps");
+}
+
+TEST_F(Verify, IsOneAnswerOnSeveralRanks) {
+    const std::string mpirun = OCTETRA_SOURCE_DIR "/tests/support/mpirun.sh 2 " OCTETRA_PROGRAM;
+    const auto run = [&](const std::string& arguments) {
+        return test::run_program(test::words(mpirun + " " + arguments), folder.path());
+    };
+    const auto valid = run("verify gear.1.ele fine.1.ele");
+    EXPECT_EQ(valid.status, 0);
+    EXPECT_EQ(valid.out, expect_status(0, "verify gear.1.ele fine.1.ele").out);
+    EXPECT_EQ(run("verify gear.1.ele fine.1.ele --min-dihedral 20").status, 1);
+    EXPECT_EQ(run(refine + " -o p.1.ele --verify").status, 0);
+    EXPECT_EQ(run("compare p.1.ele fine.1.ele --identical").status, 0);
+}
+
+TEST_F(Verify, OfRefineWritesWhatIsValidAndNothingElse) {
+    const auto run = expect_status(0, refine + " -o again.1.ele --verify");
+    EXPECT_THAT(run.out, HasSubstr("verified"));
+    EXPECT_EQ(test::content_of(folder / "again.1.ele"), test::content_of(folder / "fine.1.ele"));
+
+    // Three cells at one face can be read and refined, but that is no mesh.
+    (void)folder.write("three.node",
+                       "6 3 0 0\n0 0 0 0\n1 1 0 0\n2 0 1 0\n3 0 0 1\n4 0 0 -1\n5 2 2 1\n");
+    (void)folder.write("three.ele", "3 4 0\n0 0 1 2 3\n1 0 2 1 4\n2 0 1 2 5\n");
+    expect_status(0, "refine three.ele --all -o out.ele --quiet");
+    std::filesystem::remove(folder / "out.ele");
+    const auto bad = expect_status(1, "refine three.ele --all -o out.ele --maps m.txt --verify");
+    EXPECT_THAT(bad.out,
+                AllOf(HasSubstr("face_of_many_cells: 1"), HasSubstr("nothing was written")));
+    EXPECT_FALSE(std::filesystem::exists(folder / "out.ele"));
+    EXPECT_FALSE(std::filesystem::exists(folder / "m.txt"));
+}
+
+TEST_F(Verify, CompareTellsWhatIsTheSame) {
+    expect_status(0, "convert gear.1.ele gear.mesh --quiet");
+    EXPECT_THAT(expect_status(0, "compare gear.1.ele gear.mesh").out,
+                HasSubstr("the same up to numbering"));
+    expect_status(1, "compare gear.1.ele gear.mesh --identical");
+    EXPECT_THAT(expect_status(0, "compare gear.1.ele gear.1.node --identical").out,
+                HasSubstr("identical"));
+    const auto run = expect_status(1, "compare gear.1.ele fine.1.ele");
+    EXPECT_THAT(run.out, AllOf(HasSubstr("cell at ("), HasSubstr("absent in gear.1.ele"),
+                               HasSubstr("different")));
+    expect_status(2, "compare gear.1.ele missing.ele");
+}
+
+}  // namespace
+}  // namespace octetra

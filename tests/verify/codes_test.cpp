@@ -1,0 +1,416 @@
+#include <functional>
+#include <ostream>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <octetra/core/edge_order.hpp>
+#include <octetra/reference/refine.hpp>
+#include <octetra/verify/verify.hpp>
+
+#include "support/meshes.hpp"
+#include "verify/mutations.hpp"
+#include "verify/verdicts.hpp"
+
+/// One broken mesh for each code, that is reported with this code and no other.
+namespace octetra::verify {
+namespace {
+
+using test::codes_of;
+
+constexpr VertexIndex vertex(std::size_t i) { return VertexIndex{i}; }
+constexpr CellIndex cell(std::size_t i) { return CellIndex{i}; }
+
+/// Two cubes of six cells each.
+Mesh two_cubes() { return test::kuhn(2, 1, 1); }
+
+struct MeshCase {
+    Code code;
+    std::string how;
+    std::function<Mesh()> make;
+};
+void PrintTo(const MeshCase& c, std::ostream* out) { *out << name(c.code); }
+
+/// A case that breaks two_cubes().
+MeshCase of_two_cubes(Code code, const std::string& how, const std::function<void(Mesh&)>& breaks) {
+    return {code, how, [breaks] {
+                Mesh mesh = two_cubes();
+                breaks(mesh);
+                return mesh;
+            }};
+}
+
+class BrokenMesh : public testing::TestWithParam<MeshCase> {};
+
+TEST_P(BrokenMesh, IsReportedWithItsCodeAndNoOther) {
+    ASSERT_EQ(codes_of(verify_mesh(two_cubes())), "");
+    const Verdict verdict = verify_mesh(GetParam().make());
+    EXPECT_EQ(codes_of(verdict), name(GetParam().code));
+    EXPECT_FALSE(verdict.violations.empty());
+    EXPECT_FALSE(verdict.valid());
+}
+
+const std::vector<MeshCase> broken_meshes{
+    of_two_cubes(Code::vertex_out_of_range, "in_a_cell",
+                 [](Mesh& m) { m.cells[cell(3)][1] = vertex(99); }),
+    of_two_cubes(Code::vertex_out_of_range, "in_a_facet",
+                 [](Mesh& m) {
+                     m.facets.push_back({vertex(0), vertex(1), VertexIndex::none()});
+                 }),
+    of_two_cubes(Code::vertex_out_of_range, "in_an_edge",
+                 [](Mesh& m) {
+                     m.edges.push_back({vertex(0), vertex(12)});
+                 }),
+    of_two_cubes(Code::list_length, "of_region_tags", [](Mesh& m) { m.regions.assign(3, 1); }),
+    of_two_cubes(Code::list_length, "of_attributes", [](Mesh& m) { m.attributes_per_point = 2; }),
+    of_two_cubes(Code::not_finite, "coordinate",
+                 [](Mesh& m) { m.points[vertex(2)].y = std::nan(""); }),
+    of_two_cubes(Code::repeated_vertex, "in_a_cell",
+                 [](Mesh& m) {
+                     test::append_cell(m, {vertex(0), vertex(1), vertex(4), vertex(4)}, cell(0));
+                 }),
+    of_two_cubes(Code::repeated_vertex, "in_a_facet",
+                 [](Mesh& m) {
+                     m.facets.push_back({vertex(0), vertex(1), vertex(0)});
+                 }),
+    of_two_cubes(Code::repeated_cell, "in_other_order",
+                 [](Mesh& m) {
+                     const CellVertices c = m.cells[cell(5)];
+                     test::append_cell(m, {c[2], c[0], c[3], c[1]}, cell(5));
+                 }),
+    of_two_cubes(Code::unused_vertex, "far_away",
+                 [](Mesh& m) {
+                     (void)test::append_vertex(m, {9, 9, 9});
+                 }),
+    of_two_cubes(Code::coincident_vertices, "unmerged",
+                 [](Mesh& m) { test::unmerge_vertex(m, cell(2), 0); }),
+    of_two_cubes(Code::stray_facet, "across",
+                 [](Mesh& m) {
+                     m.facets.push_back({vertex(0), vertex(1), vertex(11)});
+                 }),
+    of_two_cubes(Code::stray_edge, "across",
+                 [](Mesh& m) {
+                     m.edges.push_back({vertex(0), vertex(11)});
+                 }),
+    of_two_cubes(Code::inverted_cell, "flipped", [](Mesh& m) { test::flip_cell(m, cell(4)); }),
+    of_two_cubes(Code::inverted_cell, "vertex_beyond",
+                 [](Mesh& m) {
+                     m.points[vertex(0)] = {1.5, 1.5, 1.5};
+                 }),
+    of_two_cubes(Code::flat_cell, "laid_on_a_side",
+                 [](Mesh& m) {
+                     test::append_cell(m, {vertex(1), vertex(2), vertex(4), vertex(5)}, cell(0));
+                 }),
+    {Code::face_of_many_cells, "three",
+     [] {
+         return test::mesh_of({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {0, 0, -1}, {2, 2, 1}},
+                              {{0, 1, 2, 3}, {0, 1, 2, 4}, {0, 1, 2, 5}});
+     }},
+    {Code::cells_on_one_side, "both_above",
+     [] {
+         return test::mesh_of({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {2, 2, 1}},
+                              {{0, 1, 2, 3}, {0, 1, 2, 4}});
+     }},
+    of_two_cubes(Code::hanging_vertex, "on_an_edge",
+                 [](Mesh& m) { test::bisect_alone(m, cell(0), 0); }),
+    {Code::hanging_vertex, "on_a_face",
+     [] {  // two cells with a vertex of the second inside a face of the first
+         return test::mesh_of({{0, 0, 0},
+                               {4, 0, 0},
+                               {0, 4, 0},
+                               {0, 0, 4},
+                               {1, 1, 0},
+                               {2, 1, -1},
+                               {1, 2, -1},
+                               {1, 1, -2}},
+                              {{0, 1, 2, 3}, {4, 5, 6, 7}});
+     }},
+    {Code::vertex_in_cell, "of_another_cell",
+     [] {
+         return test::mesh_of({{0, 0, 0},
+                               {8, 0, 0},
+                               {0, 8, 0},
+                               {0, 0, 8},
+                               {1, 1, 1},
+                               {1, 2, 1},
+                               {2, 1, 1},
+                               {1, 1, 2}},
+                              {{0, 1, 2, 3}, {4, 5, 6, 7}});
+     }},
+    {Code::boundary_crosses, "thin_cell_through_another",
+     [] {
+         return test::mesh_of({{0, 0, 0},
+                               {8, 0, 0},
+                               {0, 8, 0},
+                               {0, 0, 8},
+                               {1, 1, -9},
+                               {1, 2, -9},
+                               {2, 1, -9},
+                               {1, 1, 90}},
+                              {{0, 1, 2, 3}, {4, 5, 6, 7}});
+     }},
+    {Code::boundary_crosses, "diagonals_that_differ",  // of the square between two pyramids
+     [] {
+         return test::mesh_of({{0, 0, 0}, {2, 0, 0}, {2, 2, 0}, {0, 2, 0}, {1, 1, 1}, {1, 1, -1}},
+                              {{0, 1, 2, 4}, {0, 2, 3, 4}, {0, 1, 3, 5}, {1, 2, 3, 5}});
+     }},
+    {Code::boundary_crosses, "cell_among_others_by_their_vertices",
+     [] {  // every second corner of the cube in the middle
+         Mesh mesh = test::kuhn(3, 3, 3);
+         const auto at = [](std::size_t x, std::size_t y, std::size_t z) {
+             return vertex(x + 4 * y + 16 * z);
+         };
+         test::append_cell(mesh, {at(1, 1, 1), at(2, 2, 1), at(2, 1, 2), at(1, 2, 2)}, cell(0));
+         const Verdict verdict = verify_mesh(mesh);
+         if (verdict.count(Code::inverted_cell) > 0) {
+             test::flip_cell(mesh, CellIndex{mesh.cells.size() - 1});
+         }
+         return mesh;
+     }},
+    {Code::boundary_crosses, "edges_that_cross_in_a_plane",
+     [] {
+         return test::mesh_of({{0, 0, 0},
+                               {4, 0, 0},
+                               {2, -1, 3},
+                               {2, 1, 3},
+                               {2, -1, 0},
+                               {2, 1, 0},
+                               {1, 0, -3},
+                               {3, 0, -3}},
+                              {{0, 1, 2, 3}, {4, 5, 6, 7}});
+     }},
+};
+
+template <class Case>
+std::string name_of(const testing::TestParamInfo<Case>& info) {
+    return std::string(name(info.param.code)) + "_" + info.param.how;
+}
+INSTANTIATE_TEST_SUITE_P(, BrokenMesh, testing::ValuesIn(broken_meshes), name_of<MeshCase>);
+
+// ---- refinements
+// ---------------------------------------------------------------------------------
+
+/// Four cubes in a row with all that can be tagged tagged.
+Mesh tagged_cubes() {
+    Mesh mesh = test::kuhn(4, 1, 1);
+    test::list_boundary(mesh);
+    for (VertexIndex v{0}; v < mesh.points.end_index(); ++v) {
+        mesh.point_markers.push_back(10 + static_cast<Marker>(v.value()));
+        mesh.point_attributes.push_back(mesh.points[v].x * 3);
+    }
+    mesh.attributes_per_point = 1;
+    for (CellIndex c{0}; c < mesh.cells.end_index(); ++c) {
+        mesh.regions.push_back(c.value() < 6 ? 1 : 2);
+    }
+    mesh.edges.push_back({vertex(0), vertex(1)});
+    mesh.edge_markers.push_back(7);
+    return mesh;
+}
+
+/// The cells near one corner, twice.
+const Request request{
+    .selection = {.spheres = {{{0, 0, 0}, 1}}}, .scheme = Scheme::eight, .levels = 2};
+
+struct Refined {
+    Mesh coarse = tagged_cubes();
+    reference::Refinement fine =
+        reference::refine(coarse, request.selection, request.scheme, request.levels);
+    VerifyOptions options{.request = request};
+    bool claims = true;  ///< maps and request, which say more than that it is a refinement
+
+    [[nodiscard]] Verdict judge() {
+        options.maps = claims ? &fine.maps : nullptr;
+        if (!claims) options.request.reset();
+        return verify_refinement(coarse, fine.mesh, options);
+    }
+};
+
+struct RefinementCase {
+    Code code;
+    std::string how;
+    std::function<void(Refined&)> breaks;
+};
+void PrintTo(const RefinementCase& c, std::ostream* out) { *out << name(c.code); }
+
+class BrokenRefinement : public testing::TestWithParam<RefinementCase> {};
+
+TEST_P(BrokenRefinement, IsReportedWithItsCodeAndNoOther) {
+    Refined refined;
+    ASSERT_EQ(codes_of(refined.judge()), "");
+    GetParam().breaks(refined);
+    const Verdict verdict = refined.judge();
+    EXPECT_EQ(codes_of(verdict), name(GetParam().code));
+    EXPECT_FALSE(verdict.violations.empty());
+}
+
+/// The first cell of the fine mesh that is one of the coarse mesh, and the first that is not.
+CellIndex kept_cell(const Refined& r) {
+    for (CellIndex c{0}; c < r.fine.mesh.cells.end_index(); ++c) {
+        const auto in_coarse =
+            std::find(r.coarse.cells.begin(), r.coarse.cells.end(), r.fine.mesh.cells[c]);
+        if (in_coarse != r.coarse.cells.end()) return c;
+    }
+    return CellIndex::none();
+}
+
+/// Leaves nothing but points and cells, and what is claimed of them.
+void forget_tags(Refined& r) {
+    Mesh& m = r.fine.mesh;
+    m = Mesh{.points = m.points, .cells = m.cells};
+    r.claims = false;
+}
+
+/// The first midpoint that lies inside the solid.
+VertexIndex inner_midpoint(const Refined& r) {
+    for (VertexIndex v = r.fine.maps.first_midpoint; v < r.fine.mesh.points.end_index(); ++v) {
+        const Point& p = r.fine.mesh.points[v];
+        if (p.x > 0 && p.x < 2 && p.y > 0 && p.y < 1 && p.z > 0 && p.z < 1) return v;
+    }
+    return VertexIndex::none();
+}
+
+const std::vector<RefinementCase> broken_refinements{
+    {Code::not_a_midpoint, "moved",
+     [](Refined& r) {
+         Point& p = r.fine.mesh.points[inner_midpoint(r)];
+         p = {p.x + 0x1p-10, p.y, p.z};
+     }},
+    {Code::not_a_midpoint, "by_an_ulp",
+     [](Refined& r) { test::shift_by_an_ulp(r.fine.mesh, inner_midpoint(r)); }},
+    {Code::lost_vertex, "of_the_coarse_mesh",
+     [](Refined& r) { test::shift_by_an_ulp(r.fine.mesh, vertex(11)); }},
+    {Code::not_tiled, "dropped_cell",
+     [](Refined& r) {
+         forget_tags(r);
+         test::drop_cell(r.fine.mesh, cell(9));
+     }},
+    {Code::not_tiled, "unmerged_vertex",
+     [](Refined& r) {
+         const VertexIndex v = inner_midpoint(r);
+         for (CellIndex c{0}; c < r.fine.mesh.cells.end_index(); ++c) {
+             for (std::size_t k = 0; k < 4; ++k) {
+                 if (r.fine.mesh.cells[c][k] != v) continue;
+                 return test::unmerge_vertex(r.fine.mesh, c, k);
+             }
+         }
+     }},
+    {Code::cell_of_no_parent, "beside_the_others",
+     [](Refined& r) {
+         Mesh& m = r.fine.mesh;
+         const std::size_t first = m.points.size();
+         for (const Point& p : {Point{8, 8, 8}, Point{9, 8, 8}, Point{8, 9, 8}, Point{8, 8, 9}}) {
+             (void)test::append_vertex(m, p);
+         }
+         test::append_cell(
+             m, {vertex(first), vertex(first + 1), vertex(first + 2), vertex(first + 3)}, cell(0));
+     }},
+    {Code::hanging_vertex, "split_without_its_neighbours",
+     [](Refined& r) {
+         forget_tags(r);
+         test::bisect_alone(r.fine.mesh, kept_cell(r), 0);
+     }},
+    {Code::hanging_vertex, "merged",
+     [](Refined& r) {
+         forget_tags(r);
+         const RefinementMaps& maps = r.fine.maps;
+         for (std::size_t i = maps.midpoint_to_edge.size(); i-- > 0;) {
+             const VertexIndex m{maps.first_midpoint.value() + i};
+             const auto [a, b] = maps.midpoint_to_edge[i];
+             if (test::merge_two_cells(r.fine.mesh, m, a, b)) return;
+         }
+     }},
+    {Code::open_face, "split_without_its_neighbours_and_judged_fast",
+     [](Refined& r) {
+         r.options.fast = true;
+         forget_tags(r);
+         test::bisect_alone(r.fine.mesh, kept_cell(r), 0);
+     }},
+    {Code::unused_vertex, "far_away",
+     [](Refined& r) {
+         r.claims = false;
+         (void)test::append_vertex(r.fine.mesh, {9, 9, 9});
+     }},
+    {Code::face_angle_too_small, "bisected_towards_an_end",
+     [](Refined& r) {
+         r.coarse = test::one_cell(test::regular_corners);
+         r.fine.mesh = r.coarse;
+         r.claims = false;
+         for (const std::size_t end : {1U, 4U, 5U}) {
+             test::bisect_edge(r.fine.mesh, vertex(0), vertex(end));
+         }
+     }},
+    {Code::wrong_pattern, "shortest_edges_first",
+     [](Refined& r) {
+         r.coarse = test::one_cell(test::regular_corners);
+         r.fine = reference::refine(r.coarse, {.all = true}, Scheme::eight, 0);
+         r.options.request = Request{.selection = {.all = true}};
+         std::vector<EdgeVertices> edges;
+         for (const auto& [i, j] : cell_edges) edges.push_back({vertex(i), vertex(j)});
+         std::sort(edges.begin(), edges.end(), [&](const auto& e, const auto& f) {
+             const auto& p = r.coarse.points;
+             return longer({p[f[0]], p[f[1]]}, {p[e[0]], p[e[1]]});
+         });
+         for (const auto& [a, b] : edges) {
+             test::bisect_edge(r.fine.mesh, a, b);
+             r.fine.maps.midpoint_to_edge.push_back({a, b});
+         }
+         r.fine.maps.cell_to_parent.assign(r.fine.mesh.cells.size(), cell(0));
+     }},
+    {Code::inverted_cell, "flipped", [](Refined& r) { test::flip_cell(r.fine.mesh, cell(7)); }},
+    {Code::wrong_parent, "in_the_map",
+     [](Refined& r) { r.fine.maps.cell_to_parent[cell(2)] = cell(11); }},
+    {Code::wrong_parent, "map_of_another_length",
+     [](Refined& r) { r.fine.maps.cell_to_parent.pop_back(); }},
+    {Code::wrong_midpoint_edge, "in_the_map",
+     [](Refined& r) {
+         r.fine.maps.midpoint_to_edge[3] = {vertex(0), vertex(11)};
+     }},
+    {Code::wrong_midpoint_edge, "out_of_range",
+     [](Refined& r) { r.fine.maps.midpoint_to_edge[3][0] = VertexIndex::none(); }},
+    {Code::wrong_region, "of_one_cell", [](Refined& r) { r.fine.mesh.regions[cell(5)] = 9; }},
+    {Code::wrong_facet_marker, "of_one_facet",
+     [](Refined& r) { r.fine.mesh.facet_markers[FacetIndex{4}] = 99; }},
+    {Code::missing_facet, "of_the_boundary",
+     [](Refined& r) {
+         test::erase(r.fine.mesh.facets, FacetIndex{4});
+         test::erase(r.fine.mesh.facet_markers, FacetIndex{4});
+     }},
+    {Code::extra_facet, "twice",
+     [](Refined& r) {
+         r.fine.mesh.facets.push_back(r.fine.mesh.facets[FacetIndex{4}]);
+         r.fine.mesh.facet_markers.push_back(1);
+     }},
+    {Code::wrong_edge_marker, "of_one_piece",
+     [](Refined& r) { r.fine.mesh.edge_markers[EdgeIndex{1}] = 8; }},
+    {Code::missing_edge, "one_piece",
+     [](Refined& r) {
+         test::erase(r.fine.mesh.edges, EdgeIndex{1});
+         test::erase(r.fine.mesh.edge_markers, EdgeIndex{1});
+     }},
+    {Code::extra_edge, "elsewhere",
+     [](Refined& r) {
+         const CellVertices& c = r.fine.mesh.cells.back();
+         r.fine.mesh.edges.push_back({c[0], c[1]});
+         r.fine.mesh.edge_markers.push_back(7);
+     }},
+    {Code::wrong_vertex_marker, "of_the_coarse_mesh",
+     [](Refined& r) { r.fine.mesh.point_markers[vertex(3)] = 0; }},
+    {Code::wrong_vertex_marker, "of_a_midpoint",
+     [](Refined& r) { r.fine.mesh.point_markers.back() += 1; }},
+    {Code::wrong_attribute, "of_a_midpoint",
+     [](Refined& r) { r.fine.mesh.point_attributes.back() += 0x1p-40; }},
+    {Code::dihedral_too_small, "for_the_limit",
+     [](Refined& r) { r.options.min_dihedral = 45.0000000001; }},
+    {Code::missing_bisection, "larger_sphere",
+     [](Refined& r) { r.options.request->selection.spheres[0].radius = 1.4; }},
+    {Code::missing_bisection, "one_level_more", [](Refined& r) { ++r.options.request->levels; }},
+    {Code::needless_bisection, "smaller_sphere",
+     [](Refined& r) { r.options.request->selection.spheres[0].radius = 0.9; }},
+    {Code::needless_bisection, "one_level_less", [](Refined& r) { --r.options.request->levels; }},
+};
+
+INSTANTIATE_TEST_SUITE_P(, BrokenRefinement, testing::ValuesIn(broken_refinements),
+                         name_of<RefinementCase>);
+
+}  // namespace
+}  // namespace octetra::verify

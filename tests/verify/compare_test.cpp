@@ -1,0 +1,117 @@
+#include <algorithm>
+
+#include <gtest/gtest.h>
+
+#include <octetra/verify/compare.hpp>
+
+#include "support/meshes.hpp"
+#include "verify/mutations.hpp"
+
+namespace octetra::verify {
+namespace {
+
+Mesh tagged() {
+    Mesh mesh = test::kuhn(2, 1, 1);
+    test::list_boundary(mesh);
+    mesh.regions.assign(mesh.cells.size(), 3);
+    mesh.point_markers.assign(mesh.points.size(), 0);
+    mesh.edges.push_back({VertexIndex{0}, VertexIndex{1}});
+    mesh.edge_markers.push_back(5);
+    return mesh;
+}
+
+/// The last vertex first, the cells backwards, corners turned without turning the cell over.
+Mesh renumbered(const Mesh& mesh) {
+    Mesh result = mesh;
+    const auto last = static_cast<std::uint32_t>(mesh.points.size() - 1);
+    std::reverse(result.points.begin(), result.points.end());
+    const auto renumber = [&](auto& list) {
+        for (auto& entity : list) {
+            for (VertexIndex& v : entity) v = VertexIndex{last - v.value()};
+        }
+        std::reverse(list.begin(), list.end());
+    };
+    renumber(result.cells);
+    renumber(result.facets);
+    renumber(result.edges);
+    for (CellVertices& cell : result.cells) {
+        std::swap(cell[0], cell[1]);
+        std::swap(cell[2], cell[3]);
+    }
+    std::reverse(result.regions.begin(), result.regions.end());
+    std::reverse(result.facet_markers.begin(), result.facet_markers.end());
+    std::reverse(result.point_markers.begin(), result.point_markers.end());
+    return result;
+}
+
+TEST(Compare, FindsAMeshIdenticalToItself) {
+    EXPECT_EQ(compare(tagged(), tagged()).likeness, Likeness::identical);
+    EXPECT_EQ(compare({}, {}).likeness, Likeness::identical);
+}
+
+TEST(Compare, SeesThroughAnotherNumbering) {
+    const Comparison comparison = compare(tagged(), renumbered(tagged()));
+    EXPECT_EQ(comparison.likeness, Likeness::up_to_numbering);
+    EXPECT_EQ(comparison.difference_count, 0U);
+    Mesh from_one = tagged();
+    from_one.first_number = 1;
+    EXPECT_EQ(compare(tagged(), from_one).likeness, Likeness::up_to_numbering);
+}
+
+struct Change {
+    std::string kind;
+    std::function<void(Mesh&)> make;
+};
+
+TEST(Compare, NamesWhatDiffersByItsPlace) {
+    const std::vector<Change> changes{
+        {"vertex", [](Mesh& m) { test::shift_by_an_ulp(m, VertexIndex{4}); }},
+        {"vertex", [](Mesh& m) { m.point_markers[VertexIndex{4}] = 1; }},
+        {"vertex",
+         [](Mesh& m) {
+             (void)test::append_vertex(m, {5, 5, 5});
+         }},
+        {"cell", [](Mesh& m) { m.regions[CellIndex{2}] = 4; }},
+        {"cell", [](Mesh& m) { test::flip_cell(m, CellIndex{2}); }},
+        {"cell", [](Mesh& m) { test::drop_cell(m, CellIndex{2}); }},
+        {"cell", [](Mesh& m) { test::duplicate_cell(m, CellIndex{2}); }},
+        {"facet", [](Mesh& m) { m.facet_markers[FacetIndex{3}] = -1; }},
+        {"facet", [](Mesh& m) { m.facets[FacetIndex{3}] = m.facets[FacetIndex{4}]; }},
+        {"edge", [](Mesh& m) { m.edge_markers[EdgeIndex{0}] = 6; }},
+        {"edge", [](Mesh& m) { m.edges[EdgeIndex{0}][1] = VertexIndex{4}; }},
+    };
+    for (const Change& change : changes) {
+        Mesh changed = renumbered(tagged());
+        change.make(changed);
+        const Comparison comparison = compare(tagged(), changed);
+        EXPECT_EQ(comparison.likeness, Likeness::different);
+        ASSERT_FALSE(comparison.differences.empty()) << change.kind;
+        EXPECT_EQ(comparison.differences.front().kind, change.kind);
+        EXPECT_NE(comparison.differences.front().in_a, comparison.differences.front().in_b);
+    }
+}
+
+TEST(Compare, CountsAllDifferencesAndDescribesSome) {
+    Mesh other = tagged();
+    other.regions.assign(other.cells.size(), 8);
+    const Comparison comparison = compare(tagged(), other, 5);
+    EXPECT_EQ(comparison.difference_count, other.cells.size());
+    ASSERT_EQ(comparison.differences.size(), 5U);
+    EXPECT_EQ(comparison.differences[0].in_a, "region 3");
+    EXPECT_EQ(comparison.differences[0].in_b, "region 8");
+    EXPECT_EQ(comparison.differences[0].corners.size(), 4U);
+}
+
+/// Two cells that share three places: at one face, or at a crack, by vertices of their own.
+TEST(Compare, TellsACrackFromAFace) {
+    const std::vector<Point> points{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1},
+                                    {0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, -1}};
+    const Mesh crack = test::mesh_of(points, {{0, 1, 2, 3}, {4, 5, 6, 7}});
+    const Mesh half_closed = test::mesh_of(points, {{0, 1, 2, 3}, {0, 5, 6, 7}});
+    const Mesh other_names = test::mesh_of(points, {{4, 1, 6, 3}, {0, 5, 2, 7}});
+    EXPECT_EQ(compare(crack, half_closed).likeness, Likeness::different);
+    EXPECT_EQ(compare(crack, other_names).likeness, Likeness::up_to_numbering);
+}
+
+}  // namespace
+}  // namespace octetra::verify

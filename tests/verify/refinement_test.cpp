@@ -1,0 +1,258 @@
+#include <algorithm>
+#include <numeric>
+#include <random>
+
+#include <gtest/gtest.h>
+
+#include <octetra/core/error.hpp>
+#include <octetra/core/files.hpp>
+#include <octetra/reference/refine.hpp>
+#include <octetra/verify/verify.hpp>
+
+#include "descent.hpp"
+#include "support/manifest.hpp"
+#include "support/meshes.hpp"
+#include "verify/mutations.hpp"
+#include "verify/verdicts.hpp"
+
+/// What is right passes, whoever made it and however it is numbered; and the sums of volumes and
+/// areas would show what descent might overlook.
+namespace octetra::verify {
+namespace {
+
+using test::codes_of;
+
+const std::vector<Scheme> schemes{Scheme::eight, Scheme::four, Scheme::two};
+
+std::vector<test::CorpusEntry> entries_with_files() {
+    auto entries = test::corpus_entries("meshes");
+    std::erase_if(entries, [](const auto& entry) { return !entry.content.contains("file"); });
+    return entries;
+}
+
+class CorpusRefinement : public testing::TestWithParam<test::CorpusEntry> {};
+
+TEST_P(CorpusRefinement, IsValidAndTheOneThatWasAskedFor) {
+    const Mesh coarse =
+        read_mesh(test::corpus_folder() / GetParam().content["file"].get<std::string>());
+    const std::vector<Selection> selections{{.all = true}, {.random = RandomShare{0.3, 1}}};
+    for (const Selection& selection : selections) {
+        for (const Scheme scheme : schemes) {
+            for (const int levels : {0, 1, 2}) {
+                reference::Refinement fine;
+                try {
+                    fine = reference::refine(coarse, selection, scheme, levels);
+                } catch (const InputError&) {
+                    continue;  // rounding
+                }
+                const Verdict verdict = verify_refinement(
+                    coarse, fine.mesh,
+                    {.request = Request{selection, scheme, levels}, .maps = &fine.maps});
+                ASSERT_EQ(codes_of(verdict), "");
+                for (const Check& check : verdict.checks) {
+                    EXPECT_NE(check.status, Status::failed) << check.name;
+                }
+            }
+        }
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(, CorpusRefinement, testing::ValuesIn(entries_with_files()),
+                         test::corpus_name);
+
+TEST(Refinement, IsValidThroughFourLevelsOfShakenLattices) {
+    for (const std::uint64_t seed : {1U, 2U, 3U}) {
+        const Mesh coarse = test::shaken_kuhn(2, 0.2, seed);
+        const Request request{{.random = RandomShare{0.1, seed}}, Scheme::eight, 4};
+        const Mesh fine =
+            reference::refine(coarse, request.selection, request.scheme, request.levels).mesh;
+        const Verdict verdict = verify_refinement(coarse, fine, {.request = request});
+        EXPECT_EQ(codes_of(verdict), "");
+        EXPECT_EQ(verdict.facts.rounding_bound, 0);  // on a grid that has room for the halves
+        EXPECT_EQ(codes_of(verify_mesh(fine)), "");
+    }
+}
+
+/// Vertices, cells and corners in another order.
+Mesh renumbered(const Mesh& mesh, std::uint64_t seed) {
+    std::mt19937_64 random(seed);
+    std::vector<std::size_t> order(mesh.points.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::shuffle(order.begin(), order.end(), random);
+    Mesh result;
+    result.points.resize(mesh.points.size());
+    for (VertexIndex v{0}; v < mesh.points.end_index(); ++v) {
+        result.points[VertexIndex{order[v.value()]}] = mesh.points[v];
+    }
+    for (CellVertices cell : mesh.cells) {
+        for (VertexIndex& v : cell) v = VertexIndex{order[v.value()]};
+        std::rotate(cell.begin(), cell.begin() + 1, cell.begin() + 3);  // an even permutation
+        result.cells.push_back(cell);
+    }
+    std::shuffle(result.cells.begin(), result.cells.end(), random);
+    return result;
+}
+
+TEST(Refinement, IsFoundFromGeometryHoweverItIsNumbered) {
+    const Mesh coarse = test::shaken_kuhn(2, 0.2, 5);
+    const Request request{{.spheres = {{{0, 0, 0}, 1.5}}}, Scheme::eight, 2};
+    const Mesh fine = reference::refine(coarse, request.selection, request.scheme, 2).mesh;
+    for (const std::uint64_t seed : {1U, 2U, 3U}) {
+        const Verdict verdict =
+            verify_refinement(coarse, renumbered(fine, seed), {.request = request});
+        EXPECT_EQ(codes_of(verdict), "");
+    }
+}
+
+/// Cuts every cell into eight at all its midpoints, four of them round a diagonal of the octahedron
+/// that is left: what others call red refinement (Bey).
+Mesh red_refined(const Mesh& coarse, std::size_t diagonal) {
+    Mesh fine{.points = coarse.points};
+    std::map<EdgeVertices, VertexIndex> midpoints;
+    const auto half = [&](VertexIndex a, VertexIndex b) {
+        const auto [at, is_new] = midpoints.try_emplace({std::min(a, b), std::max(a, b)});
+        if (is_new) at->second = fine.points.append(midpoint(fine.points[a], fine.points[b]));
+        return at->second;
+    };
+    const auto append = [&](const CellVertices& cell) {
+        const auto& p = fine.points;
+        fine.cells.push_back(cell);
+        if (orientation(p[cell[0]], p[cell[1]], p[cell[2]], p[cell[3]]) < 0) {
+            test::flip_cell(fine, CellIndex{fine.cells.size() - 1});
+        }
+    };
+    for (const CellVertices& v : coarse.cells) {
+        for (std::size_t corner = 0; corner < 4; ++corner) {
+            CellVertices cell = v;
+            for (std::size_t k = 0; k < 4; ++k) {
+                if (k != corner) cell[k] = half(v[corner], v[k]);
+            }
+            append(cell);
+        }
+        const auto [a, b] = cell_edges[diagonal];
+        const auto [c, d] = cell_edges[5 - diagonal];
+        const std::array<VertexIndex, 4> round{half(v[a], v[c]), half(v[b], v[c]), half(v[b], v[d]),
+                                               half(v[a], v[d])};
+        for (std::size_t k = 0; k < 4; ++k) {
+            append({half(v[a], v[b]), half(v[c], v[d]), round[k], round[(k + 1) % 4]});
+        }
+    }
+    return fine;
+}
+
+TEST(Refinement, MayCutCellsIntoEightAtOnce) {
+    for (const Mesh& coarse : {test::one_cell(test::tie_free_corners), test::kuhn(2, 1, 1)}) {
+        for (const std::size_t first : {0U, 1U, 2U}) {
+            for (const std::size_t second : {0U, 1U, 2U}) {
+                const Mesh fine = red_refined(red_refined(coarse, first), second);
+                const Verdict verdict = verify_refinement(coarse, fine);
+                EXPECT_EQ(codes_of(verdict), "") << first << second;
+                EXPECT_EQ(verdict.facts.deepest, 6);
+            }
+        }
+    }
+}
+
+TEST(Refinement, OfAnotherMeshIsRefused) {
+    const Mesh coarse = test::kuhn(2, 1, 1);
+    EXPECT_FALSE(verify_refinement(coarse, test::kuhn(1, 1, 1)).valid());
+    EXPECT_FALSE(verify_refinement(test::kuhn(1, 1, 1), coarse).valid());
+    EXPECT_FALSE(verify_refinement(coarse, test::shaken_kuhn(2, 0.1, 1)).valid());
+    EXPECT_FALSE(verify_refinement(coarse, Mesh{}).valid());
+    EXPECT_FALSE(verify_refinement(Mesh{}, coarse).valid());
+    EXPECT_TRUE(verify_refinement(Mesh{}, Mesh{}).valid());
+    EXPECT_TRUE(verify_refinement(coarse, coarse).valid());
+}
+
+/// Two triangulations of one cube, both valid, neither a refinement of the other.
+TEST(Refinement, OfTheSameSolidOtherwiseCutIsRefused) {
+    const Mesh coarse = test::kuhn(1, 1, 1);
+    Mesh mirrored = coarse;
+    for (Point& p : mirrored.points) p.x = 1 - p.x;
+    for (CellIndex c{0}; c < mirrored.cells.end_index(); ++c) test::flip_cell(mirrored, c);
+    EXPECT_TRUE(verify_mesh(mirrored).valid());
+    EXPECT_EQ(codes_of(verify_refinement(coarse, mirrored)), "not_tiled");
+}
+
+/// At a crack, vertices of different cells lie at one place, and the two sides are refined each by
+/// itself.
+TEST(Refinement, MayBeFinerOnOneSideOfACrack) {
+    const Mesh coarse = test::mesh_of(
+        {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, -1}},
+        {{0, 1, 2, 3}, {4, 5, 6, 7}});
+    const Request request{{.cells = {GlobalCell{1}}}, Scheme::eight, 2};
+    const Mesh fine = reference::refine(coarse, request.selection, request.scheme, 2).mesh;
+    EXPECT_EQ(codes_of(verify_refinement(coarse, fine, {.request = request})), "");
+
+    Mesh closed = fine;  // one side's corner taken for the other's
+    for (CellVertices& cell : closed.cells) {
+        for (VertexIndex& v : cell) v = v == VertexIndex{4} ? VertexIndex{0} : v;
+    }
+    EXPECT_FALSE(verify_refinement(coarse, closed).valid());
+}
+
+TEST(Refinement, BoundsWhatRoundingHasMoved) {
+    Mesh coarse = test::kuhn(1, 1, 1);
+    for (Point& p : coarse.points) p = {p.x / 3 + 1000, p.y / 7, p.z / 11};
+    const Mesh fine = reference::refine(coarse, {.all = true}, Scheme::eight, 3).mesh;
+    const Verdict verdict = verify_refinement(coarse, fine);
+    EXPECT_EQ(codes_of(verdict), "");
+    EXPECT_GT(verdict.facts.rounded_midpoints, 0U);
+    EXPECT_GT(verdict.facts.rounding_bound, 0x1p-45);  // an ulp at 1000 is 2^-43
+    EXPECT_LE(verdict.facts.rounding_bound, 4 * 0x1p-44);
+}
+
+// ---- sums, which descent implies; a wrong descent must show in them
+// ------------------------------
+
+class Sums : public testing::Test {
+protected:
+    Sums() {
+        (void)check_well_formed(coarse, findings);
+        (void)check_orientation(coarse, findings);
+        (void)check_well_formed(fine, findings);
+        (void)check_orientation(fine, findings);
+        const Places places(fine_mesh.points);
+        Lines lines(fine, places);
+        (void)find_coarse_vertices(coarse, fine, places, descent, findings);
+        (void)check_descent(coarse, fine, lines, descent, findings);
+    }
+    std::string codes_of_sums() {
+        (void)check_volumes(coarse, fine, descent, findings);
+        return codes_of(findings.verdict());
+    }
+
+    Mesh coarse_mesh = test::kuhn(2, 2, 2);
+    Mesh fine_mesh = reference::refine(coarse_mesh, {.all = true}, Scheme::eight, 1).mesh;
+    Findings findings{100};
+    Subject coarse{.mesh = coarse_mesh, .which = Which::coarse};
+    Subject fine{.mesh = fine_mesh};
+    Descent descent;
+};
+
+TEST_F(Sums, AreEqualExactly) { EXPECT_EQ(codes_of_sums(), ""); }
+
+TEST_F(Sums, OfVolumesShowAVertexMovedByAnUlpBetweenCells) {
+    for (VertexIndex v{27}; v < fine_mesh.points.end_index(); ++v) {
+        const Point& p = fine_mesh.points[v];
+        if (p.x != 1.5 || p.y != 1 || p.z != 1.5) continue;  // on a face between coarse cells
+        fine_mesh.points[v].y = std::nextafter(1.0, 2.0);
+    }
+    EXPECT_EQ(codes_of_sums(), "wrong_volume");
+}
+
+TEST_F(Sums, OfVolumesShowAWrongParent) {
+    descent.parent[CellIndex{0}] = CellIndex{1};
+    (void)codes_of_sums();
+    EXPECT_EQ(findings.verdict().count(Code::wrong_volume), 2U);
+}
+
+TEST_F(Sums, OfAreasShowAVertexMovedByAnUlpOutOfTheBoundary) {
+    for (Point& p : fine_mesh.points) {
+        if (p.x == 0 && p.y == 0.5 && p.z == 0.5) p.x = -0x1p-60;
+    }
+    EXPECT_EQ(codes_of_sums(), "boundary_moved wrong_volume");
+}
+
+}  // namespace
+}  // namespace octetra::verify

@@ -1,0 +1,20 @@
+#pragma once
+
+#include <string>
+
+#include <octetra/verify/verify.hpp>
+
+namespace octetra::test {
+
+/// The codes of a verdict, as a sentence: what a failed expectation shows.
+inline std::string codes_of(const verify::Verdict& verdict) {
+    std::string codes;
+    for (std::size_t code = 0; code < verify::code_count; ++code) {
+        if (verdict.counts[code] == 0) continue;
+        codes += codes.empty() ? "" : " ";
+        codes += name(static_cast<verify::Code>(code));
+    }
+    return codes;
+}
+
+}  // namespace octetra::test

@@ -1,0 +1,52 @@
+#pragma once
+
+#include <cstddef>
+#include <limits>
+#include <optional>
+
+#include <octetra/core/maps.hpp>
+#include <octetra/core/mesh.hpp>
+#include <octetra/core/selection.hpp>
+#include <octetra/verify/verdict.hpp>
+
+/// An independent judge of meshes and refinements. It shares with those who make them the mesh
+/// model, the order of edges and the meaning of a selection, which are core's, and nothing else.
+/// All functions here are local to the process.
+namespace octetra::verify {
+
+/// What was asked for, if the fine mesh claims to be the 8T-LE refinement of the coarse one.
+struct Request {
+    Selection selection;
+    Scheme scheme = Scheme::eight;
+    int levels = 1;
+};
+
+struct VerifyOptions {
+    /// Only what takes filtered predicates and no search in space: well-formed, orientation, faces;
+    /// of refinements also descent, cover and tags.
+    bool fast = false;
+    /// No dihedral angle may be less, in degrees, 0 to 180; decided exactly.
+    std::optional<double> min_dihedral;
+    std::optional<Request> request;
+    const RefinementMaps* maps =
+        nullptr;  ///< checked if given; cells and vertices of the fine mesh
+    /// So many violations of each code are described; all are counted.
+    std::size_t kept_per_code = std::numeric_limits<std::size_t>::max();
+};
+
+/// Judges a mesh by itself. Nothing is asked of it: indices may be out of range.
+///
+/// A valid verdict (not `fast`) proves: the cells' interiors are disjoint, and any two cells meet
+/// in a common face, edge or vertex, or not at all. ARCHITECTURE.md has the reasoning.
+[[nodiscard]] Verdict verify_mesh(const Mesh& mesh, const VerifyOptions& options = {});
+
+/// Judges `fine` as a refinement of `coarse` by midpoints: the cells of each coarse cell come of
+/// halving it at midpoints of edges, over and over, or of cutting it into eight at all six.
+///
+/// A valid verdict proves: with midpoints not rounded, the fine cells would tile every coarse cell
+/// exactly, face to face; rounded as they are, no vertex is farther off than facts.rounding_bound,
+/// and every cell is positively oriented, exactly.
+[[nodiscard]] Verdict verify_refinement(const Mesh& coarse, const Mesh& fine,
+                                        const VerifyOptions& options = {});
+
+}  // namespace octetra::verify

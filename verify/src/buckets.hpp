@@ -1,0 +1,100 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include <octetra/core/index.hpp>
+
+namespace octetra::verify {
+
+/// Sets of N vertices, findable by their vertices in whatever order: by smallest vertex, and
+/// sorted within a bucket. Each carries a tag of 64 bits. Flat; 8 bytes a vertex and 4 N + 4
+/// (rounded up to 8) a set.
+template <std::size_t N>
+class Buckets {
+public:
+    using Vertices = std::array<VertexIndex, N>;
+    struct Entry {
+        std::array<std::uint32_t, N - 1> rest;  ///< all but the smallest vertex, ascending
+        std::uint64_t tag;
+        friend constexpr auto operator<=>(const Entry&, const Entry&) = default;
+    };
+
+    Buckets() = default;
+
+    /// `for_each(visit)` calls visit(vertices, tag) for each set; it is called twice. The vertices
+    /// must be less than `vertex_count`.
+    Buckets(std::size_t vertex_count, auto&& for_each) : begin_(vertex_count + 1, 0) {
+        for_each([&](const Vertices& v, std::uint64_t) { ++begin_[smallest(v) + 1]; });
+        for (std::size_t i = 0; i < vertex_count; ++i) begin_[i + 1] += begin_[i];
+        entries_.resize(begin_[vertex_count]);
+        std::vector<std::uint64_t> next(begin_.begin(), begin_.end() - 1);
+        for_each([&](const Vertices& v, std::uint64_t tag) {
+            const auto sorted = ascending(v);
+            entries_[next[sorted[0]]++] = entry_of(sorted, tag);
+        });
+        for (std::size_t i = 0; i < vertex_count; ++i) {
+            std::sort(at(begin_[i]), at(begin_[i + 1]));
+        }
+    }
+
+    /// All with these vertices, by ascending tag.
+    [[nodiscard]] std::span<const Entry> find(const Vertices& v) const {
+        const auto sorted = ascending(v);
+        const Entry wanted = entry_of(sorted, 0);
+        const auto end = entries_.begin() + offset(begin_[sorted[0] + 1]);
+        const auto first =
+            std::lower_bound(entries_.begin() + offset(begin_[sorted[0]]), end, wanted);
+        auto last = first;
+        while (last != end && last->rest == wanted.rest) ++last;
+        return {first, last};
+    }
+
+    [[nodiscard]] bool contains(const Vertices& v) const { return !find(v).empty(); }
+
+    /// Calls visit(vertices ascending, entries) for each different set, in ascending order.
+    void for_each_group(auto&& visit) const {
+        for (std::size_t i = 0; i + 1 < begin_.size(); ++i) {
+            std::size_t first = begin_[i];
+            while (first < begin_[i + 1]) {
+                std::size_t last = first + 1;
+                while (last < begin_[i + 1] && entries_[last].rest == entries_[first].rest) ++last;
+                Vertices v;
+                v[0] = VertexIndex{i};
+                for (std::size_t k = 1; k < N; ++k) v[k] = VertexIndex{entries_[first].rest[k - 1]};
+                visit(v, std::span<const Entry>(&entries_[first], last - first));
+                first = last;
+            }
+        }
+    }
+
+private:
+    using Numbers = std::array<std::uint32_t, N>;
+
+    static Numbers ascending(const Vertices& v) {
+        Numbers n;
+        for (std::size_t i = 0; i < N; ++i) {  // by insertion: N is at most 4
+            const std::uint32_t value = v[i].value();
+            std::size_t k = i;
+            for (; k > 0 && n[k - 1] > value; --k) n[k] = n[k - 1];
+            n[k] = value;
+        }
+        return n;
+    }
+    static std::uint32_t smallest(const Vertices& v) { return ascending(v)[0]; }
+    static Entry entry_of(const Numbers& sorted, std::uint64_t tag) {
+        Entry e{{}, tag};
+        for (std::size_t k = 1; k < N; ++k) e.rest[k - 1] = sorted[k];
+        return e;
+    }
+    static std::ptrdiff_t offset(std::size_t i) { return static_cast<std::ptrdiff_t>(i); }
+    auto at(std::size_t i) { return entries_.begin() + offset(i); }
+
+    std::vector<std::uint64_t> begin_;
+    std::vector<Entry> entries_;
+};
+
+}  // namespace octetra::verify

@@ -1,0 +1,216 @@
+#include <octetra/verify/compare.hpp>
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <compare>
+#include <string_view>
+#include <tuple>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+namespace octetra::verify {
+namespace {
+
+/// What a vertex is known by in both meshes, whatever its number.
+using Colour = std::uint64_t;
+using Colours = IndexVector<VertexIndex, Colour>;
+
+std::uint64_t scramble(std::uint64_t x) {
+    x = (x ^ (x >> 32U)) * 0xd6e8feb86659fd93U;
+    x = (x ^ (x >> 32U)) * 0xd6e8feb86659fd93U;
+    return x ^ (x >> 32U);
+}
+
+Colour colour_of(const Mesh& mesh, VertexIndex v) {
+    Colour colour = 0;
+    const auto mix = [&](double value) {
+        colour = scramble(colour ^ std::bit_cast<std::uint64_t>(value + 0.0));  // -0 as 0
+    };
+    const Point& p = mesh.points[v];
+    mix(p.x);
+    mix(p.y);
+    mix(p.z);
+    return colour;
+}
+
+bool has_coincident_vertices(const Mesh& mesh) {
+    std::vector<Point> points(mesh.points.begin(), mesh.points.end());
+    std::sort(points.begin(), points.end());
+    return std::adjacent_find(points.begin(), points.end()) != points.end();
+}
+
+/// Mixes into each vertex's colour those of the cells around it, in no order.
+Colours spread(const Colours& colours, const Mesh& mesh) {
+    Colours next = colours;
+    for (const CellVertices& cell : mesh.cells) {
+        std::uint64_t sum = 0;
+        for (const VertexIndex v : cell) sum += scramble(colours[v]);
+        for (const VertexIndex v : cell) next[v] += scramble(sum);
+    }
+    return next;
+}
+
+Colours colours_of(const Mesh& mesh, bool tell_coincident_apart) {
+    Colours colours;
+    for (VertexIndex v{0}; v < mesh.points.end_index(); ++v) {
+        colours.push_back(colour_of(mesh, v));
+    }
+    for (int round = 0; tell_coincident_apart && round < 3; ++round) {
+        colours = spread(colours, mesh);
+    }
+    return colours;
+}
+
+/// An entity of N vertices in a form that no numbering changes.
+template <std::size_t N>
+struct Item {
+    std::array<Colour, N> colours;  ///< ascending
+    std::array<Point, N> corners;   ///< in that order
+    bool turned = false;            ///< of a cell: an odd permutation of that order
+    Marker marker = 0;
+    std::vector<double> attributes;
+
+    [[nodiscard]] auto place() const { return std::tie(corners, colours); }
+    [[nodiscard]] auto tags() const { return std::tie(turned, marker, attributes); }
+};
+
+template <std::size_t N>
+bool comes_before(const Item<N>& a, const Item<N>& b) {
+    if (a.corners != b.corners) return a.corners < b.corners;
+    if (a.colours != b.colours) return a.colours < b.colours;
+    if (a.turned != b.turned) return b.turned;
+    if (a.marker != b.marker) return a.marker < b.marker;
+    return a.attributes < b.attributes;
+}
+
+template <std::size_t N>
+Item<N> item_of(const std::array<VertexIndex, N>& vertices, const Mesh& mesh,
+                const Colours& colours) {
+    std::array<std::pair<Point, Colour>, N> corners;
+    for (std::size_t k = 0; k < N; ++k) {
+        corners[k] = {mesh.points[vertices[k]], colours[vertices[k]]};
+    }
+    Item<N> item;
+    for (std::size_t i = 1; i < N; ++i) {  // by insertion, counting exchanges
+        for (std::size_t k = i; k > 0 && corners[k] < corners[k - 1]; --k) {
+            std::swap(corners[k], corners[k - 1]);
+            item.turned = !item.turned;
+        }
+    }
+    for (std::size_t k = 0; k < N; ++k) {
+        item.corners[k] = corners[k].first;
+        item.colours[k] = corners[k].second;
+    }
+    return item;
+}
+
+template <class I, std::size_t N>
+std::vector<Item<N>> items_of(const IndexVector<I, std::array<VertexIndex, N>>& list,
+                              const IndexVector<I, Marker>& markers, const Mesh& mesh,
+                              const Colours& colours) {
+    std::vector<Item<N>> items;
+    items.reserve(list.size());
+    for (I i{0}; i < list.end_index(); ++i) {
+        items.push_back(item_of(list[i], mesh, colours));
+        if (N != 4) items.back().turned = false;  // facets and edges have no sides
+        if (!markers.empty()) items.back().marker = markers[i];
+    }
+    return items;
+}
+
+std::vector<Item<1>> vertices_of(const Mesh& mesh, const Colours& colours) {
+    std::vector<Item<1>> items;
+    items.reserve(mesh.points.size());
+    const auto count = static_cast<std::ptrdiff_t>(mesh.attributes_per_point);
+    for (VertexIndex v{0}; v < mesh.points.end_index(); ++v) {
+        items.push_back(item_of<1>({v}, mesh, colours));
+        if (!mesh.point_markers.empty()) items.back().marker = mesh.point_markers[v];
+        const auto first = mesh.point_attributes.begin() + count * std::ptrdiff_t{v.value()};
+        items.back().attributes.assign(first, first + count);
+    }
+    return items;
+}
+
+template <std::size_t N>
+std::string shown(const Item<N>& item, std::string_view tag, bool with_turn = false) {
+    std::string text = fmt::format("{} {}", tag, item.marker);
+    if (with_turn) text += item.turned ? ", corners in odd order" : ", corners in even order";
+    if (!item.attributes.empty()) {
+        text += fmt::format(", attributes {}", fmt::join(item.attributes, ", "));
+    }
+    return text;
+}
+
+class Comparer {
+public:
+    Comparer(Comparison& result, std::size_t kept) : result_(result), kept_(kept) {}
+
+    /// Walks through both lists, sorted, and reports what is not in both.
+    template <std::size_t N>
+    void compare(std::vector<Item<N>> a, std::vector<Item<N>> b, std::string_view kind,
+                 std::string_view tag) {
+        std::sort(a.begin(), a.end(), comes_before<N>);
+        std::sort(b.begin(), b.end(), comes_before<N>);
+        kept_of_kind_ = 0;
+        std::size_t i = 0;
+        std::size_t k = 0;
+        while (i < a.size() || k < b.size()) {
+            const bool only_a = k == b.size() || (i < a.size() && a[i].place() < b[k].place());
+            const bool only_b = !only_a && (i == a.size() || b[k].place() < a[i].place());
+            if (only_a) {
+                report(kind, a[i], shown(a[i], tag), "absent");
+                ++i;
+            } else if (only_b) {
+                report(kind, b[k], "absent", shown(b[k], tag));
+                ++k;
+            } else {
+                if (a[i].tags() != b[k].tags()) {
+                    const bool turned = a[i].turned != b[k].turned;
+                    report(kind, a[i], shown(a[i], tag, turned), shown(b[k], tag, turned));
+                }
+                ++i;
+                ++k;
+            }
+        }
+    }
+
+private:
+    template <std::size_t N>
+    void report(std::string_view kind, const Item<N>& item, std::string in_a, std::string in_b) {
+        ++result_.difference_count;
+        if (kept_of_kind_++ >= kept_) return;
+        result_.differences.push_back({std::string(kind),
+                                       {item.corners.begin(), item.corners.end()},
+                                       std::move(in_a),
+                                       std::move(in_b)});
+    }
+
+    Comparison& result_;
+    std::size_t kept_;
+    std::size_t kept_of_kind_ = 0;
+};
+
+}  // namespace
+
+Comparison compare(const Mesh& a, const Mesh& b, std::size_t kept) {
+    Comparison result;
+    if (a == b) return result;
+    const bool coincident = has_coincident_vertices(a) || has_coincident_vertices(b);
+    const Colours of_a = colours_of(a, coincident);
+    const Colours of_b = colours_of(b, coincident);
+    Comparer comparer(result, kept);
+    comparer.compare(vertices_of(a, of_a), vertices_of(b, of_b), "vertex", "marker");
+    comparer.compare(items_of(a.cells, a.regions, a, of_a), items_of(b.cells, b.regions, b, of_b),
+                     "cell", "region");
+    comparer.compare(items_of(a.facets, a.facet_markers, a, of_a),
+                     items_of(b.facets, b.facet_markers, b, of_b), "facet", "marker");
+    comparer.compare(items_of(a.edges, a.edge_markers, a, of_a),
+                     items_of(b.edges, b.edge_markers, b, of_b), "edge", "marker");
+    result.likeness =
+        result.difference_count == 0 ? Likeness::up_to_numbering : Likeness::different;
+    return result;
+}
+
+}  // namespace octetra::verify

@@ -1,0 +1,224 @@
+#include "exact/angles.hpp"
+
+#include <gmpxx.h>
+#include <mpfr.h>
+
+#include <cmath>
+#include <optional>
+
+#include <CGAL/Interval_nt.h>
+
+namespace octetra::verify::exact {
+namespace {
+
+using Interval = CGAL::Interval_nt<false>;
+
+template <class T>
+using Vector = std::array<T, 3>;
+
+template <class T>
+Vector<T> between(const Point& a, const Point& b) {
+    return {T(b.x) - T(a.x), T(b.y) - T(a.y), T(b.z) - T(a.z)};
+}
+
+template <class T>
+T dot(const Vector<T>& u, const Vector<T>& v) {
+    return u[0] * v[0] + u[1] * v[1] + u[2] * v[2];
+}
+
+template <class T>
+Vector<T> cross(const Vector<T>& u, const Vector<T>& v) {
+    return {u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]};
+}
+
+/// The cosine of an angle as numerator / sqrt(square), square > 0.
+template <class T>
+struct Cosine {
+    T numerator;
+    T square;
+};
+
+template <class T>
+Cosine<T> cosine_between(const Vector<T>& u, const Vector<T>& v) {
+    return {dot(u, v), dot(u, u) * dot(v, v)};
+}
+
+template <class T>
+Cosine<T> dihedral_cosine(const Point& a, const Point& b, const Point& c, const Point& d) {
+    const auto edge = between<T>(a, b);
+    return cosine_between(cross(edge, between<T>(a, c)), cross(edge, between<T>(a, d)));
+}
+
+/// Signs, and what is known of them.
+std::optional<int> sign_of(const Interval& x) {
+    if (x.inf() > 0) return 1;
+    if (x.sup() < 0) return -1;
+    if (x.inf() == 0 && x.sup() == 0) return 0;
+    return std::nullopt;
+}
+std::optional<int> sign_of(const mpq_class& x) { return sgn(x); }
+
+/// Is numerator / sqrt(square) > c, given the sign of c and c squared? Nothing if undecided.
+template <class T>
+std::optional<bool> is_greater(const Cosine<T>& cosine, int sign_of_c, const T& c_squared) {
+    const auto sign = sign_of(cosine.numerator);
+    if (!sign) return std::nullopt;
+    if (*sign >= 0 && sign_of_c < 0) return true;
+    if (*sign <= 0 && sign_of_c >= 0) return false;
+    const auto excess =
+        sign_of(T(T(cosine.numerator * cosine.numerator) - T(c_squared * cosine.square)));
+    if (!excess) return std::nullopt;
+    return sign_of_c >= 0 ? *excess > 0 : *excess < 0;
+}
+
+/// cos(piece's angle) > cos(whole's angle / 2), for whole's smallest angle: with r = cos^2 of the
+/// first, that is 2 r - 1 > cos(whole's angle), which is positive.
+template <class T>
+std::optional<bool> is_less_than_half(const Cosine<T>& piece, const Cosine<T>& whole) {
+    const auto sign = sign_of(piece.numerator);
+    if (!sign) return std::nullopt;
+    if (*sign <= 0) return false;
+    // With r = n^2 / s: (2 n^2 - s) / s > m / sqrt(t).
+    const T twice_less_one = T(2) * piece.numerator * piece.numerator - piece.square;
+    const auto obtuse = sign_of(twice_less_one);
+    if (!obtuse) return std::nullopt;
+    if (*obtuse <= 0) return false;
+    const T left = twice_less_one * twice_less_one * whole.square;
+    const T right = whole.numerator * whole.numerator * piece.square * piece.square;
+    const auto excess = sign_of(T(left - right));
+    if (!excess) return std::nullopt;
+    return *excess > 0;
+}
+
+template <class T>
+Cosine<T> cosine_at(const std::array<Point, 3>& triangle, std::size_t k) {
+    return cosine_between(between<T>(triangle[k], triangle[(k + 1) % 3]),
+                          between<T>(triangle[k], triangle[(k + 2) % 3]));
+}
+
+/// Every angle of the piece against every one of the whole that may be the smallest: of that, half
+/// is kept if half of any other is.
+template <class T>
+std::optional<bool> has_angle_less_than_half_of_all(const std::array<Point, 3>& piece,
+                                                    const std::array<Point, 3>& whole) {
+    bool undecided = false;
+    for (std::size_t i = 0; i < 3; ++i) {
+        const auto angle = cosine_at<T>(piece, i);
+        bool less_than_all = true;
+        bool unknown = false;
+        for (std::size_t k = 0; k < 3 && less_than_all; ++k) {
+            const auto other = cosine_at<T>(whole, k);
+            const auto sign = sign_of(other.numerator);
+            if (sign && *sign <= 0) continue;  // not the smallest, which is at most 60 degrees
+            const auto less = sign ? is_less_than_half(angle, other) : std::nullopt;
+            if (!less) {
+                unknown = true;
+            } else if (!*less) {
+                less_than_all = false;
+            }
+        }
+        if (!less_than_all) continue;
+        if (!unknown) return true;
+        undecided = true;
+    }
+    if (undecided) return std::nullopt;
+    return false;
+}
+
+mpq_class rational(const mpfr_t x) {
+    mpz_class mantissa;
+    const mpfr_exp_t exponent = mpfr_get_z_2exp(mantissa.get_mpz_t(), x);
+    mpq_class result(mantissa);
+    if (exponent >= 0) {
+        mpq_mul_2exp(result.get_mpq_t(), result.get_mpq_t(), static_cast<mp_bitcnt_t>(exponent));
+    } else {
+        mpq_div_2exp(result.get_mpq_t(), result.get_mpq_t(), static_cast<mp_bitcnt_t>(-exponent));
+    }
+    return result;
+}
+
+/// The cosine of so many degrees, times pi / 180, rounded down or up throughout; the angle itself
+/// the other way, as the cosine falls.
+mpq_class cosine_of_degrees(double degrees, mpfr_rnd_t cosine_rounding) {
+    constexpr mpfr_prec_t bits = 400;
+    const mpfr_rnd_t angle_rounding = cosine_rounding == MPFR_RNDD ? MPFR_RNDU : MPFR_RNDD;
+    mpfr_t x;
+    mpfr_init2(x, bits);
+    mpfr_const_pi(x, angle_rounding);
+    mpfr_mul_d(x, x, degrees, angle_rounding);
+    mpfr_div_ui(x, x, 180, angle_rounding);
+    mpfr_cos(x, x, cosine_rounding);
+    mpq_class result = rational(x);
+    mpfr_clear(x);
+    return result;
+}
+
+}  // namespace
+
+struct AngleLimit::State {
+    int sign = 0;  ///< of the cosine
+    mpq_class low_square;
+    mpq_class high_square;
+    Interval interval{0};
+};
+
+AngleLimit::AngleLimit(double degrees) : state_(std::make_unique<State>()) {
+    State& s = *state_;
+    s.sign = degrees < 90 ? 1 : degrees > 90 ? -1 : 0;
+    if (degrees == 90) {
+        s.low_square = s.high_square = 0;
+    } else if (degrees == 60 || degrees == 120) {
+        s.low_square = s.high_square = mpq_class(1, 4);
+    } else if (degrees == 45 || degrees == 135) {
+        s.low_square = s.high_square = mpq_class(1, 2);
+    } else if (degrees == 30 || degrees == 150) {
+        s.low_square = s.high_square = mpq_class(3, 4);
+    } else if (degrees == 0 || degrees == 180) {
+        s.low_square = s.high_square = 1;
+    } else {
+        const mpq_class low = cosine_of_degrees(degrees, MPFR_RNDD);
+        const mpq_class high = cosine_of_degrees(degrees, MPFR_RNDU);
+        s.low_square = degrees < 90 ? low * low : high * high;
+        s.high_square = degrees < 90 ? high * high : low * low;
+    }
+    const double near = s.low_square.get_d();
+    s.interval =
+        Interval(std::nextafter(near, -1.0), std::nextafter(std::nextafter(near, 2.0), 2.0));
+    if (s.low_square == s.high_square && s.low_square == near) s.interval = Interval(near);
+}
+
+AngleLimit::~AngleLimit() = default;
+
+bool AngleLimit::exceeds_dihedral(const Point& a, const Point& b, const Point& c, const Point& d,
+                                  Arithmetic& arithmetic) const {
+    {
+        const Interval::Protector upward;
+        const auto greater =
+            is_greater(dihedral_cosine<Interval>(a, b, c, d), state_->sign, state_->interval);
+        if (greater) {
+            ++arithmetic.filtered;
+            return *greater;
+        }
+    }
+    ++arithmetic.exact;
+    // Between the two enclosing values no cosine of rational corners lies but by a chance of
+    // 2^-390; there the angle counts as large enough.
+    const auto cosine = dihedral_cosine<mpq_class>(a, b, c, d);
+    return *is_greater(cosine, state_->sign,
+                       state_->sign >= 0 ? state_->high_square : state_->low_square);
+}
+
+bool keeps_half_of_smallest_angle(const std::array<Point, 3>& piece,
+                                  const std::array<Point, 3>& whole, Arithmetic& arithmetic) {
+    {
+        const Interval::Protector upward;
+        if (const auto less = has_angle_less_than_half_of_all<Interval>(piece, whole)) {
+            ++arithmetic.filtered;
+            return !*less;
+        }
+    }
+    ++arithmetic.exact;
+    return !*has_angle_less_than_half_of_all<mpq_class>(piece, whole);
+}
+
+}  // namespace octetra::verify::exact

@@ -1,0 +1,190 @@
+#include "exact/measures.hpp"
+
+#include <gmp.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace octetra::verify::exact {
+namespace {
+
+/// An integer of any length times a power of two: GMP's own, because a million volumes a second
+/// take numbers whose memory is used again.
+class Dyadic {
+public:
+    Dyadic() { mpz_init(mantissa_); }
+    ~Dyadic() { mpz_clear(mantissa_); }
+    Dyadic(const Dyadic&) = delete;
+    Dyadic& operator=(const Dyadic&) = delete;
+    Dyadic(Dyadic&&) = delete;
+    Dyadic& operator=(Dyadic&&) = delete;
+
+    void set(double value) {
+        constexpr int bits = 53;
+        int exponent = 0;
+        const double fraction = std::frexp(value, &exponent);
+        mpz_set_d(mantissa_, std::ldexp(fraction, bits));
+        exponent_ = value == 0 ? 0 : exponent - bits;
+    }
+    void set_sum(const Dyadic& a, const Dyadic& b, Dyadic& scratch) {
+        combine(a, b, scratch, mpz_add);
+    }
+    void set_difference(const Dyadic& a, const Dyadic& b, Dyadic& scratch) {
+        combine(a, b, scratch, mpz_sub);
+    }
+    void set_product(const Dyadic& a, const Dyadic& b) {
+        mpz_mul(mantissa_, a.mantissa_, b.mantissa_);
+        exponent_ = a.exponent_ + b.exponent_;
+    }
+    void clear() {
+        mpz_set_ui(mantissa_, 0);
+        exponent_ = 0;
+    }
+    [[nodiscard]] int sign() const { return mpz_sgn(mantissa_); }
+    [[nodiscard]] double rounded() const {
+        long exponent = 0;
+        const double fraction = mpz_get_d_2exp(&exponent, mantissa_);
+        return std::ldexp(fraction, static_cast<int>(exponent + exponent_));
+    }
+
+private:
+    void combine(const Dyadic& a, const Dyadic& b, Dyadic& scratch,
+                 void (*operation)(mpz_ptr, mpz_srcptr, mpz_srcptr)) {
+        if (a.exponent_ == b.exponent_) {
+            exponent_ = a.exponent_;
+            operation(mantissa_, a.mantissa_, b.mantissa_);
+        } else if (a.exponent_ > b.exponent_) {
+            mpz_mul_2exp(scratch.mantissa_, a.mantissa_, shift(a, b));
+            exponent_ = b.exponent_;
+            operation(mantissa_, scratch.mantissa_, b.mantissa_);
+        } else {
+            mpz_mul_2exp(scratch.mantissa_, b.mantissa_, shift(b, a));
+            exponent_ = a.exponent_;
+            operation(mantissa_, a.mantissa_, scratch.mantissa_);
+        }
+    }
+    static mp_bitcnt_t shift(const Dyadic& high, const Dyadic& low) {
+        return static_cast<mp_bitcnt_t>(high.exponent_ - low.exponent_);
+    }
+
+    mpz_t mantissa_;
+    long exponent_ = 0;
+};
+
+using Vector = std::array<Dyadic, 3>;
+
+void set(Vector& v, const Point& p) {
+    v[0].set(p.x);
+    v[1].set(p.y);
+    v[2].set(p.z);
+}
+
+/// |sum| <= bound
+bool within(const Dyadic& sum, double bound, Dyadic& scratch, Dyadic& difference) {
+    if (sum.sign() == 0) return true;
+    if (bound == 0) return false;
+    Dyadic limit;
+    limit.set(sum.sign() > 0 ? bound : -bound);
+    difference.set_difference(sum, limit, scratch);
+    return difference.sign() * sum.sign() <= 0;
+}
+
+/// Cross product of two edges of a triangle.
+struct CrossProduct {
+    Vector a, b, c, u, v, result;
+    Dyadic left, right, scratch;
+
+    void compute(const std::array<Point, 3>& corners) {
+        set(a, corners[0]);
+        set(b, corners[1]);
+        set(c, corners[2]);
+        for (std::size_t k = 0; k < 3; ++k) {
+            u[k].set_difference(b[k], a[k], scratch);
+            v[k].set_difference(c[k], a[k], scratch);
+        }
+        for (std::size_t k = 0; k < 3; ++k) {
+            left.set_product(u[(k + 1) % 3], v[(k + 2) % 3]);
+            right.set_product(u[(k + 2) % 3], v[(k + 1) % 3]);
+            result[k].set_difference(left, right, scratch);
+        }
+    }
+};
+
+}  // namespace
+
+struct VolumeSum::State {
+    CrossProduct base;
+    Vector apex;
+    Dyadic edge, term, volume, sum, scratch, difference;
+
+    void compute(const std::array<Point, 4>& p) {
+        base.compute({p[0], p[1], p[2]});
+        set(apex, p[3]);
+        volume.clear();
+        for (std::size_t k = 0; k < 3; ++k) {
+            edge.set_difference(apex[k], base.a[k], scratch);
+            term.set_product(edge, base.result[k]);
+            volume.set_sum(volume, term, scratch);
+        }
+    }
+};
+
+VolumeSum::VolumeSum() : state_(std::make_unique<State>()) {}
+VolumeSum::~VolumeSum() = default;
+
+void VolumeSum::clear() { state_->sum.clear(); }
+
+void VolumeSum::add(const std::array<Point, 4>& corners) {
+    state_->compute(corners);
+    state_->sum.set_sum(state_->sum, state_->volume, state_->scratch);
+}
+
+void VolumeSum::subtract(const std::array<Point, 4>& corners) {
+    state_->compute(corners);
+    state_->sum.set_difference(state_->sum, state_->volume, state_->scratch);
+}
+
+bool VolumeSum::is_within(double bound) const {
+    return within(state_->sum, bound, state_->scratch, state_->difference);
+}
+
+double VolumeSum::rounded() const { return state_->sum.rounded(); }
+
+struct AreaSum::State {
+    CrossProduct area;
+    Vector sum;
+    Dyadic scratch, difference;
+};
+
+AreaSum::AreaSum() : state_(std::make_unique<State>()) {}
+AreaSum::~AreaSum() = default;
+
+void AreaSum::clear() {
+    for (Dyadic& component : state_->sum) component.clear();
+}
+
+void AreaSum::add(const std::array<Point, 3>& corners) {
+    state_->area.compute(corners);
+    for (std::size_t k = 0; k < 3; ++k) {
+        state_->sum[k].set_sum(state_->sum[k], state_->area.result[k], state_->scratch);
+    }
+}
+
+void AreaSum::subtract(const std::array<Point, 3>& corners) {
+    state_->area.compute(corners);
+    for (std::size_t k = 0; k < 3; ++k) {
+        state_->sum[k].set_difference(state_->sum[k], state_->area.result[k], state_->scratch);
+    }
+}
+
+bool AreaSum::is_within(double bound) const {
+    return std::all_of(state_->sum.begin(), state_->sum.end(), [&](const Dyadic& component) {
+        return within(component, bound, state_->scratch, state_->difference);
+    });
+}
+
+Point AreaSum::rounded() const {
+    return {state_->sum[0].rounded(), state_->sum[1].rounded(), state_->sum[2].rounded()};
+}
+
+}  // namespace octetra::verify::exact

@@ -1,0 +1,56 @@
+#pragma once
+
+#include <array>
+#include <memory>
+
+#include <octetra/core/point.hpp>
+
+/// Volumes and areas without rounding.
+namespace octetra::verify::exact {
+
+/// A sum of volumes of tetrahedra, taken six times. Exact; it holds a number of any length.
+class VolumeSum {
+public:
+    VolumeSum();
+    ~VolumeSum();
+    VolumeSum(const VolumeSum&) = delete;
+    VolumeSum& operator=(const VolumeSum&) = delete;
+    VolumeSum(VolumeSum&&) = delete;
+    VolumeSum& operator=(VolumeSum&&) = delete;
+
+    void clear();
+    /// Adds the signed volume.
+    void add(const std::array<Point, 4>& corners);
+    void subtract(const std::array<Point, 4>& corners);
+    /// Is it between -bound and bound? (Zero, for a bound of zero.)
+    [[nodiscard]] bool is_within(double bound) const;
+    [[nodiscard]] double rounded() const;
+
+private:
+    struct State;
+    std::unique_ptr<State> state_;
+};
+
+/// A sum of vector areas of triangles, (b - a) x (c - a), taken so. Exact.
+class AreaSum {
+public:
+    AreaSum();
+    ~AreaSum();
+    AreaSum(const AreaSum&) = delete;
+    AreaSum& operator=(const AreaSum&) = delete;
+    AreaSum(AreaSum&&) = delete;
+    AreaSum& operator=(AreaSum&&) = delete;
+
+    void clear();
+    void add(const std::array<Point, 3>& corners);
+    void subtract(const std::array<Point, 3>& corners);
+    /// Is every component between -bound and bound?
+    [[nodiscard]] bool is_within(double bound) const;
+    [[nodiscard]] Point rounded() const;
+
+private:
+    struct State;
+    std::unique_ptr<State> state_;
+};
+
+}  // namespace octetra::verify::exact

@@ -1,0 +1,63 @@
+#include <fmt/format.h>
+
+#include "subject.hpp"
+
+namespace octetra::verify {
+namespace {
+
+/// Does the cell, which is positive, lie on the side of the face that the ascending order of its
+/// vertices turns to?
+bool is_on_even_side(const Subject& subject, CellFace f) {
+    return is_even(outward_face(subject.mesh.cells[f.cell], f.face));
+}
+
+}  // namespace
+
+std::string check_faces(const Subject& subject, Findings& findings) {
+    Facts& facts = findings.facts();
+    facts.vertices = subject.mesh.points.size();
+    facts.cells = subject.mesh.cells.size();
+    subject.edges.for_each_group([&](const EdgeVertices&, auto) { ++facts.edges; });
+    subject.faces.for_each_group([&](const FacetVertices& vertices, auto entries) {
+        ++facts.faces;
+        if (entries.size() == 1) {
+            ++facts.boundary_faces;
+            return;
+        }
+        const auto describe = [&](std::string found, std::string expected) {
+            Findings::Description description{
+                {entity(vertices, subject.which)}, std::move(found), std::move(expected)};
+            for (const auto& entry : entries) {
+                description.entities.push_back(entity(cell_face(entry.tag).cell, subject.which));
+            }
+            return description;
+        };
+        if (entries.size() > 2) {
+            findings.add(Code::face_of_many_cells, [&] {
+                return describe(fmt::format("{} cells", entries.size()), "one or two");
+            });
+            return;
+        }
+        const CellFace first = cell_face(entries[0].tag);
+        const CellFace second = cell_face(entries[1].tag);
+        const bool positive =
+            subject.sign[first.cell.value()] > 0 && subject.sign[second.cell.value()] > 0;
+        // (Others are reported as what they are.)
+        if (positive && is_on_even_side(subject, first) == is_on_even_side(subject, second)) {
+            findings.add(Code::cells_on_one_side, [&] {
+                return describe("both cells on one side", "one cell on each side");
+            });
+        }
+    });
+    return {};
+}
+
+std::vector<CellFace> boundary_faces(const Subject& subject) {
+    std::vector<CellFace> faces;
+    subject.faces.for_each_group([&](const FacetVertices&, auto entries) {
+        if (entries.size() == 1) faces.push_back(cell_face(entries[0].tag));
+    });
+    return faces;
+}
+
+}  // namespace octetra::verify

@@ -1,0 +1,147 @@
+#include <fmt/format.h>
+
+#include "box_tree.hpp"
+#include "exact/predicates.hpp"
+#include "subject.hpp"
+
+namespace octetra::verify {
+namespace {
+
+/// On how many faces of a cell a point lies that is not outside; -1 if it is outside.
+int faces_touched(const std::array<Point, 4>& corners, const Point& p, Arithmetic& arithmetic) {
+    int touched = 0;
+    for (std::size_t k = 0; k < 4; ++k) {
+        auto with_p = corners;
+        with_p[k] = p;
+        const int sign = exact::orientation(with_p[0], with_p[1], with_p[2], with_p[3], arithmetic);
+        if (sign < 0) return -1;
+        if (sign == 0) ++touched;
+    }
+    return touched;
+}
+
+void report(const Subject& subject, CellIndex c, VertexIndex v, int touched, Findings& findings) {
+    constexpr std::array<std::string_view, 3> where{"inside the cell", "on a face of the cell",
+                                                    "on an edge of the cell"};
+    findings.add(touched == 0 ? Code::vertex_in_cell : Code::hanging_vertex,
+                 [&]() -> Findings::Description {
+                     return {{entity(v, subject.which), entity(c, subject.which)},
+                             std::string(where[static_cast<std::size_t>(touched)]),
+                             "outside of every cell that does not have it"};
+                 });
+}
+
+/// Edges against faces. Two that have no vertex in common must not meet. With one in common, an
+/// edge that lies in the plane of the face must not leave it through the opposite side. (It cannot
+/// end within: check_hanging would have found that.)
+class CrossingCheck {
+public:
+    CrossingCheck(const Subject& subject, Findings& findings)
+        : subject_(subject), mesh_(subject.mesh), findings_(findings) {
+        for (const CellFace f : boundary_faces(subject)) {
+            faces_.push_back(outward_face(mesh_.cells[f.cell], f.face));
+        }
+        const Buckets<2> edges(mesh_.points.size(), [&](auto&& visit) {
+            for (const FacetVertices& f : faces_) {
+                for (const auto& [i, j] : triangle_edges) visit(EdgeVertices{f[i], f[j]}, 0);
+            }
+        });
+        edges.for_each_group([&](const EdgeVertices& edge, auto) { edges_.push_back(edge); });
+    }
+
+    void run() {
+        const BoxTree boundary_faces = tree_of(faces_);
+        subject_.edges.for_each_group([&](const EdgeVertices& edge, auto) {
+            boundary_faces.for_each_meeting(bounds_of(places(edge)), [&](std::uint32_t number) {
+                judge(edge, faces_[number]);
+            });
+        });
+        const BoxTree boundary_edges = tree_of(edges_);
+        subject_.faces.for_each_group([&](const FacetVertices& face, auto cells) {
+            if (cells.size() == 1) return;  // with all edges, above
+            boundary_edges.for_each_meeting(bounds_of(places(face)), [&](std::uint32_t number) {
+                judge(edges_[number], face);
+            });
+        });
+    }
+
+private:
+    template <std::size_t N>
+    [[nodiscard]] std::array<Point, N> places(const std::array<VertexIndex, N>& vertices) const {
+        std::array<Point, N> points;
+        for (std::size_t k = 0; k < N; ++k) points[k] = mesh_.points[vertices[k]];
+        return points;
+    }
+
+    template <std::size_t N>
+    [[nodiscard]] BoxTree tree_of(const std::vector<std::array<VertexIndex, N>>& entities) const {
+        std::vector<Bounds> boxes;
+        boxes.reserve(entities.size());
+        for (const auto& entity : entities) boxes.push_back(bounds_of(places(entity)));
+        return BoxTree(std::move(boxes));
+    }
+
+    void judge(const EdgeVertices& edge, const FacetVertices& face) {
+        std::size_t shared = 0;
+        std::size_t where = 0;
+        for (std::size_t k = 0; k < 3; ++k) {
+            if (face[k] != edge[0] && face[k] != edge[1]) continue;
+            ++shared;
+            where = k;
+        }
+        if (shared == 2) return;
+        const bool meeting =
+            shared == 0
+                ? exact::meet(places(edge), places(face), findings_.arithmetic())
+                : exact::meet(places(edge),
+                              places(EdgeVertices{face[(where + 1) % 3], face[(where + 2) % 3]}),
+                              findings_.arithmetic());
+        if (!meeting) return;
+        findings_.add(Code::boundary_crosses, [&]() -> Findings::Description {
+            return {{entity(edge, subject_.which), entity(face, subject_.which)},
+                    "the edge meets the face",
+                    "no point in common but vertices"};
+        });
+    }
+
+    const Subject& subject_;
+    const Mesh& mesh_;
+    Findings& findings_;
+    std::vector<FacetVertices> faces_;  ///< of the boundary
+    std::vector<EdgeVertices> edges_;   ///< of these faces
+};
+
+}  // namespace
+
+std::string check_hanging(const Subject& subject, Findings& findings) {
+    const Mesh& mesh = subject.mesh;
+    std::vector<char> used(mesh.points.size(), 0);
+    for (const CellVertices& cell : mesh.cells) {
+        for (const VertexIndex v : cell) used[v.value()] = 1;
+    }
+    std::vector<Bounds> boxes(mesh.points.size());
+    for (VertexIndex v{0}; v < mesh.points.end_index(); ++v) boxes[v.value()].take(mesh.points[v]);
+    const BoxTree vertices(std::move(boxes));
+
+    for (CellIndex c{0}; c < mesh.cells.end_index(); ++c) {
+        if (subject.sign[c.value()] <= 0) continue;  // no inside to speak of
+        const auto corners = subject.corners(c);
+        const CellVertices& cell = mesh.cells[c];
+        vertices.for_each_meeting(bounds_of(corners), [&](std::uint32_t number) {
+            const VertexIndex v{number};
+            if (used[number] == 0 || std::find(cell.begin(), cell.end(), v) != cell.end()) return;
+            const int touched = faces_touched(corners, mesh.points[v], findings.arithmetic());
+            // On three faces it is at a corner: two vertices at one place, which is reported as
+            // such.
+            if (touched >= 0 && touched < 3) report(subject, c, v, touched, findings);
+        });
+    }
+    return {};
+}
+
+std::string check_boundary_crossings(const Subject& subject, Findings& findings) {
+    CrossingCheck(subject, findings).run();
+    return {};
+}
+
+}  // namespace octetra::verify

@@ -1,0 +1,92 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include <octetra/core/mesh.hpp>
+
+#include "buckets.hpp"
+#include "findings.hpp"
+
+/// A mesh under judgement, with what several checks ask of it; and the checks of a mesh by itself.
+/// Each adds its violations to the findings and returns its note.
+namespace octetra::verify {
+
+/// A face of a cell, packed into a tag of Buckets.
+struct CellFace {
+    CellIndex cell;
+    std::size_t face = 0;  ///< opposite which corner
+};
+[[nodiscard]] inline std::uint64_t tag_of(CellFace f) {
+    return std::uint64_t{f.cell.value()} * 4 + f.face;
+}
+[[nodiscard]] inline CellFace cell_face(std::uint64_t tag) {
+    return {CellIndex{static_cast<std::size_t>(tag / 4)}, static_cast<std::size_t>(tag % 4)};
+}
+
+struct Subject {
+    const Mesh& mesh;
+    Which which = Which::fine;
+
+    /// Cells that the later checks look at: those with four different vertices, and of several with
+    /// the same ones the first. (The others are reported as what they are, and as nothing else.)
+    std::vector<char> sound;
+    /// +1, 0, -1 of each cell; 0 also where it is not sound.
+    std::vector<std::int8_t> sign;
+    Buckets<4> cells;  ///< of all with four different vertices; tag: the cell's number
+    Buckets<3> faces;  ///< of sound cells; tag: tag_of(CellFace)
+    Buckets<2> edges;  ///< of sound cells; tag: the cell's number
+
+    [[nodiscard]] bool is_sound(CellIndex c) const { return sound[c.value()] != 0; }
+    [[nodiscard]] std::array<Point, 4> corners(CellIndex c) const {
+        const CellVertices& v = mesh.cells[c];
+        return {mesh.points[v[0]], mesh.points[v[1]], mesh.points[v[2]], mesh.points[v[3]]};
+    }
+};
+
+/// The vertices of a face of a cell, anticlockwise as seen from outside a positive cell.
+[[nodiscard]] inline FacetVertices outward_face(const CellVertices& v, std::size_t face) {
+    constexpr std::array<std::array<std::size_t, 3>, 4> outward{
+        {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}}};
+    const auto& [i, j, k] = outward[face];
+    return {v[i], v[j], v[k]};
+}
+
+/// Are these three an even permutation of their ascending order?
+[[nodiscard]] inline bool is_even(const FacetVertices& v) {
+    const int inversions = (v[0] > v[1] ? 1 : 0) + (v[0] > v[2] ? 1 : 0) + (v[1] > v[2] ? 1 : 0);
+    return inversions % 2 == 0;
+}
+
+/// Numbers in range, lists as long as they must be, coordinates finite. Nothing else may look at a
+/// mesh that fails this.
+std::string check_ranges(const Mesh& mesh, Which which, Findings& findings);
+
+/// Repeated vertices and cells; listed facets and edges of no cell. Fills all but `sign`.
+std::string check_well_formed(Subject& subject, Findings& findings);
+
+/// Unused and coincident vertices, except those of which tolerated(v) holds.
+std::string check_vertices(const Subject& subject, const std::vector<char>& tolerated,
+                           Findings& findings);
+
+/// Every cell positive, exactly. Fills `sign`.
+std::string check_orientation(Subject& subject, Findings& findings);
+
+/// Every face in one or two cells, that lie on different sides of it. Counts faces and edges.
+std::string check_faces(const Subject& subject, Findings& findings);
+
+/// No vertex on or in a cell that does not have it, exactly.
+std::string check_hanging(const Subject& subject, Findings& findings);
+
+/// No edge meets a face of the boundary, and no edge of the boundary a face, but in a vertex of
+/// both or as a side. Every cell must be positive, and check_hanging must have passed.
+std::string check_boundary_crossings(const Subject& subject, Findings& findings);
+
+/// Faces of one cell, by their tags.
+[[nodiscard]] std::vector<CellFace> boundary_faces(const Subject& subject);
+
+/// Counts edges and vertices where the mesh is no manifold with boundary.
+void count_singular(const Subject& subject, Facts& facts);
+
+}  // namespace octetra::verify

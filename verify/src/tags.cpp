@@ -1,0 +1,253 @@
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "descent.hpp"
+
+namespace octetra::verify {
+namespace {
+
+constexpr std::string_view none_listed = "the fine mesh lists none: its format may have no place";
+
+class TagCheck {
+public:
+    TagCheck(const Subject& coarse, const Subject& fine, Lines& lines, const Descent& descent,
+             Findings& findings)
+        : coarse_(coarse.mesh),
+          fine_(fine.mesh),
+          fine_subject_(fine),
+          lines_(lines),
+          descent_(descent),
+          findings_(findings) {}
+
+    void run() {
+        check("region tags", coarse_.regions.empty(), fine_.regions.empty(), [&] { regions(); });
+        check("facets", coarse_.facets.empty(), fine_.facets.empty(), [&] { facets(); });
+        check("edges", coarse_.edges.empty(), fine_.edges.empty(), [&] { edges(); });
+        check("vertex markers", coarse_.point_markers.empty(), fine_.point_markers.empty(),
+              [&] { vertex_markers(); });
+        check("attributes", coarse_.attributes_per_point == 0, fine_.attributes_per_point == 0,
+              [&] { attributes(); });
+    }
+
+private:
+    void check(std::string_view name, bool coarse_has_none, bool fine_has_none, auto&& judge) {
+        if (coarse_has_none && fine_has_none) return;
+        if (fine_has_none) {
+            findings_.skip(name, none_listed);
+        } else if (coarse_has_none) {
+            findings_.skip(name, "the coarse mesh has none");
+        } else {
+            findings_.run(name, [&] {
+                judge();
+                return std::string();
+            });
+        }
+    }
+
+    void regions() {
+        for (CellIndex c{0}; c < fine_.cells.end_index(); ++c) {
+            const Marker expected = coarse_.regions[descent_.parent[c]];
+            if (fine_.regions[c] == expected) continue;
+            findings_.add(Code::wrong_region, [&]() -> Findings::Description {
+                return {{entity(c), entity(descent_.parent[c], Which::coarse)},
+                        fmt::format("tag {}", fine_.regions[c]),
+                        fmt::format("tag {}", expected)};
+            });
+        }
+    }
+
+    // A facet may be listed more than once, with different markers. What is compared is how often
+    // a face is listed, and with which markers, against the coarse face that it is a piece of.
+
+    /// The markers of the entities with these tags, ascending; 0 where the list has no markers.
+    template <class I, class Entries>
+    static std::vector<Marker> markers_of(const Entries& entries,
+                                          const IndexVector<I, Marker>& markers) {
+        std::vector<Marker> found;
+        for (const auto& entry : entries) {
+            found.push_back(markers.empty() ? 0 : markers[I{entry.tag}]);
+        }
+        std::sort(found.begin(), found.end());
+        return found;
+    }
+
+    template <class I, std::size_t N>
+    static Buckets<N> buckets_of(const IndexVector<I, std::array<VertexIndex, N>>& list,
+                                 std::size_t vertex_count) {
+        return Buckets<N>(vertex_count, [&](auto&& visit) {
+            for (I i{0}; i < list.end_index(); ++i) visit(list[i], i.value());
+        });
+    }
+
+    static std::string shown(const std::vector<Marker>& markers) {
+        return markers.empty() ? "not listed" : fmt::format("marker {}", fmt::join(markers, ", "));
+    }
+
+    template <std::size_t N>
+    void compare(const std::array<VertexIndex, N>& vertices, const std::vector<Marker>& found,
+                 const std::vector<Marker>& expected, Code missing, Code extra, Code wrong) {
+        if (found == expected) return;
+        const Code code = found.size() < expected.size()   ? missing
+                          : found.size() > expected.size() ? extra
+                                                           : wrong;
+        findings_.add(code, [&]() -> Findings::Description {
+            return {{entity(vertices)}, shown(found), shown(expected)};
+        });
+    }
+
+    void facets() {
+        const auto coarse = buckets_of(coarse_.facets, coarse_.points.size());
+        const auto fine = buckets_of(fine_.facets, fine_.points.size());
+        fine_subject_.faces.for_each_group([&](const FacetVertices& face, auto entries) {
+            const CellFace f = cell_face(entries.front().tag);
+            const int of_parent = descent_.face_of_parent[f.cell][f.face];
+            std::vector<Marker> expected;
+            if (of_parent >= 0) {
+                const FacetVertices whole = outward_face(coarse_.cells[descent_.parent[f.cell]],
+                                                         static_cast<std::size_t>(of_parent));
+                expected = markers_of(coarse.find(whole), coarse_.facet_markers);
+            }
+            const auto found = markers_of(fine.find(face), fine_.facet_markers);
+            compare(face, found, expected, Code::missing_facet, Code::extra_facet,
+                    Code::wrong_facet_marker);
+        });
+    }
+
+    void edges() {
+        // The pieces of the coarse edges, in the order of the list.
+        IndexVector<EdgeIndex, EdgeVertices> pieces;
+        std::vector<Marker> markers;
+        for (EdgeIndex e{0}; e < coarse_.edges.end_index(); ++e) {
+            const auto& [a, b] = coarse_.edges[e];
+            append_pieces(descent_.coarse_to_fine[a], descent_.coarse_to_fine[b], pieces);
+            markers.resize(pieces.size(),
+                           coarse_.edge_markers.empty() ? 0 : coarse_.edge_markers[e]);
+        }
+        const IndexVector<EdgeIndex, Marker> piece_markers(markers.begin(), markers.end());
+        const auto expected = buckets_of(pieces, fine_.points.size());
+        const auto found = buckets_of(fine_.edges, fine_.points.size());
+        fine_subject_.edges.for_each_group([&](const EdgeVertices& edge, auto) {
+            compare(edge, markers_of(found.find(edge), fine_.edge_markers),
+                    markers_of(expected.find(edge), piece_markers), Code::missing_edge,
+                    Code::extra_edge, Code::wrong_edge_marker);
+        });
+    }
+
+    void append_pieces(VertexIndex a, VertexIndex b, IndexVector<EdgeIndex, EdgeVertices>& pieces) {
+        const VertexIndex m = lines_.is_whole(a, b) ? VertexIndex::none() : lines_.midpoint(a, b);
+        if (m.is_none()) {
+            pieces.push_back({a, b});
+            return;
+        }
+        append_pieces(a, m, pieces);
+        append_pieces(m, b, pieces);
+    }
+
+    /// A midpoint of a listed edge has its marker; else the smallest of the listed facets that its
+    /// edge lies on; else 0.
+    void vertex_markers() {
+        IndexVector<VertexIndex, Marker> expected(fine_.points.size(), 0);
+        std::vector<char> known(fine_.points.size(), 0);
+        const auto take = [&](VertexIndex v, Marker marker) {
+            Marker& m = expected[v];
+            m = known[v.value()] != 0 ? std::min(m, marker) : marker;
+            known[v.value()] = 1;
+        };
+        take_markers_of_facets(take);
+        std::fill(known.begin(), known.end(), char{0});
+        take_markers_of_edges(take);
+        for (VertexIndex v{0}; v < coarse_.points.end_index(); ++v) {
+            const VertexIndex w = descent_.coarse_to_fine[v];
+            if (!w.is_none()) expected[w] = coarse_.point_markers[v];
+        }
+        for (VertexIndex v{0}; v < fine_.points.end_index(); ++v) {
+            if (fine_.point_markers[v] == expected[v]) continue;
+            findings_.add(Code::wrong_vertex_marker, [&]() -> Findings::Description {
+                return {{entity(v)},
+                        fmt::format("marker {}", fine_.point_markers[v]),
+                        fmt::format("marker {}", expected[v])};
+            });
+        }
+    }
+
+    /// A new vertex in the inside of a coarse face, or on its border, halves an edge of it.
+    void take_markers_of_facets(auto&& take) {
+        if (coarse_.facet_markers.empty()) return;
+        const auto listed = buckets_of(coarse_.facets, coarse_.points.size());
+        fine_subject_.faces.for_each_group([&](const FacetVertices& face, auto entries) {
+            const CellFace f = cell_face(entries.front().tag);
+            const int of_parent = descent_.face_of_parent[f.cell][f.face];
+            if (of_parent < 0) return;
+            const FacetVertices whole = outward_face(coarse_.cells[descent_.parent[f.cell]],
+                                                     static_cast<std::size_t>(of_parent));
+            for (const auto& entry : listed.find(whole)) {
+                const Marker marker = coarse_.facet_markers[FacetIndex{entry.tag}];
+                for (const VertexIndex v : face) take(v, marker);
+            }
+        });
+    }
+
+    void take_markers_of_edges(auto&& take) {
+        for (EdgeIndex e{0}; e < coarse_.edge_markers.end_index(); ++e) {
+            const auto& [a, b] = coarse_.edges[e];
+            IndexVector<EdgeIndex, EdgeVertices> pieces;
+            append_pieces(descent_.coarse_to_fine[a], descent_.coarse_to_fine[b], pieces);
+            for (const EdgeVertices& piece : pieces) {
+                for (const VertexIndex v : piece) take(v, coarse_.edge_markers[e]);
+            }
+        }
+    }
+
+    void attributes() {
+        const std::size_t count = coarse_.attributes_per_point;
+        if (fine_.attributes_per_point != count) {
+            findings_.add(Code::wrong_attribute, [&]() -> Findings::Description {
+                return {{},
+                        fmt::format("{} attributes a vertex", fine_.attributes_per_point),
+                        fmt::format("{}", count)};
+            });
+            return;
+        }
+        const auto value = [&](VertexIndex v, std::size_t k) {
+            return fine_.point_attributes[v.value() * count + k];
+        };
+        const auto judge = [&](VertexIndex v, std::size_t k, double expected) {
+            const double found = value(v, k);
+            if (found == expected || (std::isnan(found) && std::isnan(expected))) return;
+            findings_.add(Code::wrong_attribute, [&]() -> Findings::Description {
+                return {{entity(v)}, fmt::format("{}", found), fmt::format("{}", expected)};
+            });
+        };
+        for (VertexIndex v{0}; v < coarse_.points.end_index(); ++v) {
+            const VertexIndex w = descent_.coarse_to_fine[v];
+            for (std::size_t k = 0; !w.is_none() && k < count; ++k) {
+                judge(w, k, coarse_.point_attributes[v.value() * count + k]);
+            }
+        }
+        for (VertexIndex v{0}; v < fine_.points.end_index(); ++v) {
+            const auto& [a, b] = descent_.halves[v];
+            for (std::size_t k = 0; !a.is_none() && k < count; ++k) {
+                judge(v, k, (value(a, k) + value(b, k)) / 2);
+            }
+        }
+    }
+
+    const Mesh& coarse_;
+    const Mesh& fine_;
+    const Subject& fine_subject_;
+    Lines& lines_;
+    const Descent& descent_;
+    Findings& findings_;
+};
+
+}  // namespace
+
+void check_tags(const Subject& coarse, const Subject& fine, Lines& lines, const Descent& descent,
+                Findings& findings) {
+    TagCheck(coarse, fine, lines, descent, findings).run();
+}
+
+}  // namespace octetra::verify

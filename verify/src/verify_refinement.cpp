@@ -1,0 +1,195 @@
+#include <octetra/verify/verify.hpp>
+
+#include <algorithm>
+#include <optional>
+
+#include "angles.hpp"
+#include "descent.hpp"
+
+namespace octetra::verify {
+namespace {
+
+/// Of each vertex: may it be unused, or at the place of another? That is inherited: by vertices of
+/// no coarse cell, and by coincident vertices of the coarse mesh (at a crack, say) and midpoints
+/// between such, as far as they halve edges of their own.
+std::vector<char> inherited_freedom(const Mesh& coarse, const Mesh& fine, const Descent& descent) {
+    std::vector<char> used(coarse.points.size(), 0);
+    for (const CellVertices& cell : coarse.cells) {
+        for (const VertexIndex v : cell) used[v.value()] = 1;
+    }
+    std::vector<VertexIndex> by_place;
+    for (VertexIndex v{0}; v < coarse.points.end_index(); ++v) by_place.push_back(v);
+    std::sort(by_place.begin(), by_place.end(),
+              [&](VertexIndex v, VertexIndex w) { return coarse.points[v] < coarse.points[w]; });
+    std::vector<char> tolerated(fine.points.size(), 0);
+    const auto tolerate = [&](VertexIndex coarse_vertex) {
+        const VertexIndex v = descent.coarse_to_fine[coarse_vertex];
+        if (!v.is_none()) tolerated[v.value()] = 1;
+    };
+    for (VertexIndex v{0}; v < coarse.points.end_index(); ++v) {
+        if (used[v.value()] == 0) tolerate(v);
+    }
+    bool any_coincident = false;
+    for (std::size_t i = 1; i < by_place.size(); ++i) {
+        if (coarse.points[by_place[i - 1]] != coarse.points[by_place[i]]) continue;
+        tolerate(by_place[i - 1]);
+        tolerate(by_place[i]);
+        any_coincident = true;
+    }
+    if (!any_coincident) return tolerated;
+    // A midpoint has been given its halves after its ends had theirs, so this ends.
+    for (bool changed = true; changed;) {
+        changed = false;
+        for (VertexIndex v{0}; v < fine.points.end_index(); ++v) {
+            const auto& [a, b] = descent.halves[v];
+            if (tolerated[v.value()] != 0 || a.is_none()) continue;
+            if (tolerated[a.value()] == 0 || tolerated[b.value()] == 0) continue;
+            tolerated[v.value()] = 1;
+            changed = true;
+        }
+    }
+    return tolerated;
+}
+
+bool has_coincident_vertices(const Mesh& mesh) {
+    std::vector<Point> points(mesh.points.begin(), mesh.points.end());
+    std::sort(points.begin(), points.end());
+    return std::adjacent_find(points.begin(), points.end()) != points.end();
+}
+
+/// The checks one after the other, each only where what it leans on has passed.
+class RefinementCheck {
+public:
+    RefinementCheck(const Mesh& coarse, const Mesh& fine, const VerifyOptions& options)
+        : options_(options),
+          findings_(options.kept_per_code),
+          coarse_{.mesh = coarse, .which = Which::coarse},
+          fine_{.mesh = fine, .which = Which::fine} {}
+
+    Verdict run() {
+        const auto in_range = [&](const Mesh& mesh, Which which) {
+            return findings_.run(which == Which::fine ? "numbers in range" : "coarse mesh in range",
+                                 [&] { return check_ranges(mesh, which, findings_); });
+        };
+        if (in_range(coarse_.mesh, Which::coarse) && in_range(fine_.mesh, Which::fine)) judge();
+        return std::move(findings_.verdict());
+    }
+
+private:
+    void judge() {
+        if (!judge_coarse()) return;
+        const bool well_formed =
+            findings_.run("well-formed", [&] { return check_well_formed(fine_, findings_); });
+        const bool oriented =
+            findings_.run("orientation", [&] { return check_orientation(fine_, findings_); });
+        const bool faced = findings_.run("faces", [&] { return check_faces(fine_, findings_); });
+        count_singular(fine_, findings_.facts());
+        judge_descent(well_formed && oriented && faced);
+        if (!options_.fast) findings_.verdict().angles = measure_angles(fine_);
+        if (!options_.fast && options_.min_dihedral) {
+            findings_.run("dihedral angles", [&] {
+                return check_dihedral_angles(fine_, *options_.min_dihedral, findings_);
+            });
+        }
+    }
+
+    /// What the certificate takes for granted.
+    bool judge_coarse() {
+        return findings_.run("coarse mesh", [&] {
+            (void)check_well_formed(coarse_, findings_);
+            (void)check_orientation(coarse_, findings_);
+            (void)check_faces(coarse_, findings_);
+            const Facts none;
+            findings_.facts() = none;  // those of the fine mesh are to come
+            if (!options_.fast) findings_.verdict().coarse_angles = measure_angles(coarse_);
+            return std::string("well-formed, oriented, at most two cells at a face");
+        });
+    }
+
+    void judge_descent(bool conforms) {
+        const Places places(fine_.mesh.points);
+        Descent descent;
+        const bool none_lost = findings_.run("coarse vertices", [&] {
+            return find_coarse_vertices(coarse_, fine_, places, descent, findings_);
+        });
+        const bool coincidences = options_.fast || has_coincident_vertices(coarse_.mesh);
+        bool none_hangs = true;
+        if (options_.fast) {
+            findings_.skip("hanging vertices", "not with --fast");
+        } else if (!conforms) {
+            findings_.skip("hanging vertices", "cells are wrong in themselves");
+        } else if (coincidences) {
+            findings_.skip("hanging vertices",
+                           "the coarse mesh has vertices at one place, a crack perhaps");
+        } else {
+            none_hangs =
+                findings_.run("hanging vertices", [&] { return check_hanging(fine_, findings_); });
+        }
+        Lines lines(fine_, places);
+        if (!conforms || !none_lost || !none_hangs) {
+            skip_from(0, "what stands above has failed");
+            return;
+        }
+        if (!findings_.run("descent", [&] {
+                return check_descent(coarse_, fine_, lines, descent, findings_);
+            })) {
+            skip_from(1, "descent has failed");
+            return;
+        }
+        judge_descendants(descent, lines);
+    }
+
+    void judge_descendants(const Descent& descent, Lines& lines) {
+        findings_.run("vertices", [&] {
+            return check_vertices(fine_, inherited_freedom(coarse_.mesh, fine_.mesh, descent),
+                                  findings_);
+        });
+        const bool covered =
+            findings_.run("cover", [&] { return check_cover(coarse_, fine_, descent, findings_); });
+        if (options_.fast) {
+            findings_.skip("volumes", "not with --fast");
+            findings_.skip("face angles", "not with --fast");
+        } else if (!covered) {
+            findings_.skip("volumes", "cover has failed");
+            findings_.skip("face angles", "cover has failed");
+        } else {
+            findings_.run("volumes",
+                          [&] { return check_volumes(coarse_, fine_, descent, findings_); });
+            findings_.run("face angles",
+                          [&] { return check_face_angles(coarse_, fine_, descent, findings_); });
+            findings_.verdict().by_depth = measure_by_depth(fine_, descent);
+        }
+        check_tags(coarse_, fine_, lines, descent, findings_);
+        if (options_.maps != nullptr) {
+            findings_.run("maps", [&] {
+                return check_maps(*options_.maps, coarse_, fine_, descent, findings_);
+            });
+        }
+        if (options_.request) {
+            findings_.run("8T-LE", [&] {
+                return check_request(*options_.request, coarse_, fine_, lines, descent, findings_);
+            });
+        }
+    }
+
+    void skip_from(std::size_t first, std::string_view why) {
+        constexpr std::array<std::string_view, 5> names{"descent", "vertices", "cover", "volumes",
+                                                        "face angles"};
+        for (std::size_t i = first; i < names.size(); ++i) findings_.skip(names[i], why);
+        if (options_.maps != nullptr) findings_.skip("maps", why);
+        if (options_.request) findings_.skip("8T-LE", why);
+    }
+
+    const VerifyOptions& options_;
+    Findings findings_;
+    Subject coarse_;
+    Subject fine_;
+};
+
+}  // namespace
+
+Verdict verify_refinement(const Mesh& coarse, const Mesh& fine, const VerifyOptions& options) {
+    return RefinementCheck(coarse, fine, options).run();
+}
+
+}  // namespace octetra::verify

@@ -1,0 +1,177 @@
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include <octetra/core/edge_order.hpp>
+
+#include "descent.hpp"
+#include "exact/measures.hpp"
+
+/// Rounded vertices. Had no midpoint been rounded, the pieces of a cell would have its volume and
+/// those of a face its vector area, exactly. A vertex is off by at most `rounding` in each
+/// coordinate, so by eta = sqrt(3) rounding, and an edge, as a vector, by 2 eta. With L the longest
+/// edge, and a determinant at most the product of its rows' lengths, six volumes are off by at most
+/// 3 * 2 eta (L + 2 eta)^2, and each component of a vector area (as a cross product) by
+/// 2 * 2 eta (L + 2 eta). These are summed over the pieces, and rounded up.
+namespace octetra::verify {
+namespace {
+
+constexpr double up = 1 + 1e-9;  // more than all roundings of the bounds together
+
+template <std::size_t N>
+struct Shape {
+    std::array<Point, N> corners;
+    double rounding = 0;  ///< of the worst corner
+
+    [[nodiscard]] double longest_edge() const {
+        double longest = 0;
+        for (std::size_t i = 0; i < N; ++i) {
+            for (std::size_t k = 0; k < i; ++k) {
+                longest = std::max(
+                    longest, std::hypot(corners[i].x - corners[k].x, corners[i].y - corners[k].y,
+                                        corners[i].z - corners[k].z));
+            }
+        }
+        return longest;
+    }
+    [[nodiscard]] double edge_error() const { return 2 * std::sqrt(3.0) * rounding; }
+};
+
+template <std::size_t N>
+Shape<N> shape_of(const std::array<VertexIndex, N>& vertices, const Mesh& fine,
+                  const Descent& descent) {
+    Shape<N> shape;
+    for (std::size_t k = 0; k < N; ++k) {
+        shape.corners[k] = fine.points[vertices[k]];
+        shape.rounding = std::max(shape.rounding, descent.rounding[vertices[k]]);
+    }
+    return shape;
+}
+
+double volume_bound(const Shape<4>& shape) {
+    if (shape.rounding == 0) return 0;
+    const double length = shape.longest_edge() + shape.edge_error();
+    return 3 * shape.edge_error() * length * length * up;
+}
+
+double area_bound(const Shape<3>& shape) {
+    if (shape.rounding == 0) return 0;
+    return 2 * shape.edge_error() * (shape.longest_edge() + shape.edge_error()) * up;
+}
+
+/// The fine cells, or other things, in the order of the coarse one that each belongs to.
+struct Grouped {
+    std::vector<std::uint32_t> begin;    ///< of each coarse one
+    std::vector<std::uint32_t> members;  ///< of all, one group behind the other
+};
+
+Grouped group(std::size_t groups, const std::vector<std::uint32_t>& group_of) {
+    Grouped grouped{std::vector<std::uint32_t>(groups + 1, 0),
+                    std::vector<std::uint32_t>(group_of.size())};
+    for (const std::uint32_t g : group_of) ++grouped.begin[g + 1];
+    for (std::size_t g = 0; g < groups; ++g) grouped.begin[g + 1] += grouped.begin[g];
+    auto next = grouped.begin;
+    for (std::uint32_t i = 0; i < group_of.size(); ++i) grouped.members[next[group_of[i]]++] = i;
+    return grouped;
+}
+
+/// Returns the largest bound that was used.
+double check_cell_volumes(const Subject& coarse, const Subject& fine, const Descent& descent,
+                          Findings& findings) {
+    std::vector<std::uint32_t> parents(fine.mesh.cells.size());
+    for (CellIndex c{0}; c < fine.mesh.cells.end_index(); ++c) {
+        parents[c.value()] = descent.parent[c].value();
+    }
+    const Grouped children = group(coarse.mesh.cells.size(), parents);
+    exact::VolumeSum difference;
+    double largest = 0;
+    for (CellIndex c{0}; c < coarse.mesh.cells.end_index(); ++c) {
+        const std::uint32_t first = children.begin[c.value()];
+        const std::uint32_t last = children.begin[c.value() + 1];
+        difference.clear();
+        difference.subtract(coarse.corners(c));
+        double bound = 0;
+        for (std::uint32_t i = first; i < last; ++i) {
+            const CellIndex child{children.members[i]};
+            const auto shape = shape_of(fine.mesh.cells[child], fine.mesh, descent);
+            difference.add(shape.corners);
+            bound = (bound + volume_bound(shape)) * up;
+        }
+        ++findings.arithmetic().exact;
+        largest = std::max(largest, bound);
+        if (difference.is_within(bound)) continue;
+        findings.add(Code::wrong_volume, [&]() -> Findings::Description {
+            return {{entity(c, Which::coarse)},
+                    fmt::format("its {} cells have {:.17g} more volume", last - first,
+                                difference.rounded() / 6),
+                    fmt::format("at most {:.3g}", bound / 6)};
+        });
+    }
+    return largest / 6;
+}
+
+double check_boundary_areas(const Subject& coarse, const Subject& fine, const Descent& descent,
+                            Findings& findings) {
+    constexpr std::uint32_t not_on_boundary = 0xffffffffU;
+    const std::vector<CellFace> coarse_faces = boundary_faces(coarse);
+    std::vector<std::uint32_t> number_of(4 * coarse.mesh.cells.size(), not_on_boundary);
+    for (std::uint32_t i = 0; i < coarse_faces.size(); ++i) number_of[tag_of(coarse_faces[i])] = i;
+
+    std::vector<CellFace> fine_faces;
+    std::vector<std::uint32_t> coarse_of;
+    for (const CellFace f : boundary_faces(fine)) {
+        const int of_parent = descent.face_of_parent[f.cell][f.face];
+        if (of_parent < 0) continue;  // an open face, which check_cover has reported
+        const std::uint32_t number =
+            number_of[tag_of({descent.parent[f.cell], static_cast<std::size_t>(of_parent)})];
+        if (number == not_on_boundary) continue;
+        fine_faces.push_back(f);
+        coarse_of.push_back(number);
+    }
+    const Grouped pieces = group(coarse_faces.size(), coarse_of);
+    exact::AreaSum difference;
+    double largest = 0;
+    for (std::size_t i = 0; i < coarse_faces.size(); ++i) {
+        const auto corners_of = [](const FacetVertices& v, const Mesh& mesh) {
+            return std::array<Point, 3>{mesh.points[v[0]], mesh.points[v[1]], mesh.points[v[2]]};
+        };
+        const FacetVertices whole =
+            outward_face(coarse.mesh.cells[coarse_faces[i].cell], coarse_faces[i].face);
+        difference.clear();
+        difference.subtract(corners_of(whole, coarse.mesh));
+        double bound = 0;
+        for (std::uint32_t k = pieces.begin[i]; k < pieces.begin[i + 1]; ++k) {
+            const CellFace f = fine_faces[pieces.members[k]];
+            const auto shape =
+                shape_of(outward_face(fine.mesh.cells[f.cell], f.face), fine.mesh, descent);
+            difference.add(shape.corners);
+            bound = (bound + area_bound(shape)) * up;
+        }
+        ++findings.arithmetic().exact;
+        largest = std::max(largest, bound);
+        if (difference.is_within(bound)) continue;
+        findings.add(Code::boundary_moved, [&]() -> Findings::Description {
+            const Point d = difference.rounded();
+            return {{entity(whole, Which::coarse)},
+                    fmt::format("its pieces have ({:.6g}, {:.6g}, {:.6g}) more vector area",
+                                d.x / 2, d.y / 2, d.z / 2),
+                    fmt::format("at most {:.3g} in each component", bound / 2)};
+        });
+    }
+    return largest / 2;
+}
+
+}  // namespace
+
+std::string check_volumes(const Subject& coarse, const Subject& fine, const Descent& descent,
+                          Findings& findings) {
+    const double volume = check_cell_volumes(coarse, fine, descent, findings);
+    const double area = check_boundary_areas(coarse, fine, descent, findings);
+    if (volume == 0 && area == 0) return "of every coarse cell and boundary face, exactly";
+    return fmt::format(
+        "of every coarse cell to within {:.3g}, of every boundary face to within {:.3g}", volume,
+        area);
+}
+
+}  // namespace octetra::verify

@@ -1,0 +1,183 @@
+#include <algorithm>
+#include <functional>
+#include <numeric>
+
+#include <fmt/format.h>
+
+#include "subject.hpp"
+
+namespace octetra::verify {
+namespace {
+
+template <std::size_t N>
+bool has_repetition(const std::array<VertexIndex, N>& v) {
+    for (std::size_t i = 0; i < N; ++i) {
+        for (std::size_t k = 0; k < i; ++k) {
+            if (v[i] == v[k]) return true;
+        }
+    }
+    return false;
+}
+
+template <class I, std::size_t N>
+void check_range(const IndexVector<I, std::array<VertexIndex, N>>& list, const Mesh& mesh,
+                 Which which, Findings& findings) {
+    for (I i{0}; i < list.end_index(); ++i) {
+        for (const VertexIndex v : list[i]) {
+            if (v < mesh.points.end_index()) continue;
+            findings.add(Code::vertex_out_of_range, [&]() -> Findings::Description {
+                return {{entity(i, which)},
+                        fmt::format("vertex {}, counted from 0", v.value()),
+                        fmt::format("a number less than {}", mesh.points.size())};
+            });
+        }
+    }
+}
+
+void check_length(std::string_view what, std::size_t length, std::size_t expected, bool may_miss,
+                  Findings& findings) {
+    if (length == expected || (may_miss && length == 0)) return;
+    findings.add(Code::list_length, [&]() -> Findings::Description {
+        return {{}, fmt::format("{} {}", length, what), fmt::format("{}", expected)};
+    });
+}
+
+/// Listed facets or edges: different vertices, of some cell.
+template <class I, std::size_t N>
+void check_listed(const IndexVector<I, std::array<VertexIndex, N>>& list,
+                  const Buckets<N>& of_cells, Code stray, Which which, Findings& findings) {
+    for (I i{0}; i < list.end_index(); ++i) {
+        if (has_repetition(list[i])) {
+            findings.add(Code::repeated_vertex, [&]() -> Findings::Description {
+                return {{entity(i, which)}, "a vertex twice", "different vertices"};
+            });
+        } else if (!of_cells.contains(list[i])) {
+            findings.add(stray, [&]() -> Findings::Description {
+                return {{entity(i, which)}, "no cell has it", "a face or edge of some cell"};
+            });
+        }
+    }
+}
+
+void find_sound_cells(Subject& subject, Findings& findings) {
+    const Mesh& mesh = subject.mesh;
+    subject.sound.assign(mesh.cells.size(), 1);
+    for (CellIndex c{0}; c < mesh.cells.end_index(); ++c) {
+        if (!has_repetition(mesh.cells[c])) continue;
+        subject.sound[c.value()] = 0;
+        findings.add(Code::repeated_vertex, [&]() -> Findings::Description {
+            return {{entity(c, subject.which)}, "a vertex twice", "four different vertices"};
+        });
+    }
+    subject.cells = Buckets<4>(mesh.points.size(), [&](auto&& visit) {
+        for (CellIndex c{0}; c < mesh.cells.end_index(); ++c) {
+            if (subject.is_sound(c)) visit(mesh.cells[c], c.value());
+        }
+    });
+    subject.cells.for_each_group([&](const CellVertices&, auto cells) {
+        for (std::size_t k = 1; k < cells.size(); ++k) {
+            const CellIndex first{cells[0].tag};
+            const CellIndex again{cells[k].tag};
+            subject.sound[again.value()] = 0;
+            findings.add(Code::repeated_cell, [&]() -> Findings::Description {
+                return {{entity(first, subject.which), entity(again, subject.which)},
+                        "the same four vertices",
+                        "each cell once"};
+            });
+        }
+    });
+}
+
+}  // namespace
+
+std::string check_ranges(const Mesh& mesh, Which which, Findings& findings) {
+    check_range(mesh.cells, mesh, which, findings);
+    check_range(mesh.facets, mesh, which, findings);
+    check_range(mesh.edges, mesh, which, findings);
+    const std::size_t points = mesh.points.size();
+    check_length("vertex markers", mesh.point_markers.size(), points, true, findings);
+    check_length("attributes", mesh.point_attributes.size(), points * mesh.attributes_per_point,
+                 false, findings);
+    check_length("region tags", mesh.regions.size(), mesh.cells.size(), true, findings);
+    check_length("facet markers", mesh.facet_markers.size(), mesh.facets.size(), true, findings);
+    check_length("edge markers", mesh.edge_markers.size(), mesh.edges.size(), true, findings);
+    for (VertexIndex v{0}; v < mesh.points.end_index(); ++v) {
+        if (is_finite(mesh.points[v])) continue;
+        findings.add(Code::not_finite, [&]() -> Findings::Description {
+            const Point& p = mesh.points[v];
+            return {{entity(v, which)},
+                    fmt::format("({}, {}, {})", p.x, p.y, p.z),
+                    "finite coordinates"};
+        });
+    }
+    return {};
+}
+
+std::string check_well_formed(Subject& subject, Findings& findings) {
+    const Mesh& mesh = subject.mesh;
+    find_sound_cells(subject, findings);
+    const auto for_each_sound = [&](auto&& visit) {
+        for (CellIndex c{0}; c < mesh.cells.end_index(); ++c) {
+            if (subject.is_sound(c)) visit(c, mesh.cells[c]);
+        }
+    };
+    subject.faces = Buckets<3>(mesh.points.size(), [&](auto&& visit) {
+        for_each_sound([&](CellIndex c, const CellVertices& cell) {
+            for (std::size_t face = 0; face < 4; ++face) {
+                visit(outward_face(cell, face), tag_of({c, face}));
+            }
+        });
+    });
+    subject.edges = Buckets<2>(mesh.points.size(), [&](auto&& visit) {
+        for_each_sound([&](CellIndex c, const CellVertices& cell) {
+            for (const auto& [i, j] : cell_edges) {
+                visit(EdgeVertices{cell[i], cell[j]}, c.value());
+            }
+        });
+    });
+    check_listed(mesh.facets, subject.faces, Code::stray_facet, subject.which, findings);
+    check_listed(mesh.edges, subject.edges, Code::stray_edge, subject.which, findings);
+    return {};
+}
+
+std::string check_vertices(const Subject& subject, const std::vector<char>& tolerated,
+                           Findings& findings) {
+    const Mesh& mesh = subject.mesh;
+    std::vector<char> used(mesh.points.size(), 0);
+    for (const CellVertices& cell : mesh.cells) {
+        for (const VertexIndex v : cell) used[v.value()] = 1;
+    }
+    const auto is_tolerated = [&](VertexIndex v) {
+        return !tolerated.empty() && tolerated[v.value()] != 0;
+    };
+    for (VertexIndex v{0}; v < mesh.points.end_index(); ++v) {
+        if (used[v.value()] != 0 || is_tolerated(v)) continue;
+        findings.add(Code::unused_vertex, [&]() -> Findings::Description {
+            return {{entity(v, subject.which)}, "no cell has it", "a corner of some cell"};
+        });
+    }
+
+    // Vertices that no cell has are where they are; only those of cells are compared.
+    std::vector<VertexIndex> by_place;
+    for (VertexIndex v{0}; v < mesh.points.end_index(); ++v) {
+        if (used[v.value()] != 0) by_place.push_back(v);
+    }
+    std::sort(by_place.begin(), by_place.end(), [&](VertexIndex v, VertexIndex w) {
+        const auto order = mesh.points[v] <=> mesh.points[w];
+        return order != 0 ? order < 0 : v < w;
+    });
+    for (std::size_t i = 1; i < by_place.size(); ++i) {
+        const VertexIndex v = by_place[i - 1];
+        const VertexIndex w = by_place[i];
+        if (mesh.points[v] != mesh.points[w] || (is_tolerated(v) && is_tolerated(w))) continue;
+        findings.add(Code::coincident_vertices, [&]() -> Findings::Description {
+            const Point& p = mesh.points[v];
+            return {{entity(v, subject.which), entity(w, subject.which)},
+                    fmt::format("both at ({}, {}, {})", p.x, p.y, p.z),
+                    "one vertex at each place"};
+        });
+    }
+    return {};
+}
+
+}  // namespace octetra::verify

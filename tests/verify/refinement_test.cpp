@@ -191,6 +191,44 @@ TEST(Refinement, MayBeFinerOnOneSideOfACrack) {
     EXPECT_FALSE(verify_refinement(coarse, closed).valid());
 }
 
+/// Two cells whose edges cross in their middles, which pass for a coarse mesh. Bisected by one
+/// vertex there, they hang together, which no coarse cells do.
+TEST(Refinement, MayNotJoinWhatOnlyCrosses) {
+    const Mesh coarse = test::mesh_of({{0, 0, 0},
+                                       {4, 0, 0},
+                                       {2, -1, 3},
+                                       {2, 1, 3},
+                                       {2, -1, 0},
+                                       {2, 1, 0},
+                                       {1, 0, -3},
+                                       {3, 0, -3}},
+                                      {{0, 1, 2, 3}, {4, 5, 6, 7}});
+    Mesh apart = coarse;
+    test::bisect_edge(apart, VertexIndex{0}, VertexIndex{1});
+    test::bisect_edge(apart, VertexIndex{4}, VertexIndex{5});
+    Mesh joined = apart;
+    for (CellVertices& cell : joined.cells) {
+        std::replace(cell.begin(), cell.end(), VertexIndex{9}, VertexIndex{8});
+    }
+    joined.points.pop_back();
+    EXPECT_EQ(codes_of(verify_refinement(coarse, joined)), "not_a_midpoint");
+    EXPECT_EQ(codes_of(verify_refinement(coarse, apart)), "coincident_vertices");
+}
+
+TEST(Refinement, IsJudgedAtAllMagnitudes) {
+    for (const double side : {0x1p-900, 0x1p-300, 0x1p300, 0x1p900}) {
+        const Mesh coarse = test::kuhn(2, 1, 1, side);
+        const Mesh fine = test::kuhn(4, 2, 2, side / 2);
+        const Verdict verdict = verify_refinement(coarse, fine, {.min_dihedral = 45});
+        EXPECT_EQ(codes_of(verdict), "") << side;
+        EXPECT_NEAR(verdict.angles->min_dihedral, 45, 1e-12);
+        EXPECT_EQ(codes_of(verify_mesh(fine)), "") << side;
+        Mesh moved = fine;
+        test::shift_by_an_ulp(moved, VertexIndex{44});  // of the far corner
+        EXPECT_FALSE(verify_refinement(coarse, moved).valid()) << side;
+    }
+}
+
 TEST(Refinement, BoundsWhatRoundingHasMoved) {
     Mesh coarse = test::kuhn(1, 1, 1);
     for (Point& p : coarse.points) p = {p.x / 3 + 1000, p.y / 7, p.z / 11};

@@ -30,7 +30,22 @@ struct CellAngles {
     double eta = 0;
 };
 
-CellAngles angles_of(const std::array<Point, 4>& p) {
+/// The same shape about as large as 1, at the origin, so that no product over- or underflows.
+std::array<Point, 4> normalised(std::array<Point, 4> p) {
+    const Point origin = p[0];
+    double size = 0;
+    for (Point& q : p) {
+        q = difference(q, origin);
+        size = std::max({size, std::abs(q.x), std::abs(q.y), std::abs(q.z)});
+    }
+    constexpr int least_exponent = -1000;
+    const double scale = std::ldexp(1.0, -std::max(std::ilogb(size), least_exponent));
+    for (Point& q : p) q = {q.x * scale, q.y * scale, q.z * scale};
+    return p;
+}
+
+CellAngles angles_of(const std::array<Point, 4>& corners) {
+    const std::array<Point, 4> p = normalised(corners);
     std::array<Point, 4> normal;  // of the face opposite to each corner, outward
     for (std::size_t k = 0; k < 4; ++k) {
         constexpr std::array<std::array<std::size_t, 3>, 4> outward{

@@ -83,6 +83,7 @@ void set(Vector& v, const Point& p) {
 bool within(const Dyadic& sum, double bound, Dyadic& scratch, Dyadic& difference) {
     if (sum.sign() == 0) return true;
     if (bound == 0) return false;
+    if (std::isinf(bound)) return true;  // coordinates so large that no bound can be told
     Dyadic limit;
     limit.set(sum.sign() > 0 ? bound : -bound);
     difference.set_difference(sum, limit, scratch);

@@ -123,14 +123,14 @@ bool conform(const Mesh& mesh, const CellVertices& c, const CellVertices& d) {
         if (!has(d, c[k]) && holds(t, s[k])) return false;
     }
     for (const auto& [i, j] : cell_edges) {
-        for (const auto& face : cell_faces) {
-            const auto shares = [&](std::size_t k) { return d[k] == c[i] || d[k] == c[j]; };
-            if (std::any_of(face.begin(), face.end(), shares)) continue;
-            if (pierces(s[i], s[j], {t[face[0]], t[face[1]], t[face[2]]})) return false;
+        const EdgeVertices edge{c[i], c[j]};
+        const auto of_edge = [&](VertexIndex v) { return v == edge[0] || v == edge[1]; };
+        for (const auto& [k, l, m] : cell_faces) {
+            if (of_edge(d[k]) || of_edge(d[l]) || of_edge(d[m])) continue;
+            if (pierces(s[i], s[j], {t[k], t[l], t[m]})) return false;
         }
         for (const auto& [k, l] : cell_edges) {
-            if (has({c[i], c[j], c[i], c[j]}, d[k]) || has({c[i], c[j], c[i], c[j]}, d[l]))
-                continue;
+            if (of_edge(d[k]) || of_edge(d[l])) continue;
             if (segments_meet(s[i], s[j], t[k], t[l])) return false;
         }
     }

@@ -123,14 +123,14 @@ bool conform(const Mesh& mesh, const CellVertices& c, const CellVertices& d) {
         if (!has(d, c[k]) && holds(t, s[k])) return false;
     }
     for (const auto& [i, j] : cell_edges) {
-        for (const auto& face : cell_faces) {
-            const auto shares = [&](std::size_t k) { return d[k] == c[i] || d[k] == c[j]; };
-            if (std::any_of(face.begin(), face.end(), shares)) continue;
-            if (pierces(s[i], s[j], {t[face[0]], t[face[1]], t[face[2]]})) return false;
+        const EdgeVertices edge{c[i], c[j]};
+        const auto of_edge = [&](VertexIndex v) { return v == edge[0] || v == edge[1]; };
+        for (const auto& [k, l, m] : cell_faces) {
+            if (of_edge(d[k]) || of_edge(d[l]) || of_edge(d[m])) continue;
+            if (pierces(s[i], s[j], {t[k], t[l], t[m]})) return false;
         }
         for (const auto& [k, l] : cell_edges) {
-            if (has({c[i], c[j], c[i], c[j]}, d[k]) || has({c[i], c[j], c[i], c[j]}, d[l]))
-                continue;
+            if (of_edge(d[k]) || of_edge(d[l])) continue;
             if (segments_meet(s[i], s[j], t[k], t[l])) return false;
         }
     }
@@ -224,7 +224,7 @@ TEST(BruteForce, AgreesWithTheCertificateOnValidAndBrokenMeshes) {
     std::mt19937_64 random(20240);
     int valid = 0;
     int broken = 0;
-    for (int round = 0; round < 4000; ++round) {
+    for (int round = 0; round < 1500; ++round) {
         // A side of 4 leaves room for halves, and for moves that break nothing.
         Mesh mesh = round % 2 == 0 ? test::kuhn(2, 2, 1, 4) : test::kuhn(1, 1, 1, 4);
         const std::size_t mutations = 1 + random() % 3;
@@ -235,7 +235,7 @@ TEST(BruteForce, AgreesWithTheCertificateOnValidAndBrokenMeshes) {
         ASSERT_EQ(verdict.valid(), expected) << "round " << round << ": " << codes_of(verdict);
         ++(expected ? valid : broken);
     }
-    EXPECT_GT(valid, 400);
+    EXPECT_GT(valid, 150);
     EXPECT_GT(broken, 400);
 }
 
@@ -244,7 +244,7 @@ TEST(BruteForce, AgreesWithTheCertificateOnTwoCellsAnywhere) {
     std::mt19937_64 random(7);
     int crossing = 0;
     int apart = 0;
-    for (int round = 0; round < 20000; ++round) {
+    for (int round = 0; round < 6000; ++round) {
         std::vector<Point> points;
         for (int k = 0; k < 8; ++k) {
             const auto coordinate = [&] { return static_cast<double>(random() % 7); };
@@ -263,8 +263,8 @@ TEST(BruteForce, AgreesWithTheCertificateOnTwoCellsAnywhere) {
         if (verdict.count(Code::boundary_crosses) > 0) ++crossing;
         if (expected) ++apart;
     }
-    EXPECT_GT(crossing, 100);
-    EXPECT_GT(apart, 100);
+    EXPECT_GT(crossing, 50);
+    EXPECT_GT(apart, 50);
 }
 
 }  // namespace

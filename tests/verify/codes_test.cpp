@@ -167,6 +167,19 @@ const std::vector<MeshCase> broken_meshes{
          }
          return mesh;
      }},
+    {Code::boundary_crosses, "edges_through_inner_faces_alone",
+     [] {
+         // A cell with one on each face, and a sixth between the tips of these four. Its edges pass
+         // through the inner faces; no edge of the others meets its faces.
+         std::vector<Point> points;
+         for (const Point& p : test::regular_corners) points.push_back({3 * p.x, 3 * p.y, 3 * p.z});
+         for (const Point& p : test::regular_corners) {
+             points.push_back({-2 * p.x, -2 * p.y, -2 * p.z});
+         }
+         return test::mesh_of(
+             points,
+             {{0, 1, 2, 3}, {4, 1, 2, 3}, {0, 5, 2, 3}, {0, 1, 6, 3}, {0, 1, 2, 7}, {4, 5, 6, 7}});
+     }},
     {Code::boundary_crosses, "edges_that_cross_in_a_plane",
      [] {
          return test::mesh_of({{0, 0, 0},

@@ -60,10 +60,10 @@ TEST_P(CorpusRefinement, IsValidAndTheOneThatWasAskedFor) {
 INSTANTIATE_TEST_SUITE_P(, CorpusRefinement, testing::ValuesIn(entries_with_files()),
                          test::corpus_name);
 
-TEST(Refinement, IsValidThroughFourLevelsOfShakenLattices) {
+TEST(Refinement, IsValidThroughThreeLevelsOfShakenLattices) {
     for (const std::uint64_t seed : {1U, 2U, 3U}) {
         const Mesh coarse = test::shaken_kuhn(2, 0.2, seed);
-        const Request request{{.random = RandomShare{0.1, seed}}, Scheme::eight, 4};
+        const Request request{{.random = RandomShare{0.1, seed}}, Scheme::eight, 3};
         const Mesh fine =
             reference::refine(coarse, request.selection, request.scheme, request.levels).mesh;
         const Verdict verdict = verify_refinement(coarse, fine, {.request = request});

@@ -31,9 +31,11 @@ void report(const Subject& subject, CellIndex c, VertexIndex v, int touched, Fin
                  });
 }
 
-/// Edges against faces. Two that have no vertex in common must not meet. With one in common, an
-/// edge that lies in the plane of the face must not leave it through the opposite side. (It cannot
-/// end within: check_hanging would have found that.)
+/// Edges against faces, one of the two on the boundary: if they have no vertex in common, they must
+/// not meet. (With one in common they could cross in their plane, the edge leaving the face through
+/// the opposite side. Then another face at that edge, or at that side, of the same cell meets what
+/// it has no vertex in common with: else that cell would be flat. An edge cannot end within a face:
+/// check_hanging would have found that.)
 class CrossingCheck {
 public:
     CrossingCheck(const Subject& subject, Findings& findings)
@@ -82,21 +84,10 @@ private:
     }
 
     void judge(const EdgeVertices& edge, const FacetVertices& face) {
-        std::size_t shared = 0;
-        std::size_t where = 0;
-        for (std::size_t k = 0; k < 3; ++k) {
-            if (face[k] != edge[0] && face[k] != edge[1]) continue;
-            ++shared;
-            where = k;
+        for (const VertexIndex v : face) {
+            if (v == edge[0] || v == edge[1]) return;
         }
-        if (shared == 2) return;
-        const bool meeting =
-            shared == 0
-                ? exact::meet(places(edge), places(face), findings_.arithmetic())
-                : exact::meet(places(edge),
-                              places(EdgeVertices{face[(where + 1) % 3], face[(where + 2) % 3]}),
-                              findings_.arithmetic());
-        if (!meeting) return;
+        if (!exact::meet(places(edge), places(face), findings_.arithmetic())) return;
         findings_.add(Code::boundary_crosses, [&]() -> Findings::Description {
             return {{entity(edge, subject_.which), entity(face, subject_.which)},
                     "the edge meets the face",

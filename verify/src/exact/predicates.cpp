@@ -57,13 +57,4 @@ bool meet(const std::array<Point, 2>& segment, const std::array<Point, 3>& trian
         Rationals::Triangle_3(point<Rationals>(a), point<Rationals>(b), point<Rationals>(c)));
 }
 
-bool meet(const std::array<Point, 2>& a, const std::array<Point, 2>& b, Arithmetic& arithmetic) {
-    if (orientation(a[0], a[1], b[0], b[1], arithmetic) != 0) return false;
-    ++arithmetic.exact;
-    const auto segment = [](const std::array<Point, 2>& s) {
-        return Rationals::Segment_3(point<Rationals>(s[0]), point<Rationals>(s[1]));
-    };
-    return CGAL::do_intersect(segment(a), segment(b));
-}
-
 }  // namespace octetra::verify::exact

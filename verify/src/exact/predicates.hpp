@@ -18,8 +18,4 @@ namespace octetra::verify::exact {
 [[nodiscard]] bool meet(const std::array<Point, 2>& segment, const std::array<Point, 3>& triangle,
                         Arithmetic& arithmetic);
 
-/// Have two closed segments, neither of them a point, a point in common?
-[[nodiscard]] bool meet(const std::array<Point, 2>& a, const std::array<Point, 2>& b,
-                        Arithmetic& arithmetic);
-
 }  // namespace octetra::verify::exact

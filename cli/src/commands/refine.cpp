@@ -170,9 +170,8 @@ bool refine_by_reference(const Mesh& mesh, const Plan& plan, const RefineOptions
     distributed::on_first(world, [&] {
         const distributed::Phase phase(world, "refine");
         const int levels = options.refinement.levels;
-        fine = naming_the_mesh(options, [&] {
-            return reference::refine(mesh, plan.selection, plan.scheme, levels);
-        });
+        fine = naming_the_mesh(
+            options, [&] { return reference::refine(mesh, plan.selection, plan.scheme, levels); });
         const bool idle = fine.mesh.cells.size() == mesh.cells.size();
         report_refined(options, idle ? 0 : levels, 1, WholeMesh(fine.mesh, &fine.maps).facts(),
                        watch.lap());
@@ -311,7 +310,7 @@ void add_refine(CLI::App& program, const distributed::Communicator& world) {
     add_profile_options(*refine_command, options->profile);
     refine_command->add_flag(
         "--verify", options->verify,
-        "judge the result as octetra verify does, on the first rank, and write it if it is valid");
+        "judge the result, on the first rank, as octetra verify does; write it if it is valid");
     refine_command->add_flag("--quiet", options->quiet, "print nothing but notes and errors");
     refine_command->footer(
         "Example:\n"

@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 """Refines a mesh with DOLFINx, for our verifier to judge: refine_with_dolfinx.py IN.mesh OUT.mesh [LEVELS].
 
 Reads and writes Medit files as `octetra convert` writes them. Refines uniformly. DOLFINx does not keep cells

@@ -2,7 +2,9 @@
 
 #include <metis.h>
 
+#include <cerrno>
 #include <charconv>
+#include <cstring>
 #include <fstream>
 #include <random>
 
@@ -68,7 +70,10 @@ std::vector<int> by_lot(std::size_t cells, int parts, std::uint64_t seed) {
 
 std::vector<int> from_file(const std::filesystem::path& path, std::size_t cells, int parts) {
     std::ifstream in(path);
-    if (!in) throw InputError(fmt::format("{}: cannot be opened", path.native()));
+    if (!in) {
+        throw InputError(
+            fmt::format("{}: cannot be opened: {}", path.native(), std::strerror(errno)));
+    }
     std::vector<int> part;
     std::size_t line_number = 0;
     for (std::string line; std::getline(in, line);) {

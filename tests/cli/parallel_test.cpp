@@ -86,6 +86,10 @@ TEST_F(Parallel, EndsInOneMessageAndTheSameStatusOnAllRanks) {
         {"refine gear.1.ele -o p.ele", "octetra: say which cells"},
         {"refine gear.1.ele --nonsense -o p.ele", "octetra: "},
     };
+    const auto alone =
+        test::octetra("refine gear.1.ele --all --partition file:parts.txt -o p.ele", folder);
+    EXPECT_EQ(alone.status, 2) << "a part file that does not fit is wrong for one rank, too";
+    EXPECT_THAT(alone.err, HasSubstr("octetra: parts.txt:"));
     for (const auto& [command, message] : failures) {
         const auto run = octetra_on(3, command, folder);
         EXPECT_EQ(run.status, 2) << command << "\n" << run.err;

@@ -105,6 +105,23 @@ TEST(Vtu, InPiecesIsTheWholeMeshForVtk) {
     EXPECT_EQ(three["cell_data"][1]["name"], "rank");
     EXPECT_EQ(three["cell_data"][1]["range"], json({{0, 2}}));
     EXPECT_EQ(three["point_data"], one["point_data"]) << "marker and vertex";
+    EXPECT_EQ(three["global_ids"], "vertex");
+}
+
+TEST(Vtu, OfFewerPiecesRemovesThoseOfTheOneThatItReplaces) {
+    const TemporaryFolder folder;
+    (void)write_mesh(test::kuhn(2, 2, 2), folder / "a.ele");
+    for (const std::string name : {"a_1.vtu", "a_2.vtu", "a_4.vtu", "b_1.vtu"}) {
+        (void)folder.write(name, "older");
+    }
+    ASSERT_EQ(test::octetra("refine a.ele --all -o a.pvtu", folder).status, 0);
+    EXPECT_TRUE(std::filesystem::exists(folder / "a_1.vtu")) << "no older .pvtu had it";
+    ASSERT_EQ(test::octetra("refine a.ele --all -o a.pvtu", folder).status, 0);
+    EXPECT_TRUE(std::filesystem::exists(folder / "a_0.vtu"));
+    EXPECT_FALSE(std::filesystem::exists(folder / "a_1.vtu"));
+    EXPECT_FALSE(std::filesystem::exists(folder / "a_2.vtu"));
+    EXPECT_TRUE(std::filesystem::exists(folder / "a_4.vtu")) << "none between";
+    EXPECT_TRUE(std::filesystem::exists(folder / "b_1.vtu"));
 }
 
 TEST(Vtu, NumbersParentsAsTheInputDoes) {

@@ -7,6 +7,7 @@
     min_signed_volume the smallest of them, or null; negative for an inverted cell
     point_data,       [{name, type, components, range}, ...] in the file's order; range has one
     cell_data         [smallest, largest] for each component, or is null for an array without values
+    global_ids        which of the points' arrays numbers them in the whole mesh, or null
     coordinates_type  of the points: "double" unless the writer lost precision
 
 --points prints the coordinates instead, one vertex a line, as hexadecimal floats; --cells the
@@ -128,6 +129,10 @@ def arrays(data):
     return described
 
 
+def name_of(array):
+    return array.GetName() if array else None
+
+
 def summary(grid):
     volumes = list(signed_volumes(grid))
     return {
@@ -138,6 +143,7 @@ def summary(grid):
         "min_signed_volume": min(volumes, default=None),
         "point_data": arrays(grid.GetPointData()),
         "cell_data": arrays(grid.GetCellData()),
+        "global_ids": name_of(grid.GetPointData().GetGlobalIds()),
         "coordinates_type": grid.GetPoints().GetData().GetDataTypeAsString(),
     }
 

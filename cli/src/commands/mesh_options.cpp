@@ -42,8 +42,11 @@ void check_side_file(std::string_view option, const std::filesystem::path& path)
 void note(std::string_view what) { fmt::print(stderr, "octetra: note: {}\n", what); }
 
 void report_written(const Mesh& mesh, const std::string& path) {
-    fmt::print("wrote {}: {} vertices, {} cells, {} facets\n", path, grouped(mesh.points.size()),
-               grouped(mesh.cells.size()), grouped(mesh.facets.size()));
+    const auto extension = std::filesystem::path(path).extension();
+    const bool holds_facets = extension != ".vtu" && extension != ".pvtu";
+    fmt::print("wrote {}: {} vertices, {} cells{}\n", path, grouped(mesh.points.size()),
+               grouped(mesh.cells.size()),
+               holds_facets ? fmt::format(", {} facets", grouped(mesh.facets.size())) : "");
 }
 
 Mesh read_input(const InputOptions& options) {

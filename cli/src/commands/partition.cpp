@@ -53,8 +53,9 @@ void partition(const PartitionOptions& options) {
     if (!options.output.empty()) check_side_file("-o", options.output);
     const Mesh mesh = read_input(options.input);
     const auto cell_to_part = distributed::partition_cells(mesh, options.parts, method);
-    fmt::print("{}: {} cells in {} parts by {}\n\n", options.input.path, grouped(mesh.cells.size()),
-               options.parts, options.method);
+    fmt::print("{}: {} cell{} in {} parts by {}\n\n", options.input.path,
+               grouped(mesh.cells.size()), mesh.cells.size() == 1 ? "" : "s", options.parts,
+               options.method);
     print_statistics(distributed::measure_partition(mesh, cell_to_part, options.parts));
     if (options.output.empty()) return;
     write_list(cell_to_part, options.output);

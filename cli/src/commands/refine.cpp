@@ -185,7 +185,9 @@ distributed::DistributedMesh share_out(Mesh mesh, const Plan& plan,
     std::vector<int> cell_to_rank;
     distributed::in_phase(world, "partition", [&] {
         distributed::on_first(world, [&] {
-            if (world.size() == 1) return;
+            // A part file that does not fit is a mistake on one rank, too.
+            const bool by_file = plan.partition.method == distributed::PartitionMethod::file;
+            if (world.size() == 1 && !by_file) return;
             cell_to_rank = distributed::partition_cells(mesh, world.size(), plan.partition);
         });
     });

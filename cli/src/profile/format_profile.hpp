@@ -15,12 +15,11 @@
 ///     seconds            of the whole run, from before the mesh is read until all is written
 ///     peak_memory_bytes  the most that was resident; 0 where the system does not tell
 ///     levels             [{level, cells, peak_memory_bytes}, ...]: after each level, and before
-///     the
-///                        first as level 0; the memory is the most so far
+///                        the first as level 0; the memory is the most so far
 ///     phases             [{phase, level, computing_seconds, communicating_seconds, messages,
-///     bytes,
-///                        collectives, collective_bytes, rounds}, ...]: of each phase of each
-///                        level, 0 for those of no level; the figures are explained at PhaseCounts
+///                        bytes, collectives, collective_bytes, rounds}, ...]: of each phase of
+///                        each level, 0 for those of no level; the figures are explained at
+///                        PhaseCounts
 ///
 /// Every figure is {min, mean, max, of_rank: [...]} over ranks; those that add up (cells, messages
 /// and so on, but not rounds) have their `sum`, too. The seconds of all phases of a rank add up to

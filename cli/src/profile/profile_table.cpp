@@ -142,7 +142,10 @@ std::string format_profile_table(const GatheredProfile& profile) {
     return phase_table(profile) + level_table(profile) +
            fmt::format("\npeak memory of a rank: min {}, mean {}, max {}\n",
                        bytes_for_people(memory.min), bytes_for_people(memory.mean),
-                       bytes_for_people(memory.max));
+                       bytes_for_people(memory.max)) +
+           "Seconds are wall clock; communicating includes waiting. Reductions and broadcasts are "
+           "no\n"
+           "messages; the JSON file counts them.\n";
 }
 
 }  // namespace octetra::cli

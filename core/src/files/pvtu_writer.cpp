@@ -36,8 +36,8 @@ std::string escaped(const std::string& text) {
 }
 
 void put_declarations(OutputFile& out, std::string_view element,
-                      const std::vector<VtuArray>& arrays) {
-    out.put(fmt::format("    <{}>\n", element));
+                      const std::vector<VtuArray>& arrays, std::string_view attributes = "") {
+    out.put(fmt::format("    <{}{}>\n", element, attributes));
     for (const VtuArray& array : arrays) {
         out.put(fmt::format("      <PDataArray {}/>\n", vtu_attributes(array)));
     }
@@ -51,7 +51,7 @@ void write_index(const fs::path& path, MeshSource& piece, const VtuData& data, i
                          "version=\"1.0\" byte_order=\"LittleEndian\" "
                          "header_type=\"UInt64\">\n  <PUnstructuredGrid GhostLevel=\"0\">\n"});
     put_declarations(out, "PPoints", {vtu_coordinates(piece)});
-    put_declarations(out, "PPointData", data.of_points);
+    put_declarations(out, "PPointData", data.of_points, data.point_attributes);
     put_declarations(out, "PCellData", data.of_cells);
     for (int rank = 0; rank < pieces; ++rank) {
         out.put(fmt::format("    <Piece Source=\"{}\"/>\n",
@@ -59,6 +59,14 @@ void write_index(const fs::path& path, MeshSource& piece, const VtuData& data, i
     }
     out.put(std::string_view{"  </PUnstructuredGrid>\n</VTKFile>\n"});
     out.commit();
+}
+
+/// Pieces that an older `.pvtu` of this name had beyond those of the new one: they would look like
+/// part of it.
+void remove_stale_pieces(const fs::path& path, int pieces) {
+    for (int rank = pieces; fs::is_regular_file(piece_path(path, rank)); ++rank) {
+        fs::remove(piece_path(path, rank));
+    }
 }
 
 /// Collective. What fails for this process is told to all.
@@ -83,15 +91,14 @@ std::string write_pvtu(MeshSource& piece, const WriterGroup& group, const fs::pa
         out->close();
     });
     together(group, [&] { out->commit(); });
-    group.on_first([&] { write_index(path, piece, data, group.size()); });
+    group.on_first([&] {
+        const bool replaces = fs::exists(path);
+        write_index(path, piece, data, group.size());
+        if (replaces) remove_stale_pieces(path, group.size());
+    });
 
-    const std::uint64_t facets = group.share_of(piece.facts().facets).total;
-    const std::uint64_t edges = group.share_of(piece.facts().edges).total;
-    if (facets == 0 && edges == 0) return {};
-    return fmt::format(
-        "the .pvtu file holds cells only, not the {} listed faces and {} listed "
-        "edges with their markers; .mesh and .ele hold them",
-        facets, edges);
+    return lists_left_out(path, group.share_of(piece.facts().facets).total,
+                          group.share_of(piece.facts().edges).total);
 }
 
 }  // namespace octetra

@@ -24,6 +24,10 @@ namespace octetra {
 [[nodiscard]] std::string write_pvtu(MeshSource& piece, const WriterGroup& group,
                                      const std::filesystem::path& path);
 
+/// What a file that holds cells only does not hold of these lists, in a sentence, or nothing.
+[[nodiscard]] std::string lists_left_out(const std::filesystem::path& path, std::uint64_t facets,
+                                         std::uint64_t edges);
+
 /// Collective in the mesh's group. Everything of a .vtu file, not yet committed.
 void put_vtu(OutputFile& out, MeshSource& mesh, const VtuData& data);
 

@@ -160,6 +160,7 @@ VtuData vtu_data(MeshSource& mesh) {
 VtuData vtu_data_of_piece(MeshSource& piece, int rank) {
     VtuData data = vtu_data(piece);
     data.of_points.push_back(vertex_numbers(piece));
+    data.point_attributes = " GlobalIds=\"vertex\"";
     data.of_cells.push_back(rank_of_cells(piece, rank));
     return data;
 }

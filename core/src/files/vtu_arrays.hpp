@@ -30,6 +30,7 @@ struct VtuArray {
 struct VtuData {
     std::vector<VtuArray> of_points;
     std::vector<VtuArray> of_cells;
+    std::string point_attributes;  ///< what XML says of the points' arrays: which are global ids
 };
 
 [[nodiscard]] VtuArray vtu_coordinates(MeshSource& mesh);

@@ -47,7 +47,7 @@ public:
                         mesh.facts().vertices, mesh.facts().cells));
         declare("Points", {vtu_coordinates(mesh)});
         declare("Cells", vtu_cells(mesh));
-        declare("PointData", data.of_points);
+        declare("PointData", data.of_points, data.point_attributes);
         declare("CellData", data.of_cells);
         put("    </Piece>\n  </UnstructuredGrid>\n  <AppendedData encoding=\"raw\">\n   _");
         out_->end_turn();
@@ -74,8 +74,9 @@ private:
         if (group_->is_first()) out_->put(text);
     }
 
-    void declare(std::string_view element, const std::vector<VtuArray>& arrays) {
-        put(fmt::format("      <{}>\n", element));
+    void declare(std::string_view element, const std::vector<VtuArray>& arrays,
+                 std::string_view attributes = "") {
+        put(fmt::format("      <{}{}>\n", element, attributes));
         for (const VtuArray& array : arrays) {
             put(fmt::format("        <DataArray {} format=\"appended\" offset=\"",
                             vtu_attributes(array)));
@@ -149,12 +150,20 @@ std::string write_vtu(MeshSource& mesh, const std::filesystem::path& path) {
     OutputFile out(path, mesh.group());
     put_vtu(out, mesh, vtu_data(mesh));
     out.commit();
-    const MeshFacts& facts = mesh.facts();
-    if (facts.facets == 0 && facts.edges == 0) return {};
+    return lists_left_out(path, mesh.facts().facets, mesh.facts().edges);
+}
+
+std::string lists_left_out(const std::filesystem::path& path, std::uint64_t facets,
+                           std::uint64_t edges) {
+    if (facets == 0 && edges == 0) return {};
+    const std::string what =
+        edges == 0    ? fmt::format("{} listed faces", facets)
+        : facets == 0 ? fmt::format("{} listed edges", edges)
+                      : fmt::format("{} listed faces and {} listed edges", facets, edges);
     return fmt::format(
-        "the {} file holds cells only, not the {} listed faces and {} listed "
-        "edges with their markers; .mesh and .ele hold them",
-        path.extension().native(), facts.facets, facts.edges);
+        "the {} file holds cells only, not the {} with their markers; .mesh and .ele "
+        "hold them",
+        path.extension().native(), what);
 }
 
 }  // namespace octetra

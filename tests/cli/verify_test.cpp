@@ -53,9 +53,12 @@ TEST_F(Verify, EndsWithStatus1WhereTheAnswerIsNo) {
 TEST_F(Verify, JudgesFilesThatOthersRefuse) {
     const std::string bad = (test::corpus_folder() / "bad").string() + "/";
     const std::vector<std::pair<std::string, std::string>> cases{
-        {"medit-inverted-cell.mesh", "repeated_cell: 1"}, {"flat-cell.ele", "flat_cell: 1"},
-        {"nearly-flat-cell.ele", "NOT VALID"},     {"repeated-vertex.ele", "repeated_vertex: 1"},
-        {"face-of-no-cell.ele", "stray_facet: 1"}, {"medit-edge-of-no-cell.mesh", "stray_edge: 1"},
+        {"medit-inverted-cell.mesh", "repeated_cell: 1"},
+        {"flat-cell.ele", "flat_cell: 1"},
+        {"nearly-flat-cell.ele", "NOT VALID"},
+        {"repeated-vertex.ele", "repeated_vertex: 1"},
+        {"face-of-no-cell.ele", "stray_facet: 1"},
+        {"medit-edge-of-no-cell.mesh", "stray_edge: 1"},
     };
     for (const auto& [file, what] : cases) {
         EXPECT_THAT(expect_status(1, "verify " + bad + file).out, HasSubstr(what));

@@ -48,7 +48,8 @@ TEST_P(Markdown, LinksLeadSomewhere) {
 /// is a folder of the sources.
 TEST_P(Markdown, PathsExist) {
     const std::string sources =
-        "((?:core|reference|distributed|verify|cli|corpus|tests|tools|bench|docs|cmake|\\.ci)/[^`\\s]*)";
+        "((?:core|reference|distributed|verify|cli|corpus|tests|tools|bench|docs|cmake|\\.ci)/"
+        "[^`\\s]*)";
     const Page content = page(GetParam());
     const auto expect_all = [&](const std::vector<std::string>& lines, const std::string& pattern) {
         for (const std::string& line : lines) {

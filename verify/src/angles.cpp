@@ -168,10 +168,9 @@ std::string check_face_angles(const Subject& coarse, const Subject& fine, const 
     std::uint64_t by_slack = 0;
     fine.faces.for_each_group([&](const FacetVertices& face, auto entries) {
         const CellFace f = cell_face(entries.front().tag);
-        const int of_parent = descent.face_of_parent[f.cell][f.face];
-        if (of_parent < 0) return;
-        const FacetVertices parent = outward_face(coarse.mesh.cells[descent.parent[f.cell]],
-                                                  static_cast<std::size_t>(of_parent));
+        const auto on = descent.coarse_face(f);
+        if (!on) return;
+        const FacetVertices parent = outward_face(coarse.mesh.cells[on->cell], on->face);
         const auto piece = triangle(face, fine.mesh);
         const auto whole = triangle(parent, coarse.mesh);
         if (exact::keeps_half_of_smallest_angle(piece, whole, findings.arithmetic())) return;

@@ -66,9 +66,9 @@ Colours colours_of(const Mesh& mesh, bool tell_coincident_apart) {
 /// An entity of N vertices in a form that no numbering changes.
 template <std::size_t N>
 struct Item {
-    std::array<Colour, N> colours;  ///< ascending
-    std::array<Point, N> corners;   ///< in that order
-    bool turned = false;            ///< of a cell: an odd permutation of that order
+    std::array<Colour, N> colours{};  ///< ascending
+    std::array<Point, N> corners;     ///< in that order
+    bool turned = false;              ///< of a cell: an odd permutation of that order
     Marker marker = 0;
     std::vector<double> attributes;
 

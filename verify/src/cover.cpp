@@ -25,14 +25,10 @@ std::string check_cover(const Subject& coarse, const Subject& fine, const Descen
     fine.faces.for_each_group([&](const FacetVertices& face, auto entries) {
         if (entries.size() != 1) return;
         const CellFace f = cell_face(entries.front().tag);
-        const CellIndex parent = descent.parent[f.cell];
-        const int of_parent = descent.face_of_parent[f.cell][f.face];
-        if (of_parent >= 0 &&
-            on_boundary[tag_of({parent, static_cast<std::size_t>(of_parent)})] != 0) {
-            return;
-        }
+        const auto whole = descent.coarse_face(f);
+        if (whole && on_boundary[tag_of(*whole)] != 0) return;
         findings.add(Code::open_face, [&]() -> Findings::Description {
-            return {{entity(face), entity(f.cell), entity(parent, Which::coarse)},
+            return {{entity(face), entity(f.cell), entity(descent.parent[f.cell], Which::coarse)},
                     "one cell, and not on the boundary of the coarse mesh",
                     "a cell on each side"};
         });

@@ -81,13 +81,12 @@ private:
     bool attempt(auto&& pieces) {
         const std::size_t leaves = leaves_.size();
         const std::size_t splits = splits_.size();
-        for (const Piece& piece : pieces) {
-            if (divide(piece)) continue;
-            leaves_.resize(leaves);
-            splits_.resize(splits);
-            return false;
+        if (std::all_of(pieces.begin(), pieces.end(), [&](const Piece& p) { return divide(p); })) {
+            return true;
         }
-        return true;
+        leaves_.resize(leaves);
+        splits_.resize(splits);
+        return false;
     }
 
     struct Choice {
@@ -164,19 +163,18 @@ private:
         return false;
     }
 
+    /// The number of the edge between two corners, in cell_edges.
+    static constexpr std::size_t edge_of(std::size_t i, std::size_t j) {
+        constexpr std::array<std::array<std::size_t, 4>, 4> numbers{
+            {{0, 0, 1, 2}, {0, 0, 3, 4}, {1, 3, 0, 5}, {2, 4, 5, 0}}};
+        return numbers[i][j];
+    }
+
     /// Four corners, and four cells round one diagonal of the octahedron between them.
     static std::array<Piece, 8> eight_pieces(const Piece& piece,
                                              const std::array<VertexIndex, 6>& m,
                                              std::size_t diagonal) {
         const auto depth = static_cast<std::uint8_t>(piece.depth + 3);
-        const auto edge_of = [](std::size_t i, std::size_t j) {
-            for (std::size_t k = 0; k < 6; ++k) {
-                if (cell_edges[k][0] == std::min(i, j) && cell_edges[k][1] == std::max(i, j)) {
-                    return k;
-                }
-            }
-            return std::size_t{0};
-        };
         std::array<Piece, 8> pieces;
         for (std::size_t corner = 0; corner < 4; ++corner) {
             Piece& p = pieces[corner] = piece;
@@ -307,9 +305,8 @@ public:
 private:
     void take(const Split& split) {
         EdgeVertices& halves = descent_.halves[split.midpoint];
-        if (descent_.is_coarse[split.midpoint.value()] != 0) {
-            report_twice(split);
-        } else if (halves[0].is_none()) {
+        const bool is_new = descent_.is_coarse[split.midpoint.value()] == 0;
+        if (is_new && halves[0].is_none()) {
             halves = split.edge;
             const double own = rounding_of_midpoint(fine_.mesh.points[split.edge[0]],
                                                     fine_.mesh.points[split.edge[1]]);
@@ -321,7 +318,7 @@ private:
             ++facts.bisected_edges;
             if (own > 0) ++facts.rounded_midpoints;
             facts.rounding_bound = std::max(facts.rounding_bound, rounding);
-        } else if (!is_half_way(split.midpoint, split.edge, descent_)) {
+        } else if (!is_new || !is_half_way(split.midpoint, split.edge, descent_)) {
             report_twice(split);
         }
     }

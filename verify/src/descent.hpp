@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include <octetra/verify/verify.hpp>
@@ -19,6 +20,13 @@ struct Descent {
     IndexVector<CellIndex, CellIndex> parent;  ///< of each fine cell the coarse one, or none()
     /// On which face of the parent each of its faces lies; inside: -1.
     IndexVector<CellIndex, std::array<std::int8_t, 4>> face_of_parent;
+    /// The face of a coarse cell that a face of a fine one lies on; nothing if it lies inside.
+    [[nodiscard]] std::optional<CellFace> coarse_face(CellFace f) const {
+        const std::int8_t face = face_of_parent[f.cell][f.face];
+        if (face < 0) return std::nullopt;
+        return CellFace{parent[f.cell], static_cast<std::size_t>(face)};
+    }
+
     IndexVector<CellIndex, std::uint8_t> depth;  ///< how many bisections below the parent
 
     /// Of each fine vertex the two that it is half way between; none() for those of the coarse

@@ -32,7 +32,7 @@ public:
     }
 
 private:
-    std::size_t first_slot(const Point& p) const {
+    [[nodiscard]] std::size_t first_slot(const Point& p) const {
         std::uint64_t h = 0;
         for (const double c : {p.x, p.y, p.z}) {
             // Adding +0.0 turns -0.0, which is the same place, into +0.0.

@@ -103,11 +103,9 @@ private:
         const auto fine = buckets_of(fine_.facets, fine_.points.size());
         fine_subject_.faces.for_each_group([&](const FacetVertices& face, auto entries) {
             const CellFace f = cell_face(entries.front().tag);
-            const int of_parent = descent_.face_of_parent[f.cell][f.face];
             std::vector<Marker> expected;
-            if (of_parent >= 0) {
-                const FacetVertices whole = outward_face(coarse_.cells[descent_.parent[f.cell]],
-                                                         static_cast<std::size_t>(of_parent));
+            if (const auto on = descent_.coarse_face(f)) {
+                const FacetVertices whole = outward_face(coarse_.cells[on->cell], on->face);
                 expected = markers_of(coarse.find(whole), coarse_.facet_markers);
             }
             const auto found = markers_of(fine.find(face), fine_.facet_markers);
@@ -179,10 +177,9 @@ private:
         const auto listed = buckets_of(coarse_.facets, coarse_.points.size());
         fine_subject_.faces.for_each_group([&](const FacetVertices& face, auto entries) {
             const CellFace f = cell_face(entries.front().tag);
-            const int of_parent = descent_.face_of_parent[f.cell][f.face];
-            if (of_parent < 0) return;
-            const FacetVertices whole = outward_face(coarse_.cells[descent_.parent[f.cell]],
-                                                     static_cast<std::size_t>(of_parent));
+            const auto on = descent_.coarse_face(f);
+            if (!on) return;
+            const FacetVertices whole = outward_face(coarse_.cells[on->cell], on->face);
             for (const auto& entry : listed.find(whole)) {
                 const Marker marker = coarse_.facet_markers[FacetIndex{entry.tag}];
                 for (const VertexIndex v : face) take(v, marker);

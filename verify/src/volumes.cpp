@@ -121,10 +121,9 @@ double check_boundary_areas(const Subject& coarse, const Subject& fine, const De
     std::vector<CellFace> fine_faces;
     std::vector<std::uint32_t> coarse_of;
     for (const CellFace f : boundary_faces(fine)) {
-        const int of_parent = descent.face_of_parent[f.cell][f.face];
-        if (of_parent < 0) continue;  // an open face, which check_cover has reported
-        const std::uint32_t number =
-            number_of[tag_of({descent.parent[f.cell], static_cast<std::size_t>(of_parent)})];
+        const auto whole = descent.coarse_face(f);
+        if (!whole) continue;  // an open face, which check_cover has reported
+        const std::uint32_t number = number_of[tag_of(*whole)];
         if (number == not_on_boundary) continue;
         fine_faces.push_back(f);
         coarse_of.push_back(number);

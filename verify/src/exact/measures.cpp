@@ -67,7 +67,7 @@ private:
         return static_cast<mp_bitcnt_t>(high.exponent_ - low.exponent_);
     }
 
-    mpz_t mantissa_;
+    mpz_t mantissa_{};
     long exponent_ = 0;
 };
 

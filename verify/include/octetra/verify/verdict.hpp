@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <optional>
@@ -76,10 +77,7 @@ struct Verdict {
         return counts[static_cast<std::size_t>(code)];
     }
     [[nodiscard]] bool valid() const {
-        for (const std::uint64_t n : counts) {
-            if (n != 0) return false;
-        }
-        return true;
+        return std::all_of(counts.begin(), counts.end(), [](std::uint64_t n) { return n == 0; });
     }
 };
 

@@ -40,11 +40,11 @@ void handle_signals() {
     }
 }
 
-/// The memory of an array that is not needed any more, of 256 KiB and more, goes back to the system
+/// The memory of an array that is not needed any more, of 2 MiB and more, goes back to the system
 /// at once rather than when it suits the allocator: the peak counts where ranks share a machine.
 void give_back_freed_memory() {
 #ifdef __GLIBC__
-    constexpr int large = 1 << 18;
+    constexpr int large = 1 << 21;
     mallopt(M_MMAP_THRESHOLD, large);
     mallopt(M_TRIM_THRESHOLD, large);
 #endif

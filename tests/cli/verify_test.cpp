@@ -112,6 +112,19 @@ TEST_F(Verify, ReadsTheMapsThatRefineWrites) {
     expect_status(2, "verify gear.1.ele fine.1.ele --maps changed.maps");
 }
 
+TEST_F(Verify, ReadsMapsByTheNumbersOfTheCoarseMeshWhateverTheFormatOfTheFine) {
+    expect_status(0, refine + " -o fine.mesh --maps medit.maps --quiet");
+    EXPECT_EQ(test::content_of(folder / "medit.maps"), test::content_of(folder / "fine.maps"));
+    expect_status(0, "verify gear.1.ele fine.mesh --maps medit.maps");
+}
+
+TEST_F(Verify, RefusesOptionsThatMeanNothing) {
+    for (const std::string options :
+         {"--min-dihedral nan", "--min-dihedral 181", "--levels 3", "--scheme 2t"}) {
+        expect_status(2, "verify gear.1.ele fine.1.ele " + options);
+    }
+}
+
 TEST_F(Verify, IsOneAnswerOnSeveralRanks) {
     const std::string mpirun = OCTETRA_SOURCE_DIR "/tests/support/mpirun.sh 2 " OCTETRA_PROGRAM;
     const auto run = [&](const std::string& arguments) {

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <map>
 #include <numeric>
 #include <random>
 
@@ -191,6 +192,29 @@ TEST(Refinement, MayBeFinerOnOneSideOfACrack) {
     EXPECT_FALSE(verify_refinement(coarse, closed).valid());
 }
 
+/// A lattice slit half through: the edges from the slit's tip to its two sides lie in one place,
+/// too.
+TEST(Refinement, MayHaveACrackWithATip) {
+    Mesh coarse = test::kuhn(2, 2, 2);
+    std::map<VertexIndex, VertexIndex> upper;  // of the slit's vertices, those of the cells above
+    for (VertexIndex v{0}; v < VertexIndex{27}; ++v) {
+        const Point p = coarse.points[v];
+        if (p.z == 1 && p.x < 1) upper[v] = coarse.points.append(p);
+    }
+    for (CellVertices& cell : coarse.cells) {
+        const auto is_above = [&](VertexIndex v) { return coarse.points[v].z > 1; };
+        if (std::none_of(cell.begin(), cell.end(), is_above)) continue;
+        for (VertexIndex& v : cell) {
+            if (upper.contains(v)) v = upper[v];
+        }
+    }
+    for (const Scheme scheme : schemes) {
+        const Request request{{.all = true}, scheme, 2};
+        const Mesh fine = reference::refine(coarse, request.selection, scheme, 2).mesh;
+        EXPECT_EQ(codes_of(verify_refinement(coarse, fine, {.request = request})), "");
+    }
+}
+
 /// Two cells whose edges cross in their middles, which pass for a coarse mesh. Bisected by one
 /// vertex there, they hang together, which no coarse cells do.
 TEST(Refinement, MayNotJoinWhatOnlyCrosses) {
@@ -226,6 +250,18 @@ TEST(Refinement, IsJudgedAtAllMagnitudes) {
         Mesh moved = fine;
         test::shift_by_an_ulp(moved, VertexIndex{44});  // of the far corner
         EXPECT_FALSE(verify_refinement(coarse, moved).valid()) << side;
+    }
+}
+
+/// Where volumes are less than the least number, bounds on them still bound something.
+TEST(Refinement, IsJudgedWhereWhatRoundingMovesIsLessThanAnyNumber) {
+    for (const double scale : {1e-103, 1e-120, 1e-160}) {
+        Mesh coarse = test::shaken_kuhn(2, 0.3, 4);
+        for (Point& p : coarse.points) p = {p.x * scale, p.y * scale, p.z * scale};
+        const Mesh fine = reference::refine(coarse, {.all = true}, Scheme::eight, 2).mesh;
+        const Verdict verdict = verify_refinement(coarse, fine);
+        EXPECT_GT(verdict.facts.rounded_midpoints, 0U);
+        EXPECT_EQ(codes_of(verdict), "") << scale;
     }
 }
 

@@ -2,12 +2,44 @@
 
 #include <algorithm>
 #include <optional>
+#include <utility>
 
 #include "angles.hpp"
 #include "descent.hpp"
 
 namespace octetra::verify {
 namespace {
+
+/// Vertices of the fine mesh at one place, of which each halves an edge of its own, and these edges
+/// lie in one place, too: as at a crack, of which the coarse mesh has both sides.
+void tolerate_sides_of_cracks(const Mesh& fine, const Descent& descent,
+                              std::vector<char>& tolerated) {
+    std::vector<VertexIndex> by_place;
+    for (VertexIndex v{0}; v < fine.points.end_index(); ++v) by_place.push_back(v);
+    std::sort(by_place.begin(), by_place.end(),
+              [&](VertexIndex v, VertexIndex w) { return fine.points[v] < fine.points[w]; });
+    const auto lie_together = [&](VertexIndex v, VertexIndex w) {
+        EdgeVertices a = descent.halves[v];
+        EdgeVertices b = descent.halves[w];
+        if (a[0].is_none() || b[0].is_none()) return false;
+        if (fine.points[a[0]] != fine.points[b[0]]) std::swap(b[0], b[1]);
+        return a != b && fine.points[a[0]] == fine.points[b[0]] &&
+               fine.points[a[1]] == fine.points[b[1]];
+    };
+    for (std::size_t begin = 0, end = 0; begin < by_place.size(); begin = end) {
+        while (end < by_place.size() &&
+               fine.points[by_place[begin]] == fine.points[by_place[end]]) {
+            ++end;
+        }
+        bool all = end - begin > 1;
+        for (std::size_t i = begin; all && i < end; ++i) {
+            for (std::size_t k = begin; all && k < i; ++k) {
+                all = lie_together(by_place[i], by_place[k]);
+            }
+        }
+        for (std::size_t i = begin; all && i < end; ++i) tolerated[by_place[i].value()] = 1;
+    }
+}
 
 /// Of each vertex: may it be unused, or at the place of another? That is inherited: by vertices of
 /// no coarse cell, and by coincident vertices of the coarse mesh (at a crack, say) and midpoints
@@ -37,6 +69,7 @@ std::vector<char> inherited_freedom(const Mesh& coarse, const Mesh& fine, const 
         any_coincident = true;
     }
     if (!any_coincident) return tolerated;
+    tolerate_sides_of_cracks(fine, descent, tolerated);
     // A midpoint has been given its halves after its ends had theirs, so this ends.
     for (bool changed = true; changed;) {
         changed = false;

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include <fmt/format.h>
 
@@ -17,7 +18,9 @@
 namespace octetra::verify {
 namespace {
 
-constexpr double up = 1 + 1e-9;  // more than all roundings of the bounds together
+constexpr double up = 1 + 1e-9;  // more than all roundings of the bounds together ...
+/// ... but for numbers so small that they are rounded by a unit of their own.
+constexpr double up_from_nothing = 2 * std::numeric_limits<double>::denorm_min();
 
 template <std::size_t N>
 struct Shape {
@@ -52,12 +55,13 @@ Shape<N> shape_of(const std::array<VertexIndex, N>& vertices, const Mesh& fine,
 double volume_bound(const Shape<4>& shape) {
     if (shape.rounding == 0) return 0;
     const double length = shape.longest_edge() + shape.edge_error();
-    return 3 * shape.edge_error() * length * length * up;
+    return 3 * shape.edge_error() * length * length * up + up_from_nothing;
 }
 
 double area_bound(const Shape<3>& shape) {
     if (shape.rounding == 0) return 0;
-    return 2 * shape.edge_error() * (shape.longest_edge() + shape.edge_error()) * up;
+    return 2 * shape.edge_error() * (shape.longest_edge() + shape.edge_error()) * up +
+           up_from_nothing;
 }
 
 /// The fine cells, or other things, in the order of the coarse one that each belongs to.

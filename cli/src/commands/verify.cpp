@@ -47,6 +47,13 @@ verify::VerifyOptions options_of(const VerifyCommandOptions& given) {
     if (given.second.empty() && !given.maps.empty()) {
         throw InputError("verify: --maps can only be checked of COARSE and REFINED");
     }
+    if (!options.request && (given.refinement.levels != 1 || given.refinement.scheme != "8t")) {
+        throw InputError(
+            "verify: --levels and --scheme say how a selection was refined; give it, too");
+    }
+    if (given.min_dihedral && !(*given.min_dihedral >= 0 && *given.min_dihedral <= 180)) {
+        throw InputError("verify: --min-dihedral is an angle, 0 to 180 degrees");
+    }
     if (given.fast && given.min_dihedral) {
         throw InputError("verify: --min-dihedral is not checked with --fast");
     }
@@ -68,7 +75,7 @@ verify::Verdict judge(const VerifyCommandOptions& given, verify::VerifyOptions o
     }
     std::optional<RefinementMaps> maps;
     if (!given.maps.empty()) {
-        maps = read_maps(given.maps, second.first_number);
+        maps = read_maps(given.maps, first.first_number);  // as refine numbers them
         options.maps = &*maps;
     }
     return verify_refinement(first, second, options);

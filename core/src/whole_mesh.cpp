@@ -1,18 +1,6 @@
 #include <octetra/core/mesh_source.hpp>
 
 namespace octetra {
-namespace {
-
-/// This process's slice of a list, `per_entity` elements for each entity.
-template <class T>
-std::span<const T> slice(const std::vector<T>& list, const Window& window,
-                         std::size_t per_entity = 1) {
-    const std::uint64_t begin = window.begin_of(0);
-    return std::span(list).subspan(begin * per_entity, (window.end_of(0) - begin) * per_entity);
-}
-
-}  // namespace
-
 WholeMesh::WholeMesh(const Mesh& mesh, const RefinementMaps* maps)
     : mesh_(&mesh),
       maps_(maps),

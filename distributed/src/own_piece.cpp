@@ -7,13 +7,6 @@
 namespace octetra::distributed {
 namespace {
 
-template <class T>
-std::span<const T> slice(const std::vector<T>& list, const Window& window,
-                         std::size_t per_entity = 1) {
-    const std::uint64_t begin = window.begin_of(0);
-    return std::span(list).subspan(begin * per_entity, (window.end_of(0) - begin) * per_entity);
-}
-
 /// Collective. The markers of this process's vertices, as they are in the whole mesh: all that is
 /// known of a vertex meets at a process that its number decides.
 std::vector<Marker> agreed_markers(const DistributedMesh& mesh, const CanonicalNumbers& numbers) {

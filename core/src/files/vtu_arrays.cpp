@@ -1,6 +1,7 @@
 #include "files/vtu_arrays.hpp"
 
 #include <cstring>
+#include <functional>
 #include <span>
 #include <utility>
 
@@ -18,42 +19,48 @@ constexpr const char* vtk_type<std::int64_t> = "Int64";
 template <>
 constexpr const char* vtk_type<std::int32_t> = "Int32";
 
-/// An array whose values, for a slice of entities, are value(entities, i) for each i.
+using BytesOfSlice = std::function<void(const Window&, std::vector<char>&)>;
+
 template <class T>
-VtuArray array(std::string name, std::size_t components, std::uint64_t entities, auto get_slice,
-               auto value) {
+VtuArray described(std::string name, std::size_t components, std::uint64_t entities,
+                   BytesOfSlice bytes_of_slice) {
     return {.name = std::move(name),
             .type = vtk_type<T>,
             .value_size = sizeof(T),
             .components = components,
             .values_per_entity = components,
             .entities = entities,
-            .bytes_of_slice = [=](const Window& window, std::vector<char>& out) {
-                const auto slice = get_slice(window);
-                const std::size_t count = slice.size();
-                out.resize(count * sizeof(T));
-                for (std::size_t i = 0; i < count; ++i) {
-                    const T v = value(slice, i);
-                    std::memcpy(out.data() + i * sizeof(T), &v, sizeof(T));
-                }
-            }};
+            .bytes_of_slice = std::move(bytes_of_slice)};
+}
+
+/// An array whose values, for a slice of entities, are value(entities, i) for each i.
+template <class T>
+VtuArray array(std::string name, std::size_t components, std::uint64_t entities, auto get_slice,
+               auto value) {
+    return described<T>(std::move(name), components, entities,
+                        [=](const Window& window, std::vector<char>& out) {
+                            const auto slice = get_slice(window);
+                            const std::size_t count = slice.size();
+                            out.resize(count * sizeof(T));
+                            for (std::size_t i = 0; i < count; ++i) {
+                                const T v = value(slice, i);
+                                std::memcpy(out.data() + i * sizeof(T), &v, sizeof(T));
+                            }
+                        });
 }
 
 /// The values just as the mesh has them.
 template <class T>
 VtuArray plain_array(std::string name, std::size_t components, std::uint64_t entities,
                      auto get_slice) {
-    return {.name = std::move(name),
-            .type = vtk_type<T>,
-            .value_size = sizeof(T),
-            .components = components,
-            .values_per_entity = components,
-            .entities = entities,
-            .bytes_of_slice = [=](const Window& window, std::vector<char>& out) {
-                const auto bytes = std::as_bytes(get_slice(window));
-                out.resize(bytes.size());
-                if (!bytes.empty()) std::memcpy(out.data(), bytes.data(), bytes.size());
-            }};
+    return described<T>(std::move(name), components, entities,
+                        [=](const Window& window, std::vector<char>& out) {
+                            const auto bytes = std::as_bytes(get_slice(window));
+                            out.resize(bytes.size());
+                            if (!bytes.empty()) {
+                                std::memcpy(out.data(), bytes.data(), bytes.size());
+                            }
+                        });
 }
 
 /// The numbers of the entities of a slice, for what follows from the number.
@@ -102,12 +109,7 @@ VtuArray vtu_coordinates(MeshSource& mesh) {
 std::vector<VtuArray> vtu_cells(MeshSource& mesh) {
     constexpr std::uint8_t vtk_tetra = 10;
     const std::uint64_t count = mesh.facts().cells;
-    VtuArray connectivity{.name = "connectivity",
-                          .type = vtk_type<std::int64_t>,
-                          .value_size = sizeof(std::int64_t),
-                          .values_per_entity = 4,
-                          .entities = count};
-    connectivity.bytes_of_slice = [&mesh](const Window& window, std::vector<char>& out) {
+    const auto vertices = [&mesh](const Window& window, std::vector<char>& out) {
         const auto cells = mesh.cells(window);
         out.resize(cells.size() * 4 * sizeof(std::int64_t));
         char* place = out.data();
@@ -119,6 +121,9 @@ std::vector<VtuArray> vtu_cells(MeshSource& mesh) {
             }
         }
     };
+    // A flat list: four values of one component for each cell.
+    VtuArray connectivity = described<std::int64_t>("connectivity", 1, count, vertices);
+    connectivity.values_per_entity = 4;
     return {std::move(connectivity),
             array<std::int64_t>("offsets", 1, count, numbers_of(mesh.group()),
                                 [](const Numbers& numbers, std::size_t i) {

@@ -6,6 +6,7 @@
 #include <functional>
 #include <span>
 #include <string>
+#include <vector>
 
 #include <octetra/core/error.hpp>
 #include <octetra/core/index.hpp>
@@ -68,6 +69,15 @@ struct Window {
     }
     [[nodiscard]] std::uint64_t end_of(int rank) const { return begin_of(rank + 1); }
 };
+
+/// The slice of one process alone out of a list that it has all of, `per_entity` elements for each
+/// entity.
+template <class T>
+[[nodiscard]] std::span<const T> slice(const std::vector<T>& list, const Window& window,
+                                       std::size_t per_entity = 1) {
+    const std::uint64_t begin = window.begin_of(0);
+    return std::span(list).subspan(begin * per_entity, (window.end_of(0) - begin) * per_entity);
+}
 
 /// Everything in the first process's slice.
 [[nodiscard]] inline Window whole_window(std::uint64_t count) { return {0, count, count}; }

@@ -9,6 +9,7 @@
 #include "exact/angles.hpp"
 #include "exact/predicates.hpp"
 #include "support/meshes.hpp"
+#include "verify/together.hpp"
 #include "verify/verdicts.hpp"
 
 /// Angles, and decisions about them, against what is known of some shapes.
@@ -35,19 +36,19 @@ const std::vector<Shape> shapes{
 
 TEST(Angles, AreThoseOfKnownShapes) {
     for (const Shape& shape : shapes) {
-        const Verdict verdict = verify_mesh(test::one_cell(shape.corners));
+        const Verdict verdict = test::judged_by_all(test::one_cell(shape.corners));
         ASSERT_TRUE(verdict.angles.has_value());
         EXPECT_NEAR(verdict.angles->min_dihedral, shape.min_dihedral, 1e-12);
         EXPECT_NEAR(verdict.angles->max_dihedral, shape.max_dihedral, 1e-12);
         EXPECT_NEAR(verdict.angles->min_eta, std::cbrt(shape.eta_cubed), 1e-15);
     }
     // A corner of a cube is an eighth of the whole; the regular one's is 3 acos(1/3) - pi.
-    const Verdict corner = verify_mesh(test::one_cell(test::regular_corners));
+    const Verdict corner = test::judged_by_all(test::one_cell(test::regular_corners));
     EXPECT_NEAR(corner.angles->min_solid, 3 * std::acos(1.0 / 3) - M_PI, 1e-14);
 }
 
 bool is_under(const std::array<Point, 4>& corners, double degrees) {
-    return !verify_mesh(test::one_cell(corners), {.min_dihedral = degrees}).valid();
+    return !test::judged_by_all(test::one_cell(corners), {.min_dihedral = degrees}).valid();
 }
 
 TEST(Angles, AreComparedExactlyAlsoWhereTheyAreEqual) {
@@ -69,7 +70,7 @@ constexpr double awkward = 0x1p27 + 1;
 TEST(Angles, TakeExactArithmeticOnlyWhereTheyMust) {
     const auto judge = [](std::array<Point, 4> corners) {
         for (Point& p : corners) p = {p.x * awkward, p.y * awkward, p.z * awkward};
-        return verify_mesh(test::one_cell(corners), {.min_dihedral = 45});
+        return test::judged_by_all(test::one_cell(corners), {.min_dihedral = 45});
     };
     const Verdict near = judge(test::kuhn_corners);
     const Verdict far = judge(test::regular_corners);
@@ -102,7 +103,7 @@ TEST(FaceAngles, OfAnEquilateralTriangleMayBeHalvedAndNoMore) {
 TEST(Depths, HaveTheKnownQualitiesOfTheTieFreeExample) {
     const Mesh coarse = test::one_cell(test::tie_free_corners);
     const Mesh fine = reference::refine(coarse, {.all = true}, Scheme::eight, 3).mesh;
-    const Verdict verdict = verify_refinement(coarse, fine);
+    const Verdict verdict = test::judged_by_all(coarse, fine);
     ASSERT_EQ(verdict.by_depth.size(), 1U);
     EXPECT_EQ(verdict.by_depth[0].depth, 9);
     EXPECT_EQ(verdict.by_depth[0].cells, 512U);
@@ -127,7 +128,7 @@ TEST(Orientation, IsExactWithinAFewUlpsOfAPlane) {
 }
 
 TEST(Facts, CountSingularEdgesAndVertices) {
-    const auto facts_of = [](const Mesh& mesh) { return verify_mesh(mesh).facts; };
+    const auto facts_of = [](const Mesh& mesh) { return test::judged_by_all(mesh).facts; };
     const Facts cube = facts_of(test::kuhn(2, 2, 2));
     EXPECT_EQ(cube.singular_edges, 0U);
     EXPECT_EQ(cube.singular_vertices, 0U);
@@ -148,7 +149,7 @@ TEST(Facts, CountSingularEdgesAndVertices) {
 TEST(Fast, LeavesOutWhatTakesASearchInSpace) {
     const Mesh coarse = test::kuhn(2, 1, 1);
     const Mesh fine = reference::refine(coarse, {.all = true}, Scheme::eight, 1).mesh;
-    const Verdict verdict = verify_refinement(coarse, fine, {.fast = true});
+    const Verdict verdict = test::judged_by_all(coarse, fine, {.fast = true});
     EXPECT_EQ(codes_of(verdict), "");
     for (const Check& check : verdict.checks) {
         const bool in_space = check.name == "hanging vertices" || check.name == "volumes" ||
@@ -160,10 +161,10 @@ TEST(Fast, LeavesOutWhatTakesASearchInSpace) {
 TEST(Violations, AreAllCountedWhereNotAllAreKept) {
     Mesh mesh = test::kuhn(2, 2, 2);
     for (CellVertices& cell : mesh.cells) std::swap(cell[0], cell[1]);
-    const Verdict verdict = verify_mesh(mesh, {.kept_per_code = 3});
+    const Verdict verdict = test::judged_by_all(mesh, {.kept_per_code = 3});
     EXPECT_EQ(verdict.count(Code::inverted_cell), 48U);
     EXPECT_EQ(verdict.violations.size(), 3U);
-    EXPECT_EQ(verify_mesh(mesh).violations.size(), 48U);
+    EXPECT_EQ(test::judged_by_all(mesh).violations.size(), 48U);
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 
 #include "support/meshes.hpp"
 #include "verify/mutations.hpp"
+#include "verify/together.hpp"
 #include "verify/verdicts.hpp"
 
 /// Random changes of a refined mesh: none may pass unless the mesh is the same after it.
@@ -99,6 +100,15 @@ TEST(RandomMutations, DoNotPassUnlessTheMeshIsTheSame) {
         const Verdict verdict = verify_refinement(c.coarse, mutated, {.request = c.request});
         RC_CLASSIFY(same, "still the same mesh");
         if (verdict.valid() != same) RC_FAIL("verdict: " + test::codes_of(verdict));
+
+        const int size = *rc::gen::inRange(2, 9);
+        Verdict together;
+        test::run_together(size, [&](const Group& group) {
+            Verdict of_one = verify_refinement(share_out(c.coarse, group), share_out(mutated, group),
+                                               group, {.request = c.request});
+            if (group.is_first()) together = std::move(of_one);
+        });
+        RC_ASSERT(test::text_of(together) == test::text_of(verdict));
     });
     EXPECT_TRUE(holds);
 }

@@ -14,6 +14,7 @@
 #include "support/manifest.hpp"
 #include "support/meshes.hpp"
 #include "verify/mutations.hpp"
+#include "verify/together.hpp"
 #include "verify/verdicts.hpp"
 
 /// What is right passes, whoever made it and however it is numbered; and the sums of volumes and
@@ -46,7 +47,7 @@ TEST_P(CorpusRefinement, IsValidAndTheOneThatWasAskedFor) {
                 } catch (const InputError&) {
                     continue;  // rounding
                 }
-                const Verdict verdict = verify_refinement(
+                const Verdict verdict = test::judged_by_all(
                     coarse, fine.mesh,
                     {.request = Request{selection, scheme, levels}, .maps = &fine.maps});
                 ASSERT_EQ(codes_of(verdict), "");
@@ -67,10 +68,10 @@ TEST(Refinement, IsValidThroughThreeLevelsOfShakenLattices) {
         const Request request{{.random = RandomShare{0.1, seed}}, Scheme::eight, 3};
         const Mesh fine =
             reference::refine(coarse, request.selection, request.scheme, request.levels).mesh;
-        const Verdict verdict = verify_refinement(coarse, fine, {.request = request});
+        const Verdict verdict = test::judged_by_all(coarse, fine, {.request = request});
         EXPECT_EQ(codes_of(verdict), "");
         EXPECT_EQ(verdict.facts.rounding_bound, 0);  // on a grid that has room for the halves
-        EXPECT_EQ(codes_of(verify_mesh(fine)), "");
+        EXPECT_EQ(codes_of(test::judged_by_all(fine)), "");
     }
 }
 
@@ -100,7 +101,7 @@ TEST(Refinement, IsFoundFromGeometryHoweverItIsNumbered) {
     const Mesh fine = reference::refine(coarse, request.selection, request.scheme, 2).mesh;
     for (const std::uint64_t seed : {1U, 2U, 3U}) {
         const Verdict verdict =
-            verify_refinement(coarse, renumbered(fine, seed), {.request = request});
+            test::judged_by_all(coarse, renumbered(fine, seed), {.request = request});
         EXPECT_EQ(codes_of(verdict), "");
     }
 }
@@ -146,7 +147,7 @@ TEST(Refinement, MayCutCellsIntoEightAtOnce) {
         for (const std::size_t first : {0U, 1U, 2U}) {
             for (const std::size_t second : {0U, 1U, 2U}) {
                 const Mesh fine = red_refined(red_refined(coarse, first), second);
-                const Verdict verdict = verify_refinement(coarse, fine);
+                const Verdict verdict = test::judged_by_all(coarse, fine);
                 EXPECT_EQ(codes_of(verdict), "") << first << second;
                 EXPECT_EQ(verdict.facts.deepest, 6);
             }
@@ -156,13 +157,13 @@ TEST(Refinement, MayCutCellsIntoEightAtOnce) {
 
 TEST(Refinement, OfAnotherMeshIsRefused) {
     const Mesh coarse = test::kuhn(2, 1, 1);
-    EXPECT_FALSE(verify_refinement(coarse, test::kuhn(1, 1, 1)).valid());
-    EXPECT_FALSE(verify_refinement(test::kuhn(1, 1, 1), coarse).valid());
-    EXPECT_FALSE(verify_refinement(coarse, test::shaken_kuhn(2, 0.1, 1)).valid());
-    EXPECT_FALSE(verify_refinement(coarse, Mesh{}).valid());
-    EXPECT_FALSE(verify_refinement(Mesh{}, coarse).valid());
-    EXPECT_TRUE(verify_refinement(Mesh{}, Mesh{}).valid());
-    EXPECT_TRUE(verify_refinement(coarse, coarse).valid());
+    EXPECT_FALSE(test::judged_by_all(coarse, test::kuhn(1, 1, 1)).valid());
+    EXPECT_FALSE(test::judged_by_all(test::kuhn(1, 1, 1), coarse).valid());
+    EXPECT_FALSE(test::judged_by_all(coarse, test::shaken_kuhn(2, 0.1, 1)).valid());
+    EXPECT_FALSE(test::judged_by_all(coarse, Mesh{}).valid());
+    EXPECT_FALSE(test::judged_by_all(Mesh{}, coarse).valid());
+    EXPECT_TRUE(test::judged_by_all(Mesh{}, Mesh{}).valid());
+    EXPECT_TRUE(test::judged_by_all(coarse, coarse).valid());
 }
 
 /// Two triangulations of one cube, both valid, neither a refinement of the other.
@@ -171,8 +172,8 @@ TEST(Refinement, OfTheSameSolidOtherwiseCutIsRefused) {
     Mesh mirrored = coarse;
     for (Point& p : mirrored.points) p.x = 1 - p.x;
     for (CellIndex c{0}; c < mirrored.cells.end_index(); ++c) test::flip_cell(mirrored, c);
-    EXPECT_TRUE(verify_mesh(mirrored).valid());
-    EXPECT_EQ(codes_of(verify_refinement(coarse, mirrored)), "not_tiled");
+    EXPECT_TRUE(test::judged_by_all(mirrored).valid());
+    EXPECT_EQ(codes_of(test::judged_by_all(coarse, mirrored)), "not_tiled");
 }
 
 /// At a crack, vertices of different cells lie at one place, and the two sides are refined each by
@@ -183,13 +184,13 @@ TEST(Refinement, MayBeFinerOnOneSideOfACrack) {
         {{0, 1, 2, 3}, {4, 5, 6, 7}});
     const Request request{{.cells = {GlobalCell{1}}}, Scheme::eight, 2};
     const Mesh fine = reference::refine(coarse, request.selection, request.scheme, 2).mesh;
-    EXPECT_EQ(codes_of(verify_refinement(coarse, fine, {.request = request})), "");
+    EXPECT_EQ(codes_of(test::judged_by_all(coarse, fine, {.request = request})), "");
 
     Mesh closed = fine;  // one side's corner taken for the other's
     for (CellVertices& cell : closed.cells) {
         for (VertexIndex& v : cell) v = v == VertexIndex{4} ? VertexIndex{0} : v;
     }
-    EXPECT_FALSE(verify_refinement(coarse, closed).valid());
+    EXPECT_FALSE(test::judged_by_all(coarse, closed).valid());
 }
 
 /// A lattice slit half through: the edges from the slit's tip to its two sides lie in one place,
@@ -211,7 +212,7 @@ TEST(Refinement, MayHaveACrackWithATip) {
     for (const Scheme scheme : schemes) {
         const Request request{{.all = true}, scheme, 2};
         const Mesh fine = reference::refine(coarse, request.selection, scheme, 2).mesh;
-        EXPECT_EQ(codes_of(verify_refinement(coarse, fine, {.request = request})), "");
+        EXPECT_EQ(codes_of(test::judged_by_all(coarse, fine, {.request = request})), "");
     }
 }
 
@@ -235,21 +236,21 @@ TEST(Refinement, MayNotJoinWhatOnlyCrosses) {
         std::replace(cell.begin(), cell.end(), VertexIndex{9}, VertexIndex{8});
     }
     joined.points.pop_back();
-    EXPECT_EQ(codes_of(verify_refinement(coarse, joined)), "not_a_midpoint");
-    EXPECT_EQ(codes_of(verify_refinement(coarse, apart)), "coincident_vertices");
+    EXPECT_EQ(codes_of(test::judged_by_all(coarse, joined)), "not_a_midpoint");
+    EXPECT_EQ(codes_of(test::judged_by_all(coarse, apart)), "coincident_vertices");
 }
 
 TEST(Refinement, IsJudgedAtAllMagnitudes) {
     for (const double side : {0x1p-900, 0x1p-300, 0x1p300, 0x1p900}) {
         const Mesh coarse = test::kuhn(2, 1, 1, side);
         const Mesh fine = test::kuhn(4, 2, 2, side / 2);
-        const Verdict verdict = verify_refinement(coarse, fine, {.min_dihedral = 45});
+        const Verdict verdict = test::judged_by_all(coarse, fine, {.min_dihedral = 45});
         EXPECT_EQ(codes_of(verdict), "") << side;
         EXPECT_NEAR(verdict.angles->min_dihedral, 45, 1e-12);
-        EXPECT_EQ(codes_of(verify_mesh(fine)), "") << side;
+        EXPECT_EQ(codes_of(test::judged_by_all(fine)), "") << side;
         Mesh moved = fine;
         test::shift_by_an_ulp(moved, VertexIndex{44});  // of the far corner
-        EXPECT_FALSE(verify_refinement(coarse, moved).valid()) << side;
+        EXPECT_FALSE(test::judged_by_all(coarse, moved).valid()) << side;
     }
 }
 
@@ -259,7 +260,7 @@ TEST(Refinement, IsJudgedWhereWhatRoundingMovesIsLessThanAnyNumber) {
         Mesh coarse = test::shaken_kuhn(2, 0.3, 4);
         for (Point& p : coarse.points) p = {p.x * scale, p.y * scale, p.z * scale};
         const Mesh fine = reference::refine(coarse, {.all = true}, Scheme::eight, 2).mesh;
-        const Verdict verdict = verify_refinement(coarse, fine);
+        const Verdict verdict = test::judged_by_all(coarse, fine);
         EXPECT_GT(verdict.facts.rounded_midpoints, 0U);
         EXPECT_EQ(codes_of(verdict), "") << scale;
     }
@@ -269,7 +270,7 @@ TEST(Refinement, BoundsWhatRoundingHasMoved) {
     Mesh coarse = test::kuhn(1, 1, 1);
     for (Point& p : coarse.points) p = {p.x / 3 + 1000, p.y / 7, p.z / 11};
     const Mesh fine = reference::refine(coarse, {.all = true}, Scheme::eight, 3).mesh;
-    const Verdict verdict = verify_refinement(coarse, fine);
+    const Verdict verdict = test::judged_by_all(coarse, fine);
     EXPECT_EQ(codes_of(verdict), "");
     EXPECT_GT(verdict.facts.rounded_midpoints, 0U);
     EXPECT_GT(verdict.facts.rounding_bound, 0x1p-45);  // an ulp at 1000 is 2^-43

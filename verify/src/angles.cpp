@@ -74,7 +74,8 @@ CellAngles angles_of(const std::array<Point, 4>& corners) {
 
 void for_each_positive(const Subject& subject, auto&& visit) {
     for (CellIndex c{0}; c < subject.mesh.cells.end_index(); ++c) {
-        if (subject.sign[c.value()] > 0) visit(c, angles_of(subject.corners(c)));
+        if (subject.sign[c.value()] <= 0 || !subject.owns(subject.mesh.cells[c])) continue;
+        visit(c, angles_of(subject.corners(c)));
     }
 }
 
@@ -145,7 +146,7 @@ std::vector<DepthFigures> measure_by_depth(const Subject& fine, const Descent& d
 std::string check_dihedral_angles(const Subject& subject, double degrees, Findings& findings) {
     const exact::AngleLimit limit(degrees);
     for (CellIndex c{0}; c < subject.mesh.cells.end_index(); ++c) {
-        if (subject.sign[c.value()] <= 0) continue;
+        if (subject.sign[c.value()] <= 0 || !subject.owns(subject.mesh.cells[c])) continue;
         const auto p = subject.corners(c);
         bool less = false;
         for (std::size_t k = 0; k < 6 && !less; ++k) {
@@ -169,7 +170,7 @@ std::string check_face_angles(const Subject& coarse, const Subject& fine, const 
     fine.faces.for_each_group([&](const FacetVertices& face, auto entries) {
         const CellFace f = cell_face(entries.front().tag);
         const auto on = descent.coarse_face(f);
-        if (!on) return;
+        if (!on || !fine.owns(face)) return;
         const FacetVertices parent = outward_face(coarse.mesh.cells[on->cell], on->face);
         const auto piece = triangle(face, fine.mesh);
         const auto whole = triangle(parent, coarse.mesh);
@@ -190,6 +191,7 @@ std::string check_face_angles(const Subject& coarse, const Subject& fine, const 
                                 expected * degrees_per_radian)};
         });
     });
+    by_slack = sum(findings.group(), by_slack);
     if (by_slack == 0) return "exactly";
     return fmt::format("{} of them only up to rounding", by_slack);
 }

@@ -23,7 +23,7 @@ std::string check_cover(const Subject& coarse, const Subject& fine, const Descen
                         Findings& findings) {
     const std::vector<char> on_boundary = boundary_of(coarse);
     fine.faces.for_each_group([&](const FacetVertices& face, auto entries) {
-        if (entries.size() != 1) return;
+        if (entries.size() != 1 || !fine.owns(face)) return;
         const CellFace f = cell_face(entries.front().tag);
         const auto whole = descent.coarse_face(f);
         if (whole && on_boundary[tag_of(*whole)] != 0) return;
@@ -33,7 +33,7 @@ std::string check_cover(const Subject& coarse, const Subject& fine, const Descen
                     "a cell on each side"};
         });
     });
-    const double bound = findings.facts().rounding_bound;
+    const double bound = greatest(findings.group(), findings.facts().rounding_bound);
     return bound == 0
                ? "exactly: no midpoint was rounded"
                : fmt::format("up to rounding: no coordinate is off by more than {:.3g}", bound);

@@ -289,21 +289,26 @@ public:
             CellVertices corners = coarse_.mesh.cells[c];
             for (VertexIndex& v : corners) v = descent_.coarse_to_fine[v];
             if (divider.divide_cell(corners)) {
-                for (const Split& split : divider.splits()) take(split);
+                const bool own = owns(c);
+                for (const Split& split : divider.splits()) take(split, own);
                 for (const Leaf& leaf : divider.leaves()) take(leaf, c);
-                if (divider.leaves().size() == 1) ++findings_.facts().cells_kept;
+                if (own && divider.leaves().size() == 1) ++findings_.facts().cells_kept;
             } else {
                 stuck.emplace_back(c, divider.stuck());
             }
         }
         for (const auto& [c, piece] : stuck) explain(c, piece);
-        if (stuck.empty()) report_orphans();
+        if (!any(findings_.group(), !stuck.empty())) report_orphans();
         return fmt::format("every cell by bisections from its parent, at most {}",
-                           findings_.facts().deepest);
+                           greatest(findings_.group(), findings_.facts().deepest));
     }
 
 private:
-    void take(const Split& split) {
+    [[nodiscard]] bool owns(CellIndex coarse_cell) const {
+        return coarse_.owns(coarse_.mesh.cells[coarse_cell]);
+    }
+
+    void take(const Split& split, bool own_cell) {
         EdgeVertices& halves = descent_.halves[split.midpoint];
         const bool is_new = descent_.is_coarse[split.midpoint.value()] == 0;
         if (is_new && halves[0].is_none()) {
@@ -314,12 +319,13 @@ private:
                 std::max(descent_.rounding[split.edge[0]], descent_.rounding[split.edge[1]]);
             double& rounding = descent_.rounding[split.midpoint];
             rounding = sum_up(own, inherited);
+            if (!fine_.owns(split.midpoint)) return;
             Facts& facts = findings_.facts();
             ++facts.bisected_edges;
             if (own > 0) ++facts.rounded_midpoints;
             facts.rounding_bound = std::max(facts.rounding_bound, rounding);
         } else if (!is_new || !is_half_way(split.midpoint, split.edge, descent_)) {
-            report_twice(split);
+            if (own_cell) report_twice(split);
         }
     }
 
@@ -332,7 +338,9 @@ private:
     }
 
     void take(const Leaf& leaf, CellIndex parent) {
+        const bool own = fine_.owns(fine_.mesh.cells[leaf.cell]);
         if (!descent_.parent[leaf.cell].is_none()) {
+            if (!own) return;
             findings_.add(Code::not_tiled, [&]() -> Findings::Description {
                 return {{entity(parent, Which::coarse), entity(leaf.cell)},
                         "a fine cell that also fills another coarse cell",
@@ -341,7 +349,7 @@ private:
             return;
         }
         const bool same = same_parity(leaf.piece.vertices, fine_.mesh.cells[leaf.cell]);
-        if (!same && fine_.sign[leaf.cell.value()] > 0) {
+        if (own && !same && fine_.sign[leaf.cell.value()] > 0) {
             findings_.add(Code::inverted_cell, [&]() -> Findings::Description {
                 return {{entity(leaf.cell), entity(parent, Which::coarse)},
                         "positive only because its midpoints are rounded",
@@ -351,7 +359,7 @@ private:
         descent_.parent[leaf.cell] = parent;
         descent_.depth[leaf.cell] = leaf.piece.depth;
         int& deepest = findings_.facts().deepest;
-        deepest = std::max(deepest, static_cast<int>(leaf.piece.depth));
+        if (own) deepest = std::max(deepest, static_cast<int>(leaf.piece.depth));
         const CellVertices& cell = fine_.mesh.cells[leaf.cell];
         for (std::size_t k = 0; k < 4; ++k) {
             const auto at = std::find(cell.begin(), cell.end(), leaf.piece.vertices[k]);
@@ -371,9 +379,10 @@ private:
             if (blamed_.empty()) blamed_.assign(fine_.mesh.points.size(), 0);
             if (blamed_[near.value()] != 0) return;  // for another cell, which has told
             blamed_[near.value()] = 1;
-            report_misplaced(near, edge);
+            if (owns(c)) report_misplaced(near, edge);
             return;
         }
+        if (!owns(c)) return;
         findings_.add(Code::not_tiled, [&]() -> Findings::Description {
             return {{entity(c, Which::coarse), entity(stuck)},
                     "no fine cells fill this piece of it",
@@ -412,6 +421,7 @@ private:
     void report_orphans() {
         for (CellIndex c{0}; c < fine_.mesh.cells.end_index(); ++c) {
             if (!fine_.is_sound(c) || !descent_.parent[c].is_none()) continue;
+            if (!fine_.owns(fine_.mesh.cells[c])) continue;
             findings_.add(Code::cell_of_no_parent, [&]() -> Findings::Description {
                 return {{entity(c)}, "part of no coarse cell", "a parent"};
             });
@@ -429,13 +439,34 @@ private:
 
 }  // namespace
 
+namespace {
+
+/// The vertex of the fine mesh with the number that v has in the coarse one; none() if there is
+/// none here.
+VertexIndex of_same_number(VertexIndex v, const Findings& findings) {
+    return findings.numbers(Which::fine)
+        .vertices.find(findings.numbers(Which::coarse).vertices.of(v.value()));
+}
+
+/// Collective. Are the vertices of the coarse mesh the first ones of the fine mesh, in its order?
+bool are_first_vertices(const Subject& coarse, const Subject& fine, const Findings& findings) {
+    bool differ = false;
+    for (VertexIndex v{0}; v < coarse.mesh.points.end_index() && !differ; ++v) {
+        if (!coarse.owns(v)) continue;
+        const VertexIndex w = of_same_number(v, findings);
+        differ = !(w < fine.mesh.points.end_index()) ||
+                 fine.mesh.points[w] != coarse.mesh.points[v];
+    }
+    return !any(findings.group(), differ);
+}
+
+}  // namespace
+
 std::string find_coarse_vertices(const Subject& coarse, const Subject& fine, const Places& places,
                                  Descent& descent, Findings& findings) {
     const auto& coarse_points = coarse.mesh.points;
     const auto& fine_points = fine.mesh.points;
-    const bool same_numbers =
-        coarse_points.size() <= fine_points.size() &&
-        std::equal(coarse_points.begin(), coarse_points.end(), fine_points.begin());
+    const bool same_numbers = are_first_vertices(coarse, fine, findings);
 
     std::vector<char> used(coarse_points.size(), 0);
     for (const CellVertices& cell : coarse.mesh.cells) {
@@ -446,10 +477,10 @@ std::string find_coarse_vertices(const Subject& coarse, const Subject& fine, con
     for (VertexIndex v{0}; v < coarse_points.end_index(); ++v) {
         VertexIndex& found = descent.coarse_to_fine[v];
         const auto is_free = [&](VertexIndex w) { return descent.is_coarse[w.value()] == 0; };
-        found = same_numbers ? v : places.find(coarse_points[v], is_free);
+        found = same_numbers ? of_same_number(v, findings) : places.find(coarse_points[v], is_free);
         if (!found.is_none()) {
             descent.is_coarse[found.value()] = 1;
-        } else if (used[v.value()] != 0) {
+        } else if (used[v.value()] != 0 && coarse.owns(v)) {
             findings.add(Code::lost_vertex, [&]() -> Findings::Description {
                 return {{entity(v, Which::coarse)},
                         "no vertex at " + shown(coarse_points[v]),

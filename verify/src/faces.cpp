@@ -15,10 +15,17 @@ bool is_on_even_side(const Subject& subject, CellFace f) {
 
 std::string check_faces(const Subject& subject, Findings& findings) {
     Facts& facts = findings.facts();
-    facts.vertices = subject.mesh.points.size();
-    facts.cells = subject.mesh.cells.size();
-    subject.edges.for_each_group([&](const EdgeVertices&, auto) { ++facts.edges; });
+    for (VertexIndex v{0}; v < subject.mesh.points.end_index(); ++v) {
+        if (subject.owns(v)) ++facts.vertices;
+    }
+    for (const CellVertices& cell : subject.mesh.cells) {
+        if (subject.owns(cell)) ++facts.cells;
+    }
+    subject.edges.for_each_group([&](const EdgeVertices& edge, auto) {
+        if (subject.owns(edge)) ++facts.edges;
+    });
     subject.faces.for_each_group([&](const FacetVertices& vertices, auto entries) {
+        if (!subject.owns(vertices)) return;
         ++facts.faces;
         if (entries.size() == 1) {
             ++facts.boundary_faces;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <chrono>
 #include <string>
 #include <string_view>
@@ -7,42 +8,63 @@
 #include <vector>
 
 #include <octetra/core/mesh.hpp>
+#include <octetra/verify/group.hpp>
 #include <octetra/verify/verdict.hpp>
+
+#include "parts/exchange.hpp"
+#include "parts/numbers.hpp"
 
 namespace octetra::verify {
 
-/// Collects what the checks find into a verdict.
+/// Collects what the checks find, on all processes of a group, into one verdict. Each violation is
+/// added by the process in whose domain it lies, and by no other.
 class Findings {
 public:
-    explicit Findings(std::size_t kept_per_code) : kept_per_code_(kept_per_code) {}
+    explicit Findings(std::size_t kept_per_code, const Group& group = Group::alone())
+        : kept_per_code_(kept_per_code), group_(&group) {}
 
-    /// Counts a violation, and describes it unless enough of its kind have been:
-    /// describe() returns {entities, found, expected}.
-    void add(Code code, auto&& describe) {
-        ++count_;
-        if (verdict_.counts[static_cast<std::size_t>(code)]++ >= kept_per_code_) return;
-        Description description = describe();
-        verdict_.violations.push_back({code, std::move(description.entities),
-                                       std::move(description.found),
-                                       std::move(description.expected)});
+    /// From here on entities of this mesh are those of a part, called so in the whole one; or, with
+    /// null, of the whole one. Keeps the pointer.
+    void translate(Which mesh, const Numbers* numbers) {
+        numbers_[static_cast<std::size_t>(mesh)] = numbers;
+    }
+    [[nodiscard]] const Numbers& numbers(Which mesh) const {
+        static const Numbers the_same;
+        const Numbers* numbers = numbers_[static_cast<std::size_t>(mesh)];
+        return numbers == nullptr ? the_same : *numbers;
     }
 
-    /// Runs a check: it has failed if it adds violations. What it returns is its note.
-    /// Returns whether it has passed.
+    /// Counts and describes a violation: describe() returns {entities, found, expected}. Of each
+    /// code the first ones are kept, in the order of is_before().
+    void add(Code code, auto&& describe) {
+        ++count_;
+        ++verdict_.counts[static_cast<std::size_t>(code)];
+        Description description = describe();
+        for (Entity& entity : description.entities) call_as_in_whole(entity);
+        keep({code, std::move(description.entities), std::move(description.found),
+              std::move(description.expected)});
+    }
+
+    /// Collective. Runs a check: it has failed if any process adds violations. What it returns is
+    /// its note. Returns whether it has passed.
     bool run(std::string_view name, auto&& check) {
         const std::uint64_t before = count_;
         const auto start = std::chrono::steady_clock::now();
         std::string note = check();
+        const bool clean = sum(*group_, count_ - before) == 0;
         const std::chrono::duration<double> passed = std::chrono::steady_clock::now() - start;
-        const bool clean = count_ == before;
         verdict_.checks.push_back({std::string(name), clean ? Status::passed : Status::failed,
                                    std::move(note), passed.count()});
         return clean;
     }
 
+    /// On all processes.
     void skip(std::string_view name, std::string_view why) {
         verdict_.checks.push_back({std::string(name), Status::skipped, std::string(why), 0});
     }
+
+    /// Collective. The verdict, whole on the first process; the others have all but the violations.
+    [[nodiscard]] Verdict finish();
 
     struct Description {
         std::vector<Entity> entities;
@@ -50,13 +72,21 @@ public:
         std::string expected;
     };
 
+    [[nodiscard]] const Group& group() const { return *group_; }
     [[nodiscard]] Verdict& verdict() { return verdict_; }
-    [[nodiscard]] Facts& facts() { return verdict_.facts; }
+    [[nodiscard]] Facts& facts() { return verdict_.facts; }  ///< until finish(), of this process
     [[nodiscard]] Arithmetic& arithmetic() { return verdict_.arithmetic; }
 
 private:
+    void call_as_in_whole(Entity& entity) const;
+    void keep(Violation violation);
+    void drop_surplus(std::vector<Violation>& violations) const;
+
     std::size_t kept_per_code_;
+    const Group* group_;
+    std::array<const Numbers*, 2> numbers_{};
     std::uint64_t count_ = 0;
+    std::array<std::vector<Violation>, code_count> kept_;
     Verdict verdict_;
 };
 

@@ -11,7 +11,7 @@ std::string check_orientation(Subject& subject, Findings& findings) {
         const auto [p, q, r, s] = subject.corners(c);
         const int sign = exact::orientation(p, q, r, s, findings.arithmetic());
         subject.sign[c.value()] = static_cast<std::int8_t>(sign);
-        if (sign > 0) continue;
+        if (sign > 0 || !subject.owns(mesh.cells[c])) continue;
         findings.add(sign < 0 ? Code::inverted_cell : Code::flat_cell,
                      [&]() -> Findings::Description {
                          return {{entity(c, subject.which)},

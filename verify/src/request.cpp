@@ -5,6 +5,7 @@
 #include <octetra/core/edge_order.hpp>
 
 #include "descent.hpp"
+#include "parts/views.hpp"
 
 namespace octetra::verify {
 namespace {
@@ -16,12 +17,19 @@ struct Cell {
 };
 
 /// Repeats what was asked for, level by level, with the vertices of the fine mesh: where it asks
-/// for a midpoint, the fine mesh must have one. What comes out must be the fine cells.
+/// for a midpoint, the fine mesh must have one. What comes out must be the fine cells. Processes
+/// tell each other which edges of cells that both see they have selected.
 class Replay {
 public:
     Replay(const Request& request, const Subject& coarse, const Subject& fine, Lines& lines,
            const Descent& descent, Findings& findings)
-        : request_(request), coarse_(coarse.mesh), fine_(fine), lines_(lines), findings_(findings) {
+        : request_(request),
+          coarse_(coarse.mesh),
+          coarse_subject_(coarse),
+          fine_(fine),
+          lines_(lines),
+          views_(coarse.views),
+          findings_(findings) {
         for (CellIndex c{0}; c < coarse_.cells.end_index(); ++c) {
             CellVertices corners = coarse_.cells[c];
             for (VertexIndex& v : corners) v = descent.coarse_to_fine[v];
@@ -103,7 +111,8 @@ private:
             }
             const CellIndex root = cells_[c].root;
             const Marker region = coarse_.regions.empty() ? 0 : coarse_.regions[root];
-            if (!chooses(request_.selection, corners, region, GlobalCell{root.value()})) continue;
+            const GlobalCell number{findings_.numbers(Which::coarse).of(root).value()};
+            if (!chooses(request_.selection, corners, region, number)) continue;
             switch (request_.scheme) {
                 case Scheme::eight:
                     for (const EdgeNumber e : cell_to_edges_[c]) select(e);
@@ -117,9 +126,16 @@ private:
     }
 
     void close() {
+        do {
+            close_here();
+        } while (any(findings_.group(), take_selected_elsewhere()));
+    }
+
+    void close_here() {
         while (!queue_.empty()) {
             const EdgeNumber e = queue_.back();
             queue_.pop_back();
+            if (findings_.group().size() > 1) untold_.push_back(e);
             for (std::size_t i = edge_begin_[e]; i < edge_begin_[e + 1]; ++i) {
                 for (const auto& face : faces_of(edge_to_cells_[i])) {
                     if (std::find(face.begin(), face.end(), e) != face.end()) select(longest(face));
@@ -128,11 +144,42 @@ private:
         }
     }
 
+    /// Collective. Tells who may see them of the edges selected since the last time; returns
+    /// whether the others have told of any that were not selected here.
+    bool take_selected_elsewhere() {
+        const Group& group = findings_.group();
+        if (group.size() == 1) return false;
+        const Numbers& numbers = findings_.numbers(Which::fine);
+        std::vector<std::vector<EdgeVertices>> to_each(static_cast<std::size_t>(group.size()));
+        for (const EdgeNumber e : untold_) {
+            const auto& [a, b] = edge_ends_[e];
+            const Bounds box = bounds_of(std::array{fine_.mesh.points[a], fine_.mesh.points[b]});
+            views_.for_each_meeting(box, [&, ends = edge_ends_[e]](std::size_t r) {
+                to_each[r].push_back({numbers.of(ends[0]), numbers.of(ends[1])});
+            });
+        }
+        untold_.clear();
+        to_each[static_cast<std::size_t>(group.rank())].clear();
+        for (const auto& told : exchange(group, std::move(to_each))) {
+            for (const EdgeVertices& edge : told) select_if_seen(edge);
+        }
+        return !queue_.empty();
+    }
+
+    /// An edge by its numbers in the whole mesh.
+    void select_if_seen(const EdgeVertices& edge) {
+        const NumberList& vertices = findings_.numbers(Which::fine).vertices;
+        const EdgeVertices ends{vertices.find(edge[0].value()), vertices.find(edge[1].value())};
+        const auto found = std::lower_bound(edge_ends_.begin(), edge_ends_.end(), ends);
+        if (found == edge_ends_.end() || *found != ends) return;
+        select(static_cast<EdgeNumber>(found - edge_ends_.begin()));
+    }
+
     /// False if nothing was selected.
     bool refine_once() {
         number_edges();
         select_chosen();
-        if (queue_.empty()) return false;
+        if (!any(findings_.group(), !queue_.empty())) return false;
         close();
         midpoints_.assign(edge_ends_.size(), VertexIndex::none());
         for (EdgeNumber e = 0; e < edge_ends_.size(); ++e) {
@@ -140,6 +187,7 @@ private:
             midpoints_[e] = lines_.midpoint(edge_ends_[e][0], edge_ends_[e][1]);
             if (midpoints_[e].is_none()) report_missing(edge_ends_[e]);
         }
+        failed_ = any(findings_.group(), failed_);
         if (!failed_) bisect_cells();
         return true;
     }
@@ -184,6 +232,7 @@ private:
 
     void report_missing(const EdgeVertices& edge) {
         failed_ = true;
+        if (!fine_.owns(edge)) return;
         findings_.add(Code::missing_bisection, [&]() -> Findings::Description {
             return {{entity(edge)}, "not bisected", "bisected: the closure has selected it"};
         });
@@ -202,12 +251,13 @@ private:
                 std::uint32_t& seen = reported.at(edge[0], edge[1]);
                 if (seen != EdgeTable::absent) continue;
                 seen = 1;
+                if (!fine_.owns(edge)) continue;
                 findings_.add(Code::needless_bisection, [&]() -> Findings::Description {
                     return {
                         {entity(edge)}, "bisected", "left whole: the closure has not selected it"};
                 });
             }
-            if (explained) continue;
+            if (explained || !coarse_subject_.owns(coarse_.cells[cell.root])) continue;
             findings_.add(Code::wrong_pattern, [&]() -> Findings::Description {
                 return {{entity(cell.vertices), entity(cell.root, Which::coarse)},
                         "no cell, though none of its edges is bisected",
@@ -218,8 +268,10 @@ private:
 
     const Request& request_;
     const Mesh& coarse_;
+    const Subject& coarse_subject_;
     const Subject& fine_;
     Lines& lines_;
+    Views views_;
     Findings& findings_;
 
     std::vector<Cell> cells_;
@@ -229,6 +281,7 @@ private:
     std::vector<std::uint32_t> edge_to_cells_;
     std::vector<char> selected_;
     std::vector<EdgeNumber> queue_;
+    std::vector<EdgeNumber> untold_;  ///< selected, and the other processes do not know
     std::vector<VertexIndex> midpoints_;
     bool failed_ = false;
 };

@@ -37,12 +37,12 @@ void count_singular(const Subject& subject, Facts& facts) {
     });
     boundary_edges.for_each_group([&](const EdgeVertices& edge, auto faces) {
         if (faces.size() == 2) return;
-        ++facts.singular_edges;
+        if (subject.owns(edge)) ++facts.singular_edges;
         for (const VertexIndex v : edge) singular[v.value()] = 1;
     });
     for (std::size_t v = 0; v < vertex_count; ++v) {
         const std::int64_t regular = on_boundary[v] != 0 ? 1 : 2;
-        if (used[v] != 0 && (singular[v] != 0 || characteristic[v] != regular)) {
+        if (used[v] != 0 && subject.owns(VertexIndex{v}) && (singular[v] != 0 || characteristic[v] != regular)) {
             ++facts.singular_vertices;
         }
     }

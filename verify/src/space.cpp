@@ -87,12 +87,19 @@ private:
         for (const VertexIndex v : face) {
             if (v == edge[0] || v == edge[1]) return;
         }
+        if (!owns_meeting_of(bounds_of(places(edge)), bounds_of(places(face)))) return;
         if (!exact::meet(places(edge), places(face), findings_.arithmetic())) return;
         findings_.add(Code::boundary_crosses, [&]() -> Findings::Description {
             return {{entity(edge, subject_.which), entity(face, subject_.which)},
                     "the edge meets the face",
                     "no point in common but vertices"};
         });
+    }
+
+    /// A pair belongs to the lowest corner of what their boxes have in common.
+    [[nodiscard]] bool owns_meeting_of(const Bounds& a, const Bounds& b) const {
+        return subject_.domain.owns({std::max(a.low[0], b.low[0]), std::max(a.low[1], b.low[1]),
+                                     std::max(a.low[2], b.low[2])});
     }
 
     const Subject& subject_;
@@ -110,8 +117,13 @@ std::string check_hanging(const Subject& subject, Findings& findings) {
     for (const CellVertices& cell : mesh.cells) {
         for (const VertexIndex v : cell) used[v.value()] = 1;
     }
-    std::vector<Bounds> boxes(mesh.points.size());
-    for (VertexIndex v{0}; v < mesh.points.end_index(); ++v) boxes[v.value()].take(mesh.points[v]);
+    std::vector<VertexIndex> judged;
+    std::vector<Bounds> boxes;
+    for (VertexIndex v{0}; v < mesh.points.end_index(); ++v) {
+        if (used[v.value()] == 0 || !subject.owns(v)) continue;
+        judged.push_back(v);
+        boxes.emplace_back().take(mesh.points[v]);
+    }
     const BoxTree vertices(std::move(boxes));
 
     for (CellIndex c{0}; c < mesh.cells.end_index(); ++c) {
@@ -119,8 +131,8 @@ std::string check_hanging(const Subject& subject, Findings& findings) {
         const auto corners = subject.corners(c);
         const CellVertices& cell = mesh.cells[c];
         vertices.for_each_meeting(bounds_of(corners), [&](std::uint32_t number) {
-            const VertexIndex v{number};
-            if (used[number] == 0 || std::find(cell.begin(), cell.end(), v) != cell.end()) return;
+            const VertexIndex v = judged[number];
+            if (std::find(cell.begin(), cell.end(), v) != cell.end()) return;
             const int touched = faces_touched(corners, mesh.points[v], findings.arithmetic());
             // On three faces it is at a corner: two vertices at one place, which is reported as
             // such.

@@ -5,12 +5,16 @@
 #include <vector>
 
 #include <octetra/core/mesh.hpp>
+#include <octetra/verify/mesh_slice.hpp>
 
+#include "box_tree.hpp"
 #include "buckets.hpp"
 #include "findings.hpp"
+#include "parts/domain.hpp"
 
 /// A mesh under judgement, with what several checks ask of it; and the checks of a mesh by itself.
-/// Each adds its violations to the findings and returns its note.
+/// Each adds its violations to the findings and returns its note. They look at all that a process
+/// sees of the mesh, and report what lies in its domain.
 namespace octetra::verify {
 
 /// A face of a cell, packed into a tag of Buckets.
@@ -28,15 +32,25 @@ struct CellFace {
 struct Subject {
     const Mesh& mesh;
     Which which = Which::fine;
+    Domain domain{};  ///< what this process answers for: all of the mesh, or its part
+    Totals totals{};  ///< of the whole mesh
+    /// Of each process a box around the cells that it sees; of a coarse mesh only.
+    std::vector<Bounds> views{};
+
+    [[nodiscard]] bool owns(VertexIndex v) const { return domain.owns(mesh.points[v]); }
+    template <std::size_t N>
+    [[nodiscard]] bool owns(const std::array<VertexIndex, N>& vertices) const {
+        return domain.owns(vertices, mesh.points);
+    }
 
     /// Cells that the later checks look at: those with four different vertices, and of several with
     /// the same ones the first. (The others are reported as what they are, and as nothing else.)
-    std::vector<char> sound;
+    std::vector<char> sound{};
     /// +1, 0, -1 of each cell; 0 also where it is not sound.
-    std::vector<std::int8_t> sign;
-    Buckets<4> cells;  ///< of all with four different vertices; tag: the cell's number
-    Buckets<3> faces;  ///< of sound cells; tag: tag_of(CellFace)
-    Buckets<2> edges;  ///< of sound cells; tag: the cell's number
+    std::vector<std::int8_t> sign{};
+    Buckets<4> cells{};  ///< of all with four different vertices; tag: the cell's number
+    Buckets<3> faces{};  ///< of sound cells; tag: tag_of(CellFace)
+    Buckets<2> edges{};  ///< of sound cells; tag: the cell's number
 
     [[nodiscard]] bool is_sound(CellIndex c) const { return sound[c.value()] != 0; }
     [[nodiscard]] std::array<Point, 4> corners(CellIndex c) const {
@@ -59,9 +73,21 @@ struct Subject {
     return inversions % 2 == 0;
 }
 
-/// Numbers in range, lists as long as they must be, coordinates finite. Nothing else may look at a
-/// mesh that fails this.
-std::string check_ranges(const Mesh& mesh, Which which, Findings& findings);
+/// A mesh that this process has all of.
+[[nodiscard]] inline Subject whole_subject(const Mesh& mesh, Which which) {
+    return {.mesh = mesh,
+            .which = which,
+            .totals = {mesh.points.size(), mesh.cells.size(), mesh.facets.size(),
+                       mesh.edges.size()}};
+}
+
+/// Collective. check_ranges() of a slice.
+std::string check_slice_ranges(const MeshSlice& slice, Which which, Findings& findings);
+
+/// Numbers less than `vertex_count`, lists as long as they must be, coordinates finite. Nothing else
+/// may look at a mesh that fails this. Of slices, too: reports all that it is given.
+std::string check_ranges(const Mesh& mesh, std::uint64_t vertex_count, Which which,
+                         Findings& findings);
 
 /// Repeated vertices and cells; listed facets and edges of no cell. Fills all but `sign`.
 std::string check_well_formed(Subject& subject, Findings& findings);

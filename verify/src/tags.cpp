@@ -34,6 +34,8 @@ public:
 
 private:
     void check(std::string_view name, bool coarse_has_none, bool fine_has_none, auto&& judge) {
+        coarse_has_none = !any(findings_.group(), !coarse_has_none);
+        fine_has_none = !any(findings_.group(), !fine_has_none);
         if (coarse_has_none && fine_has_none) return;
         if (fine_has_none) {
             findings_.skip(name, none_listed);
@@ -49,6 +51,7 @@ private:
 
     void regions() {
         for (CellIndex c{0}; c < fine_.cells.end_index(); ++c) {
+            if (!fine_subject_.owns(fine_.cells[c])) continue;
             const Marker expected = coarse_.regions[descent_.parent[c]];
             if (fine_.regions[c] == expected) continue;
             findings_.add(Code::wrong_region, [&]() -> Findings::Description {
@@ -102,6 +105,7 @@ private:
         const auto coarse = buckets_of(coarse_.facets, coarse_.points.size());
         const auto fine = buckets_of(fine_.facets, fine_.points.size());
         fine_subject_.faces.for_each_group([&](const FacetVertices& face, auto entries) {
+            if (!fine_subject_.owns(face)) return;
             const CellFace f = cell_face(entries.front().tag);
             std::vector<Marker> expected;
             if (const auto on = descent_.coarse_face(f)) {
@@ -128,6 +132,7 @@ private:
         const auto expected = buckets_of(pieces, fine_.points.size());
         const auto found = buckets_of(fine_.edges, fine_.points.size());
         fine_subject_.edges.for_each_group([&](const EdgeVertices& edge, auto) {
+            if (!fine_subject_.owns(edge)) return;
             compare(edge, markers_of(found.find(edge), fine_.edge_markers),
                     markers_of(expected.find(edge), piece_markers), Code::missing_edge,
                     Code::extra_edge, Code::wrong_edge_marker);
@@ -162,7 +167,7 @@ private:
             if (!w.is_none()) expected[w] = coarse_.point_markers[v];
         }
         for (VertexIndex v{0}; v < fine_.points.end_index(); ++v) {
-            if (fine_.point_markers[v] == expected[v]) continue;
+            if (fine_.point_markers[v] == expected[v] || !fine_subject_.owns(v)) continue;
             findings_.add(Code::wrong_vertex_marker, [&]() -> Findings::Description {
                 return {{entity(v)},
                         fmt::format("marker {}", fine_.point_markers[v]),
@@ -201,6 +206,7 @@ private:
     void attributes() {
         const std::size_t count = coarse_.attributes_per_point;
         if (fine_.attributes_per_point != count) {
+            if (!findings_.group().is_first()) return;
             findings_.add(Code::wrong_attribute, [&]() -> Findings::Description {
                 return {{},
                         fmt::format("{} attributes a vertex", fine_.attributes_per_point),
@@ -220,13 +226,15 @@ private:
         };
         for (VertexIndex v{0}; v < coarse_.points.end_index(); ++v) {
             const VertexIndex w = descent_.coarse_to_fine[v];
-            for (std::size_t k = 0; !w.is_none() && k < count; ++k) {
+            if (w.is_none() || !fine_subject_.owns(w)) continue;
+            for (std::size_t k = 0; k < count; ++k) {
                 judge(w, k, coarse_.point_attributes[v.value() * count + k]);
             }
         }
         for (VertexIndex v{0}; v < fine_.points.end_index(); ++v) {
             const auto& [a, b] = descent_.halves[v];
-            for (std::size_t k = 0; !a.is_none() && k < count; ++k) {
+            if (a.is_none() || !fine_subject_.owns(v)) continue;
+            for (std::size_t k = 0; k < count; ++k) {
                 judge(v, k, (value(a, k) + value(b, k)) / 2);
             }
         }

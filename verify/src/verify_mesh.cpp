@@ -1,17 +1,14 @@
 #include <octetra/verify/verify.hpp>
 
 #include "angles.hpp"
+#include "parts/mesh_part.hpp"
 #include "subject.hpp"
 
 namespace octetra::verify {
+namespace {
 
-Verdict verify_mesh(const Mesh& mesh, const VerifyOptions& options) {
-    Findings findings(options.kept_per_code);
-    Subject subject{.mesh = mesh};
-    if (!findings.run("numbers in range",
-                      [&] { return check_ranges(mesh, Which::fine, findings); })) {
-        return std::move(findings.verdict());
-    }
+/// A mesh, or a part of one, that is in range.
+void judge(Subject& subject, const VerifyOptions& options, Findings& findings) {
     findings.run("well-formed", [&] { return check_well_formed(subject, findings); });
     const bool no_coincidence =
         findings.run("vertices", [&] { return check_vertices(subject, {}, findings); });
@@ -22,7 +19,7 @@ Verdict verify_mesh(const Mesh& mesh, const VerifyOptions& options) {
     if (options.fast) {
         findings.skip("hanging vertices", "not with --fast");
         findings.skip("boundary crossings", "not with --fast");
-        return std::move(findings.verdict());
+        return;
     }
     // Cells that are wrong in themselves are in others' way, too; one report of them is enough.
     bool none_hangs = false;
@@ -44,7 +41,33 @@ Verdict verify_mesh(const Mesh& mesh, const VerifyOptions& options) {
             return check_dihedral_angles(subject, *options.min_dihedral, findings);
         });
     }
-    return std::move(findings.verdict());
+}
+
+}  // namespace
+
+Verdict verify_mesh(const Mesh& mesh, const VerifyOptions& options) {
+    Findings findings(options.kept_per_code);
+    Subject subject = whole_subject(mesh, Which::fine);
+    if (findings.run("numbers in range", [&] {
+            return check_ranges(mesh, mesh.points.size(), Which::fine, findings);
+        })) {
+        judge(subject, options, findings);
+    }
+    return findings.finish();
+}
+
+Verdict verify_mesh(MeshSlice mesh, const Group& group, const VerifyOptions& options) {
+    Findings findings(options.kept_per_code, group);
+    if (!findings.run("numbers in range",
+                      [&] { return check_slice_ranges(mesh, Which::fine, findings); })) {
+        return findings.finish();
+    }
+    const Totals totals = mesh.totals;
+    const Parts parts = part_of(std::move(mesh), group);
+    findings.translate(Which::fine, &parts.fine.numbers);
+    Subject subject{.mesh = parts.fine.mesh, .domain = parts.domain, .totals = totals};
+    judge(subject, options, findings);
+    return findings.finish();
 }
 
 }  // namespace octetra::verify

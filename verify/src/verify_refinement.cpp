@@ -6,6 +6,7 @@
 
 #include "angles.hpp"
 #include "descent.hpp"
+#include "parts/mesh_part.hpp"
 
 namespace octetra::verify {
 namespace {
@@ -84,31 +85,29 @@ std::vector<char> inherited_freedom(const Mesh& coarse, const Mesh& fine, const 
     return tolerated;
 }
 
-bool has_coincident_vertices(const Mesh& mesh) {
-    std::vector<Point> points(mesh.points.begin(), mesh.points.end());
+bool has_coincident_vertices(const Subject& subject) {
+    std::vector<Point> points;
+    for (const Point& p : subject.mesh.points) {
+        if (subject.domain.owns(p)) points.push_back(p);
+    }
     std::sort(points.begin(), points.end());
     return std::adjacent_find(points.begin(), points.end()) != points.end();
 }
 
-/// The checks one after the other, each only where what it leans on has passed.
+std::string_view name_of_range_check(Which which) {
+    return which == Which::fine ? "numbers in range" : "coarse mesh in range";
+}
+
+/// The checks one after the other, of two meshes in range, each only where what it leans on has
+/// passed.
 class RefinementCheck {
 public:
-    RefinementCheck(const Mesh& coarse, const Mesh& fine, const VerifyOptions& options)
+    RefinementCheck(Subject coarse, Subject fine, const VerifyOptions& options, Findings& findings)
         : options_(options),
-          findings_(options.kept_per_code),
-          coarse_{.mesh = coarse, .which = Which::coarse},
-          fine_{.mesh = fine, .which = Which::fine} {}
+          findings_(findings),
+          coarse_(std::move(coarse)),
+          fine_(std::move(fine)) {}
 
-    Verdict run() {
-        const auto in_range = [&](const Mesh& mesh, Which which) {
-            return findings_.run(which == Which::fine ? "numbers in range" : "coarse mesh in range",
-                                 [&] { return check_ranges(mesh, which, findings_); });
-        };
-        if (in_range(coarse_.mesh, Which::coarse) && in_range(fine_.mesh, Which::fine)) judge();
-        return std::move(findings_.verdict());
-    }
-
-private:
     void judge() {
         if (!judge_coarse()) return;
         const bool well_formed =
@@ -126,6 +125,7 @@ private:
         }
     }
 
+private:
     /// What the certificate takes for granted.
     bool judge_coarse() {
         return findings_.run("coarse mesh", [&] {
@@ -145,7 +145,8 @@ private:
         const bool none_lost = findings_.run("coarse vertices", [&] {
             return find_coarse_vertices(coarse_, fine_, places, descent, findings_);
         });
-        const bool coincidences = options_.fast || has_coincident_vertices(coarse_.mesh);
+        const bool coincidences =
+            options_.fast || any(findings_.group(), has_coincident_vertices(coarse_));
         bool none_hangs = true;
         if (options_.fast) {
             findings_.skip("hanging vertices", "not with --fast");
@@ -214,7 +215,7 @@ private:
     }
 
     const VerifyOptions& options_;
-    Findings findings_;
+    Findings& findings_;
     Subject coarse_;
     Subject fine_;
 };
@@ -222,7 +223,42 @@ private:
 }  // namespace
 
 Verdict verify_refinement(const Mesh& coarse, const Mesh& fine, const VerifyOptions& options) {
-    return RefinementCheck(coarse, fine, options).run();
+    Findings findings(options.kept_per_code);
+    const auto in_range = [&](const Mesh& mesh, Which which) {
+        return findings.run(name_of_range_check(which), [&] {
+            return check_ranges(mesh, mesh.points.size(), which, findings);
+        });
+    };
+    if (in_range(coarse, Which::coarse) && in_range(fine, Which::fine)) {
+        RefinementCheck(whole_subject(coarse, Which::coarse), whole_subject(fine, Which::fine),
+                        options, findings)
+            .judge();
+    }
+    return findings.finish();
+}
+
+Verdict verify_refinement(MeshSlice coarse, MeshSlice fine, const Group& group,
+                          const VerifyOptions& options) {
+    Findings findings(options.kept_per_code, group);
+    const auto in_range = [&](const MeshSlice& slice, Which which) {
+        return findings.run(name_of_range_check(which),
+                            [&] { return check_slice_ranges(slice, which, findings); });
+    };
+    if (!in_range(coarse, Which::coarse) || !in_range(fine, Which::fine)) return findings.finish();
+    const Totals coarse_totals = coarse.totals;
+    const Totals fine_totals = fine.totals;
+    const Parts parts = parts_of(std::move(coarse), std::move(fine), group);
+    findings.translate(Which::coarse, &parts.coarse.numbers);
+    findings.translate(Which::fine, &parts.fine.numbers);
+    RefinementCheck({.mesh = parts.coarse.mesh,
+                     .which = Which::coarse,
+                     .domain = parts.domain,
+                     .totals = coarse_totals,
+                     .views = parts.coarse_in_view},
+                    {.mesh = parts.fine.mesh, .domain = parts.domain, .totals = fine_totals},
+                    options, findings)
+        .judge();
+    return findings.finish();
 }
 
 }  // namespace octetra::verify

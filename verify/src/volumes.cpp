@@ -83,14 +83,17 @@ Grouped group(std::size_t groups, const std::vector<std::uint32_t>& group_of) {
 /// Returns the largest bound that was used.
 double check_cell_volumes(const Subject& coarse, const Subject& fine, const Descent& descent,
                           Findings& findings) {
+    // Cells of no parent that is seen here stand behind the others.
+    const auto coarse_cells = static_cast<std::uint32_t>(coarse.mesh.cells.size());
     std::vector<std::uint32_t> parents(fine.mesh.cells.size());
     for (CellIndex c{0}; c < fine.mesh.cells.end_index(); ++c) {
-        parents[c.value()] = descent.parent[c].value();
+        parents[c.value()] = std::min(descent.parent[c].value(), coarse_cells);
     }
-    const Grouped children = group(coarse.mesh.cells.size(), parents);
+    const Grouped children = group(coarse_cells + 1, parents);
     exact::VolumeSum difference;
     double largest = 0;
     for (CellIndex c{0}; c < coarse.mesh.cells.end_index(); ++c) {
+        if (!coarse.owns(coarse.mesh.cells[c])) continue;
         const std::uint32_t first = children.begin[c.value()];
         const std::uint32_t last = children.begin[c.value() + 1];
         difference.clear();
@@ -118,7 +121,8 @@ double check_cell_volumes(const Subject& coarse, const Subject& fine, const Desc
 double check_boundary_areas(const Subject& coarse, const Subject& fine, const Descent& descent,
                             Findings& findings) {
     constexpr std::uint32_t not_on_boundary = 0xffffffffU;
-    const std::vector<CellFace> coarse_faces = boundary_faces(coarse);
+    std::vector<CellFace> coarse_faces = boundary_faces(coarse);
+    std::erase_if(coarse_faces, [&](CellFace f) { return !coarse.owns(coarse.mesh.cells[f.cell]); });
     std::vector<std::uint32_t> number_of(4 * coarse.mesh.cells.size(), not_on_boundary);
     for (std::uint32_t i = 0; i < coarse_faces.size(); ++i) number_of[tag_of(coarse_faces[i])] = i;
 
@@ -169,8 +173,9 @@ double check_boundary_areas(const Subject& coarse, const Subject& fine, const De
 
 std::string check_volumes(const Subject& coarse, const Subject& fine, const Descent& descent,
                           Findings& findings) {
-    const double volume = check_cell_volumes(coarse, fine, descent, findings);
-    const double area = check_boundary_areas(coarse, fine, descent, findings);
+    const Group& group = findings.group();
+    const double volume = greatest(group, check_cell_volumes(coarse, fine, descent, findings));
+    const double area = greatest(group, check_boundary_areas(coarse, fine, descent, findings));
     if (volume == 0 && area == 0) return "of every coarse cell and boundary face, exactly";
     return fmt::format(
         "of every coarse cell to within {:.3g}, of every boundary face to within {:.3g}", volume,

@@ -20,15 +20,15 @@ bool has_repetition(const std::array<VertexIndex, N>& v) {
 }
 
 template <class I, std::size_t N>
-void check_range(const IndexVector<I, std::array<VertexIndex, N>>& list, const Mesh& mesh,
-                 Which which, Findings& findings) {
+void check_range(const IndexVector<I, std::array<VertexIndex, N>>& list,
+                 std::uint64_t vertex_count, Which which, Findings& findings) {
     for (I i{0}; i < list.end_index(); ++i) {
         for (const VertexIndex v : list[i]) {
-            if (v < mesh.points.end_index()) continue;
+            if (v.value() < vertex_count) continue;
             findings.add(Code::vertex_out_of_range, [&]() -> Findings::Description {
                 return {{entity(i, which)},
                         fmt::format("vertex {}, counted from 0", v.value()),
-                        fmt::format("a number less than {}", mesh.points.size())};
+                        fmt::format("a number less than {}", vertex_count)};
             });
         }
     }
@@ -45,8 +45,11 @@ void check_length(std::string_view what, std::size_t length, std::size_t expecte
 /// Listed facets or edges: different vertices, of some cell.
 template <class I, std::size_t N>
 void check_listed(const IndexVector<I, std::array<VertexIndex, N>>& list,
-                  const Buckets<N>& of_cells, Code stray, Which which, Findings& findings) {
+                  const Buckets<N>& of_cells, Code stray, const Subject& subject,
+                  Findings& findings) {
+    const Which which = subject.which;
     for (I i{0}; i < list.end_index(); ++i) {
+        if (!subject.owns(list[i])) continue;
         if (has_repetition(list[i])) {
             findings.add(Code::repeated_vertex, [&]() -> Findings::Description {
                 return {{entity(i, which)}, "a vertex twice", "different vertices"};
@@ -65,6 +68,7 @@ void find_sound_cells(Subject& subject, Findings& findings) {
     for (CellIndex c{0}; c < mesh.cells.end_index(); ++c) {
         if (!has_repetition(mesh.cells[c])) continue;
         subject.sound[c.value()] = 0;
+        if (!subject.owns(mesh.cells[c])) continue;
         findings.add(Code::repeated_vertex, [&]() -> Findings::Description {
             return {{entity(c, subject.which)}, "a vertex twice", "four different vertices"};
         });
@@ -74,11 +78,12 @@ void find_sound_cells(Subject& subject, Findings& findings) {
             if (subject.is_sound(c)) visit(mesh.cells[c], c.value());
         }
     });
-    subject.cells.for_each_group([&](const CellVertices&, auto cells) {
+    subject.cells.for_each_group([&](const CellVertices& vertices, auto cells) {
         for (std::size_t k = 1; k < cells.size(); ++k) {
             const CellIndex first{cells[0].tag};
             const CellIndex again{cells[k].tag};
             subject.sound[again.value()] = 0;
+            if (!subject.owns(vertices)) continue;
             findings.add(Code::repeated_cell, [&]() -> Findings::Description {
                 return {{entity(first, subject.which), entity(again, subject.which)},
                         "the same four vertices",
@@ -90,10 +95,11 @@ void find_sound_cells(Subject& subject, Findings& findings) {
 
 }  // namespace
 
-std::string check_ranges(const Mesh& mesh, Which which, Findings& findings) {
-    check_range(mesh.cells, mesh, which, findings);
-    check_range(mesh.facets, mesh, which, findings);
-    check_range(mesh.edges, mesh, which, findings);
+std::string check_ranges(const Mesh& mesh, std::uint64_t vertex_count, Which which,
+                         Findings& findings) {
+    check_range(mesh.cells, vertex_count, which, findings);
+    check_range(mesh.facets, vertex_count, which, findings);
+    check_range(mesh.edges, vertex_count, which, findings);
     const std::size_t points = mesh.points.size();
     check_length("vertex markers", mesh.point_markers.size(), points, true, findings);
     check_length("attributes", mesh.point_attributes.size(), points * mesh.attributes_per_point,
@@ -111,6 +117,20 @@ std::string check_ranges(const Mesh& mesh, Which which, Findings& findings) {
         });
     }
     return {};
+}
+
+std::string check_slice_ranges(const MeshSlice& slice, Which which, Findings& findings) {
+    const Group& group = findings.group();
+    const auto numbered = [&](std::uint64_t count) {
+        return NumberList{.first = static_cast<std::uint32_t>(
+                              slice_begin(count, group.rank(), group.size()))};
+    };
+    const Numbers numbers{numbered(slice.totals.vertices), numbered(slice.totals.cells),
+                    numbered(slice.totals.facets), numbered(slice.totals.edges)};
+    findings.translate(which, &numbers);
+    std::string note = check_ranges(slice.lists, slice.totals.vertices, which, findings);
+    findings.translate(which, nullptr);
+    return note;
 }
 
 std::string check_well_formed(Subject& subject, Findings& findings) {
@@ -135,8 +155,8 @@ std::string check_well_formed(Subject& subject, Findings& findings) {
             }
         });
     });
-    check_listed(mesh.facets, subject.faces, Code::stray_facet, subject.which, findings);
-    check_listed(mesh.edges, subject.edges, Code::stray_edge, subject.which, findings);
+    check_listed(mesh.facets, subject.faces, Code::stray_facet, subject, findings);
+    check_listed(mesh.edges, subject.edges, Code::stray_edge, subject, findings);
     return {};
 }
 
@@ -151,7 +171,7 @@ std::string check_vertices(const Subject& subject, const std::vector<char>& tole
         return !tolerated.empty() && tolerated[v.value()] != 0;
     };
     for (VertexIndex v{0}; v < mesh.points.end_index(); ++v) {
-        if (used[v.value()] != 0 || is_tolerated(v)) continue;
+        if (used[v.value()] != 0 || is_tolerated(v) || !subject.owns(v)) continue;
         findings.add(Code::unused_vertex, [&]() -> Findings::Description {
             return {{entity(v, subject.which)}, "no cell has it", "a corner of some cell"};
         });
@@ -160,7 +180,7 @@ std::string check_vertices(const Subject& subject, const std::vector<char>& tole
     // Vertices that no cell has are where they are; only those of cells are compared.
     std::vector<VertexIndex> by_place;
     for (VertexIndex v{0}; v < mesh.points.end_index(); ++v) {
-        if (used[v.value()] != 0) by_place.push_back(v);
+        if (used[v.value()] != 0 && subject.owns(v)) by_place.push_back(v);
     }
     std::sort(by_place.begin(), by_place.end(), [&](VertexIndex v, VertexIndex w) {
         const auto order = mesh.points[v] <=> mesh.points[w];

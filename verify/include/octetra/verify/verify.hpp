@@ -7,11 +7,13 @@
 #include <octetra/core/maps.hpp>
 #include <octetra/core/mesh.hpp>
 #include <octetra/core/selection.hpp>
+#include <octetra/verify/group.hpp>
+#include <octetra/verify/mesh_slice.hpp>
 #include <octetra/verify/verdict.hpp>
 
 /// An independent judge of meshes and refinements. It shares with those who make them the mesh
 /// model, the order of edges and the meaning of a selection, which are core's, and nothing else.
-/// All functions here are local to the process.
+/// Functions that take no group are local to the process.
 namespace octetra::verify {
 
 /// What was asked for, if the fine mesh claims to be the 8T-LE refinement of the coarse one.
@@ -40,6 +42,13 @@ struct VerifyOptions {
 /// in a common face, edge or vertex, or not at all. ARCHITECTURE.md has the reasoning.
 [[nodiscard]] Verdict verify_mesh(const Mesh& mesh, const VerifyOptions& options = {});
 
+/// Collective in the group. The same of a mesh that no process need have all of: each judges what
+/// lies in a part of space. The verdict is the same but for `seconds` and `arithmetic`, as what lies
+/// between two parts is looked at by both; whole on the first process, without violations on the
+/// others. Takes the memory of about a part and what surrounds it, in every process.
+[[nodiscard]] Verdict verify_mesh(MeshSlice mesh, const Group& group,
+                                  const VerifyOptions& options = {});
+
 /// Judges `fine` as a refinement of `coarse` by midpoints: the cells of each coarse cell come of
 /// halving it at midpoints of edges, over and over, or of cutting it into eight at all six.
 ///
@@ -47,6 +56,13 @@ struct VerifyOptions {
 /// exactly, face to face; rounded as they are, no vertex is farther off than facts.rounding_bound,
 /// and every cell is positively oriented, exactly.
 [[nodiscard]] Verdict verify_refinement(const Mesh& coarse, const Mesh& fine,
+                                        const VerifyOptions& options = {});
+
+/// Collective in the group. The same of meshes that no process need have all of; as verify_mesh().
+/// Every process has the maps, if there are any, whole. Each judges the coarse cells of a part of
+/// space with their descendants, and sees those around them: where coarse cells are few and large,
+/// parts overlap, and memory does not fall.
+[[nodiscard]] Verdict verify_refinement(MeshSlice coarse, MeshSlice fine, const Group& group,
                                         const VerifyOptions& options = {});
 
 }  // namespace octetra::verify

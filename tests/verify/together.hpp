@@ -1,0 +1,91 @@
+#pragma once
+
+#include <string>
+
+#include <gtest/gtest.h>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <octetra/verify/verify.hpp>
+
+#include "verify/thread_group.hpp"
+
+namespace octetra::test {
+
+inline std::string text_of(const verify::Entity& entity) {
+    std::string vertices;
+    for (const VertexIndex v : entity.vertices) vertices += fmt::format(" {}", v.value());
+    return fmt::format("{}/{}/{}({})", static_cast<int>(entity.kind), static_cast<int>(entity.mesh),
+                       entity.number, vertices);
+}
+
+inline std::string text_of(const std::optional<verify::AngleFigures>& angles) {
+    if (!angles) return "none";
+    return fmt::format("{} at {}, {}, {}, {}", angles->min_dihedral,
+                       angles->min_dihedral_at.value(), angles->max_dihedral, angles->min_solid,
+                       angles->min_eta);
+}
+
+/// All of a verdict that must not depend on who judges: all but seconds and arithmetic.
+inline std::string text_of(const verify::Verdict& verdict) {
+    std::string text;
+    for (const verify::Check& check : verdict.checks) {
+        text += fmt::format("{}: {} {}\n", check.name, static_cast<int>(check.status), check.note);
+    }
+    text += fmt::format("counts {}\n", fmt::join(verdict.counts, " "));
+    for (const verify::Violation& violation : verdict.violations) {
+        text += fmt::format("{}", name(violation.code));
+        for (const verify::Entity& entity : violation.entities) text += fmt::format(" {}", text_of(entity));
+        text += fmt::format(": {}; {}\n", violation.found, violation.expected);
+    }
+    const verify::Facts& f = verdict.facts;
+    text += fmt::format("facts {} {} {} {} {} {} {} {} {} {} {} {}\n", f.vertices, f.cells, f.edges,
+                        f.faces, f.boundary_faces, f.singular_edges, f.singular_vertices,
+                        f.bisected_edges, f.rounded_midpoints, f.cells_kept, f.deepest,
+                        f.rounding_bound);
+    text += fmt::format("angles {}\ncoarse {}\n", text_of(verdict.angles),
+                        text_of(verdict.coarse_angles));
+    for (const verify::DepthFigures& figures : verdict.by_depth) {
+        text += fmt::format("depth {}: {} {} {}\n", figures.depth, figures.cells,
+                            figures.min_dihedral, figures.min_eta);
+    }
+    return text;
+}
+
+inline void expect_same_verdict_together(const verify::Verdict& alone,
+                                         const std::function<verify::Verdict(
+                                             const verify::Group&)>& judge) {
+    for (const int size : {2, 3, 4, 7}) {
+        SCOPED_TRACE(fmt::format("{} processes", size));
+        verify::Verdict first;
+        run_together(size, [&](const verify::Group& group) {
+            verify::Verdict verdict = judge(group);
+            if (group.is_first()) {
+                first = std::move(verdict);
+            } else if (verdict.valid() != alone.valid()) {
+                ADD_FAILURE() << "another verdict on process " << group.rank();
+            }
+        });
+        ASSERT_EQ(text_of(first), text_of(alone));
+    }
+}
+
+/// The verdict of this process alone; and expects that of 2, 3, 4 and 7 together to be the same.
+inline verify::Verdict judged_by_all(const Mesh& mesh, const verify::VerifyOptions& options = {}) {
+    const verify::Verdict alone = verify_mesh(mesh, options);
+    expect_same_verdict_together(alone, [&](const verify::Group& group) {
+        return verify_mesh(share_out(mesh, group), group, options);
+    });
+    return alone;
+}
+
+inline verify::Verdict judged_by_all(const Mesh& coarse, const Mesh& fine,
+                                     const verify::VerifyOptions& options = {}) {
+    const verify::Verdict alone = verify_refinement(coarse, fine, options);
+    expect_same_verdict_together(alone, [&](const verify::Group& group) {
+        return verify_refinement(share_out(coarse, group), share_out(fine, group), group, options);
+    });
+    return alone;
+}
+
+}  // namespace octetra::test

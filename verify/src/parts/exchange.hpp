@@ -1,0 +1,81 @@
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <cstring>
+#include <functional>
+#include <type_traits>
+#include <vector>
+
+#include <octetra/verify/group.hpp>
+
+/// Group::exchange in terms of values. All functions here are collective.
+namespace octetra::verify {
+
+template <class T>
+[[nodiscard]] Group::Bytes bytes_of(const std::vector<T>& values) {
+    static_assert(std::is_trivially_copyable_v<T>);
+    Group::Bytes bytes(values.size() * sizeof(T));
+    if (!bytes.empty()) std::memcpy(bytes.data(), values.data(), bytes.size());
+    return bytes;
+}
+
+template <class T>
+[[nodiscard]] std::vector<T> values_of(const Group::Bytes& bytes) {
+    static_assert(std::is_trivially_copyable_v<T>);
+    std::vector<T> values(bytes.size() / sizeof(T));
+    if (!bytes.empty()) std::memcpy(values.data(), bytes.data(), bytes.size());
+    return values;
+}
+
+/// to_each[r] goes to process r; the result's [r] came from there. Frees what it has sent.
+template <class T>
+[[nodiscard]] std::vector<std::vector<T>> exchange(const Group& group,
+                                                   std::vector<std::vector<T>> to_each) {
+    std::vector<Group::Bytes> outboxes;
+    outboxes.reserve(to_each.size());
+    for (std::vector<T>& values : to_each) {
+        outboxes.push_back(bytes_of(values));
+        values = {};
+    }
+    std::vector<std::vector<T>> received;
+    received.reserve(to_each.size());
+    for (Group::Bytes& bytes : group.exchange(std::move(outboxes))) {
+        received.push_back(values_of<T>(bytes));
+        bytes = {};
+    }
+    return received;
+}
+
+/// What each process has, by rank.
+template <class T>
+[[nodiscard]] std::vector<std::vector<T>> share_with_all(const Group& group,
+                                                         const std::vector<T>& values) {
+    return exchange(group, std::vector<std::vector<T>>(static_cast<std::size_t>(group.size()),
+                                                       values));
+}
+
+/// One value of each process, put together.
+template <class T>
+[[nodiscard]] T reduce(const Group& group, T value, auto&& combine) {
+    if (group.size() == 1) return value;
+    const auto all = share_with_all(group, std::vector<T>{value});
+    T result = all.front().front();
+    for (std::size_t r = 1; r < all.size(); ++r) result = combine(result, all[r].front());
+    return result;
+}
+
+[[nodiscard]] inline std::uint64_t sum(const Group& group, std::uint64_t number) {
+    return reduce(group, number, std::plus<>());
+}
+
+[[nodiscard]] inline bool any(const Group& group, bool here) {
+    return sum(group, here ? 1 : 0) > 0;
+}
+
+template <class T>
+[[nodiscard]] T greatest(const Group& group, T value) {
+    return reduce(group, value, [](T a, T b) { return std::max(a, b); });
+}
+
+}  // namespace octetra::verify

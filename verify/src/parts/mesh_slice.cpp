@@ -1,0 +1,58 @@
+#include <octetra/verify/mesh_slice.hpp>
+
+#include "parts/exchange.hpp"
+
+namespace octetra::verify {
+namespace {
+
+/// Each process's stretch of a list that the first has, `per_entity` elements for each entity.
+template <class T>
+void share_out_list(const std::vector<T>& whole, std::uint64_t count, std::size_t per_entity,
+                    std::vector<T>& slice, const Group& group) {
+    std::vector<std::vector<T>> to_each(static_cast<std::size_t>(group.size()));
+    if (group.is_first() && !whole.empty()) {
+        const auto at = [&](int rank) {
+            const std::uint64_t begin = slice_begin(count, rank, group.size()) * per_entity;
+            return whole.begin() + static_cast<std::ptrdiff_t>(begin);
+        };
+        for (int r = 0; r < group.size(); ++r) {
+            to_each[static_cast<std::size_t>(r)].assign(at(r), at(r + 1));
+        }
+    }
+    slice = std::move(exchange(group, std::move(to_each)).front());
+}
+
+}  // namespace
+
+MeshSlice share_out(const Mesh& mesh, const Group& group) {
+    struct Head {
+        Totals totals;
+        std::uint64_t attributes_per_point;
+        std::uint32_t first_number;
+    };
+    const Head head =
+        share_with_all(group, std::vector<Head>{{{mesh.points.size(), mesh.cells.size(),
+                                                  mesh.facets.size(), mesh.edges.size()},
+                                                 mesh.attributes_per_point,
+                                                 mesh.first_number}})
+            .front()
+            .front();
+    MeshSlice slice{{}, head.totals};
+    Mesh& lists = slice.lists;
+    lists.attributes_per_point = head.attributes_per_point;
+    lists.first_number = head.first_number;
+    const Totals& totals = head.totals;
+    share_out_list(mesh.points, totals.vertices, 1, lists.points, group);
+    share_out_list(mesh.point_markers, totals.vertices, 1, lists.point_markers, group);
+    share_out_list(mesh.point_attributes, totals.vertices, head.attributes_per_point,
+                   lists.point_attributes, group);
+    share_out_list(mesh.cells, totals.cells, 1, lists.cells, group);
+    share_out_list(mesh.regions, totals.cells, 1, lists.regions, group);
+    share_out_list(mesh.facets, totals.facets, 1, lists.facets, group);
+    share_out_list(mesh.facet_markers, totals.facets, 1, lists.facet_markers, group);
+    share_out_list(mesh.edges, totals.edges, 1, lists.edges, group);
+    share_out_list(mesh.edge_markers, totals.edges, 1, lists.edge_markers, group);
+    return slice;
+}
+
+}  // namespace octetra::verify

@@ -29,6 +29,7 @@
 #include "commands/profile_options.hpp"
 #include "commands/refinement_options.hpp"
 #include "grouped.hpp"
+#include "judges.hpp"
 #include "stopwatch.hpp"
 #include "verdict/print_verdict.hpp"
 
@@ -124,20 +125,56 @@ void report_written(const RefineOptions& options, const std::string& lost, const
     report(options, fmt::format("wrote {}", options.output), facts.vertices, facts.cells, seconds);
 }
 
+verify::VerifyOptions verify_options(const Plan& plan, const RefineOptions& options,
+                                     const RefinementMaps* maps) {
+    constexpr std::size_t described_of_each_code = 100;
+    return {.request = verify::Request{plan.selection, plan.scheme, options.refinement.levels},
+            .maps = maps,
+            .kept_per_code = described_of_each_code};
+}
+
+void print_refusal(const verify::Verdict& verdict, const RefineOptions& options,
+                   std::uint32_t first_number) {
+    print_verdict(verdict, {options.output, options.input.path, first_number, first_number});
+    fmt::print("nothing was written\n");
+}
+
 /// Judges what an engine has made. If it is not valid, says why.
 bool is_valid(const Mesh& coarse, const Mesh& fine, const RefinementMaps& maps, const Plan& plan,
               const RefineOptions& options) {
-    constexpr std::size_t described_of_each_code = 100;
+    const auto verdict =
+        verify::verify_refinement(coarse, fine, verify_options(plan, options, &maps));
+    if (!verdict.valid()) print_refusal(verdict, options, fine.first_number);
+    return verdict.valid();
+}
+
+/// Collective. Every process gets the whole of the maps. (Only who asks for --maps needs them.)
+RefinementMaps maps_of_all(MeshSource& fine, const distributed::Communicator& world) {
+    const MeshFacts& facts = fine.facts();
+    RefinementMaps maps;
+    const auto share = [&](auto& list, auto span) {
+        list.assign(span.begin(), span.end());
+        world.broadcast(list);
+    };
+    share(maps.cell_to_parent, fine.parents(whole_window(facts.cells)));
+    share(maps.midpoint_to_edge,
+          fine.midpoint_ends(whole_window(facts.vertices - facts.first_midpoint)));
+    maps.first_midpoint = VertexIndex{facts.first_midpoint};
+    return maps;
+}
+
+/// Collective. The same of a mesh in several memories; no process has all of it.
+bool is_valid_together(verify::MeshSlice coarse, distributed::CanonicalMesh& fine, const Plan& plan,
+                       const RefineOptions& options, const distributed::Communicator& world) {
+    RefinementMaps maps;
+    if (!options.maps.empty()) maps = maps_of_all(fine.whole(), world);
     const auto verdict = verify::verify_refinement(
-        coarse, fine,
-        {.request = verify::Request{plan.selection, plan.scheme, options.refinement.levels},
-         .maps = &maps,
-         .kept_per_code = described_of_each_code});
-    if (verdict.valid()) return true;
-    print_verdict(verdict,
-                  {options.output, options.input.path, fine.first_number, coarse.first_number});
-    fmt::print("nothing was written\n");
-    return false;
+        std::move(coarse), verify::slice_of(fine.whole()), Judges(world),
+        verify_options(plan, options, options.maps.empty() ? nullptr : &maps));
+    if (!verdict.valid() && world.is_first()) {
+        print_refusal(verdict, options, fine.facts().first_number);
+    }
+    return verdict.valid();
 }
 
 /// Collective. What the first process has all of is judged there, if it is to be, and written.
@@ -197,7 +234,11 @@ distributed::DistributedMesh share_out(Mesh mesh, const Plan& plan,
 /// Collective. False, on all processes, if the result is not valid.
 bool refine_distributed(Mesh mesh, const Plan& plan, const RefineOptions& options,
                         const distributed::Communicator& world, Stopwatch& watch) {
-    const Mesh coarse = options.verify ? mesh : Mesh{};
+    const bool verify_alone = options.verify && world.size() == 1;
+    const bool verify_together = options.verify && world.size() > 1;
+    const Mesh coarse = verify_alone ? mesh : Mesh{};
+    verify::MeshSlice coarse_slice;
+    if (verify_together) coarse_slice = verify::share_out(mesh, Judges(world));
     auto parts = share_out(std::move(mesh), plan, world);
     int levels = 0;
     const auto show = level_progress(options);
@@ -215,7 +256,7 @@ bool refine_distributed(Mesh mesh, const Plan& plan, const RefineOptions& option
             parts, plan.selection,
             {plan.scheme, options.refinement.levels, plan.synchronisation, on_level});
     });
-    if (options.verify) {
+    if (verify_alone) {
         const auto fine =
             naming_the_mesh(options, [&] { return distributed::collect(std::move(parts)); });
         report_parts(WholeMesh(fine.mesh, &fine.maps).facts());
@@ -224,6 +265,13 @@ bool refine_distributed(Mesh mesh, const Plan& plan, const RefineOptions& option
     auto fine =
         naming_the_mesh(options, [&] { return distributed::CanonicalMesh(std::move(parts)); });
     report_parts(fine.facts());
+    if (verify_together) {
+        const distributed::Phase phase(world, "verify");
+        if (!is_valid_together(std::move(coarse_slice), fine, plan, options, world)) return false;
+        if (world.is_first()) {
+            report(options, "verified", fine.facts().vertices, fine.facts().cells, watch.lap());
+        }
+    }
     const distributed::Phase phase(world, "write");
     const std::string lost = distributed::write_mesh(fine, options.output);
     if (!options.maps.empty()) write_maps(fine.whole(), options.maps);
@@ -259,7 +307,8 @@ void refine(const RefineOptions& options, const distributed::Communicator& all) 
             check_writable(options.output);
             check_side_files(options);
             mesh = read_input(options.input);
-            complete_selection(plan.selection, options.refinement.selection, mesh);
+            complete_selection(plan.selection, options.refinement.selection,
+                               {!mesh.regions.empty(), mesh.first_number, mesh.cells.size()});
             report(options, fmt::format("read {}", options.input.path), mesh.points.size(),
                    mesh.cells.size(), watch.lap());
         });
@@ -312,7 +361,7 @@ void add_refine(CLI::App& program, const distributed::Communicator& world) {
     add_profile_options(*refine_command, options->profile);
     refine_command->add_flag(
         "--verify", options->verify,
-        "judge the result, on the first rank, as octetra verify does; write it if it is valid");
+        "judge the result as octetra verify does, and write it if it is valid");
     refine_command->add_flag("--quiet", options->quiet, "print nothing but notes and errors");
     refine_command->footer(
         "Example:\n"

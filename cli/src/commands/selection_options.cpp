@@ -98,12 +98,13 @@ Selection parse_selection(const SelectionOptions& options) {
     return selection;
 }
 
-void complete_selection(Selection& selection, const SelectionOptions& options, const Mesh& mesh) {
-    if (!selection.regions.empty() && mesh.regions.empty()) {
+void complete_selection(Selection& selection, const SelectionOptions& options,
+                        const SelectableMesh& mesh) {
+    if (!selection.regions.empty() && !mesh.has_regions) {
         throw InputError("--region: the cells of this mesh have no region tags");
     }
     if (!options.cells_file.empty()) {
-        selection.cells = read_cell_list(options.cells_file, mesh.first_number, mesh.cells.size());
+        selection.cells = read_cell_list(options.cells_file, mesh.first_number, mesh.cells);
     }
 }
 

@@ -36,7 +36,15 @@ void add_selection_options(CLI::App& subcommand, SelectionOptions& options,
 /// What does not need the mesh: at least one criterion, numbers in range. Throws InputError.
 [[nodiscard]] Selection parse_selection(const SelectionOptions& options);
 
+/// What a selection asks of a mesh.
+struct SelectableMesh {
+    bool has_regions = false;
+    std::uint32_t first_number = 0;
+    std::uint64_t cells = 0;
+};
+
 /// The rest: the cell list, and whether the mesh has what is asked for. Throws InputError.
-void complete_selection(Selection& selection, const SelectionOptions& options, const Mesh& mesh);
+void complete_selection(Selection& selection, const SelectionOptions& options,
+                        const SelectableMesh& mesh);
 
 }  // namespace octetra::cli

@@ -13,6 +13,7 @@
 #include "commands/commands.hpp"
 #include "commands/mesh_options.hpp"
 #include "commands/refinement_options.hpp"
+#include "judges.hpp"
 #include "verdict/print_verdict.hpp"
 
 namespace octetra::cli {
@@ -71,7 +72,8 @@ verify::Verdict judge(const VerifyCommandOptions& given, verify::VerifyOptions o
     const Mesh second = read_mesh(given.second, as_it_stands);
     judged = {given.second, given.first, second.first_number, first.first_number};
     if (options.request) {
-        complete_selection(options.request->selection, given.refinement.selection, first);
+        complete_selection(options.request->selection, given.refinement.selection,
+                           {!first.regions.empty(), first.first_number, first.cells.size()});
     }
     std::optional<RefinementMaps> maps;
     if (!given.maps.empty()) {
@@ -81,12 +83,59 @@ verify::Verdict judge(const VerifyCommandOptions& given, verify::VerifyOptions o
     return verify_refinement(first, second, options);
 }
 
-bool run(const VerifyCommandOptions& given, const verify::VerifyOptions& options) {
-    if (!given.report.empty()) check_side_file("--report", given.report);
+/// Collective. All processes get the first one's maps.
+void share_maps(RefinementMaps& maps, const distributed::Communicator& world) {
+    world.broadcast(maps.cell_to_parent);
+    world.broadcast(maps.midpoint_to_edge);
+    std::vector<VertexIndex> first_midpoint{maps.first_midpoint};
+    world.broadcast(first_midpoint);
+    maps.first_midpoint = first_midpoint.front();
+}
+
+/// Collective. Every process judges a part; none has a mesh as a whole.
+verify::Verdict judge_together(const VerifyCommandOptions& given, verify::VerifyOptions options,
+                               Judged& judged, const distributed::Communicator& world) {
+    const Judges judges(world);
+    const ReadOptions as_it_stands{.only_syntax = true, .note = note};
+    verify::MeshSlice first = verify::read_slice(given.first, as_it_stands, judges);
+    const std::uint32_t first_number = first.lists.first_number;
+    if (given.second.empty()) {
+        judged = {.fine = given.first, .fine_first_number = first_number};
+        return verify_mesh(std::move(first), judges, options);
+    }
+    verify::MeshSlice second = verify::read_slice(given.second, as_it_stands, judges);
+    judged = {given.second, given.first, second.lists.first_number, first_number};
+    if (options.request) {
+        Selection& selection = options.request->selection;
+        distributed::on_first(world, [&] {
+            complete_selection(selection, given.refinement.selection,
+                               {!first.lists.regions.empty(), first_number, first.totals.cells});
+        });
+        world.broadcast(selection.cells);
+    }
+    RefinementMaps maps;
+    if (!given.maps.empty()) {
+        distributed::on_first(world, [&] { maps = read_maps(given.maps, first_number); });
+        share_maps(maps, world);
+        options.maps = &maps;
+    }
+    return verify_refinement(std::move(first), std::move(second), judges, options);
+}
+
+/// Collective.
+bool run(const VerifyCommandOptions& given, const distributed::Communicator& world) {
+    const verify::VerifyOptions options = options_of(given);
+    distributed::on_first(world, [&] {
+        if (!given.report.empty()) check_side_file("--report", given.report);
+    });
     Judged judged;
-    const verify::Verdict verdict = judge(given, options, judged);
-    print_verdict(verdict, judged);
-    if (!given.report.empty()) write_text(format_json(verdict, judged), given.report);
+    const verify::Verdict verdict = world.size() == 1
+                                        ? judge(given, options, judged)
+                                        : judge_together(given, options, judged, world);
+    distributed::on_first(world, [&] {
+        print_verdict(verdict, judged);
+        if (!given.report.empty()) write_text(format_json(verdict, judged), given.report);
+    });
     return verdict.valid();
 }
 
@@ -123,13 +172,10 @@ void add_verify(CLI::App& program, const distributed::Communicator& world) {
         "  octetra generate gear -o gear.1.ele\n"
         "  octetra refine gear.1.ele --sphere 1,0,0.1,0.3 --levels 2 -o fine.1.ele\n"
         "  octetra verify fine.1.ele\n"
-        "  octetra verify gear.1.ele fine.1.ele --sphere 1,0,0.1,0.3 --levels 2");
+        "  octetra verify gear.1.ele fine.1.ele --sphere 1,0,0.1,0.3 --levels 2\n"
+        "  mpirun -n 4 octetra verify gear.1.ele fine.1.ele");
     command->callback([options, world] {
-        std::vector<char> valid{0};
-        distributed::on_first(world,
-                              [&] { valid.front() = run(*options, options_of(*options)) ? 1 : 0; });
-        world.broadcast(valid);
-        if (valid.front() == 0) throw AnswerIsNo{};
+        if (!run(*options, world)) throw AnswerIsNo{};
     });
 }
 

@@ -55,4 +55,30 @@ MeshSlice share_out(const Mesh& mesh, const Group& group) {
     return slice;
 }
 
+MeshSlice slice_of(MeshSource& mesh) {
+    const MeshFacts& facts = mesh.facts();
+    MeshSlice slice{{}, {facts.vertices, facts.cells, facts.facets, facts.edges}};
+    Mesh& lists = slice.lists;
+    lists.attributes_per_point = facts.attributes_per_point;
+    lists.first_number = facts.first_number;
+    const int size = mesh.group().size();
+    const auto take = [](auto& list, auto span) { list.assign(span.begin(), span.end()); };
+    const Window vertices = slices_of(facts.vertices, size);
+    take(lists.points, mesh.points(vertices));
+    if (facts.has_point_markers) take(lists.point_markers, mesh.point_markers(vertices));
+    if (facts.attributes_per_point > 0) {
+        take(lists.point_attributes, mesh.point_attributes(vertices));
+    }
+    const Window cells = slices_of(facts.cells, size);
+    take(lists.cells, mesh.cells(cells));
+    if (facts.has_regions) take(lists.regions, mesh.regions(cells));
+    const Window facets = slices_of(facts.facets, size);
+    take(lists.facets, mesh.facets(facets));
+    if (facts.has_facet_markers) take(lists.facet_markers, mesh.facet_markers(facets));
+    const Window edges = slices_of(facts.edges, size);
+    take(lists.edges, mesh.edges(edges));
+    if (facts.has_edge_markers) take(lists.edge_markers, mesh.edge_markers(edges));
+    return slice;
+}
+
 }  // namespace octetra::verify

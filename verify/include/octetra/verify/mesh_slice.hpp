@@ -1,8 +1,11 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 
+#include <octetra/core/files.hpp>
 #include <octetra/core/mesh.hpp>
+#include <octetra/core/mesh_source.hpp>
 #include <octetra/verify/group.hpp>
 
 namespace octetra::verify {
@@ -22,14 +25,27 @@ struct MeshSlice {
     Totals totals;
 };
 
-[[nodiscard]] constexpr std::uint64_t slice_begin(std::uint64_t count, int rank, int size) {
-    const auto r = static_cast<std::uint64_t>(rank);
+/// All `count` entities of a kind, in slices of equal length for `size` processes; the last ones
+/// are shorter, or empty.
+[[nodiscard]] constexpr Window slices_of(std::uint64_t count, int size) {
     const auto n = static_cast<std::uint64_t>(size);
-    return count / n * r + count % n * r / n;
+    return {0, (count + n - 1) / n, count};
+}
+[[nodiscard]] inline std::uint64_t slice_begin(std::uint64_t count, int rank, int size) {
+    return slices_of(count, size).begin_of(rank);
 }
 
 /// Collective. The slices of a mesh that the first process has; it must pass the first line of the
 /// invariants of struct Mesh, but for indices out of range. What the others pass is not looked at.
 [[nodiscard]] MeshSlice share_out(const Mesh& mesh, const Group& group);
+
+/// Collective. The slices of a mesh file, which the first process reads. Throws, on all processes,
+/// as read_mesh does.
+[[nodiscard]] MeshSlice read_slice(const std::filesystem::path& path, const ReadOptions& options,
+                                   const Group& group);
+
+/// Collective in the mesh's group, whose processes are those of the verifier's. The slices of a mesh
+/// in several memories.
+[[nodiscard]] MeshSlice slice_of(MeshSource& mesh);
 
 }  // namespace octetra::verify

@@ -118,6 +118,21 @@ TEST_F(Verify, ReadsMapsByTheNumbersOfTheCoarseMeshWhateverTheFormatOfTheFine) {
     expect_status(0, "verify gear.1.ele fine.mesh --maps medit.maps");
 }
 
+TEST_F(Verify, FailsWhereAFileHasLostWhatItsFormatCanHold) {
+    const std::string coarse =
+        (test::corpus_folder() / "meshes/attributes-and-markers.ele").string();
+    expect_status(0, "refine " + coarse + " --all -o tagged.1.ele --quiet");
+    expect_status(0, "refine " + coarse + " --all -o tagged.mesh --quiet");
+    expect_status(0, "verify " + coarse + " tagged.1.ele");
+    EXPECT_THAT(
+        expect_status(0, "verify " + coarse + " tagged.mesh").out,
+        HasSubstr("attributes             skipped  the format of the fine mesh has no place"));
+    std::filesystem::remove(folder / "tagged.1.face");
+    std::filesystem::remove(folder / "tagged.1.edge");
+    EXPECT_THAT(expect_status(1, "verify " + coarse + " tagged.1.ele").out,
+                AllOf(HasSubstr("missing_facet"), HasSubstr("missing_edge")));
+}
+
 TEST_F(Verify, RefusesOptionsThatMeanNothing) {
     for (const std::string options :
          {"--min-dihedral nan", "--min-dihedral 181", "--levels 3", "--scheme 2t"}) {

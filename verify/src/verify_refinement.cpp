@@ -192,7 +192,7 @@ private:
                           [&] { return check_face_angles(coarse_, fine_, descent, findings_); });
             findings_.verdict().by_depth = measure_by_depth(fine_, descent);
         }
-        check_tags(coarse_, fine_, lines, descent, findings_);
+        check_tags(coarse_, fine_, lines, descent, options_.attributes_lost, findings_);
         if (options_.maps != nullptr) {
             findings_.run("maps", [&] {
                 return check_maps(*options_.maps, coarse_, fine_, descent, findings_);

@@ -93,6 +93,18 @@ const std::vector<MeshCase> broken_meshes{
                  [](Mesh& m) {
                      m.edges.push_back({vertex(0), vertex(11)});
                  }),
+    of_two_cubes(Code::conflicting_markers, "of_a_facet",
+                 [](Mesh& m) {
+                     m.facets = {{vertex(0), vertex(1), vertex(4)},
+                                 {vertex(1), vertex(2), vertex(5)},
+                                 {vertex(4), vertex(0), vertex(1)}};
+                     m.facet_markers = {3, 3, 5};
+                 }),
+    of_two_cubes(Code::conflicting_markers, "of_an_edge",
+                 [](Mesh& m) {
+                     m.edges = {{vertex(0), vertex(1)}, {vertex(1), vertex(0)}};
+                     m.edge_markers = {3, 0};
+                 }),
     of_two_cubes(Code::inverted_cell, "flipped", [](Mesh& m) { test::flip_cell(m, cell(4)); }),
     of_two_cubes(Code::inverted_cell, "vertex_beyond",
                  [](Mesh& m) {
@@ -439,6 +451,23 @@ const std::vector<RefinementCase> broken_refinements{
      [](Refined& r) { r.options.request->selection.spheres[0].radius = 0.9; }},
     {Code::needless_bisection, "one_level_less", [](Refined& r) { --r.options.request->levels; }},
 };
+
+TEST(Facets, MayBeListedTwiceWithOneMarker) {
+    Mesh mesh = two_cubes();
+    mesh.facets = {{vertex(0), vertex(1), vertex(4)}, {vertex(4), vertex(0), vertex(1)}};
+    EXPECT_EQ(codes_of(verify_mesh(mesh)), "");
+    mesh.facet_markers = {3, 3};
+    EXPECT_EQ(codes_of(verify_mesh(mesh)), "");
+}
+
+TEST(Facets, ThatConflictInTheCoarseMeshEndTheJudgementThere) {
+    Refined r;
+    r.coarse.facets.push_back(r.coarse.facets[FacetIndex{0}]);
+    r.coarse.facet_markers.push_back(99);
+    const Verdict verdict = r.judge();
+    EXPECT_EQ(codes_of(verdict), "conflicting_markers");
+    EXPECT_EQ(verdict.violations[0].entities[0].mesh, Which::coarse);
+}
 
 /// Of a check that was made, how it ended.
 Status status_of(const Verdict& verdict, std::string_view check) {

@@ -2,7 +2,9 @@
 #include <map>
 #include <numeric>
 #include <random>
+#include <utility>
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <octetra/core/error.hpp>
@@ -279,9 +281,8 @@ TEST(Refinement, BoundsWhatRoundingHasMoved) {
 // ---- sums, which descent implies; a wrong descent must show in them
 // ------------------------------
 
-class Sums : public testing::Test {
-protected:
-    Sums() {
+struct Descended {
+    Descended(Mesh from, Mesh to) : coarse_mesh(std::move(from)), fine_mesh(std::move(to)) {
         (void)check_well_formed(coarse, findings);
         (void)check_orientation(coarse, findings);
         (void)check_well_formed(fine, findings);
@@ -296,13 +297,69 @@ protected:
         return codes_of(findings.verdict());
     }
 
-    Mesh coarse_mesh = test::kuhn(2, 2, 2);
-    Mesh fine_mesh = reference::refine(coarse_mesh, {.all = true}, Scheme::eight, 1).mesh;
+    Mesh coarse_mesh;
+    Mesh fine_mesh;
     Findings findings{100};
     Subject coarse{.mesh = coarse_mesh, .which = Which::coarse};
     Subject fine{.mesh = fine_mesh};
     Descent descent;
 };
+
+class Sums : public testing::Test, public Descended {
+protected:
+    Sums()
+        : Descended(test::kuhn(2, 2, 2),
+                    reference::refine(test::kuhn(2, 2, 2), {.all = true}, Scheme::eight, 1).mesh) {}
+};
+
+Mesh scaled(Mesh mesh, double factor) {
+    for (Point& p : mesh.points) p = {p.x * factor, p.y * factor, p.z * factor};
+    return mesh;
+}
+
+TEST(SumsOfRoundedMeshes, AreBoundedAtAllMagnitudes) {
+    Mesh coarse = test::kuhn(1, 1, 1);
+    for (Point& p : coarse.points) p = {p.x / 3 + 1000, p.y / 7, p.z / 11};
+    const Mesh fine = reference::refine(coarse, {.all = true}, Scheme::eight, 1).mesh;
+    for (const double factor : {0x1p-900, 0x1p-350, 1.0, 0x1p350, 0x1p500, 0x1p900}) {
+        Descended right(scaled(coarse, factor), scaled(fine, factor));
+        EXPECT_EQ(right.codes_of_sums(), "") << factor;
+        EXPECT_GT(right.findings.facts().rounded_midpoints, 0U);
+        Descended wrong(scaled(coarse, factor), scaled(fine, factor));
+        wrong.descent.parent[CellIndex{0}] = CellIndex{1};
+        (void)wrong.codes_of_sums();
+        EXPECT_EQ(wrong.findings.verdict().count(Code::wrong_volume), 2U) << factor;
+        wrong.fine_mesh.points.back().x *= 2;
+        (void)wrong.codes_of_sums();
+        EXPECT_GT(wrong.findings.verdict().count(Code::boundary_moved), 0U) << factor;
+    }
+}
+
+/// A face's smallest angle is halved but for the rounding of a midpoint, and then halved again.
+TEST(FaceAnglesOfRoundedMeshes, AreJudgedAlikeAtAllMagnitudes) {
+    const Mesh coarse =
+        test::one_cell({{{1 + 0x1p-52, 0, 0}, {1.5, 0, 0}, {1.25, 3, 0}, {1.25, 1, 2}}});
+    Mesh halved = coarse;
+    test::bisect_edge(halved, VertexIndex{0}, VertexIndex{1});
+    Mesh quartered = halved;
+    test::bisect_edge(quartered, VertexIndex{0}, VertexIndex{4});
+    const auto note_of = [](const Verdict& verdict) {
+        for (const Check& check : verdict.checks) {
+            if (check.name == "face angles") return check.note;
+        }
+        return std::string();
+    };
+    const auto judge = [&](const Mesh& fine, double factor) {
+        return verify_refinement(scaled(coarse, factor), scaled(fine, factor));
+    };
+    for (const double factor : {0x1p-990, 0x1p-535, 0x1p-520, 1.0, 0x1p520, 0x1p990}) {
+        const Verdict right = judge(halved, factor);
+        EXPECT_EQ(codes_of(right), "") << factor;
+        EXPECT_EQ(note_of(right), note_of(judge(halved, 1))) << factor;
+        EXPECT_THAT(note_of(right), testing::HasSubstr("only up to rounding"));
+        EXPECT_EQ(codes_of(judge(quartered, factor)), "face_angle_too_small") << factor;
+    }
+}
 
 TEST_F(Sums, AreEqualExactly) { EXPECT_EQ(codes_of_sums(), ""); }
 

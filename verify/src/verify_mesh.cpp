@@ -13,6 +13,7 @@ Verdict verify_mesh(const Mesh& mesh, const VerifyOptions& options) {
         return std::move(findings.verdict());
     }
     findings.run("well-formed", [&] { return check_well_formed(subject, findings); });
+    findings.run("markers", [&] { return check_listed_markers(subject, findings); });
     const bool no_coincidence =
         findings.run("vertices", [&] { return check_vertices(subject, {}, findings); });
     const bool oriented =

@@ -18,27 +18,33 @@
 namespace octetra::verify {
 namespace {
 
-constexpr double up = 1 + 1e-9;  // more than all roundings of the bounds together ...
-/// ... but for numbers so small that they are rounded by a unit of their own.
-constexpr double up_from_nothing = 2 * std::numeric_limits<double>::denorm_min();
+/// Bounds are products of three lengths, and have to be told from nothing and from infinity
+/// wherever lengths are.
+using Bound = long double;
+static_assert(std::numeric_limits<Bound>::max_exponent >
+                  4 * std::numeric_limits<double>::max_exponent &&
+              std::numeric_limits<Bound>::min_exponent <
+                  4 * std::numeric_limits<double>::min_exponent);
+constexpr Bound up = 1 + 1e-9L;  // more than all roundings of the bounds together
 
 template <std::size_t N>
 struct Shape {
     std::array<Point, N> corners;
     double rounding = 0;  ///< of the worst corner
 
-    [[nodiscard]] double longest_edge() const {
-        double longest = 0;
+    [[nodiscard]] Bound longest_edge() const {
+        Bound longest_squared = 0;
         for (std::size_t i = 0; i < N; ++i) {
             for (std::size_t k = 0; k < i; ++k) {
-                longest = std::max(
-                    longest, std::hypot(corners[i].x - corners[k].x, corners[i].y - corners[k].y,
-                                        corners[i].z - corners[k].z));
+                const Bound x = Bound{corners[i].x} - corners[k].x;
+                const Bound y = Bound{corners[i].y} - corners[k].y;
+                const Bound z = Bound{corners[i].z} - corners[k].z;
+                longest_squared = std::max(longest_squared, x * x + y * y + z * z);
             }
         }
-        return longest;
+        return std::sqrt(longest_squared);
     }
-    [[nodiscard]] double edge_error() const { return 2 * std::sqrt(3.0) * rounding; }
+    [[nodiscard]] Bound edge_error() const { return 2 * std::sqrt(Bound{3}) * rounding; }
 };
 
 template <std::size_t N>
@@ -52,16 +58,15 @@ Shape<N> shape_of(const std::array<VertexIndex, N>& vertices, const Mesh& fine,
     return shape;
 }
 
-double volume_bound(const Shape<4>& shape) {
+Bound volume_bound(const Shape<4>& shape) {
     if (shape.rounding == 0) return 0;
-    const double length = shape.longest_edge() + shape.edge_error();
-    return 3 * shape.edge_error() * length * length * up + up_from_nothing;
+    const Bound length = shape.longest_edge() + shape.edge_error();
+    return 3 * shape.edge_error() * length * length * up;
 }
 
-double area_bound(const Shape<3>& shape) {
+Bound area_bound(const Shape<3>& shape) {
     if (shape.rounding == 0) return 0;
-    return 2 * shape.edge_error() * (shape.longest_edge() + shape.edge_error()) * up +
-           up_from_nothing;
+    return 2 * shape.edge_error() * (shape.longest_edge() + shape.edge_error()) * up;
 }
 
 /// The fine cells, or other things, in the order of the coarse one that each belongs to.
@@ -81,21 +86,21 @@ Grouped group(std::size_t groups, const std::vector<std::uint32_t>& group_of) {
 }
 
 /// Returns the largest bound that was used.
-double check_cell_volumes(const Subject& coarse, const Subject& fine, const Descent& descent,
-                          Findings& findings) {
+Bound check_cell_volumes(const Subject& coarse, const Subject& fine, const Descent& descent,
+                         Findings& findings) {
     std::vector<std::uint32_t> parents(fine.mesh.cells.size());
     for (CellIndex c{0}; c < fine.mesh.cells.end_index(); ++c) {
         parents[c.value()] = descent.parent[c].value();
     }
     const Grouped children = group(coarse.mesh.cells.size(), parents);
     exact::VolumeSum difference;
-    double largest = 0;
+    Bound largest = 0;
     for (CellIndex c{0}; c < coarse.mesh.cells.end_index(); ++c) {
         const std::uint32_t first = children.begin[c.value()];
         const std::uint32_t last = children.begin[c.value() + 1];
         difference.clear();
         difference.subtract(coarse.corners(c));
-        double bound = 0;
+        Bound bound = 0;
         for (std::uint32_t i = first; i < last; ++i) {
             const CellIndex child{children.members[i]};
             const auto shape = shape_of(fine.mesh.cells[child], fine.mesh, descent);
@@ -115,8 +120,8 @@ double check_cell_volumes(const Subject& coarse, const Subject& fine, const Desc
     return largest / 6;
 }
 
-double check_boundary_areas(const Subject& coarse, const Subject& fine, const Descent& descent,
-                            Findings& findings) {
+Bound check_boundary_areas(const Subject& coarse, const Subject& fine, const Descent& descent,
+                           Findings& findings) {
     constexpr std::uint32_t not_on_boundary = 0xffffffffU;
     const std::vector<CellFace> coarse_faces = boundary_faces(coarse);
     std::vector<std::uint32_t> number_of(4 * coarse.mesh.cells.size(), not_on_boundary);
@@ -134,7 +139,7 @@ double check_boundary_areas(const Subject& coarse, const Subject& fine, const De
     }
     const Grouped pieces = group(coarse_faces.size(), coarse_of);
     exact::AreaSum difference;
-    double largest = 0;
+    Bound largest = 0;
     for (std::size_t i = 0; i < coarse_faces.size(); ++i) {
         const auto corners_of = [](const FacetVertices& v, const Mesh& mesh) {
             return std::array<Point, 3>{mesh.points[v[0]], mesh.points[v[1]], mesh.points[v[2]]};
@@ -143,7 +148,7 @@ double check_boundary_areas(const Subject& coarse, const Subject& fine, const De
             outward_face(coarse.mesh.cells[coarse_faces[i].cell], coarse_faces[i].face);
         difference.clear();
         difference.subtract(corners_of(whole, coarse.mesh));
-        double bound = 0;
+        Bound bound = 0;
         for (std::uint32_t k = pieces.begin[i]; k < pieces.begin[i + 1]; ++k) {
             const CellFace f = fine_faces[pieces.members[k]];
             const auto shape =
@@ -169,8 +174,8 @@ double check_boundary_areas(const Subject& coarse, const Subject& fine, const De
 
 std::string check_volumes(const Subject& coarse, const Subject& fine, const Descent& descent,
                           Findings& findings) {
-    const double volume = check_cell_volumes(coarse, fine, descent, findings);
-    const double area = check_boundary_areas(coarse, fine, descent, findings);
+    const Bound volume = check_cell_volumes(coarse, fine, descent, findings);
+    const Bound area = check_boundary_areas(coarse, fine, descent, findings);
     if (volume == 0 && area == 0) return "of every coarse cell and boundary face, exactly";
     return fmt::format(
         "of every coarse cell to within {:.3g}, of every boundary face to within {:.3g}", volume,

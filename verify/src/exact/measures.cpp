@@ -19,11 +19,13 @@ public:
     Dyadic(Dyadic&&) = delete;
     Dyadic& operator=(Dyadic&&) = delete;
 
-    void set(double value) {
+    /// Of a long double's digits, those that a double has.
+    template <class Float>
+    void set(Float value) {
         constexpr int bits = 53;
         int exponent = 0;
-        const double fraction = std::frexp(value, &exponent);
-        mpz_set_d(mantissa_, std::ldexp(fraction, bits));
+        const Float fraction = std::frexp(value, &exponent);
+        mpz_set_d(mantissa_, static_cast<double>(std::ldexp(fraction, bits)));
         exponent_ = value == 0 ? 0 : exponent - bits;
     }
     void set_sum(const Dyadic& a, const Dyadic& b, Dyadic& scratch) {
@@ -80,10 +82,9 @@ void set(Vector& v, const Point& p) {
 }
 
 /// |sum| <= bound
-bool within(const Dyadic& sum, double bound, Dyadic& scratch, Dyadic& difference) {
+bool within(const Dyadic& sum, long double bound, Dyadic& scratch, Dyadic& difference) {
     if (sum.sign() == 0) return true;
     if (bound == 0) return false;
-    if (std::isinf(bound)) return true;  // coordinates so large that no bound can be told
     Dyadic limit;
     limit.set(sum.sign() > 0 ? bound : -bound);
     difference.set_difference(sum, limit, scratch);
@@ -145,7 +146,7 @@ void VolumeSum::subtract(const std::array<Point, 4>& corners) {
     state_->sum.set_difference(state_->sum, state_->volume, state_->scratch);
 }
 
-bool VolumeSum::is_within(double bound) const {
+bool VolumeSum::is_within(long double bound) const {
     return within(state_->sum, bound, state_->scratch, state_->difference);
 }
 
@@ -178,7 +179,7 @@ void AreaSum::subtract(const std::array<Point, 3>& corners) {
     }
 }
 
-bool AreaSum::is_within(double bound) const {
+bool AreaSum::is_within(long double bound) const {
     return std::all_of(state_->sum.begin(), state_->sum.end(), [&](const Dyadic& component) {
         return within(component, bound, state_->scratch, state_->difference);
     });

@@ -22,8 +22,9 @@ public:
     /// Adds the signed volume.
     void add(const std::array<Point, 4>& corners);
     void subtract(const std::array<Point, 4>& corners);
-    /// Is it between -bound and bound? (Zero, for a bound of zero.)
-    [[nodiscard]] bool is_within(double bound) const;
+    /// Is it between -bound and bound? (Zero, for a bound of zero.) Of the bound, the 53 leading
+    /// bits count.
+    [[nodiscard]] bool is_within(long double bound) const;
     [[nodiscard]] double rounded() const;
 
 private:
@@ -44,8 +45,8 @@ public:
     void clear();
     void add(const std::array<Point, 3>& corners);
     void subtract(const std::array<Point, 3>& corners);
-    /// Is every component between -bound and bound?
-    [[nodiscard]] bool is_within(double bound) const;
+    /// Is every component between -bound and bound? (As of volumes.)
+    [[nodiscard]] bool is_within(long double bound) const;
     [[nodiscard]] Point rounded() const;
 
 private:

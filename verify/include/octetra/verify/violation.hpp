@@ -22,6 +22,7 @@ enum class Code : std::uint8_t {
     coincident_vertices,  ///< two vertices at one place
     stray_facet,          ///< a listed facet is a face of no cell
     stray_edge,           ///< a listed edge is an edge of no cell
+    conflicting_markers,  ///< a facet or edge is listed twice, with different markers
     inverted_cell,        ///< a cell of negative volume
     flat_cell,            ///< a cell of no volume
     face_of_many_cells,   ///< a face of three cells or more

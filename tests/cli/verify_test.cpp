@@ -1,3 +1,5 @@
+#include <cmath>
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -81,6 +83,14 @@ TEST_F(Verify, ReportsAsJson) {
     EXPECT_GT(good["arithmetic"]["filtered"], 0);
     EXPECT_GT(good["arithmetic"]["exact"], 0);
     EXPECT_FALSE(good["angles_by_depth"].empty());
+    ASSERT_EQ(good["volumes"].size(), 1U);
+    EXPECT_EQ(good["volumes"][0]["region"], 0);
+    EXPECT_NEAR(good["volumes"][0]["volume"], 0.658635, 1e-6);
+    EXPECT_NEAR(good["volumes"][0]["coarse_volume"], 0.658635, 1e-6);
+    EXPECT_LT(std::abs(good["volumes"][0]["difference"].get<double>()), 1e-15);
+    double area = 0;
+    for (const auto& sum : good["areas"]) area += sum["area"].get<double>();
+    EXPECT_NEAR(area, 7.57625, 1e-5);
 
     expect_status(1, "verify gear.1.ele fine.1.ele --min-dihedral 12 --report r");
     const auto bad = report();

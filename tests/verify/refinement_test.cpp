@@ -13,6 +13,8 @@
 #include <octetra/verify/verify.hpp>
 
 #include "descent.hpp"
+#include "exact/measures.hpp"
+#include "sums.hpp"
 #include "support/manifest.hpp"
 #include "support/meshes.hpp"
 #include "verify/mutations.hpp"
@@ -297,6 +299,11 @@ struct Descended {
         return codes_of(findings.verdict());
     }
 
+    std::string codes_of_sums_by_tag() {
+        (void)check_sums(coarse, fine, descent, findings);
+        return codes_of(findings.verdict());
+    }
+
     Mesh coarse_mesh;
     Mesh fine_mesh;
     Findings findings{100};
@@ -332,6 +339,81 @@ TEST(SumsOfRoundedMeshes, AreBoundedAtAllMagnitudes) {
         wrong.fine_mesh.points.back().x *= 2;
         (void)wrong.codes_of_sums();
         EXPECT_GT(wrong.findings.verdict().count(Code::boundary_moved), 0U) << factor;
+    }
+}
+
+TEST(SumsByTag, OfVolumesAndAreasAreExactAndThoseOfTheCoarseMesh) {
+    Mesh coarse = test::kuhn(2, 1, 1);
+    test::list_boundary(coarse);
+    std::fill(coarse.facet_markers.begin(), coarse.facet_markers.end(), 4);
+    coarse.facet_markers[FacetIndex{0}] = 7;
+    for (CellIndex c{0}; c < CellIndex{12}; ++c) {
+        coarse.regions.push_back(c < CellIndex{5} ? 3 : -2);
+    }
+    const Mesh fine = reference::refine(coarse, {.all = true}, Scheme::eight, 2).mesh;
+    const auto expect = [](const std::vector<TagSum>& sums, std::vector<std::pair<int, double>> of,
+                           bool of_refinement) {
+        ASSERT_EQ(sums.size(), of.size());
+        for (std::size_t i = 0; i < of.size(); ++i) {
+            EXPECT_EQ(sums[i].tag, of[i].first);
+            EXPECT_DOUBLE_EQ(sums[i].fine, of[i].second);
+            EXPECT_DOUBLE_EQ(sums[i].coarse, of_refinement ? of[i].second : 0);
+            EXPECT_EQ(sums[i].difference, 0);
+        }
+    };
+    const Verdict refined = verify_refinement(coarse, fine);
+    EXPECT_EQ(codes_of(refined), "");
+    const Verdict alone = verify_mesh(fine);
+    expect(refined.volumes, {{-2, 7.0 / 6}, {3, 5.0 / 6}}, true);
+    expect(alone.volumes, {{-2, 7.0 / 6}, {3, 5.0 / 6}}, false);
+    expect(refined.areas, {{4, 9.5}, {7, 0.5}}, true);
+    expect(alone.areas, {{4, 9.5}, {7, 0.5}}, false);
+}
+
+TEST(SumsByTag, AreThoseOfCellsFarAwayAndOfAnyRegions) {
+    Mesh mesh = test::shaken_kuhn(3, 0.2, 6);
+    for (Point& p : mesh.points) p = {p.x + 1e6 / 3, p.y * 1e-5, p.z - 1e9 / 7};
+    std::map<Marker, exact::VolumeSum> expected;
+    for (CellIndex c{0}; c < mesh.cells.end_index(); ++c) {
+        mesh.regions.push_back(static_cast<Marker>(c.value() * 7 % 5));
+        const CellVertices& v = mesh.cells[c];
+        expected[mesh.regions[c]].add(
+            {mesh.points[v[0]], mesh.points[v[1]], mesh.points[v[2]], mesh.points[v[3]]});
+    }
+    const auto volumes = verify_mesh(mesh).volumes;
+    ASSERT_EQ(volumes.size(), 5U);
+    for (const TagSum& sum : volumes) EXPECT_EQ(sum.fine, expected[sum.tag].rounded() / 6);
+}
+
+TEST_F(Sums, ByTagAreComparedExactlyWhereNothingWasRounded) {
+    EXPECT_EQ(codes_of_sums_by_tag(), "");
+    fine_mesh.points[VertexIndex{0}].x -= 0x1p-60;  // a corner
+    EXPECT_EQ(codes_of_sums_by_tag(), "wrong_sum");
+}
+
+TEST_F(Sums, OfAreasByMarkerAreComparedToo) {
+    test::list_boundary(coarse_mesh);
+    test::list_boundary(fine_mesh);
+    for (Mesh* mesh : {&coarse_mesh, &fine_mesh}) {
+        std::fill(mesh->facet_markers.begin(), mesh->facet_markers.end(), 4);
+    }
+    EXPECT_EQ(codes_of_sums_by_tag(), "");
+    fine_mesh.facets.pop_back();
+    EXPECT_EQ(codes_of_sums_by_tag(), "wrong_sum");
+}
+
+TEST(SumsOfRoundedMeshes, ByTagAreBoundedAtAllMagnitudes) {
+    Mesh coarse = test::kuhn(1, 1, 1);
+    test::list_boundary(coarse);
+    for (Point& p : coarse.points) p = {p.x / 3 + 1000, p.y / 7, p.z / 11};
+    const Mesh fine = reference::refine(coarse, {.all = true}, Scheme::eight, 2).mesh;
+    for (const double factor : {0x1p-900, 0x1p-350, 1.0, 0x1p350, 0x1p900}) {
+        Descended sums(scaled(coarse, factor), scaled(fine, factor));
+        EXPECT_EQ(sums.codes_of_sums_by_tag(), "") << factor;
+        sums.fine_mesh.facet_markers.back() = sums.fine_mesh.facet_markers.front();
+        sums.fine_mesh.points.front().x *= 1.0001;
+        (void)sums.codes_of_sums_by_tag();
+        EXPECT_GE(sums.findings.verdict().count(Code::wrong_sum), 3U) << factor;
     }
 }
 

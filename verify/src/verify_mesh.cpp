@@ -2,6 +2,7 @@
 
 #include "angles.hpp"
 #include "subject.hpp"
+#include "sums.hpp"
 
 namespace octetra::verify {
 
@@ -40,6 +41,7 @@ Verdict verify_mesh(const Mesh& mesh, const VerifyOptions& options) {
         findings.skip("boundary crossings", "vertices lie where they must not");
     }
     findings.verdict().angles = measure_angles(subject);
+    measure_sums(subject, findings.verdict());
     if (options.min_dihedral) {
         findings.run("dihedral angles", [&] {
             return check_dihedral_angles(subject, *options.min_dihedral, findings);

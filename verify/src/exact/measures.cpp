@@ -43,9 +43,10 @@ public:
         exponent_ = 0;
     }
     [[nodiscard]] int sign() const { return mpz_sgn(mantissa_); }
-    [[nodiscard]] double rounded() const {
+    template <class Float = double>
+    [[nodiscard]] Float rounded() const {
         long exponent = 0;
-        const double fraction = mpz_get_d_2exp(&exponent, mantissa_);
+        const Float fraction = mpz_get_d_2exp(&exponent, mantissa_);
         return std::ldexp(fraction, static_cast<int>(exponent + exponent_));
     }
 
@@ -152,6 +153,26 @@ bool VolumeSum::is_within(long double bound) const {
 
 double VolumeSum::rounded() const { return state_->sum.rounded(); }
 
+struct NumberSum::State {
+    Dyadic sum, number, scratch, difference;
+};
+
+NumberSum::NumberSum() : state_(std::make_unique<State>()) {}
+NumberSum::~NumberSum() = default;
+
+void NumberSum::clear() { state_->sum.clear(); }
+
+void NumberSum::add(long double number) {
+    state_->number.set(number);
+    state_->sum.set_sum(state_->sum, state_->number, state_->scratch);
+}
+
+bool NumberSum::is_within(long double bound) const {
+    return within(state_->sum, bound, state_->scratch, state_->difference);
+}
+
+double NumberSum::rounded() const { return state_->sum.rounded(); }
+
 struct AreaSum::State {
     CrossProduct area;
     Vector sum;
@@ -187,6 +208,15 @@ bool AreaSum::is_within(long double bound) const {
 
 Point AreaSum::rounded() const {
     return {state_->sum[0].rounded(), state_->sum[1].rounded(), state_->sum[2].rounded()};
+}
+
+long double AreaSum::magnitude() const {
+    long double square = 0;
+    for (const Dyadic& component : state_->sum) {
+        const auto length = component.rounded<long double>();
+        square += length * length;
+    }
+    return std::sqrt(square);
 }
 
 }  // namespace octetra::verify::exact

@@ -32,6 +32,26 @@ private:
     std::unique_ptr<State> state_;
 };
 
+/// A sum of floating-point numbers. Exact; of each, the 53 leading bits count.
+class NumberSum {
+public:
+    NumberSum();
+    ~NumberSum();
+    NumberSum(const NumberSum&) = delete;
+    NumberSum& operator=(const NumberSum&) = delete;
+    NumberSum(NumberSum&&) = delete;
+    NumberSum& operator=(NumberSum&&) = delete;
+
+    void clear();
+    void add(long double number);
+    [[nodiscard]] bool is_within(long double bound) const;
+    [[nodiscard]] double rounded() const;
+
+private:
+    struct State;
+    std::unique_ptr<State> state_;
+};
+
 /// A sum of vector areas of triangles, (b - a) x (c - a), taken so. Exact.
 class AreaSum {
 public:
@@ -48,6 +68,8 @@ public:
     /// Is every component between -bound and bound? (As of volumes.)
     [[nodiscard]] bool is_within(long double bound) const;
     [[nodiscard]] Point rounded() const;
+    /// The length of the sum as a vector, to within some units of 2^-52 of it.
+    [[nodiscard]] long double magnitude() const;
 
 private:
     struct State;

@@ -38,6 +38,7 @@ enum class Code : std::uint8_t {
     open_face,             ///< a fine face with one cell that is not on the coarse boundary
     boundary_moved,        ///< the pieces of a coarse boundary face have another area than it
     wrong_volume,          ///< the pieces of a coarse cell have another volume than it
+    wrong_sum,             ///< a region has another volume, or a marker another area
     wrong_parent,          ///< the parent map names another coarse cell
     wrong_midpoint_edge,   ///< the parent map names another edge for a new vertex
     wrong_region,          ///< another region tag than the parent's

@@ -145,9 +145,10 @@ TEST_F(Verify, FailsWhereAFileHasLostWhatItsFormatCanHold) {
 
 TEST_F(Verify, RefusesOptionsThatMeanNothing) {
     for (const std::string options :
-         {"--min-dihedral nan", "--min-dihedral 181", "--levels 3", "--scheme 2t"}) {
+         {"--min-dihedral nan", "--min-dihedral 181", "--levels 3", "--scheme 2t", "--report -"}) {
         expect_status(2, "verify gear.1.ele fine.1.ele " + options);
     }
+    EXPECT_FALSE(std::filesystem::exists(folder / "-"));
 }
 
 TEST_F(Verify, IsOneAnswerOnSeveralRanks) {
@@ -166,6 +167,7 @@ TEST_F(Verify, IsOneAnswerOnSeveralRanks) {
 TEST_F(Verify, OfRefineWritesWhatIsValidAndNothingElse) {
     const auto run = expect_status(0, refine + " -o again.1.ele --verify");
     EXPECT_THAT(run.out, HasSubstr("verified"));
+    EXPECT_THAT(run.err, HasSubstr("note: of gear.1.ele itself, orientation and faces"));
     EXPECT_EQ(test::content_of(folder / "again.1.ele"), test::content_of(folder / "fine.1.ele"));
 
     // Three cells at one face can be read and refined, but that is no mesh.
@@ -185,7 +187,8 @@ TEST_F(Verify, CompareTellsWhatIsTheSame) {
     expect_status(0, "convert gear.1.ele gear.mesh --quiet");
     EXPECT_THAT(expect_status(0, "compare gear.1.ele gear.mesh").out,
                 HasSubstr("the same up to numbering"));
-    expect_status(1, "compare gear.1.ele gear.mesh --identical");
+    EXPECT_THAT(expect_status(1, "compare gear.1.ele gear.mesh --identical").out,
+                HasSubstr("one counts from 0, the other from 1"));
     EXPECT_THAT(expect_status(0, "compare gear.1.ele gear.1.node --identical").out,
                 HasSubstr("identical"));
     const auto run = expect_status(1, "compare gear.1.ele fine.1.ele");

@@ -157,6 +157,29 @@ TEST(Fast, LeavesOutWhatTakesASearchInSpace) {
     }
 }
 
+TEST(Notes, SayThatThereAreNoCells) {
+    const Check check = verify_mesh(Mesh{}).checks[1];
+    EXPECT_EQ(check.name, "well-formed");
+    EXPECT_EQ(check.note, "there are no cells: nothing can be wrong with them");
+    EXPECT_EQ(verify_mesh(test::kuhn(1, 1, 1)).checks[1].note, "");
+}
+
+TEST(Notes, OfSkippedChecksNameWhatHasFailed) {
+    const auto why_not_crossings = [](const Mesh& mesh) {
+        const Verdict verdict = verify_mesh(mesh);
+        EXPECT_EQ(verdict.checks.back().name, "boundary crossings");
+        EXPECT_EQ(verdict.checks.back().status, Status::skipped);
+        return verdict.checks.back().note;
+    };
+    Mesh inverted = test::kuhn(2, 1, 1);
+    std::swap(inverted.cells[CellIndex{0}][0], inverted.cells[CellIndex{0}][1]);
+    EXPECT_EQ(why_not_crossings(inverted), "cells are wrong in themselves");
+    Mesh coincident = test::kuhn(2, 1, 1);
+    coincident.cells[CellIndex{0}][0] =
+        coincident.points.append(coincident.points[coincident.cells[CellIndex{0}][0]]);
+    EXPECT_EQ(why_not_crossings(coincident), "vertices lie where they must not");
+}
+
 TEST(Violations, AreAllCountedWhereNotAllAreKept) {
     Mesh mesh = test::kuhn(2, 2, 2);
     for (CellVertices& cell : mesh.cells) std::swap(cell[0], cell[1]);

@@ -160,7 +160,7 @@ std::string check_well_formed(Subject& subject, Findings& findings) {
     });
     check_listed(mesh.facets, subject.faces, Code::stray_facet, subject.which, findings);
     check_listed(mesh.edges, subject.edges, Code::stray_edge, subject.which, findings);
-    return {};
+    return mesh.cells.empty() ? "there are no cells: nothing can be wrong with them" : "";
 }
 
 std::string check_listed_markers(const Subject& subject, Findings& findings) {

@@ -133,7 +133,13 @@ bool is_valid(const Mesh& coarse, const Mesh& fine, const RefinementMaps& maps, 
         {.request = verify::Request{plan.selection, plan.scheme, options.refinement.levels},
          .maps = &maps,
          .kept_per_code = described_of_each_code});
-    if (verdict.valid()) return true;
+    if (verdict.valid()) {
+        note(
+            fmt::format("of {} itself, orientation and faces were checked, not whether cells "
+                        "overlap: octetra verify {} does",
+                        options.input.path, options.input.path));
+        return true;
+    }
     print_verdict(verdict,
                   {options.output, options.input.path, fine.first_number, coarse.first_number});
     fmt::print("nothing was written\n");

@@ -125,7 +125,10 @@ void print_comparison(const verify::Comparison& comparison, const std::string& a
     if (more > 0) fmt::print("and {} more differences\n", grouped(more));
     constexpr std::array<std::string_view, 3> answers{"identical", "the same up to numbering",
                                                       "different"};
-    fmt::print("{}, {}: {}\n", a, b, answers[static_cast<std::size_t>(comparison.likeness)]);
+    fmt::print("{}, {}: {}{}\n", a, b, answers[static_cast<std::size_t>(comparison.likeness)],
+               comparison.only_first_number_differs
+                   ? ": one counts from 0, the other from 1, and nothing else differs"
+                   : "");
 }
 
 }  // namespace octetra::cli

@@ -4,21 +4,55 @@
 #include <bit>
 #include <cmath>
 #include <functional>
+#include <limits>
+#include <optional>
 
 namespace octetra {
 namespace {
 
+/// What is computed here again where a double over- or underflows.
+using Wide = long double;
+static_assert(std::numeric_limits<Wide>::max_exponent >
+              4 * std::numeric_limits<double>::max_exponent);
+
+/// Products in Float; remembers whether one was less than the least number that has all digits.
+template <class Float>
+struct Products {
+    bool underflow = false;
+
+    Float operator()(Float a, Float b) {
+        const Float product = a * b;
+        if (std::abs(product) < std::numeric_limits<Float>::min() && a != 0 && b != 0) {
+            underflow = true;
+        }
+        return product;
+    }
+};
+
 double mean_of_four(double a, double b, double c, double d) {
     std::array<double, 4> v{a, b, c, d};
     std::ranges::sort(v);
-    return (((v[0] + v[1]) + v[2]) + v[3]) / 4;
+    const double sum = ((v[0] + v[1]) + v[2]) + v[3];
+    if (std::isfinite(sum)) return sum / 4;
+    return static_cast<double>(((Wide{v[0]} + v[1]) + v[2] + v[3]) / 4);
+}
+
+/// Is p nearer to the centre than the radius? Nothing if that cannot be told in Float.
+template <class Float>
+std::optional<bool> is_nearer(const Sphere& sphere, const Point& p) {
+    const Float dx = Float{p.x} - sphere.centre.x;
+    const Float dy = Float{p.y} - sphere.centre.y;
+    const Float dz = Float{p.z} - sphere.centre.z;
+    Products<Float> product;
+    const Float distance = (product(dx, dx) + product(dy, dy)) + product(dz, dz);
+    const Float radius = product(sphere.radius, sphere.radius);
+    if (product.underflow || !std::isfinite(distance) || !std::isfinite(radius)) return {};
+    return distance < radius;
 }
 
 bool contains(const Sphere& sphere, const Point& p) {
-    const double dx = p.x - sphere.centre.x;
-    const double dy = p.y - sphere.centre.y;
-    const double dz = p.z - sphere.centre.z;
-    return (dx * dx + dy * dy) + dz * dz < sphere.radius * sphere.radius;
+    const auto nearer = is_nearer<double>(sphere, p);
+    return nearer ? *nearer : *is_nearer<Wide>(sphere, p);
 }
 
 bool contains(const Box& box, const Point& p) {
@@ -50,6 +84,32 @@ bool draws(const RandomShare& random, const Corners& corners) {
     return static_cast<double>(lot >> 11U) * two_to_minus_53 < random.fraction;
 }
 
+/// The volume times six, of corners in a fixed order. Nothing if that cannot be told in Float.
+template <class Float>
+std::optional<Float> six_volumes(const Corners& sorted) {
+    const auto& [a, b, c, d] = sorted;
+    const std::array<Float, 3> u{Float{b.x} - a.x, Float{b.y} - a.y, Float{b.z} - a.z};
+    const std::array<Float, 3> v{Float{c.x} - a.x, Float{c.y} - a.y, Float{c.z} - a.z};
+    const std::array<Float, 3> w{Float{d.x} - a.x, Float{d.y} - a.y, Float{d.z} - a.z};
+    Products<Float> product;
+    const Float determinant = product(u[0], product(v[1], w[2]) - product(v[2], w[1])) -
+                              product(u[1], product(v[0], w[2]) - product(v[2], w[0])) +
+                              product(u[2], product(v[0], w[1]) - product(v[1], w[0]));
+    if (product.underflow || !std::isfinite(determinant)) return {};
+    return std::abs(determinant);
+}
+
+Corners in_order(Corners corners) {
+    std::ranges::sort(corners, std::less<>{});
+    return corners;
+}
+
+bool is_larger(const Corners& corners, double limit) {
+    const Corners sorted = in_order(corners);
+    const auto narrow = six_volumes<double>(sorted);
+    return narrow ? *narrow / 6 > limit : *six_volumes<Wide>(sorted) / 6 > limit;
+}
+
 }  // namespace
 
 Point centroid(const Corners& corners) {
@@ -59,15 +119,9 @@ Point centroid(const Corners& corners) {
 }
 
 double volume(const Corners& corners) {
-    Corners sorted = corners;
-    std::ranges::sort(sorted, std::less<>{});
-    const auto& [a, b, c, d] = sorted;
-    const Point u{b.x - a.x, b.y - a.y, b.z - a.z};
-    const Point v{c.x - a.x, c.y - a.y, c.z - a.z};
-    const Point w{d.x - a.x, d.y - a.y, d.z - a.z};
-    const double determinant = u.x * (v.y * w.z - v.z * w.y) - u.y * (v.x * w.z - v.z * w.x) +
-                               u.z * (v.x * w.y - v.y * w.x);
-    return std::abs(determinant) / 6;
+    const Corners sorted = in_order(corners);
+    const auto narrow = six_volumes<double>(sorted);
+    return narrow ? *narrow / 6 : static_cast<double>(*six_volumes<Wide>(sorted) / 6);
 }
 
 bool chooses(const Selection& selection, const Corners& corners, Marker region, GlobalCell root) {
@@ -81,7 +135,7 @@ bool chooses(const Selection& selection, const Corners& corners, Marker region, 
         if (std::ranges::any_of(selection.boxes, holds_centre)) return true;
     }
     if (selection.random && draws(*selection.random, corners)) return true;
-    return selection.max_volume && volume(corners) > *selection.max_volume;
+    return selection.max_volume && is_larger(corners, *selection.max_volume);
 }
 
 }  // namespace octetra

@@ -1,3 +1,5 @@
+#include <cmath>
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -81,6 +83,14 @@ TEST_F(Verify, ReportsAsJson) {
     EXPECT_GT(good["arithmetic"]["filtered"], 0);
     EXPECT_GT(good["arithmetic"]["exact"], 0);
     EXPECT_FALSE(good["angles_by_depth"].empty());
+    ASSERT_EQ(good["volumes"].size(), 1U);
+    EXPECT_EQ(good["volumes"][0]["region"], 0);
+    EXPECT_NEAR(good["volumes"][0]["volume"], 0.658635, 1e-6);
+    EXPECT_NEAR(good["volumes"][0]["coarse_volume"], 0.658635, 1e-6);
+    EXPECT_LT(std::abs(good["volumes"][0]["difference"].get<double>()), 1e-15);
+    double area = 0;
+    for (const auto& sum : good["areas"]) area += sum["area"].get<double>();
+    EXPECT_NEAR(area, 7.57625, 1e-5);
 
     expect_status(1, "verify gear.1.ele fine.1.ele --min-dihedral 12 --report r");
     const auto bad = report();
@@ -118,11 +128,27 @@ TEST_F(Verify, ReadsMapsByTheNumbersOfTheCoarseMeshWhateverTheFormatOfTheFine) {
     expect_status(0, "verify gear.1.ele fine.mesh --maps medit.maps");
 }
 
+TEST_F(Verify, FailsWhereAFileHasLostWhatItsFormatCanHold) {
+    const std::string coarse =
+        (test::corpus_folder() / "meshes/attributes-and-markers.ele").string();
+    expect_status(0, "refine " + coarse + " --all -o tagged.1.ele --quiet");
+    expect_status(0, "refine " + coarse + " --all -o tagged.mesh --quiet");
+    expect_status(0, "verify " + coarse + " tagged.1.ele");
+    EXPECT_THAT(
+        expect_status(0, "verify " + coarse + " tagged.mesh").out,
+        HasSubstr("attributes             skipped  the format of the fine mesh has no place"));
+    std::filesystem::remove(folder / "tagged.1.face");
+    std::filesystem::remove(folder / "tagged.1.edge");
+    EXPECT_THAT(expect_status(1, "verify " + coarse + " tagged.1.ele").out,
+                AllOf(HasSubstr("missing_facet"), HasSubstr("missing_edge")));
+}
+
 TEST_F(Verify, RefusesOptionsThatMeanNothing) {
     for (const std::string options :
-         {"--min-dihedral nan", "--min-dihedral 181", "--levels 3", "--scheme 2t"}) {
+         {"--min-dihedral nan", "--min-dihedral 181", "--levels 3", "--scheme 2t", "--report -"}) {
         expect_status(2, "verify gear.1.ele fine.1.ele " + options);
     }
+    EXPECT_FALSE(std::filesystem::exists(folder / "-"));
 }
 
 TEST_F(Verify, IsOneAnswerOnSeveralRanks) {
@@ -141,6 +167,7 @@ TEST_F(Verify, IsOneAnswerOnSeveralRanks) {
 TEST_F(Verify, OfRefineWritesWhatIsValidAndNothingElse) {
     const auto run = expect_status(0, refine + " -o again.1.ele --verify");
     EXPECT_THAT(run.out, HasSubstr("verified"));
+    EXPECT_THAT(run.err, HasSubstr("note: of gear.1.ele itself, orientation and faces"));
     EXPECT_EQ(test::content_of(folder / "again.1.ele"), test::content_of(folder / "fine.1.ele"));
 
     // Three cells at one face can be read and refined, but that is no mesh.
@@ -160,7 +187,8 @@ TEST_F(Verify, CompareTellsWhatIsTheSame) {
     expect_status(0, "convert gear.1.ele gear.mesh --quiet");
     EXPECT_THAT(expect_status(0, "compare gear.1.ele gear.mesh").out,
                 HasSubstr("the same up to numbering"));
-    expect_status(1, "compare gear.1.ele gear.mesh --identical");
+    EXPECT_THAT(expect_status(1, "compare gear.1.ele gear.mesh --identical").out,
+                HasSubstr("one counts from 0, the other from 1"));
     EXPECT_THAT(expect_status(0, "compare gear.1.ele gear.1.node --identical").out,
                 HasSubstr("identical"));
     const auto run = expect_status(1, "compare gear.1.ele fine.1.ele");

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <limits>
 #include <random>
 
 #include <gtest/gtest.h>
@@ -102,6 +103,48 @@ TEST(Selection, AtRandomTakesMinusZeroForZero) {
         const Selection drawn{.random = RandomShare{0.5, seed}};
         EXPECT_EQ(chooses(drawn, negative, 0, any_cell), chooses(drawn, unit, 0, any_cell));
     }
+}
+
+Corners scaled(Corners corners, double factor) {
+    for (Point& p : corners) p = {p.x * factor, p.y * factor, p.z * factor};
+    return corners;
+}
+
+TEST(Selection, ComparesDistancesThatHaveNoSquares) {
+    for (const double factor : {1e-320, 1e-170, 1e-100, 1.0, 1e100, 1e160, 1e307}) {
+        const Corners cell = scaled(unit, factor);
+        const Point centre = centroid(cell);
+        EXPECT_EQ(centre.x, centre.y);
+        EXPECT_NEAR(centre.x / factor, 1, 0.01);
+        const auto chosen = [&](double radius) {
+            return chooses({.spheres = {{{}, radius * factor}}}, cell, 0, any_cell);
+        };
+        EXPECT_TRUE(chosen(1.8)) << factor;
+        EXPECT_FALSE(chosen(1.7)) << factor;
+    }
+    // Corners of which two have a sum that is no number.
+    const Corners huge{{{1.5e308, 0, 0}, {1.6e308, 1, 0}, {1.7e308, 0, 1}, {1.6e308, 1, 1}}};
+    EXPECT_EQ(centroid(huge).x, 1.6e308);
+    EXPECT_TRUE(chooses({.spheres = {{{-1e308, 0, 0}, 1.79e308}, {{0, 0, 0}, 1.7e308}}}, huge, 0,
+                        any_cell));
+    EXPECT_FALSE(chooses({.spheres = {{{-1e308, 0, 0}, 1.79e308}}}, huge, 0, any_cell));
+}
+
+TEST(Selection, ComparesVolumesThatNoDoubleHolds) {
+    const auto chosen = [&](const Corners& cell, double limit) {
+        return chooses({.max_volume = limit}, cell, 0, any_cell);
+    };
+    const double largest = std::numeric_limits<double>::max();
+    EXPECT_TRUE(chosen(scaled(unit, 1e160), largest));
+    EXPECT_TRUE(chosen(scaled(unit, 1e-170), 0));
+    EXPECT_FALSE(chosen(scaled(unit, 1e-170), std::numeric_limits<double>::denorm_min()));
+    // Though a product of two lengths is less, or more, than any number.
+    const Corners needle{{{0, 0, 0}, {4e250, 0, 0}, {0, 4e-170, 0}, {0, 0, 4e-170}}};
+    EXPECT_TRUE(chosen(needle, 1.06e-89));
+    EXPECT_FALSE(chosen(needle, 1.07e-89));
+    const Corners wafer{{{0, 0, 0}, {4e-250, 0, 0}, {0, 4e170, 0}, {0, 0, 4e170}}};
+    EXPECT_TRUE(chosen(wafer, 1.06e91));
+    EXPECT_FALSE(chosen(wafer, 1.07e91));
 }
 
 TEST(Selection, DoesNotDependOnTheOrderOfTheCorners) {

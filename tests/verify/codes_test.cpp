@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <functional>
 #include <ostream>
 
@@ -95,6 +96,18 @@ const std::vector<MeshCase> broken_meshes{
     of_two_cubes(Code::stray_edge, "across",
                  [](Mesh& m) {
                      m.edges.push_back({vertex(0), vertex(11)});
+                 }),
+    of_two_cubes(Code::conflicting_markers, "of_a_facet",
+                 [](Mesh& m) {
+                     m.facets = {{vertex(0), vertex(1), vertex(4)},
+                                 {vertex(1), vertex(2), vertex(5)},
+                                 {vertex(4), vertex(0), vertex(1)}};
+                     m.facet_markers = {3, 3, 5};
+                 }),
+    of_two_cubes(Code::conflicting_markers, "of_an_edge",
+                 [](Mesh& m) {
+                     m.edges = {{vertex(0), vertex(1)}, {vertex(1), vertex(0)}};
+                     m.edge_markers = {3, 0};
                  }),
     of_two_cubes(Code::inverted_cell, "flipped", [](Mesh& m) { test::flip_cell(m, cell(4)); }),
     of_two_cubes(Code::inverted_cell, "vertex_beyond",
@@ -272,8 +285,7 @@ CellIndex kept_cell(const Refined& r) {
 
 /// Leaves nothing but points and cells, and what is claimed of them.
 void forget_tags(Refined& r) {
-    Mesh& m = r.fine.mesh;
-    m = Mesh{.points = m.points, .cells = m.cells};
+    for (Mesh* m : {&r.coarse, &r.fine.mesh}) *m = Mesh{.points = m->points, .cells = m->cells};
     r.claims = false;
 }
 
@@ -385,6 +397,24 @@ const std::vector<RefinementCase> broken_refinements{
     {Code::wrong_midpoint_edge, "out_of_range",
      [](Refined& r) { r.fine.maps.midpoint_to_edge[3][0] = VertexIndex::none(); }},
     {Code::wrong_region, "of_one_cell", [](Refined& r) { r.fine.mesh.regions[cell(5)] = 9; }},
+    {Code::wrong_region, "all_lost", [](Refined& r) { r.fine.mesh.regions.clear(); }},
+    {Code::wrong_facet_marker, "all_lost", [](Refined& r) { r.fine.mesh.facet_markers.clear(); }},
+    {Code::missing_facet, "all_lost",
+     [](Refined& r) {
+         r.fine.mesh.facets.clear();
+         r.fine.mesh.facet_markers.clear();
+     }},
+    {Code::missing_edge, "all_lost",
+     [](Refined& r) {
+         r.fine.mesh.edges.clear();
+         r.fine.mesh.edge_markers.clear();
+     }},
+    {Code::wrong_vertex_marker, "all_lost", [](Refined& r) { r.fine.mesh.point_markers.clear(); }},
+    {Code::wrong_attribute, "all_lost",
+     [](Refined& r) {
+         r.fine.mesh.attributes_per_point = 0;
+         r.fine.mesh.point_attributes.clear();
+     }},
     {Code::wrong_facet_marker, "of_one_facet",
      [](Refined& r) { r.fine.mesh.facet_markers[FacetIndex{4}] = 99; }},
     {Code::missing_facet, "of_the_boundary",
@@ -425,6 +455,69 @@ const std::vector<RefinementCase> broken_refinements{
      [](Refined& r) { r.options.request->selection.spheres[0].radius = 0.9; }},
     {Code::needless_bisection, "one_level_less", [](Refined& r) { --r.options.request->levels; }},
 };
+
+TEST(Facets, MayBeListedTwiceWithOneMarker) {
+    Mesh mesh = two_cubes();
+    mesh.facets = {{vertex(0), vertex(1), vertex(4)}, {vertex(4), vertex(0), vertex(1)}};
+    EXPECT_EQ(codes_of(verify_mesh(mesh)), "");
+    mesh.facet_markers = {3, 3};
+    EXPECT_EQ(codes_of(verify_mesh(mesh)), "");
+}
+
+TEST(Facets, ThatConflictInTheCoarseMeshEndTheJudgementThere) {
+    Refined r;
+    r.coarse.facets.push_back(r.coarse.facets[FacetIndex{0}]);
+    r.coarse.facet_markers.push_back(99);
+    const Verdict verdict = r.judge();
+    EXPECT_EQ(codes_of(verdict), "conflicting_markers");
+    EXPECT_EQ(verdict.violations[0].entities[0].mesh, Which::coarse);
+}
+
+/// Of a check that was made, how it ended.
+Status status_of(const Verdict& verdict, std::string_view check) {
+    const auto at = std::find_if(verdict.checks.begin(), verdict.checks.end(),
+                                 [&](const Check& c) { return c.name == check; });
+    return at == verdict.checks.end() ? Status::failed : at->status;
+}
+
+TEST(Tags, ThatAreZeroThroughoutMayBeLeftOut) {
+    Refined r;
+    for (Mesh* m : {&r.coarse, &r.fine.mesh}) {
+        std::fill(m->regions.begin(), m->regions.end(), 0);
+        std::fill(m->facet_markers.begin(), m->facet_markers.end(), 0);
+        std::fill(m->edge_markers.begin(), m->edge_markers.end(), 0);
+        std::fill(m->point_markers.begin(), m->point_markers.end(), 0);
+    }
+    r.fine.mesh.regions.clear();
+    r.fine.mesh.facet_markers.clear();
+    r.fine.mesh.edge_markers.clear();
+    r.fine.mesh.point_markers.clear();
+    const Verdict verdict = r.judge();
+    EXPECT_EQ(codes_of(verdict), "");
+    EXPECT_EQ(status_of(verdict, "region tags"), Status::passed);
+    EXPECT_EQ(status_of(verdict, "vertex markers"), Status::passed);
+}
+
+TEST(Tags, ThatTheCoarseMeshHasNotAreNotJudged) {
+    Refined r;
+    r.coarse = Mesh{.points = r.coarse.points, .cells = r.coarse.cells};
+    const Verdict verdict = r.judge();
+    EXPECT_EQ(codes_of(verdict), "");
+    for (const std::string_view name :
+         {"region tags", "facets", "edges", "vertex markers", "attributes"}) {
+        EXPECT_EQ(status_of(verdict, name), Status::skipped) << name;
+    }
+}
+
+TEST(Tags, AttributesMayBeLostToAFormatWithoutAPlaceForThem) {
+    Refined r;
+    r.fine.mesh.attributes_per_point = 0;
+    r.fine.mesh.point_attributes.clear();
+    r.options.attributes_lost = "no place";
+    const Verdict verdict = r.judge();
+    EXPECT_EQ(codes_of(verdict), "");
+    EXPECT_EQ(status_of(verdict, "attributes"), Status::skipped);
+}
 
 INSTANTIATE_TEST_SUITE_P(, BrokenRefinement, testing::ValuesIn(broken_refinements),
                          name_of<RefinementCase>);

@@ -49,6 +49,18 @@ TEST(Compare, FindsAMeshIdenticalToItself) {
     EXPECT_EQ(compare({}, {}).likeness, Likeness::identical);
 }
 
+TEST(Compare, SaysWhereOnlyTheFirstNumberDiffers) {
+    const Mesh mesh = test::kuhn(1, 1, 1);
+    Mesh other = mesh;
+    other.first_number = 1;
+    EXPECT_EQ(compare(mesh, other).likeness, Likeness::up_to_numbering);
+    EXPECT_TRUE(compare(mesh, other).only_first_number_differs);
+    EXPECT_FALSE(compare(mesh, mesh).only_first_number_differs);
+    std::swap(other.cells[CellIndex{0}], other.cells[CellIndex{1}]);
+    EXPECT_EQ(compare(mesh, other).likeness, Likeness::up_to_numbering);
+    EXPECT_FALSE(compare(mesh, other).only_first_number_differs);
+}
+
 TEST(Compare, SeesThroughAnotherNumbering) {
     const Comparison comparison = compare(tagged(), renumbered(tagged()));
     EXPECT_EQ(comparison.likeness, Likeness::up_to_numbering);

@@ -153,9 +153,32 @@ TEST(Fast, LeavesOutWhatTakesASearchInSpace) {
     EXPECT_EQ(codes_of(verdict), "");
     for (const Check& check : verdict.checks) {
         const bool in_space = check.name == "hanging vertices" || check.name == "volumes" ||
-                              check.name == "face angles";
+                              check.name == "face angles" || check.name == "volume and areas";
         EXPECT_EQ(check.status == Status::skipped, in_space) << check.name;
     }
+}
+
+TEST(Notes, SayThatThereAreNoCells) {
+    const Check check = test::judged_by_all(Mesh{}).checks[1];
+    EXPECT_EQ(check.name, "well-formed");
+    EXPECT_EQ(check.note, "there are no cells: nothing can be wrong with them");
+    EXPECT_EQ(test::judged_by_all(test::kuhn(1, 1, 1)).checks[1].note, "");
+}
+
+TEST(Notes, OfSkippedChecksNameWhatHasFailed) {
+    const auto why_not_crossings = [](const Mesh& mesh) {
+        const Verdict verdict = test::judged_by_all(mesh);
+        EXPECT_EQ(verdict.checks.back().name, "boundary crossings");
+        EXPECT_EQ(verdict.checks.back().status, Status::skipped);
+        return verdict.checks.back().note;
+    };
+    Mesh inverted = test::kuhn(2, 1, 1);
+    std::swap(inverted.cells[CellIndex{0}][0], inverted.cells[CellIndex{0}][1]);
+    EXPECT_EQ(why_not_crossings(inverted), "cells are wrong in themselves");
+    Mesh coincident = test::kuhn(2, 1, 1);
+    coincident.cells[CellIndex{0}][0] =
+        coincident.points.append(coincident.points[coincident.cells[CellIndex{0}][0]]);
+    EXPECT_EQ(why_not_crossings(coincident), "vertices lie where they must not");
 }
 
 TEST(Violations, AreAllCountedWhereNotAllAreKept) {

@@ -45,6 +45,12 @@ inline std::string text_of(const verify::Verdict& verdict) {
                         f.rounding_bound);
     text += fmt::format("angles {}\ncoarse {}\n", text_of(verdict.angles),
                         text_of(verdict.coarse_angles));
+    for (const auto* sums : {&verdict.volumes, &verdict.areas}) {
+        for (const verify::TagSum& sum : *sums) {
+            text += fmt::format("sum of {}: {} {} {}\n", sum.tag, sum.fine, sum.coarse,
+                                sum.difference);
+        }
+    }
     for (const verify::DepthFigures& figures : verdict.by_depth) {
         text += fmt::format("depth {}: {} {} {}\n", figures.depth, figures.cells,
                             figures.min_dihedral, figures.min_eta);

@@ -30,8 +30,15 @@ struct CellAngles {
     double eta = 0;
 };
 
+template <std::size_t N>
+struct Normalised {
+    std::array<Point, N> corners;
+    double scale = 1;  ///< by which lengths were multiplied
+};
+
 /// The same shape about as large as 1, at the origin, so that no product over- or underflows.
-std::array<Point, 4> normalised(std::array<Point, 4> p) {
+template <std::size_t N>
+Normalised<N> normalised(std::array<Point, N> p) {
     const Point origin = p[0];
     double size = 0;
     for (Point& q : p) {
@@ -41,11 +48,11 @@ std::array<Point, 4> normalised(std::array<Point, 4> p) {
     constexpr int least_exponent = -1000;
     const double scale = std::ldexp(1.0, -std::max(std::ilogb(size), least_exponent));
     for (Point& q : p) q = {q.x * scale, q.y * scale, q.z * scale};
-    return p;
+    return {p, scale};
 }
 
 CellAngles angles_of(const std::array<Point, 4>& corners) {
-    const std::array<Point, 4> p = normalised(corners);
+    const std::array<Point, 4> p = normalised(corners).corners;
     std::array<Point, 4> normal;  // of the face opposite to each corner, outward
     for (std::size_t k = 0; k < 4; ++k) {
         constexpr std::array<std::array<std::size_t, 3>, 4> outward{
@@ -83,7 +90,8 @@ std::array<Point, 3> triangle(const FacetVertices& v, const Mesh& mesh) {
     return {mesh.points[v[0]], mesh.points[v[1]], mesh.points[v[2]]};
 }
 
-double smallest_angle(const std::array<Point, 3>& t) {
+double smallest_angle(const std::array<Point, 3>& triangle) {
+    const std::array<Point, 3> t = normalised(triangle).corners;
     double smallest = std::numbers::pi;
     for (std::size_t k = 0; k < 3; ++k) {
         smallest = std::min(
@@ -96,10 +104,11 @@ double smallest_angle(const std::array<Point, 3>& t) {
 /// asin(2 eta / its length) <= pi eta / its length. Rounded lengths may also let the second longest
 /// edge of a face be halved; they are off by some 2^-52, and this lets the angles be by more.
 double angle_slack(const std::array<Point, 3>& piece, double rounding) {
-    const double eta = std::sqrt(3.0) * rounding;
-    double shortest = std::sqrt(squared_length({piece[0], piece[1]}));
+    const auto [p, scale] = normalised(piece);
+    const double eta = std::sqrt(3.0) * rounding * scale;
+    double shortest = length(difference(p[0], p[1]));
     for (std::size_t k = 1; k < 3; ++k) {
-        shortest = std::min(shortest, std::sqrt(squared_length({piece[k], piece[(k + 1) % 3]})));
+        shortest = std::min(shortest, length(difference(p[k], p[(k + 1) % 3])));
     }
     constexpr double of_lengths = 1e-12;
     return of_lengths + 2 * std::numbers::pi * eta / shortest;

@@ -197,6 +197,11 @@ private:
 Comparison compare(const Mesh& a, const Mesh& b, std::size_t kept) {
     Comparison result;
     if (a == b) return result;
+    if (a.first_number != b.first_number) {
+        Mesh otherwise_counted = b;
+        otherwise_counted.first_number = a.first_number;
+        result.only_first_number_differs = a == otherwise_counted;
+    }
     const bool coincident = has_coincident_vertices(a) || has_coincident_vertices(b);
     const Colours of_a = colours_of(a, coincident);
     const Colours of_b = colours_of(b, coincident);

@@ -3,6 +3,7 @@
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <string_view>
 #include <vector>
 
 #include <octetra/verify/verify.hpp>
@@ -61,9 +62,10 @@ std::string check_cover(const Subject& coarse, const Subject& fine, const Descen
 std::string check_volumes(const Subject& coarse, const Subject& fine, const Descent& descent,
                           Findings& findings);
 
-/// Region tags, markers and attributes are those that are inherited.
+/// Region tags, markers and attributes are those that are inherited. If the fine mesh has no
+/// attributes, and `attributes_lost` says why it cannot, they are not checked.
 void check_tags(const Subject& coarse, const Subject& fine, Lines& lines, const Descent& descent,
-                Findings& findings);
+                std::string_view attributes_lost, Findings& findings);
 
 /// A parent map says what is found here.
 std::string check_maps(const RefinementMaps& maps, const Subject& coarse, const Subject& fine,

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <iterator>
 #include <tuple>
+#include <utility>
 
 #include "parts/packing.hpp"
 
@@ -70,7 +71,7 @@ void join(std::vector<DepthFigures>& a, const std::vector<DepthFigures>& b) {
     }
 }
 
-/// All but the checks, which are the same on all processes.
+/// All but the checks and the sums, which are the same on all processes.
 void join(Verdict& a, Verdict b) {
     for (std::size_t code = 0; code < code_count; ++code) a.counts[code] += b.counts[code];
     join(a.facts, b.facts);
@@ -184,13 +185,14 @@ Verdict Findings::finish() {
 
     std::vector<Group::Bytes> to_each(static_cast<std::size_t>(group_->size()));
     for (std::size_t r = 0; r < to_each.size(); ++r) to_each[r] = packed(verdict_, r == 0);
-    std::vector<Check> checks = std::move(verdict_.checks);
-    verdict_ = {};
+    Verdict own = std::exchange(verdict_, {});
     for (Group::Bytes& bytes : group_->exchange(std::move(to_each))) {
         join(verdict_, unpacked(bytes));
         bytes = {};
     }
-    verdict_.checks = std::move(checks);
+    verdict_.checks = std::move(own.checks);
+    verdict_.volumes = std::move(own.volumes);
+    verdict_.areas = std::move(own.areas);
     for (Violation& violation : verdict_.violations) {
         kept_[static_cast<std::size_t>(violation.code)].push_back(std::move(violation));
     }

@@ -92,6 +92,9 @@ std::string check_ranges(const Mesh& mesh, std::uint64_t vertex_count, Which whi
 /// Repeated vertices and cells; listed facets and edges of no cell. Fills all but `sign`.
 std::string check_well_formed(Subject& subject, Findings& findings);
 
+/// No facet or edge listed twice with different markers.
+std::string check_listed_markers(const Subject& subject, Findings& findings);
+
 /// Unused and coincident vertices, except those of which tolerated(v) holds.
 std::string check_vertices(const Subject& subject, const std::vector<char>& tolerated,
                            Findings& findings);

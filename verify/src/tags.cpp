@@ -9,17 +9,16 @@
 namespace octetra::verify {
 namespace {
 
-constexpr std::string_view none_listed = "the fine mesh lists none: its format may have no place";
-
 class TagCheck {
 public:
     TagCheck(const Subject& coarse, const Subject& fine, Lines& lines, const Descent& descent,
-             Findings& findings)
+             std::string_view attributes_lost, Findings& findings)
         : coarse_(coarse.mesh),
           fine_(fine.mesh),
           fine_subject_(fine),
           lines_(lines),
           descent_(descent),
+          attributes_lost_(attributes_lost),
           findings_(findings) {}
 
     void run() {
@@ -28,35 +27,47 @@ public:
         check("edges", coarse_.edges.empty(), fine_.edges.empty(), [&] { edges(); });
         check("vertex markers", coarse_.point_markers.empty(), fine_.point_markers.empty(),
               [&] { vertex_markers(); });
-        check("attributes", coarse_.attributes_per_point == 0, fine_.attributes_per_point == 0,
-              [&] { attributes(); });
+        if (coarse_.attributes_per_point > 0 && fine_.attributes_per_point == 0 &&
+            !attributes_lost_.empty()) {
+            findings_.skip("attributes", attributes_lost_);
+        } else {
+            check("attributes", coarse_.attributes_per_point == 0, fine_.attributes_per_point == 0,
+                  [&] { attributes(); });
+        }
     }
 
 private:
+    /// What the coarse mesh has not, nothing can inherit; what the fine mesh has not counts as 0,
+    /// or as listing nothing.
     void check(std::string_view name, bool coarse_has_none, bool fine_has_none, auto&& judge) {
         coarse_has_none = !any(findings_.group(), !coarse_has_none);
         fine_has_none = !any(findings_.group(), !fine_has_none);
         if (coarse_has_none && fine_has_none) return;
-        if (fine_has_none) {
-            findings_.skip(name, none_listed);
-        } else if (coarse_has_none) {
+        if (coarse_has_none) {
             findings_.skip(name, "the coarse mesh has none");
-        } else {
-            findings_.run(name, [&] {
-                judge();
-                return std::string();
-            });
+            return;
         }
+        findings_.run(name, [&] {
+            judge();
+            return std::string();
+        });
+    }
+
+    /// The tag of an entity; 0 where the mesh has no such tags.
+    template <class I>
+    static Marker tag_at(const IndexVector<I, Marker>& tags, I i) {
+        return tags.empty() ? 0 : tags[i];
     }
 
     void regions() {
         for (CellIndex c{0}; c < fine_.cells.end_index(); ++c) {
             if (!fine_subject_.owns(fine_.cells[c])) continue;
+            const Marker found = tag_at(fine_.regions, c);
             const Marker expected = coarse_.regions[descent_.parent[c]];
-            if (fine_.regions[c] == expected) continue;
+            if (found == expected) continue;
             findings_.add(Code::wrong_region, [&]() -> Findings::Description {
                 return {{entity(c), entity(descent_.parent[c], Which::coarse)},
-                        fmt::format("tag {}", fine_.regions[c]),
+                        fmt::format("tag {}", found),
                         fmt::format("tag {}", expected)};
             });
         }
@@ -65,13 +76,13 @@ private:
     // A facet may be listed more than once, with different markers. What is compared is how often
     // a face is listed, and with which markers, against the coarse face that it is a piece of.
 
-    /// The markers of the entities with these tags, ascending; 0 where the list has no markers.
+    /// The markers of the entities with these tags, ascending.
     template <class I, class Entries>
     static std::vector<Marker> markers_of(const Entries& entries,
                                           const IndexVector<I, Marker>& markers) {
         std::vector<Marker> found;
         for (const auto& entry : entries) {
-            found.push_back(markers.empty() ? 0 : markers[I{entry.tag}]);
+            found.push_back(tag_at(markers, I{entry.tag}));
         }
         std::sort(found.begin(), found.end());
         return found;
@@ -125,8 +136,7 @@ private:
         for (EdgeIndex e{0}; e < coarse_.edges.end_index(); ++e) {
             const auto& [a, b] = coarse_.edges[e];
             append_pieces(descent_.coarse_to_fine[a], descent_.coarse_to_fine[b], pieces);
-            markers.resize(pieces.size(),
-                           coarse_.edge_markers.empty() ? 0 : coarse_.edge_markers[e]);
+            markers.resize(pieces.size(), tag_at(coarse_.edge_markers, e));
         }
         const IndexVector<EdgeIndex, Marker> piece_markers(markers.begin(), markers.end());
         const auto expected = buckets_of(pieces, fine_.points.size());
@@ -167,10 +177,11 @@ private:
             if (!w.is_none()) expected[w] = coarse_.point_markers[v];
         }
         for (VertexIndex v{0}; v < fine_.points.end_index(); ++v) {
-            if (fine_.point_markers[v] == expected[v] || !fine_subject_.owns(v)) continue;
+            const Marker found = tag_at(fine_.point_markers, v);
+            if (found == expected[v] || !fine_subject_.owns(v)) continue;
             findings_.add(Code::wrong_vertex_marker, [&]() -> Findings::Description {
                 return {{entity(v)},
-                        fmt::format("marker {}", fine_.point_markers[v]),
+                        fmt::format("marker {}", found),
                         fmt::format("marker {}", expected[v])};
             });
         }
@@ -245,14 +256,15 @@ private:
     const Subject& fine_subject_;
     Lines& lines_;
     const Descent& descent_;
+    std::string_view attributes_lost_;
     Findings& findings_;
 };
 
 }  // namespace
 
 void check_tags(const Subject& coarse, const Subject& fine, Lines& lines, const Descent& descent,
-                Findings& findings) {
-    TagCheck(coarse, fine, lines, descent, findings).run();
+                std::string_view attributes_lost, Findings& findings) {
+    TagCheck(coarse, fine, lines, descent, attributes_lost, findings).run();
 }
 
 }  // namespace octetra::verify

@@ -3,6 +3,7 @@
 #include "angles.hpp"
 #include "parts/mesh_part.hpp"
 #include "subject.hpp"
+#include "sums.hpp"
 
 namespace octetra::verify {
 namespace {
@@ -10,6 +11,7 @@ namespace {
 /// A mesh, or a part of one, that is in range.
 void judge(Subject& subject, const VerifyOptions& options, Findings& findings) {
     findings.run("well-formed", [&] { return check_well_formed(subject, findings); });
+    findings.run("markers", [&] { return check_listed_markers(subject, findings); });
     const bool no_coincidence =
         findings.run("vertices", [&] { return check_vertices(subject, {}, findings); });
     const bool oriented =
@@ -33,9 +35,11 @@ void judge(Subject& subject, const VerifyOptions& options, Findings& findings) {
         findings.run("boundary crossings",
                      [&] { return check_boundary_crossings(subject, findings); });
     } else {
-        findings.skip("boundary crossings", "vertices lie where they must not");
+        findings.skip("boundary crossings", oriented && faced ? "vertices lie where they must not"
+                                                              : "cells are wrong in themselves");
     }
     findings.verdict().angles = measure_angles(subject);
+    measure_sums(subject, findings);
     if (options.min_dihedral) {
         findings.run("dihedral angles", [&] {
             return check_dihedral_angles(subject, *options.min_dihedral, findings);

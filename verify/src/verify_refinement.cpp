@@ -7,6 +7,7 @@
 #include "angles.hpp"
 #include "descent.hpp"
 #include "parts/mesh_part.hpp"
+#include "sums.hpp"
 
 namespace octetra::verify {
 namespace {
@@ -130,6 +131,7 @@ private:
     bool judge_coarse() {
         return findings_.run("coarse mesh", [&] {
             (void)check_well_formed(coarse_, findings_);
+            (void)check_listed_markers(coarse_, findings_);
             (void)check_orientation(coarse_, findings_);
             (void)check_faces(coarse_, findings_);
             const Facts none;
@@ -193,7 +195,15 @@ private:
                           [&] { return check_face_angles(coarse_, fine_, descent, findings_); });
             findings_.verdict().by_depth = measure_by_depth(fine_, descent);
         }
-        check_tags(coarse_, fine_, lines, descent, findings_);
+        check_tags(coarse_, fine_, lines, descent, options_.attributes_lost, findings_);
+        if (options_.fast) {
+            findings_.skip("volume and areas", "not with --fast");
+        } else if (any(findings_.group(), !findings_.verdict().valid())) {
+            findings_.skip("volume and areas", "what stands above has failed");
+        } else {
+            findings_.run("volume and areas",
+                          [&] { return check_sums(coarse_, fine_, descent, findings_); });
+        }
         if (options_.maps != nullptr) {
             findings_.run("maps", [&] {
                 return check_maps(*options_.maps, coarse_, fine_, descent, findings_);
@@ -207,8 +217,8 @@ private:
     }
 
     void skip_from(std::size_t first, std::string_view why) {
-        constexpr std::array<std::string_view, 5> names{"descent", "vertices", "cover", "volumes",
-                                                        "face angles"};
+        constexpr std::array<std::string_view, 6> names{
+            "descent", "vertices", "cover", "volumes", "face angles", "volume and areas"};
         for (std::size_t i = first; i < names.size(); ++i) findings_.skip(names[i], why);
         if (options_.maps != nullptr) findings_.skip("maps", why);
         if (options_.request) findings_.skip("8T-LE", why);

@@ -1,68 +1,13 @@
 #include <algorithm>
-#include <cmath>
-#include <limits>
 
 #include <fmt/format.h>
 
-#include <octetra/core/edge_order.hpp>
-
 #include "descent.hpp"
 #include "exact/measures.hpp"
+#include "rounding_bounds.hpp"
 
-/// Rounded vertices. Had no midpoint been rounded, the pieces of a cell would have its volume and
-/// those of a face its vector area, exactly. A vertex is off by at most `rounding` in each
-/// coordinate, so by eta = sqrt(3) rounding, and an edge, as a vector, by 2 eta. With L the longest
-/// edge, and a determinant at most the product of its rows' lengths, six volumes are off by at most
-/// 3 * 2 eta (L + 2 eta)^2, and each component of a vector area (as a cross product) by
-/// 2 * 2 eta (L + 2 eta). These are summed over the pieces, and rounded up.
 namespace octetra::verify {
 namespace {
-
-constexpr double up = 1 + 1e-9;  // more than all roundings of the bounds together ...
-/// ... but for numbers so small that they are rounded by a unit of their own.
-constexpr double up_from_nothing = 2 * std::numeric_limits<double>::denorm_min();
-
-template <std::size_t N>
-struct Shape {
-    std::array<Point, N> corners;
-    double rounding = 0;  ///< of the worst corner
-
-    [[nodiscard]] double longest_edge() const {
-        double longest = 0;
-        for (std::size_t i = 0; i < N; ++i) {
-            for (std::size_t k = 0; k < i; ++k) {
-                longest = std::max(
-                    longest, std::hypot(corners[i].x - corners[k].x, corners[i].y - corners[k].y,
-                                        corners[i].z - corners[k].z));
-            }
-        }
-        return longest;
-    }
-    [[nodiscard]] double edge_error() const { return 2 * std::sqrt(3.0) * rounding; }
-};
-
-template <std::size_t N>
-Shape<N> shape_of(const std::array<VertexIndex, N>& vertices, const Mesh& fine,
-                  const Descent& descent) {
-    Shape<N> shape;
-    for (std::size_t k = 0; k < N; ++k) {
-        shape.corners[k] = fine.points[vertices[k]];
-        shape.rounding = std::max(shape.rounding, descent.rounding[vertices[k]]);
-    }
-    return shape;
-}
-
-double volume_bound(const Shape<4>& shape) {
-    if (shape.rounding == 0) return 0;
-    const double length = shape.longest_edge() + shape.edge_error();
-    return 3 * shape.edge_error() * length * length * up + up_from_nothing;
-}
-
-double area_bound(const Shape<3>& shape) {
-    if (shape.rounding == 0) return 0;
-    return 2 * shape.edge_error() * (shape.longest_edge() + shape.edge_error()) * up +
-           up_from_nothing;
-}
 
 /// The fine cells, or other things, in the order of the coarse one that each belongs to.
 struct Grouped {
@@ -81,7 +26,7 @@ Grouped group(std::size_t groups, const std::vector<std::uint32_t>& group_of) {
 }
 
 /// Returns the largest bound that was used.
-double check_cell_volumes(const Subject& coarse, const Subject& fine, const Descent& descent,
+Bound check_cell_volumes(const Subject& coarse, const Subject& fine, const Descent& descent,
                           Findings& findings) {
     // Cells of no parent that is seen here stand behind the others.
     const auto coarse_cells = static_cast<std::uint32_t>(coarse.mesh.cells.size());
@@ -91,14 +36,14 @@ double check_cell_volumes(const Subject& coarse, const Subject& fine, const Desc
     }
     const Grouped children = group(coarse_cells + 1, parents);
     exact::VolumeSum difference;
-    double largest = 0;
+    Bound largest = 0;
     for (CellIndex c{0}; c < coarse.mesh.cells.end_index(); ++c) {
         if (!coarse.owns(coarse.mesh.cells[c])) continue;
         const std::uint32_t first = children.begin[c.value()];
         const std::uint32_t last = children.begin[c.value() + 1];
         difference.clear();
         difference.subtract(coarse.corners(c));
-        double bound = 0;
+        Bound bound = 0;
         for (std::uint32_t i = first; i < last; ++i) {
             const CellIndex child{children.members[i]};
             const auto shape = shape_of(fine.mesh.cells[child], fine.mesh, descent);
@@ -118,8 +63,8 @@ double check_cell_volumes(const Subject& coarse, const Subject& fine, const Desc
     return largest / 6;
 }
 
-double check_boundary_areas(const Subject& coarse, const Subject& fine, const Descent& descent,
-                            Findings& findings) {
+Bound check_boundary_areas(const Subject& coarse, const Subject& fine, const Descent& descent,
+                           Findings& findings) {
     constexpr std::uint32_t not_on_boundary = 0xffffffffU;
     std::vector<CellFace> coarse_faces = boundary_faces(coarse);
     std::erase_if(coarse_faces, [&](CellFace f) { return !coarse.owns(coarse.mesh.cells[f.cell]); });
@@ -138,7 +83,7 @@ double check_boundary_areas(const Subject& coarse, const Subject& fine, const De
     }
     const Grouped pieces = group(coarse_faces.size(), coarse_of);
     exact::AreaSum difference;
-    double largest = 0;
+    Bound largest = 0;
     for (std::size_t i = 0; i < coarse_faces.size(); ++i) {
         const auto corners_of = [](const FacetVertices& v, const Mesh& mesh) {
             return std::array<Point, 3>{mesh.points[v[0]], mesh.points[v[1]], mesh.points[v[2]]};
@@ -147,7 +92,7 @@ double check_boundary_areas(const Subject& coarse, const Subject& fine, const De
             outward_face(coarse.mesh.cells[coarse_faces[i].cell], coarse_faces[i].face);
         difference.clear();
         difference.subtract(corners_of(whole, coarse.mesh));
-        double bound = 0;
+        Bound bound = 0;
         for (std::uint32_t k = pieces.begin[i]; k < pieces.begin[i + 1]; ++k) {
             const CellFace f = fine_faces[pieces.members[k]];
             const auto shape =
@@ -174,8 +119,8 @@ double check_boundary_areas(const Subject& coarse, const Subject& fine, const De
 std::string check_volumes(const Subject& coarse, const Subject& fine, const Descent& descent,
                           Findings& findings) {
     const Group& group = findings.group();
-    const double volume = greatest(group, check_cell_volumes(coarse, fine, descent, findings));
-    const double area = greatest(group, check_boundary_areas(coarse, fine, descent, findings));
+    const Bound volume = greatest(group, check_cell_volumes(coarse, fine, descent, findings));
+    const Bound area = greatest(group, check_boundary_areas(coarse, fine, descent, findings));
     if (volume == 0 && area == 0) return "of every coarse cell and boundary face, exactly";
     return fmt::format(
         "of every coarse cell to within {:.3g}, of every boundary face to within {:.3g}", volume,

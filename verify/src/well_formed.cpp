@@ -62,6 +62,30 @@ void check_listed(const IndexVector<I, std::array<VertexIndex, N>>& list,
     }
 }
 
+/// No entity of the list twice, with different markers.
+template <class I, std::size_t N>
+void check_markers(const IndexVector<I, std::array<VertexIndex, N>>& list,
+                   const IndexVector<I, Marker>& markers, const Subject& subject,
+                   Findings& findings) {
+    if (markers.empty()) return;
+    const Buckets<N> by_vertices(subject.mesh.points.size(), [&](auto&& visit) {
+        for (I i{0}; i < list.end_index(); ++i) visit(list[i], i.value());
+    });
+    by_vertices.for_each_group([&](const std::array<VertexIndex, N>& vertices, auto entries) {
+        if (!subject.owns(vertices)) return;
+        const I first{entries[0].tag};
+        for (std::size_t k = 1; k < entries.size(); ++k) {
+            const I again{entries[k].tag};
+            if (markers[first] == markers[again]) continue;
+            findings.add(Code::conflicting_markers, [&]() -> Findings::Description {
+                return {{entity(first, subject.which), entity(again, subject.which)},
+                        fmt::format("markers {} and {}", markers[first], markers[again]),
+                        "one marker for the same vertices"};
+            });
+        }
+    });
+}
+
 void find_sound_cells(Subject& subject, Findings& findings) {
     const Mesh& mesh = subject.mesh;
     subject.sound.assign(mesh.cells.size(), 1);
@@ -157,6 +181,12 @@ std::string check_well_formed(Subject& subject, Findings& findings) {
     });
     check_listed(mesh.facets, subject.faces, Code::stray_facet, subject, findings);
     check_listed(mesh.edges, subject.edges, Code::stray_edge, subject, findings);
+    return subject.totals.cells == 0 ? "there are no cells: nothing can be wrong with them" : "";
+}
+
+std::string check_listed_markers(const Subject& subject, Findings& findings) {
+    check_markers(subject.mesh.facets, subject.mesh.facet_markers, subject, findings);
+    check_markers(subject.mesh.edges, subject.mesh.edge_markers, subject, findings);
     return {};
 }
 

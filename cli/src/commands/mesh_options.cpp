@@ -30,6 +30,10 @@ void add_output_option(CLI::App& subcommand, std::string& path) {
 }
 
 void check_side_file(std::string_view option, const std::filesystem::path& path) {
+    if (path == "-") {
+        throw InputError(
+            fmt::format("{}: - names no file; write ./- for one of that name", option));
+    }
     constexpr std::array<std::string_view, 7> mesh_files{".ele",  ".node", ".face", ".edge",
                                                          ".mesh", ".vtu",  ".pvtu"};
     if (std::ranges::find(mesh_files, path.extension()) != mesh_files.end()) {

@@ -133,6 +133,12 @@ verify::VerifyOptions verify_options(const Plan& plan, const RefineOptions& opti
             .kept_per_code = described_of_each_code};
 }
 
+void note_unchecked(const RefineOptions& options) {
+    note(fmt::format("of {} itself, orientation and faces were checked, not whether cells overlap: "
+                     "octetra verify {} does",
+                     options.input.path, options.input.path));
+}
+
 void print_refusal(const verify::Verdict& verdict, const RefineOptions& options,
                    std::uint32_t first_number) {
     print_verdict(verdict, {options.output, options.input.path, first_number, first_number});
@@ -144,7 +150,11 @@ bool is_valid(const Mesh& coarse, const Mesh& fine, const RefinementMaps& maps, 
               const RefineOptions& options) {
     const auto verdict =
         verify::verify_refinement(coarse, fine, verify_options(plan, options, &maps));
-    if (!verdict.valid()) print_refusal(verdict, options, fine.first_number);
+    if (verdict.valid()) {
+        note_unchecked(options);
+    } else {
+        print_refusal(verdict, options, fine.first_number);
+    }
     return verdict.valid();
 }
 
@@ -171,7 +181,8 @@ bool is_valid_together(verify::MeshSlice coarse, distributed::CanonicalMesh& fin
     const auto verdict = verify::verify_refinement(
         std::move(coarse), verify::slice_of(fine.whole()), Judges(world),
         verify_options(plan, options, options.maps.empty() ? nullptr : &maps));
-    if (!verdict.valid() && world.is_first()) {
+    if (world.is_first() && verdict.valid()) note_unchecked(options);
+    if (world.is_first() && !verdict.valid()) {
         print_refusal(verdict, options, fine.facts().first_number);
     }
     return verdict.valid();

@@ -71,6 +71,9 @@ verify::Verdict judge(const VerifyCommandOptions& given, verify::VerifyOptions o
     }
     const Mesh second = read_mesh(given.second, as_it_stands);
     judged = {given.second, given.first, second.first_number, first.first_number};
+    if (!can_hold_attributes(given.second)) {
+        options.attributes_lost = "the format of the fine mesh has no place for them";
+    }
     if (options.request) {
         complete_selection(options.request->selection, given.refinement.selection,
                            {!first.regions.empty(), first.first_number, first.cells.size()});

@@ -1,5 +1,6 @@
 #include "verdict/print_verdict.hpp"
 
+#include <algorithm>
 #include <array>
 #include <numbers>
 
@@ -60,6 +61,21 @@ void print_angles(std::string_view of, const verify::AngleFigures& angles) {
     print_fact(fmt::format("{}least eta", of), fmt::format("{:.6g}", angles.min_eta));
 }
 
+/// The first few of them.
+void print_sums(std::string_view what, const std::vector<verify::TagSum>& sums,
+                bool of_refinement) {
+    constexpr std::size_t shown = 10;
+    for (std::size_t i = 0; i < std::min(shown, sums.size()); ++i) {
+        const verify::TagSum& sum = sums[i];
+        std::string value = fmt::format("{:.9g}", sum.fine);
+        if (of_refinement) {
+            value += fmt::format("  coarse {:.9g}, difference {:.3g}", sum.coarse, sum.difference);
+        }
+        print_fact(fmt::format("{} {}", what, sum.tag), value);
+    }
+    if (sums.size() > shown) print_fact("and of more", grouped(sums.size() - shown));
+}
+
 void print_facts(const Verdict& verdict, bool of_refinement) {
     const verify::Facts& facts = verdict.facts;
     fmt::print("\n");
@@ -73,6 +89,8 @@ void print_facts(const Verdict& verdict, bool of_refinement) {
         print_fact("midpoints", grouped(facts.bisected_edges));
         print_fact("rounded midpoints", grouped(facts.rounded_midpoints));
     }
+    print_sums("volume of region", verdict.volumes, of_refinement);
+    print_sums("area of marker", verdict.areas, of_refinement);
     if (verdict.coarse_angles && facts.cells > 0) print_angles("coarse ", *verdict.coarse_angles);
     if (verdict.angles && facts.cells > 0) print_angles("", *verdict.angles);
     print_fact("decisions by filters", grouped(verdict.arithmetic.filtered));
@@ -107,7 +125,10 @@ void print_comparison(const verify::Comparison& comparison, const std::string& a
     if (more > 0) fmt::print("and {} more differences\n", grouped(more));
     constexpr std::array<std::string_view, 3> answers{"identical", "the same up to numbering",
                                                       "different"};
-    fmt::print("{}, {}: {}\n", a, b, answers[static_cast<std::size_t>(comparison.likeness)]);
+    fmt::print("{}, {}: {}{}\n", a, b, answers[static_cast<std::size_t>(comparison.likeness)],
+               comparison.only_first_number_differs
+                   ? ": one counts from 0, the other from 1, and nothing else differs"
+                   : "");
 }
 
 }  // namespace octetra::cli

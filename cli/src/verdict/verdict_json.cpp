@@ -56,6 +56,21 @@ Json json(const std::optional<verify::AngleFigures>& angles, std::uint32_t first
             {"min_eta", angles->min_eta}};
 }
 
+/// `tag` and `quantity` name what the sums are by and of.
+Json json(const std::vector<verify::TagSum>& sums, const std::string& tag,
+          const std::string& quantity, bool of_refinement) {
+    Json out = Json::array();
+    for (const verify::TagSum& sum : sums) {
+        Json entry{{tag, sum.tag}, {quantity, sum.fine}};
+        if (of_refinement) {
+            entry["coarse_" + quantity] = sum.coarse;
+            entry["difference"] = sum.difference;
+        }
+        out.push_back(std::move(entry));
+    }
+    return out;
+}
+
 }  // namespace
 
 std::string format_json(const verify::Verdict& verdict, const Judged& judged) {
@@ -79,6 +94,8 @@ std::string format_json(const verify::Verdict& verdict, const Judged& judged) {
         out["violations"].push_back(json(violation, judged));
     }
     out["facts"] = json(verdict.facts, of_refinement);
+    out["volumes"] = json(verdict.volumes, "region", "volume", of_refinement);
+    out["areas"] = json(verdict.areas, "marker", "area", of_refinement);
     out["angles"] = json(verdict.angles, judged.fine_first_number);
     out["coarse_angles"] = json(verdict.coarse_angles, judged.coarse_first_number);
     out["angles_by_depth"] = Json::array();

@@ -68,6 +68,8 @@ std::string write_mesh(const Mesh& mesh, const fs::path& path) {
     return write_mesh(source, path);
 }
 
+bool can_hold_attributes(const fs::path& path) { return format_of(path) != Format::medit; }
+
 bool is_in_pieces(const fs::path& path) { return format_of(path) == Format::pvtu; }
 
 std::string write_pieces(MeshSource& piece, const WriterGroup& group, const fs::path& path) {

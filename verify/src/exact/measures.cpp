@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 
 namespace octetra::verify::exact {
 namespace {
@@ -19,11 +20,13 @@ public:
     Dyadic(Dyadic&&) = delete;
     Dyadic& operator=(Dyadic&&) = delete;
 
-    void set(double value) {
+    /// Of a long double's digits, those that a double has.
+    template <class Float>
+    void set(Float value) {
         constexpr int bits = 53;
         int exponent = 0;
-        const double fraction = std::frexp(value, &exponent);
-        mpz_set_d(mantissa_, std::ldexp(fraction, bits));
+        const Float fraction = std::frexp(value, &exponent);
+        mpz_set_d(mantissa_, static_cast<double>(std::ldexp(fraction, bits)));
         exponent_ = value == 0 ? 0 : exponent - bits;
     }
     void set_sum(const Dyadic& a, const Dyadic& b, Dyadic& scratch) {
@@ -40,10 +43,25 @@ public:
         mpz_set_ui(mantissa_, 0);
         exponent_ = 0;
     }
+    /// "MANTISSA*2^EXPONENT", the mantissa in hexadecimal digits.
+    [[nodiscard]] std::string text() const {
+        std::string digits(mpz_sizeinbase(mantissa_, base) + 2, '\0');
+        mpz_get_str(digits.data(), base, mantissa_);
+        digits.resize(digits.find('\0'));
+        return digits + separator + std::to_string(exponent_);
+    }
+    void set_text(const std::string& text) {
+        const std::size_t end = text.find(separator);
+        if (mpz_set_str(mantissa_, text.substr(0, end).c_str(), base) != 0) {
+            throw std::logic_error("not the text of a sum: " + text);
+        }
+        exponent_ = std::stol(text.substr(end + separator.size()));
+    }
     [[nodiscard]] int sign() const { return mpz_sgn(mantissa_); }
-    [[nodiscard]] double rounded() const {
+    template <class Float = double>
+    [[nodiscard]] Float rounded() const {
         long exponent = 0;
-        const double fraction = mpz_get_d_2exp(&exponent, mantissa_);
+        const Float fraction = mpz_get_d_2exp(&exponent, mantissa_);
         return std::ldexp(fraction, static_cast<int>(exponent + exponent_));
     }
 
@@ -67,6 +85,9 @@ private:
         return static_cast<mp_bitcnt_t>(high.exponent_ - low.exponent_);
     }
 
+    static constexpr int base = 16;
+    inline static const std::string separator = "*2^";
+
     mpz_t mantissa_{};
     long exponent_ = 0;
 };
@@ -80,10 +101,9 @@ void set(Vector& v, const Point& p) {
 }
 
 /// |sum| <= bound
-bool within(const Dyadic& sum, double bound, Dyadic& scratch, Dyadic& difference) {
+bool within(const Dyadic& sum, long double bound, Dyadic& scratch, Dyadic& difference) {
     if (sum.sign() == 0) return true;
     if (bound == 0) return false;
-    if (std::isinf(bound)) return true;  // coordinates so large that no bound can be told
     Dyadic limit;
     limit.set(sum.sign() > 0 ? bound : -bound);
     difference.set_difference(sum, limit, scratch);
@@ -145,11 +165,47 @@ void VolumeSum::subtract(const std::array<Point, 4>& corners) {
     state_->sum.set_difference(state_->sum, state_->volume, state_->scratch);
 }
 
-bool VolumeSum::is_within(double bound) const {
+bool VolumeSum::is_within(long double bound) const {
     return within(state_->sum, bound, state_->scratch, state_->difference);
 }
 
 double VolumeSum::rounded() const { return state_->sum.rounded(); }
+
+std::string VolumeSum::exactly() const { return state_->sum.text(); }
+
+struct NumberSum::State {
+    Dyadic sum, number, scratch, difference;
+};
+
+NumberSum::NumberSum() : state_(std::make_unique<State>()) {}
+NumberSum::~NumberSum() = default;
+
+void NumberSum::clear() { state_->sum.clear(); }
+
+void NumberSum::add(long double number) {
+    state_->number.set(number);
+    state_->sum.set_sum(state_->sum, state_->number, state_->scratch);
+}
+
+bool NumberSum::is_within(long double bound) const {
+    return within(state_->sum, bound, state_->scratch, state_->difference);
+}
+
+double NumberSum::rounded() const { return state_->sum.rounded(); }
+
+void NumberSum::add_exactly(const std::string& sum) {
+    state_->number.set_text(sum);
+    state_->sum.set_sum(state_->sum, state_->number, state_->scratch);
+}
+
+void NumberSum::subtract_exactly(const std::string& sum) {
+    state_->number.set_text(sum);
+    state_->sum.set_difference(state_->sum, state_->number, state_->scratch);
+}
+
+long double NumberSum::magnitude() const { return state_->sum.rounded<long double>(); }
+
+std::string NumberSum::exactly() const { return state_->sum.text(); }
 
 struct AreaSum::State {
     CrossProduct area;
@@ -178,7 +234,7 @@ void AreaSum::subtract(const std::array<Point, 3>& corners) {
     }
 }
 
-bool AreaSum::is_within(double bound) const {
+bool AreaSum::is_within(long double bound) const {
     return std::all_of(state_->sum.begin(), state_->sum.end(), [&](const Dyadic& component) {
         return within(component, bound, state_->scratch, state_->difference);
     });
@@ -186,6 +242,15 @@ bool AreaSum::is_within(double bound) const {
 
 Point AreaSum::rounded() const {
     return {state_->sum[0].rounded(), state_->sum[1].rounded(), state_->sum[2].rounded()};
+}
+
+long double AreaSum::magnitude() const {
+    long double square = 0;
+    for (const Dyadic& component : state_->sum) {
+        const auto length = component.rounded<long double>();
+        square += length * length;
+    }
+    return std::sqrt(square);
 }
 
 }  // namespace octetra::verify::exact

@@ -47,6 +47,9 @@ struct ReadOptions {
 /// The same of a mesh that this process has all of.
 [[nodiscard]] std::string write_mesh(const Mesh& mesh, const std::filesystem::path& path);
 
+/// Can files with this extension hold attributes of vertices?
+[[nodiscard]] bool can_hold_attributes(const std::filesystem::path& path);
+
 /// Does this file name pieces, one for each process, rather than holding the mesh? (`.pvtu`)
 [[nodiscard]] bool is_in_pieces(const std::filesystem::path& path);
 

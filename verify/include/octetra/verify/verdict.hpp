@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include <octetra/core/mesh.hpp>
 #include <octetra/verify/violation.hpp>
 
 namespace octetra::verify {
@@ -63,6 +64,16 @@ struct DepthFigures {
     double min_eta = 0;
 };
 
+/// The volume of all cells with a region tag, or the area of all listed facets with a marker; with
+/// tag 0 where the mesh has no tags or markers. Of single facets areas are rounded; all else is
+/// exact until it is rounded to the figures here.
+struct TagSum {
+    Marker tag = 0;
+    double fine = 0;
+    double coarse = 0;      ///< of a refinement
+    double difference = 0;  ///< of a refinement: by how much the fine mesh has more
+};
+
 struct Verdict {
     std::vector<Check> checks;
     std::vector<Violation> violations;  ///< as many of each code as VerifyOptions::kept_per_code
@@ -71,6 +82,10 @@ struct Verdict {
     std::optional<AngleFigures> angles;
     std::optional<AngleFigures> coarse_angles;
     std::vector<DepthFigures> by_depth;
+    /// By tag, ascending. Empty with VerifyOptions::fast, and of a refinement if a check before
+    /// "volume and areas" has failed. Areas also where the coarse mesh lists no facets.
+    std::vector<TagSum> volumes;
+    std::vector<TagSum> areas;
     Arithmetic arithmetic;
 
     [[nodiscard]] std::uint64_t count(Code code) const {

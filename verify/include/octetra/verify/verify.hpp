@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <limits>
 #include <optional>
+#include <string>
 
 #include <octetra/core/maps.hpp>
 #include <octetra/core/mesh.hpp>
@@ -32,6 +33,9 @@ struct VerifyOptions {
     std::optional<Request> request;
     const RefinementMaps* maps =
         nullptr;  ///< checked if given; cells and vertices of the fine mesh
+    /// Why a fine mesh without attributes could not have any (its file's format, say). Empty: it
+    /// could, and it is a fault if the coarse mesh has some.
+    std::string attributes_lost;
     /// So many violations of each code are described; all are counted.
     std::size_t kept_per_code = std::numeric_limits<std::size_t>::max();
 };

@@ -22,6 +22,7 @@ enum class Code : std::uint8_t {
     coincident_vertices,  ///< two vertices at one place
     stray_facet,          ///< a listed facet is a face of no cell
     stray_edge,           ///< a listed edge is an edge of no cell
+    conflicting_markers,  ///< a facet or edge is listed twice, with different markers
     inverted_cell,        ///< a cell of negative volume
     flat_cell,            ///< a cell of no volume
     face_of_many_cells,   ///< a face of three cells or more
@@ -37,6 +38,7 @@ enum class Code : std::uint8_t {
     open_face,             ///< a fine face with one cell that is not on the coarse boundary
     boundary_moved,        ///< the pieces of a coarse boundary face have another area than it
     wrong_volume,          ///< the pieces of a coarse cell have another volume than it
+    wrong_sum,             ///< a region has another volume, or a marker another area
     wrong_parent,          ///< the parent map names another coarse cell
     wrong_midpoint_edge,   ///< the parent map names another edge for a new vertex
     wrong_region,          ///< another region tag than the parent's

@@ -290,6 +290,35 @@ TEST(StreamedMesh, ComesInFullStretches) {
     EXPECT_EQ(gathered.stretches, 5U + 3U + 2U);
 }
 
+TEST(StreamedMesh, HasTheMarkersOfWhichOnlyTheFirstIsNotZero) {
+    constexpr std::size_t several = MeshSink::longest_stretch + 1;
+    Mesh mesh = test::one_cell(test::regular_corners);
+    mesh.cells.resize(several, mesh.cells.front());
+    mesh.points.resize(several);
+    mesh.regions.resize(several);
+    mesh.point_markers.resize(several);
+    mesh.regions.front() = mesh.point_markers.front() = 1;
+    const TemporaryFolder folder;
+    (void)write_mesh(mesh, folder / "a.mesh");
+    Gathered gathered;
+    expect_streamed_as_read(folder / "a.mesh", gathered);
+    EXPECT_EQ(gathered.mesh.regions, mesh.regions);
+    EXPECT_EQ(gathered.mesh.point_markers, mesh.point_markers);
+}
+
+TEST(StreamedMesh, HasAdjacentCellsAtEachFaceIfAtTheFirst) {
+    constexpr std::size_t longest = MeshSink::longest_stretch;
+    const TemporaryFolder folder;
+    (void)write_mesh(test::one_cell(test::regular_corners), folder / "a.ele");
+    std::string faces = std::to_string(longest + 1) + " 1\n";
+    for (std::size_t f = 0; f < longest; ++f) faces += std::to_string(f) + " 0 1 2 1 0 -1\n";
+    for (const std::string last : {" 0 1 2 1 0 -1\n", " 0 1 2 1\n"}) {
+        (void)folder.write("a.face", faces + std::to_string(longest) + last);
+        Gathered gathered;
+        expect_streamed_as_read(folder / "a.ele", gathered);
+    }
+}
+
 /// A Medit file of four vertices and `count` cells, of which `bad` ("1 2 3 9 0", say) is entry
 /// `place`, and then `tail`.
 std::string medit_cells(std::size_t count, std::size_t place, const std::string& bad,

@@ -371,6 +371,13 @@ TEST(StreamedMesh, ComesAsFarAsWholeStretchesOfAFileThatEndsEarly) {
     EXPECT_EQ(gathered.mesh.cells.size(), MeshSink::longest_stretch);
 }
 
+TEST(StreamedMesh, IsNotedOnceThoughItsFileIsReadTwice) {
+    const TemporaryFolder folder;
+    Gathered gathered;
+    expect_streamed_as_read(folder.write("a.mesh", medit_cells(1, 0, "1 2 3 4 0", false, "")),
+                            gathered);
+}
+
 /// Puts other bytes into a file that is being read.
 class Meddler : public Gathered {
 public:

@@ -32,23 +32,33 @@ Format format_of(const fs::path& path) {
     return Format::unknown;
 }
 
-}  // namespace
-
-Mesh read_mesh(const fs::path& path, const ReadOptions& options) {
-    switch (format_of(path)) {
-        case Format::tetgen: return read_tetgen(path, options);
-        case Format::medit: return read_medit(path, options);
-        case Format::vtu:
-        case Format::pvtu:
-            throw InputError(
-                fmt::format("{}: {} files are written, not read; read .ele/.node or .mesh",
-                            path.native(), path.extension().native()));
-        case Format::unknown: break;
+/// Why a mesh cannot be read from this file, if its format is neither TetGen's nor Medit's.
+[[noreturn]] void refuse_to_read(const fs::path& path) {
+    if (format_of(path) != Format::unknown) {
+        throw InputError(fmt::format("{}: {} files are written, not read; read .ele/.node or .mesh",
+                                     path.native(), path.extension().native()));
     }
     throw InputError(fmt::format(
         "{}: a mesh to read is named by its extension: .ele or .node (TetGen), .mesh (Medit; "
         "Gmsh writes it, too: gmsh FILE.msh -save -format mesh)",
         path.native()));
+}
+
+}  // namespace
+
+Mesh read_mesh(const fs::path& path, const ReadOptions& options) {
+    const Format format = format_of(path);
+    if (format == Format::tetgen) return read_tetgen(path, options);
+    if (format == Format::medit) return read_medit(path, options);
+    refuse_to_read(path);
+}
+
+void stream_mesh(const fs::path& path, MeshSink& sink, const ReadOptions& options) {
+    const ReadOptions as_it_stands{.only_syntax = true, .note = options.note};
+    const Format format = format_of(path);
+    if (format == Format::tetgen) return stream_tetgen(path, sink, as_it_stands);
+    if (format == Format::medit) return stream_medit(path, sink, as_it_stands);
+    refuse_to_read(path);
 }
 
 std::string write_mesh(MeshSource& mesh, const fs::path& path) {

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <array>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -10,6 +11,7 @@
 
 #include "files/cell_check.hpp"
 #include "files/fields.hpp"
+#include "files/growing_mesh.hpp"
 #include "files/line_reader.hpp"
 #include "files/listed_entities.hpp"
 #include "files/medit.hpp"
@@ -77,24 +79,56 @@ private:
     Fields fields_;
 };
 
+/// The first entry of a section with a vertex that there is not.
+struct OutOfRange {
+    std::uint64_t entry = 0;
+    VertexIndex vertex;
+};
+
 /// Where the entries of a section were found.
 struct Section {
-    std::uint64_t keyword_line = 0;  ///< 0: there was no such section
-    std::uint64_t first_line = 0;    ///< of the first entry
-    bool consecutive = true;         ///< entry i begins on line first_line + i
+    std::uint64_t keyword_line = 0;          ///< 0: there was no such section
+    std::uint64_t first_line = 0;            ///< of the first entry
+    bool consecutive = true;                 ///< entry i begins on line first_line + i
+    std::optional<OutOfRange> out_of_range;  ///< looked for while streaming
 };
 
 class MeditReader {
 public:
-    MeditReader(const std::filesystem::path& path, const ReadOptions& options)
-        : reader_(path), tokens_(reader_), options_(&options) {
+    /// Without a sink, reads the mesh into memory.
+    MeditReader(const std::filesystem::path& path, const ReadOptions& options, MeshSink* sink,
+                Told told = Told::everything)
+        : reader_(path), tokens_(reader_), options_(&options), growing_(sink, true, told) {
         mesh_.first_number = 1;
     }
 
+    /// Returns the mesh, if it is not streamed.
     Mesh read() {
         read_head();
         while (read_section()) {
         }
+        if (growing_.is_streaming()) {
+            check_streamed<CellIndex>(tetrahedra_, "cell");
+            check_streamed<FacetIndex>(triangles_, "triangle");
+            check_streamed<EdgeIndex>(edges_, "edge");
+        } else {
+            check_mesh();
+        }
+        growing_.finish();
+        return std::move(mesh_);
+    }
+
+    /// Reads all of the file and tells the sink of points, and of nothing else. Returns their
+    /// number.
+    std::uint64_t read_points() {
+        read_head();
+        while (read_section()) {
+        }
+        return growing_.facts().vertices;
+    }
+
+private:
+    void check_mesh() {
         check_listed(mesh_.cells, tetrahedra_, "cell");
         check_cells();
         check_listed(mesh_.facets, triangles_, "triangle");
@@ -103,14 +137,8 @@ public:
             check_stray(find_stray_facet(mesh_), triangles_, "triangle");
             check_stray(find_stray_edge(mesh_), edges_, "edge");
         }
-        drop_if_all_zero(mesh_.point_markers);
-        drop_if_all_zero(mesh_.regions);
-        drop_if_all_zero(mesh_.facet_markers);
-        drop_if_all_zero(mesh_.edge_markers);
-        return std::move(mesh_);
     }
 
-private:
     void read_head() {
         if (const std::string_view token = tokens_.text(); token != "MeshVersionFormatted") {
             reader_.fail(
@@ -141,11 +169,11 @@ private:
         } else if (keyword == "Vertices") {
             read_vertices();
         } else if (keyword == "Tetrahedra") {
-            read_listed(mesh_.cells, mesh_.regions, tetrahedra_, "tetrahedra");
+            read_listed(cell_kind, tetrahedra_, "tetrahedra");
         } else if (keyword == "Triangles") {
-            read_listed(mesh_.facets, mesh_.facet_markers, triangles_, "triangles");
+            read_listed(facet_kind, triangles_, "triangles");
         } else if (keyword == "Edges") {
-            read_listed(mesh_.edges, mesh_.edge_markers, edges_, "edges");
+            read_listed(edge_kind, edges_, "edges");
         } else {
             read_other(keyword);
         }
@@ -180,8 +208,8 @@ private:
     }
 
     /// Reads a section's count and its entries, each by read_entry().
-    Section read_entries(Section& earlier, std::size_t field_count, std::string_view name,
-                         auto&& reserve, auto&& read_entry) {
+    Section read_entries(const Section& earlier, std::size_t field_count, std::string_view name,
+                         auto&& expect, auto&& read_entry) {
         Section section{.keyword_line = reader_.line_number()};
         if (earlier.keyword_line != 0) {
             reader_.fail(fmt::format("a second section of {}; the first is on line {}", name,
@@ -189,7 +217,7 @@ private:
         }
         const std::uint64_t count = tokens_.unsigned_integer("the number of entries");
         reader_.check_count(count, field_count, name);
-        reserve(count);
+        expect(count);
         for (std::uint64_t i = 0; i < count; ++i) {
             read_entry([&] {
                 if (section.first_line == 0) section.first_line = reader_.line_number();
@@ -202,9 +230,12 @@ private:
     void read_vertices() {
         vertices_ = read_entries(
             vertices_, 4, "vertices",
-            [&](std::size_t count) {
-                mesh_.points.reserve(count);
-                mesh_.point_markers.reserve(count);
+            [&](std::uint64_t count) {
+                if (vertices_ahead_ && *vertices_ahead_ != count) {
+                    reader_.fail("the file has changed while it was read");
+                }
+                if (growing_.is_streaming()) streamed_vertices_ = VertexIndex{count};
+                growing_.expect_points(count, 0, true);
             },
             [&](auto&& started) {
                 const double x = tokens_.real("x");
@@ -213,17 +244,20 @@ private:
                 const double z = tokens_.real("z");
                 mesh_.points.push_back({x, y, z});
                 mesh_.point_markers.push_back(tokens_.marker("the vertex's reference"));
+                growing_.point_complete();
             });
+        growing_.points_complete();
     }
 
     template <class I, std::size_t N>
-    void read_listed(IndexVector<I, std::array<VertexIndex, N>>& list,
-                     IndexVector<I, Marker>& markers, Section& section, std::string_view name) {
+    void read_listed(const ListedKind<I, N>& kind, Section& section, std::string_view name) {
+        std::optional<OutOfRange> out_of_range;
+        std::uint64_t entry = 0;
         section = read_entries(
             section, N + 1, name,
-            [&](std::size_t count) {
-                list.reserve(count);
-                markers.reserve(count);
+            [&](std::uint64_t count) {
+                if (growing_.is_streaming()) stream_points_first();
+                growing_.expect(kind, count, true);
             },
             [&](auto&& started) {
                 std::array<VertexIndex, N> vertices;
@@ -235,12 +269,53 @@ private:
                     }
                     vertex = VertexIndex{number - 1};
                 }
-                list.push_back(vertices);
-                markers.push_back(tokens_.marker("the reference"));
+                (mesh_.*kind.list).push_back(vertices);
+                (mesh_.*kind.markers).push_back(tokens_.marker("the reference"));
+                if (growing_.is_streaming()) {
+                    look_for_out_of_range(vertices, entry++, out_of_range);
+                }
+                growing_.entity_complete(kind);
             });
+        section.out_of_range = out_of_range;
+        growing_.all_complete(kind);
     }
 
-    // The checks come last because the format lets Vertices stand behind what refers to them.
+    /// From the first entry on that has a vertex that there is not, the sink hears nothing.
+    void look_for_out_of_range(std::span<const VertexIndex> vertices, std::uint64_t entry,
+                               std::optional<OutOfRange>& first) {
+        for (const VertexIndex vertex : vertices) {
+            if (vertex < streamed_vertices_ || first) continue;
+            first = {entry, vertex};
+            growing_.tell_only(Told::nothing);
+        }
+    }
+
+    /// A sink hears of points before what refers to them: where they stand behind it, the file is
+    /// read to its end for them first.
+    void stream_points_first() {
+        if (vertices_.keyword_line != 0 || growing_.told() != Told::everything) return;
+        const ReadOptions quiet{.only_syntax = true};
+        MeditReader ahead(reader_.path(), quiet, growing_.sink(), Told::points);
+        vertices_ahead_ = ahead.read_points();
+        streamed_vertices_ = VertexIndex{*vertices_ahead_};
+        growing_.tell_only(Told::all_but_points);
+    }
+
+    // The checks come last because the format lets Vertices stand behind what refers to them. What
+    // is streamed is looked at as it comes, but an error of syntax further down is reported first,
+    // as it is for a mesh in memory.
+
+    [[nodiscard]] std::string no_such_vertex(VertexIndex vertex) const {
+        return fmt::format("there is no vertex {}: the file has {}",
+                           std::uint64_t{vertex.value()} + 1, growing_.facts().vertices);
+    }
+
+    template <class I>
+    void check_streamed(const Section& section, std::string_view name) const {
+        if (!section.out_of_range) return;
+        const auto& [entry, vertex] = *section.out_of_range;
+        fail_entry(section, I{entry}, name, no_such_vertex(vertex));
+    }
 
     template <class I>
     [[noreturn]] void fail_entry(const Section& section, I entry, std::string_view name,
@@ -257,10 +332,7 @@ private:
         for (I i{0}; i < list.end_index(); ++i) {
             for (std::size_t k = 0; k < N; ++k) {
                 if (list[i][k] >= mesh_.points.end_index()) {
-                    fail_entry(
-                        section, i, name,
-                        fmt::format("there is no vertex {}: the file has {}",
-                                    std::uint64_t{list[i][k].value()} + 1, mesh_.points.size()));
+                    fail_entry(section, i, name, no_such_vertex(list[i][k]));
                 }
                 for (std::size_t j = 0; j < k; ++j) {
                     if (list[i][j] != list[i][k] || options_->only_syntax) continue;
@@ -299,7 +371,11 @@ private:
     LineReader reader_;
     Tokens tokens_;
     const ReadOptions* options_;
-    Mesh mesh_;
+    GrowingMesh growing_;
+    Mesh& mesh_ = growing_.mesh;
+    /// While streaming, once it is known: the number of vertices. Else no number reaches it.
+    VertexIndex streamed_vertices_ = VertexIndex::none();
+    std::optional<std::uint64_t> vertices_ahead_;  ///< as read before the rest
     Section vertices_;
     Section tetrahedra_;
     Section triangles_;
@@ -309,7 +385,11 @@ private:
 }  // namespace
 
 Mesh read_medit(const std::filesystem::path& path, const ReadOptions& options) {
-    return MeditReader(path, options).read();
+    return MeditReader(path, options, nullptr).read();
+}
+
+void stream_medit(const std::filesystem::path& path, MeshSink& sink, const ReadOptions& options) {
+    (void)MeditReader(path, options, &sink).read();
 }
 
 }  // namespace octetra

@@ -4,6 +4,7 @@
 
 #include <octetra/core/files.hpp>
 #include <octetra/core/mesh.hpp>
+#include <octetra/core/mesh_sink.hpp>
 #include <octetra/core/mesh_source.hpp>
 
 /// TetGen's text files: `.node` (vertices), `.ele` (cells), `.face` (facets), `.edge` (edges).
@@ -11,6 +12,9 @@
 namespace octetra {
 
 [[nodiscard]] Mesh read_tetgen(const std::filesystem::path& path, const ReadOptions& options);
+
+/// Takes everything as it stands; `options` must have only_syntax.
+void stream_tetgen(const std::filesystem::path& path, MeshSink& sink, const ReadOptions& options);
 
 /// Collective.
 void write_tetgen(MeshSource& mesh, const std::filesystem::path& path);

@@ -2,6 +2,7 @@
 #include <optional>
 #include <string_view>
 #include <system_error>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -9,6 +10,7 @@
 
 #include "files/cell_check.hpp"
 #include "files/fields.hpp"
+#include "files/growing_mesh.hpp"
 #include "files/line_reader.hpp"
 #include "files/listed_entities.hpp"
 #include "files/tetgen.hpp"
@@ -34,9 +36,11 @@ std::array<std::uint64_t, N> read_header(LineReader& reader,
 }
 
 /// Reads the rest of the file: `count` lines, each with its number and what read_entry(fields)
-/// takes, `field_count` fields in all. Returns the first entry's number: 0 or 1.
+/// takes, `field_count` fields in all; complete() follows each. Returns the first entry's number: 0
+/// or 1.
 std::uint32_t read_entries(LineReader& reader, std::uint64_t count, std::size_t field_count,
-                           std::optional<std::uint32_t> first_number, auto&& read_entry) {
+                           std::optional<std::uint32_t> first_number, auto&& read_entry,
+                           auto&& complete) {
     std::uint32_t first = first_number.value_or(0);
     for (std::uint64_t i = 0; i < count; ++i) {
         if (!reader.next()) {
@@ -52,6 +56,7 @@ std::uint32_t read_entries(LineReader& reader, std::uint64_t count, std::size_t 
         }
         read_entry(fields);
         fields.expect_end(field_count);
+        complete();
     }
     if (reader.next()) reader.fail(fmt::format("more lines than the {} entries announced", count));
     return first;
@@ -64,17 +69,30 @@ std::uint64_t line_of_entry(const fs::path& path, std::uint64_t entry) {
     return reader.line_number();
 }
 
-VertexIndex read_vertex(Fields& fields, const LineReader& reader, const Mesh& mesh) {
+/// What files call the vertices of a mesh: `count` numbers from `first`.
+struct VertexNumbers {
+    std::uint64_t first;
+    std::uint64_t count;
+};
+
+VertexNumbers vertex_numbers(const GrowingMesh& growing) {
+    return {growing.mesh.first_number, growing.facts().vertices};
+}
+
+[[noreturn]] void refuse_vertex(std::uint64_t number, const LineReader& reader,
+                                VertexNumbers numbers) {
+    reader.fail(fmt::format("there is no vertex {}: the {} vertices are numbered from {}", number,
+                            numbers.count, numbers.first));
+}
+
+VertexIndex read_vertex(Fields& fields, const LineReader& reader, VertexNumbers numbers) {
     const std::uint64_t number = fields.unsigned_integer("a vertex number");
-    const std::uint64_t index = number - mesh.first_number;  // wraps round below first_number
-    if (index >= mesh.points.size()) {
-        reader.fail(fmt::format("there is no vertex {}: the {} vertices are numbered from {}",
-                                number, mesh.points.size(), mesh.first_number));
-    }
+    const std::uint64_t index = number - numbers.first;  // wraps round below the first
+    if (index >= numbers.count) refuse_vertex(number, reader, numbers);
     return VertexIndex{index};
 }
 
-void read_node(const fs::path& path, Mesh& mesh) {
+void read_node(const fs::path& path, GrowingMesh& growing) {
     LineReader reader(path);
     const auto header = read_header<4>(reader,
                                        {"the number of vertices", "the dimension",
@@ -94,11 +112,9 @@ void read_node(const fs::path& path, Mesh& mesh) {
     const std::size_t field_count = 4 + attributes + markers;
     reader.check_count(count, field_count, "vertices");
 
-    mesh.points.reserve(count);
-    mesh.attributes_per_point = attributes;
-    mesh.point_attributes.reserve(count * attributes);
-    mesh.point_markers.reserve(count * markers);
-    mesh.first_number = read_entries(reader, count, field_count, std::nullopt, [&](Fields& fields) {
+    growing.expect_points(count, attributes, markers == 1);
+    Mesh& mesh = growing.mesh;
+    const auto read_point = [&](Fields& fields) {
         const double x = fields.real("x");
         const double y = fields.real("y");
         const double z = fields.real("z");
@@ -107,10 +123,13 @@ void read_node(const fs::path& path, Mesh& mesh) {
             mesh.point_attributes.push_back(fields.real("an attribute of the vertex"));
         }
         if (markers == 1) mesh.point_markers.push_back(fields.marker("the vertex's marker"));
-    });
+    };
+    mesh.first_number = read_entries(reader, count, field_count, std::nullopt, read_point,
+                                     [&] { growing.point_complete(); });
+    growing.points_complete();
 }
 
-void read_ele(const fs::path& path, const ReadOptions& options, Mesh& mesh) {
+void read_ele(const fs::path& path, const ReadOptions& options, GrowingMesh& growing) {
     LineReader reader(path);
     const auto header = read_header<3>(reader,
                                        {"the number of cells", "the number of vertices per cell",
@@ -132,17 +151,21 @@ void read_ele(const fs::path& path, const ReadOptions& options, Mesh& mesh) {
     const std::size_t field_count = 5 + attributes;
     reader.check_count(count, field_count, "cells");
 
-    mesh.cells.reserve(count);
-    mesh.regions.reserve(count * attributes);
+    growing.expect(cell_kind, count, attributes == 1);
+    const VertexNumbers numbers = vertex_numbers(growing);
+    Mesh& mesh = growing.mesh;
     CellCheck check(mesh, options);
-    read_entries(reader, count, field_count, mesh.first_number, [&](Fields& fields) {
+    const auto read_cell = [&](Fields& fields) {
         CellVertices cell;
-        for (VertexIndex& vertex : cell) vertex = read_vertex(fields, reader, mesh);
+        for (VertexIndex& vertex : cell) vertex = read_vertex(fields, reader, numbers);
         const std::string_view wrong = check.judge(cell);
         if (!wrong.empty()) reader.fail(wrong);
         mesh.cells.push_back(cell);
         if (attributes == 1) mesh.regions.push_back(fields.marker("the region tag"));
-    });
+    };
+    read_entries(reader, count, field_count, mesh.first_number, read_cell,
+                 [&] { growing.entity_complete(cell_kind); });
+    growing.all_complete(cell_kind);
     if (check.fixed_count() > 0) {
         options.note(fmt::format("{}: {} inverted cells were turned round", path.native(),
                                  check.fixed_count()));
@@ -151,10 +174,8 @@ void read_ele(const fs::path& path, const ReadOptions& options, Mesh& mesh) {
 
 /// Reads a `.face` or `.edge` file: entities of N vertices each.
 template <class I, std::size_t N>
-void read_listed(const fs::path& path, std::string_view name,
-                 IndexVector<I, std::array<VertexIndex, N>>& list,
-                 IndexVector<I, Marker>& list_markers, I (*find_stray)(const Mesh&),
-                 const ReadOptions& options, Mesh& mesh) {
+void read_listed(const fs::path& path, std::string_view name, const ListedKind<I, N>& kind,
+                 I (*find_stray)(const Mesh&), const ReadOptions& options, GrowingMesh& growing) {
     LineReader reader(path);
     const auto header =
         read_header<2>(reader, {"the number of entries", "the markers flag"}, {0, 0});
@@ -164,29 +185,33 @@ void read_listed(const fs::path& path, std::string_view name,
     const std::size_t field_count = 1 + N + markers;
     reader.check_count(count, field_count, "entries");
 
-    list.reserve(count);
-    list_markers.reserve(count * markers);
+    growing.expect(kind, count, markers == 1);
+    const VertexNumbers numbers = vertex_numbers(growing);
+    Mesh& mesh = growing.mesh;
     // With -nn TetGen adds the cells at each face (two) or edge (one), and tells nobody.
     constexpr std::size_t adjacent_cells = N == 3 ? 2 : 1;
-    bool has_adjacent_cells = false;
-    read_entries(reader, count, field_count, mesh.first_number, [&](Fields& fields) {
+    std::optional<bool> has_adjacent_cells;  // as the first entry has them
+    const auto read_entity = [&](Fields& fields) {
         std::array<VertexIndex, N> vertices;
-        for (VertexIndex& vertex : vertices) vertex = read_vertex(fields, reader, mesh);
+        for (VertexIndex& vertex : vertices) vertex = read_vertex(fields, reader, numbers);
         for (std::size_t k = 0; k < N; ++k) {
             if (!options.only_syntax && vertices[k] == vertices[(k + 1) % N]) {
                 reader.fail(fmt::format("the {} has the same vertex twice", name));
             }
         }
-        list.push_back(vertices);
-        if (markers == 1) list_markers.push_back(fields.marker("the marker"));
-        if (list.size() == 1 && markers == 1) {
-            has_adjacent_cells = fields.count_left() == adjacent_cells;
+        (mesh.*kind.list).push_back(vertices);
+        if (markers == 1) (mesh.*kind.markers).push_back(fields.marker("the marker"));
+        if (!has_adjacent_cells) {
+            has_adjacent_cells = markers == 1 && fields.count_left() == adjacent_cells;
         }
-        for (std::size_t k = 0; has_adjacent_cells && k < adjacent_cells; ++k) {
+        for (std::size_t k = 0; *has_adjacent_cells && k < adjacent_cells; ++k) {
             (void)fields.marker("an adjacent cell");
         }
-    });
-    if (has_adjacent_cells) {
+    };
+    read_entries(reader, count, field_count, mesh.first_number, read_entity,
+                 [&] { growing.entity_complete(kind); });
+    growing.all_complete(kind);
+    if (has_adjacent_cells == true) {
         options.note(
             fmt::format("{}: the adjacent cells of each {} are not kept", path.native(), name));
     }
@@ -215,25 +240,36 @@ void require_companion(const fs::path& path, const fs::path& other) {
     }
 }
 
-}  // namespace
-
-Mesh read_tetgen(const fs::path& path, const ReadOptions& options) {
+/// Reads all files into `growing`.
+void read_files(const fs::path& path, const ReadOptions& options, GrowingMesh& growing) {
     const fs::path node = companion(path, ".node");
     const fs::path ele = companion(path, ".ele");
     if (!is_there(ele) && !is_there(node)) LineReader missing(path);  // says so by its name
     require_companion(ele, node);
     require_companion(node, ele);
 
-    Mesh mesh;
-    read_node(node, mesh);
-    read_ele(ele, options, mesh);
+    read_node(node, growing);
+    read_ele(ele, options, growing);
     if (const fs::path face = companion(path, ".face"); is_there(face)) {
-        read_listed(face, "face", mesh.facets, mesh.facet_markers, find_stray_facet, options, mesh);
+        read_listed(face, "face", facet_kind, find_stray_facet, options, growing);
     }
     if (const fs::path edge = companion(path, ".edge"); is_there(edge)) {
-        read_listed(edge, "edge", mesh.edges, mesh.edge_markers, find_stray_edge, options, mesh);
+        read_listed(edge, "edge", edge_kind, find_stray_edge, options, growing);
     }
-    return mesh;
+    growing.finish();
+}
+
+}  // namespace
+
+Mesh read_tetgen(const fs::path& path, const ReadOptions& options) {
+    GrowingMesh growing(nullptr, false);
+    read_files(path, options, growing);
+    return std::move(growing.mesh);
+}
+
+void stream_tetgen(const fs::path& path, MeshSink& sink, const ReadOptions& options) {
+    GrowingMesh growing(&sink, false);
+    read_files(path, options, growing);
 }
 
 }  // namespace octetra

@@ -10,6 +10,7 @@
 
 #include <octetra/core/index.hpp>
 #include <octetra/core/mesh.hpp>
+#include <octetra/core/mesh_sink.hpp>
 #include <octetra/core/mesh_source.hpp>
 
 /// Mesh files, by extension: TetGen `.node/.ele` (with `.face`, `.edge` beside them where present),
@@ -34,6 +35,13 @@ struct ReadOptions {
 /// Throws InputError ("FILE:LINE: what is wrong") or SystemError.
 /// Memory beyond the mesh: a buffer of 1 MiB, and 8 bytes per vertex while facets are checked.
 [[nodiscard]] Mesh read_mesh(const std::filesystem::path& path, const ReadOptions& options = {});
+
+/// Reads a mesh and tells the sink of it, stretch by stretch; checks what read_mesh does with
+/// ReadOptions::only_syntax, and throws the same. Of the options only `note` is looked at.
+/// Memory, however large the mesh: a buffer of 1 MiB and a stretch of each kind; twice that for a
+/// Medit file in which Vertices stand behind what refers to them, which is read twice.
+void stream_mesh(const std::filesystem::path& path, MeshSink& sink,
+                 const ReadOptions& options = {});
 
 /// Collective in the mesh's group. Writes a mesh so that it reads back to the same bits, which do
 /// not depend on the number of processes. For TetGen, `path` names the `.ele` or the `.node` file,

@@ -1,0 +1,439 @@
+#include <algorithm>
+#include <filesystem>
+#include <functional>
+#include <random>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <octetra/core/error.hpp>
+#include <octetra/core/files.hpp>
+
+#include "support/bits.hpp"
+#include "support/meshes.hpp"
+#include "support/temporary_folder.hpp"
+#include "support/thrown.hpp"
+
+/// stream_mesh() tells a sink what read_mesh() with ReadOptions::only_syntax puts into memory.
+namespace octetra {
+namespace {
+
+namespace fs = std::filesystem;
+using test::TemporaryFolder;
+using testing::HasSubstr;
+
+/// Puts the stretches together again, and expects of them what struct MeshSink promises.
+class Gathered : public MeshSink {
+public:
+    Mesh mesh;
+    std::size_t stretches = 0;
+    bool is_finished = false;
+
+    void expect_points(std::uint64_t count, std::size_t attributes_per_point,
+                       bool has_markers) override {
+        EXPECT_FALSE(points_.announced);
+        points_ = {true, count, has_markers};
+        mesh.attributes_per_point = attributes_per_point;
+    }
+    void take_points(std::span<const Point> points, std::span<const double> attributes,
+                     std::span<const Marker> markers) override {
+        check(points_, points.size(), markers.size());
+        EXPECT_EQ(attributes.size(), points.size() * mesh.attributes_per_point);
+        EXPECT_LE(attributes.size(), longest_stretch);
+        add(mesh.points, points);
+        add(mesh.point_attributes, attributes);
+        add(mesh.point_markers, markers);
+    }
+
+    void expect_cells(std::uint64_t count, bool has_regions) override {
+        announce(cells_, count, has_regions);
+    }
+    void take_cells(std::span<const CellVertices> cells, std::span<const Marker> regions) override {
+        take(cells_, mesh.cells, mesh.regions, cells, regions);
+    }
+
+    void expect_facets(std::uint64_t count, bool has_markers) override {
+        announce(facets_, count, has_markers);
+    }
+    void take_facets(std::span<const FacetVertices> facets,
+                     std::span<const Marker> markers) override {
+        take(facets_, mesh.facets, mesh.facet_markers, facets, markers);
+    }
+
+    void expect_edges(std::uint64_t count, bool has_markers) override {
+        announce(edges_, count, has_markers);
+    }
+    void take_edges(std::span<const EdgeVertices> edges, std::span<const Marker> markers) override {
+        take(edges_, mesh.edges, mesh.edge_markers, edges, markers);
+    }
+
+    void finish(const MeshFacts& facts) override {
+        EXPECT_FALSE(is_finished);
+        is_finished = true;
+        for (const Kind& kind : {points_, cells_, facets_, edges_}) EXPECT_EQ(kind.left, 0U);
+        keep_if(facts.has_point_markers, mesh.point_markers);
+        keep_if(facts.has_regions, mesh.regions);
+        keep_if(facts.has_facet_markers, mesh.facet_markers);
+        keep_if(facts.has_edge_markers, mesh.edge_markers);
+        mesh.first_number = facts.first_number;
+        EXPECT_EQ(facts.vertices, mesh.points.size());
+        EXPECT_EQ(facts.first_midpoint, mesh.points.size());
+        EXPECT_EQ(facts.cells, mesh.cells.size());
+        EXPECT_EQ(facts.facets, mesh.facets.size());
+        EXPECT_EQ(facts.edges, mesh.edges.size());
+        EXPECT_EQ(facts.attributes_per_point, mesh.attributes_per_point);
+    }
+
+private:
+    struct Kind {
+        bool announced = false;
+        std::uint64_t left = 0;
+        bool has_markers = false;
+    };
+
+    static void keep_if(bool has_markers, auto& markers) {
+        EXPECT_TRUE(has_markers || std::ranges::count(markers, 0) == std::ssize(markers));
+        EXPECT_TRUE(!has_markers || !markers.empty());
+        if (!has_markers) markers.clear();
+    }
+    static void add(auto& list, auto stretch) {
+        list.insert(list.end(), stretch.begin(), stretch.end());
+    }
+    void announce(Kind& kind, std::uint64_t count, bool has_markers) const {
+        EXPECT_TRUE(points_.announced);
+        EXPECT_EQ(points_.left, 0U) << "points come first";
+        EXPECT_FALSE(kind.announced);
+        kind = {true, count, has_markers};
+    }
+    void check(Kind& kind, std::size_t count, std::size_t markers) {
+        EXPECT_FALSE(is_finished);
+        EXPECT_GE(count, 1U);
+        EXPECT_LE(count, longest_stretch);
+        EXPECT_LE(count, kind.left);
+        EXPECT_EQ(markers, kind.has_markers ? count : 0);
+        kind.left -= count;
+        ++stretches;
+    }
+    void take(Kind& kind, auto& list, auto& list_markers, auto stretch, auto markers) {
+        check(kind, stretch.size(), markers.size());
+        for (const auto& vertices : stretch) {
+            for (const VertexIndex v : vertices) EXPECT_LT(v, mesh.points.end_index());
+        }
+        add(list, stretch);
+        add(list_markers, markers);
+    }
+
+    Kind points_;
+    Kind cells_;
+    Kind facets_;
+    Kind edges_;
+};
+
+/// What becomes of a file: a mesh or an error, and the notes on the way there.
+struct Outcome {
+    Mesh mesh;
+    std::string error;
+    std::vector<std::string> notes;
+};
+
+Outcome outcome_of(const std::function<Mesh(const ReadOptions&)>& read) {
+    Outcome outcome;
+    const auto note = [&](const std::string& text) { outcome.notes.push_back(text); };
+    try {
+        outcome.mesh = read({.only_syntax = true, .note = note});
+    } catch (const InputError& error) {
+        outcome.error = error.what();
+    }
+    return outcome;
+}
+
+/// Reads the file both ways, and expects the same.
+void expect_streamed_as_read(const fs::path& file, Gathered& gathered) {
+    SCOPED_TRACE(file);
+    const Outcome read = outcome_of([&](const auto& options) { return read_mesh(file, options); });
+    const Outcome streamed = outcome_of([&](const auto& options) {
+        stream_mesh(file, gathered, options);
+        return gathered.mesh;
+    });
+    EXPECT_EQ(streamed.error, read.error);
+    EXPECT_EQ(gathered.is_finished, read.error.empty());
+    if (!read.error.empty()) return;
+    EXPECT_EQ(test::bits(streamed.mesh), test::bits(read.mesh));
+    EXPECT_EQ(streamed.mesh, read.mesh);
+    EXPECT_EQ(streamed.notes, read.notes);
+}
+
+std::vector<fs::path> corpus_files(const std::string& folder) {
+    std::vector<fs::path> files;
+    for (const auto& entry :
+         fs::directory_iterator(fs::path(OCTETRA_SOURCE_DIR) / "corpus" / folder)) {
+        files.push_back(entry.path());
+    }
+    std::ranges::sort(files);
+    return files;
+}
+
+TEST(StreamedMesh, IsTheOneReadForEveryMeshOfTheCorpus) {
+    const auto files = corpus_files("meshes");
+    ASSERT_GE(files.size(), 40U);
+    for (const fs::path& file : files) {
+        Gathered gathered;
+        expect_streamed_as_read(file, gathered);
+    }
+}
+
+TEST(StreamedMesh, EndsInTheErrorOfReadingForEveryBadFileOfTheCorpus) {
+    const auto files = corpus_files("bad");
+    ASSERT_GE(files.size(), 80U);
+    for (const fs::path& file : files) {
+        Gathered gathered;
+        expect_streamed_as_read(file, gathered);
+    }
+}
+
+Marker random_marker(std::mt19937_64& random) { return static_cast<Marker>(random() % 7) - 3; }
+
+/// Listed entities of each kind, any vertices at all, and every column or not.
+Mesh random_mesh(std::uint64_t seed, std::size_t size) {
+    std::mt19937_64 random(seed);
+    Mesh mesh;
+    mesh.first_number = 1;
+    const auto number = [&](std::size_t most) { return random() % (most + 1); };
+    const std::size_t vertices = 1 + number(size);
+    for (std::size_t v = 0; v < vertices; ++v) {
+        mesh.points.push_back({static_cast<double>(random()), 0x1p-70 * 3, -1.0 / 3});
+    }
+    mesh.attributes_per_point = number(3);
+    for (std::size_t i = 0; i < vertices * mesh.attributes_per_point; ++i) {
+        mesh.point_attributes.push_back(static_cast<double>(i));
+    }
+    const auto fill = [&](auto& list, std::size_t count) {
+        list.resize(count);
+        for (auto& of_entity : list) {
+            for (VertexIndex& v : of_entity) v = VertexIndex{random() % vertices};
+        }
+    };
+    fill(mesh.cells, 1 + number(3 * size));
+    fill(mesh.facets, number(2 * size));
+    fill(mesh.edges, number(2 * size));
+    const auto mark = [&](auto& markers, std::size_t count) {
+        if (number(1) == 0) return;
+        markers.resize(count);
+        for (Marker& marker : markers) marker = random_marker(random);
+    };
+    mark(mesh.point_markers, vertices);
+    mark(mesh.regions, mesh.cells.size());
+    mark(mesh.facet_markers, mesh.facets.size());
+    mark(mesh.edge_markers, mesh.edges.size());
+    return mesh;
+}
+
+/// The sections of a Medit file in another order.
+std::string shuffled_sections(const std::string& file, std::uint64_t seed) {
+    std::vector<std::size_t> begins;
+    for (const std::string keyword : {"\nVertices", "\nTetrahedra", "\nTriangles", "\nEdges"}) {
+        const std::size_t begin = file.find(keyword);
+        if (begin != std::string::npos) begins.push_back(begin);
+    }
+    std::ranges::sort(begins);
+    std::vector<std::string> sections;
+    for (std::size_t k = 0; k < begins.size(); ++k) {
+        const std::size_t end = k + 1 < begins.size() ? begins[k + 1] : file.rfind("\nEnd");
+        sections.push_back(file.substr(begins[k], end - begins[k]));
+    }
+    std::mt19937_64 random(seed);
+    std::ranges::shuffle(sections, random);
+    std::string result = file.substr(0, begins[0]);
+    for (const std::string& section : sections) result += section;
+    return result + "\nEnd\n";
+}
+
+TEST(StreamedMesh, IsTheOneReadForRandomMeshesInAnyOrderOfSections) {
+    constexpr std::uint64_t first_seed = 1;
+    for (std::uint64_t seed = first_seed; seed < first_seed + 12; ++seed) {
+        SCOPED_TRACE(testing::Message() << "seed " << seed);
+        const std::size_t size = seed % 3 == 0 ? MeshSink::longest_stretch : 20;
+        const TemporaryFolder folder;
+        const Mesh mesh = random_mesh(seed, size);
+        (void)write_mesh(mesh, folder / "a.ele");
+        (void)write_mesh(mesh, folder / "a.mesh");
+        const fs::path shuffled =
+            folder.write("b.mesh", shuffled_sections(test::content_of(folder / "a.mesh"), seed));
+        for (const fs::path& file : {folder / "a.ele", folder / "a.mesh", shuffled}) {
+            Gathered gathered;
+            expect_streamed_as_read(file, gathered);
+            EXPECT_EQ(gathered.mesh.cells, mesh.cells);
+        }
+    }
+}
+
+TEST(StreamedMesh, ComesInFullStretches) {
+    constexpr std::size_t longest = MeshSink::longest_stretch;
+    Mesh mesh = test::one_cell(test::regular_corners);
+    mesh.cells.resize(2 * longest + 1, mesh.cells.front());
+    mesh.facets.resize(2 * longest, {VertexIndex{0}, VertexIndex{1}, VertexIndex{2}});
+    mesh.points.resize(longest + 1);
+    const TemporaryFolder folder;
+    for (const std::string name : {"a.ele", "a.mesh"}) {
+        (void)write_mesh(mesh, folder / name);
+        Gathered gathered;
+        expect_streamed_as_read(folder / name, gathered);
+        EXPECT_EQ(gathered.stretches, 2U + 3U + 2U) << name;
+    }
+    // With three attributes, a fourth of the points at once.
+    mesh.attributes_per_point = 3;
+    mesh.point_attributes.resize(3 * mesh.points.size());
+    (void)write_mesh(mesh, folder / "a.ele");
+    Gathered gathered;
+    expect_streamed_as_read(folder / "a.ele", gathered);
+    EXPECT_EQ(gathered.stretches, 5U + 3U + 2U);
+}
+
+TEST(StreamedMesh, HasTheMarkersOfWhichOnlyTheFirstIsNotZero) {
+    constexpr std::size_t several = MeshSink::longest_stretch + 1;
+    Mesh mesh = test::one_cell(test::regular_corners);
+    mesh.cells.resize(several, mesh.cells.front());
+    mesh.points.resize(several);
+    mesh.regions.resize(several);
+    mesh.point_markers.resize(several);
+    mesh.regions.front() = mesh.point_markers.front() = 1;
+    const TemporaryFolder folder;
+    (void)write_mesh(mesh, folder / "a.mesh");
+    Gathered gathered;
+    expect_streamed_as_read(folder / "a.mesh", gathered);
+    EXPECT_EQ(gathered.mesh.regions, mesh.regions);
+    EXPECT_EQ(gathered.mesh.point_markers, mesh.point_markers);
+}
+
+TEST(StreamedMesh, HasAdjacentCellsAtEachFaceIfAtTheFirst) {
+    constexpr std::size_t longest = MeshSink::longest_stretch;
+    const TemporaryFolder folder;
+    (void)write_mesh(test::one_cell(test::regular_corners), folder / "a.ele");
+    std::string faces = std::to_string(longest + 1) + " 1\n";
+    for (std::size_t f = 0; f < longest; ++f) faces += std::to_string(f) + " 0 1 2 1 0 -1\n";
+    for (const std::string last : {" 0 1 2 1 0 -1\n", " 0 1 2 1\n"}) {
+        (void)folder.write("a.face", faces + std::to_string(longest) + last);
+        Gathered gathered;
+        expect_streamed_as_read(folder / "a.ele", gathered);
+    }
+}
+
+/// A Medit file of four vertices and `count` cells, of which `bad` ("1 2 3 9 0", say) is entry
+/// `place`, and then `tail`.
+std::string medit_cells(std::size_t count, std::size_t place, const std::string& bad,
+                        bool vertices_first, const std::string& tail) {
+    const std::string vertices = "Vertices\n4\n0 0 0 0\n1 0 0 0\n0 1 0 0\n0 0 1 0\n";
+    std::string cells = "Tetrahedra\n" + std::to_string(count) + "\n";
+    for (std::size_t c = 0; c < count; ++c) cells += (c == place ? bad : "1 2 3 4 0") + "\n";
+    return "MeshVersionFormatted 2\nDimension 3\n" +
+           (vertices_first ? vertices + cells : cells + vertices) + tail;
+}
+
+TEST(StreamedMesh, StopsBeforeAVertexThatThereIsNotAndNamesItsLine) {
+    constexpr std::size_t longest = MeshSink::longest_stretch;
+    const TemporaryFolder folder;
+    for (const bool vertices_first : {true, false}) {
+        for (const std::string bad : {"1 2 5 9 0", "1 2\n5 9 0"}) {
+            const fs::path file = folder.write(
+                "a.mesh", medit_cells(3 * longest, longest + 5, bad, vertices_first, "End\n"));
+            Gathered gathered;
+            expect_streamed_as_read(file, gathered);
+            EXPECT_EQ(gathered.mesh.cells.size(), longest);
+            EXPECT_EQ(gathered.mesh.points.size(), 4U);
+        }
+    }
+}
+
+TEST(StreamedMesh, ReportsOfTwoErrorsTheOneThatReadingReports) {
+    const TemporaryFolder folder;
+    for (const bool vertices_first : {true, false}) {
+        for (const std::string tail : {"Triangles\n1\n1 2 x 0\n", "Triangles\n1\n1 2 7 0\nEnd\n",
+                                       "Edges 1 8 1 0 Triangles 1 1 2 7 0 End", "Nonsense"}) {
+            for (const std::string cell : {"1 2 3 4 0", "1 2 3 6 0", "1 2 3 6 2.5"}) {
+                const fs::path file =
+                    folder.write("a.mesh", medit_cells(3, 1, cell, vertices_first, tail));
+                Gathered gathered;
+                expect_streamed_as_read(file, gathered);
+                EXPECT_FALSE(gathered.is_finished);
+            }
+        }
+    }
+}
+
+TEST(StreamedMesh, ComesAsFarAsWholeStretchesOfAFileThatEndsEarly) {
+    const TemporaryFolder folder;
+    (void)write_mesh(test::kuhn(16, 16, 16), folder / "a.ele");
+    const std::string whole = test::content_of(folder / "a.ele");
+    const fs::path cut = folder.write("a.ele", whole.substr(0, whole.find("\n20000 ")));
+    Gathered gathered;
+    expect_streamed_as_read(cut, gathered);
+    EXPECT_EQ(gathered.mesh.cells.size(), MeshSink::longest_stretch);
+}
+
+TEST(StreamedMesh, IsNotedOnceThoughItsFileIsReadTwice) {
+    const TemporaryFolder folder;
+    Gathered gathered;
+    expect_streamed_as_read(folder.write("a.mesh", medit_cells(1, 0, "1 2 3 4 0", false, "")),
+                            gathered);
+}
+
+/// Puts other bytes into a file that is being read.
+class Meddler : public Gathered {
+public:
+    Meddler(fs::path file, std::string from, std::string to)
+        : file_(std::move(file)), from_(std::move(from)), to_(std::move(to)) {}
+
+    void expect_points(std::uint64_t count, std::size_t attributes, bool has_markers) override {
+        Gathered::expect_points(count, attributes, has_markers);
+        const std::size_t place = test::content_of(file_).find(from_);
+        std::fstream out(file_, std::ios::in | std::ios::out | std::ios::binary);
+        out.seekp(static_cast<std::streamoff>(place));
+        out << to_;
+    }
+
+private:
+    fs::path file_;
+    std::string from_;
+    std::string to_;
+};
+
+TEST(StreamedMesh, MayNotLoseVerticesBetweenTwoReadings) {
+    const TemporaryFolder folder;
+    std::string text = medit_cells(1, 0, "1 2 3 4 0", false, "End\n");
+    std::string padding;
+    for (int i = 0; i < 40000; ++i)
+        padding += "# what fills more than one buffer of the reader ...\n";
+    text.insert(text.find("Vertices"), padding);
+    const fs::path file = folder.write("a.mesh", text);
+    Meddler meddler(file, "Vertices\n4\n", "Vertices\n3\n");
+    EXPECT_THAT(test::thrown_by<InputError>([&] { stream_mesh(file, meddler); }),
+                HasSubstr("the file has changed while it was read"));
+    EXPECT_FALSE(meddler.is_finished);
+}
+
+TEST(StreamedMesh, IsOfAFormatThatCanBeRead) {
+    for (const std::string name : {"a.vtu", "a.pvtu", "a.stl"}) {
+        Gathered gathered;
+        expect_streamed_as_read(name, gathered);
+        EXPECT_FALSE(gathered.is_finished);
+    }
+}
+
+TEST(StreamedMesh, EndsInWhatTheSinkThrows) {
+    struct Refusing : Gathered {
+        void take_cells(std::span<const CellVertices>, std::span<const Marker>) override {
+            throw SystemError("no room");
+        }
+    };
+    const TemporaryFolder folder;
+    for (const std::string name : {"a.ele", "a.mesh"}) {
+        (void)write_mesh(test::kuhn(1, 1, 1), folder / name);
+        Refusing sink;
+        EXPECT_THROW(stream_mesh(folder / name, sink), SystemError);
+        EXPECT_FALSE(sink.is_finished);
+    }
+}
+
+}  // namespace
+}  // namespace octetra

@@ -4,11 +4,14 @@
 #include <gtest/gtest.h>
 #include <fmt/format.h>
 
+#include <octetra/core/error.hpp>
+#include <octetra/core/files.hpp>
 #include <octetra/reference/refine.hpp>
 
 #include "parts/cut_space.hpp"
 #include "parts/mesh_part.hpp"
 #include "support/meshes.hpp"
+#include "support/temporary_folder.hpp"
 #include "verify/mutations.hpp"
 #include "verify/together.hpp"
 #include "verify/verdicts.hpp"
@@ -165,6 +168,45 @@ TEST(Slices, AreThoseOfTheMeshWherever) {
     });
     WholeMesh source(mesh);
     EXPECT_EQ(slice_of(source).lists, mesh);
+}
+
+TEST(Slices, OfAFileAreThoseOfItsMesh) {
+    const test::TemporaryFolder folder;
+    Mesh mesh = test::shaken_kuhn(26, 0.1, 1);  // several rounds
+    test::list_boundary(mesh);
+    mesh.regions.assign(mesh.cells.size(), 3);
+    for (const std::string_view name : {"mesh.ele", "mesh.mesh"}) {
+        const auto path = folder.path() / name;
+        ASSERT_EQ(write_mesh(mesh, path), "");
+        for (const int size : {1, 2, 5}) {
+            test::run_together(size, [&](const Group& group) {
+                const MeshSlice read = read_slice(path, {}, group);
+                MeshSlice expected = share_out(mesh, group);
+                expected.lists.first_number = read.lists.first_number;
+                EXPECT_EQ(read.lists, expected.lists) << name;
+                EXPECT_EQ(read.totals.cells, mesh.cells.size());
+            });
+        }
+    }
+}
+
+TEST(Slices, OfABadFileAreAnErrorOnAllProcesses) {
+    const test::TemporaryFolder folder;
+    const auto path = folder.path() / "bad.mesh";
+    write_text("MeshVersionFormatted 2 Dimension 3\nVertices 1\n0 0\n", path);
+    const auto message_of = [](auto&& read) {
+        try {
+            read();
+        } catch (const InputError& error) {
+            return std::string(error.what());
+        }
+        return std::string("none");
+    };
+    const std::string alone = message_of([&] { (void)read_mesh(path); });
+    ASSERT_NE(alone, "none");
+    test::run_together(3, [&](const Group& group) {
+        EXPECT_EQ(message_of([&] { (void)read_slice(path, {}, group); }), alone);
+    });
 }
 
 }  // namespace

@@ -1,46 +1,233 @@
-#include <optional>
+#include <algorithm>
+#include <array>
+#include <span>
 #include <string>
 
 #include <octetra/core/error.hpp>
 #include <octetra/core/files.hpp>
+#include <octetra/core/mesh_sink.hpp>
 #include <octetra/verify/mesh_slice.hpp>
 
 #include "parts/exchange.hpp"
+#include "parts/packing.hpp"
 
+/// The first process reads, and hands what belongs to others on in rounds, of which all take part
+/// in each: no process ever has more than its slice and a round's bytes.
 namespace octetra::verify {
 namespace {
 
-/// Collective. Throws on all processes what the first one has met, if anything.
-void agree(const std::optional<std::string>& input_error, const std::optional<std::string>& failure,
-           const Group& group) {
-    const auto of_first = [&](const std::optional<std::string>& what) {
-        std::vector<char> text;
-        if (what) text.assign(what->begin(), what->end());
-        if (what) text.push_back('.');  // told from nothing even if empty
-        text = share_with_all(group, text).front();
-        return text.empty() ? std::nullopt
-                            : std::optional(std::string(text.begin(), text.end() - 1));
+/// What comes next in a round's bytes.
+enum class Item : std::uint8_t { points, cells, facets, edges, end_of_round, end, input_error, failure };
+
+/// What is known in the end.
+struct Ending {
+    Totals totals;
+    std::uint64_t attributes_per_point;
+    std::uint32_t first_number;
+    bool has_point_markers, has_regions, has_facet_markers, has_edge_markers;
+};
+
+/// Puts together what comes.
+class Receiver {
+public:
+    /// Takes in a round. False after the last one. Throws what the first process has met.
+    bool take(const Group::Bytes& bytes) {
+        Unpacker unpack(bytes);
+        while (true) {
+            Item item{};
+            unpack(item);
+            switch (item) {
+                case Item::points:
+                    append(unpack, lists_.points);
+                    append(unpack, lists_.point_attributes);
+                    append(unpack, lists_.point_markers);
+                    break;
+                case Item::cells: append(unpack, lists_.cells, lists_.regions); break;
+                case Item::facets: append(unpack, lists_.facets, lists_.facet_markers); break;
+                case Item::edges: append(unpack, lists_.edges, lists_.edge_markers); break;
+                case Item::end_of_round: return true;
+                case Item::end: unpack(ending_); return false;
+                case Item::input_error: throw InputError(text_of(unpack));
+                case Item::failure: throw SystemError(text_of(unpack));
+            }
+        }
+    }
+
+    [[nodiscard]] MeshSlice slice() {
+        lists_.attributes_per_point = ending_.attributes_per_point;
+        lists_.first_number = ending_.first_number;
+        if (!ending_.has_point_markers) lists_.point_markers = {};
+        if (!ending_.has_regions) lists_.regions = {};
+        if (!ending_.has_facet_markers) lists_.facet_markers = {};
+        if (!ending_.has_edge_markers) lists_.edge_markers = {};
+        return {std::move(lists_), ending_.totals};
+    }
+
+private:
+    template <class List>
+    static void append(Unpacker& unpack, List& list) {
+        std::vector<typename List::value_type> values;
+        unpack.list(values);
+        list.insert(list.end(), values.begin(), values.end());
+    }
+    template <class Entities, class Markers>
+    static void append(Unpacker& unpack, Entities& entities, Markers& markers) {
+        append(unpack, entities);
+        append(unpack, markers);
+    }
+    static std::string text_of(Unpacker& unpack) {
+        std::string text;
+        unpack.list(text);
+        return text;
+    }
+
+    Mesh lists_;
+    Ending ending_{};
+};
+
+/// What the first process hears of the file, shared out. The last round is still to be sent when
+/// the file has been read.
+class Distributor final : public MeshSink {
+public:
+    Distributor(const Group& group, Receiver& own)
+        : group_(group), own_(own), to_each_(static_cast<std::size_t>(group.size())) {}
+
+    void expect_points(std::uint64_t count, std::size_t attributes, bool) override {
+        points_.count = ending_.totals.vertices = count;
+        ending_.attributes_per_point = attributes;
+    }
+    void expect_cells(std::uint64_t count, bool) override {
+        cells_.count = ending_.totals.cells = count;
+    }
+    void expect_facets(std::uint64_t count, bool) override {
+        facets_.count = ending_.totals.facets = count;
+    }
+    void expect_edges(std::uint64_t count, bool) override {
+        edges_.count = ending_.totals.edges = count;
+    }
+
+    void take_points(std::span<const Point> points, std::span<const double> attributes,
+                     std::span<const Marker> markers) override {
+        share(points_, points.size(), [&](Packer& pack, std::size_t begin, std::size_t count) {
+            const std::size_t per_point = ending_.attributes_per_point;
+            pack(Item::points);
+            pack.list(points.subspan(begin, count));
+            pack.list(attributes.subspan(begin * per_point, count * per_point));
+            pack.list(markers.empty() ? markers : markers.subspan(begin, count));
+        });
+    }
+    void take_cells(std::span<const CellVertices> cells, std::span<const Marker> regions) override {
+        share_entities(Item::cells, cells_, cells, regions);
+    }
+    void take_facets(std::span<const FacetVertices> facets,
+                     std::span<const Marker> markers) override {
+        share_entities(Item::facets, facets_, facets, markers);
+    }
+    void take_edges(std::span<const EdgeVertices> edges, std::span<const Marker> markers) override {
+        share_entities(Item::edges, edges_, edges, markers);
+    }
+
+    void finish(const MeshFacts& facts) override {
+        ending_.first_number = facts.first_number;
+        ending_.has_point_markers = facts.has_point_markers;
+        ending_.has_regions = facts.has_regions;
+        ending_.has_facet_markers = facts.has_facet_markers;
+        ending_.has_edge_markers = facts.has_edge_markers;
+    }
+
+    void send_end() {
+        send([&](Packer& pack) {
+            pack(Item::end);
+            pack(ending_);
+        });
+    }
+    /// Throws it, on all processes.
+    void send_error(Item item, const std::string& what) {
+        send([&](Packer& pack) {
+            pack(item);
+            pack.list(what);
+        });
+    }
+
+private:
+    static constexpr std::size_t bytes_of_a_round = std::size_t{4} << 20U;
+
+    struct Progress {
+        std::uint64_t count = 0;
+        std::uint64_t heard = 0;
     };
-    if (const auto what = of_first(input_error)) throw InputError(*what);
-    if (const auto what = of_first(failure)) throw SystemError(*what);
-}
+
+    /// Calls pack_some(packer, begin, count) for each process that some of the next n belong to.
+    void share(Progress& progress, std::size_t n, auto&& pack_some) {
+        const Window slices = slices_of(progress.count, group_.size());
+        const std::uint64_t end = progress.heard + n;
+        for (std::uint64_t at = progress.heard; at < end;) {
+            const auto rank = static_cast<int>(at / slices.slice_length);
+            const std::uint64_t stop = std::min(end, slices.end_of(rank));
+            pack_some(to_each_[static_cast<std::size_t>(rank)], at - progress.heard, stop - at);
+            at = stop;
+        }
+        progress.heard = end;
+        std::size_t bytes = 0;
+        for (Packer& pack : to_each_) bytes += pack.bytes().size();
+        if (bytes >= bytes_of_a_round) {
+            send([](Packer& pack) { pack(Item::end_of_round); });
+        }
+    }
+
+    template <class Entities>
+    void share_entities(Item item, Progress& progress, Entities entities,
+                        std::span<const Marker> markers) {
+        share(progress, entities.size(), [&](Packer& pack, std::size_t begin, std::size_t count) {
+            pack(item);
+            pack.list(entities.subspan(begin, count));
+            pack.list(markers.empty() ? markers : markers.subspan(begin, count));
+        });
+    }
+
+    void send(auto&& pack_last) {
+        std::vector<Group::Bytes> outboxes;
+        for (Packer& pack : to_each_) {
+            pack_last(pack);
+            outboxes.push_back(std::exchange(pack.bytes(), {}));
+        }
+        (void)own_.take(group_.exchange(std::move(outboxes)).front());
+    }
+
+    const Group& group_;
+    Receiver& own_;
+    std::vector<Packer> to_each_;
+    Ending ending_{};
+    Progress points_, cells_, facets_, edges_;
+};
 
 }  // namespace
 
 MeshSlice read_slice(const std::filesystem::path& path, const ReadOptions& options,
                      const Group& group) {
-    Mesh mesh;
-    std::optional<std::string> input_error;
-    std::optional<std::string> failure;
-    try {
-        if (group.is_first()) mesh = read_mesh(path, options);
-    } catch (const InputError& error) {
-        input_error = error.what();
-    } catch (const std::exception& error) {
-        failure = error.what();
+    Receiver receiver;
+    if (group.is_first()) {
+        Distributor distributor(group, receiver);
+        std::string what;
+        Item ended = Item::end;
+        try {
+            stream_mesh(path, distributor, options);
+        } catch (const InputError& error) {
+            ended = Item::input_error;
+            what = error.what();
+        } catch (const std::exception& error) {
+            ended = Item::failure;
+            what = error.what();
+        }
+        ended == Item::end ? distributor.send_end() : distributor.send_error(ended, what);
+    } else {
+        const auto nothing = [&] {
+            return std::vector<Group::Bytes>(static_cast<std::size_t>(group.size()));
+        };
+        while (receiver.take(group.exchange(nothing()).front())) {
+        }
     }
-    agree(input_error, failure, group);
-    return share_out(mesh, group);
+    return receiver.slice();
 }
 
 }  // namespace octetra::verify

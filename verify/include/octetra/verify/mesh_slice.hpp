@@ -39,8 +39,9 @@ struct MeshSlice {
 /// invariants of struct Mesh, but for indices out of range. What the others pass is not looked at.
 [[nodiscard]] MeshSlice share_out(const Mesh& mesh, const Group& group);
 
-/// Collective. The slices of a mesh file, which the first process reads. Throws, on all processes,
-/// as read_mesh does.
+/// Collective. The slices of a mesh file, which the first process reads and hands on as it goes.
+/// Of the options only `note` is looked at, as by stream_mesh(). Throws, on all processes, as that
+/// does.
 [[nodiscard]] MeshSlice read_slice(const std::filesystem::path& path, const ReadOptions& options,
                                    const Group& group);
 

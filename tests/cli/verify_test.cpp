@@ -151,19 +151,6 @@ TEST_F(Verify, RefusesOptionsThatMeanNothing) {
     EXPECT_FALSE(std::filesystem::exists(folder / "-"));
 }
 
-TEST_F(Verify, IsOneAnswerOnSeveralRanks) {
-    const std::string mpirun = OCTETRA_SOURCE_DIR "/tests/support/mpirun.sh 2 " OCTETRA_PROGRAM;
-    const auto run = [&](const std::string& arguments) {
-        return test::run_program(test::words(mpirun + " " + arguments), folder.path());
-    };
-    const auto valid = run("verify gear.1.ele fine.1.ele");
-    EXPECT_EQ(valid.status, 0);
-    EXPECT_EQ(valid.out, expect_status(0, "verify gear.1.ele fine.1.ele").out);
-    EXPECT_EQ(run("verify gear.1.ele fine.1.ele --min-dihedral 20").status, 1);
-    EXPECT_EQ(run(refine + " -o p.1.ele --verify").status, 0);
-    EXPECT_EQ(run("compare p.1.ele fine.1.ele --identical").status, 0);
-}
-
 TEST_F(Verify, OfRefineWritesWhatIsValidAndNothingElse) {
     const auto run = expect_status(0, refine + " -o again.1.ele --verify");
     EXPECT_THAT(run.out, HasSubstr("verified"));

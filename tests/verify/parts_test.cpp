@@ -1,8 +1,8 @@
 #include <atomic>
 #include <mutex>
 
-#include <gtest/gtest.h>
 #include <fmt/format.h>
+#include <gtest/gtest.h>
 
 #include <octetra/core/error.hpp>
 #include <octetra/core/files.hpp>
@@ -69,8 +69,8 @@ TEST_P(PartsTest, AreWhatTheWholeMeshHasInItsOrder) {
         const Mesh& seen = part.mesh;
         ASSERT_EQ(seen.regions.size(), seen.cells.size());
         ASSERT_EQ(seen.facet_markers.size(), seen.facets.size());
-        EXPECT_TRUE(std::is_sorted(part.numbers.cells.numbers.begin(),
-                                   part.numbers.cells.numbers.end()));
+        EXPECT_TRUE(
+            std::is_sorted(part.numbers.cells.numbers.begin(), part.numbers.cells.numbers.end()));
         for (VertexIndex v{0}; v < seen.points.end_index(); ++v) {
             EXPECT_EQ(seen.points[v], mesh.points[part.numbers.of(v)]);
             EXPECT_EQ(seen.point_markers[v], mesh.point_markers[part.numbers.of(v)]);
@@ -128,8 +128,8 @@ TEST(Parts, OfAMeshWithFewerCellsThanProcesses) {
 /// Where parts do not see each other, the verdict is the same as that of one process alone.
 TEST(Parts, AreJudgedAsTheWholeWhateverIsBroken) {
     const Mesh coarse = bar();
-    const Request request{
-        .selection = {.cells = {GlobalCell{7}, GlobalCell{70}, GlobalCell{130}}}, .levels = 2};
+    const Request request{.selection = {.cells = {GlobalCell{7}, GlobalCell{70}, GlobalCell{130}}},
+                          .levels = 2};
     const auto fine = reference::refine(coarse, request.selection, request.scheme, request.levels);
     const auto judged = [&](const Mesh& mesh) {
         return test::judged_by_all(coarse, mesh, {.request = request, .maps = &fine.maps});

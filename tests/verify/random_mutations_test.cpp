@@ -104,8 +104,9 @@ TEST(RandomMutations, DoNotPassUnlessTheMeshIsTheSame) {
         const int size = *rc::gen::inRange(2, 9);
         Verdict together;
         test::run_together(size, [&](const Group& group) {
-            Verdict of_one = verify_refinement(share_out(c.coarse, group), share_out(mutated, group),
-                                               group, {.request = c.request});
+            Verdict of_one =
+                verify_refinement(share_out(c.coarse, group), share_out(mutated, group), group,
+                                  {.request = c.request});
             if (group.is_first()) together = std::move(of_one);
         });
         RC_ASSERT(test::text_of(together) == test::text_of(verdict));

@@ -2,9 +2,9 @@
 
 #include <string>
 
-#include <gtest/gtest.h>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <gtest/gtest.h>
 
 #include <octetra/verify/verify.hpp>
 
@@ -35,7 +35,8 @@ inline std::string text_of(const verify::Verdict& verdict) {
     text += fmt::format("counts {}\n", fmt::join(verdict.counts, " "));
     for (const verify::Violation& violation : verdict.violations) {
         text += fmt::format("{}", name(violation.code));
-        for (const verify::Entity& entity : violation.entities) text += fmt::format(" {}", text_of(entity));
+        for (const verify::Entity& entity : violation.entities)
+            text += fmt::format(" {}", text_of(entity));
         text += fmt::format(": {}; {}\n", violation.found, violation.expected);
     }
     const verify::Facts& f = verdict.facts;
@@ -47,8 +48,8 @@ inline std::string text_of(const verify::Verdict& verdict) {
                         text_of(verdict.coarse_angles));
     for (const auto* sums : {&verdict.volumes, &verdict.areas}) {
         for (const verify::TagSum& sum : *sums) {
-            text += fmt::format("sum of {}: {} {} {}\n", sum.tag, sum.fine, sum.coarse,
-                                sum.difference);
+            text +=
+                fmt::format("sum of {}: {} {} {}\n", sum.tag, sum.fine, sum.coarse, sum.difference);
         }
     }
     for (const verify::DepthFigures& figures : verdict.by_depth) {
@@ -58,9 +59,9 @@ inline std::string text_of(const verify::Verdict& verdict) {
     return text;
 }
 
-inline void expect_same_verdict_together(const verify::Verdict& alone,
-                                         const std::function<verify::Verdict(
-                                             const verify::Group&)>& judge) {
+inline void expect_same_verdict_together(
+    const verify::Verdict& alone,
+    const std::function<verify::Verdict(const verify::Group&)>& judge) {
     for (const int size : {2, 3, 4, 7}) {
         SCOPED_TRACE(fmt::format("{} processes", size));
         verify::Verdict first;

@@ -454,8 +454,8 @@ bool are_first_vertices(const Subject& coarse, const Subject& fine, const Findin
     for (VertexIndex v{0}; v < coarse.mesh.points.end_index() && !differ; ++v) {
         if (!coarse.owns(v)) continue;
         const VertexIndex w = of_same_number(v, findings);
-        differ = !(w < fine.mesh.points.end_index()) ||
-                 fine.mesh.points[w] != coarse.mesh.points[v];
+        differ =
+            !(w < fine.mesh.points.end_index()) || fine.mesh.points[w] != coarse.mesh.points[v];
     }
     return !any(findings.group(), differ);
 }

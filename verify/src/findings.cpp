@@ -19,8 +19,7 @@ bool entity_is_before(const Entity& a, const Entity& b) {
 bool is_before(const Violation& a, const Violation& b) {
     if (a.entities != b.entities) {
         return std::lexicographical_compare(a.entities.begin(), a.entities.end(),
-                                            b.entities.begin(), b.entities.end(),
-                                            entity_is_before);
+                                            b.entities.begin(), b.entities.end(), entity_is_before);
     }
     return std::tie(a.found, a.expected) < std::tie(b.found, b.expected);
 }
@@ -45,8 +44,9 @@ void join(std::optional<AngleFigures>& a, const std::optional<AngleFigures>& b) 
         if (!a) a = b;
         return;
     }
-    const bool less = b->min_dihedral < a->min_dihedral ||
-                      (b->min_dihedral == a->min_dihedral && b->min_dihedral_at < a->min_dihedral_at);
+    const bool less =
+        b->min_dihedral < a->min_dihedral ||
+        (b->min_dihedral == a->min_dihedral && b->min_dihedral_at < a->min_dihedral_at);
     if (less) {
         a->min_dihedral = b->min_dihedral;
         a->min_dihedral_at = b->min_dihedral_at;

@@ -78,10 +78,10 @@ std::string check_maps(const RefinementMaps& maps, const Subject& coarse, const 
     if (maps.midpoint_to_edge.empty() && fine_vertices == coarse_vertices) return {};
     const std::size_t first = maps.first_midpoint.value();
     if (first != coarse_vertices || first + maps.midpoint_to_edge.size() != fine_vertices) {
-        report_size(Code::wrong_midpoint_edge,
-                    fmt::format("edges of {} vertices from number {}", maps.midpoint_to_edge.size(),
-                                first),
-                    fmt::format("of {} from {}", fine_vertices - coarse_vertices, coarse_vertices));
+        report_size(
+            Code::wrong_midpoint_edge,
+            fmt::format("edges of {} vertices from number {}", maps.midpoint_to_edge.size(), first),
+            fmt::format("of {} from {}", fine_vertices - coarse_vertices, coarse_vertices));
         return {};
     }
     check_midpoints(maps, fine, descent, findings);

@@ -42,7 +42,8 @@ void count_singular(const Subject& subject, Facts& facts) {
     });
     for (std::size_t v = 0; v < vertex_count; ++v) {
         const std::int64_t regular = on_boundary[v] != 0 ? 1 : 2;
-        if (used[v] != 0 && subject.owns(VertexIndex{v}) && (singular[v] != 0 || characteristic[v] != regular)) {
+        if (used[v] != 0 && subject.owns(VertexIndex{v}) &&
+            (singular[v] != 0 || characteristic[v] != regular)) {
             ++facts.singular_vertices;
         }
     }

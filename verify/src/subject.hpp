@@ -75,17 +75,17 @@ struct Subject {
 
 /// A mesh that this process has all of.
 [[nodiscard]] inline Subject whole_subject(const Mesh& mesh, Which which) {
-    return {.mesh = mesh,
-            .which = which,
-            .totals = {mesh.points.size(), mesh.cells.size(), mesh.facets.size(),
-                       mesh.edges.size()}};
+    return {
+        .mesh = mesh,
+        .which = which,
+        .totals = {mesh.points.size(), mesh.cells.size(), mesh.facets.size(), mesh.edges.size()}};
 }
 
 /// Collective. check_ranges() of a slice.
 std::string check_slice_ranges(const MeshSlice& slice, Which which, Findings& findings);
 
-/// Numbers less than `vertex_count`, lists as long as they must be, coordinates finite. Nothing else
-/// may look at a mesh that fails this. Of slices, too: reports all that it is given.
+/// Numbers less than `vertex_count`, lists as long as they must be, coordinates finite. Nothing
+/// else may look at a mesh that fails this. Of slices, too: reports all that it is given.
 std::string check_ranges(const Mesh& mesh, std::uint64_t vertex_count, Which which,
                          Findings& findings);
 

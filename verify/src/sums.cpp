@@ -99,8 +99,8 @@ using TagBounds = std::map<Marker, exact::NumberSum>;
 
 /// By tag, ascending.
 template <class Measure>
-std::vector<TagTotal> totals_of(std::vector<Term> terms, const TagBounds& bounds, const Subject& fine,
-                                const Subject* coarse) {
+std::vector<TagTotal> totals_of(std::vector<Term> terms, const TagBounds& bounds,
+                                const Subject& fine, const Subject* coarse) {
     std::sort(terms.begin(), terms.end());
     std::vector<TagTotal> totals;
     Measure of_fine;
@@ -152,8 +152,8 @@ std::vector<TagTotal> totals_of_all(std::vector<TagTotal> totals, const Group& g
     if (group.size() == 1) return totals;
     const Group::Bytes own = packed(totals);
     totals.clear();
-    for (const auto& bytes : group.exchange(
-             std::vector<Group::Bytes>(static_cast<std::size_t>(group.size()), own))) {
+    for (const auto& bytes :
+         group.exchange(std::vector<Group::Bytes>(static_cast<std::size_t>(group.size()), own))) {
         for (TagTotal& total : unpacked(bytes)) totals.push_back(std::move(total));
     }
     std::stable_sort(totals.begin(), totals.end(),
@@ -216,16 +216,15 @@ private:
         std::vector<Term> terms;
         append_borders_of_regions(fine_, by_tag, terms);
         append_borders_of_regions(coarse_, by_tag, terms);
-        findings_.verdict().volumes =
-            sum_up(totals_of<Volume>(std::move(terms), bounds, fine_, &coarse_), Volume::multiple, true,
-                   findings_.group(),
-                   [&](const TagSum& sum, const exact::NumberSum& difference, Bound bound) {
-                       volume_bound_ = std::max(volume_bound_, bound / Volume::multiple);
-                       if (difference.is_within(bound)) return;
-                       report(fmt::format("region {} has {:.17g} more volume", sum.tag,
-                                          sum.difference),
-                              bound / Volume::multiple);
-                   });
+        findings_.verdict().volumes = sum_up(
+            totals_of<Volume>(std::move(terms), bounds, fine_, &coarse_), Volume::multiple, true,
+            findings_.group(),
+            [&](const TagSum& sum, const exact::NumberSum& difference, Bound bound) {
+                volume_bound_ = std::max(volume_bound_, bound / Volume::multiple);
+                if (difference.is_within(bound)) return;
+                report(fmt::format("region {} has {:.17g} more volume", sum.tag, sum.difference),
+                       bound / Volume::multiple);
+            });
     }
 
     /// What roots lose: less than 2^-50 of each facet's area, in either mesh.

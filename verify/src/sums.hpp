@@ -9,10 +9,10 @@ namespace octetra::verify {
 /// itself.
 void measure_sums(const Subject& subject, Findings& findings);
 
-/// Collective. Regions have the volumes, and facets with a marker the area, that they have in the coarse mesh:
-/// volumes exactly where no midpoint was rounded, else to within a bound that follows from
-/// Descent::rounding; areas, whose roots are rounded, to within that of these, too. Also measures
-/// both. Tags must be those that are inherited.
+/// Collective. Regions have the volumes, and facets with a marker the area, that they have in the
+/// coarse mesh: volumes exactly where no midpoint was rounded, else to within a bound that follows
+/// from Descent::rounding; areas, whose roots are rounded, to within that of these, too. Also
+/// measures both. Tags must be those that are inherited.
 std::string check_sums(const Subject& coarse, const Subject& fine, const Descent& descent,
                        Findings& findings);
 

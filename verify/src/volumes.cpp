@@ -27,7 +27,7 @@ Grouped group(std::size_t groups, const std::vector<std::uint32_t>& group_of) {
 
 /// Returns the largest bound that was used.
 Bound check_cell_volumes(const Subject& coarse, const Subject& fine, const Descent& descent,
-                          Findings& findings) {
+                         Findings& findings) {
     // Cells of no parent that is seen here stand behind the others.
     const auto coarse_cells = static_cast<std::uint32_t>(coarse.mesh.cells.size());
     std::vector<std::uint32_t> parents(fine.mesh.cells.size());
@@ -67,7 +67,8 @@ Bound check_boundary_areas(const Subject& coarse, const Subject& fine, const Des
                            Findings& findings) {
     constexpr std::uint32_t not_on_boundary = 0xffffffffU;
     std::vector<CellFace> coarse_faces = boundary_faces(coarse);
-    std::erase_if(coarse_faces, [&](CellFace f) { return !coarse.owns(coarse.mesh.cells[f.cell]); });
+    std::erase_if(coarse_faces,
+                  [&](CellFace f) { return !coarse.owns(coarse.mesh.cells[f.cell]); });
     std::vector<std::uint32_t> number_of(4 * coarse.mesh.cells.size(), not_on_boundary);
     for (std::uint32_t i = 0; i < coarse_faces.size(); ++i) number_of[tag_of(coarse_faces[i])] = i;
 

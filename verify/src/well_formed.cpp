@@ -20,8 +20,8 @@ bool has_repetition(const std::array<VertexIndex, N>& v) {
 }
 
 template <class I, std::size_t N>
-void check_range(const IndexVector<I, std::array<VertexIndex, N>>& list,
-                 std::uint64_t vertex_count, Which which, Findings& findings) {
+void check_range(const IndexVector<I, std::array<VertexIndex, N>>& list, std::uint64_t vertex_count,
+                 Which which, Findings& findings) {
     for (I i{0}; i < list.end_index(); ++i) {
         for (const VertexIndex v : list[i]) {
             if (v.value() < vertex_count) continue;
@@ -146,11 +146,11 @@ std::string check_ranges(const Mesh& mesh, std::uint64_t vertex_count, Which whi
 std::string check_slice_ranges(const MeshSlice& slice, Which which, Findings& findings) {
     const Group& group = findings.group();
     const auto numbered = [&](std::uint64_t count) {
-        return NumberList{.first = static_cast<std::uint32_t>(
-                              slice_begin(count, group.rank(), group.size()))};
+        return NumberList{
+            .first = static_cast<std::uint32_t>(slice_begin(count, group.rank(), group.size()))};
     };
     const Numbers numbers{numbered(slice.totals.vertices), numbered(slice.totals.cells),
-                    numbered(slice.totals.facets), numbered(slice.totals.edges)};
+                          numbered(slice.totals.facets), numbered(slice.totals.edges)};
     findings.translate(which, &numbers);
     std::string note = check_ranges(slice.lists, slice.totals.vertices, which, findings);
     findings.translate(which, nullptr);

@@ -134,9 +134,10 @@ verify::VerifyOptions verify_options(const Plan& plan, const RefineOptions& opti
 }
 
 void note_unchecked(const RefineOptions& options) {
-    note(fmt::format("of {} itself, orientation and faces were checked, not whether cells overlap: "
-                     "octetra verify {} does",
-                     options.input.path, options.input.path));
+    note(
+        fmt::format("of {} itself, orientation and faces were checked, not whether cells overlap: "
+                    "octetra verify {} does",
+                    options.input.path, options.input.path));
 }
 
 void print_refusal(const verify::Verdict& verdict, const RefineOptions& options,

@@ -51,8 +51,8 @@ template <class T>
 template <class T>
 [[nodiscard]] std::vector<std::vector<T>> share_with_all(const Group& group,
                                                          const std::vector<T>& values) {
-    return exchange(group, std::vector<std::vector<T>>(static_cast<std::size_t>(group.size()),
-                                                       values));
+    return exchange(group,
+                    std::vector<std::vector<T>>(static_cast<std::size_t>(group.size()), values));
 }
 
 /// One value of each process, put together.

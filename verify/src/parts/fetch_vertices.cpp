@@ -8,8 +8,7 @@ namespace {
 /// Vertex numbers asked for by each process, of those that this one has.
 using Requests = std::vector<std::vector<std::uint32_t>>;
 
-Requests ask(const std::vector<std::uint32_t>& wanted, const MeshSlice& slice,
-             const Group& group) {
+Requests ask(const std::vector<std::uint32_t>& wanted, const MeshSlice& slice, const Group& group) {
     Requests to_each;
     auto begin = wanted.begin();
     for (int r = 0; r < group.size(); ++r) {
@@ -60,8 +59,8 @@ void fetch_vertices(const std::vector<std::uint32_t>& wanted, const MeshSlice& s
     mesh.points.assign(points.begin(), points.end());
     mesh.point_markers.assign(markers.begin(), markers.end());
     mesh.attributes_per_point = lists.attributes_per_point;
-    mesh.point_attributes = answer(requests, lists.point_attributes, lists.attributes_per_point,
-                                   slice, group);
+    mesh.point_attributes =
+        answer(requests, lists.point_attributes, lists.attributes_per_point, slice, group);
 }
 
 }  // namespace octetra::verify

@@ -17,7 +17,16 @@ namespace octetra::verify {
 namespace {
 
 /// What comes next in a round's bytes.
-enum class Item : std::uint8_t { points, cells, facets, edges, end_of_round, end, input_error, failure };
+enum class Item : std::uint8_t {
+    points,
+    cells,
+    facets,
+    edges,
+    end_of_round,
+    end,
+    input_error,
+    failure
+};
 
 /// What is known in the end.
 struct Ending {

@@ -45,8 +45,8 @@ struct MeshSlice {
 [[nodiscard]] MeshSlice read_slice(const std::filesystem::path& path, const ReadOptions& options,
                                    const Group& group);
 
-/// Collective in the mesh's group, whose processes are those of the verifier's. The slices of a mesh
-/// in several memories.
+/// Collective in the mesh's group, whose processes are those of the verifier's. The slices of a
+/// mesh in several memories.
 [[nodiscard]] MeshSlice slice_of(MeshSource& mesh);
 
 }  // namespace octetra::verify

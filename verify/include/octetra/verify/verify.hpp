@@ -47,9 +47,9 @@ struct VerifyOptions {
 [[nodiscard]] Verdict verify_mesh(const Mesh& mesh, const VerifyOptions& options = {});
 
 /// Collective in the group. The same of a mesh that no process need have all of: each judges what
-/// lies in a part of space. The verdict is the same but for `seconds` and `arithmetic`, as what lies
-/// between two parts is looked at by both; whole on the first process, without violations on the
-/// others. Takes the memory of about a part and what surrounds it, in every process.
+/// lies in a part of space. The verdict is the same but for `seconds` and `arithmetic`, as what
+/// lies between two parts is looked at by both; whole on the first process, without violations on
+/// the others. Takes the memory of about a part and what surrounds it, in every process.
 [[nodiscard]] Verdict verify_mesh(MeshSlice mesh, const Group& group,
                                   const VerifyOptions& options = {});
 

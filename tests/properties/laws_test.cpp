@@ -2,15 +2,13 @@
 #include <iostream>
 #include <map>
 
-#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
 
 #include "distributed/world.hpp"
-#include "properties/case_files.hpp"
-#include "properties/case_json.hpp"
 #include "properties/draw_case.hpp"
 #include "properties/judge.hpp"
+#include "properties/report.hpp"
 #include "properties/simpler.hpp"
 #include "properties/team.hpp"
 
@@ -61,20 +59,6 @@ private:
     std::map<std::string, std::size_t> counts_;
 };
 
-/// Another one for each finding, so that none takes another's place.
-std::string name_of(const Finding& finding) {
-    std::string content = json_of(finding.refinement).dump();
-    for (const Point& p : finding.refinement.mesh.points)
-        content += fmt::format("{} {} {} ", p.x, p.y, p.z);
-    return fmt::format("{}-{:016x}", finding.law, std::hash<std::string>{}(content));
-}
-
-std::string replay_line(const std::filesystem::path& file) {
-    return "OCTETRA_FINDING=" + file.string() + " " OCTETRA_SOURCE_DIR "/tests/support/mpirun.sh " +
-           std::to_string(test::world().size()) +
-           " " OCTETRA_TEST_PROGRAM " --gtest_filter='Findings.*'";
-}
-
 void check(const Law& law) {
     Census census;
     Finding smallest;  // rapidcheck goes on from each case that fails, so the last one it is
@@ -91,8 +75,7 @@ void check(const Law& law) {
     if (smallest.fault.empty()) {
         FAIL() << law.name << ": no cases could be drawn";
     }
-    const auto file = write_finding(smallest, found_folder(), name_of(smallest));
-    FAIL() << law.name << ": " << smallest.fault << "\nreplay: " << replay_line(file);
+    FAIL() << kept(smallest);
 }
 
 class Laws : public testing::TestWithParam<Law> {};

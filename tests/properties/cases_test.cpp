@@ -35,7 +35,8 @@ TEST(Cases, AreOftenDegenerateInEachWay) {
     for (const Case& c : some_cases(300)) {
         for (const std::string& tag : tags_of(c, ranks)) ++counts[tag];
     }
-    for (const std::string& tag : all_tags()) EXPECT_GE(counts[tag], 9) << tag;
+    for (const std::string& tag : all_tags())
+        EXPECT_GE(counts[tag], 9) << tag << ": " << counts[tag];
 }
 
 /// Whatever is done to it first, a case ends as one cell that nothing marks.

@@ -5,7 +5,9 @@
 #include <set>
 
 #include <octetra/core/edge_order.hpp>
+#include <octetra/core/error.hpp>
 #include <octetra/distributed/partition.hpp>
+#include <octetra/reference/refine.hpp>
 
 #include "properties/draw_mesh.hpp"
 #include "support/refinement.hpp"
@@ -133,6 +135,15 @@ std::size_t pieces(const Mesh& mesh, std::size_t shared_vertices) {
     return std::set<std::size_t>(piece.begin(), piece.end()).size();
 }
 
+bool is_refused(const Case& c) {
+    try {
+        (void)reference::refine(c.mesh, c.selection, c.scheme, c.levels);
+        return false;
+    } catch (const InputError&) {
+        return true;
+    }
+}
+
 double largest_coordinate(const Mesh& mesh) {
     double largest = 0;
     for (const Point& p : mesh.points) {
@@ -161,9 +172,9 @@ Case draw_case(Draw& draw, int size, int ranks, bool exact) {
 
 const std::vector<std::string>& all_tags() {
     static const std::vector<std::string> tags{
-        "ties",     "slivers",      "in pieces",  "joined at edges or vertices only",
-        "far off",  "tiny or huge", "regions",    "facets",
-        "one cell", "empty ranks",  "many levels"};
+        "ties",     "slivers",      "in pieces",   "joined at edges or vertices only",
+        "far off",  "tiny or huge", "regions",     "facets",
+        "one cell", "empty ranks",  "many levels", "refused for rounding"};
     return tags;
 }
 
@@ -183,7 +194,8 @@ std::vector<std::string> tags_of(const Case& c, int ranks) {
                                !mesh.facets.empty(),
                                mesh.cells.size() == 1,
                                used.size() < static_cast<std::size_t>(ranks),
-                               c.levels > 2};
+                               c.levels > 2,
+                               is_refused(c)};
     std::vector<std::string> tags;
     for (std::size_t i = 0; i < is.size(); ++i) {
         if (is[i]) tags.push_back(all_tags()[i]);

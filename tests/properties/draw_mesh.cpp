@@ -18,12 +18,15 @@ void move_points(Mesh& mesh, const std::function<Point(const Point&)>& to) {
     for (Point& p : mesh.points) p = to(p);
 }
 
-/// Some of the cells: pieces that meet at vertices and edges, holes, cells by themselves.
+/// Some of the cells: a few here and there, or a share of all, which leaves holes and pieces that
+/// meet at vertices and edges.
 Mesh some_cells(const Mesh& mesh, Draw& draw) {
-    const double share = std::pow(draw.unit(), 3);
-    std::vector<char> keep(mesh.cells.size());
-    for (char& k : keep) k = draw.chance(share) ? 1 : 0;
-    keep[draw.below(keep.size())] = 1;
+    std::vector<char> keep(mesh.cells.size(), 0);
+    if (draw.chance(0.5)) {
+        const double share = draw.unit();
+        for (char& k : keep) k = draw.chance(share) ? 1 : 0;
+    }
+    for (int i = draw.between(1, 5); i > 0; --i) keep[draw.below(keep.size())] = 1;
     return submesh(mesh, keep);
 }
 
@@ -68,10 +71,22 @@ void stretch(Mesh& mesh, Draw& draw) {
     });
 }
 
-/// So far from the origin that midpoints round, be it until cells turn over.
+/// So far along one axis that vertices stand few numbers apart, and the midpoints of a level or two
+/// have no place between them: cells may be flat then.
+void move_to_the_last_bits(Mesh& mesh, Draw& draw) {
+    const int digits = draw.between(0, 8);
+    const double away = std::ldexp(1.0, 52 - digits);
+    const std::size_t axis = draw.below(3);
+    move_points(mesh, [&](const Point& p) {
+        return Point{axis == 0 ? p.x + away : p.x, axis == 1 ? p.y + away : p.y,
+                     axis == 2 ? p.z + away : p.z};
+    });
+}
+
+/// Away from the origin, so that midpoints round.
 void move_away(Mesh& mesh, Draw& draw) {
-    const double x = power_of_ten(draw, 2, 15);
-    const double y = draw.chance(0.5) ? power_of_ten(draw, 2, 15) : 0;
+    const double x = power_of_ten(draw, 2, 12);
+    const double y = draw.chance(0.5) ? power_of_ten(draw, 2, 12) : 0;
     move_points(mesh, [&](const Point& p) { return Point{p.x + x, p.y + y, p.z}; });
 }
 
@@ -147,6 +162,7 @@ NamedMesh draw_mesh(Draw& draw, int size) {
     attempt(drawn.mesh, draw, 0.2, turn);
     attempt(drawn.mesh, draw, 0.2, stretch);
     attempt(drawn.mesh, draw, 0.15, move_away);
+    attempt(drawn.mesh, draw, 0.25, move_to_the_last_bits);
     attempt(drawn.mesh, draw, 0.15, magnify);
     drawn.mesh = with_marks(std::move(drawn.mesh), draw);
     return drawn;

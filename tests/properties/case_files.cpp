@@ -1,0 +1,48 @@
+#include "properties/case_files.hpp"
+
+#include <cstdlib>
+#include <stdexcept>
+
+#include <octetra/core/files.hpp>
+
+#include "properties/case_json.hpp"
+#include "support/temporary_folder.hpp"
+
+namespace octetra::properties {
+
+namespace fs = std::filesystem;
+
+fs::path write_finding(const Finding& finding, const fs::path& folder, const std::string& name) {
+    fs::create_directories(folder);
+    (void)write_mesh(finding.refinement.mesh, folder / (name + ".ele"));
+    nlohmann::json json = json_of(finding.refinement);
+    json["law"] = finding.law;
+    json["fault"] = finding.fault;
+    const fs::path file = folder / (name + ".json");
+    write_text(json.dump(1) + "\n", file);
+    return file;
+}
+
+Finding read_finding(const fs::path& file) {
+    const auto json = nlohmann::json::parse(test::content_of(file));
+    Finding finding{json.at("law"), json.at("fault"), case_of(json)};
+    fs::path mesh = file;
+    finding.refinement.mesh = read_mesh(mesh.replace_extension(".ele"));
+    if (finding.refinement.cell_to_rank.size() != finding.refinement.mesh.cells.size()) {
+        throw std::invalid_argument(file.string() + ": cell_to_rank is not one for each cell");
+    }
+    return finding;
+}
+
+void remove_finding(const fs::path& folder, const std::string& name) {
+    for (const char* extension : {".json", ".ele", ".node", ".face", ".edge"}) {
+        fs::remove(folder / (name + extension));
+    }
+}
+
+fs::path found_folder() {
+    const char* const folder = std::getenv("OCTETRA_FOUND");
+    return folder != nullptr ? fs::path(folder) : fs::path(OCTETRA_FOUND_BY_TESTS);
+}
+
+}  // namespace octetra::properties

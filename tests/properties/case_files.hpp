@@ -1,0 +1,30 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "properties/case.hpp"
+
+namespace octetra::properties {
+
+/// A case that broke a law: NAME.json, and its mesh as NAME.ele and NAME.node (.face, .edge).
+struct Finding {
+    std::string law;
+    std::string fault;  ///< what the law said when it was found
+    Case refinement;
+};
+
+/// Writes it into the folder, which is made if need be. The `.json` file.
+std::filesystem::path write_finding(const Finding& finding, const std::filesystem::path& folder,
+                                    const std::string& name);
+
+/// Reads the files of a `.json` file. Throws where they are not what write_finding writes.
+[[nodiscard]] Finding read_finding(const std::filesystem::path& json);
+
+/// Removes all files of that name.
+void remove_finding(const std::filesystem::path& folder, const std::string& name);
+
+/// Where findings go: OCTETRA_FOUND, or a folder beside the test programs.
+[[nodiscard]] std::filesystem::path found_folder();
+
+}  // namespace octetra::properties

@@ -1,0 +1,92 @@
+#include <algorithm>
+#include <map>
+
+#include <gtest/gtest.h>
+
+#include <octetra/generator/tetgen.hpp>
+
+#include "distributed/world.hpp"
+#include "properties/case_files.hpp"
+#include "properties/draw_case.hpp"
+#include "properties/one_level.hpp"
+#include "properties/simpler.hpp"
+#include "support/temporary_folder.hpp"
+
+/// The cases themselves: whether they are as degenerate as they are meant to be, how they become
+/// smaller, and whether files keep them.
+namespace octetra::properties {
+namespace {
+
+constexpr int ranks = 3;
+
+std::vector<Case> some_cases(int count) {
+    std::vector<Case> cases;
+    Draw draw(7);
+    for (int i = 0; i < count; ++i) {
+        cases.push_back(draw_case(draw, i % 100, ranks, i % 5 == 0));
+    }
+    return cases;
+}
+
+TEST(Cases, AreOftenDegenerateInEachWay) {
+    if (!test::world().is_first()) return;  // drawn by one, as for the laws
+    ASSERT_TRUE(generator::has_tetgen()) << "without TetGen there are lattices only";
+    std::map<std::string, int> counts;
+    for (const Case& c : some_cases(300)) {
+        for (const std::string& tag : tags_of(c, ranks)) ++counts[tag];
+    }
+    for (const std::string& tag : all_tags())
+        EXPECT_GE(counts[tag], 9) << tag << ": " << counts[tag];
+}
+
+/// Whatever is done to it first, a case ends as one cell that nothing marks.
+TEST(Cases, BecomeSimplerUntilOneCellIsLeft) {
+    if (!test::world().is_first()) return;
+    for (Case c : some_cases(30)) {
+        while (true) {
+            const auto simpler = simplifications(c);
+            const auto next = std::ranges::find_if(
+                simpler, [](const auto& s) { return !s().mesh.cells.empty(); });
+            if (next == simpler.end()) break;
+            c = (*next)();
+        }
+        EXPECT_EQ(c.mesh.cells.size(), 1U);
+        EXPECT_EQ(c.mesh.points.size(), 4U);
+        EXPECT_EQ(c.levels, 1);
+        EXPECT_TRUE(c.mesh.regions.empty() && c.mesh.facets.empty() && c.mesh.edges.empty());
+        EXPECT_EQ(c.cell_to_rank, std::vector<int>{0});
+    }
+}
+
+TEST(Cases, KeepTheirNumbersInRangeAsTheyBecomeSimpler) {
+    if (!test::world().is_first()) return;
+    for (const Case& c : some_cases(30)) {
+        for (const auto& simpler : simplifications(c)) {
+            const Case s = simpler();
+            EXPECT_EQ(s.cell_to_rank.size(), s.mesh.cells.size());
+            for (const GlobalCell cell : s.selection.cells) {
+                EXPECT_LT(static_cast<std::size_t>(cell), s.mesh.cells.size());
+            }
+        }
+    }
+}
+
+TEST(Cases, ComeBackFromFilesBitByBit) {
+    if (!test::world().is_first()) return;
+    const test::TemporaryFolder folder;
+    for (const Case& c : some_cases(30)) {
+        const auto file = write_finding({"closure", "a fault", c}, folder.path(), "one");
+        const Finding back = read_finding(file);
+        EXPECT_EQ(back.law, "closure");
+        EXPECT_EQ(back.refinement.mesh, c.mesh);
+        EXPECT_EQ(back.refinement.cell_to_rank, c.cell_to_rank);
+        for (CellIndex i{0}; i < c.mesh.cells.end_index(); ++i) {
+            EXPECT_EQ(is_chosen(back.refinement, i), is_chosen(c, i));
+        }
+        remove_finding(folder.path(), "one");
+    }
+    EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
+}
+
+}  // namespace
+}  // namespace octetra::properties

@@ -1,0 +1,77 @@
+#include <algorithm>
+#include <array>
+
+#include <octetra/core/files.hpp>
+
+#include "properties/draw.hpp"
+#include "properties/laws.hpp"
+#include "properties/team.hpp"
+#include "support/temporary_folder.hpp"
+
+namespace octetra::properties {
+namespace {
+
+using Path = std::filesystem::path;
+
+/// All bytes of a mesh's files.
+std::string bytes_of(const Path& mesh) {
+    std::string bytes;
+    for (const char* extension : {".mesh", ".node", ".ele", ".face", ".edge"}) {
+        Path file = mesh;
+        file.replace_extension(extension);
+        if (std::filesystem::exists(file)) bytes += extension + test::content_of(file);
+    }
+    return bytes;
+}
+
+/// Medit has no attributes, and takes vertex markers that are all 0 for none, by which midpoints
+/// would have none, either.
+void fit_medit(Mesh& mesh) {
+    mesh.attributes_per_point = 0;
+    mesh.point_attributes.clear();
+    const auto is_zero = [](Marker marker) { return marker == 0; };
+    if (std::ranges::all_of(mesh.point_markers, is_zero)) mesh.point_markers.clear();
+}
+
+/// Cells have other numbers in the file between, so none can be chosen by number.
+void choose_by_place(Selection& selection) {
+    if (selection.cells.empty()) return;
+    selection.cells.clear();
+    if (!selection.random) selection.random = RandomShare{0.3, 1};
+}
+
+}  // namespace
+
+std::string fault_of_files(const Case& drawn) {
+    Draw draw(drawn.seed);
+    const std::string extension = draw.chance(0.5) ? ".mesh" : ".ele";
+    Case c = drawn;
+    choose_by_place(c.selection);
+    if (extension == ".mesh") fit_medit(c.mesh);
+
+    const test::TemporaryFolder folder;
+    const Outcome expected = refined_by_reference(c);
+    std::string error;
+    Case step = c;
+    step.levels = 1;
+    for (int level = 1; level <= c.levels && error.empty(); ++level) {
+        const Path file = folder / ("level" + std::to_string(level) + extension);
+        error = write_refined_by_all(step, file);
+        if (!error.empty()) break;
+        step.mesh = read_mesh(file);
+        step.cell_to_rank.resize(step.mesh.cells.size());
+        for (int& rank : step.cell_to_rank) rank = draw.between(0, 7);
+    }
+    if (error.empty() != expected.error.empty()) {
+        return "refused as '" + error + "', by the reference as '" + expected.error + "'";
+    }
+    if (!error.empty()) return {};
+    (void)write_mesh(expected.mesh, folder / ("expected" + extension));
+    const std::string last = "level" + std::to_string(c.levels) + extension;
+    if (bytes_of(folder / last) != bytes_of(folder / ("expected" + extension))) {
+        return "through " + extension + " files the last one has other bytes";
+    }
+    return {};
+}
+
+}  // namespace octetra::properties

@@ -1,0 +1,135 @@
+#include <cmath>
+#include <functional>
+#include <set>
+
+#include <octetra/core/edge_order.hpp>
+#include <octetra/reference/refine.hpp>
+#include <octetra/verify/compare.hpp>
+
+#include "properties/draw.hpp"
+#include "properties/laws.hpp"
+#include "properties/team.hpp"
+#include "support/refinement.hpp"
+
+namespace octetra::properties {
+namespace {
+
+using Map = std::function<Point(const Point&)>;
+
+/// The selection as a list of the cells that it chooses at first.
+Selection by_number(const Case& c) {
+    Selection selection;
+    for (CellIndex i{0}; i < c.mesh.cells.end_index(); ++i) {
+        const Marker region = c.mesh.regions.empty() ? 0 : c.mesh.regions[i];
+        if (chooses(c.selection, test::corners_of(c.mesh, i), region, GlobalCell{i.value()})) {
+            selection.cells.push_back(GlobalCell{i.value()});
+        }
+    }
+    return selection;
+}
+
+/// By a scaling by `factor` and a translation: `map` is both.
+Case mapped(const Case& c, const Map& map, double factor) {
+    Case r = c;
+    for (Point& p : r.mesh.points) p = map(p);
+    for (Sphere& s : r.selection.spheres) s = {map(s.centre), s.radius * factor};
+    for (Box& b : r.selection.boxes) b = {map(b.low), map(b.high)};
+    if (r.selection.max_volume) *r.selection.max_volume *= factor * factor * factor;
+    return r;
+}
+
+std::string fault_of_map(const Case& c, const Map& map, double factor) {
+    Case plain = c;
+    if (plain.selection.random) plain.selection = by_number(plain);  // drawn by coordinates
+    const Outcome one = refined_by_all(plain);
+    const Outcome other = refined_by_all(mapped(plain, map, factor));
+    if (!one.error.empty() || !other.error.empty()) return one.error + other.error;
+    Mesh expected = one.mesh;
+    for (Point& p : expected.points) p = map(p);
+    if (!(other.mesh == expected)) return "not the same, scaled or moved";
+    return {};
+}
+
+std::string fault_of_scaling(const Case& c, Draw& draw) {
+    const double factor = std::ldexp(1.0, draw.between(-250, 250));
+    return fault_of_map(
+        c,
+        [&](const Point& p) {
+            return Point{p.x * factor, p.y * factor, p.z * factor};
+        },
+        factor);
+}
+
+std::string fault_of_translation(const Case& c, Draw& draw) {
+    constexpr int far = 1 << 20;
+    const Point by{static_cast<double>(draw.between(-far, far)),
+                   static_cast<double>(draw.between(-far, far)),
+                   static_cast<double>(draw.between(-far, far))};
+    return fault_of_map(
+        c,
+        [&](const Point& p) {
+            return Point{p.x + by.x, p.y + by.y, p.z + by.z};
+        },
+        1);
+}
+
+bool has_ties(const Mesh& mesh) {
+    for (CellIndex c{0}; c < mesh.cells.end_index(); ++c) {
+        const Corners corners = test::corners_of(mesh, c);
+        std::set<double> lengths;
+        for (const auto& [i, j] : cell_edges) {
+            lengths.insert(squared_length({corners[i], corners[j]}));
+        }
+        if (lengths.size() < 6) return true;
+    }
+    return false;
+}
+
+/// Ties go by coordinates, which a mirror exchanges.
+bool meets_ties(const Case& c) {
+    for (int level = 0; level < c.levels; ++level) {
+        if (has_ties(reference::refine(c.mesh, c.selection, c.scheme, level).mesh)) return true;
+    }
+    return false;
+}
+
+/// Inside out, so that its cells are positively oriented again.
+Mesh mirrored(Mesh mesh, std::size_t axis) {
+    for (Point& p : mesh.points) {
+        double& x = axis == 0 ? p.x : axis == 1 ? p.y : p.z;
+        x = -x;
+    }
+    for (CellVertices& cell : mesh.cells) std::swap(cell[2], cell[3]);
+    return mesh;
+}
+
+std::string fault_of_mirror(const Case& c, Draw& draw) {
+    Case plain = c;
+    plain.selection = by_number(c);
+    if (meets_ties(plain)) plain.levels = 1;
+    if (meets_ties(plain)) return {};
+    const std::size_t axis = draw.below(3);
+    Case other_case = plain;
+    other_case.mesh = mirrored(plain.mesh, axis);
+    const Outcome one = refined_by_all(plain);
+    const Outcome other = refined_by_all(other_case);
+    if (!one.error.empty() || !other.error.empty()) return one.error + other.error;
+    if (verify::compare(mirrored(one.mesh, axis), other.mesh).likeness ==
+        verify::Likeness::different) {
+        return "not the same, mirrored";
+    }
+    return {};
+}
+
+}  // namespace
+
+std::string fault_of_geometry(const Case& c) {
+    Draw draw(c.seed);
+    switch (draw.below(3)) {
+        case 0: return fault_of_scaling(c, draw);
+        case 1: return fault_of_translation(c, draw);
+        default: return fault_of_mirror(c, draw);
+    }
+}
+
+}  // namespace octetra::properties

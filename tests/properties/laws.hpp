@@ -1,0 +1,48 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "properties/case.hpp"
+
+/// What must hold of every refinement. Each law looks at a case and says what of it does not hold,
+/// or nothing. They are judged within lead(), on the first rank.
+namespace octetra::properties {
+
+/// Both engines: the same bits, or the same words of refusal. What they make, the exact verifier
+/// finds valid and the one that was asked for.
+[[nodiscard]] std::string fault_of_equality(const Case& c);
+
+/// With vertices, cells and corners numbered otherwise: the same mesh; and where corners keep their
+/// places, the same children in the same order.
+[[nodiscard]] std::string fault_of_numbering(const Case& c);
+
+/// Scaled by a power of two or moved by whole numbers: the same, scaled or moved, number by number.
+/// Mirrored, where no two edges of a cell tie: the same, mirrored. For cases drawn `exact`.
+[[nodiscard]] std::string fault_of_geometry(const Case& c);
+
+/// The edges that are bisected are those that the chosen cells select and those that follow from
+/// them: none too few, none that could be left out; closing them again adds nothing; more chosen
+/// cells never bisect fewer edges.
+[[nodiscard]] std::string fault_of_closure(const Case& c);
+
+/// Level by level, through files of either format that all ranks write and the first one reads: the
+/// file that the reference's one run yields, byte by byte.
+[[nodiscard]] std::string fault_of_files(const Case& c);
+
+/// Counts of cells and vertices follow from the bisected edges, the Euler characteristic stays, and
+/// every chosen cell is bisected as its scheme says.
+[[nodiscard]] std::string fault_of_counts(const Case& c);
+
+struct Law {
+    std::string name;
+    std::string (*fault)(const Case&);
+    bool exact = false;  ///< wants cases that are drawn so
+};
+
+[[nodiscard]] const std::vector<Law>& laws();
+
+/// Throws std::out_of_range.
+[[nodiscard]] const Law& law_named(const std::string& name);
+
+}  // namespace octetra::properties

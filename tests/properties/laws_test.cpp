@@ -1,0 +1,92 @@
+#include <cstdlib>
+#include <iostream>
+#include <map>
+
+#include <gtest/gtest.h>
+#include <rapidcheck.h>
+
+#include "distributed/world.hpp"
+#include "properties/draw_case.hpp"
+#include "properties/judge.hpp"
+#include "properties/report.hpp"
+#include "properties/simpler.hpp"
+#include "properties/team.hpp"
+
+/// Each law against random cases. RC_PARAMS="seed=..." repeats a run on as many ranks,
+/// RC_PARAMS="max_success=..." asks for more. What breaks a law is made as small as can be and
+/// written to disk with the line that replays it.
+namespace octetra::properties {
+
+/// For rapidcheck, which prints what it finds.
+static void showValue(const Case& c, std::ostream& out) {
+    out << c.kind << ": " << c.mesh.cells.size() << " cells, " << c.levels << " levels";
+}
+
+namespace {
+
+rc::Shrinkable<Case> shrinkable(Case c) {
+    return rc::shrinkable::shrinkRecur(std::move(c), [](const Case& from) {
+        return rc::seq::map(rc::seq::fromContainer(simplifications(from)),
+                            [](const std::function<Case()>& simpler) { return simpler(); });
+    });
+}
+
+/// Other ones for each law.
+rc::Gen<Case> cases(const Law& law) {
+    return {[&law](const rc::Random& random, int size) {
+        Draw draw(rc::Random(random).next() ^ std::hash<std::string>{}(law.name));
+        return shrinkable(draw_case(draw, size, test::world().size(), law.exact));
+    }};
+}
+
+/// How many of the cases had what.
+class Census {
+public:
+    void count(const Case& c) {
+        ++cases_;
+        for (const std::string& tag : tags_of(c, test::world().size())) ++counts_[tag];
+    }
+    void print() const {
+        std::cerr << "  " << cases_ << " cases";
+        for (const auto& [tag, count] : counts_) {
+            std::cerr << ", " << tag << ' ' << 100 * count / cases_ << " %";
+        }
+        std::cerr << '\n';
+    }
+
+private:
+    std::size_t cases_ = 0;
+    std::map<std::string, std::size_t> counts_;
+};
+
+void check(const Law& law) {
+    Census census;
+    Finding smallest;  // rapidcheck goes on from each case that fails, so the last one it is
+    const bool holds = rc::check(law.name, [&] {
+        const Case c = *cases(law);
+        if (smallest.fault.empty()) census.count(c);
+        const std::string fault = judge(law, c);
+        if (fault.empty()) return;
+        smallest = {law.name, fault, c};
+        RC_FAIL(fault);
+    });
+    census.print();
+    if (holds) return;
+    if (smallest.fault.empty()) {
+        FAIL() << law.name << ": no cases could be drawn";
+    }
+    FAIL() << kept(smallest);
+}
+
+class Laws : public testing::TestWithParam<Law> {};
+
+TEST_P(Laws, HoldOfRandomCases) {
+    ::setenv("RC_PARAMS", "max_success=" OCTETRA_SUCCESSES, 0);  // what the user has set stays
+    lead([] { check(GetParam()); });
+}
+
+INSTANTIATE_TEST_SUITE_P(, Laws, testing::ValuesIn(laws()),
+                         [](const auto& law) { return law.param.name; });
+
+}  // namespace
+}  // namespace octetra::properties

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <array>
+#include <set>
+#include <vector>
+
+#include "properties/case.hpp"
+
+/// One level of refinement, worked out again as plainly as can be, to hold the engines against.
+namespace octetra::properties {
+
+/// Edges by their ends, lower first.
+using Edges = std::set<EdgeVertices>;
+
+[[nodiscard]] EdgeVertices edge_between(VertexIndex a, VertexIndex b);
+
+/// The six edges of a cell, in the order of cell_edges.
+[[nodiscard]] std::array<EdgeVertices, 6> edges_of(const CellVertices& cell);
+
+/// The longest of these edges.
+[[nodiscard]] EdgeVertices longest(const Mesh& mesh, const std::vector<EdgeVertices>& edges);
+
+/// The longest edges of the four faces of a cell; face i lies opposite corner i.
+[[nodiscard]] std::array<EdgeVertices, 4> longest_of_faces(const Mesh& mesh,
+                                                           const CellVertices& cell);
+
+/// Is the cell chosen at the first level?
+[[nodiscard]] bool is_chosen(const Case& c, CellIndex cell);
+
+/// What a chosen cell selects.
+[[nodiscard]] Edges selected_by(const Case& c, CellIndex cell);
+
+/// All that follows from these edges, by the rule of faces.
+[[nodiscard]] Edges closure_of(const Mesh& mesh, Edges edges);
+
+}  // namespace octetra::properties

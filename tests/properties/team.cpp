@@ -1,0 +1,108 @@
+#include "properties/team.hpp"
+
+#include <octetra/core/error.hpp>
+#include <octetra/distributed/canonical_mesh.hpp>
+#include <octetra/reference/refine.hpp>
+
+#include "distributed/world.hpp"
+#include "properties/case_json.hpp"
+
+namespace octetra::properties {
+namespace {
+
+using distributed::Communicator;
+
+/// What the first rank asks for: a refinement, to be collected, or written where there is a file.
+struct Order {
+    Case refinement;
+    std::string file;
+};
+
+void tell(const std::string& text) {
+    std::vector<char> letters(text.begin(), text.end());
+    test::world().broadcast(letters);
+}
+
+std::string hear() {
+    std::vector<char> letters;
+    test::world().broadcast(letters);
+    return {letters.begin(), letters.end()};
+}
+
+std::vector<int> folded(std::vector<int> cell_to_rank) {
+    for (int& rank : cell_to_rank) rank %= test::world().size();
+    return cell_to_rank;
+}
+
+/// Collective. If ranks do not agree whether it can be done, all get to know that instead.
+Outcome carry_out(const Order& order) {
+    const Communicator& world = test::world();
+    const Case& c = order.refinement;
+    Outcome outcome;
+    try {
+        distributed::DistributedMesh part =
+            distributed::distribute(world, c.mesh, folded(c.cell_to_rank));
+        distributed::refine(part, c.selection, {c.scheme, c.levels, c.synchronisation});
+        if (order.file.empty()) {
+            auto [mesh, maps] = distributed::collect(std::move(part));
+            outcome = {std::move(mesh), std::move(maps), {}};
+        } else {
+            distributed::CanonicalMesh canonical(std::move(part));
+            (void)distributed::write_mesh(canonical, order.file);
+        }
+    } catch (const InputError& error) {
+        outcome = {.error = error.what()};
+    }
+    const std::uint64_t refused = world.sum(outcome.error.empty() ? 0 : 1);
+    if (refused != 0 && refused != static_cast<std::uint64_t>(world.size())) {
+        outcome.error = "refused on " + std::to_string(refused) + " ranks only: " + outcome.error;
+    }
+    return outcome;
+}
+
+void obey() {
+    for (std::string text = hear(); !text.empty(); text = hear()) {
+        const auto json = nlohmann::json::parse(text);
+        (void)carry_out({case_of(json), json.at("file")});
+    }
+}
+
+Outcome give(const Order& order) {
+    Case without_mesh = order.refinement;
+    without_mesh.mesh = {};
+    without_mesh.cell_to_rank.clear();
+    nlohmann::json json = json_of(without_mesh);
+    json["file"] = order.file;
+    tell(json.dump());
+    return carry_out(order);
+}
+
+}  // namespace
+
+void lead(const std::function<void()>& work) {
+    if (!test::world().is_first()) return obey();
+    try {
+        work();
+    } catch (...) {
+        tell("");
+        throw;
+    }
+    tell("");
+}
+
+Outcome refined_by_all(const Case& c) { return give({c, {}}); }
+
+std::string write_refined_by_all(const Case& c, const std::filesystem::path& file) {
+    return give({c, file.string()}).error;
+}
+
+Outcome refined_by_reference(const Case& c) {
+    try {
+        auto [mesh, maps] = reference::refine(c.mesh, c.selection, c.scheme, c.levels);
+        return {std::move(mesh), std::move(maps), {}};
+    } catch (const InputError& error) {
+        return {.error = error.what()};
+    }
+}
+
+}  // namespace octetra::properties

@@ -127,6 +127,10 @@ void check_part_file(std::string_view input, const fs::path& folder) {
             write_list(parts, folder / "out");
             expect(read(folder / "out") == parts, "parts written and read are the same");
         });
+    mesh.cells.resize(lines.size() + 1);
+    check_unless_refused(
+        folder, [&] { return read(folder / "in"); },
+        [](const auto&) { throw BrokenPromise("a cell more than parts, and it was not noticed"); });
 }
 
 }  // namespace octetra::test

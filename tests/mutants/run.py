@@ -173,7 +173,7 @@ def fate_of(mutant, jobs):
         for test in mutant["tests"]:
             wrong = build_programs([test], jobs)
             if wrong:
-                errors = [line for line in wrong.splitlines() if "error" in line]
+                errors = [line for line in wrong.splitlines() if "error:" in line]
                 return "does not compile", errors[0] if errors else wrong[-200:]
             failure = failure_of(test)
             if failure:

@@ -5,6 +5,7 @@
 #include <cerrno>
 #include <charconv>
 #include <cstring>
+#include <filesystem>
 #include <fstream>
 #include <random>
 
@@ -69,6 +70,12 @@ std::vector<int> by_lot(std::size_t cells, int parts, std::uint64_t seed) {
 }
 
 std::vector<int> from_file(const std::filesystem::path& path, std::size_t cells, int parts) {
+    std::error_code ignored;
+    const auto there = std::filesystem::status(path, ignored);
+    if (std::filesystem::exists(there) && !std::filesystem::is_regular_file(there)) {
+        // Opening a pipe would wait for someone to write.
+        throw InputError(fmt::format("{}: is not a file", path.native()));
+    }
     std::ifstream in(path);
     if (!in) {
         throw InputError(
@@ -78,19 +85,20 @@ std::vector<int> from_file(const std::filesystem::path& path, std::size_t cells,
     std::size_t line_number = 0;
     for (std::string line; std::getline(in, line);) {
         ++line_number;
+        if (line.ends_with('\r')) line.pop_back();
         if (line.empty() || line.front() == '#') continue;
-        int number = -1;
-        const auto [stop, error] = std::from_chars(line.data(), line.data() + line.size(), number);
-        const bool whole = stop == line.data() + line.size() || *stop == '\r';
-        if (error != std::errc{} || !whole || number < 0 || number >= parts) {
+        unsigned number = 0;
+        const char* const end = line.data() + line.size();
+        const auto [stop, error] = std::from_chars(line.data(), end, number);
+        if (error != std::errc{} || stop != end || number >= static_cast<unsigned>(parts)) {
             throw InputError(fmt::format("{}:{}: a part number from 0 to {} expected",
                                          path.native(), line_number, parts - 1));
         }
-        part.push_back(number);
+        part.push_back(static_cast<int>(number));
     }
     if (part.size() != cells) {
-        throw InputError(fmt::format("{}:{}: {} part numbers found for a mesh of {} cells",
-                                     path.native(), line_number, part.size(), cells));
+        throw InputError(fmt::format("{}: {} part numbers found for a mesh of {} cells",
+                                     path.native(), part.size(), cells));
     }
     return part;
 }

@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include <gtest/gtest.h>
 
 #include <octetra/distributed/partition.hpp>
@@ -94,6 +96,44 @@ TEST(Communication, ThroughTheGatewayIsAMessageARoundEachWayAndTwelveBytesASelec
         EXPECT_LE(counts.messages, counts.rounds * (r == 0 ? others : 1));
         EXPECT_LE(counts.bytes, 12 * edges);
     });
+}
+
+/// Six cells round one edge that is the longest of all, a cell on each rank as far as there are so
+/// many, refined once by 2t: what each rank sends.
+std::vector<std::uint64_t> bytes_sent_in_a_ring(const Selection& selection,
+                                                Synchronisation synchronisation) {
+    const Mesh ring = test::kuhn(1, 1, 1);
+    std::vector<int> cell_to_part;
+    for (int c = 0; c < 6; ++c) cell_to_part.push_back(c % test::world().size());
+    DistributedMesh mesh = distribute(test::world(), ring, cell_to_part);
+    std::vector<std::uint64_t> bytes;
+    for (const PhaseCounts& counts :
+         refine_once(mesh, selection, Scheme::two, synchronisation).of_rank) {
+        EXPECT_EQ(counts.rounds, test::world().size() > 1 ? 1 : 0);
+        bytes.push_back(counts.bytes);
+    }
+    return bytes;
+}
+
+/// How many ranks have a cell of the ring.
+std::size_t sharers_of_a_ring() {
+    return static_cast<std::size_t>(std::min(test::world().size(), 6));
+}
+
+TEST(Communication, OfNeighboursIsNotToldBackToWhoHasTold) {
+    const Selection one_cell{.cells = {GlobalCell{0}}};  // which the first rank has
+    const auto bytes = bytes_sent_in_a_ring(one_cell, Synchronisation::neighbour);
+    for (std::size_t r = 0; r < bytes.size(); ++r) {
+        EXPECT_EQ(bytes[r], r == 0 ? 4 * (sharers_of_a_ring() - 1) : 0) << "rank " << r;
+    }
+}
+
+TEST(Communication, ThroughTheGatewayIsNotPassedOnToWhoSaidTheSame) {
+    const auto bytes = bytes_sent_in_a_ring({.all = true}, Synchronisation::gateway);
+    for (std::size_t r = 0; r < bytes.size(); ++r) {
+        const bool speaks = r > 0 && r < sharers_of_a_ring();
+        EXPECT_EQ(bytes[r], speaks ? 12 * (sharers_of_a_ring() - 1) : 0) << "rank " << r;
+    }
 }
 
 TEST(Communication, TakesNoMoreRoundsAsTheMeshGrows) {

@@ -146,6 +146,19 @@ TEST(Rounding, IsRefusedOnAllRanksWithTheWordsOfTheReference) {
     }
 }
 
+TEST(Rounding, OfOneCoordinateIsEnoughToBeRefused) {
+    for (double Point::*coordinate : {&Point::x, &Point::y, &Point::z}) {
+        Mesh mesh = test::kuhn(1, 1, 1);
+        for (Point& p : mesh.points) p.*coordinate = p.*coordinate * 2 + 0x1p52;
+        const std::string expected = test::thrown_by<InputError>(
+            [&] { (void)reference::refine(mesh, {.all = true}, Scheme::eight, 2); });
+        EXPECT_EQ(test::thrown_by<InputError>([&] {
+                      (void)refined(mesh, {{.all = true}, {.levels = 2}, partitions[2]});
+                  }),
+                  expected);
+    }
+}
+
 TEST(Rounding, OfTheSmallestNumbersThereAreIsRefusedToo) {
     // Sums of these are exact, and half of an odd one is not.
     constexpr double smallest = std::numeric_limits<double>::denorm_min();

@@ -1,3 +1,5 @@
+#include <sys/stat.h>
+
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -48,13 +50,25 @@ TEST(Partition, FilesAreReadAndChecked) {
         const auto path = folder.write("parts", text);
         return partition_cells(mesh, 3, parse_partition("file:" + path.string()));
     };
-    EXPECT_THAT(read("# six cells\n0\n2\n1\n1\n0\r\n2\n"), testing::ElementsAre(0, 2, 1, 1, 0, 2));
+    EXPECT_THAT(read("# six cells\r\n\r\n0\n2\n1\n1\n0\r\n2\n"),
+                testing::ElementsAre(0, 2, 1, 1, 0, 2));
     EXPECT_THAT(test::thrown_by<InputError>([&] { (void)read("0\n3\n"); }),
                 HasSubstr("parts:2: a part number from 0 to 2"));
     EXPECT_THAT(test::thrown_by<InputError>([&] { (void)read("0\nx\n"); }), HasSubstr("parts:2: "));
     EXPECT_THAT(test::thrown_by<InputError>([&] { (void)read("0\n0\n"); }),
                 HasSubstr("2 part numbers found for a mesh of 6 cells"));
+    for (const std::string wrong : {"0\r1", "0 1", "-0", "+0", " 0"}) {
+        EXPECT_THROW((void)read(wrong + "\n0\n0\n0\n0\n0\n"), InputError) << wrong;
+    }
     EXPECT_THROW((void)partition_cells(mesh, 3, parse_partition("file:none")), InputError);
+    const auto pipe = folder / "pipe";
+    ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+    for (const auto& no_file : {folder.path(), pipe}) {
+        EXPECT_THAT(test::thrown_by<InputError>([&] {
+                        (void)partition_cells(mesh, 3, parse_partition("file:" + no_file.string()));
+                    }),
+                    HasSubstr("is not a file"));
+    }
 }
 
 TEST(Partition, NamesAreChecked) {

@@ -6,8 +6,13 @@
 #include <sstream>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 
 namespace octetra::test {
+
+inline void write_file(const std::filesystem::path& path, std::string_view content) {
+    std::ofstream(path, std::ios::binary) << content;
+}
 
 /// A folder of its own for one test, gone with it.
 class TemporaryFolder {
@@ -33,7 +38,7 @@ public:
 
     [[nodiscard]] std::filesystem::path write(const std::string& name,
                                               const std::string& content) const {
-        std::ofstream(path_ / name, std::ios::binary) << content;
+        write_file(path_ / name, content);
         return path_ / name;
     }
 

@@ -4,6 +4,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <utility>
@@ -16,7 +17,7 @@
 namespace octetra {
 namespace {
 
-constexpr std::size_t buffer_size = std::size_t{1} << 20U;
+constexpr std::size_t longest_line = std::size_t{1} << 20U;
 
 std::string_view without_comment_and_line_end(std::string_view raw) {
     if (const void* hash = std::memchr(raw.data(), '#', raw.size())) {
@@ -31,7 +32,7 @@ std::string_view without_comment_and_line_end(std::string_view raw) {
 
 }  // namespace
 
-LineReader::LineReader(std::filesystem::path path) : path_(std::move(path)), buffer_(buffer_size) {
+LineReader::LineReader(std::filesystem::path path) : path_(std::move(path)) {
     // O_NONBLOCK: a named pipe must be refused, not waited for.
     file_ = ::open(path_.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
     if (file_ < 0) {
@@ -48,6 +49,7 @@ LineReader::LineReader(std::filesystem::path path) : path_(std::move(path)), buf
         ::close(file_);
         throw InputError(fmt::format("{}:1: the file is empty", path_.native()));
     }
+    buffer_.resize(std::min<std::uint64_t>(longest_line, file_size_ + 1));
 }
 
 LineReader::~LineReader() { ::close(file_); }
@@ -86,9 +88,10 @@ bool LineReader::next_raw_line(std::string_view& raw) {
 
 void LineReader::fill() {
     const std::size_t pending = end_ - begin_;
-    if (pending == buffer_.size()) {
+    if (pending == longest_line) {
         fail("this line is longer than 1 MiB: not a text file?", line_number_ + 1);
     }
+    if (pending == buffer_.size()) buffer_.resize(longest_line);  // the file has grown meanwhile
     std::memmove(buffer_.data(), buffer_.data() + begin_, pending);
     begin_ = 0;
     end_ = pending;

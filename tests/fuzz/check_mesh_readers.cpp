@@ -1,0 +1,102 @@
+#include <algorithm>
+#include <bit>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <octetra/core/error.hpp>
+#include <octetra/core/files.hpp>
+
+#include "fuzz/check_readers.hpp"
+#include "support/bits.hpp"
+#include "support/temporary_folder.hpp"
+
+namespace octetra::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+bool same_bits(const Mesh& a, const Mesh& b) {
+    const auto same = [](double x, double y) {
+        return std::bit_cast<std::uint64_t>(x) == std::bit_cast<std::uint64_t>(y);
+    };
+    return a == b && bits(a) == bits(b) &&
+           std::ranges::equal(a.point_attributes, b.point_attributes, same);
+}
+
+/// The mesh, checked, or nothing if it was refused.
+std::optional<Mesh> read(const fs::path& path, const ReadOptions& options) {
+    try {
+        Mesh mesh = read_mesh(path, options);
+        const std::string broken = broken_invariant(mesh, options.only_syntax);
+        if (!broken.empty()) throw BrokenPromise("a mesh was read, but " + broken);
+        return mesh;
+    } catch (const InputError& error) {
+        check_message(error.what(), path.parent_path());
+        return std::nullopt;
+    }
+}
+
+void expect_same(const std::optional<Mesh>& found, const Mesh& expected, const char* when) {
+    if (!found) throw BrokenPromise(std::string("a mesh is refused ") + when);
+    if (!same_bits(*found, expected)) throw BrokenPromise(std::string("another mesh ") + when);
+}
+
+template <class I>
+void drop_if_all_zero(IndexVector<I, Marker>& markers) {
+    if (std::ranges::all_of(markers, [](Marker m) { return m == 0; })) markers.clear();
+}
+
+/// What of a mesh Medit's format can hold.
+Mesh as_in_medit(Mesh mesh) {
+    mesh.first_number = 1;
+    mesh.attributes_per_point = 0;
+    mesh.point_attributes.clear();
+    drop_if_all_zero(mesh.point_markers);
+    drop_if_all_zero(mesh.regions);
+    drop_if_all_zero(mesh.facet_markers);
+    drop_if_all_zero(mesh.edge_markers);
+    return mesh;
+}
+
+void check_written(const Mesh& mesh, const fs::path& folder, bool only_syntax) {
+    const ReadOptions options{.only_syntax = only_syntax};
+    (void)write_mesh(mesh, folder / "out.ele");
+    expect_same(read(folder / "out.ele", options), mesh, "when written to TetGen files and read");
+    (void)write_mesh(mesh, folder / "out.mesh");
+    expect_same(read(folder / "out.mesh", options), as_in_medit(mesh),
+                "when written to a Medit file and read");
+}
+
+void check_mesh(const fs::path& path) {
+    const std::optional<Mesh> mesh = read(path, {});
+    const std::optional<Mesh> as_it_stands = read(path, {.only_syntax = true});
+    const std::optional<Mesh> turned_round = read(path, {.fix_orientation = true});
+    if (mesh) {
+        expect_same(as_it_stands, *mesh, "when only syntax is asked for");
+        expect_same(turned_round, *mesh, "when inverted cells are turned round");
+    }
+    if (as_it_stands) check_written(*as_it_stands, path.parent_path(), !mesh);
+}
+
+}  // namespace
+
+void check_tetgen(std::string_view input, const fs::path& folder) {
+    for (const std::string extension : {"node", "ele", "face", "edge"}) {
+        const fs::path path = folder / ("in." + extension);
+        const std::size_t end = std::min(input.find('%'), input.size());
+        const std::string_view content = input.substr(0, end);
+        const bool is_there = input.data() != nullptr && content != "-";
+        fs::remove(path);
+        if (is_there) write_file(path, content);
+        input = end == input.size() ? std::string_view{} : input.substr(end + 1);
+    }
+    check_mesh(folder / "in.ele");
+}
+
+void check_medit(std::string_view input, const fs::path& folder) {
+    write_file(folder / "in.mesh", input);
+    check_mesh(folder / "in.mesh");
+}
+
+}  // namespace octetra::test

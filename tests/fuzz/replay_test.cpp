@@ -1,0 +1,117 @@
+#include <algorithm>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "fuzz/check_readers.hpp"
+#include "support/meshes.hpp"
+#include "support/temporary_folder.hpp"
+
+/// The files that readers once stumbled over, and those of the corpus, read as when fuzzing.
+namespace octetra::test {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+
+const fs::path corpus = fs::path(OCTETRA_SOURCE_DIR) / "corpus";
+
+std::vector<fs::path> files_in(const fs::path& folder, const std::string& extension = {}) {
+    std::vector<fs::path> files;
+    for (const auto& entry : fs::directory_iterator(folder)) {
+        const bool fits = extension.empty() || entry.path().extension() == extension;
+        if (entry.is_regular_file() && fits) files.push_back(entry.path());
+    }
+    std::ranges::sort(files);
+    return files;
+}
+
+/// The files of a TetGen mesh as check_tetgen takes them.
+std::string in_one(fs::path path) {
+    std::string joined;
+    for (const std::string extension : {".node", ".ele", ".face", ".edge"}) {
+        if (!joined.empty()) joined += '%';
+        path.replace_extension(extension);
+        joined += fs::exists(path) ? content_of(path) : "-";
+    }
+    return joined;
+}
+
+TEST(KeptFile, IsReadOrRefusedAsItShould) {
+    const TemporaryFolder folder;
+    for (const auto& kept : fs::directory_iterator(corpus / "regression" / "files")) {
+        const std::string name = kept.path().filename();
+        const auto reader = std::ranges::find(reader_checks(), name, &NamedCheck::name);
+        ASSERT_NE(reader, reader_checks().end()) << "there is no reader " << name;
+        for (const fs::path& file : files_in(kept.path())) {
+            SCOPED_TRACE(file);
+            EXPECT_NO_THROW(reader->check(content_of(file), folder.path()));
+        }
+    }
+}
+
+TEST(CorpusFile, IsReadOrRefusedAsItShould) {
+    const TemporaryFolder folder;
+    for (const fs::path& meshes : {corpus / "meshes", corpus / "bad"}) {
+        for (const fs::path& file : files_in(meshes, ".ele")) {
+            SCOPED_TRACE(file);
+            EXPECT_NO_THROW(check_tetgen(in_one(file), folder.path()));
+        }
+        for (const fs::path& file : files_in(meshes, ".mesh")) {
+            SCOPED_TRACE(file);
+            EXPECT_NO_THROW(check_medit(content_of(file), folder.path()));
+        }
+    }
+}
+
+/// What no reader returns is told apart from what it may.
+TEST(BrokenInvariant, IsSeen) {
+    const Mesh good = one_cell(cube_corner);
+    EXPECT_EQ(broken_invariant(good, false), "");
+    const auto broken = [&](auto&& fault, bool only_syntax = false) {
+        Mesh mesh = good;
+        fault(mesh);
+        return broken_invariant(mesh, only_syntax);
+    };
+    const CellIndex cell{0};
+    const auto vertex = [](std::size_t number) { return VertexIndex{number}; };
+    const auto invert = [&](Mesh& mesh) { std::swap(mesh.cells[cell][0], mesh.cells[cell][1]); };
+    const auto list_stray_edge = [&](Mesh& mesh) {
+        mesh.points.append({2, 2, 2});
+        mesh.edges.append({vertex(0), vertex(4)});
+    };
+    const auto leave_range = [&](Mesh& mesh) { mesh.cells[cell][3] = vertex(4); };
+    EXPECT_THAT(broken([](Mesh& mesh) { mesh.first_number = 2; }), HasSubstr("first number"));
+    EXPECT_THAT(broken([](Mesh& mesh) { mesh.regions.resize(2); }), HasSubstr("length"));
+    EXPECT_THAT(broken([](Mesh& mesh) { mesh.attributes_per_point = 1; }), HasSubstr("length"));
+    EXPECT_THAT(broken([&](Mesh& mesh) { mesh.points[vertex(0)].y = HUGE_VAL; }),
+                HasSubstr("coordinate"));
+    EXPECT_THAT(broken(leave_range), HasSubstr("range"));
+    EXPECT_THAT(broken(leave_range, true), HasSubstr("range"));
+    EXPECT_THAT(broken([&](Mesh& mesh) { mesh.cells[cell][3] = vertex(0); }), HasSubstr("twice"));
+    EXPECT_THAT(broken(invert), HasSubstr("oriented"));
+    EXPECT_EQ(broken(invert, true), "");
+    EXPECT_THAT(broken(list_stray_edge), HasSubstr("an edge is of no cell"));
+    EXPECT_EQ(broken(list_stray_edge, true), "");
+}
+
+TEST(Message, ThatNamesNoFileAndLineIsSeen) {
+    const TemporaryFolder folder;
+    (void)folder.write("in.mesh", "one\ntwo\n");
+    const std::string file = folder / "in.mesh";
+    const auto check = [&](const std::string& message) { check_message(message, folder.path()); };
+    EXPECT_NO_THROW(check(file + ": cannot be opened"));
+    EXPECT_NO_THROW(check(file + ":1: what is wrong"));
+    EXPECT_NO_THROW(check(file + ":3: the end is missing"));
+    for (const std::string& wrong :
+         {std::string("what is wrong"), file, file + ":0: what", file + ":4: what", file + ":2",
+          file + ":1: a bell \a rings", file + ":1: two\nlines", file + ":1: \xff"}) {
+        EXPECT_THROW(check(wrong), BrokenPromise) << wrong;
+    }
+}
+
+}  // namespace
+}  // namespace octetra::test

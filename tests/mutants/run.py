@@ -1,0 +1,238 @@
+#!/usr/bin/env python3
+"""Deliberate faults of our own code, and whether the tests notice them.
+
+The faults stand in the .toml files beside this one, each a [[mutant]] with
+  name   what is then wrong; it names the mutant on the command line
+  file   of the checkout, in which
+  old    stands exactly once, to be replaced by
+  new    (a line end at the beginning of either is left out)
+  tests  the test programs that may catch it, cheapest first: NAME runs test_NAME, NAME@3 on 3 ranks.
+
+./dev mutants puts one after the other into a copy of the checkout, build/mutants/tree, builds what
+has changed and runs these programs. A program catches a mutant when it fails, or does not end
+within two minutes. A mutant that none of them catches has survived: a test is missing.
+"""
+
+import argparse
+import os
+import pathlib
+import re
+import shutil
+import subprocess
+import sys
+import threading
+import time
+import tomllib
+
+here = pathlib.Path(__file__).resolve().parent
+root = here.parent.parent
+tree = root / "build/mutants/tree"
+build = root / "build/mutants/build"
+seconds_for_a_program = 120
+
+
+def die(message):
+    sys.exit(f"mutants: {message}")
+
+
+# ---- the list --------------------------------------------------------------------------------------
+
+
+def read_mutants():
+    mutants = []
+    for path in sorted(here.glob("*.toml")):
+        mutants += tomllib.loads(path.read_text())["mutant"]
+    return mutants
+
+
+def mutated(mutant, folder):
+    """The file's content with the fault in it. Ends the program unless the fault fits exactly once."""
+    content = (folder / mutant["file"]).read_text()
+    found = content.count(mutant["old"])
+    if found != 1:
+        die(f"{mutant['name']}: what it replaces is {found} times in {mutant['file']}, not once")
+    if mutant["new"] == mutant["old"]:
+        die(f"{mutant['name']}: changes nothing")
+    return content.replace(mutant["old"], mutant["new"])
+
+
+def check(mutants):
+    programs = set()
+    for path in (root / "tests").glob("*/CMakeLists.txt"):
+        programs |= set(re.findall(r"^octetra_(?:mpi_)?test\((\w+)", path.read_text(), re.MULTILINE))
+    names = [mutant["name"] for mutant in mutants]
+    for name in names:
+        if names.count(name) > 1:
+            die(f"two mutants are called {name}")
+    for mutant in mutants:
+        mutated(mutant, root)
+        for test in mutant["tests"]:
+            if test.split("@")[0] not in programs:
+                die(f"{mutant['name']}: there is no test program {test}")
+    print(f"{len(mutants)} mutants fit the sources")
+
+
+# ---- the copy --------------------------------------------------------------------------------------
+
+
+def copy_tree():
+    """Copies what has changed, so that what was built of the rest stays."""
+    left_out = shutil.ignore_patterns(".git", "build", "demo", "__pycache__")
+    kept = set()
+    for folder, folders, files in os.walk(root):
+        ignored = left_out(folder, folders + files)
+        folders[:] = [name for name in folders if name not in ignored]
+        for name in files:
+            source = pathlib.Path(folder) / name
+            if name in ignored or source.is_symlink():
+                continue
+            target = tree / source.relative_to(root)
+            kept.add(target)
+            write_if_other(target, source.read_bytes())
+            shutil.copymode(source, target)
+    for folder, _, files in os.walk(tree):
+        for name in files:
+            if pathlib.Path(folder) / name not in kept:
+                (pathlib.Path(folder) / name).unlink()
+
+
+def write_if_other(path, content):
+    if path.exists() and path.read_bytes() == content:
+        return
+    path.parent.mkdir(parents=True, exist_ok=True)
+    path.write_bytes(content)
+
+
+def configure():
+    cache = build / "CMakeCache.txt"
+    if cache.exists() and f"CMAKE_HOME_DIRECTORY:INTERNAL={tree}\n" not in cache.read_text():
+        shutil.rmtree(build)  # made for a checkout that was elsewhere
+    # A fault may leave a name unused, which is no concern here.
+    command = ["cmake", "--preset", "release", "-S", tree, "-B", build, "-DOCTETRA_TESTS=ON",
+               "-DOCTETRA_BENCH=OFF", "-DOCTETRA_WARNINGS_AS_ERRORS=OFF"]
+    done = subprocess.run(command, cwd=tree, stdout=subprocess.DEVNULL)
+    if done.returncode != 0:
+        die("the copy cannot be configured")
+
+
+def build_programs(tests, jobs):
+    """What went wrong, or nothing."""
+    targets = sorted({"test_" + test.split("@")[0] for test in tests})
+    command = ["cmake", "--build", build, "--parallel", str(jobs), "--target", *targets]
+    done = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+    return done.stdout if done.returncode != 0 else ""
+
+
+# ---- running tests ---------------------------------------------------------------------------------
+
+
+def failure_of(test):
+    """What of a test program fails, or nothing. It is ended at its first failure."""
+    name, _, ranks = test.partition("@")
+    (program,) = (path for path in build.glob(f"tests/*/test_{name}") if path.is_file())
+    command = [program, "--gtest_brief=1", "--gtest_color=no"]
+    if ranks:
+        command = [tree / "tests/support/mpirun.sh", ranks, *command]
+    environment = os.environ | {"RC_PARAMS": "seed=1"}
+    process = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,
+                               errors="replace", env=environment)
+    late = threading.Event()
+
+    def stop():
+        late.set()
+        process.terminate()  # mpirun ends its ranks then
+
+    timer = threading.Timer(seconds_for_a_program, stop)
+    timer.start()
+    failed = ""
+    for line in process.stdout:
+        found = re.search(r"\[  FAILED  \] (\S+?),? ", line)
+        if found:
+            failed = found[1]
+            break
+    timer.cancel()
+    process.terminate()
+    try:
+        status = process.wait(timeout=20)
+    except subprocess.TimeoutExpired:
+        process.kill()
+        status = process.wait()
+    if failed:
+        return f"{test}: {failed}"
+    if late.is_set():
+        return f"{test}: does not end"
+    return f"{test}: exit status {status}" if status != 0 else ""
+
+
+def fate_of(mutant, jobs):
+    """("caught", by which test), ("survived", "") or ("does not compile", the first error)."""
+    path = tree / mutant["file"]
+    original = path.read_bytes()
+    path.write_text(mutated(mutant, tree))
+    try:
+        for test in mutant["tests"]:
+            wrong = build_programs([test], jobs)
+            if wrong:
+                errors = [line for line in wrong.splitlines() if "error:" in line]
+                return "does not compile", errors[0] if errors else wrong[-200:]
+            failure = failure_of(test)
+            if failure:
+                return "caught", failure
+        return "survived", ""
+    finally:
+        path.write_bytes(original)
+
+
+def run(mutants, minutes, jobs):
+    end = time.monotonic() + 60 * minutes
+    copy_tree()
+    configure()
+    every_test = sorted({test for mutant in mutants for test in mutant["tests"]})
+    print(f"building and running {', '.join(every_test)} without any fault", flush=True)
+    wrong = build_programs(every_test, jobs)
+    if wrong:
+        die("the copy does not compile\n" + wrong)
+    for test in every_test:
+        failure = failure_of(test)
+        if failure:
+            die(f"fails without any fault: {failure}")
+    bad = 0
+    for done, mutant in enumerate(mutants):
+        if time.monotonic() > end:
+            print(f"\ntime is up after {done} of {len(mutants)} mutants; to go on: "
+                  f"./dev mutants --from {mutant['name']}")
+            break
+        begin = time.monotonic()
+        fate, how = fate_of(mutant, jobs)
+        bad += fate != "caught"
+        print(f"{fate:<9}{time.monotonic() - begin:5.0f} s  {mutant['name']:<50}  {how}", flush=True)
+    return bad
+
+
+def main():
+    parser = argparse.ArgumentParser(prog="./dev mutants")
+    parser.add_argument("--check", action="store_true", help="only see whether they fit the sources")
+    parser.add_argument("--minutes", type=float, default=30, help="begin no other after so long")
+    parser.add_argument("--from", dest="first", metavar="NAME", help="go on with this one")
+    parser.add_argument("--jobs", type=int, default=os.cpu_count(), help=argparse.SUPPRESS)
+    parser.add_argument("names", metavar="NAME", nargs="*", help="only these; all if none is named")
+    arguments = parser.parse_args()
+
+    mutants = read_mutants()
+    check(mutants)
+    if arguments.check:
+        return
+    known = [mutant["name"] for mutant in mutants]
+    for name in arguments.names + ([arguments.first] if arguments.first else []):
+        if name not in known:
+            die(f"there is no mutant {name}")
+    if arguments.names:
+        mutants = [mutant for mutant in mutants if mutant["name"] in arguments.names]
+    elif arguments.first:
+        mutants = mutants[known.index(arguments.first):]
+    bad = run(mutants, arguments.minutes, arguments.jobs)
+    if bad:
+        die(f"{bad} not caught")
+
+
+main()

@@ -46,7 +46,7 @@ class Frame:
     """The area of a chart between its axes: what is drawn goes to `parts`. The y axis goes from 0 to
     a round number that is at least `highest`."""
 
-    def __init__(self, width, height, highest, left=52, top=26, bottom=40, right=8):
+    def __init__(self, width, height, highest, left=52, top=26, bottom=40, right=18):
         self.width, self.height = width, height
         self.left, self.right = left, width - right
         self.top, self.bottom = top, height - bottom
@@ -72,7 +72,7 @@ class Frame:
     def svg(self, label):
         """`label` says what the chart shows to those who cannot see it."""
         return (f'<svg viewBox="0 0 {self.width} {self.height}" role="img" '
-                f'aria-label="{escape(label)}" style="max-width:{self.width}px">'
+                f'aria-label="{escape(label)}" width="{self.width}">'
                 + "".join(self.parts) + "</svg>")
 
 

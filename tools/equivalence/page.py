@@ -30,8 +30,8 @@ def answer(total):
     runs = plural(total["runs"], "parallel run")
     cases = plural(total["cases"], "case")
     if total["differing"]:
-        return "bad", (f"{plural(total['differing_runs'], 'kind')} of run differ from the serial "
-                       f"reference: {', '.join(total['differing'])}.")
+        return "bad", (f"Not identical to the serial reference: {', '.join(total['differing'])} "
+                       f"({plural(total['differing_runs'], 'kind')} of run).")
     if total["invalid"]:
         return "bad", f"Not valid by exact verification: {', '.join(total['invalid'])}."
     return "good", f"{cases}, {runs}: all identical to the serial reference, byte by byte."
@@ -46,7 +46,7 @@ def verdict(total):
             f"{size(total['bytes'])} of files compared on 1 to 4 ranks, by both synchronisations, "
             f"up to {count(total['most_cells'])} cells. {count(valid)} of "
             f"{plural(total['refined'], 'refined mesh/meshes')} found valid by an independent "
-            f"verifier, in {count(total['decisions'])} decisions by exact arithmetic"
+            f"verifier, in {count(total['decisions'])} exact decisions"
             f"{refused}.</div>")
 
 
@@ -226,7 +226,8 @@ def page(report, folder):
     cases, machine = report["cases"], report["machine"]
     with open(STYLE, encoding="utf-8") as file:
         style = file.read()
-    body = (f"<h1>Does refinement give the same bytes everywhere?</h1>{where(report)}"
+    body = (f'<p class="faint">Octetra: equivalence report</p>'
+            f"<h1>Does refinement give the same bytes everywhere?</h1>{where(report)}"
             + verdict(totals(cases)) + load_notice(machine) + cases_section(cases)
             + picture_section(report, folder) + paper_section(cases) + angles_section(cases)
             + balance_section(cases) + time_section(cases, machine["cores"])

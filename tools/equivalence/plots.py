@@ -33,7 +33,7 @@ def histogram(before, after, title, unit, marks):
     """Two histograms with the same bins over each other, in per cent; `marks` are the numbers to
     write below the axis."""
     old, new = shares(before), shares(after)
-    frame = Frame(420, 240, max(old + new))
+    frame = Frame(530, 250, max(old + new))
     frame.y_axis("%")
     frame.parts.append(path(outline(frame, old), "before area"))
     frame.parts.append(path(outline(frame, new), "after outline"))
@@ -63,7 +63,7 @@ def cells_per_rank(cells_of_rank):
     first, last = cells_of_rank[0], cells_of_rank[-1]
     ranks = len(last)
     of_first, of_last = ([100 * c / sum(level) for c in level] for level in (first, last))
-    frame = Frame(70 + 70 * ranks, 210, max(of_first + of_last))
+    frame = Frame(70 + 80 * ranks, 210, max(of_first + of_last))
     frame.y_axis("% of cells")
     wide = (frame.right - frame.left) / ranks
     for rank in range(ranks):
@@ -96,7 +96,7 @@ def phases(case):
     communicating."""
     runs = neighbour_runs(case)
     heights = [[step_seconds(run, of) for run in runs] for _, of in STEPS]
-    frame = Frame(880, 300, 1000 * max(sum(h) for step in heights for h in step), bottom=66)
+    frame = Frame(1100, 320, 1000 * max(sum(h) for step in heights for h in step), bottom=66)
     frame.y_axis("ms")
     wide = (frame.right - frame.left) / len(STEPS)
     one = 0.8 * wide / len(runs)
@@ -131,7 +131,7 @@ def scaling(case, cores):
     most = max(run["ranks"] for run in runs)
     curves = [(key, [(run["ranks"], runs[0]["figures"][key] / run["figures"][key])
                      for run in runs]) for key in ("refining_seconds", "seconds")]
-    frame = Frame(420, 260, max(most, *(s for _, curve in curves for _, s in curve)))
+    frame = Frame(530, 280, max(most, *(s for _, curve in curves for _, s in curve)))
 
     def x(ranks):
         return frame.x((ranks - 0.5) / most)

@@ -16,9 +16,9 @@ def row(*cells):
     return "<tr>" + "".join(cells) + "</tr>"
 
 
-def table(head, rows, label):
+def table(head, rows, label, kind=""):
     """Wide tables scroll by themselves."""
-    return (f'<div class="wide"><table aria-label="{escape(label)}"><thead>{head}</thead><tbody>'
+    return (f'<div class="wide"><table class="{kind}" aria-label="{escape(label)}"><thead>{head}</thead><tbody>'
             + "".join(rows) + "</tbody></table></div>")
 
 
@@ -68,14 +68,14 @@ def case_row(case):
 
 
 def cases_table(cases):
-    head = ("<tr><th rowspan=2>case</th><th colspan=2>cells</th><th rowspan=2>same bytes as"
-            "<br>the reference</th><th rowspan=2>exact<br>verification</th>"
-            "<th colspan=2>synchronisation on 4 ranks: rounds · messages · bytes</th>"
-            "<th colspan=3>time, files included</th></tr>"
+    head = ("<tr><th rowspan=2>case</th><th colspan=2>cells</th><th rowspan=2>same bytes"
+            "<br>as reference</th><th rowspan=2>exact<br>verification</th>"
+            "<th colspan=2>4 ranks tell each other: rounds · messages · bytes</th>"
+            "<th colspan=3 class=number>time, files included</th></tr>"
             "<tr><th class=number>before</th><th class=number>after</th><th class=number>neighbour"
             "</th><th class=number>gateway</th><th class=number>reference</th>"
             "<th class=number>1 rank</th><th class=number>2 ranks</th></tr>")
-    return table(head, [case_row(case) for case in cases], "Cases")
+    return table(head, [case_row(case) for case in cases], "Cases", "full")
 
 
 # --- the paper's cases

@@ -59,6 +59,14 @@ def tell(words):
     print(words, file=sys.stderr, flush=True)
 
 
+def in_short(measured):
+    if not measured["identical"]:
+        return "NOT IDENTICAL"
+    if measured["verdict"] is None:
+        return "refused by all alike"
+    return "identical, valid" if measured["valid"] else "identical, NOT VALID"
+
+
 def measure_all(cases, octetra, work, output, with_pictures):
     """The cases and pictures of the report, in the order given."""
     measured, drawn, places = [], [], {}
@@ -71,10 +79,8 @@ def measure_all(cases, octetra, work, output, with_pictures):
             name = folder_name(case) + ".png"
             missing = pictures.draw(case, place, os.path.join(output, name))
             drawn.append({"case": case.name, "file": name, "missing": missing})
-        right = measured[-1]["identical"] and measured[-1]["valid"]
-        tell(f"[{number}/{len(cases)}] {case.name}: "
-             f"{'identical, ' + ('valid' if measured[-1]['verdict'] else 'refused alike') if right else 'FAILED'}"
-             f" ({time.monotonic() - begin:.1f} s)")
+        tell(f"[{number}/{len(cases)}] {case.name}: {in_short(measured[-1])} "
+             f"({time.monotonic() - begin:.1f} s)")
         places[case.name] = place.folder
         if not any(later.after == case.name for later in cases[number:]):
             shutil.rmtree(place.folder)

@@ -2,11 +2,9 @@
 
 from html import escape
 
-FONT = 12  # px
-
-
 def text(x, y, words, anchor="middle", kind="label"):
-    return f'<text x="{x:.1f}" y="{y:.1f}" text-anchor="{anchor}" class="{kind}">{escape(words)}</text>'
+    return (f'<text x="{x:.1f}" y="{y:.1f}" text-anchor="{anchor}" class="{kind}">'
+            f"{escape(words)}</text>")
 
 
 def line(x1, y1, x2, y2, kind):
@@ -64,7 +62,8 @@ class Frame:
         for step in self.steps:
             self.parts.append(line(self.left, self.y(step), self.right, self.y(step), "grid"))
             self.parts.append(text(self.left - 6, self.y(step) + 4, f"{step:g}", "end"))
-        self.parts.append(text(self.left - 6, self.top - 12, unit, "end" if len(unit) < 7 else "middle"))
+        anchor = "end" if len(unit) < 7 else "middle"  # longer ones would leave the drawing
+        self.parts.append(text(self.left - 6, self.top - 12, unit, anchor))
 
     def x_title(self, words):
         self.parts.append(text((self.left + self.right) / 2, self.height - 6, words))

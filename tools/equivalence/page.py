@@ -155,36 +155,47 @@ def balance_section(cases):
                                              "".join(blocks[1:])) if len(blocks) > 1 else ""))
 
 
+def timed_cases(cases):
+    """The cases made for it, and where there are none, the largest."""
+    refined = [case for case in cases if case["after"] and plots.neighbour_runs(case)]
+    return ([case for case in refined if case["scaling"]]
+            or sorted(refined, key=lambda case: case["after"]["cells"])[-1:])
+
+
 def time_section(cases, cores):
-    """Of the cases made for it, and where there are none, of the largest."""
-    refined = [case for case in cases if case["after"]]
-    shown = ([case for case in refined if case["scaling"]]
-             or sorted(refined, key=lambda case: case["after"]["cells"])[-1:])
-    shown = [case for case in shown if plots.neighbour_runs(case)]
-    if not shown:
+    if not cases:
         return ""
-    repeats = shown[0]["runs"][0]["repeats"]
-    medians = f"Medians of {repeats} runs. " if repeats > 1 else "Of one run. "
-    html = ("<h2>Where the time goes</h2><p>Seconds by the wall clock, the mean of ranks; "
-            "communicating is mostly waiting. " + medians +
-            f"This machine has {plural(cores, 'core')}: more ranks than that take turns on them, so "
-            "their times say nothing about scaling.</p>"
-            + legend([("computing", "computing"), ("communicating", "communicating")]))
-    for case in shown:
-        html += figure(plots.phases(case), f"<b>{escape(case['name'])}</b>, "
-                       f"{count(case['before']['cells'])} to {count(case['after']['cells'])} cells: "
-                       "every step on 1, 2, 3 and 4 ranks, as in the paper's Figure 10.")
-    html += ("<h2>Strong scaling</h2>"
-             + legend([("refining_seconds", "refinement itself"),
-                       ("seconds", "the whole run: reading, partition and writing too")])
-             + '<p class="faint">Speed against one rank; dashed: as many times as fast as there are '
-             "ranks.</p><div class=plots>")
-    for case in shown:
-        one = run_of(case, 1)
-        html += figure(plots.scaling(case, cores), f"<b>{escape(case['name'])}</b>, "
-                       f"{count(case['after']['cells'])} cells: on one rank refinement takes "
-                       f"{seconds(one['refining_seconds'])} of {seconds(one['seconds'])}.")
-    return html + "</div>"
+    repeats = cases[0]["runs"][0]["repeats"]
+    of = f"Medians of {repeats} runs" if repeats > 1 else "Of one run"
+    charts = [figure(plots.phases(case),
+                     f"<b>{escape(case['name'])}</b>, {count(case['before']['cells'])} to "
+                     f"{count(case['after']['cells'])} cells: every step on 1, 2, 3 and 4 ranks, "
+                     "as in the paper's Figure 10.") for case in cases]
+    return ("<h2>Where the time goes</h2><p>Seconds by the wall clock, the mean of ranks; "
+            f"communicating is mostly waiting. {of}. This machine has {plural(cores, 'core')}: more "
+            "ranks than that take turns on them, so their times say nothing about scaling.</p>"
+            + legend([("computing", "computing"), ("communicating", "communicating")])
+            + "".join(charts))
+
+
+def scaling_figure(case, cores):
+    one = run_of(case, 1)
+    return figure(plots.scaling(case, cores),
+                  f"<b>{escape(case['name'])}</b>, {count(case['after']['cells'])} cells: on one "
+                  f"rank refinement takes {seconds(one['refining_seconds'])} of "
+                  f"{seconds(one['seconds'])}.")
+
+
+def scaling_section(cases, cores):
+    cases = [case for case in cases if run_of(case, 1)]
+    if not cases:
+        return ""
+    return ("<h2>Strong scaling</h2>"
+            + legend([("refining_seconds", "refinement itself"),
+                      ("seconds", "the whole run: reading, partition and writing too")])
+            + '<p class="faint">Speed against one rank; dashed: as many times as fast as there are '
+            "ranks.</p><div class=plots>"
+            + "".join(scaling_figure(case, cores) for case in cases) + "</div>")
 
 
 # --- every run
@@ -206,7 +217,8 @@ def case_details(case):
     html = f"<pre>{escape(commands(case))}</pre>" + runs_table(case)
     if case["verdict"] is None:
         message = case["reference"]["message"]
-        return details(escape(case["name"]), html + f"<p>All say: <code>{escape(message)}</code></p>")
+        html += f"<p>All say: <code>{escape(message)}</code></p>"
+        return details(escape(case["name"]), html)
     arithmetic = case["verdict"]["arithmetic"]
     html += (files_table(case) + checks_table(case["verdict"]) +
              f'<p class="faint">Verified in {seconds(case["verdict"]["seconds"])}: '
@@ -224,14 +236,15 @@ def runs_section(cases):
 def page(report, folder):
     """The whole page; pictures are taken from `folder`."""
     cases, machine = report["cases"], report["machine"]
+    timed, cores = timed_cases(cases), machine["cores"]
     with open(STYLE, encoding="utf-8") as file:
         style = file.read()
     body = (f'<p class="faint">Octetra: equivalence report</p>'
             f"<h1>Does refinement give the same bytes everywhere?</h1>{where(report)}"
             + verdict(totals(cases)) + load_notice(machine) + cases_section(cases)
             + picture_section(report, folder) + paper_section(cases) + angles_section(cases)
-            + balance_section(cases) + time_section(cases, machine["cores"])
-            + runs_section(cases))
+            + balance_section(cases) + time_section(timed, cores)
+            + scaling_section(timed, cores) + runs_section(cases))
     return ('<!DOCTYPE html>\n<html lang="en"><head><meta charset="utf-8">'
             '<meta name="viewport" content="width=device-width, initial-scale=1">'
             f"<title>Octetra: equivalence report</title><style>{style}</style></head>"

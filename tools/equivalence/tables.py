@@ -18,7 +18,8 @@ def row(*cells):
 
 def table(head, rows, label, kind=""):
     """Wide tables scroll by themselves."""
-    return (f'<div class="wide"><table class="{kind}" aria-label="{escape(label)}"><thead>{head}</thead><tbody>'
+    return (f'<div class="wide"><table class="{kind}" aria-label="{escape(label)}">'
+            f"<thead>{head}</thead><tbody>"
             + "".join(rows) + "</tbody></table></div>")
 
 

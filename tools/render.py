@@ -115,8 +115,9 @@ def parse_command_line():
     parser.add_argument("--color", choices=["region", "rank", "parent", "quality", "none"],
                         help="colour cells by region tag; by the rank that has them (.pvtu); by "
                              "the cell that they descend from (the first mesh's own numbers); by "
-                             "mean ratio, 1 for a regular cell; or tell the surface from the inside "
-                             "only (none). Without it: region where every mesh has tags, else none")
+                             "mean ratio, 1 for a regular cell; or tell the surface from the "
+                             "inside only (none). Without it: region where every mesh has tags, "
+                             "else none")
     return parser.parse_args(joined(sys.argv[1:]))
 
 

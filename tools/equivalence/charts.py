@@ -24,7 +24,7 @@ def path(points, kind):
 
 
 def round_steps(highest, about=4):
-    """Numbers from 0 to at least `highest`, evenly spaced by 1, 2, 2.5 or 5 times a power of ten."""
+    """From 0 to at least `highest`, evenly spaced by 1, 2, 2.5 or 5 times a power of ten."""
     if highest <= 0:
         return [0.0, 1.0]
     rough = highest / about
@@ -41,8 +41,8 @@ def round_steps(highest, about=4):
 
 
 class Frame:
-    """The area of a chart between its axes: what is drawn goes to `parts`. The y axis goes from 0 to
-    a round number that is at least `highest`."""
+    """The area of a chart between its axes: what is drawn goes to `parts`. The y axis goes from 0
+    to a round number that is at least `highest`."""
 
     def __init__(self, width, height, highest, left=52, top=26, bottom=40, right=18):
         self.width, self.height = width, height

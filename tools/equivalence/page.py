@@ -66,8 +66,8 @@ def load_notice(machine):
         return ""
     return (f'<p class="notice"><b>Times on this page are no measure.</b> When the report began, '
             f"{machine['load']:.1f} other processes on average wanted the "
-            f"{plural(machine['cores'], 'core')} of this machine. Bytes, rounds and messages do not "
-            "depend on that.</p>")
+            f"{plural(machine['cores'], 'core')} of this machine. Bytes, rounds and messages do "
+            "not depend on that.</p>")
 
 
 # --- sections
@@ -81,8 +81,8 @@ def cases_section(cases):
             "too, is compared byte by byte.</p>" + cases_table(shown))
     if corpus:
         right = sum(case["identical"] and case["valid"] for case in corpus)
-        html += details(f"<b>The corpus</b>: {plural(len(corpus), 'mesh/meshes')}, made for trouble "
-                        f"(ties, slivers, odd files); {right} of them identical and valid",
+        html += details(f"<b>The corpus</b>: {plural(len(corpus), 'mesh/meshes')}, made for "
+                        f"trouble (ties, slivers, odd files); {right} of them identical and valid",
                         cases_table(corpus))
     return html
 
@@ -172,8 +172,8 @@ def time_section(cases, cores):
                      f"{count(case['after']['cells'])} cells: every step on 1, 2, 3 and 4 ranks, "
                      "as in the paper's Figure 10.") for case in cases]
     return ("<h2>Where the time goes</h2><p>Seconds by the wall clock, the mean of ranks; "
-            f"communicating is mostly waiting. {of}. This machine has {plural(cores, 'core')}: more "
-            "ranks than that take turns on them, so their times say nothing about scaling.</p>"
+            f"communicating is mostly waiting. {of}. This machine has {plural(cores, 'core')}: "
+            "more ranks than that take turns on them, so their times say nothing about scaling.</p>"
             + legend([("computing", "computing"), ("communicating", "communicating")])
             + "".join(charts))
 

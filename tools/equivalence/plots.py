@@ -139,7 +139,7 @@ def scaling(case, cores):
     if cores < most:
         frame.parts.append(bar(x(cores + 0.5), frame.top, frame.right - x(cores + 0.5),
                                frame.bottom - frame.top, "shade"))
-        frame.parts.append(text((x(cores + 0.5) + frame.right) / 2, frame.bottom - 8,
+        frame.parts.append(text((x(cores + 0.5) + frame.right) / 2, frame.top - 6,
                                 "more ranks than cores", kind="label small"))
     frame.y_axis("times")
     frame.parts.append(path([(x(n), frame.y(n)) for n in range(1, min(cores, most) + 1)], "even"))

@@ -18,7 +18,7 @@ try:
     from vtkmodules.vtkFiltersVerdict import vtkMeshQuality
     from vtkmodules.vtkImagingCore import vtkImageShrink3D
     from vtkmodules.vtkIOImage import vtkPNGWriter
-    from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridReader
+    from vtkmodules.vtkIOXML import vtkXMLPUnstructuredGridReader, vtkXMLUnstructuredGridReader
     from vtkmodules.vtkRenderingAnnotation import vtkScalarBarActor
     from vtkmodules.vtkRenderingCore import (vtkActor, vtkColorTransferFunction, vtkLight,
                                              vtkPolyDataMapper, vtkRenderer, vtkRenderWindow,
@@ -102,7 +102,7 @@ def parse_command_line():
         description="Draw meshes side by side, from the same point of view, as a PNG picture.",
         epilog="example, cut open in the middle to show the inside:\n"
                "  tools/render.py coarse.vtu fine.vtu -o picture.png --clip 0.5,0.5,0.5,0,-1,0")
-    parser.add_argument("meshes", metavar="MESH.vtu", nargs="+")
+    parser.add_argument("meshes", metavar="MESH.vtu", nargs="+", help="or .pvtu")
     parser.add_argument("-o", "--output", metavar="PICTURE.png", required=True)
     parser.add_argument("--clip", metavar="X,Y,Z,NX,NY,NZ", type=clip_plane,
                         help="remove the cells that lie wholly on the side of the plane through "
@@ -112,11 +112,12 @@ def parse_command_line():
                              "it: half from above, on the open side of a clip")
     parser.add_argument("--size", metavar="WxH", type=picture_size, default=(1600, 900),
                         help="of the picture in pixels (1600x900)")
-    parser.add_argument("--color", choices=["region", "parent", "quality", "none"],
-                        help="colour cells by region tag; by the cell that they descend from (the "
-                             "first mesh's own numbers); by mean ratio, 1 for a regular cell; or "
-                             "tell the surface from the inside only (none). Without it: region "
-                             "where every mesh has tags, else none")
+    parser.add_argument("--color", choices=["region", "rank", "parent", "quality", "none"],
+                        help="colour cells by region tag; by the rank that has them (.pvtu); by "
+                             "the cell that they descend from (the first mesh's own numbers); by "
+                             "mean ratio, 1 for a regular cell; or tell the surface from the "
+                             "inside only (none). Without it: region where every mesh has tags, "
+                             "else none")
     return parser.parse_args(joined(sys.argv[1:]))
 
 
@@ -134,13 +135,14 @@ def read(path):
     note.CallDataType = "string0"
     window = vtkOutputWindow.GetInstance()
     observer = window.AddObserver("ErrorEvent", note)
-    reader = vtkXMLUnstructuredGridReader()
+    in_pieces = path.endswith(".pvtu")
+    reader = vtkXMLPUnstructuredGridReader() if in_pieces else vtkXMLUnstructuredGridReader()
     reader.AddObserver("ErrorEvent", note)
     reader.SetFileName(path)
     reader.Update()
     window.RemoveObserver(observer)
     if complaints:
-        raise Failure(f"{path}: not a .vtu file that VTK can read: {complaints[0]}")
+        raise Failure(f"{path}: not a file that VTK can read: {complaints[0]}")
     grid = reader.GetOutput()
     if grid.GetNumberOfCells() == 0:
         raise Failure(f"{path}: has no cells to draw")
@@ -225,8 +227,8 @@ def colours_of(surface, grid, color):
         colours = quality_colours()
         return [[round(255 * part) for part in colours.GetColor(value)]
                 for value in memoryview(cell_data.GetArray("Quality")).tolist()]
-    if color == "region":
-        array = cell_data.GetArray("region")
+    if color in ("region", "rank"):
+        array = cell_data.GetArray(color)
         return [PALETTE[int(array.GetTuple1(i)) % len(PALETTE)]
                 for i in range(surface.GetNumberOfCells())]
     array = cell_data.GetArray("parent") or cell_data.GetArray("cell")
@@ -469,12 +471,16 @@ def display():
 
 def chosen_color(grids, options):
     """The --color option, checked against what the files have."""
-    tagged = [grid.GetCellData().HasArray("region") == 1 for grid in grids]
     if options.color is None:
-        return "region" if all(tagged) else "none"
-    if options.color == "region" and not all(tagged):
-        raise Failure(f"{options.meshes[tagged.index(False)]}: has no region tags to colour by")
+        return "region" if all(have(grids, "region")) else "none"
+    if options.color in ("region", "rank") and not all(have(grids, options.color)):
+        without = options.meshes[have(grids, options.color).index(False)]
+        raise Failure(f"{without}: has no {options.color} of cells to colour by")
     return options.color
+
+
+def have(grids, name):
+    return [grid.GetCellData().HasArray(name) == 1 for grid in grids]
 
 
 def render(options):

@@ -1,0 +1,125 @@
+"""The equivalence report as a whole: with the program as it is, and with programs that go wrong."""
+
+import json
+import os
+import re
+import stat
+import subprocess
+import sys
+import tempfile
+import unittest
+import xml.etree.ElementTree
+
+TOOL = os.path.join(os.path.dirname(__file__), "..", "..", "tools", "equivalence")
+OCTETRA = os.environ.get("OCTETRA_PROGRAM", "octetra")
+
+# Programs that do what octetra does, but for one thing. $OMPI_COMM_WORLD_RANK is set by mpirun.
+CHANGES_A_BYTE_ON_3_RANKS_BY_THE_GATEWAY = """#!/bin/bash
+"{octetra}" "$@" || exit
+if [[ $OMPI_COMM_WORLD_RANK == 0 && $OMPI_COMM_WORLD_SIZE == 3 && "$*" == *gateway* ]]; then
+    printf 9 | dd of=refined.node bs=1 seek=100 conv=notrunc status=none
+fi
+"""
+FAILS_ON_2_RANKS = """#!/bin/bash
+if [[ $OMPI_COMM_WORLD_SIZE == 2 ]]; then
+    echo "octetra: no more memory" >&2
+    exit 3
+fi
+exec "{octetra}" "$@"
+"""
+FINDS_NOTHING_VALID = """#!/bin/bash
+if [[ $1 == verify ]]; then exec "{octetra}" "$@" --min-dihedral 179; fi
+exec "{octetra}" "$@"
+"""
+SAYS_OTHER_WORDS_ON_RANKS = """#!/bin/bash
+if [[ $OMPI_COMM_WORLD_SIZE ]]; then
+    if [[ $OMPI_COMM_WORLD_RANK == 0 ]]; then echo "octetra: other words" >&2; fi
+    exit 2
+fi
+exec "{octetra}" "$@"
+"""
+
+
+class Report(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = folder.name
+
+    def program(self, script):
+        path = os.path.join(self.folder, "octetra")
+        with open(path, "w", encoding="utf-8") as file:
+            file.write(script.format(octetra=OCTETRA))
+        os.chmod(path, stat.S_IRWXU)
+        return path
+
+    def report(self, only, program=OCTETRA):
+        """Status, the sentence printed, and the JSON of a report on one case."""
+        done = subprocess.run(
+            [sys.executable, TOOL, "--octetra", program, "-o", os.path.join(self.folder, "out"),
+             "--only", only, "--no-pictures"], capture_output=True, text=True, check=False)
+        self.assertIn(done.returncode, (0, 1), done.stderr)
+        return done.returncode, done.stdout, json.loads(self.output("equivalence.json"))
+
+    def output(self, name):
+        with open(os.path.join(self.folder, "out", name), encoding="utf-8") as file:
+            return file.read()
+
+    def runs_that_differ(self, report):
+        return [(run["ranks"], run["sync"]) for case in report["cases"] for run in case["runs"]
+                if not run["identical"]]
+
+    def test_says_that_all_is_identical_and_valid(self):
+        status, said, report = self.report("kuhn-2")
+        self.assertEqual(status, 0)
+        self.assertIn("1 case, 7 parallel runs: all identical", said)
+        case = report["cases"][0]
+        self.assertEqual((case["before"]["cells"], case["after"]["cells"]), (48, 3072))
+        self.assertTrue(case["verdict"]["valid"])
+        self.assertIn("maps.txt", case["reference"]["files"])
+        self.assertIn("| kuhn-2 | 48 | 3,072 | 7 of 7 | valid |", self.output("equivalence.md"))
+
+    def test_is_a_page_that_needs_nothing_beside_it(self):
+        self.report("bcc-4")
+        html = self.output("index.html")
+        self.assertNotRegex(html, r"(src|href)=\"(?!data:)")
+        self.assertNotIn("<script", html)
+        drawings = re.findall(r"<svg.*?</svg>", html, re.DOTALL)
+        self.assertGreater(len(drawings), 2)
+        for drawing in drawings:
+            xml.etree.ElementTree.fromstring(drawing)
+
+    def test_sees_one_byte_that_one_run_has_otherwise(self):
+        program = self.program(CHANGES_A_BYTE_ON_3_RANKS_BY_THE_GATEWAY)
+        status, said, report = self.report("kuhn-2", program)
+        self.assertEqual(status, 1)
+        self.assertIn("Not identical", said)
+        self.assertEqual(self.runs_that_differ(report), [(3, "gateway")])
+        [run] = [run for run in report["cases"][0]["runs"] if not run["identical"]]
+        self.assertEqual(run["differences"][0], "refined.node differs from byte 100 on")
+        self.assertIn("octetra compare", run["differences"][1])
+        self.assertIn('class="verdict bad"', self.output("index.html"))
+        self.assertIn("6 of 7", self.output("equivalence.md"))
+
+    def test_sees_a_run_that_fails(self):
+        status, _, report = self.report("kuhn-2", self.program(FAILS_ON_2_RANKS))
+        self.assertEqual(status, 1)
+        self.assertEqual(self.runs_that_differ(report), [(2, "neighbour"), (2, "gateway")])
+        self.assertIn("status 3 instead of 0", report["cases"][0]["runs"][1]["differences"][0])
+
+    def test_says_what_is_not_valid(self):
+        status, said, report = self.report("kuhn-2", self.program(FINDS_NOTHING_VALID))
+        self.assertEqual(status, 1)
+        self.assertIn("Not valid by exact verification: kuhn-2", said)
+        self.assertEqual(self.runs_that_differ(report), [])
+        self.assertIn('class="verdict bad"', self.output("index.html"))
+
+    def test_wants_refusals_in_the_same_words(self):
+        status, _, report = self.report("no-room-for-midpoints")
+        self.assertEqual(status, 0)
+        self.assertEqual(report["cases"][0]["reference"]["status"], 2)
+        self.assertIn("refused", self.output("equivalence.md"))
+        status, _, report = self.report("no-room-for-midpoints",
+                                        self.program(SAYS_OTHER_WORDS_ON_RANKS))
+        self.assertEqual(status, 1)
+        self.assertEqual(len(self.runs_that_differ(report)), 7)

@@ -1,0 +1,251 @@
+"""The report as one HTML file that needs nothing beside it."""
+
+import base64
+import os
+import shlex
+from html import escape
+
+import plots
+from charts import legend
+from summary import paper_rows, run_of, totals
+from tables import cases_table, checks_table, files_table, paper_table, runs_table
+from words import count, degrees, plural, seconds, size
+
+STYLE = os.path.join(os.path.dirname(os.path.abspath(__file__)), "page.css")
+
+
+def figure(drawing, caption, kind=""):
+    return f'<figure class="{kind}">{drawing}<figcaption>{caption}</figcaption></figure>'
+
+
+def details(summary, content):
+    return f"<details><summary>{summary}</summary>{content}</details>"
+
+
+# --- the answer, first
+
+
+def answer(total):
+    """One sentence, and in which colour."""
+    runs = plural(total["runs"], "parallel run")
+    cases = plural(total["cases"], "case")
+    if total["differing"]:
+        return "bad", (f"Not identical to the serial reference: {', '.join(total['differing'])} "
+                       f"({plural(total['differing_runs'], 'kind')} of run).")
+    if total["invalid"]:
+        return "bad", f"Not valid by exact verification: {', '.join(total['invalid'])}."
+    return "good", f"{cases}, {runs}: all identical to the serial reference, byte by byte."
+
+
+def verdict(total):
+    kind, sentence = answer(total)
+    valid = total["refined"] - len(total["invalid"])
+    refused = (f"; {plural(total['refused'], 'mesh/meshes')} refused, for midpoints that rounding "
+               "would spoil, by all alike" if total["refused"] else "")
+    return (f'<div class="verdict {kind}"><b>{escape(sentence)}</b>'
+            f"{size(total['bytes'])} of files compared on 1 to 4 ranks, by both synchronisations, "
+            f"up to {count(total['most_cells'])} cells. {count(valid)} of "
+            f"{plural(total['refined'], 'refined mesh/meshes')} found valid by an independent "
+            f"verifier, in {count(total['decisions'])} exact decisions"
+            f"{refused}.</div>")
+
+
+def where(report):
+    machine = report["machine"]
+    cores = plural(machine["cores"], "core") + " of " + machine["processor"]
+    memory = size(machine["memory_bytes"]) + " of memory" if machine["memory_bytes"] else None
+    commit = f"commit {machine['commit']}" if machine["commit"] else None
+    known = [machine["date"], machine["octetra"], commit, cores, memory, machine["system"],
+             machine["mpi"]]
+    return f'<p class="faint">{escape(" · ".join(word for word in known if word))}</p>'
+
+
+def load_notice(machine):
+    """Times that were taken beside other work mislead, so they are not shown without a word."""
+    if machine["load"] < 0.5 * machine["cores"]:
+        return ""
+    return (f'<p class="notice"><b>Times on this page are no measure.</b> When the report began, '
+            f"{machine['load']:.1f} other processes on average wanted the "
+            f"{plural(machine['cores'], 'core')} of this machine. Bytes, rounds and messages do "
+            "not depend on that.</p>")
+
+
+# --- sections
+
+
+def cases_section(cases):
+    shown = [case for case in cases if case["group"] != "corpus"]
+    corpus = [case for case in cases if case["group"] == "corpus"]
+    html = ("<h2>Cases</h2><p>Each is refined by the serial reference, then by the parallel engine "
+            "on 1, 2, 3 and 4 ranks, with both ways to synchronise; then every file, parent maps "
+            "too, is compared byte by byte.</p>" + cases_table(shown))
+    if corpus:
+        right = sum(case["identical"] and case["valid"] for case in corpus)
+        html += details(f"<b>The corpus</b>: {plural(len(corpus), 'mesh/meshes')}, made for "
+                        f"trouble (ties, slivers, odd files); {right} of them identical and valid",
+                        cases_table(corpus))
+    return html
+
+
+def picture_section(report, folder):
+    html = ""
+    for picture in report["pictures"]:
+        case = next(case for case in report["cases"] if case["name"] == picture["case"])
+        if picture["missing"]:
+            html += f'<p class="faint">{escape(picture["missing"])}</p>'
+            continue
+        with open(os.path.join(folder, picture["file"]), "rb") as file:
+            data = base64.b64encode(file.read()).decode("ascii")
+        html += figure(f'<img alt="{escape(case["name"])} before and after" '
+                       f'src="data:image/png;base64,{data}">',
+                       f"<b>{escape(case['name'])}</b>: {escape(case['about'])}. Before and after, "
+                       "on 4 ranks; colours are ranks.")
+    return "<h2>Meshes and who has which part</h2>" + html if html else ""
+
+
+def paper_section(cases):
+    if not paper_rows(cases):
+        return ""
+    return ("<h2>Beside the paper</h2><p>M. Balman, <i>Tetrahedral Mesh Refinement in Distributed "
+            "Environments</i>, refines meshes of these sizes. <b>Its meshes are not these</b>, and "
+            "were not to be had: ours are gears of nearly as many vertices and cells, and as many "
+            "cells are chosen, by lot, as make them grow about as much. So the counts show that "
+            "the sizes are alike, and nothing else; times cannot be compared, as the paper "
+            "tabulates none.</p>" + paper_table(cases) +
+            '<p class="faint">The paper\'s vertex count for 235,941 cells is a misprint, and for '
+            "770,882 cells it has none. From which mesh it came to the last is not said; here it "
+            "follows the one before.</p>")
+
+
+def angle_figures(case):
+    old, new = case["before"]["dihedral_angle"], case["after"]["dihedral_angle"]
+    reach = (f"<b>{escape(case['name'])}</b>: dihedral angles are {degrees(old['min'])} to "
+             f"{degrees(old['max'])} before, {degrees(new['min'])} to {degrees(new['max'])} after")
+    ratio = (f"mean η is {case['before']['eta']['mean']:.3f} before, "
+             f"{case['after']['eta']['mean']:.3f} after; the least "
+             f"{case['before']['eta']['min']:.3g} and {case['after']['eta']['min']:.3g}")
+    return (figure(plots.dihedral_angles(case), reach + ".")
+            + figure(plots.mean_ratios(case), ratio + "."))
+
+
+def angles_section(cases):
+    shown = [case for case in cases if case["after"] and case["group"] != "corpus"]
+    pairs = ["<div class=plots>" + angle_figures(case) + "</div>" for case in shown]
+    return ("<h2>Shapes of cells</h2><p>Share of all dihedral angles, and of all cells, in each "
+            "bin.</p>" + legend([("before", "before"), ("after", "after")]) + "".join(pairs[:2])
+            + (details(f"{plural(len(pairs) - 2, 'more case')}", "".join(pairs[2:]))
+               if len(pairs) > 2 else ""))
+
+
+def balance_figures(case):
+    panels = [figure(plots.cells_per_rank(run_of(case, ranks)["cells_of_rank"]),
+                     f"{ranks} ranks", "narrow")
+              for ranks in (2, 3, 4) if run_of(case, ranks)]
+    return f"<h3>{escape(case['name'])}</h3><div class=plots>{''.join(panels)}</div>"
+
+
+def balance_section(cases):
+    shown = [case for case in cases if case["after"] and case["group"] != "corpus"]
+    blocks = [balance_figures(case) for case in shown]
+    return ("<h2>Cells of each rank</h2><p>The partition shares the cells out evenly before; what "
+            "is refined stays with the rank that had it, so where refinement is local, one rank "
+            "gets most of the work.</p>"
+            + legend([("before", "before"), ("after", "after")])
+            + "".join(blocks[:1]) + (details(f"{plural(len(blocks) - 1, 'more case')}",
+                                             "".join(blocks[1:])) if len(blocks) > 1 else ""))
+
+
+def timed_cases(cases):
+    """The cases made for it, and where there are none, the largest."""
+    refined = [case for case in cases if case["after"] and plots.neighbour_runs(case)]
+    return ([case for case in refined if case["scaling"]]
+            or sorted(refined, key=lambda case: case["after"]["cells"])[-1:])
+
+
+def time_section(cases, cores):
+    if not cases:
+        return ""
+    repeats = cases[0]["runs"][0]["repeats"]
+    of = f"Medians of {repeats} runs" if repeats > 1 else "Of one run"
+    charts = [figure(plots.phases(case),
+                     f"<b>{escape(case['name'])}</b>, {count(case['before']['cells'])} to "
+                     f"{count(case['after']['cells'])} cells: every step on 1, 2, 3 and 4 ranks, "
+                     "as in the paper's Figure 10.") for case in cases]
+    return ("<h2>Where the time goes</h2><p>Seconds by the wall clock, the mean of ranks; "
+            f"communicating is mostly waiting. {of}. This machine has {plural(cores, 'core')}: "
+            "more ranks than that take turns on them, so their times say nothing about scaling.</p>"
+            + legend([("computing", "computing"), ("communicating", "communicating")])
+            + "".join(charts))
+
+
+def scaling_figure(case, cores):
+    one = run_of(case, 1)
+    return figure(plots.scaling(case, cores),
+                  f"<b>{escape(case['name'])}</b>, {count(case['after']['cells'])} cells: on one "
+                  f"rank refinement takes {seconds(one['refining_seconds'])} of "
+                  f"{seconds(one['seconds'])}.")
+
+
+def scaling_section(cases, cores):
+    cases = [case for case in cases if run_of(case, 1)]
+    if not cases:
+        return ""
+    return ("<h2>Strong scaling</h2>"
+            + legend([("refining_seconds", "refinement itself"),
+                      ("seconds", "the whole run: reading, partition and writing too")])
+            + '<p class="faint">Speed against one rank; dashed: as many times as fast as there are '
+            "ranks.</p><div class=plots>"
+            + "".join(scaling_figure(case, cores) for case in cases) + "</div>")
+
+
+# --- every run
+
+
+def commands(case):
+    made = {"generated": f"octetra generate {case['mesh']} -o coarse.ele",
+            "refined": f"coarse mesh: the result of \"{case['mesh']}\"",
+            "file": f"coarse mesh: corpus/meshes/{case['mesh']}"}[case["mesh_is"]]
+    coarse = f"corpus/meshes/{case['mesh']}" if case["mesh_is"] == "file" else "coarse.ele"
+    refine = f"octetra refine {shlex.quote(coarse)} {case['refine']} --maps maps.txt"
+    return (f"{made}\n{refine} -o {case['output']} --engine reference\n"
+            f"mpirun -n RANKS {refine} -o {case['output']} --sync neighbour|gateway\n"
+            f"octetra verify {shlex.quote(coarse)} {case['output']} {case['refine']} "
+            "--maps maps.txt")
+
+
+def case_details(case):
+    html = f"<pre>{escape(commands(case))}</pre>" + runs_table(case)
+    if case["verdict"] is None:
+        message = case["reference"]["message"]
+        html += f"<p>All say: <code>{escape(message)}</code></p>"
+        return details(escape(case["name"]), html)
+    arithmetic = case["verdict"]["arithmetic"]
+    html += (files_table(case) + checks_table(case["verdict"]) +
+             f'<p class="faint">Verified in {seconds(case["verdict"]["seconds"])}: '
+             f"{count(arithmetic['filtered'])} decisions by floating point with a bound on its "
+             f"error, {count(arithmetic['exact'])} by exact numbers.</p>")
+    return details(escape(case["name"]), html)
+
+
+def runs_section(cases):
+    return "<h2>Every run</h2>" + details(
+        "commands, runs, fingerprints of the files, and the verifier's checks, case by case",
+        "".join(map(case_details, cases)))
+
+
+def page(report, folder):
+    """The whole page; pictures are taken from `folder`."""
+    cases, machine = report["cases"], report["machine"]
+    timed, cores = timed_cases(cases), machine["cores"]
+    with open(STYLE, encoding="utf-8") as file:
+        style = file.read()
+    body = (f'<p class="faint">Octetra: equivalence report</p>'
+            f"<h1>Does refinement give the same bytes everywhere?</h1>{where(report)}"
+            + verdict(totals(cases)) + load_notice(machine) + cases_section(cases)
+            + picture_section(report, folder) + paper_section(cases) + angles_section(cases)
+            + balance_section(cases) + time_section(timed, cores)
+            + scaling_section(timed, cores) + runs_section(cases))
+    return ('<!DOCTYPE html>\n<html lang="en"><head><meta charset="utf-8">'
+            '<meta name="viewport" content="width=device-width, initial-scale=1">'
+            f"<title>Octetra: equivalence report</title><style>{style}</style></head>"
+            f"<body>{body}</body></html>\n")

@@ -1,0 +1,37 @@
+"""What all cases together come to."""
+
+from cases import PAPER_COUNTS
+
+
+def totals(cases):
+    """Counts over all cases; `good` is the answer of the report."""
+    refined = [case for case in cases if case["after"]]
+    runs = [run for case in cases for run in case["runs"]]
+    return {
+        "good": all(case["identical"] and case["valid"] for case in cases),
+        "cases": len(cases),
+        "differing": [case["name"] for case in cases if not case["identical"]],
+        "refined": len(refined),
+        "refused": len(cases) - len(refined),
+        "invalid": [case["name"] for case in refined if not case["valid"]],
+        "runs": sum(run["repeats"] for run in runs),
+        "differing_runs": sum(not run["identical"] for run in runs),
+        "bytes": sum(run["repeats"] * file["bytes"] for case in cases for run in case["runs"]
+                     for file in case["reference"]["files"].values()),
+        "most_cells": max((case["after"]["cells"] for case in refined), default=0),
+        "decisions": sum(sum(case["verdict"]["arithmetic"].values()) for case in refined),
+    }
+
+
+def run_of(case, ranks, sync="neighbour"):
+    """The figures of a run; None where it has none."""
+    return next((run["figures"] for run in case["runs"]
+                 if (run["ranks"], run["sync"]) == (ranks, sync)), None)
+
+
+def paper_rows(cases):
+    """The paper's refinements beside ours: (case, paper before, paper after), the counts of the
+    paper as (vertices, cells), None where it has none."""
+    by_name = {case["name"]: case for case in cases}
+    return [(by_name[name], before, after) for name, before, after in PAPER_COUNTS
+            if name in by_name]

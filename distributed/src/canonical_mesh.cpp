@@ -22,6 +22,7 @@ struct CanonicalMesh::Parts {
             whole = std::make_unique<WholeMesh>(collected.mesh, &collected.maps);
         } else {
             mesh = std::move(parts);
+            put_in_order(mesh);
             slices = std::make_unique<CanonicalSlices>(mesh);
         }
     }

@@ -1,12 +1,8 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <vector>
-
-#include <octetra/distributed/distributed_mesh.hpp>
-
-#include "edge_stars.hpp"
-#include "patterns.hpp"
 
 namespace octetra::distributed {
 
@@ -14,52 +10,24 @@ namespace octetra::distributed {
 /// itself or on another's word; drain() follows the propagation paths as far as they go here.
 class Closure {
 public:
-    Closure(const EdgeStars& stars, const IndexVector<CellIndex, LengthOrder>& orders,
-            const std::vector<Interface>& interfaces);
+    Closure() = default;
+    virtual ~Closure() = default;
+    Closure(const Closure&) = delete;
+    Closure& operator=(const Closure&) = delete;
+    Closure(Closure&&) = delete;
+    Closure& operator=(Closure&&) = delete;
 
-    /// Selects an edge of this process's own will, without following its path. All that share the
-    /// edge will be told.
-    void select(EdgeIndex edge);
     /// Selects the edge at this position of an interface's list, on the other side's word.
-    void select_from(std::size_t interface, std::uint32_t position);
+    virtual void select_from(std::size_t interface, std::uint32_t position) = 0;
 
     /// Selects what the rule asks for, until every cell of this process is closed.
-    void drain();
+    virtual void drain() = 0;
 
-    [[nodiscard]] bool is_selected(EdgeIndex edge) const { return selected_[edge] != 0; }
-    [[nodiscard]] EdgeMask selected_of(CellIndex cell) const;
-    [[nodiscard]] std::size_t selected_count() const { return selected_count_; }
+    [[nodiscard]] virtual std::size_t selected_count() const = 0;
 
     /// Positions in each interface's list of the edges that were selected since they were last
     /// taken and that the other side has not told of.
-    [[nodiscard]] std::vector<std::vector<std::uint32_t>> take_outboxes();
-
-private:
-    struct SharedEdge {
-        EdgeIndex edge;
-        std::uint32_t interface = 0;
-        std::uint32_t position = 0;
-    };
-
-    void mark(EdgeIndex edge);
-    void tell_sharers(EdgeIndex edge);
-    void close(CellIndex cell);
-    void index_cells_at_edges();
-
-    const EdgeStars* stars_;
-    const IndexVector<CellIndex, LengthOrder>* orders_;
-    const PatternTable* table_ = &PatternTable::get();
-    IndexVector<EdgeIndex, std::uint8_t> selected_;
-    IndexVector<EdgeIndex, std::uint8_t> shared_;  // empty if no edge is
-    std::vector<SharedEdge> shared_edges_;         // ascending by edge
-    std::vector<std::vector<EdgeIndex>> interface_edges_;
-    std::vector<std::vector<std::uint32_t>> outboxes_;
-    std::vector<EdgeIndex> queue_;
-    std::size_t selected_count_ = 0;
-    bool swept_ = false;
-    // The cells at edge e are cells_[cells_begin_[e]] .. cells_[cells_begin_[e + 1] - 1].
-    std::vector<std::uint32_t> cells_begin_;
-    std::vector<CellIndex> cells_;
+    [[nodiscard]] virtual std::vector<std::vector<std::uint32_t>> take_outboxes() = 0;
 };
 
 }  // namespace octetra::distributed

@@ -77,6 +77,7 @@ Collected gather(const DistributedMesh& part) {
 Collected collect(DistributedMesh mesh) {
     const Communicator processes = mesh.processes;  // the mesh may be gone before the phase ends
     const Phase phase(processes, "collect");
+    put_in_order(mesh);
     const std::uint32_t first_number = mesh.first_number;
     const VertexIndex first_midpoint{mesh.input_vertex_count};
     Collected whole = mesh.processes.size() == 1 ? hand_over(std::move(mesh)) : gather(mesh);

@@ -4,6 +4,7 @@
 #include <iterator>
 #include <map>
 
+#include "midpoints.hpp"
 #include "sharers.hpp"
 #include "triangle.hpp"
 
@@ -103,32 +104,29 @@ std::vector<Interface> find_interfaces(const DistributedMesh& mesh) {
     return interfaces;
 }
 
-std::vector<Interface> refined_interfaces(const std::vector<Interface>& interfaces,
-                                          const IndexVector<VertexIndex, Point>& points,
-                                          const EdgeStars& stars,
-                                          const IndexVector<EdgeIndex, VertexIndex>& midpoints) {
-    std::vector<Interface> result;
-    for (const Interface& coarse : interfaces) {
-        Interface& fine = result.emplace_back();
-        fine.rank = coarse.rank;
-        for (const auto& [a, b] : coarse.edges) {
+void bisect_interfaces(std::vector<Interface>& interfaces,
+                       const IndexVector<VertexIndex, Point>& points, const EdgeStars& stars,
+                       const IndexVector<EdgeIndex, VertexIndex>& midpoints) {
+    for (auto& [rank, edges, faces] : interfaces) {
+        const std::size_t edge_count = edges.size();
+        for (std::size_t k = 0; k < edge_count; ++k) {
+            const auto [a, b] = edges[k];
             const VertexIndex midpoint = midpoints[stars.find(a, b)];
-            if (midpoint.is_none()) {
-                fine.edges.push_back({a, b});
-            } else {
-                fine.edges.push_back({a, midpoint});
-                fine.edges.push_back({midpoint, b});
-            }
+            if (midpoint.is_none()) continue;
+            edges[k] = {a, midpoint};
+            edges.push_back({midpoint, b});
         }
-        for (const FacetVertices& face : coarse.faces) {
-            const BisectedTriangle bisected = bisect_triangle(face, points, stars, midpoints);
-            std::copy_n(bisected.pieces.begin(), bisected.piece_count,
-                        std::back_inserter(fine.faces));
+        const std::size_t face_count = faces.size();
+        for (std::size_t k = 0; k < face_count; ++k) {
+            const BisectedTriangle bisected =
+                bisect_triangle(faces[k], midpoints_of(faces[k], stars, midpoints), points);
+            faces[k] = bisected.pieces[0];
+            std::copy_n(bisected.pieces.begin() + 1, bisected.piece_count - 1,
+                        std::back_inserter(faces));
             std::copy_n(bisected.inner_edges.begin(), bisected.inner_edge_count,
-                        std::back_inserter(fine.edges));
+                        std::back_inserter(edges));
         }
     }
-    return result;
 }
 
 }  // namespace octetra::distributed

@@ -12,11 +12,14 @@ namespace octetra::distributed {
 /// `mesh` is still as the input was. From level to level it follows from what is bisected.
 [[nodiscard]] std::vector<Interface> find_interfaces(const DistributedMesh& mesh);
 
-/// The interfaces after a level: halves of bisected edges, pieces of bisected faces, and the edges
-/// between those pieces. Both sides come to the same lists without a word. `points` are those of
-/// the level before, in which `stars` and `midpoints` (by edge, none() where not bisected) number.
-[[nodiscard]] std::vector<Interface> refined_interfaces(
-    const std::vector<Interface>& interfaces, const IndexVector<VertexIndex, Point>& points,
-    const EdgeStars& stars, const IndexVector<EdgeIndex, VertexIndex>& midpoints);
+/// Brings the interfaces from one level to the next: halves of bisected edges, pieces of bisected
+/// faces, and the edges between those pieces. The first half or piece takes the place of the whole;
+/// the others follow at the end of the list, first those of edges, then those of faces, in the
+/// order of the places. So both sides come to the same lists without a word, whichever way each
+/// goes about the level. `points` may have more than those of the level before, in which `stars`
+/// and `midpoints` (by edge, none() where not bisected) number.
+void bisect_interfaces(std::vector<Interface>& interfaces,
+                       const IndexVector<VertexIndex, Point>& points, const EdgeStars& stars,
+                       const IndexVector<EdgeIndex, VertexIndex>& midpoints);
 
 }  // namespace octetra::distributed

@@ -19,13 +19,7 @@ bool is_exact(const Point& a, const Point& b) {
            half_sum_is_exact(a.z, b.z);
 }
 
-/// How each edge's midpoint would be marked: by the smallest marker among the listed copies of the
-/// edge, or else among the listed facets around it.
-void take(MidpointMarker& known, MidpointMarker::Source source, Marker marker) {
-    if (source < known.source) return;
-    if (source > known.source || marker < known.marker) known = {source, marker};
-}
-
+/// How each edge's midpoint would be marked.
 IndexVector<EdgeIndex, MidpointMarker> edge_markers(const DistributedMesh& mesh,
                                                     const EdgeStars& stars) {
     IndexVector<EdgeIndex, MidpointMarker> markers(stars.end_index().value());
@@ -33,16 +27,16 @@ IndexVector<EdgeIndex, MidpointMarker> edge_markers(const DistributedMesh& mesh,
     for (std::size_t r = 0; r < facets.markers.size(); ++r) {
         for (FacetIndex f{facets.first[r]}; f < FacetIndex{facets.first[r + 1]}; ++f) {
             for (const auto& [i, j] : triangle_edges) {
-                take(markers[stars.find(mesh.facets[f][i], mesh.facets[f][j])],
-                     MidpointMarker::Source::facet, facets.markers[r]);
+                take_marker(markers[stars.find(mesh.facets[f][i], mesh.facets[f][j])],
+                            MidpointMarker::Source::facet, facets.markers[r]);
             }
         }
     }
     const Lineage& edges = mesh.edge_lineage;
     for (std::size_t r = 0; r < edges.markers.size(); ++r) {
         for (EdgeIndex e{edges.first[r]}; e < EdgeIndex{edges.first[r + 1]}; ++e) {
-            take(markers[stars.find(mesh.edges[e][0], mesh.edges[e][1])],
-                 MidpointMarker::Source::edge, edges.markers[r]);
+            take_marker(markers[stars.find(mesh.edges[e][0], mesh.edges[e][1])],
+                        MidpointMarker::Source::edge, edges.markers[r]);
         }
     }
     return markers;
@@ -59,7 +53,21 @@ void append_attributes(DistributedMesh& mesh, VertexIndex a, VertexIndex b) {
 
 }  // namespace
 
-Midpoints bisect_edges(DistributedMesh& mesh, const EdgeStars& stars, const Closure& closure) {
+bool append_midpoint(DistributedMesh& mesh, VertexIndex low, VertexIndex high) {
+    const Point a = mesh.points[low];
+    const Point b = mesh.points[high];
+    mesh.points.push_back(midpoint(a, b));
+    mesh.midpoint_to_edge.push_back({low, high});
+    append_attributes(mesh, low, high);
+    return !is_exact(a, b);
+}
+
+void take_marker(MidpointMarker& known, MidpointMarker::Source source, Marker marker) {
+    if (source < known.source) return;
+    if (source > known.source || marker < known.marker) known = {source, marker};
+}
+
+Midpoints bisect_edges(DistributedMesh& mesh, const EdgeStars& stars, const DenseClosure& closure) {
     const bool has_markers = !mesh.input_vertex_markers.empty();
     const auto markers =
         has_markers ? edge_markers(mesh, stars) : IndexVector<EdgeIndex, MidpointMarker>{};
@@ -81,13 +89,8 @@ Midpoints bisect_edges(DistributedMesh& mesh, const EdgeStars& stars, const Clos
         }
         std::ranges::sort(selected, {}, [&](EdgeIndex e) { return stars.high_end(e); });
         for (const EdgeIndex e : selected) {
-            const VertexIndex high = stars.high_end(e);
-            const Point a = mesh.points[low];
-            const Point b = mesh.points[high];
-            midpoints.of_edge[e] = mesh.points.append(midpoint(a, b));
-            midpoints.rounded.push_back(!is_exact(a, b));
-            mesh.midpoint_to_edge.push_back({low, high});
-            append_attributes(mesh, low, high);
+            midpoints.of_edge[e] = mesh.points.end_index();
+            midpoints.rounded.push_back(append_midpoint(mesh, low, stars.high_end(e)));
             if (has_markers) mesh.midpoint_markers.push_back(markers[e]);
         }
     }

@@ -60,10 +60,11 @@ void put_levels(const std::vector<std::vector<Profile::LevelRecord>>& from_each,
             auto place =
                 std::ranges::lower_bound(all.levels, record.level, {}, &ProfiledLevel::level);
             if (place == all.levels.end() || place->level != record.level) {
-                place = all.levels.insert(place, {record.level, std::vector<std::uint64_t>(ranks),
-                                                  std::vector<std::uint64_t>(ranks)});
+                const std::vector<std::uint64_t> zeros(ranks);
+                place = all.levels.insert(place, {record.level, zeros, zeros, zeros});
             }
             place->cells_of_rank[r] = record.cells;
+            place->cells_touched_of_rank[r] = record.touched;
             place->peak_memory_of_rank[r] = record.peak_memory;
         }
     }
@@ -84,8 +85,9 @@ void note_round(const Communicator& processes) {
     if (Profile* const profile = processes.profile()) profile->counts().rounds += 1;
 }
 
-void note_cells(const Communicator& processes, int level, std::uint64_t cells) {
-    if (Profile* const profile = processes.profile()) profile->note_cells(level, cells);
+void note_cells(const Communicator& processes, int level, std::uint64_t cells,
+                std::uint64_t touched) {
+    if (Profile* const profile = processes.profile()) profile->note_cells(level, cells, touched);
 }
 
 GatheredProfile gather_profile(const Communicator& processes) {

@@ -69,8 +69,9 @@ void Profile::end_communication() {
     span.bytes = counts().bytes - counts_before_.bytes;
 }
 
-void Profile::note_cells(int level, std::uint64_t cells) {
-    levels_.push_back({.level = level, .cells = cells, .peak_memory = peak_memory()});
+void Profile::note_cells(int level, std::uint64_t cells, std::uint64_t touched) {
+    levels_.push_back(
+        {.level = level, .cells = cells, .touched = touched, .peak_memory = peak_memory()});
 }
 
 void Profile::finish() {

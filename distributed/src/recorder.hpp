@@ -26,6 +26,7 @@ public:
     struct LevelRecord {
         int level = 0;
         std::uint64_t cells = 0;
+        std::uint64_t touched = 0;
         std::uint64_t peak_memory = 0;
     };
 
@@ -38,7 +39,7 @@ public:
     void begin_communication(const char* name);
     void end_communication();
     [[nodiscard]] PhaseCounts& counts() { return current().counts; }
-    void note_cells(int level, std::uint64_t cells);
+    void note_cells(int level, std::uint64_t cells, std::uint64_t touched);
 
     /// Books the last stretch of time. No phase may be open; throws std::logic_error.
     void finish();

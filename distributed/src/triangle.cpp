@@ -35,13 +35,13 @@ void cut(BisectedTriangle& result, const FacetVertices& triangle, const Bisected
 }  // namespace
 
 BisectedTriangle bisect_triangle(const FacetVertices& triangle,
-                                 const IndexVector<VertexIndex, Point>& points,
-                                 const EdgeStars& stars,
-                                 const IndexVector<EdgeIndex, VertexIndex>& midpoints) {
+                                 const std::array<VertexIndex, 3>& midpoints,
+                                 const IndexVector<VertexIndex, Point>& points) {
     std::array<BisectedEdge, 3> longest_first;
     std::size_t count = 0;
-    for (const auto& [i, j] : triangle_edges) {
-        const VertexIndex midpoint = midpoints[stars.find(triangle[i], triangle[j])];
+    for (std::size_t e = 0; e < 3; ++e) {
+        const auto [i, j] = triangle_edges[e];
+        const VertexIndex midpoint = midpoints[e];
         if (midpoint.is_none()) continue;
         const BisectedEdge edge{i, j, midpoint, {points[triangle[i]], points[triangle[j]]}};
         std::size_t place = count++;

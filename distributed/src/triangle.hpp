@@ -5,8 +5,6 @@
 
 #include <octetra/core/mesh.hpp>
 
-#include "edge_stars.hpp"
-
 namespace octetra::distributed {
 
 /// How a triangle of the mesh is bisected.
@@ -17,9 +15,10 @@ struct BisectedTriangle {
     std::array<EdgeVertices, 3> inner_edges{};  ///< between the pieces, in order of bisection
 };
 
-/// `triangle` must be a face of a cell, and the selection closed.
-[[nodiscard]] BisectedTriangle bisect_triangle(
-    const FacetVertices& triangle, const IndexVector<VertexIndex, Point>& points,
-    const EdgeStars& stars, const IndexVector<EdgeIndex, VertexIndex>& midpoints);
+/// `midpoints` of the triangle's edges, in the order of triangle_edges; none() where an edge is not
+/// bisected. The selection must be closed.
+[[nodiscard]] BisectedTriangle bisect_triangle(const FacetVertices& triangle,
+                                               const std::array<VertexIndex, 3>& midpoints,
+                                               const IndexVector<VertexIndex, Point>& points);
 
 }  // namespace octetra::distributed

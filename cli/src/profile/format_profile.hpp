@@ -14,8 +14,9 @@
 ///     ranks              how many
 ///     seconds            of the whole run, from before the mesh is read until all is written
 ///     peak_memory_bytes  the most that was resident; 0 where the system does not tell
-///     levels             [{level, cells, peak_memory_bytes}, ...]: after each level, and before
-///                        the first as level 0; the memory is the most so far
+///     levels             [{level, cells, cells_touched, peak_memory_bytes}, ...]: after each
+///                        level, and before the first as level 0; how many cells the level looked
+///                        at (see ProfiledLevel); the memory is the most so far
 ///     phases             [{phase, level, computing_seconds, communicating_seconds, messages,
 ///                        bytes, collectives, collective_bytes, rounds}, ...]: of each phase of
 ///                        each level, 0 for those of no level; the figures are explained at

@@ -39,6 +39,7 @@ Json json(const distributed::ProfiledPhase& phase) {
 Json json(const distributed::ProfiledLevel& level) {
     return {{"level", level.level},
             {"cells", json_with_sum(level.cells_of_rank)},
+            {"cells_touched", json_with_sum(level.cells_touched_of_rank)},
             {"peak_memory_bytes", json(level.peak_memory_of_rank)}};
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include <octetra/core/index.hpp>
@@ -41,10 +42,17 @@ struct MidpointMarker {
     Marker marker = 0;
 };
 
+/// What the engine keeps from one level to the next where few cells change.
+struct Adjacency;
+struct DeleteAdjacency {
+    void operator()(Adjacency* adjacency) const;
+};
+
 /// A mesh of which each process of a group holds some cells, and what belongs to them.
 ///
 /// Vertices are numbered locally, in ascending canonical order: first those of the input, then the
-/// midpoints of each level. Cells are in canonical order as well, as far as this process has them.
+/// midpoints of each level. Cells and what is listed are in canonical order as well, as far as this
+/// process has them, unless the mesh is `loose`: see put_in_order().
 struct DistributedMesh {
     Communicator processes;
 
@@ -74,6 +82,14 @@ struct DistributedMesh {
     std::vector<Interface>
         interfaces;  ///< one for each process that shares an edge; rank ascending
 
+    /// Where the cells chosen at a level have less than this share of the vertices of this process,
+    /// it takes the way whose work is in proportion to what changes; else the one that goes through
+    /// its whole part, and has less work with each cell. 0: always the latter. The result is the
+    /// same, whatever each process says here.
+    double sparse_below = 0.125;
+    /// The engine's own. While there is one, the mesh is loose.
+    std::unique_ptr<Adjacency, DeleteAdjacency> adjacency;
+
     // The same on all processes:
     std::uint64_t input_vertex_count = 0;
     std::uint64_t input_cell_count = 0;
@@ -86,6 +102,13 @@ struct DistributedMesh {
 /// mesh over as it is.
 [[nodiscard]] DistributedMesh distribute(const Communicator& processes, Mesh mesh,
                                          const std::vector<int>& cell_to_rank);
+
+/// Brings cells and listed facets and edges into canonical order, and their lineages up to date.
+/// Refinement leaves a process's mesh loose where few of its cells were bisected: these stand there
+/// in no order, and lineages are not to be looked at. Takes time and memory in proportion to the
+/// process's part, and what refinement has kept is lost. Whatever collects or writes a mesh does
+/// this. Not collective.
+void put_in_order(DistributedMesh& mesh);
 
 /// What collect() puts together again.
 struct Collected {

@@ -59,9 +59,10 @@ auto in_phase(const Communicator& processes, const char* name, F&& work) {
 /// Notes that a round of synchronisation begins, in the current phase. Not collective.
 void note_round(const Communicator& processes);
 
-/// Notes how many cells this process has after a level, or with level 0 before the first. Not
-/// collective.
-void note_cells(const Communicator& processes, int level, std::uint64_t cells);
+/// Notes how many cells this process has after a level, or with level 0 before the first, and how
+/// many of the cells before the level had to be looked at. Not collective.
+void note_cells(const Communicator& processes, int level, std::uint64_t cells,
+                std::uint64_t touched);
 
 /// What one process did in one phase of one level.
 struct PhaseCounts {
@@ -90,6 +91,11 @@ struct ProfiledPhase {
 struct ProfiledLevel {
     int level = 0;  ///< 0: before the first
     std::vector<std::uint64_t> cells_of_rank;
+    /// What each process had to look at: a cell counts once if the selection judged it, and once if
+    /// its edges were looked at. Of a process that goes through all of its cells, twice their
+    /// number at most; else in proportion to those that are bisected, and to those that a criterion
+    /// has to judge.
+    std::vector<std::uint64_t> cells_touched_of_rank;
     /// The most memory, in bytes, that each process has held so far.
     std::vector<std::uint64_t> peak_memory_of_rank;
 };

@@ -1,4 +1,4 @@
-#include "closure.hpp"
+#include "dense_closure.hpp"
 
 #include <algorithm>
 #include <numeric>
@@ -6,8 +6,9 @@
 
 namespace octetra::distributed {
 
-Closure::Closure(const EdgeStars& stars, const IndexVector<CellIndex, LengthOrder>& orders,
-                 const std::vector<Interface>& interfaces)
+DenseClosure::DenseClosure(const EdgeStars& stars,
+                           const IndexVector<CellIndex, LengthOrder>& orders,
+                           const std::vector<Interface>& interfaces)
     : stars_(&stars),
       orders_(&orders),
       selected_(stars.end_index().value(), 0),
@@ -26,26 +27,26 @@ Closure::Closure(const EdgeStars& stars, const IndexVector<CellIndex, LengthOrde
     std::ranges::sort(shared_edges_, {}, &SharedEdge::edge);
 }
 
-void Closure::select(EdgeIndex edge) {
+void DenseClosure::select(EdgeIndex edge) {
     if (selected_[edge] != 0) return;
     mark(edge);
     tell_sharers(edge);
 }
 
 // Who told has told all that share the edge.
-void Closure::select_from(std::size_t interface, std::uint32_t position) {
+void DenseClosure::select_from(std::size_t interface, std::uint32_t position) {
     const EdgeIndex edge = interface_edges_[interface][position];
     if (selected_[edge] == 0) mark(edge);
 }
 
-void Closure::mark(EdgeIndex edge) {
+void DenseClosure::mark(EdgeIndex edge) {
     selected_[edge] = 1;
     ++selected_count_;
     // Before the sweep every cell is yet to be looked at.
     if (swept_) queue_.push_back(edge);
 }
 
-void Closure::tell_sharers(EdgeIndex edge) {
+void DenseClosure::tell_sharers(EdgeIndex edge) {
     if (shared_.empty() || shared_[edge] == 0) return;
     auto shared = std::ranges::lower_bound(shared_edges_, edge, {}, &SharedEdge::edge);
     for (; shared != shared_edges_.end() && shared->edge == edge; ++shared) {
@@ -53,14 +54,14 @@ void Closure::tell_sharers(EdgeIndex edge) {
     }
 }
 
-EdgeMask Closure::selected_of(CellIndex cell) const {
+EdgeMask DenseClosure::selected_of(CellIndex cell) const {
     const auto& edges = stars_->edges_of(cell);
     unsigned mask = 0;
     for (std::size_t e = 0; e < 6; ++e) mask |= static_cast<unsigned>(selected_[edges[e]]) << e;
     return static_cast<EdgeMask>(mask);
 }
 
-void Closure::close(CellIndex cell) {
+void DenseClosure::close(CellIndex cell) {
     const EdgeMask mask = selected_of(cell);
     const auto missing =
         static_cast<EdgeMask>(table_->closure((*orders_)[cell], mask) & ~unsigned{mask});
@@ -69,7 +70,7 @@ void Closure::close(CellIndex cell) {
     }
 }
 
-void Closure::drain() {
+void DenseClosure::drain() {
     if (!swept_) {
         swept_ = true;  // what is selected from here on may concern cells that were passed already
         for (CellIndex c{0}; c < orders_->end_index(); ++c) close(c);
@@ -85,7 +86,7 @@ void Closure::drain() {
     }
 }
 
-void Closure::index_cells_at_edges() {
+void DenseClosure::index_cells_at_edges() {
     cells_begin_.assign(std::size_t{stars_->end_index().value()} + 1, 0);
     for (CellIndex c{0}; c < orders_->end_index(); ++c) {
         for (const EdgeIndex e : stars_->edges_of(c)) ++cells_begin_[e.value()];
@@ -101,7 +102,7 @@ void Closure::index_cells_at_edges() {
     cells_begin_.front() = 0;
 }
 
-std::vector<std::vector<std::uint32_t>> Closure::take_outboxes() {
+std::vector<std::vector<std::uint32_t>> DenseClosure::take_outboxes() {
     return std::exchange(outboxes_, std::vector<std::vector<std::uint32_t>>(outboxes_.size()));
 }
 

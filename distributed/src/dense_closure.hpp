@@ -1,0 +1,59 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include <octetra/distributed/distributed_mesh.hpp>
+
+#include "closure.hpp"
+#include "edge_stars.hpp"
+#include "patterns.hpp"
+
+namespace octetra::distributed {
+
+/// With a mark for every edge of the mesh; looks at every cell once.
+class DenseClosure final : public Closure {
+public:
+    DenseClosure(const EdgeStars& stars, const IndexVector<CellIndex, LengthOrder>& orders,
+                 const std::vector<Interface>& interfaces);
+
+    /// Selects an edge of this process's own will, without following its path. All that share the
+    /// edge will be told.
+    void select(EdgeIndex edge);
+    void select_from(std::size_t interface, std::uint32_t position) override;
+    void drain() override;
+
+    [[nodiscard]] bool is_selected(EdgeIndex edge) const { return selected_[edge] != 0; }
+    [[nodiscard]] EdgeMask selected_of(CellIndex cell) const;
+    [[nodiscard]] std::size_t selected_count() const override { return selected_count_; }
+    [[nodiscard]] std::vector<std::vector<std::uint32_t>> take_outboxes() override;
+
+private:
+    struct SharedEdge {
+        EdgeIndex edge;
+        std::uint32_t interface = 0;
+        std::uint32_t position = 0;
+    };
+
+    void mark(EdgeIndex edge);
+    void tell_sharers(EdgeIndex edge);
+    void close(CellIndex cell);
+    void index_cells_at_edges();
+
+    const EdgeStars* stars_;
+    const IndexVector<CellIndex, LengthOrder>* orders_;
+    const PatternTable* table_ = &PatternTable::get();
+    IndexVector<EdgeIndex, std::uint8_t> selected_;
+    IndexVector<EdgeIndex, std::uint8_t> shared_;  // empty if no edge is
+    std::vector<SharedEdge> shared_edges_;         // ascending by edge
+    std::vector<std::vector<EdgeIndex>> interface_edges_;
+    std::vector<std::vector<std::uint32_t>> outboxes_;
+    std::vector<EdgeIndex> queue_;
+    std::size_t selected_count_ = 0;
+    bool swept_ = false;
+    // The cells at edge e are cells_[cells_begin_[e]] .. cells_[cells_begin_[e + 1] - 1].
+    std::vector<std::uint32_t> cells_begin_;
+    std::vector<CellIndex> cells_;
+};
+
+}  // namespace octetra::distributed

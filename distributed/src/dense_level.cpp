@@ -1,0 +1,173 @@
+#include "dense_level.hpp"
+
+#include <algorithm>
+#include <iterator>
+#include <utility>
+
+#include <octetra/distributed/profile.hpp>
+
+#include "interfaces.hpp"
+#include "length_order.hpp"
+#include "triangle.hpp"
+
+namespace octetra::distributed {
+namespace {
+
+IndexVector<CellIndex, LengthOrder> length_orders(const DistributedMesh& mesh) {
+    IndexVector<CellIndex, LengthOrder> orders;
+    orders.reserve(mesh.cells.size());
+    for (const CellVertices& cell : mesh.cells) orders.push_back(length_order(mesh.points, cell));
+    return orders;
+}
+
+class CellBisection {
+public:
+    CellBisection(DistributedMesh& mesh, const EdgeStars& stars,
+                  const IndexVector<CellIndex, LengthOrder>& orders, const DenseClosure& closure,
+                  const Midpoints& midpoints)
+        : mesh_(&mesh),
+          stars_(&stars),
+          orders_(&orders),
+          closure_(&closure),
+          midpoints_(&midpoints),
+          first_midpoint_(mesh.level_begin.back()) {}
+
+    [[nodiscard]] std::size_t child_count() const {
+        std::size_t count = 0;
+        for (CellIndex c{0}; c < mesh_->cells.end_index(); ++c) count += pattern_of(c).child_count;
+        return count;
+    }
+
+    /// Replaces the cells by their children, so many in all.
+    [[nodiscard]] RoundingFailure run(std::size_t child_count) {
+        children_.resize(child_count);
+        Lineage& lineage = mesh_->cell_lineage;
+        for (std::size_t r = 0; r < lineage.roots.size(); ++r) {
+            const CellIndex end{lineage.first[r + 1]};
+            CellIndex c{lineage.first[r]};
+            lineage.first[r] = next_.value();
+            for (; c < end; ++c) bisect(c, lineage.roots[r]);
+        }
+        lineage.first.back() = next_.value();
+        mesh_->cells = std::move(children_);
+        return failure_;
+    }
+
+private:
+    [[nodiscard]] const Pattern& pattern_of(CellIndex cell) const {
+        return table_->pattern((*orders_)[cell], closure_->selected_of(cell));
+    }
+
+    void bisect(CellIndex c, std::uint64_t root) {
+        const Pattern& pattern = pattern_of(c);
+        const CellVertices& cell = mesh_->cells[c];
+        std::array<VertexIndex, 10> vertices;  // by place
+        bool rounded = false;
+        std::ranges::copy(cell, vertices.begin());
+        for (std::size_t e = 0; e < 6; ++e) {
+            const VertexIndex m = midpoints_->of_edge[stars_->edges_of(c)[e]];
+            vertices[4 + e] = m;
+            rounded = rounded ||
+                      (!m.is_none() && midpoints_->rounded[m.value() - first_midpoint_.value()]);
+        }
+        for (std::size_t k = 0; k < pattern.child_count; ++k) {
+            const CellVertices child = child_of(vertices, pattern.children[k]);
+            if (rounded) check(child, root);
+            children_[next_] = child;
+            ++next_;
+        }
+    }
+
+    void check(const CellVertices& child, std::uint64_t root) {
+        if (failure_.found()) return;
+        const int sign = sign_of(child, mesh_->points);
+        if (sign <= 0) failure_.note(root, sign);
+    }
+
+    DistributedMesh* mesh_;
+    const EdgeStars* stars_;
+    const IndexVector<CellIndex, LengthOrder>* orders_;
+    const DenseClosure* closure_;
+    const Midpoints* midpoints_;
+    VertexIndex first_midpoint_;
+    const PatternTable* table_ = &PatternTable::get();
+    IndexVector<CellIndex, CellVertices> children_;
+    CellIndex next_{0};
+    RoundingFailure failure_;
+};
+
+/// Replaces the entities of a list by their pieces: append_pieces(entity, pieces) for each, in
+/// order.
+template <class I, class Vertices>
+void replace_by_pieces(IndexVector<I, Vertices>& list, Lineage& lineage, auto&& append_pieces) {
+    IndexVector<I, Vertices> pieces;
+    for (std::size_t r = 0; r < lineage.roots.size(); ++r) {
+        const I end{lineage.first[r + 1]};
+        I i{lineage.first[r]};
+        lineage.first[r] = pieces.end_index().value();
+        for (; i < end; ++i) append_pieces(list[i], pieces);
+    }
+    lineage.first.back() = pieces.end_index().value();
+    list = std::move(pieces);
+}
+
+}  // namespace
+
+DenseLevel::DenseLevel(DistributedMesh& mesh)
+    : mesh_(&mesh),
+      stars_(in_phase(mesh.processes, "number edges",
+                      [&] { return EdgeStars(mesh.points.size(), mesh.cells); })),
+      orders_(in_phase(mesh.processes, "order edges", [&] { return length_orders(mesh); })),
+      closure_(stars_, orders_, mesh.interfaces) {}
+
+void DenseLevel::select(const ChosenCells& chosen, Scheme scheme) {
+    if (chosen.all) {
+        for (CellIndex c{0}; c < mesh_->cells.end_index(); ++c) select(c, scheme);
+    } else {
+        for (const CellIndex c : chosen.cells) select(c, scheme);
+    }
+}
+
+void DenseLevel::select(CellIndex cell, Scheme scheme) {
+    const EdgeMask mask = selected_by(scheme, orders_[cell]);
+    for (std::size_t e = 0; e < 6; ++e) {
+        if ((mask >> e & 1U) != 0) closure_.select(stars_.edges_of(cell)[e]);
+    }
+}
+
+void DenseLevel::bisect_edges() {
+    midpoints_ = distributed::bisect_edges(*mesh_, stars_, closure_);
+}
+
+std::size_t DenseLevel::cell_count_afterwards() const {
+    return CellBisection(*mesh_, stars_, orders_, closure_, midpoints_).child_count();
+}
+
+RoundingFailure DenseLevel::bisect_cells(std::size_t cell_count) {
+    return CellBisection(*mesh_, stars_, orders_, closure_, midpoints_).run(cell_count);
+}
+
+void DenseLevel::bisect_listed() {
+    DistributedMesh& mesh = *mesh_;
+    replace_by_pieces(mesh.facets, mesh.facet_lineage, [&](const FacetVertices& facet, auto& all) {
+        const BisectedTriangle bisected =
+            bisect_triangle(facet, midpoints_of(facet, stars_, midpoints_.of_edge), mesh.points);
+        std::copy_n(bisected.pieces.begin(), bisected.piece_count, std::back_inserter(all));
+    });
+    replace_by_pieces(mesh.edges, mesh.edge_lineage, [&](const EdgeVertices& edge, auto& all) {
+        // Which half comes first is a matter of the end points' positions in the list.
+        const VertexIndex midpoint = midpoints_.of_edge[stars_.find(edge[0], edge[1])];
+        if (midpoint.is_none()) {
+            all.append(edge);
+        } else {
+            all.append({edge[0], midpoint});
+            all.append({midpoint, edge[1]});
+        }
+    });
+}
+
+void DenseLevel::bisect_interfaces() {
+    distributed::bisect_interfaces(mesh_->interfaces, mesh_->points, stars_, midpoints_.of_edge);
+}
+
+}  // namespace octetra::distributed

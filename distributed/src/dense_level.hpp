@@ -1,0 +1,39 @@
+#pragma once
+
+#include "chosen_cells.hpp"
+#include "dense_closure.hpp"
+#include "edge_stars.hpp"
+#include "level.hpp"
+#include "midpoints.hpp"
+
+namespace octetra::distributed {
+
+/// The way for many chosen cells: numbers all edges, and makes all lists anew. Takes time in
+/// proportion to the process's part, and least for each cell that it bisects.
+class DenseLevel final : public Level {
+public:
+    /// The mesh must be in order.
+    explicit DenseLevel(DistributedMesh& mesh);
+
+    /// Selects edges of the chosen cells.
+    void select(const ChosenCells& chosen, Scheme scheme);
+
+    [[nodiscard]] Closure& closure() override { return closure_; }
+    void bisect_edges() override;
+    [[nodiscard]] std::size_t cell_count_afterwards() const override;
+    [[nodiscard]] RoundingFailure bisect_cells(std::size_t cell_count) override;
+    void bisect_listed() override;
+    void bisect_interfaces() override;
+    [[nodiscard]] std::size_t cells_touched() const override { return orders_.size(); }
+
+private:
+    void select(CellIndex cell, Scheme scheme);
+
+    DistributedMesh* mesh_;
+    EdgeStars stars_;
+    IndexVector<CellIndex, LengthOrder> orders_;
+    DenseClosure closure_;
+    Midpoints midpoints_;
+};
+
+}  // namespace octetra::distributed

@@ -1,0 +1,207 @@
+#include <cstdlib>
+#include <numeric>
+#include <random>
+
+#include <gtest/gtest.h>
+
+#include <octetra/core/error.hpp>
+#include <octetra/distributed/partition.hpp>
+#include <octetra/distributed/profile.hpp>
+#include <octetra/distributed/refine.hpp>
+#include <octetra/reference/refine.hpp>
+
+#include "distributed/marked_mesh.hpp"
+#include "distributed/world.hpp"
+#include "support/meshes.hpp"
+#include "support/thrown.hpp"
+
+/// Each rank goes about a level in one of two ways, the dense or the sparse one: whichever it is,
+/// the result is the reference's, and the work of the sparse one is in proportion to what changes.
+namespace octetra::distributed {
+namespace {
+
+constexpr double always_sparse = 10;
+constexpr double always_dense = 0;
+
+/// Which rank takes which way.
+enum class Ways { sparse, alternating, alternating_otherwise };
+
+double sparse_below(Ways ways, int level) {
+    if (ways == Ways::sparse) return always_sparse;
+    const int turn = test::world().rank() + level + (ways == Ways::alternating ? 0 : 1);
+    return turn % 2 == 0 ? always_sparse : always_dense;
+}
+
+DistributedMesh shared_out(const Mesh& mesh, const Partition& partition) {
+    return distribute(test::world(), mesh, partition_cells(mesh, test::world().size(), partition));
+}
+
+const std::vector<Partition> partitions{
+    {.method = PartitionMethod::lepp},
+    {.method = PartitionMethod::block},
+    {.method = PartitionMethod::random, .seed = 1},
+};
+
+class WaysOfALevel : public testing::TestWithParam<std::tuple<Scheme, Synchronisation, Ways>> {
+protected:
+    const Scheme scheme = std::get<0>(GetParam());
+    const Synchronisation synchronisation = std::get<1>(GetParam());
+    const Ways ways = std::get<2>(GetParam());
+
+    void expect_equal(const Mesh& mesh, const std::vector<Selection>& selections) const {
+        for (const Partition& partition : partitions) {
+            for (const Selection& selection : selections) {
+                DistributedMesh part = shared_out(mesh, partition);
+                part.sparse_below = sparse_below(ways, 0);
+                (void)refine(part, selection, {scheme, 3, synchronisation});
+                const Collected whole = collect(std::move(part));
+                if (!test::world().is_first()) continue;
+                const auto expected = reference::refine(mesh, selection, scheme, 3);
+                EXPECT_TRUE(whole.mesh == expected.mesh);
+                EXPECT_TRUE(whole.maps == expected.maps);
+            }
+        }
+    }
+};
+
+TEST_P(WaysOfALevel, GiveTheSameOnAShakenLatticeWithEverythingMarked) {
+    expect_equal(test::marked(test::shaken_kuhn(3, 0.3, 5), 1),
+                 {{.random = RandomShare{0.1, 3}},
+                  {.spheres = {{{1, 1, 1}, 0.6}}},
+                  {.regions = {2}, .max_volume = 0.1}});
+}
+
+TEST_P(WaysOfALevel, GiveTheSameOnALatticeFullOfTies) {
+    expect_equal(test::marked(test::kuhn(3, 2, 2), 2),
+                 {{.boxes = {{{0, 0, 0}, {1, 1, 2}}}}, {.cells = {GlobalCell{0}, GlobalCell{40}}}});
+}
+
+TEST_P(WaysOfALevel, GiveTheSameOnCoordinatesThatRound) {
+    Mesh mesh = test::kuhn(2, 2, 3, 1.0 / 3);
+    for (Point& p : mesh.points) p = {p.x / 7 + 1, p.y * 0.3, p.z * 1e-3};
+    expect_equal(mesh, {{.random = RandomShare{0.2, 3}}, {.max_volume = 2e-7}});
+}
+
+TEST_P(WaysOfALevel, MayChangeFromLevelToLevelAndSoMayTheSelection) {
+    const char* const given = std::getenv("OCTETRA_WAYS_SEED");
+    const unsigned seed = given != nullptr ? static_cast<unsigned>(std::atoi(given)) : 1;
+    SCOPED_TRACE("OCTETRA_WAYS_SEED=" + std::to_string(seed));
+    std::mt19937_64 random(seed);
+    std::uniform_real_distribution<double> coordinate(-0.5, 4.5);
+    const auto point = [&] {
+        return Point{coordinate(random), coordinate(random), coordinate(random)};
+    };
+    for (int run = 0; run < 4; ++run) {
+        Mesh expected = test::marked(test::shaken_kuhn(4, 0.3, 5), 1);
+        DistributedMesh part =
+            shared_out(expected, partitions[static_cast<std::size_t>(run) % partitions.size()]);
+        for (int level = 0; level < 5; ++level) {
+            Selection selection;
+            selection.spheres.push_back({point(), 1 / (1.0 + level)});
+            const Point low = point();
+            selection.boxes.push_back({low, {low.x + 0.5, low.y + 0.5, low.z + 0.5}});
+            part.sparse_below = sparse_below(ways, level / 2);
+            (void)refine(part, selection, {scheme, 1, synchronisation});
+            expected = reference::refine(expected, selection, scheme, 1).mesh;
+        }
+        const Collected whole = collect(std::move(part));
+        if (!test::world().is_first()) continue;
+        EXPECT_TRUE(whole.mesh == expected);
+    }
+}
+
+TEST_P(WaysOfALevel, RefuseRoundingInTheSameWords) {
+    Mesh mesh = test::kuhn(2, 2, 2);
+    for (Point& p : mesh.points) p = {p.x * 2 + 0x1p52, p.y, p.z};
+    const Selection selection{.random = RandomShare{0.5, 2}};
+    const std::string expected =
+        test::thrown_by<InputError>([&] { (void)reference::refine(mesh, selection, scheme, 6); });
+    for (const Partition& partition : partitions) {
+        DistributedMesh part = shared_out(mesh, partition);
+        part.sparse_below = sparse_below(ways, 0);
+        EXPECT_EQ(test::thrown_by<InputError>([&] {
+                      (void)refine(part, selection, {scheme, 6, synchronisation});
+                  }),
+                  expected);
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(SchemesSynchronisationsWays, WaysOfALevel,
+                         testing::Combine(testing::Values(Scheme::eight, Scheme::four, Scheme::two),
+                                          testing::Values(Synchronisation::neighbour,
+                                                          Synchronisation::gateway),
+                                          testing::Values(Ways::sparse, Ways::alternating,
+                                                          Ways::alternating_otherwise)));
+
+struct Work {
+    std::uint64_t cells = 0;    ///< of all ranks, after the level
+    std::uint64_t touched = 0;  ///< by all ranks
+    friend bool operator==(const Work&, const Work&) = default;
+};
+
+/// Collective. What all levels of a run take; on the first rank.
+std::vector<Work> work_of(DistributedMesh& mesh, const Selection& selection, int levels) {
+    mesh.processes = profiled(test::world(), ProfileDetail::sums);
+    (void)refine(mesh, selection, {.levels = levels});
+    std::vector<Work> work;
+    for (const ProfiledLevel& level : gather_profile(mesh.processes).levels) {
+        const auto sum = [](const std::vector<std::uint64_t>& of_rank) {
+            return std::accumulate(of_rank.begin(), of_rank.end(), std::uint64_t{0});
+        };
+        work.push_back({sum(level.cells_of_rank), sum(level.cells_touched_of_rank)});
+    }
+    mesh.processes = test::world();
+    return work;
+}
+
+Selection around_the_middle(std::size_t n, double radius) {
+    const auto middle = static_cast<double>(n) / 2;
+    return {.spheres = {{{middle, middle, middle}, radius}}};
+}
+
+TEST(SparseWay, OfALaterLevelDoesNotSeeHowLargeTheMeshIs) {
+    std::vector<std::vector<std::uint64_t>> touched;
+    for (const std::size_t n : {8U, 16U}) {
+        DistributedMesh mesh = shared_out(test::kuhn(n, n, n), partitions[1]);
+        mesh.sparse_below = always_sparse;
+        const auto work = work_of(mesh, around_the_middle(n, 0.8), 3);
+        if (!test::world().is_first()) continue;
+        ASSERT_EQ(work.size(), 4U);
+        for (const std::size_t level : {2U, 3U}) {
+            EXPECT_GT(work[level].cells, work[level - 1].cells);
+            EXPECT_LT(work[level].touched, 2 * (work[level].cells - work[level - 1].cells));
+        }
+        touched.push_back({work[2].touched, work[3].touched});
+    }
+    if (!test::world().is_first()) return;
+    EXPECT_EQ(touched[0], touched[1]);
+}
+
+TEST(SparseWay, IsTakenWhereFewCellsAreChosenByAnotherSelectionEachTime) {
+    const std::size_t n = 24;
+    DistributedMesh mesh = shared_out(test::kuhn(n, n, n), partitions[1]);
+    for (int level = 1; level <= 6; ++level) {
+        const auto cells = test::world().sum(mesh.cells.size());
+        const auto work = work_of(mesh, around_the_middle(n, 2.0 / (1 << level)), 1);
+        if (!test::world().is_first()) continue;
+        ASSERT_EQ(work.size(), 2U);
+        EXPECT_GT(work[1].cells, cells);
+        // The first one has to judge all cells.
+        EXPECT_LT(work[1].touched, level == 1 ? cells * 11 / 10 : cells / 10) << "level " << level;
+    }
+}
+
+TEST(SparseWay, IsNotTakenWhereManyCellsAreChosenOrFewEverywhere) {
+    for (const Selection& selection : {Selection{.all = true}, around_the_middle(8, 4),
+                                       Selection{.random = RandomShare{0.05, 3}}}) {
+        DistributedMesh mesh = shared_out(test::kuhn(8, 8, 8), partitions[1]);
+        const std::uint64_t cells = test::world().sum(mesh.cells.size());
+        const auto work = work_of(mesh, selection, 2);
+        if (!test::world().is_first()) continue;
+        EXPECT_GE(work[1].touched, cells);
+        EXPECT_GE(work[2].touched, work[1].cells);
+    }
+}
+
+}  // namespace
+}  // namespace octetra::distributed

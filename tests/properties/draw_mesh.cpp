@@ -74,7 +74,7 @@ void stretch(Mesh& mesh, Draw& draw) {
 /// So far along one axis that vertices stand few numbers apart, and the midpoints of a level or two
 /// have no place between them: cells may be flat then.
 void move_to_the_last_bits(Mesh& mesh, Draw& draw) {
-    const int digits = draw.between(0, 8);
+    const int digits = draw.between(0, 10);
     const double away = std::ldexp(1.0, 52 - digits);
     const std::size_t axis = draw.below(3);
     move_points(mesh, [&](const Point& p) {
@@ -162,7 +162,7 @@ NamedMesh draw_mesh(Draw& draw, int size) {
     attempt(drawn.mesh, draw, 0.2, turn);
     attempt(drawn.mesh, draw, 0.2, stretch);
     attempt(drawn.mesh, draw, 0.15, move_away);
-    attempt(drawn.mesh, draw, 0.25, move_to_the_last_bits);
+    attempt(drawn.mesh, draw, 0.4, move_to_the_last_bits);
     attempt(drawn.mesh, draw, 0.15, magnify);
     drawn.mesh = with_marks(std::move(drawn.mesh), draw);
     return drawn;

@@ -22,6 +22,9 @@ static void showValue(const Case& c, std::ostream& out) {
     out << c.kind << ": " << c.mesh.cells.size() << " cells, " << c.levels << " levels";
 }
 
+/// For GoogleTest.
+static void PrintTo(const Law& law, std::ostream* out) { *out << law.name; }
+
 namespace {
 
 rc::Shrinkable<Case> shrinkable(Case c) {

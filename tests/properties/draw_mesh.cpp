@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <set>
 
 #include <octetra/core/orientation.hpp>
 #include <octetra/verify/verify.hpp>
@@ -114,12 +115,32 @@ bool is_valid(const Mesh& mesh) {
     return verify::verify_mesh(mesh).valid();
 }
 
+/// Drops what is listed a second time, as its markers might conflict.
+template <class I, std::size_t N>
+void list_once(IndexVector<I, std::array<VertexIndex, N>>& list, IndexVector<I, Marker>& markers) {
+    std::set<std::array<VertexIndex, N>> listed;
+    I kept{0};
+    for (I i{0}; i < list.end_index(); ++i) {
+        auto sorted = list[i];
+        std::ranges::sort(sorted);
+        if (!listed.insert(sorted).second) continue;
+        list[kept] = list[i];
+        markers[kept] = markers[i];
+        ++kept;
+    }
+    list.resize(kept.value());
+    markers.resize(kept.value());
+}
+
 Mesh with_marks(Mesh mesh, Draw& draw) {
     if (draw.chance(0.3)) {
         mesh.facets.clear();
         mesh.facet_markers.clear();
         mesh.regions.clear();
-        return test::marked(mesh, draw.any());
+        mesh = test::marked(mesh, draw.any());
+        list_once(mesh.facets, mesh.facet_markers);
+        list_once(mesh.edges, mesh.edge_markers);
+        return mesh;
     }
     if (draw.chance(0.3) && mesh.facets.empty()) test::list_boundary(mesh);
     mesh.first_number = static_cast<std::uint32_t>(draw.below(2));

@@ -73,6 +73,13 @@ TEST(EdgeOrder, TakesMinusZeroForZero) {
     EXPECT_FALSE(longer(f, e));
 }
 
+TEST(EdgeOrder, SumsTheSquaresFromXToZ) {
+    const double small = 1.2 * 0x1p-27;  // its square is less than half an ulp of 1, two are more
+    EXPECT_EQ(squared_length({{0, 0, 0}, {1, small, small}}), 1);
+    EXPECT_EQ(squared_length({{0, 0, 0}, {small, 1, small}}), 1);
+    EXPECT_EQ(squared_length({{0, 0, 0}, {small, small, 1}}), 1 + 0x1p-52);
+}
+
 TEST(EdgeOrder, RoundsEveryProductByItself) {
     std::mt19937_64 random(1);
     int telling = 0;  // samples on which a fused multiply-add gives another last bit

@@ -47,7 +47,10 @@ def read_mutants():
 
 def mutated(mutant, folder):
     """The file's content with the fault in it. Ends the program unless the fault fits exactly once."""
-    content = (folder / mutant["file"]).read_text()
+    path = folder / mutant["file"]
+    if not path.exists():
+        die(f"{mutant['name']}: there is no file {mutant['file']}")
+    content = path.read_text()
     found = content.count(mutant["old"])
     if found != 1:
         die(f"{mutant['name']}: what it replaces is {found} times in {mutant['file']}, not once")

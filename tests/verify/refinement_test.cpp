@@ -244,6 +244,33 @@ TEST(Refinement, MayNotJoinWhatOnlyCrosses) {
     EXPECT_EQ(codes_of(test::judged_by_all(coarse, apart)), "coincident_vertices");
 }
 
+/// Two cells of the coarse mesh have corners of their own at one place, half way along the edge of
+/// a third cell. What the coarse mesh may have there, the fine one may not add to.
+TEST(Refinement, MayNotUseThePlaceOfACoarseVertex) {
+    const Mesh coarse = test::mesh_of({{0, 0, 0},
+                                       {4, 0, 0},
+                                       {2, -1, 3},
+                                       {2, 1, 3},
+                                       {2, 0, 0},
+                                       {1, 0, -3},
+                                       {2, 1, -3},
+                                       {1, 1, -4},
+                                       {2, 0, 0},
+                                       {3, 0, -3},
+                                       {2, -1, -3},
+                                       {3, -1, -4}},
+                                      {{0, 1, 2, 3}, {4, 5, 6, 7}, {8, 9, 10, 11}});
+    EXPECT_EQ(codes_of(verify_refinement(coarse, coarse)), "");
+    Mesh fine = coarse;
+    test::bisect_edge(fine, VertexIndex{0}, VertexIndex{1});
+    EXPECT_EQ(codes_of(verify_refinement(coarse, fine)), "coincident_vertices");
+    for (CellVertices& cell : fine.cells) {
+        std::replace(cell.begin(), cell.end(), VertexIndex{12}, VertexIndex{4});
+    }
+    fine.points.pop_back();
+    EXPECT_EQ(codes_of(verify_refinement(coarse, fine)), "not_a_midpoint");
+}
+
 TEST(Refinement, IsJudgedAtAllMagnitudes) {
     for (const double side : {0x1p-900, 0x1p-300, 0x1p300, 0x1p900}) {
         const Mesh coarse = test::kuhn(2, 1, 1, side);

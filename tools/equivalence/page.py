@@ -82,7 +82,7 @@ def cases_section(cases):
     if corpus:
         right = sum(case["identical"] and case["valid"] for case in corpus)
         html += details(f"<b>The corpus</b>: {plural(len(corpus), 'mesh/meshes')}, made for "
-                        f"trouble (ties, slivers, odd files); {right} of them identical and valid",
+                        f"trouble (ties, slivers, odd files); {right} of them identical, and valid or refused by all alike",
                         cases_table(corpus))
     return html
 
@@ -100,7 +100,9 @@ def picture_section(report, folder):
                        f'src="data:image/png;base64,{data}">',
                        f"<b>{escape(case['name'])}</b>: {escape(case['about'])}. Before and after, "
                        "on 4 ranks; colours are ranks.")
-    return "<h2>Meshes and who has which part</h2>" + html if html else ""
+    if not html:
+        return ""
+    return f"<h2>Meshes and who has which part</h2><div class=pictures>{html}</div>"
 
 
 def paper_section(cases):
@@ -109,8 +111,8 @@ def paper_section(cases):
     return ("<h2>Beside the paper</h2><p>M. Balman, <i>Tetrahedral Mesh Refinement in Distributed "
             "Environments</i>, refines meshes of these sizes. <b>Its meshes are not these</b>, and "
             "were not to be had: ours are gears of nearly as many vertices and cells, and as many "
-            "cells are chosen, by lot, as make them grow about as much. So the counts show that "
-            "the sizes are alike, and nothing else; times cannot be compared, as the paper "
+            "cells are chosen, by lot, as make them grow about as much. So the counts of cells "
+            "are near because they were made so; times cannot be compared, as the paper "
             "tabulates none.</p>" + paper_table(cases) +
             '<p class="faint">The paper\'s vertex count for 235,941 cells is a misprint, and for '
             "770,882 cells it has none. From which mesh it came to the last is not said; here it "
@@ -123,7 +125,7 @@ def angle_figures(case):
              f"{degrees(old['max'])} before, {degrees(new['min'])} to {degrees(new['max'])} after")
     ratio = (f"mean η is {case['before']['eta']['mean']:.3f} before, "
              f"{case['after']['eta']['mean']:.3f} after; the least "
-             f"{case['before']['eta']['min']:.3g} and {case['after']['eta']['min']:.3g}")
+             f"{case['before']['eta']['min']:.3f} and {case['after']['eta']['min']:.3f}")
     return (figure(plots.dihedral_angles(case), reach + ".")
             + figure(plots.mean_ratios(case), ratio + "."))
 

@@ -99,7 +99,7 @@ def paper_table(cases):
     head = ("<tr><th rowspan=2>case</th><th colspan=3>the paper: vertices / cells</th>"
             "<th colspan=3>here: vertices / cells</th></tr><tr>"
             + 2 * ("<th class=number>before</th><th class=number>after</th>"
-                   "<th class=number>cells</th>") + "</tr>")
+                   "<th class=number>growth</th>") + "</tr>")
     rows = []
     for case, before, after in paper_rows(cases):
         ours = [(mesh["vertices"], mesh["cells"]) for mesh in (case["before"], case["after"])]

@@ -82,7 +82,8 @@ def cases_section(cases):
     if corpus:
         right = sum(case["identical"] and case["valid"] for case in corpus)
         html += details(f"<b>The corpus</b>: {plural(len(corpus), 'mesh/meshes')}, made for "
-                        f"trouble (ties, slivers, odd files); {right} of them identical, and valid or refused by all alike",
+                        f"trouble (ties, slivers, odd files); {right} of them "
+                        "identical, and valid or refused by all alike",
                         cases_table(corpus))
     return html
 

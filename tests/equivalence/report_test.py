@@ -99,6 +99,8 @@ class Report(unittest.TestCase):
         self.assertEqual(run["differences"][0], "refined.node differs from byte 100 on")
         self.assertIn("octetra compare", run["differences"][1])
         self.assertIn('class="verdict bad"', self.output("index.html"))
+        self.assertIn("3 ranks, gateway: refined.node differs from byte 100 on",
+                      self.output("index.html"))
         self.assertIn("6 of 7", self.output("equivalence.md"))
 
     def test_sees_a_run_that_fails(self):

@@ -49,7 +49,7 @@ def markdown(report):
     if rows:
         lines += ["", "The paper's counts, vertices / cells, beside ours; the meshes are not the "
                   "same.", "",
-                  "| case | paper, before | after | cells | here, before | after | cells |",
+                  "| case | paper, before | after | growth | here, before | after | growth |",
                   "|---|---:|---:|---:|---:|---:|---:|",
                   *[paper_line(*row) for row in rows]]
     return "\n".join(lines) + "\n"

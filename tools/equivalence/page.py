@@ -8,7 +8,8 @@ from html import escape
 import plots
 from charts import legend
 from summary import paper_rows, run_of, totals
-from tables import cases_table, checks_table, files_table, paper_table, runs_table
+from tables import (cases_table, checks_table, files_table, paper_table, runs_table,
+                    where_run)
 from words import count, degrees, plural, seconds, size
 
 STYLE = os.path.join(os.path.dirname(os.path.abspath(__file__)), "page.css")
@@ -70,19 +71,40 @@ def load_notice(machine):
             "not depend on that.</p>")
 
 
+def faults(case):
+    """What is wrong with a case, a line each."""
+    lines = [f"{where_run(run)}: {line}" for run in case["runs"] for line in run["differences"]]
+    if not case["valid"]:
+        lines += [f"verification: {code}, {plural(number, 'time')}"
+                  for code, number in case["verdict"]["violation_counts"].items()]
+    return lines
+
+
+def faults_section(cases):
+    items = [f"<li><b>{escape(case['name'])}</b>, {escape(line)}</li>"
+             for case in cases for line in faults(case)]
+    return f"<h2>What is wrong</h2><ul>{''.join(items)}</ul>" if items else ""
+
+
 # --- sections
 
 
+def in_front(cases):
+    """The cases that are shown first: all but those of the corpus, if there are others."""
+    return [case for case in cases if case["group"] != "corpus"] or cases
+
+
 def cases_section(cases):
-    shown = [case for case in cases if case["group"] != "corpus"]
-    corpus = [case for case in cases if case["group"] == "corpus"]
+    shown = in_front(cases)
+    corpus = [case for case in cases if case not in shown]
     html = ("<h2>Cases</h2><p>Each is refined by the serial reference, then by the parallel engine "
             "on 1, 2, 3 and 4 ranks, with both ways to synchronise; then every file, parent maps "
             "too, is compared byte by byte.</p>" + cases_table(shown))
     if corpus:
         right = sum(case["identical"] and case["valid"] for case in corpus)
         html += details(f"<b>The corpus</b>: {plural(len(corpus), 'mesh/meshes')}, made for "
-                        f"trouble (ties, slivers, odd files); {right} of them identical and valid",
+                        f"trouble (ties, slivers, odd files); {right} of them "
+                        "identical, and valid or refused by all alike",
                         cases_table(corpus))
     return html
 
@@ -100,7 +122,9 @@ def picture_section(report, folder):
                        f'src="data:image/png;base64,{data}">',
                        f"<b>{escape(case['name'])}</b>: {escape(case['about'])}. Before and after, "
                        "on 4 ranks; colours are ranks.")
-    return "<h2>Meshes and who has which part</h2>" + html if html else ""
+    if not html:
+        return ""
+    return f"<h2>Meshes and who has which part</h2><div class=pictures>{html}</div>"
 
 
 def paper_section(cases):
@@ -109,8 +133,8 @@ def paper_section(cases):
     return ("<h2>Beside the paper</h2><p>M. Balman, <i>Tetrahedral Mesh Refinement in Distributed "
             "Environments</i>, refines meshes of these sizes. <b>Its meshes are not these</b>, and "
             "were not to be had: ours are gears of nearly as many vertices and cells, and as many "
-            "cells are chosen, by lot, as make them grow about as much. So the counts show that "
-            "the sizes are alike, and nothing else; times cannot be compared, as the paper "
+            "cells are chosen, by lot, as make them grow about as much. So the counts of cells "
+            "are near because they were made so; times cannot be compared, as the paper "
             "tabulates none.</p>" + paper_table(cases) +
             '<p class="faint">The paper\'s vertex count for 235,941 cells is a misprint, and for '
             "770,882 cells it has none. From which mesh it came to the last is not said; here it "
@@ -123,13 +147,15 @@ def angle_figures(case):
              f"{degrees(old['max'])} before, {degrees(new['min'])} to {degrees(new['max'])} after")
     ratio = (f"mean η is {case['before']['eta']['mean']:.3f} before, "
              f"{case['after']['eta']['mean']:.3f} after; the least "
-             f"{case['before']['eta']['min']:.3g} and {case['after']['eta']['min']:.3g}")
+             f"{case['before']['eta']['min']:.3f} and {case['after']['eta']['min']:.3f}")
     return (figure(plots.dihedral_angles(case), reach + ".")
             + figure(plots.mean_ratios(case), ratio + "."))
 
 
 def angles_section(cases):
-    shown = [case for case in cases if case["after"] and case["group"] != "corpus"]
+    shown = [case for case in in_front(cases) if case["after"]]
+    if not shown:
+        return ""
     pairs = ["<div class=plots>" + angle_figures(case) + "</div>" for case in shown]
     return ("<h2>Shapes of cells</h2><p>Share of all dihedral angles, and of all cells, in each "
             "bin.</p>" + legend([("before", "before"), ("after", "after")]) + "".join(pairs[:2])
@@ -145,7 +171,9 @@ def balance_figures(case):
 
 
 def balance_section(cases):
-    shown = [case for case in cases if case["after"] and case["group"] != "corpus"]
+    shown = [case for case in in_front(cases) if case["after"]]
+    if not shown:
+        return ""
     blocks = [balance_figures(case) for case in shown]
     return ("<h2>Cells of each rank</h2><p>The partition shares the cells out evenly before; what "
             "is refined stays with the rank that had it, so where refinement is local, one rank "
@@ -239,11 +267,11 @@ def page(report, folder):
     timed, cores = timed_cases(cases), machine["cores"]
     with open(STYLE, encoding="utf-8") as file:
         style = file.read()
-    body = (f'<p class="faint">Octetra: equivalence report</p>'
+    body = ('<p class="faint">Octetra: equivalence report</p>'
             f"<h1>Does refinement give the same bytes everywhere?</h1>{where(report)}"
-            + verdict(totals(cases)) + load_notice(machine) + cases_section(cases)
-            + picture_section(report, folder) + paper_section(cases) + angles_section(cases)
-            + balance_section(cases) + time_section(timed, cores)
+            + verdict(totals(cases)) + faults_section(cases) + load_notice(machine)
+            + cases_section(cases) + picture_section(report, folder) + paper_section(cases)
+            + angles_section(cases) + balance_section(cases) + time_section(timed, cores)
             + scaling_section(timed, cores) + runs_section(cases))
     return ('<!DOCTYPE html>\n<html lang="en"><head><meta charset="utf-8">'
             '<meta name="viewport" content="width=device-width, initial-scale=1">'

@@ -96,15 +96,17 @@ def phases(case):
     communicating."""
     runs = neighbour_runs(case)
     heights = [[step_seconds(run, of) for run in runs] for _, of in STEPS]
-    frame = Frame(1100, 320, 1000 * max(sum(h) for step in heights for h in step), bottom=66)
-    frame.y_axis("ms")
+    highest = max(sum(h) for step in heights for h in step)
+    unit, of_second = ("s", 1) if highest >= 1 else ("ms", 1000)
+    frame = Frame(1100, 320, of_second * highest, bottom=66)
+    frame.y_axis(unit)
     wide = (frame.right - frame.left) / len(STEPS)
     one = 0.8 * wide / len(runs)
     for i, (name, _) in enumerate(STEPS):
         for j, run in enumerate(runs):
             left = frame.left + wide * i + 0.1 * wide + one * j
-            phase_bars(frame, left, one, heights[i][j], f"{run['ranks']} ranks, "
-                       f"{name.replace('|', ' ')}")
+            phase_bars(frame, left, one, heights[i][j], of_second,
+                       f"{run['ranks']} ranks, {name.replace('|', ' ')}")
             frame.parts.append(text(left + one / 2, frame.bottom + 14, str(run["ranks"]),
                                     kind="label small"))
         for row, words in enumerate(name.split("|")):
@@ -113,8 +115,8 @@ def phases(case):
     return frame.svg("Seconds computing and communicating in every step, on 1 to 4 ranks")
 
 
-def phase_bars(frame, left, wide, height, hint):
-    computing, communicating = (1000 * h for h in height)
+def phase_bars(frame, left, wide, height, of_second, hint):
+    computing, communicating = (of_second * h for h in height)
     middle, top = frame.y(computing), frame.y(computing + communicating)
     frame.parts.append(bar(left + 1.5, middle, wide - 3, frame.bottom - middle, "computing",
                            f"{hint}: computing {seconds(height[0])}"))

@@ -1,6 +1,7 @@
 #include "cell_blocks.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace octetra::distributed {
@@ -15,19 +16,31 @@ void extend(Box& box, const Point& p) {
 
 constexpr Box nothing{{infinity, infinity, infinity}, {-infinity, -infinity, -infinity}};
 
-/// The least (or greatest) mean of four numbers, none of which is less (greater): in the way of
-/// centroid(), whose sums are rounded, but monotone.
-double bound_of_means(double bound) { return (((bound + bound) + bound) + bound) / 4; }
-Point bound_of_centroids(const Point& bound) {
-    return {bound_of_means(bound.x), bound_of_means(bound.y), bound_of_means(bound.z)};
+/// What centroid() makes of four numbers, none of which is less than `bound`, is not less than
+/// this: its sums are rounded, but monotone, and where they overflow it computes more exactly.
+double least_mean(double bound) {
+    const double mean = (((bound + bound) + bound) + bound) / 4;
+    return std::isfinite(mean) ? std::min(mean, bound) : bound;
+}
+double greatest_mean(double bound) { return -least_mean(-bound); }
+
+/// Could the sphere hold a point that is not nearer to its centre than this one in any coordinate?
+template <class Float>
+bool may_hold_beyond(const Sphere& sphere, const Point& nearest) {
+    const Float dx = Float{nearest.x} - sphere.centre.x;
+    const Float dy = Float{nearest.y} - sphere.centre.y;
+    const Float dz = Float{nearest.z} - sphere.centre.z;
+    return (dx * dx + dy * dy) + dz * dz < Float{sphere.radius} * sphere.radius;
 }
 
 bool may_hold(const Sphere& sphere, const Box& centroids) {
     const Point& c = sphere.centre;
-    const double dx = std::clamp(c.x, centroids.low.x, centroids.high.x) - c.x;
-    const double dy = std::clamp(c.y, centroids.low.y, centroids.high.y) - c.y;
-    const double dz = std::clamp(c.z, centroids.low.z, centroids.high.z) - c.z;
-    return (dx * dx + dy * dy) + dz * dz < sphere.radius * sphere.radius;
+    const Point nearest{std::clamp(c.x, centroids.low.x, centroids.high.x),
+                        std::clamp(c.y, centroids.low.y, centroids.high.y),
+                        std::clamp(c.z, centroids.low.z, centroids.high.z)};
+    // chooses() computes in either, by what over- or underflows.
+    return may_hold_beyond<double>(sphere, nearest) ||
+           may_hold_beyond<long double>(sphere, nearest);
 }
 
 bool may_hold(const Box& box, const Box& centroids) {
@@ -42,7 +55,9 @@ bool may_hold(const Box& box, const Box& centroids) {
 bool may_be_chosen(const Selection& selection, const Box& corners) {
     // What chooses() computes of a centroid farther out, in the same way, is no smaller: rounding
     // is monotone.
-    const Box centroids{bound_of_centroids(corners.low), bound_of_centroids(corners.high)};
+    const auto& [low, high] = corners;
+    const Box centroids{{least_mean(low.x), least_mean(low.y), least_mean(low.z)},
+                        {greatest_mean(high.x), greatest_mean(high.y), greatest_mean(high.z)}};
     const auto may_hold_one = [&](const auto& body) { return may_hold(body, centroids); };
     return std::ranges::any_of(selection.spheres, may_hold_one) ||
            std::ranges::any_of(selection.boxes, may_hold_one);

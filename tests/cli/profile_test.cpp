@@ -46,9 +46,10 @@ void expect_schema(const Json& profile, std::size_t ranks) {
     expect_spread(profile.at("peak_memory_bytes"), ranks, false);
     EXPECT_GT(profile.at("peak_memory_bytes").at("min"), 1'000'000);
     for (const Json& level : profile.at("levels")) {
-        EXPECT_EQ(level.size(), 3U);
+        EXPECT_EQ(level.size(), 4U);
         EXPECT_TRUE(level.at("level").is_number_integer());
         expect_spread(level.at("cells"), ranks, true);
+        expect_spread(level.at("cells_touched"), ranks, true);
         expect_spread(level.at("peak_memory_bytes"), ranks, false);
     }
     std::vector<double> seconds(ranks);

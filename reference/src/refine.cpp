@@ -59,7 +59,8 @@ void check_child(const CellVertices& child, const Mesh& fine, CellIndex parent, 
     if (sign > 0) return;
     throw InputError(fmt::format(
         "cell {}, level {}: bisection would make a child that is {}, because its midpoints cannot "
-        "be rounded to double precision well enough; the cell is too small for its coordinates",
+        "be rounded to double precision well enough; the cell is too small for its coordinates, "
+        "or these are too large to be added",
         parent.value() + first_number, level, sign < 0 ? "inverted" : "flat"));
 }
 

@@ -50,7 +50,7 @@ bool SparseClosure::is_selected(const EdgeVertices& edge) const {
     bool selected = false;
     adjacency_->cells.for_each_with(edge, mesh_->cells, [&](CellIndex cell, std::size_t e) {
         const std::uint32_t note = adjacency_->cell_to_note[cell];
-        if (note != CellIndex::none_value && (notes_[note].selected >> e & 1U) != 0) {
+        if (note != CellIndex::none_value && (unsigned{notes_[note].selected} >> e & 1U) != 0) {
             selected = true;
         }
     });

@@ -80,7 +80,8 @@ TEST_F(Parallel, EndsInOneMessageAndTheSameStatusOnAllRanks) {
     const std::vector<std::pair<std::string, std::string>> failures{
         {"refine bad.ele --all -o p.ele", "octetra: bad.ele:2: a vertex number is missing"},
         {"refine gear.1.ele --region 3 -o p.ele", "octetra: --region: "},
-        {"refine gear.1.ele --all --partition file:parts.txt -o p.ele", "octetra: parts.txt: 2 part numbers"},
+        {"refine gear.1.ele --all --partition file:parts.txt -o p.ele",
+         "octetra: parts.txt: 2 part numbers"},
         {"refine gear.1.ele --all --partition metis -o p.ele", "octetra: --partition takes"},
         {"refine gear.1.ele --all -o no/p.ele", "octetra: no/p.ele: "},
         {"refine gear.1.ele -o p.ele", "octetra: say which cells"},

@@ -370,6 +370,15 @@ TEST(SumsOfRoundedMeshes, AreBoundedAtAllMagnitudes) {
     }
 }
 
+TEST(Refinement, OfWhichAHalfIsMissingIsNotBlamedOnTheMidpoint) {
+    const Mesh coarse = test::one_cell(test::regular_corners);
+    Mesh half = reference::refine(coarse, {.all = true}, Scheme::two, 1).mesh;
+    ASSERT_EQ(half.cells.size(), 2U);
+    half.cells.pop_back();
+    const Verdict verdict = test::judged_by_all(coarse, half);
+    EXPECT_EQ(codes_of(verdict), "not_tiled");
+}
+
 TEST(SumsByTag, OfVolumesAndAreasAreExactAndThoseOfTheCoarseMesh) {
     Mesh coarse = test::kuhn(2, 1, 1);
     test::list_boundary(coarse);

@@ -165,8 +165,11 @@ std::string check_dihedral_angles(const Subject& subject, double degrees, Findin
         }
         if (!less) continue;
         findings.add(Code::dihedral_too_small, [&]() -> Findings::Description {
+            const double found = angles_of(p).min_dihedral * degrees_per_radian;
+            const bool shows = found <= degrees * (1 - 1e-5);
             return {{entity(c, subject.which)},
-                    fmt::format("{:.6g} degrees", angles_of(p).min_dihedral * degrees_per_radian),
+                    shows ? fmt::format("{:.6g} degrees", found)
+                          : fmt::format("less, by not so much as {:.1g} degrees", degrees * 1e-5),
                     fmt::format("at least {} degrees", degrees)};
         });
     }

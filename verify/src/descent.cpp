@@ -399,8 +399,9 @@ private:
         });
     }
 
-    /// The vertex that is nearest to the middle of an edge, if it is half way between no two others
-    /// and within a quarter of the edge's length. Looks at all vertices, so not too often.
+    /// The vertex that is nearest to the middle of an edge, but not there, if it is half way
+    /// between no two others and within a quarter of the edge's length. Looks at all vertices, so
+    /// not too often.
     VertexIndex misplaced_vertex_near(const EdgeVertices& edge) {
         VertexIndex best = VertexIndex::none();
         if (searches_left_ == 0) return best;
@@ -409,6 +410,7 @@ private:
         const Point half = midpoint(points[edge[0]], points[edge[1]]);
         double best_distance = squared_length({points[edge[0]], points[edge[1]]}) / 16;
         for (VertexIndex v{0}; v < points.end_index(); ++v) {
+            if (points[v] == half) return VertexIndex::none();  // what is wrong is something else
             if (descent_.is_coarse[v.value()] != 0 || lines_.halves_a_line(v)) continue;
             const double distance = squared_length({points[v], half});
             if (distance >= best_distance) continue;

@@ -46,13 +46,14 @@ public:
     }
 
     /// Collective. Runs a check: it has failed if any process adds violations. What it returns is
-    /// its note. Returns whether it has passed.
+    /// its note, of what has been shown if it has passed. Returns whether it has.
     bool run(std::string_view name, auto&& check) {
         const std::uint64_t before = count_;
         const auto start = std::chrono::steady_clock::now();
         std::string note = check();
         const bool clean = sum(*group_, count_ - before) == 0;
         const std::chrono::duration<double> passed = std::chrono::steady_clock::now() - start;
+        if (!clean) note.clear();
         verdict_.checks.push_back({std::string(name), clean ? Status::passed : Status::failed,
                                    std::move(note), passed.count()});
         return clean;

@@ -43,7 +43,7 @@ public:
             ++level;
             if (!refine_once()) break;
         }
-        if (failed_) return fmt::format("followed to level {} of {}", level, request_.levels);
+        if (failed_) return {};
         compare_with_fine();
         return fmt::format("the closure of the selection, {} level{}", request_.levels,
                            request_.levels == 1 ? "" : "s");

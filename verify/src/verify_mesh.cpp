@@ -19,8 +19,8 @@ void judge(Subject& subject, const VerifyOptions& options, Findings& findings) {
     const bool faced = findings.run("faces", [&] { return check_faces(subject, findings); });
     count_singular(subject, findings.facts());
     if (options.fast) {
-        findings.skip("hanging vertices", "not with --fast");
-        findings.skip("boundary crossings", "not with --fast");
+        findings.skip("hanging vertices", not_fast);
+        findings.skip("boundary crossings", not_fast);
         return;
     }
     // Cells that are wrong in themselves are in others' way, too; one report of them is enough.

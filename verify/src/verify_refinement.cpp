@@ -151,7 +151,7 @@ private:
             options_.fast || any(findings_.group(), has_coincident_vertices(coarse_));
         bool none_hangs = true;
         if (options_.fast) {
-            findings_.skip("hanging vertices", "not with --fast");
+            findings_.skip("hanging vertices", not_fast);
         } else if (!conforms) {
             findings_.skip("hanging vertices", "cells are wrong in themselves");
         } else if (coincidences) {
@@ -183,8 +183,8 @@ private:
         const bool covered =
             findings_.run("cover", [&] { return check_cover(coarse_, fine_, descent, findings_); });
         if (options_.fast) {
-            findings_.skip("volumes", "not with --fast");
-            findings_.skip("face angles", "not with --fast");
+            findings_.skip("volumes", not_fast);
+            findings_.skip("face angles", not_fast);
         } else if (!covered) {
             findings_.skip("volumes", "cover has failed");
             findings_.skip("face angles", "cover has failed");
@@ -197,7 +197,7 @@ private:
         }
         check_tags(coarse_, fine_, lines, descent, options_.attributes_lost, findings_);
         if (options_.fast) {
-            findings_.skip("volume and areas", "not with --fast");
+            findings_.skip("volume and areas", not_fast);
         } else if (any(findings_.group(), !findings_.verdict().valid())) {
             findings_.skip("volume and areas", "what stands above has failed");
         } else {

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <octetra/core/mesh.hpp>
@@ -13,6 +14,9 @@
 namespace octetra::verify {
 
 enum class Status : std::uint8_t { passed, failed, skipped };
+
+/// The note of a check that was skipped because of VerifyOptions::fast.
+inline constexpr std::string_view not_fast = "not with --fast";
 
 /// One check and how it ended.
 struct Check {

@@ -51,6 +51,7 @@ std::optional<bool> is_nearer(const Sphere& sphere, const Point& p) {
 }
 
 bool contains(const Sphere& sphere, const Point& p) {
+    if (!std::isfinite(sphere.radius)) return sphere.radius > 0;
     const auto nearer = is_nearer<double>(sphere, p);
     return nearer ? *nearer : *is_nearer<Wide>(sphere, p);
 }

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <random>
 
@@ -164,6 +165,13 @@ TEST(Selection, DoesNotDependOnTheOrderOfTheCorners) {
             ASSERT_EQ(chooses(drawn, corners, 0, any_cell), chosen);
         }
     }
+}
+
+TEST(Selection, OfASphereWithoutEndIsEverything) {
+    const Corners corners{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
+    const double infinity = std::numeric_limits<double>::infinity();
+    EXPECT_TRUE(chooses({.spheres = {{{5, 5, 5}, infinity}}}, corners, 0, GlobalCell{0}));
+    EXPECT_FALSE(chooses({.spheres = {{{5, 5, 5}, std::nan("")}}}, corners, 0, GlobalCell{0}));
 }
 
 }  // namespace

@@ -150,6 +150,7 @@ mpq_class cosine_of_degrees(double degrees, mpfr_rnd_t cosine_rounding) {
     mpfr_cos(x, x, cosine_rounding);
     mpq_class result = rational(x);
     mpfr_clear(x);
+    mpfr_free_cache();  // of constants, which each thread has of its own
     return result;
 }
 

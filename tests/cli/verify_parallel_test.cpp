@@ -85,6 +85,19 @@ TEST_F(VerifyParallel, TakesAListOfCells) {
     expect_same("gear.1.ele by_list.1.ele --cells others.txt", 1);
 }
 
+TEST_F(VerifyParallel, PassesOverAttributesThatTheFormatCannotHoldAndNoOthers) {
+    (void)folder.write("one.node", "4 3 1 0\n0 0 0 0 5\n1 1 0 0 6\n2 0 1 0 7\n3 0 0 1 8\n");
+    (void)folder.write("one.ele", "1 4 0\n0 0 1 2 3\n");
+    for (const std::string output : {"fine.mesh", "fine.ele"}) {
+        const auto run = test::octetra("refine one.ele --all --quiet -o " + output, folder);
+        ASSERT_EQ(run.status, 0) << run.err;
+    }
+    expect_same("one.ele fine.mesh", 0);
+    (void)folder.write("less.node", "4 3 0 0\n0 0 0 0\n1 1 0 0\n2 0 1 0\n3 0 0 1\n");
+    (void)folder.write("less.ele", "1 4 0\n0 0 1 2 3\n");
+    expect_same("one.ele less.ele", 1);
+}
+
 TEST_F(VerifyParallel, EndsInOneMessageWhereAFileCannotBeRead) {
     (void)folder.write("bad.mesh", "MeshVersionFormatted 2 Dimension 3\nVertices 1\n0 0\n");
     for (const std::string arguments :

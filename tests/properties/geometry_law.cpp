@@ -1,6 +1,5 @@
 #include <cmath>
 #include <functional>
-#include <set>
 
 #include <octetra/core/edge_order.hpp>
 #include <octetra/reference/refine.hpp>
@@ -73,22 +72,11 @@ std::string fault_of_translation(const Case& c, Draw& draw) {
         1);
 }
 
-bool has_ties(const Mesh& mesh) {
-    for (CellIndex c{0}; c < mesh.cells.end_index(); ++c) {
-        const Corners corners = test::corners_of(mesh, c);
-        std::set<double> lengths;
-        for (const auto& [i, j] : cell_edges) {
-            lengths.insert(squared_length({corners[i], corners[j]}));
-        }
-        if (lengths.size() < 6) return true;
-    }
-    return false;
-}
-
 /// Ties go by coordinates, which a mirror exchanges.
 bool meets_ties(const Case& c) {
     for (int level = 0; level < c.levels; ++level) {
-        if (has_ties(reference::refine(c.mesh, c.selection, c.scheme, level).mesh)) return true;
+        if (test::has_ties(reference::refine(c.mesh, c.selection, c.scheme, level).mesh))
+            return true;
     }
     return false;
 }

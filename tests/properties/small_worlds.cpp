@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
-#include <set>
 
 #include <octetra/core/edge_order.hpp>
 #include <octetra/verify/verify.hpp>
@@ -42,18 +41,6 @@ Complex two_cells(std::size_t shared) {
     Complex complex = three_cells(0, shared, 0, 0);
     complex.pop_back();
     return complex;
-}
-
-bool has_ties(const Mesh& mesh) {
-    for (CellIndex c{0}; c < mesh.cells.end_index(); ++c) {
-        const Corners corners = test::corners_of(mesh, c);
-        std::set<double> lengths;
-        for (const auto& [i, j] : cell_edges) {
-            lengths.insert(squared_length({corners[i], corners[j]}));
-        }
-        if (lengths.size() < 6) return true;
-    }
-    return false;
 }
 
 // ---- cells by the lengths of their edges
@@ -132,7 +119,7 @@ Mesh some_geometry(const Complex& complex, std::uint64_t seed) {
             points.push_back({coordinate(), coordinate(), coordinate()});
         }
         Mesh mesh = test::mesh_of(points, complex);
-        if (!has_ties(mesh) && verify::verify_mesh(mesh).valid()) return mesh;
+        if (!test::has_ties(mesh) && verify::verify_mesh(mesh).valid()) return mesh;
     }
 }
 

@@ -7,6 +7,7 @@
 #include <set>
 #include <vector>
 
+#include <octetra/core/edge_order.hpp>
 #include <octetra/core/mesh.hpp>
 #include <octetra/core/selection.hpp>
 
@@ -16,6 +17,19 @@ inline Corners corners_of(const Mesh& mesh, CellIndex c) {
     Corners corners;
     for (std::size_t k = 0; k < 4; ++k) corners[k] = mesh.points[mesh.cells[c][k]];
     return corners;
+}
+
+/// Has any cell two edges of the same length, as the edge order computes it?
+inline bool has_ties(const Mesh& mesh) {
+    for (CellIndex c{0}; c < mesh.cells.end_index(); ++c) {
+        const Corners corners = corners_of(mesh, c);
+        std::set<double> lengths;
+        for (const auto& [i, j] : cell_edges) {
+            lengths.insert(squared_length({corners[i], corners[j]}));
+        }
+        if (lengths.size() < 6) return true;
+    }
+    return false;
 }
 
 /// The cells by where their corners are, whatever the numbering: each as its corners ascending, all

@@ -42,6 +42,9 @@ verify::VerifyOptions options_of(const VerifyCommandOptions& given) {
         options.request = {parse_selection(given.refinement.selection),
                            parse_scheme(given.refinement), given.refinement.levels};
     }
+    if (!given.second.empty() && !can_hold_attributes(given.second)) {
+        options.attributes_lost = "the format of the fine mesh has no place for them";
+    }
     if (given.second.empty() && options.request) {
         throw InputError("verify: a selection can only be checked of COARSE and REFINED");
     }
@@ -71,9 +74,6 @@ verify::Verdict judge(const VerifyCommandOptions& given, verify::VerifyOptions o
     }
     const Mesh second = read_mesh(given.second, as_it_stands);
     judged = {given.second, given.first, second.first_number, first.first_number};
-    if (!can_hold_attributes(given.second)) {
-        options.attributes_lost = "the format of the fine mesh has no place for them";
-    }
     if (options.request) {
         complete_selection(options.request->selection, given.refinement.selection,
                            {!first.regions.empty(), first.first_number, first.cells.size()});

@@ -29,12 +29,21 @@ struct Products {
     }
 };
 
+void put_in_order(double& a, double& b) {
+    const double less = b < a ? b : a;
+    b = b < a ? a : b;
+    a = less;
+}
+
 double mean_of_four(double a, double b, double c, double d) {
-    std::array<double, 4> v{a, b, c, d};
-    std::ranges::sort(v);
-    const double sum = ((v[0] + v[1]) + v[2]) + v[3];
+    put_in_order(a, b);
+    put_in_order(c, d);
+    put_in_order(a, c);
+    put_in_order(b, d);
+    put_in_order(b, c);
+    const double sum = ((a + b) + c) + d;
     if (std::isfinite(sum)) return sum / 4;
-    return static_cast<double>(((Wide{v[0]} + v[1]) + v[2] + v[3]) / 4);
+    return static_cast<double>(((Wide{a} + b) + c + d) / 4);
 }
 
 /// Is p nearer to the centre than the radius? Nothing if that cannot be told in Float.

@@ -24,13 +24,12 @@ double least_mean(double bound) {
 }
 double greatest_mean(double bound) { return -least_mean(-bound); }
 
-/// Could the sphere hold a point that is not nearer to its centre than this one in any coordinate?
 template <class Float>
-bool may_hold_beyond(const Sphere& sphere, const Point& nearest) {
-    const Float dx = Float{nearest.x} - sphere.centre.x;
-    const Float dy = Float{nearest.y} - sphere.centre.y;
-    const Float dz = Float{nearest.z} - sphere.centre.z;
-    return (dx * dx + dy * dy) + dz * dz < Float{sphere.radius} * sphere.radius;
+Float squared_distance(const Point& a, const Point& b) {
+    const Float dx = Float{a.x} - b.x;
+    const Float dy = Float{a.y} - b.y;
+    const Float dz = Float{a.z} - b.z;
+    return (dx * dx + dy * dy) + dz * dz;
 }
 
 bool may_hold(const Sphere& sphere, const Box& centroids) {
@@ -38,9 +37,17 @@ bool may_hold(const Sphere& sphere, const Box& centroids) {
     const Point nearest{std::clamp(c.x, centroids.low.x, centroids.high.x),
                         std::clamp(c.y, centroids.low.y, centroids.high.y),
                         std::clamp(c.z, centroids.low.z, centroids.high.z)};
-    // chooses() computes in either, by what over- or underflows.
-    return may_hold_beyond<double>(sphere, nearest) ||
-           may_hold_beyond<long double>(sphere, nearest);
+    const double distance = squared_distance<double>(nearest, c);
+    const double radius = sphere.radius * sphere.radius;
+    if (distance < radius) return true;
+    // chooses() computes in long double where something over- or underflows. That makes a
+    // difference for a point on the sphere's surface, or for a very small sphere or a very large
+    // one.
+    constexpr double a_little = 1 + 0x1p-40;
+    constexpr double small = 0x1p-900;
+    if (radius > small && distance > radius * a_little) return false;
+    return squared_distance<long double>(nearest, c) <
+           static_cast<long double>(sphere.radius) * sphere.radius;
 }
 
 bool may_hold(const Box& box, const Box& centroids) {

@@ -42,8 +42,8 @@ void DenseClosure::select_from(std::size_t interface, std::uint32_t position) {
 void DenseClosure::mark(EdgeIndex edge) {
     selected_[edge] = 1;
     ++selected_count_;
-    // Before the sweep every cell is yet to be looked at.
-    if (swept_) queue_.push_back(edge);
+    // Before the first sweep every cell is yet to be looked at.
+    if (sweep_count_ > 0) queue_.push_back(edge);
 }
 
 void DenseClosure::tell_sharers(EdgeIndex edge) {
@@ -70,11 +70,12 @@ void DenseClosure::close(CellIndex cell) {
     }
 }
 
+// To know the cells at each edge takes as long as several sweeps. Most often they are enough, as
+// every other one goes backwards; but a path may turn round as often as it likes.
 void DenseClosure::drain() {
-    if (!swept_) {
-        swept_ = true;  // what is selected from here on may concern cells that were passed already
-        for (CellIndex c{0}; c < orders_->end_index(); ++c) close(c);
-    }
+    constexpr int most_sweeps = 8;
+    if (sweep_count_ == 0) sweep();
+    while (!queue_.empty() && sweep_count_ < most_sweeps) sweep();
     if (queue_.empty()) return;
     if (cells_begin_.empty()) index_cells_at_edges();
     while (!queue_.empty()) {
@@ -84,6 +85,14 @@ void DenseClosure::drain() {
             close(cells_[k]);
         }
     }
+}
+
+/// Closes every cell; what is selected meanwhile may concern cells that were passed already.
+void DenseClosure::sweep() {
+    queue_.clear();
+    const bool backwards = sweep_count_++ % 2 != 0;
+    const std::size_t count = orders_->size();
+    for (std::size_t i = 0; i < count; ++i) close(CellIndex{backwards ? count - 1 - i : i});
 }
 
 void DenseClosure::index_cells_at_edges() {

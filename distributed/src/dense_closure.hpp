@@ -11,7 +11,8 @@
 
 namespace octetra::distributed {
 
-/// With a mark for every edge of the mesh; looks at every cell once.
+/// With a mark for every edge of the mesh; goes through all cells, as often as there is something
+/// to find, and then from edge to edge.
 class DenseClosure final : public Closure {
 public:
     DenseClosure(const EdgeStars& stars, const IndexVector<CellIndex, LengthOrder>& orders,
@@ -38,6 +39,7 @@ private:
     void mark(EdgeIndex edge);
     void tell_sharers(EdgeIndex edge);
     void close(CellIndex cell);
+    void sweep();
     void index_cells_at_edges();
 
     const EdgeStars* stars_;
@@ -50,7 +52,7 @@ private:
     std::vector<std::vector<std::uint32_t>> outboxes_;
     std::vector<EdgeIndex> queue_;
     std::size_t selected_count_ = 0;
-    bool swept_ = false;
+    int sweep_count_ = 0;
     // The cells at edge e are cells_[cells_begin_[e]] .. cells_[cells_begin_[e + 1] - 1].
     std::vector<std::uint32_t> cells_begin_;
     std::vector<CellIndex> cells_;

@@ -2,12 +2,16 @@
 
 #include <algorithm>
 #include <iterator>
+#include <span>
 #include <utility>
 
 #include <octetra/distributed/profile.hpp>
 
+#include "huge_pages.hpp"
 #include "interfaces.hpp"
 #include "length_order.hpp"
+#include "midpoints.hpp"
+#include "rounding_margin.hpp"
 #include "triangle.hpp"
 
 namespace octetra::distributed {
@@ -15,7 +19,7 @@ namespace {
 
 IndexVector<CellIndex, LengthOrder> length_orders(const DistributedMesh& mesh) {
     IndexVector<CellIndex, LengthOrder> orders;
-    orders.reserve(mesh.cells.size());
+    reserve_in_huge_pages(orders, mesh.cells.size());
     for (const CellVertices& cell : mesh.cells) orders.push_back(length_order(mesh.points, cell));
     return orders;
 }
@@ -24,13 +28,12 @@ class CellBisection {
 public:
     CellBisection(DistributedMesh& mesh, const EdgeStars& stars,
                   const IndexVector<CellIndex, LengthOrder>& orders, const DenseClosure& closure,
-                  const Midpoints& midpoints)
+                  const IndexVector<EdgeIndex, VertexIndex>& midpoints)
         : mesh_(&mesh),
           stars_(&stars),
           orders_(&orders),
           closure_(&closure),
-          midpoints_(&midpoints),
-          first_midpoint_(mesh.level_begin.back()) {}
+          midpoints_(&midpoints) {}
 
     [[nodiscard]] std::size_t child_count() const {
         std::size_t count = 0;
@@ -40,15 +43,15 @@ public:
 
     /// Replaces the cells by their children, so many in all.
     [[nodiscard]] RoundingFailure run(std::size_t child_count) {
-        children_.resize(child_count);
+        reserve_in_huge_pages(children_, child_count);
         Lineage& lineage = mesh_->cell_lineage;
         for (std::size_t r = 0; r < lineage.roots.size(); ++r) {
             const CellIndex end{lineage.first[r + 1]};
             CellIndex c{lineage.first[r]};
-            lineage.first[r] = next_.value();
+            lineage.first[r] = children_.end_index().value();
             for (; c < end; ++c) bisect(c, lineage.roots[r]);
         }
-        lineage.first.back() = next_.value();
+        lineage.first.back() = children_.end_index().value();
         mesh_->cells = std::move(children_);
         return failure_;
     }
@@ -62,37 +65,34 @@ private:
         const Pattern& pattern = pattern_of(c);
         const CellVertices& cell = mesh_->cells[c];
         std::array<VertexIndex, 10> vertices;  // by place
-        bool rounded = false;
         std::ranges::copy(cell, vertices.begin());
         for (std::size_t e = 0; e < 6; ++e) {
-            const VertexIndex m = midpoints_->of_edge[stars_->edges_of(c)[e]];
-            vertices[4 + e] = m;
-            rounded = rounded ||
-                      (!m.is_none() && midpoints_->rounded[m.value() - first_midpoint_.value()]);
+            vertices[4 + e] = (*midpoints_)[stars_->edges_of(c)[e]];
         }
-        for (std::size_t k = 0; k < pattern.child_count; ++k) {
-            const CellVertices child = child_of(vertices, pattern.children[k]);
-            if (rounded) check(child, root);
-            children_[next_] = child;
-            ++next_;
+        std::array<CellVertices, 8> children;
+        const std::span filled(children.data(), pattern.child_count);
+        for (std::size_t k = 0; k < filled.size(); ++k) {
+            filled[k] = child_of(vertices, pattern.children[k]);
         }
+        if (filled.size() > 1 && !has_rounding_margin(mesh_->points, cell)) check(filled, root);
+        children_.insert(children_.end(), filled.begin(), filled.end());
     }
 
-    void check(const CellVertices& child, std::uint64_t root) {
-        if (failure_.found()) return;
-        const int sign = sign_of(child, mesh_->points);
-        if (sign <= 0) failure_.note(root, sign);
+    void check(std::span<const CellVertices> children, std::uint64_t root) {
+        for (const CellVertices& child : children) {
+            if (failure_.found()) return;
+            const int sign = sign_of(child, mesh_->points);
+            if (sign <= 0) failure_.note(root, sign);
+        }
     }
 
     DistributedMesh* mesh_;
     const EdgeStars* stars_;
     const IndexVector<CellIndex, LengthOrder>* orders_;
     const DenseClosure* closure_;
-    const Midpoints* midpoints_;
-    VertexIndex first_midpoint_;
+    const IndexVector<EdgeIndex, VertexIndex>* midpoints_;
     const PatternTable* table_ = &PatternTable::get();
     IndexVector<CellIndex, CellVertices> children_;
-    CellIndex next_{0};
     RoundingFailure failure_;
 };
 
@@ -151,12 +151,12 @@ void DenseLevel::bisect_listed() {
     DistributedMesh& mesh = *mesh_;
     replace_by_pieces(mesh.facets, mesh.facet_lineage, [&](const FacetVertices& facet, auto& all) {
         const BisectedTriangle bisected =
-            bisect_triangle(facet, midpoints_of(facet, stars_, midpoints_.of_edge), mesh.points);
+            bisect_triangle(facet, midpoints_of(facet, stars_, midpoints_), mesh.points);
         std::copy_n(bisected.pieces.begin(), bisected.piece_count, std::back_inserter(all));
     });
     replace_by_pieces(mesh.edges, mesh.edge_lineage, [&](const EdgeVertices& edge, auto& all) {
         // Which half comes first is a matter of the end points' positions in the list.
-        const VertexIndex midpoint = midpoints_.of_edge[stars_.find(edge[0], edge[1])];
+        const VertexIndex midpoint = midpoints_[stars_.find(edge[0], edge[1])];
         if (midpoint.is_none()) {
             all.append(edge);
         } else {
@@ -167,7 +167,7 @@ void DenseLevel::bisect_listed() {
 }
 
 void DenseLevel::bisect_interfaces() {
-    distributed::bisect_interfaces(mesh_->interfaces, mesh_->points, stars_, midpoints_.of_edge);
+    distributed::bisect_interfaces(mesh_->interfaces, mesh_->points, stars_, midpoints_);
 }
 
 }  // namespace octetra::distributed

@@ -4,7 +4,6 @@
 #include "dense_closure.hpp"
 #include "edge_stars.hpp"
 #include "level.hpp"
-#include "midpoints.hpp"
 
 namespace octetra::distributed {
 
@@ -33,7 +32,7 @@ private:
     EdgeStars stars_;
     IndexVector<CellIndex, LengthOrder> orders_;
     DenseClosure closure_;
-    Midpoints midpoints_;
+    IndexVector<EdgeIndex, VertexIndex> midpoints_;  ///< of each edge, or none()
 };
 
 }  // namespace octetra::distributed

@@ -2,22 +2,10 @@
 
 #include <algorithm>
 
+#include "huge_pages.hpp"
+
 namespace octetra::distributed {
 namespace {
-
-/// Is (a + b) / 2 exactly that? What the sum rounds away is computed exactly (Knuth's two-sum); the
-/// halving is exact but for numbers so small that they lose their last bit.
-bool half_sum_is_exact(double a, double b) {
-    const double sum = a + b;
-    const double b_part = sum - a;
-    const double lost = (a - (sum - b_part)) + (b - b_part);
-    return lost == 0 && (sum / 2) * 2 == sum;
-}
-
-bool is_exact(const Point& a, const Point& b) {
-    return half_sum_is_exact(a.x, b.x) && half_sum_is_exact(a.y, b.y) &&
-           half_sum_is_exact(a.z, b.z);
-}
 
 /// How each edge's midpoint would be marked.
 IndexVector<EdgeIndex, MidpointMarker> edge_markers(const DistributedMesh& mesh,
@@ -53,13 +41,10 @@ void append_attributes(DistributedMesh& mesh, VertexIndex a, VertexIndex b) {
 
 }  // namespace
 
-bool append_midpoint(DistributedMesh& mesh, VertexIndex low, VertexIndex high) {
-    const Point a = mesh.points[low];
-    const Point b = mesh.points[high];
-    mesh.points.push_back(midpoint(a, b));
+void append_midpoint(DistributedMesh& mesh, VertexIndex low, VertexIndex high) {
+    mesh.points.push_back(midpoint(mesh.points[low], mesh.points[high]));
     mesh.midpoint_to_edge.push_back({low, high});
     append_attributes(mesh, low, high);
-    return !is_exact(a, b);
 }
 
 void take_marker(MidpointMarker& known, MidpointMarker::Source source, Marker marker) {
@@ -67,19 +52,20 @@ void take_marker(MidpointMarker& known, MidpointMarker::Source source, Marker ma
     if (source > known.source || marker < known.marker) known = {source, marker};
 }
 
-Midpoints bisect_edges(DistributedMesh& mesh, const EdgeStars& stars, const DenseClosure& closure) {
+IndexVector<EdgeIndex, VertexIndex> bisect_edges(DistributedMesh& mesh, const EdgeStars& stars,
+                                                 const DenseClosure& closure) {
     const bool has_markers = !mesh.input_vertex_markers.empty();
     const auto markers =
         has_markers ? edge_markers(mesh, stars) : IndexVector<EdgeIndex, MidpointMarker>{};
-    Midpoints midpoints;
-    midpoints.of_edge.assign(stars.end_index().value(), VertexIndex::none());
+    IndexVector<EdgeIndex, VertexIndex> midpoints;
+    reserve_in_huge_pages(midpoints, stars.end_index().value());
+    midpoints.assign(stars.end_index().value(), VertexIndex::none());
     const VertexIndex old_end = mesh.points.end_index();
     mesh.level_begin.push_back(old_end);
 
     const std::size_t count = closure.selected_count();
-    mesh.points.reserve(mesh.points.size() + count);
-    mesh.midpoint_to_edge.reserve(mesh.midpoint_to_edge.size() + count);
-    midpoints.rounded.reserve(count);
+    reserve_in_huge_pages(mesh.points, mesh.points.size() + count);
+    reserve_in_huge_pages(mesh.midpoint_to_edge, mesh.midpoint_to_edge.size() + count);
 
     std::vector<EdgeIndex> selected;  // those of one lower end
     for (VertexIndex low{0}; low < old_end; ++low) {
@@ -89,8 +75,8 @@ Midpoints bisect_edges(DistributedMesh& mesh, const EdgeStars& stars, const Dens
         }
         std::ranges::sort(selected, {}, [&](EdgeIndex e) { return stars.high_end(e); });
         for (const EdgeIndex e : selected) {
-            midpoints.of_edge[e] = mesh.points.end_index();
-            midpoints.rounded.push_back(append_midpoint(mesh, low, stars.high_end(e)));
+            midpoints[e] = mesh.points.end_index();
+            append_midpoint(mesh, low, stars.high_end(e));
             if (has_markers) mesh.midpoint_markers.push_back(markers[e]);
         }
     }

@@ -10,17 +10,9 @@
 
 namespace octetra::distributed {
 
-/// The midpoints of a level.
-struct Midpoints {
-    IndexVector<EdgeIndex, VertexIndex> of_edge;  ///< none() where the edge is not selected
-    /// Was each of them, in the order of their numbers, rounded? Where no midpoint of a cell was,
-    /// its children fill it exactly.
-    std::vector<bool> rounded;
-};
-
 /// Appends the midpoint of an edge to the mesh's vertices, and its ends and attributes to those
-/// lists; not its marker. Returns whether it was rounded.
-bool append_midpoint(DistributedMesh& mesh, VertexIndex low, VertexIndex high);
+/// lists; not its marker.
+void append_midpoint(DistributedMesh& mesh, VertexIndex low, VertexIndex high);
 
 /// Learns that the edge of a midpoint is listed, or in a listed facet, with this marker: an edge
 /// tells more than a facet, a facet more than nothing; among equals the smallest marker counts.
@@ -39,8 +31,10 @@ void take_marker(MidpointMarker& known, MidpointMarker::Source source, Marker ma
 }
 
 /// Bisects the selected edges: appends their midpoints to the mesh's vertices, and their ends,
-/// attributes and markers to those lists. In the order of (lower, higher) end.
-[[nodiscard]] Midpoints bisect_edges(DistributedMesh& mesh, const EdgeStars& stars,
-                                     const DenseClosure& closure);
+/// attributes and markers to those lists. In the order of (lower, higher) end. Returns the midpoint
+/// of each edge, none() where it is not selected.
+[[nodiscard]] IndexVector<EdgeIndex, VertexIndex> bisect_edges(DistributedMesh& mesh,
+                                                               const EdgeStars& stars,
+                                                               const DenseClosure& closure);
 
 }  // namespace octetra::distributed

@@ -7,6 +7,8 @@
 
 #include <octetra/distributed/profile.hpp>
 
+#include "midpoints.hpp"
+#include "rounding_margin.hpp"
 #include "triangle.hpp"
 
 namespace octetra::distributed {
@@ -57,12 +59,12 @@ void SparseLevel::bisect_edges() {
     std::ranges::sort(in_order, {}, [&](EdgeIndex e) { return edges[e]; });
 
     mesh_->level_begin.push_back(mesh_->points.end_index());
-    midpoints_.of_edge.resize(edges.size());
+    midpoints_.resize(edges.size());
     const bool has_markers = !mesh_->input_vertex_markers.empty();
     for (const EdgeIndex e : in_order) {
         const auto [low, high] = edges[e];
-        midpoints_.of_edge[e] = mesh_->points.end_index();
-        midpoints_.rounded.push_back(append_midpoint(*mesh_, low, high));
+        midpoints_[e] = mesh_->points.end_index();
+        append_midpoint(*mesh_, low, high);
         if (has_markers) mesh_->midpoint_markers.push_back(marker_of(edges[e]));
     }
     adjacency_->add_vertices(edges.size());
@@ -111,22 +113,19 @@ void SparseLevel::bisect(const SparseClosure::Note& note, std::vector<BadChild>&
 
     std::array<VertexIndex, 10> vertices;  // by place
     std::ranges::copy(mesh_->cells[note.cell], vertices.begin());
-    bool rounded = false;
     for (std::size_t e = 0; e < 6; ++e) {
-        if ((note.selected >> e & 1U) == 0) continue;
-        const VertexIndex m = midpoints_.of_edge[note.edges[e]];
-        vertices[4 + e] = m;
-        rounded = rounded || midpoints_.rounded[m.value() - mesh_->level_begin.back().value()];
+        if ((note.selected >> e & 1U) != 0) vertices[4 + e] = midpoints_[note.edges[e]];
     }
     const Pattern& pattern = pattern_of(note);
     std::array<CellVertices, 8> children;
     for (std::size_t k = 0; k < pattern.child_count; ++k) {
         children[k] = child_of(vertices, pattern.children[k]);
     }
+    const bool is_safe = has_rounding_margin(mesh_->points, mesh_->cells[note.cell]);
     const CellIndex first_added = mesh_->cells.end_index();
     adjacency_->cells.replace(note.cell, std::span(children).first(pattern.child_count),
                               mesh_->cells, mesh_->cell_lineage);
-    if (!rounded) return;
+    if (is_safe) return;
     for (std::size_t k = 0; k < pattern.child_count; ++k) {
         const int sign = sign_of(children[k], mesh_->points);
         if (sign > 0) continue;
@@ -156,7 +155,7 @@ void SparseLevel::bisect_listed() {
     std::vector<std::pair<EdgeIndex, VertexIndex>> edge_cuts;
     for (EdgeIndex e{0}; e < closure_.edges().end_index(); ++e) {
         const EdgeVertices& edge = closure_.edges()[e];
-        const VertexIndex midpoint = midpoints_.of_edge[e];
+        const VertexIndex midpoint = midpoints_[e];
         adjacency_->facets.for_each_with(edge, mesh_->facets, [&](FacetIndex f, std::size_t k) {
             facet_cuts.push_back({f, k, midpoint});
         });
@@ -193,7 +192,7 @@ void SparseLevel::bisect_shared_edges() {
     for (EdgeIndex e{0}; e < closure_.edges().end_index(); ++e) {
         adjacency_->shared_edges.for_each_with(closure_.edges()[e], mesh_->interfaces,
                                                [&](const auto& found) {
-                                                   cuts.push_back({found, midpoints_.of_edge[e]});
+                                                   cuts.push_back({found, midpoints_[e]});
                                                });
     }
     std::ranges::sort(cuts, {}, [](const SharedCut& cut) { return cut.edge.place; });
@@ -211,7 +210,7 @@ void SparseLevel::bisect_shared_faces() {
     for (EdgeIndex e{0}; e < closure_.edges().end_index(); ++e) {
         adjacency_->shared_faces.for_each_with(
             closure_.edges()[e], mesh_->interfaces, [&](const auto& face) {
-                cuts.push_back({{face.place, face.index}, face.edge, midpoints_.of_edge[e]});
+                cuts.push_back({{face.place, face.index}, face.edge, midpoints_[e]});
             });
     }
     auto& interfaces = mesh_->interfaces;

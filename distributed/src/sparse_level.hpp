@@ -6,7 +6,6 @@
 #include "adjacency.hpp"
 #include "chosen_cells.hpp"
 #include "level.hpp"
-#include "midpoints.hpp"
 #include "sparse_closure.hpp"
 
 namespace octetra::distributed {
@@ -45,7 +44,7 @@ private:
     DistributedMesh* mesh_;
     Adjacency* adjacency_;
     SparseClosure closure_;
-    Midpoints midpoints_;
+    IndexVector<EdgeIndex, VertexIndex> midpoints_;  ///< of each selected edge
 };
 
 }  // namespace octetra::distributed

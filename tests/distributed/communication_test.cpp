@@ -46,7 +46,7 @@ LevelFigures refine_once(DistributedMesh& mesh, const Selection& selection, Sche
 }
 
 DistributedMesh distributed_lattice(std::size_t n, const Partition& partition) {
-    const Mesh mesh = test::shaken_kuhn(n, 0.3, 5);
+    const Mesh mesh = test::shaken_kuhn(n, 0.2, 5);
     return distribute(test::world(), mesh, partition_cells(mesh, test::world().size(), partition));
 }
 

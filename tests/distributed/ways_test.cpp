@@ -24,9 +24,10 @@ constexpr double always_sparse = 10;
 constexpr double always_dense = 0;
 
 /// Which rank takes which way.
-enum class Ways { sparse, alternating, alternating_otherwise };
+enum class Ways { dense, sparse, alternating, alternating_otherwise };
 
 double sparse_below(Ways ways, int level) {
+    if (ways == Ways::dense) return always_dense;
     if (ways == Ways::sparse) return always_sparse;
     const int turn = test::world().rank() + level + (ways == Ways::alternating ? 0 : 1);
     return turn % 2 == 0 ? always_sparse : always_dense;
@@ -82,6 +83,14 @@ TEST_P(WaysOfALevel, GiveTheSameOnCoordinatesThatRound) {
     expect_equal(mesh, {{.random = RandomShare{0.2, 3}}, {.max_volume = 2e-7}});
 }
 
+TEST_P(WaysOfALevel, FollowPathsThatGoThroughAllCells) {
+    const Mesh shell = test::shell(200, 1);
+    expect_equal(shell, {{.cells = {GlobalCell{0}}}});
+    if (!test::world().is_first()) return;
+    const auto fine = reference::refine(shell, {.cells = {GlobalCell{0}}}, Scheme::eight, 1).mesh;
+    EXPECT_GT(fine.cells.size(), 2 * shell.cells.size()) << "none was spared";
+}
+
 TEST_P(WaysOfALevel, MayChangeFromLevelToLevelAndSoMayTheSelection) {
     const char* const given = std::getenv("OCTETRA_WAYS_SEED");
     const unsigned seed = given != nullptr ? static_cast<unsigned>(std::atoi(given)) : 1;
@@ -126,12 +135,12 @@ TEST_P(WaysOfALevel, RefuseRoundingInTheSameWords) {
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(SchemesSynchronisationsWays, WaysOfALevel,
-                         testing::Combine(testing::Values(Scheme::eight, Scheme::four, Scheme::two),
-                                          testing::Values(Synchronisation::neighbour,
-                                                          Synchronisation::gateway),
-                                          testing::Values(Ways::sparse, Ways::alternating,
-                                                          Ways::alternating_otherwise)));
+INSTANTIATE_TEST_SUITE_P(
+    SchemesSynchronisationsWays, WaysOfALevel,
+    testing::Combine(testing::Values(Scheme::eight, Scheme::four, Scheme::two),
+                     testing::Values(Synchronisation::neighbour, Synchronisation::gateway),
+                     testing::Values(Ways::dense, Ways::sparse, Ways::alternating,
+                                     Ways::alternating_otherwise)));
 
 struct Work {
     std::uint64_t cells = 0;    ///< of all ranks, after the level

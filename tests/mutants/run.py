@@ -9,8 +9,9 @@ The faults stand in the .toml files beside this one, each a [[mutant]] with
   tests  the test programs that may catch it, cheapest first: NAME runs test_NAME, NAME@3 on 3 ranks.
 
 ./dev mutants puts one after the other into a copy of the checkout, build/mutants/tree, builds what
-has changed and runs these programs. A program catches a mutant when it fails, or does not end
-within two minutes. A mutant that none of them catches has survived: a test is missing.
+has changed and runs these programs. A program catches a mutant when it fails, or does not end in
+three times as long as without any fault, and two minutes. A mutant that none of them catches has
+survived: a test is missing.
 """
 
 import argparse
@@ -28,7 +29,7 @@ here = pathlib.Path(__file__).resolve().parent
 root = here.parent.parent
 tree = root / "build/mutants/tree"
 build = root / "build/mutants/build"
-seconds_for_a_program = 120
+seconds_without_fault = 900
 
 
 def die(message):
@@ -129,7 +130,7 @@ def build_programs(tests, jobs):
 # ---- running tests ---------------------------------------------------------------------------------
 
 
-def failure_of(test):
+def failure_of(test, seconds):
     """What of a test program fails, or nothing. It is ended at its first failure."""
     name, _, ranks = test.partition("@")
     (program,) = (path for path in build.glob(f"tests/*/test_{name}") if path.is_file())
@@ -145,7 +146,7 @@ def failure_of(test):
         late.set()
         process.terminate()  # mpirun ends its ranks then
 
-    timer = threading.Timer(seconds_for_a_program, stop)
+    timer = threading.Timer(seconds, stop)
     timer.start()
     failed = ""
     for line in process.stdout:
@@ -167,7 +168,7 @@ def failure_of(test):
     return f"{test}: exit status {status}" if status != 0 else ""
 
 
-def fate_of(mutant, jobs):
+def fate_of(mutant, seconds_of, jobs):
     """("caught", by which test), ("survived", "") or ("does not compile", the first error)."""
     path = tree / mutant["file"]
     original = path.read_bytes()
@@ -178,7 +179,7 @@ def fate_of(mutant, jobs):
             if wrong:
                 errors = [line for line in wrong.splitlines() if "error:" in line]
                 return "does not compile", errors[0] if errors else wrong[-200:]
-            failure = failure_of(test)
+            failure = failure_of(test, 120 + 3 * seconds_of[test])
             if failure:
                 return "caught", failure
         return "survived", ""
@@ -195,10 +196,13 @@ def run(mutants, minutes, jobs):
     wrong = build_programs(every_test, jobs)
     if wrong:
         die("the copy does not compile\n" + wrong)
+    seconds_of = {}
     for test in every_test:
-        failure = failure_of(test)
+        begin = time.monotonic()
+        failure = failure_of(test, seconds_without_fault)
         if failure:
             die(f"fails without any fault: {failure}")
+        seconds_of[test] = time.monotonic() - begin
     bad = 0
     for done, mutant in enumerate(mutants):
         if time.monotonic() > end:
@@ -206,7 +210,7 @@ def run(mutants, minutes, jobs):
                   f"./dev mutants --from {mutant['name']}")
             break
         begin = time.monotonic()
-        fate, how = fate_of(mutant, jobs)
+        fate, how = fate_of(mutant, seconds_of, jobs)
         bad += fate != "caught"
         print(f"{fate:<9}{time.monotonic() - begin:5.0f} s  {mutant['name']:<50}  {how}", flush=True)
     return bad

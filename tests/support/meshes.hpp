@@ -74,6 +74,22 @@ inline Mesh shaken_kuhn(std::size_t n, double amount, std::uint64_t seed) {
     return mesh;
 }
 
+/// Cells that grow as they wind round an axis like the chambers of a shell, each with a face of the
+/// next, in no order: what selects an edge of the smallest selects edges of all, one after the
+/// other.
+inline Mesh shell(std::size_t cell_count, std::uint64_t seed) {
+    std::vector<Point> points;
+    Point next{1, 0.25, -0.125};
+    for (std::size_t i = 0; i < cell_count + 3; ++i) {
+        points.push_back(next);
+        next = {1.125 * next.z, 1.125 * next.x, 1.125 * next.y};
+    }
+    std::vector<std::array<std::size_t, 4>> cells;
+    for (std::size_t i = 0; i < cell_count; ++i) cells.push_back({i, i + 1, i + 2, i + 3});
+    std::shuffle(cells.begin() + 1, cells.end(), std::mt19937_64(seed));  // the smallest is first
+    return mesh_of(points, cells);
+}
+
 /// Lists every boundary face as a facet and gives it a marker: 1 + its number modulo 5.
 inline void list_boundary(Mesh& mesh) {
     std::vector<std::pair<std::array<VertexIndex, 3>, FacetVertices>> faces;

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <cstddef>
+
+namespace octetra::distributed {
+
+/// Asks the system to back this memory with huge pages where it leaves that to programs, before the
+/// memory is first written to. A level writes to as much new memory as its result takes, and being
+/// given it 4 KiB at a time takes as long as the refinement. Does nothing to small pieces; where
+/// the wish is not granted nothing is lost.
+void prefer_huge_pages(void* memory, std::size_t bytes);
+
+/// reserve() for what a level is about to fill.
+template <class Vector>
+void reserve_in_huge_pages(Vector& list, std::size_t count) {
+    if (count <= list.capacity()) return;
+    list.reserve(count);
+    const std::size_t used = list.size();
+    prefer_huge_pages(list.data() + used,
+                      (list.capacity() - used) * sizeof(typename Vector::value_type));
+}
+
+}  // namespace octetra::distributed

@@ -2,16 +2,23 @@
 
 #include <algorithm>
 
+#include "huge_pages.hpp"
+
 namespace octetra::distributed {
 
-Adjacency::Adjacency(const DistributedMesh& mesh)
+Adjacency::Adjacency(DistributedMesh& mesh)
     : cells(mesh.points.size(), mesh.cells),
       facets(mesh.points.size(), mesh.facets),
       edges(mesh.points.size(), mesh.edges),
       shared_edges(mesh.points.size(), mesh.interfaces),
       shared_faces(mesh.points.size(), mesh.interfaces),
-      blocks(mesh),
-      cell_to_note(mesh.cells.size(), CellIndex::none_value) {}
+      blocks(mesh) {
+    reserve_with_room(cell_to_note, mesh.cells.size());
+    cell_to_note.assign(mesh.cells.size(), CellIndex::none_value);
+    reserve_with_room(mesh.cells, mesh.cells.size());
+    reserve_with_room(mesh.points, mesh.points.size());
+    reserve_with_room(mesh.midpoint_to_edge, mesh.midpoint_to_edge.size());
+}
 
 bool Adjacency::can_hold(const DistributedMesh& mesh) {
     // A cell has 4 places at vertices, and may become 8 cells; others have and become less.

@@ -15,7 +15,8 @@ namespace octetra::distributed {
 ///
 /// Memory: some 50 bytes per cell.
 struct Adjacency {
-    explicit Adjacency(const DistributedMesh& mesh);
+    /// Makes room in the mesh's lists, too.
+    explicit Adjacency(DistributedMesh& mesh);
 
     /// Can a mesh of this size be indexed, whatever a level makes of it?
     [[nodiscard]] static bool can_hold(const DistributedMesh& mesh);

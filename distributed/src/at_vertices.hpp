@@ -8,6 +8,8 @@
 
 #include <octetra/core/mesh.hpp>
 
+#include "huge_pages.hpp"
+
 namespace octetra::distributed {
 
 /// The entities (cells, facets, edges; N vertices each) at every vertex, in linked lists: an entity
@@ -22,7 +24,9 @@ public:
 
     AtVertices(std::size_t vertex_count, const IndexVector<I, Vertices>& entities) {
         if (entities.empty()) return;  // and none will come, as they come of others
+        reserve_with_room(heads_, vertex_count);
         heads_.resize(vertex_count);
+        reserve_with_room(links_, N * entities.size());
         links_.resize(N * entities.size());
         // From behind, so that every list ascends.
         for (std::size_t i = entities.size(); i-- > 0;) link_all(i, entities[I{i}]);

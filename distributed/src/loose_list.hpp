@@ -10,6 +10,7 @@
 #include <octetra/distributed/distributed_mesh.hpp>
 
 #include "at_vertices.hpp"
+#include "huge_pages.hpp"
 
 namespace octetra::distributed {
 
@@ -26,7 +27,9 @@ public:
     using List = IndexVector<I, Vertices>;
 
     LooseList(std::size_t vertex_count, const List& list)
-        : at_vertices_(vertex_count, list), next_(list.size()), first_added_(list.size()) {
+        : at_vertices_(vertex_count, list), first_added_(list.size()) {
+        reserve_with_room(next_, list.size());
+        next_.resize(list.size());
         std::ranges::generate(next_, [next = std::size_t{0}]() mutable { return I{++next}; });
         if (!next_.empty()) next_.back() = I::none();
     }

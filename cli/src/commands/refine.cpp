@@ -376,6 +376,8 @@ void add_refine(CLI::App& program, const distributed::Communicator& world) {
         "judge the result as octetra verify does, and write it if it is valid");
     refine_command->add_flag("--quiet", options->quiet, "print nothing but notes and errors");
     refine_command->footer(
+        "Exit status: 0 done; 1 --verify finds the result not valid, and nothing is written;\n"
+        "2 bad usage or bad input; 3 the system failed: memory, disk, a lost rank.\n"
         "Example:\n"
         "  octetra generate gear -o gear.1.ele\n"
         "  octetra refine gear.1.ele --sphere 1,0,0.1,0.3 --levels 2 -o fine.vtu\n"

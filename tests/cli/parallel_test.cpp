@@ -86,6 +86,10 @@ TEST_F(Parallel, EndsInOneMessageAndTheSameStatusOnAllRanks) {
         {"refine gear.1.ele --all -o no/p.ele", "octetra: no/p.ele: "},
         {"refine gear.1.ele -o p.ele", "octetra: say which cells"},
         {"refine gear.1.ele --nonsense -o p.ele", "octetra: "},
+        {"refine gear.1.ele --all --levels 9 --max-cells 99999 -o p.ele",
+         "octetra: gear.1.ele: level 2 would make 198592 cells, more than the 99999 allowed"},
+        {"refine gear.1.ele --all --levels 9 --max-cells 99999 --engine reference -o p.ele",
+         "octetra: gear.1.ele: level 2 would make 198592 cells, more than the 99999 allowed"},
     };
     const auto alone =
         test::octetra("refine gear.1.ele --all --partition file:parts.txt -o p.ele", folder);

@@ -19,7 +19,7 @@ constexpr double unit_length = 0x1p20;
 struct World {
     std::vector<Point> points;
     std::vector<std::array<std::size_t, 4>> cells;
-    /// How long an edge is, 1 to 27: the order is that of lengths. For either order of its ends.
+    /// How long an edge is, 3 to 33: the order is that of lengths. For either order of its ends.
     std::array<std::array<int, 6>, 6> steps{};
 };
 
@@ -36,16 +36,26 @@ double length(const World& world, std::size_t a, std::size_t b) {
     return unit_length * (1 + world.steps[a][b] / 280.0);
 }
 
-/// The first cell's edges are at 24, 20, ... 4; between them is room for three of a cell that is
-/// glued to it, and these are not compared with any but the edges of their own cell.
-void order_edges(World& world, const std::array<std::size_t, 4>& cell, const Order& order) {
-    int steps = 28;
+/// Gives lengths to the edges of a cell that have none, each a step below the one before, from
+/// `top` down. (These are not compared with any but the edges of their own cell.)
+void order_edges(World& world, const std::array<std::size_t, 4>& cell, const Order& order,
+                 int top) {
+    int steps = top;
     for (const std::size_t e : order) {
         const std::size_t a = cell[cell_edges[e][0]];
         const std::size_t b = cell[cell_edges[e][1]];
-        if (world.cells.empty()) set_steps(world, a, b, steps - 4);
         if (world.steps[a][b] == 0) set_steps(world, a, b, steps - 1);
         steps = world.steps[a][b];
+    }
+}
+
+/// The first cell's edges are at 28, 24, ... 8: between them is room for three of another cell.
+constexpr int top_of_first_cell = 32;
+
+void order_edges_of_first_cell(World& world, const Order& order) {
+    int steps = top_of_first_cell;
+    for (const std::size_t e : order) {
+        set_steps(world, cell_edges[e][0], cell_edges[e][1], steps -= 4);
     }
 }
 
@@ -72,13 +82,15 @@ Point cross(const Point& u, const Point& v) {
 }
 Point unit(const Point& v) { return plus({}, 1 / std::sqrt(dot(v, v)), v); }
 
-/// The corners 0, 1 and 2 of the first cell, in the plane z = 0.
-void place_base(World& world) {
+/// The next point, at its distances from the points 0 and 1, in the plane z = 0; `side` is 1 or -1,
+/// the sign of y.
+void place_beside(World& world, double side) {
+    const std::size_t next = world.points.size();
     const double l01 = length(world, 0, 1);
-    const double l02 = length(world, 0, 2);
-    const double l12 = length(world, 1, 2);
-    const double x = (l01 * l01 + l02 * l02 - l12 * l12) / (2 * l01);
-    world.points = {{0, 0, 0}, {l01, 0, 0}, {x, std::sqrt(l02 * l02 - x * x), 0}};
+    const double l0 = length(world, 0, next);
+    const double l1 = length(world, 1, next);
+    const double x = (l01 * l01 + l0 * l0 - l1 * l1) / (2 * l01);
+    world.points.push_back({x, side * std::sqrt(l0 * l0 - x * x), 0});
 }
 
 /// The next point, at its distances from the corners of a face; on the side that the corners go
@@ -110,9 +122,10 @@ void place_over(World& world, const Face& face) {
 
 World first_cell(const Order& order) {
     World world;
-    order_edges(world, {0, 1, 2, 3}, order);
+    order_edges_of_first_cell(world, order);
     world.cells.push_back({0, 1, 2, 3});
-    place_base(world);
+    world.points = {{0, 0, 0}, {length(world, 0, 1), 0, 0}};
+    place_beside(world, 1);
     place_over(world, {0, 1, 2});
     return world;
 }
@@ -122,9 +135,18 @@ World first_cell(const Order& order) {
 void glue(World& world, const Face& face, const Order& order) {
     const auto [a, b, c] = with_descending_edges(world, face);
     const std::array<std::size_t, 4> cell{a, b, c, world.points.size()};
-    order_edges(world, cell, order);
+    order_edges(world, cell, order, top_of_first_cell);
     world.cells.push_back(cell);
     place_over(world, face);
+}
+
+/// Glues a cell to the edge 01 of the first cell, on the other side of it.
+void glue_to_edge(World& world, const Order& order) {
+    const auto place = static_cast<int>(std::ranges::find(order, 0U) - order.begin());
+    order_edges(world, {0, 1, 4, 5}, order, world.steps[0][1] + place + 1);
+    world.cells.push_back({0, 1, 4, 5});
+    place_beside(world, -1);
+    place_over(world, {0, 1, 4});
 }
 
 Mesh mesh_of(World world) {
@@ -160,9 +182,16 @@ const std::vector<Order>& orders_at_a_face() {
     return result;
 }
 
-/// Those in which 02 is the longest of the edges 02, 03, 12 and 13: exchanging the ends of 01, or
-/// the faces there, makes it any of the four.
-const std::vector<Order>& orders_between_two_faces() {
+/// Those in which 02 is longer than 03: exchanging the corners 2 and 3 makes it the other way
+/// round.
+const std::vector<Order>& orders_at_an_edge() {
+    static const auto result = orders([](const PlaceOfEdge& at) { return at[1] < at[2]; });
+    return result;
+}
+
+/// Those in which 02 is the longest of the edges 02, 03, 12 and 13: exchanging the corners 0 and 1,
+/// or 2 and 3, makes it any of the four.
+const std::vector<Order>& orders_with_a_marked_edge() {
     static const auto result = orders(
         [](const PlaceOfEdge& at) { return at[1] < at[2] && at[1] < at[3] && at[1] < at[4]; });
     return result;
@@ -181,10 +210,17 @@ Mesh two_cells_in_order(std::size_t number) {
     return mesh_of(std::move(world));
 }
 
+Mesh two_cells_at_an_edge_in_order(std::size_t number) {
+    const auto& others = orders_at_an_edge();
+    World world = first_cell(orders_with_a_marked_edge().at(number / others.size()));
+    glue_to_edge(world, others[number % others.size()]);
+    return mesh_of(std::move(world));
+}
+
 Mesh three_cells_in_order(std::size_t number) {
     const auto& sides = orders_at_a_face();
     const std::size_t pairs = sides.size() * sides.size();
-    World world = first_cell(orders_between_two_faces().at(number / pairs));
+    World world = first_cell(orders_with_a_marked_edge().at(number / pairs));
     glue(world, {0, 2, 1}, sides[number / sides.size() % sides.size()]);
     glue(world, {0, 1, 3}, sides[number % sides.size()]);
     return mesh_of(std::move(world));

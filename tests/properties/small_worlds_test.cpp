@@ -96,20 +96,30 @@ TEST(SmallWorlds, OfTwoCellsAtAFaceInEveryPairOfOrders) {
     });
 }
 
-/// Of the 2,592,000 worlds a few thousand; or, where OCTETRA_MIDDLE_CELL is a number from 1 to 180,
-/// all in which the edges of the cell in the middle have the order with that number. ./dev worlds
-/// goes through them.
+/// Worlds whose first cell has 180 orders in turn: every so-manieth; or, where OCTETRA_FIRST_CELL
+/// is a number from 1 to 180, all those of the order with that number. ./dev worlds goes through
+/// them.
+template <class World>
+std::vector<Mesh> worlds_by_first_cell(World&& world, std::size_t count, std::size_t step) {
+    const char* const number = std::getenv("OCTETRA_FIRST_CELL");
+    if (number == nullptr) return worlds(world, 0, count, step * stride);
+    const std::size_t of_each_order = count / 180;
+    const std::size_t end = std::stoul(number) * of_each_order;
+    return worlds(world, end - of_each_order, end, 1);
+}
+
+TEST(SmallWorlds, OfTwoCellsAtAnEdgeInEveryPairOfOrders) {
+    lead([] {
+        const auto some =
+            worlds_by_first_cell(two_cells_at_an_edge_in_order, two_cell_worlds_at_an_edge, 17);
+        EXPECT_EQ(count_orders(some), some.size());
+        expect_equality_of_all("two cells at an edge", some, {1, 3});
+    });
+}
+
 TEST(SmallWorlds, OfThreeCellsInARowInEveryOrderOfTheirEdges) {
     lead([] {
-        constexpr std::size_t a_prime = 577;
-        constexpr std::size_t of_a_middle_cell = three_cell_worlds / 180;
-        std::vector<Mesh> some;
-        if (const char* number = std::getenv("OCTETRA_MIDDLE_CELL")) {
-            const std::size_t end = std::stoul(number) * of_a_middle_cell;
-            some = worlds(three_cells_in_order, end - of_a_middle_cell, end, 1);
-        } else {
-            some = worlds(three_cells_in_order, 0, three_cell_worlds, a_prime * stride);
-        }
+        const auto some = worlds_by_first_cell(three_cells_in_order, three_cell_worlds, 577);
         EXPECT_EQ(count_orders(some), some.size());
         expect_equality_of_all("three cells in a row", some, all_choices(3));
     });

@@ -133,6 +133,24 @@ TEST_F(Parallel, EndsInOneMessageWhereARankCannotWriteAndLeavesNothing) {
     }
 }
 
+/// Ranks that run out of memory end all, each that does so on its own.
+TEST_F(Parallel, EndsAtOnceWhereARankIsOutOfMemoryAndKeepsTheOutput) {
+    const auto with_little_memory = [&](const std::string& arguments) {
+        return test::run_program(
+            {OCTETRA_SOURCE_DIR "/tests/support/mpirun.sh", "2", "sh", "-c",
+             "ulimit -v 500000; exec " + std::string(OCTETRA_PROGRAM) + " " + arguments},
+            folder.path());
+    };
+    if (with_little_memory("--version").status != 0) {
+        GTEST_SKIP() << "built to need much address space, as with the address sanitizer";
+    }
+    (void)folder.write("p.mesh", "as it was");
+    const auto run = with_little_memory("refine gear.1.ele --all --levels 50 --quiet -o p.mesh");
+    EXPECT_EQ(run.status, 3) << run.err;
+    EXPECT_THAT(run.err, testing::ContainsRegex("octetra: rank [01]: out of memory\n"));
+    EXPECT_EQ(test::content_of(folder / "p.mesh"), "as it was");
+}
+
 /// Runs a refinement of which a rank kills itself at one of its calls of MPI; see
 /// tests/support/mpi_killer.cpp.
 test::Outcome run_with_a_kill(int rank, int at, const std::string& arguments,

@@ -1,5 +1,6 @@
 #include "refine_level.hpp"
 
+#include <limits>
 #include <memory>
 #include <utility>
 #include <vector>
@@ -23,6 +24,18 @@ void check_countable(const DistributedMesh& mesh, std::size_t count, const char*
         throw InputError(fmt::format("the refined mesh would have more than {} {} on one process",
                                      VertexIndex::limit, what));
     }
+}
+
+/// Collective. Throws on all processes if the whole mesh would have more cells than allowed.
+void check_allowed(const DistributedMesh& mesh, std::size_t count, const RefineOptions& options,
+                   int level) {
+    if (options.max_cells == std::numeric_limits<std::uint64_t>::max()) return;
+    const std::uint64_t cells = mesh.processes.sum(count);
+    if (cells <= options.max_cells) return;
+    throw InputError(
+        fmt::format("level {} would make {} cells, more than the {} allowed: choose fewer cells or "
+                    "levels, or allow more",
+                    level, cells, options.max_cells));
 }
 
 /// Would little change, be it that few cells are chosen or that they are all in one place? Edges
@@ -86,6 +99,7 @@ LevelOutcome refine_level(DistributedMesh& mesh, const Selection& selection,
         const Phase phase(processes, "bisect tetrahedra");
         const std::size_t cell_count = way->cell_count_afterwards();
         check_countable(mesh, cell_count, "cells");
+        check_allowed(mesh, cell_count, options, level);
         way->bisect_cells(cell_count).agree(mesh, level);
         way->bisect_listed();
     }

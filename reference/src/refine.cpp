@@ -64,6 +64,21 @@ void check_child(const CellVertices& child, const Mesh& fine, CellIndex parent, 
         parent.value() + first_number, level, sign < 0 ? "inverted" : "flat"));
 }
 
+/// Before anything is made of it.
+void check_allowed(const Mesh& mesh, const EdgeTable& table, const EdgeToMidpoint& midpoints,
+                   std::size_t max_cells, int level) {
+    if (max_cells == any_number) return;
+    std::size_t count = 0;
+    for (const CellVertices& cell : mesh.cells) {
+        count += pieces_of(cell, mesh, table, midpoints).size();
+    }
+    if (count <= max_cells || count == mesh.cells.size()) return;
+    throw InputError(
+        fmt::format("level {} would make {} cells, more than the {} allowed: choose fewer cells or "
+                    "levels, or allow more",
+                    level, count, max_cells));
+}
+
 void bisect_cells(const Mesh& mesh, const EdgeTable& table, const EdgeToMidpoint& midpoints,
                   const IndexVector<CellIndex, CellIndex>& cell_to_parent, int level,
                   Refinement& fine) {
@@ -98,7 +113,7 @@ void bisect_listed(const IndexVector<I, std::array<VertexIndex, N>>& list,
 }
 
 Refinement refine_once(const Refinement& coarse, const Selection& selection, Scheme scheme,
-                       int level) {
+                       int level, std::size_t max_cells) {
     const Mesh& mesh = coarse.mesh;
     const EdgeTable table = number_edges(mesh);
     const EdgeSet selected = close(
@@ -109,6 +124,7 @@ Refinement refine_once(const Refinement& coarse, const Selection& selection, Sch
     fine.maps.first_midpoint = coarse.maps.first_midpoint;
     fine.maps.midpoint_to_edge = coarse.maps.midpoint_to_edge;
     const EdgeToMidpoint midpoints = bisect_edges(mesh, table, selected, fine);
+    check_allowed(mesh, table, midpoints, max_cells, level);
     bisect_cells(mesh, table, midpoints, coarse.maps.cell_to_parent, level, fine);
     bisect_listed(mesh.facets, mesh.facet_markers, mesh, table, midpoints, fine.mesh.facets,
                   fine.mesh.facet_markers);
@@ -119,13 +135,14 @@ Refinement refine_once(const Refinement& coarse, const Selection& selection, Sch
 
 }  // namespace
 
-Refinement refine(const Mesh& mesh, const Selection& selection, Scheme scheme, int levels) {
+Refinement refine(const Mesh& mesh, const Selection& selection, Scheme scheme, int levels,
+                  std::size_t max_cells) {
     Refinement result;
     result.mesh = mesh;
     result.maps.first_midpoint = mesh.points.end_index();
     for (CellIndex c{0}; c < mesh.cells.end_index(); ++c) result.maps.cell_to_parent.append(c);
     for (int level = 1; level <= levels; ++level) {
-        result = refine_once(result, selection, scheme, level);
+        result = refine_once(result, selection, scheme, level, max_cells);
     }
     return result;
 }

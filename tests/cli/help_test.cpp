@@ -47,6 +47,15 @@ TEST_P(Help, FitsATerminal) {
     for (std::string line; std::getline(lines, line);) EXPECT_LE(line.size(), 120U) << line;
 }
 
+TEST(ExitStatus, IsExplainedWhereItTellsMoreThanWhetherAllWentWell) {
+    const TemporaryFolder folder;
+    for (const std::string command : {"refine", "verify"}) {
+        EXPECT_THAT(test::octetra(command + " --help", folder).out,
+                    HasSubstr("3 the system failed"))
+            << command;
+    }
+}
+
 INSTANTIATE_TEST_SUITE_P(Subcommands, Help,
                          testing::Values("", "refine", "info", "convert", "partition", "verify",
                                          "compare", "generate", "generate kuhn", "generate bcc",
@@ -82,6 +91,9 @@ INSTANTIATE_TEST_SUITE_P(
         "refine cube.ele --sphere 0,,0,1 -o out.ele",
         "refine cube.ele --sphere 0,0,0,inf -o out.ele", "refine cube.ele --sphere= -o out.ele",
         "refine cube.ele --random .5 --seed -1 -o out.ele",
+        "refine cube.ele --all --seed 1 -o out.ele",
+        "refine cube.ele --all --max-cells 0 -o out.ele",
+        "refine cube.ele --all --max-cells -1 -o out.ele",
         "refine cube.ele --box 0,0,0,1,1 -o out.ele",
         "refine cube.ele --box 1,0,0,0,1,1 -o out.ele", "refine cube.ele --random 1.5 -o out.ele",
         "refine cube.ele --random nan -o out.ele", "refine cube.ele --max-volume -1 -o out.ele",

@@ -86,6 +86,10 @@ TEST_F(Parallel, EndsInOneMessageAndTheSameStatusOnAllRanks) {
         {"refine gear.1.ele --all -o no/p.ele", "octetra: no/p.ele: "},
         {"refine gear.1.ele -o p.ele", "octetra: say which cells"},
         {"refine gear.1.ele --nonsense -o p.ele", "octetra: "},
+        {"refine gear.1.ele --all --levels 9 --max-cells 99999 -o p.ele",
+         "octetra: gear.1.ele: level 2 would make 198592 cells, more than the 99999 allowed"},
+        {"refine gear.1.ele --all --levels 9 --max-cells 99999 --engine reference -o p.ele",
+         "octetra: gear.1.ele: level 2 would make 198592 cells, more than the 99999 allowed"},
     };
     const auto alone =
         test::octetra("refine gear.1.ele --all --partition file:parts.txt -o p.ele", folder);
@@ -127,6 +131,24 @@ TEST_F(Parallel, EndsInOneMessageWhereARankCannotWriteAndLeavesNothing) {
             EXPECT_THAT(entry.path().filename().native(), testing::StartsWith("gear.1."));
         }
     }
+}
+
+/// Ranks that run out of memory end all, each that does so on its own.
+TEST_F(Parallel, EndsAtOnceWhereARankIsOutOfMemoryAndKeepsTheOutput) {
+    const auto with_little_memory = [&](const std::string& arguments) {
+        return test::run_program(
+            {OCTETRA_SOURCE_DIR "/tests/support/mpirun.sh", "2", "sh", "-c",
+             "ulimit -v 500000; exec " + std::string(OCTETRA_PROGRAM) + " " + arguments},
+            folder.path());
+    };
+    if (with_little_memory("--version").status != 0) {
+        GTEST_SKIP() << "built to need much address space, as with the address sanitizer";
+    }
+    (void)folder.write("p.mesh", "as it was");
+    const auto run = with_little_memory("refine gear.1.ele --all --levels 50 --quiet -o p.mesh");
+    EXPECT_EQ(run.status, 3) << run.err;
+    EXPECT_THAT(run.err, testing::ContainsRegex("octetra: rank [01]: out of memory\n"));
+    EXPECT_EQ(test::content_of(folder / "p.mesh"), "as it was");
 }
 
 /// Runs a refinement of which a rank kills itself at one of its calls of MPI; see

@@ -195,6 +195,25 @@ TEST(Refine, OutOfMemoryIsAFailureOfTheSystemThatLeavesNothing) {
     EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
 }
 
+TEST(Refine, EndsBeforeALevelThatWouldMakeMoreCellsThanAllowed) {
+    const TemporaryFolder folder;
+    ASSERT_EQ(test::octetra("generate kuhn 1 -o cube.ele", folder).status, 0);
+    (void)folder.write("f.ele", "as it was");
+    for (const std::string engine : {"distributed", "reference"}) {
+        const auto refine = "refine cube.ele --all --levels 40 -o f.ele --engine " + engine;
+        const auto run = test::octetra(refine + " --max-cells 1000", folder);
+        EXPECT_EQ(run.status, 2);
+        EXPECT_EQ(run.err,
+                  "octetra: cube.ele: level 3 would make 3072 cells, more than the 1000 allowed: "
+                  "choose fewer cells or levels, or allow more\n");
+        EXPECT_EQ(test::content_of(folder / "f.ele"), "as it was");
+        EXPECT_FALSE(std::filesystem::exists(folder / "f.node"));
+    }
+    EXPECT_EQ(
+        test::octetra("refine cube.ele --all --levels 3 --max-cells 3072 -o g.ele", folder).status,
+        0);
+}
+
 TEST(Refine, TurnsInvertedCellsRoundOnlyWhenAsked) {
     const TemporaryFolder folder;
     (void)folder.write("m.node", "4 3 0 0\n0 0 0 0\n1 1 0 0\n2 0 1 0\n3 0 0 1\n");

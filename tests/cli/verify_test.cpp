@@ -146,10 +146,36 @@ TEST_F(Verify, FailsWhereAFileHasLostWhatItsFormatCanHold) {
 
 TEST_F(Verify, RefusesOptionsThatMeanNothing) {
     for (const std::string options :
-         {"--min-dihedral nan", "--min-dihedral 181", "--levels 3", "--scheme 2t", "--report -"}) {
+         {"--min-dihedral nan", "--min-dihedral 181", "--levels 3", "--scheme 2t", "--levels 1",
+          "--scheme 8t", "--seed 0", "--report -"}) {
         expect_status(2, "verify gear.1.ele fine.1.ele " + options);
     }
     EXPECT_FALSE(std::filesystem::exists(folder / "-"));
+}
+
+TEST_F(Verify, SaysWhatAnOptionTakes) {
+    const auto message = [&](const std::string& options) {
+        return expect_status(2, "verify gear.1.ele fine.1.ele " + options).err;
+    };
+    EXPECT_THAT(message("--min-dihedral abc"),
+                HasSubstr("--min-dihedral: 'abc' is not a number from 0 to 180\n"));
+    EXPECT_THAT(message("--all --levels 1.5"),
+                HasSubstr("--levels: '1.5' is not a whole number from 0 to 50\n"));
+    EXPECT_THAT(message("--random .1 --seed -1"),
+                HasSubstr("--seed: '-1' is not a whole number from 0 up\n"));
+    EXPECT_THAT(message("--all --seed 3"), HasSubstr("--random 0.1 --seed 7"));
+    EXPECT_THAT(message("--scheme 8t"), HasSubstr("as in --all --levels 2"));
+}
+
+TEST_F(Verify, SaysWhoseNumbersTheyAreWhereFilesCountFromDifferentOnes) {
+    const std::string whose =
+        "Numbers are those of fine.mesh, which counts from 1; of what is called coarse, those of "
+        "gear.1.ele, from 0.";
+    expect_status(0, "convert fine.1.ele fine.mesh");
+    EXPECT_THAT(expect_status(1, "verify gear.1.ele fine.mesh --all").out, HasSubstr(whose));
+    EXPECT_THAT(expect_status(0, "verify gear.1.ele fine.mesh").out, Not(HasSubstr("Numbers")));
+    EXPECT_THAT(expect_status(1, "verify gear.1.ele fine.1.ele --all").out,
+                Not(HasSubstr("Numbers")));
 }
 
 TEST_F(Verify, OfRefineWritesWhatIsValidAndNothingElse) {

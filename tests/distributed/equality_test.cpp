@@ -67,7 +67,8 @@ protected:
                                          const std::vector<Selection>& selections) const {
         for (const Partition& partition : partitions) {
             for (const Selection& selection : selections) {
-                expect_equal(mesh, {selection, {scheme, levels, synchronisation}, partition});
+                const RefineOptions options{scheme, levels, synchronisation};
+                expect_equal(mesh, {selection, options, partition});
             }
         }
     }
@@ -170,6 +171,41 @@ TEST(Rounding, OfTheSmallestNumbersThereAreIsRefusedToo) {
                   (void)refined(mesh, {{.all = true}, {.levels = 1}, partitions[2]});
               }),
               expected);
+}
+
+/// As many as there come to be are allowed; with one less the level is refused that makes them.
+TEST(MostCells, AreCountedBeforeALevelIsMadeAndRefusedInTheWordsOfTheReference) {
+    const Mesh mesh = marked(test::shaken_kuhn(2, 0.3, 5), 1);
+    const Selection selection{.random = RandomShare{0.2, 3}};
+    const std::size_t most = reference::refine(mesh, selection, Scheme::eight, 3).mesh.cells.size();
+    for (const Partition& partition : partitions) {
+        for (const double sparse_below : {0.0, 10.0}) {
+            const auto refined_to = [&](std::size_t max_cells) {
+                const auto ranks = partition_cells(mesh, test::world().size(), partition);
+                DistributedMesh part = distribute(test::world(), mesh, ranks);
+                part.sparse_below = sparse_below;
+                refine(part, selection, {.levels = 3, .max_cells = max_cells});
+                return test::world().sum(part.cells.size());
+            };
+            EXPECT_EQ(refined_to(most), most);
+            EXPECT_EQ(reference::refine(mesh, selection, Scheme::eight, 3, most).mesh.cells.size(),
+                      most);
+            const std::string expected = test::thrown_by<InputError>(
+                [&] { (void)reference::refine(mesh, selection, Scheme::eight, 3, most - 1); });
+            EXPECT_EQ(test::thrown_by<InputError>([&] { (void)refined_to(most - 1); }), expected);
+            EXPECT_THAT(expected, HasSubstr("level 3 would make " + std::to_string(most)));
+        }
+    }
+}
+
+TEST(MostCells, AreNoMatterWhereNothingIsChosen) {
+    const Mesh mesh = test::kuhn(1, 1, 1);
+    const Selection none{.cells = {}};
+    EXPECT_EQ(reference::refine(mesh, none, Scheme::eight, 2, 1).mesh.cells.size(), 6U);
+    DistributedMesh part =
+        distribute(test::world(), mesh, partition_cells(mesh, test::world().size(), partitions[2]));
+    refine(part, none, {.levels = 2, .max_cells = 1});
+    EXPECT_EQ(test::world().sum(part.cells.size()), 6U);
 }
 
 TEST(Communicator, SumsBeforeAndAllToAllAndBroadcast) {

@@ -4,8 +4,9 @@
 
 #include <octetra/core/mesh.hpp>
 
-/// The smallest meshes there are, exhausted as far as that can be. Coordinates are whole numbers of
-/// at most 22 bits, so that worlds can stand side by side in one mesh without changing a length.
+/// The smallest meshes there are. Coordinates are whole numbers of at most 22 bits, so that worlds
+/// can stand side by side in one mesh without changing a length. Those in which the order of edges
+/// is exhausted are in glued_cells.hpp.
 namespace octetra::properties {
 
 /// The ways in which up to three cells can share vertices, up to symmetry: 1 of one cell, 4 of two,
@@ -16,13 +17,6 @@ namespace octetra::properties {
 /// A mesh of that complex with random corners: valid, and no two edges of a cell tie.
 [[nodiscard]] Mesh some_geometry(const std::vector<std::array<std::size_t, 4>>& complex,
                                  std::uint64_t seed);
-
-/// One nearly regular cell for each order of its six edges by length: 720.
-[[nodiscard]] std::vector<Mesh> one_cell_in_every_order();
-
-/// Two nearly regular cells at a face, one pair for any two orders of their edges that agree on the
-/// face: 14,400, the face's edges always descending, as its corners can be named so.
-[[nodiscard]] std::vector<Mesh> two_cells_in_every_order();
 
 /// All worlds in one mesh, each so far along x from the one before, so that they do not meet.
 [[nodiscard]] Mesh side_by_side(const std::vector<Mesh>& worlds, double distance);

@@ -152,8 +152,9 @@ TEST(Fast, LeavesOutWhatTakesASearchInSpace) {
     const Verdict verdict = test::judged_by_all(coarse, fine, {.fast = true});
     EXPECT_EQ(codes_of(verdict), "");
     for (const Check& check : verdict.checks) {
-        const bool in_space = check.name == "hanging vertices" || check.name == "volumes" ||
-                              check.name == "face angles" || check.name == "volume and areas";
+        const bool in_space = check.name == "hanging vertices" ||
+                              check.name == "volumes of cells" || check.name == "face angles" ||
+                              check.name == "sums by tag";
         EXPECT_EQ(check.status == Status::skipped, in_space) << check.name;
     }
 }
@@ -179,6 +180,27 @@ TEST(Notes, OfSkippedChecksNameWhatHasFailed) {
     coincident.cells[CellIndex{0}][0] =
         coincident.points.append(coincident.points[coincident.cells[CellIndex{0}][0]]);
     EXPECT_EQ(why_not_crossings(coincident), "vertices lie where they must not");
+}
+
+TEST(Notes, OfSkippedSumsAndDescentNameTheChecksThatFailed) {
+    Mesh coarse = test::kuhn(2, 1, 1);
+    coarse.regions.assign(coarse.cells.size(), 1);
+    coarse.point_markers.assign(coarse.points.size(), 1);
+    const Mesh fine = reference::refine(coarse, {.all = true}, Scheme::eight, 1).mesh;
+    const auto why_not = [&](std::string_view name, const Mesh& mesh) {
+        const Verdict verdict = test::judged_by_all(coarse, mesh);
+        const auto check = std::ranges::find(verdict.checks, name, &Check::name);
+        EXPECT_EQ(check->status, Status::skipped);
+        return check->note;
+    };
+    Mesh wrong = fine;
+    wrong.regions[CellIndex{3}] = 7;
+    EXPECT_EQ(why_not("sums by tag", wrong), "region tags failed");
+    wrong.point_markers[VertexIndex{2}] = 7;
+    EXPECT_EQ(why_not("sums by tag", wrong), "region tags, vertex markers failed");
+    std::swap(wrong.cells[CellIndex{0}][0], wrong.cells[CellIndex{0}][1]);
+    EXPECT_EQ(why_not("descent", wrong), "orientation failed");
+    EXPECT_EQ(why_not("sums by tag", wrong), "orientation failed");
 }
 
 TEST(Violations, AreAllCountedWhereNotAllAreKept) {

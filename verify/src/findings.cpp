@@ -165,6 +165,16 @@ void Findings::drop_surplus(std::vector<Violation>& violations) const {
     violations.erase(violations.begin() + static_cast<std::ptrdiff_t>(kept), violations.end());
 }
 
+std::string Findings::what_failed() const {
+    std::string names;
+    for (const Check& check : verdict_.checks) {
+        if (check.status != Status::failed) continue;
+        if (!names.empty()) names += ", ";
+        names += check.name;
+    }
+    return names.empty() ? names : names + " failed";
+}
+
 Verdict Findings::finish() {
     const auto collect_kept = [&] {
         verdict_.violations.clear();

@@ -64,6 +64,10 @@ public:
         verdict_.checks.push_back({std::string(name), Status::skipped, std::string(why), 0});
     }
 
+    /// Which checks have failed until now, as the reason to skip another: "cover failed". Empty
+    /// if none has; the same on all processes.
+    [[nodiscard]] std::string what_failed() const;
+
     /// Collective. The verdict, whole on the first process; the others have all but the violations.
     [[nodiscard]] Verdict finish();
 

@@ -163,13 +163,13 @@ private:
         }
         Lines lines(fine_, places);
         if (!conforms || !none_lost || !none_hangs) {
-            skip_from(0, "what stands above has failed");
+            skip_from(0, findings_.what_failed());
             return;
         }
         if (!findings_.run("descent", [&] {
                 return check_descent(coarse_, fine_, lines, descent, findings_);
             })) {
-            skip_from(1, "descent has failed");
+            skip_from(1, "descent failed");
             return;
         }
         judge_descendants(descent, lines);
@@ -183,13 +183,13 @@ private:
         const bool covered =
             findings_.run("cover", [&] { return check_cover(coarse_, fine_, descent, findings_); });
         if (options_.fast) {
-            findings_.skip("volumes", not_fast);
+            findings_.skip("volumes of cells", not_fast);
             findings_.skip("face angles", not_fast);
         } else if (!covered) {
-            findings_.skip("volumes", "cover has failed");
-            findings_.skip("face angles", "cover has failed");
+            findings_.skip("volumes of cells", "cover failed");
+            findings_.skip("face angles", "cover failed");
         } else {
-            findings_.run("volumes",
+            findings_.run("volumes of cells",
                           [&] { return check_volumes(coarse_, fine_, descent, findings_); });
             findings_.run("face angles",
                           [&] { return check_face_angles(coarse_, fine_, descent, findings_); });
@@ -197,11 +197,11 @@ private:
         }
         check_tags(coarse_, fine_, lines, descent, options_.attributes_lost, findings_);
         if (options_.fast) {
-            findings_.skip("volume and areas", not_fast);
-        } else if (any(findings_.group(), !findings_.verdict().valid())) {
-            findings_.skip("volume and areas", "what stands above has failed");
+            findings_.skip("sums by tag", not_fast);
+        } else if (const std::string failed = findings_.what_failed(); !failed.empty()) {
+            findings_.skip("sums by tag", failed);
         } else {
-            findings_.run("volume and areas",
+            findings_.run("sums by tag",
                           [&] { return check_sums(coarse_, fine_, descent, findings_); });
         }
         if (options_.maps != nullptr) {
@@ -218,7 +218,7 @@ private:
 
     void skip_from(std::size_t first, std::string_view why) {
         constexpr std::array<std::string_view, 6> names{
-            "descent", "vertices", "cover", "volumes", "face angles", "volume and areas"};
+            "descent", "vertices", "cover", "volumes of cells", "face angles", "sums by tag"};
         for (std::size_t i = first; i < names.size(); ++i) findings_.skip(names[i], why);
         if (options_.maps != nullptr) findings_.skip("maps", why);
         if (options_.request) findings_.skip("8T-LE", why);

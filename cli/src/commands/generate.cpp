@@ -1,6 +1,7 @@
 #include <concepts>
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <memory>
 #include <string>
 #include <utility>
@@ -16,6 +17,7 @@
 
 #include "commands/commands.hpp"
 #include "commands/mesh_options.hpp"
+#include "commands/number_checks.hpp"
 #include "parse_numbers.hpp"
 
 namespace octetra::cli {
@@ -73,7 +75,7 @@ std::shared_ptr<Number> option(CLI::App& shape, const std::string& name, Number 
         shape.add_option(name, *value, fmt::format("{} [{}]", description, standard));
     declared->type_name(type);
     if (std::unsigned_integral<Number>) {  // else -1 would be taken for 2^64 - 1
-        declared->check(CLI::NonNegativeNumber.description(""));
+        declared->check(whole_number(0, std::numeric_limits<std::uint64_t>::max(), "0 up"));
     }
     return value;
 }

@@ -12,6 +12,7 @@
 
 #include "commands/commands.hpp"
 #include "commands/mesh_options.hpp"
+#include "commands/number_checks.hpp"
 #include "grouped.hpp"
 
 namespace octetra::cli {
@@ -70,11 +71,10 @@ void add_partition(CLI::App& program, const distributed::Communicator& world) {
     CLI::App* command = program.add_subcommand(
         "partition", "Share a mesh out among ranks, and say how good the shares are");
     add_input_options(*command, options->input);
-    constexpr int most_parts = 1'000'000;
     command->add_option("-n,--parts", options->parts, "how many parts")
         ->type_name("P")
         ->required()
-        ->check(CLI::Range(1, most_parts));
+        ->check(whole_number(1, 1'000'000, "1 to 1000000"));
     command
         ->add_option("--partition", options->method,
                      "lepp, dual, block, random:SEED or file:PATH [lepp]")

@@ -2,8 +2,10 @@
 #include <algorithm>
 #include <array>
 
+#include <cstdint>
 #include <cstdio>
 #include <filesystem>
+#include <limits>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -26,6 +28,7 @@
 #include "choice.hpp"
 #include "commands/commands.hpp"
 #include "commands/mesh_options.hpp"
+#include "commands/number_checks.hpp"
 #include "commands/profile_options.hpp"
 #include "commands/refinement_options.hpp"
 #include "grouped.hpp"
@@ -62,6 +65,7 @@ struct RefineOptions {
     std::string partition = "lepp";
     std::string synchronisation = "neighbour";
     ProfileOptions profile;
+    std::uint64_t max_cells = std::numeric_limits<std::uint64_t>::max();
     bool verify = false;
     bool quiet = false;
 };
@@ -219,8 +223,9 @@ bool refine_by_reference(const Mesh& mesh, const Plan& plan, const RefineOptions
     distributed::on_first(world, [&] {
         const distributed::Phase phase(world, "refine");
         const int levels = options.refinement.levels;
-        fine = naming_the_mesh(
-            options, [&] { return reference::refine(mesh, plan.selection, plan.scheme, levels); });
+        fine = naming_the_mesh(options, [&] {
+            return reference::refine(mesh, plan.selection, plan.scheme, levels, options.max_cells);
+        });
         const bool idle = fine.mesh.cells.size() == mesh.cells.size();
         report_refined(options, idle ? 0 : levels, 1, WholeMesh(fine.mesh, &fine.maps).facts(),
                        watch.lap());
@@ -264,9 +269,9 @@ bool refine_distributed(Mesh mesh, const Plan& plan, const RefineOptions& option
         report_refined(options, levels, world.size(), facts, watch.lap());
     };
     naming_the_mesh(options, [&] {
-        distributed::refine(
-            parts, plan.selection,
-            {plan.scheme, options.refinement.levels, plan.synchronisation, on_level});
+        distributed::refine(parts, plan.selection,
+                            {plan.scheme, options.refinement.levels, plan.synchronisation,
+                             options.max_cells, on_level});
     });
     if (verify_alone) {
         const auto fine =
@@ -365,6 +370,11 @@ void add_refine(CLI::App& program, const distributed::Communicator& world) {
     add_output_option(*refine_command, options->output);
     add_refinement_options(*refine_command, options->refinement,
                            "Which cells (criteria add up; give at least one)");
+    refine_command
+        ->add_option("--max-cells", options->max_cells,
+                     "end in an error, and write nothing, before a level that would make more")
+        ->type_name("N")
+        ->check(whole_number(1, std::numeric_limits<std::uint64_t>::max(), "1 up"));
     add_engine_options(*refine_command, *options);
     refine_command
         ->add_option("--maps", options->maps,
@@ -376,6 +386,8 @@ void add_refine(CLI::App& program, const distributed::Communicator& world) {
         "judge the result as octetra verify does, and write it if it is valid");
     refine_command->add_flag("--quiet", options->quiet, "print nothing but notes and errors");
     refine_command->footer(
+        "Exit status: 0 done; 1 --verify finds the result not valid, and nothing is written;\n"
+        "2 bad usage or bad input; 3 the system failed: memory, disk, a lost rank.\n"
         "Example:\n"
         "  octetra generate gear -o gear.1.ele\n"
         "  octetra refine gear.1.ele --sphere 1,0,0.1,0.3 --levels 2 -o fine.vtu\n"

@@ -5,6 +5,7 @@
 #include <CLI/CLI.hpp>
 
 #include "choice.hpp"
+#include "commands/number_checks.hpp"
 
 namespace octetra::cli {
 
@@ -15,7 +16,7 @@ void add_refinement_options(CLI::App& subcommand, RefinementOptions& options,
         .add_option("--levels", options.levels,
                     "how often to choose and bisect; what is chosen is judged afresh each time [1]")
         ->type_name("L")
-        ->check(CLI::Range(0, 50));
+        ->check(whole_number(0, 50, "0 to 50"));
     subcommand
         .add_option("--scheme", options.scheme,
                     "a chosen cell selects all its edges, its faces' longest, or its longest [8t]")

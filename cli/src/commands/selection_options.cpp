@@ -1,6 +1,7 @@
 #include "commands/selection_options.hpp"
 
 #include <cmath>
+#include <limits>
 
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
@@ -8,6 +9,7 @@
 #include <octetra/core/error.hpp>
 #include <octetra/core/files.hpp>
 
+#include "commands/number_checks.hpp"
 #include "parse_numbers.hpp"
 
 namespace octetra::cli {
@@ -59,7 +61,7 @@ void add_selection_options(CLI::App& subcommand, SelectionOptions& options,
         ->group(group);
     subcommand.add_option("--seed", options.seed, "for --random [0]")
         ->type_name("N")
-        ->check(CLI::NonNegativeNumber.description(""))  // else -1 would be taken for 2^64 - 1
+        ->check(whole_number(0, std::numeric_limits<std::uint64_t>::max(), "0 up"))
         ->group(group);
     subcommand.add_option("--max-volume", options.max_volume, "cells of a larger volume")
         ->type_name("V")
@@ -83,7 +85,10 @@ Selection parse_selection(const SelectionOptions& options) {
             throw InputError(
                 fmt::format("--random takes a fraction from 0 to 1, not {}", *options.random));
         }
-        selection.random = RandomShare{*options.random, options.seed};
+        selection.random = RandomShare{*options.random, options.seed.value_or(0)};
+    }
+    if (options.seed && !options.random) {
+        throw InputError("--seed is that of --random, which is not given: --random 0.1 --seed 7");
     }
     if (options.max_volume && !(*options.max_volume >= 0)) {
         throw InputError(

@@ -22,7 +22,7 @@ struct SelectionOptions {
     std::vector<std::string> boxes;
     std::vector<Marker> regions;
     std::optional<double> random;
-    std::uint64_t seed = 0;
+    std::optional<std::uint64_t> seed;
     std::optional<double> max_volume;
 };
 

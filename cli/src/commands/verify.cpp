@@ -12,6 +12,7 @@
 #include "answer.hpp"
 #include "commands/commands.hpp"
 #include "commands/mesh_options.hpp"
+#include "commands/number_checks.hpp"
 #include "commands/refinement_options.hpp"
 #include "judges.hpp"
 #include "verdict/print_verdict.hpp"
@@ -27,6 +28,7 @@ struct VerifyCommandOptions {
     std::string report;
     std::string maps;
     RefinementOptions refinement;
+    bool says_how_refined = false;  ///< be it by options that say what is taken for granted
 };
 
 /// A report of a million faults helps nobody; they are counted all the same.
@@ -51,12 +53,10 @@ verify::VerifyOptions options_of(const VerifyCommandOptions& given) {
     if (given.second.empty() && !given.maps.empty()) {
         throw InputError("verify: --maps can only be checked of COARSE and REFINED");
     }
-    if (!options.request && (given.refinement.levels != 1 || given.refinement.scheme != "8t")) {
+    if (!options.request && given.says_how_refined) {
         throw InputError(
-            "verify: --levels and --scheme say how a selection was refined; give it, too");
-    }
-    if (given.min_dihedral && !(*given.min_dihedral >= 0 && *given.min_dihedral <= 180)) {
-        throw InputError("verify: --min-dihedral is an angle, 0 to 180 degrees");
+            "verify: --levels, --scheme and --seed say how a selection was refined; give it, too, "
+            "as in --all --levels 2");
     }
     if (given.fast && given.min_dihedral) {
         throw InputError("verify: --min-dihedral is not checked with --fast");
@@ -147,9 +147,7 @@ bool run(const VerifyCommandOptions& given, const distributed::Communicator& wor
 void add_verify(CLI::App& program, const distributed::Communicator& world) {
     auto options = std::make_shared<VerifyCommandOptions>();
     CLI::App* command = program.add_subcommand(
-        "verify",
-        "Judge a mesh, or a mesh as the refinement of another, by exact arithmetic.\n"
-        "Ends with status 0 if it is valid, 1 if it is not, 2 if it cannot be read.");
+        "verify", "Judge a mesh, or a mesh as the refinement of another, by exact arithmetic");
     command->add_option("MESH", options->first, "the mesh; or, with REFINED, the coarse one")
         ->type_name("")
         ->required();
@@ -161,7 +159,7 @@ void add_verify(CLI::App& program, const distributed::Communicator& world) {
         ->add_option("--min-dihedral", options->min_dihedral,
                      "no dihedral angle may be less than D degrees; compared exactly")
         ->type_name("D")
-        ->check(CLI::Range(0.0, 180.0));
+        ->check(number(0, 180, "0 to 180"));
     command->add_option("--report", options->report, "also write all that was found, as JSON")
         ->type_name("FILE");
     command
@@ -171,13 +169,17 @@ void add_verify(CLI::App& program, const distributed::Communicator& world) {
     add_refinement_options(*command, options->refinement,
                            "Is it the 8T-LE refinement of these cells? (as for refine)");
     command->footer(
+        "Exit status: 0 valid; 1 not valid; 2 bad usage, or a file that cannot be read;\n"
+        "3 the system failed: memory, disk, a lost rank.\n"
         "Example:\n"
         "  octetra generate gear -o gear.1.ele\n"
         "  octetra refine gear.1.ele --sphere 1,0,0.1,0.3 --levels 2 -o fine.1.ele\n"
         "  octetra verify fine.1.ele\n"
         "  octetra verify gear.1.ele fine.1.ele --sphere 1,0,0.1,0.3 --levels 2\n"
         "  mpirun -n 4 octetra verify gear.1.ele fine.1.ele");
-    command->callback([options, world] {
+    command->callback([options, command, world] {
+        options->says_how_refined =
+            command->count("--levels") + command->count("--scheme") + command->count("--seed") > 0;
         if (!run(*options, world)) throw AnswerIsNo{};
     });
 }

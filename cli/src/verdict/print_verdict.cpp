@@ -50,6 +50,16 @@ void print_violations(const Verdict& verdict, const Judged& judged) {
     }
 }
 
+/// Whose numbers they are, where that makes a difference.
+void print_whose_numbers(const Verdict& verdict, const Judged& judged) {
+    if (verdict.valid() || judged.coarse.empty()) return;
+    if (judged.fine_first_number == judged.coarse_first_number) return;
+    fmt::print(
+        "\nNumbers are those of {}, which counts from {}; of what is called coarse, those of {}, "
+        "from {}.\n",
+        judged.fine, judged.fine_first_number, judged.coarse, judged.coarse_first_number);
+}
+
 void print_fact(std::string_view what, const std::string& value) {
     fmt::print("{:<30} {:>16}\n", what, value);
 }
@@ -102,6 +112,7 @@ void print_facts(const Verdict& verdict, bool of_refinement) {
 void print_verdict(const Verdict& verdict, const Judged& judged) {
     print_checks(verdict);
     print_violations(verdict, judged);
+    print_whose_numbers(verdict, judged);
     print_facts(verdict, !judged.coarse.empty());
     const bool fast = std::any_of(verdict.checks.begin(), verdict.checks.end(),
                                   [](const auto& check) { return check.note == verify::not_fast; });

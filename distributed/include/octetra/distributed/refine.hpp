@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <limits>
 
 #include <octetra/core/selection.hpp>
 #include <octetra/distributed/distributed_mesh.hpp>
@@ -20,6 +21,8 @@ struct RefineOptions {
     Scheme scheme = Scheme::eight;
     int levels = 1;
     Synchronisation synchronisation = Synchronisation::neighbour;
+    /// A level that would make more cells than this, of the whole mesh, is not begun.
+    std::uint64_t max_cells = std::numeric_limits<std::uint64_t>::max();
     /// Told on the first process, after each level, of the level (from 1) and of the cells that the
     /// whole mesh now has. May be empty.
     std::function<void(int level, std::uint64_t cells)> on_level;
@@ -37,7 +40,7 @@ struct SynchronisationCounts {
 /// Collective. Refines in place; the mesh stays distributed. What is in which order afterwards, and
 /// what it is, does not depend on the number of processes, the partition or the synchronisation.
 /// Throws InputError on all processes alike where a rounded midpoint would flatten or invert a
-/// cell; the mesh is then not usable any more.
+/// cell, or where there would be more cells than allowed; the mesh is then not usable any more.
 SynchronisationCounts refine(DistributedMesh& mesh, const Selection& selection,
                              const RefineOptions& options);
 

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <cstddef>
+#include <limits>
+
 #include <octetra/core/maps.hpp>
 #include <octetra/core/mesh.hpp>
 #include <octetra/core/selection.hpp>
@@ -7,6 +10,8 @@
 /// The serial 8T-LE refinement that defines what is right: Balman, "Tetrahedral Mesh Refinement in
 /// Distributed Environments", Figure 3, without the distribution. Written to be checked by eye.
 namespace octetra::reference {
+
+inline constexpr std::size_t any_number = std::numeric_limits<std::size_t>::max();
 
 struct Refinement {
     Mesh mesh;
@@ -24,9 +29,9 @@ struct Refinement {
 /// edge's, where that is listed; else the smallest of the listed facets around the edge; else 0.
 ///
 /// The mesh must satisfy the invariants of struct Mesh. Throws InputError where a midpoint, rounded
-/// to binary64, would flatten or invert a cell, or where the result has more entities than can be
-/// numbered.
+/// to binary64, would flatten or invert a cell, where the result has more entities than can be
+/// numbered, or before a level that would make more than `max_cells` cells.
 [[nodiscard]] Refinement refine(const Mesh& mesh, const Selection& selection, Scheme scheme,
-                                int levels);
+                                int levels, std::size_t max_cells = any_number);
 
 }  // namespace octetra::reference

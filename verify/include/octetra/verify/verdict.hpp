@@ -87,7 +87,7 @@ struct Verdict {
     std::optional<AngleFigures> coarse_angles;
     std::vector<DepthFigures> by_depth;
     /// By tag, ascending. Empty with VerifyOptions::fast, and of a refinement if a check before
-    /// "volume and areas" has failed. Areas also where the coarse mesh lists no facets.
+    /// "sums by tag" has failed. Areas also where the coarse mesh lists no facets.
     std::vector<TagSum> volumes;
     std::vector<TagSum> areas;
     Arithmetic arithmetic;

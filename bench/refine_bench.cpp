@@ -4,6 +4,7 @@
 
 #include <cstdlib>
 #include <cstring>
+#include <memory>
 
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
@@ -15,6 +16,7 @@
 #include <octetra/distributed/refine.hpp>
 
 #include "measuring.hpp"
+#include "pattern_tables.hpp"
 #include "support/meshes.hpp"
 
 namespace octetra::bench {
@@ -30,6 +32,7 @@ struct Options {
     double radius = 0;  ///< 0: all cells
     double random = 0;  ///< this share of the cells, by lot
     std::string partition = "block";
+    bool warm = false;
     bool profile = false;
     bool memcpy = false;
     bool json = false;
@@ -105,17 +108,17 @@ std::size_t bytes_of(const DistributedMesh& mesh) {
     return mesh.points.size() * sizeof(Point) + mesh.cells.size() * sizeof(CellVertices);
 }
 
-/// What copying that many bytes takes, between places that have been written before: the second
-/// time, as in the first the machine hands out the memory.
-double memcpy_seconds(std::size_t bytes) {
+/// What copying that many bytes takes: into memory that the process has yet to get, as a refinement
+/// must, and into memory that was written before.
+ordered_json memcpy_seconds(std::size_t bytes) {
     const std::vector<char> from(bytes, 1);
-    std::vector<char> to(bytes);
-    double seconds = 0;
-    for (int time = 0; time < 2; ++time) {
+    const std::unique_ptr<char[]> to(new char[bytes]);  // not written yet
+    ordered_json seconds;
+    for (const char* into : {"new", "used"}) {
         const double start = wall_seconds();
-        std::memcpy(to.data(), from.data(), bytes);
-        asm volatile("" : : "r"(to.data()) : "memory");  // so that it is not optimised away
-        seconds = wall_seconds() - start;
+        std::memcpy(to.get(), from.data(), bytes);
+        asm volatile("" : : "r"(to.get()) : "memory");  // so that it is not optimised away
+        seconds[into] = wall_seconds() - start;
     }
     return seconds;
 }
@@ -141,6 +144,8 @@ void measure(const Communicator& world, const Options& options) {
     if (options.profile)
         mesh.processes = distributed::profiled(world, distributed::ProfileDetail::sums);
 
+    if (options.warm) make_pattern_tables();
+
     const std::size_t input_bytes = bytes_of(mesh);
     ordered_json line{{"program", "octetra"}, {"ranks", world.size()}};
     for (int level = 1; level <= options.levels; ++level) {
@@ -164,6 +169,7 @@ int run(const Communicator& world, int argc, char** argv) {
     app.add_option("radius", options.radius, "only cells nearer to (1/2, 1/2, 1/2); 0: all");
     app.add_option("--random", options.random, "this share of the cells, by lot");
     app.add_option("--partition", options.partition, "as of octetra refine");
+    app.add_flag("--warm", options.warm, "leave out what a program does but once");
     app.add_flag("--profile", options.profile, "with --json: seconds of synchronisation, bytes");
     app.add_flag("--memcpy", options.memcpy, "with --json: what copying the mesh's arrays takes");
     app.add_flag("--json", options.json, "print a line of JSON instead of words");

@@ -38,7 +38,8 @@ def parse_command_line():
     parser.add_argument("--peers", action="store_true", help="DOLFINx, too, in turns with octetra")
     parser.add_argument("--only", metavar="CASE", nargs="+", default=[],
                         help="only cases with one of these in the name of them or their group")
-    parser.add_argument("--repetitions", metavar="N", type=int, help="5 unless told, with --quick 1")
+    parser.add_argument("--repetitions", metavar="N", type=int,
+                        help="5 unless told, with --quick 1")
     return parser.parse_args()
 
 

@@ -10,9 +10,9 @@ NAMES = ["refinement", "growth", "files", "peers"]  # in the order of the tables
 
 ABOUT = {
     "refinement": "The engine alone, from when all ranks have their parts to when all are done.",
-    "growth": "With cells: uniform refinement on one rank. With ranks: one mesh, a tenth of its "
-              "cells chosen by lot; more ranks than cores take turns, so seconds are those of the "
-              "processor, waiting included.",
+    "growth": "With cells: uniform refinement on one rank, without what a program does but once. "
+              "With ranks: one mesh, a tenth of its cells chosen by lot; more ranks than cores "
+              "take turns, so seconds are those of the processor, waiting included.",
     "files": "Files in the page cache, and `octetra refine` from its start to its end.",
     "peers": "DOLFINx as Debian has it, the same mesh and the same cells chosen. Timed from "
              "barrier to barrier, its edges included.",

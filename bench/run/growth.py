@@ -25,8 +25,8 @@ def cells_figures(lines):
 
 
 def with_cells(sizes):
-    return Case("with cells", [driver(f"{n}^3 cubes", REFINE, f"{n} 1 --json") for n in sizes],
-                cells_figures, cells_curve)
+    return Case("with cells", [driver(f"{n}^3 cubes", REFINE, f"{n} 1 --warm --json")
+                               for n in sizes], cells_figures, cells_curve)
 
 
 def ranks_curve(lines):

@@ -51,8 +51,9 @@ def where(machine):
     memory = size(machine["memory_bytes"]) + " of memory" if machine["memory_bytes"] else None
     known = [machine["date"], f"commit {machine['commit']}" if machine["commit"] else None,
              plural(machine["cores"], "core") + " of " + machine["processor"], memory,
-             machine["system"], machine["compiler"], machine["build"] and machine["build"] + " build",
-             machine["mpi"], f"load {machine['load']:.1f} when it began"]
+             machine["system"], machine["compiler"],
+             machine["build"] and machine["build"] + " build", machine["mpi"],
+             f"load {machine['load']:.1f} when it began"]
     return ", ".join(word for word in known if word) + "."
 
 

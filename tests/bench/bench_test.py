@@ -66,10 +66,13 @@ class Figures(unittest.TestCase):
         self.assertEqual(len(peers.other_counts(lines(8, 9))), 1)
 
 
+WHAT_COUNTS = ("processor", "cores", "memory_bytes", "system", "mpi", "compiler", "build", "commit")
+
+
 def made(commit="abc", quick=False, date="now", names=("growth",), value=1.0):
     figure = Figure("time", value, "s", at_most=2).as_dict()
     case = {"name": "a case", "runs": [], "figures": [figure], "points": [], "wrong": []}
-    machine = {key: "x" for key in kept.SAME} | {"commit": commit, "date": date, "load": 0.1,
+    machine = {key: "x" for key in WHAT_COUNTS} | {"commit": commit, "date": date, "load": 0.1,
                                                  "cores": 2, "memory_bytes": 8e9}
     return {"format": "octetra bench", "version": 1, "quick": quick, "machine": machine,
             "groups": [{"name": name, "about": "", "repetitions": 5, "cases": [case]}
@@ -112,7 +115,7 @@ class OldResults(unittest.TestCase):
         # "with changes" may be different changes
         changed = "abc and changes"
         self.assertEqual(self.names_with(made(changed, names=["peers"]), made(changed)), ["growth"])
-        for key in kept.SAME:
+        for key in WHAT_COUNTS:
             other = copy.deepcopy(made(names=["peers"]))
             other["machine"][key] = "another"
             self.assertEqual(self.names_with(other, made()), ["growth"], key)
@@ -121,11 +124,14 @@ class OldResults(unittest.TestCase):
 class Programs(unittest.TestCase):
     """The smallest meshes, with the programs as they are built."""
 
-    def run_only(self, *only):
+    def run_only(self, folder, *only):
+        return subprocess.run([sys.executable, RUN, "--build", os.environ["OCTETRA_BUILD"],
+                               "-o", folder, "--quick", "--only", *only],
+                              capture_output=True, text=True, check=False)
+
+    def cases_of(self, *only):
         with tempfile.TemporaryDirectory() as folder:
-            done = subprocess.run([sys.executable, RUN, "--build", os.environ["OCTETRA_BUILD"], "-o",
-                                   folder, "--quick", "--only", *only],
-                                  capture_output=True, text=True, check=False)
+            done = self.run_only(folder, *only)
             self.assertEqual(done.returncode, 0, done.stderr)
             with open(os.path.join(folder, "results.json"), encoding="utf-8") as file:
                 found = json.load(file)
@@ -134,7 +140,7 @@ class Programs(unittest.TestCase):
         return {case["name"]: case for group in found["groups"] for case in group["cases"]}
 
     def test_print_what_is_read(self):
-        cases = self.run_only("growth", "around a point", "sphere", "whole program")
+        cases = self.cases_of("growth", "around a point", "sphere", "whole program")
         self.assertEqual([p["cells"] for p in cases["with cells"]["points"]],
                          [8 * 6 * n ** 3 for n in (6, 12, 24)])
         self.assertEqual([p["ranks"] for p in cases["with ranks"]["points"]], [1, 2, 4])
@@ -148,9 +154,7 @@ class Programs(unittest.TestCase):
 
     def test_say_where_there_is_no_such_case(self):
         with tempfile.TemporaryDirectory() as folder:
-            done = subprocess.run([sys.executable, RUN, "--build", os.environ["OCTETRA_BUILD"], "-o",
-                                   folder, "--only", "nonsense"], capture_output=True, text=True,
-                                  check=False)
+            done = self.run_only(folder, "nonsense")
         self.assertEqual(done.returncode, 2)
         self.assertIn("no case has nonsense in its name", done.stderr)
 

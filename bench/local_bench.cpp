@@ -1,33 +1,36 @@
 /// Few cells of many: `bench_local N LEVELS CHOSEN` refines a Kuhn cube of N^3 cubes around its
 /// centre, level by level, each time about CHOSEN cells in a sphere half as large as the one
-/// before; and says what each level takes of a uniform level of the same cube. Also under mpirun.
-
-#include <time.h>
+/// before; and says what each level takes of a uniform level of the same cube. `--json` prints a
+/// line for bench/run/. Also under mpirun.
 
 #include <cmath>
-#include <cstdlib>
 #include <numeric>
 
 #include <fmt/format.h>
+#include <CLI/CLI.hpp>
+#include <nlohmann/json.hpp>
 
 #include <octetra/distributed/partition.hpp>
 #include <octetra/distributed/profile.hpp>
 #include <octetra/distributed/refine.hpp>
 
+#include "measuring.hpp"
+#include "pattern_tables.hpp"
 #include "support/meshes.hpp"
 
-namespace octetra {
+namespace octetra::bench {
 namespace {
 
 using distributed::Communicator;
 using distributed::DistributedMesh;
+using nlohmann::ordered_json;
 
-/// Of this process. Waiting for other ranks counts, too.
-double processor_seconds() {
-    timespec time{};
-    ::clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
-    return static_cast<double>(time.tv_sec) + static_cast<double>(time.tv_nsec) * 1e-9;
-}
+struct Options {
+    std::size_t cubes = 88;
+    int levels = 10;
+    double chosen = 1000;
+    bool json = false;
+};
 
 DistributedMesh cube_of(const Communicator& world, std::size_t n) {
     Mesh cube;
@@ -60,45 +63,73 @@ std::pair<double, std::uint64_t> profiled_level(DistributedMesh& mesh, const Sel
     return {milliseconds, touched};
 }
 
-void measure(const Communicator& world, std::size_t n, int levels, double chosen) {
-    double uniform = 0;
-    {
-        DistributedMesh mesh = cube_of(world, n);
-        (void)level_milliseconds(mesh, {});  // nothing: what a program does but once
-        uniform = level_milliseconds(mesh, {.all = true});
-        const auto cells = world.sum(mesh.cells.size());
-        if (world.is_first()) {
-            fmt::print("uniform: {:>10} cells {:9.2f} ms, {:6.0f} ns a cell\n", cells, uniform,
-                       uniform * 1e6 / static_cast<double>(cells));
-        }
+/// Seconds of the processor of a uniform level, and the cells that it gives.
+ordered_json uniform_level(const Communicator& world, std::size_t cubes) {
+    DistributedMesh mesh = cube_of(world, cubes);
+    const double milliseconds = level_milliseconds(mesh, {.all = true});
+    return {{"cells", world.sum(mesh.cells.size())}, {"processor_seconds", milliseconds / 1000}};
+}
+
+ordered_json local_level(DistributedMesh& mesh, double radius) {
+    Selection selection;
+    selection.spheres.push_back({{0.5, 0.5, 0.5}, radius});
+    const auto before = mesh.processes.sum(mesh.cells.size());
+    const auto [milliseconds, touched] = profiled_level(mesh, selection);
+    return {{"before", before},
+            {"cells", mesh.processes.sum(mesh.cells.size())},
+            {"processor_seconds", milliseconds / 1000},
+            {"touched", touched}};
+}
+
+void print_level(int number, const ordered_json& level, double uniform) {
+    const auto cells = level["cells"].get<double>();
+    const auto seconds = level["processor_seconds"].get<double>();
+    fmt::print(
+        "level {:>2}: {:>10} cells {:9.2f} ms, {:6.0f} ns a new cell, {:6.2f} % of "
+        "uniform, {:>9} touched\n",
+        number, cells, 1e3 * seconds, 1e9 * seconds / (cells - level["before"].get<double>()),
+        100 * seconds / uniform, level["touched"].get<std::uint64_t>());
+}
+
+void measure(const Communicator& world, const Options& options) {
+    ordered_json line{{"program", "octetra"}, {"ranks", world.size()}};
+    make_pattern_tables();
+    line["uniform"] = uniform_level(world, options.cubes);
+    const auto uniform = line["uniform"]["processor_seconds"].get<double>();
+    const bool speaks = world.is_first() && !options.json;
+    if (speaks) {
+        const auto cells = line["uniform"]["cells"].get<double>();
+        fmt::print("uniform: {:>10} cells {:9.2f} ms, {:6.0f} ns a cell\n", cells, 1e3 * uniform,
+                   1e9 * uniform / cells);
     }
-    DistributedMesh mesh = cube_of(world, n);
+    DistributedMesh mesh = cube_of(world, options.cubes);
     constexpr double pi = 3.14159265358979323846;
-    double radius = std::cbrt(chosen / (6 * 4.0 / 3 * pi)) / static_cast<double>(n);
-    for (int level = 1; level <= levels; ++level, radius /= 2) {
-        Selection selection;
-        selection.spheres.push_back({{0.5, 0.5, 0.5}, radius});
-        const auto before = world.sum(mesh.cells.size());
-        const auto [milliseconds, touched] = profiled_level(mesh, selection);
-        const auto cells = world.sum(mesh.cells.size());
-        if (!world.is_first()) continue;
-        fmt::print(
-            "level {:>2}: {:>10} cells {:9.2f} ms, {:6.0f} ns a new cell, {:6.2f} % of "
-            "uniform, {:>9} touched\n",
-            level, cells, milliseconds, milliseconds * 1e6 / static_cast<double>(cells - before),
-            100 * milliseconds / uniform, touched);
+    double radius =
+        std::cbrt(options.chosen / (6 * 4.0 / 3 * pi)) / static_cast<double>(options.cubes);
+    for (int level = 1; level <= options.levels; ++level, radius /= 2) {
+        line["levels"].push_back(local_level(mesh, radius));
+        if (speaks) print_level(level, line["levels"].back(), uniform);
     }
+    line["peak_bytes"] = world.max(peak_bytes());
+    if (world.is_first() && options.json) fmt::print("{}\n", line.dump());
+}
+
+int run(const Communicator& world, int argc, char** argv) {
+    CLI::App app("Measures what few cells of many cost, level by level");
+    Options options;
+    app.add_option("cubes", options.cubes, "N: N^3 cubes of six cells");
+    app.add_option("levels", options.levels);
+    app.add_option("chosen", options.chosen, "about how many cells are chosen at each level");
+    app.add_flag("--json", options.json, "print a line of JSON instead of words");
+    CLI11_PARSE(app, argc, argv);
+    measure(world, options);
+    return 0;
 }
 
 }  // namespace
-}  // namespace octetra
+}  // namespace octetra::bench
 
 int main(int argc, char** argv) {
     const octetra::distributed::MpiSession session(&argc, &argv);
-    // `./dev bench` passes the arguments of Google Benchmark to all.
-    if (argc > 1 && argv[1][0] == '-') argc = 1;
-    const std::size_t n = argc > 1 ? std::strtoul(argv[1], nullptr, 10) : 88;
-    const int levels = argc > 2 ? std::atoi(argv[2]) : 10;
-    const double chosen = argc > 3 ? std::atof(argv[3]) : 1000;
-    octetra::measure(session.world(), n, levels, chosen);
+    return octetra::bench::run(session.world(), argc, argv);
 }

@@ -1,14 +1,18 @@
 """Parts of the equivalence report by themselves."""
 
 import os
+import re
 import sys
 import tempfile
 import unittest
+from xml.etree import ElementTree
 
 sys.path.insert(0, os.path.join(os.path.dirname(__file__), "..", "..", "tools", "equivalence"))
 
+import bench_section  # noqa: E402
 import charts  # noqa: E402
 import comparing  # noqa: E402
+import log_frame  # noqa: E402
 import measure  # noqa: E402
 import page  # noqa: E402
 import plots  # noqa: E402
@@ -111,3 +115,64 @@ class Words(unittest.TestCase):
     def test_have_their_plural(self):
         self.assertEqual([words.plural(n, "mesh/meshes") for n in (1, 2)], ["1 mesh", "2 meshes"])
         self.assertEqual([words.plural(n, "run") for n in (1, 1200)], ["1 run", "1,200 runs"])
+
+
+def results(points):
+    """Of ./dev bench, with these points of the case named."""
+    name, = points
+    case = {"name": name, "points": points[name]}
+    machine = {"date": "today", "commit": "abc", "cores": 2, "processor": "<one>",
+               "compiler": "GNU 12", "mpi": None, "load": 0.1}
+    return {"machine": machine, "groups": [{"cases": [case, {"name": "else", "points": []}]}]}
+
+
+class Benchmarks(unittest.TestCase):
+    def places(self, drawing):
+        """Of the dots of each drawing."""
+        svgs = [ElementTree.fromstring(svg) for svg in re.findall(r"<svg .*?</svg>", drawing)]
+        return [[(float(dot.get("cx")), float(dot.get("cy"))) for dot in svg.iter("circle")]
+                for svg in svgs]
+
+    def test_are_left_out_where_there_are_none(self):
+        self.assertEqual(bench_section.section(None), "")
+        self.assertEqual(bench_section.section(results({"with cells": []})), "")
+        self.assertIsNone(bench_section.load("/no/such/file.json"))
+
+    def test_that_grow_in_proportion_lie_on_a_straight_line(self):
+        points = [{"cells": 8 ** i, "processor_seconds": 3e-6 * 8 ** i, "peak_bytes": 40 * 8 ** i}
+                  for i in range(4, 9)]
+        drawing = bench_section.section(results({"with cells": points}))
+        self.assertIn("&lt;one&gt;", drawing)
+        for dots in self.places(drawing):
+            self.assertEqual(len(dots), 5)
+            slopes = [(y2 - y1) / (x2 - x1) for (x1, y1), (x2, y2) in zip(dots, dots[1:])]
+            self.assertLess(max(slopes), 0)  # upwards, as y goes down
+            self.assertLess(max(slopes) - min(slopes), 0.02)
+
+    def test_beside_other_work_are_called_so(self):
+        made = results({"with ranks": [{"ranks": 2, "processor_seconds_of_rank": 1, "bytes": 9}]})
+        self.assertNotIn("no measure", bench_section.section(made))
+        made["machine"]["load"] = 1.5
+        self.assertIn("no measure", bench_section.section(made))
+
+    def test_of_one_rank_send_nothing_and_are_drawn_all_the_same(self):
+        points = [{"ranks": n, "processor_seconds_of_rank": 1 / n, "bytes": 1000 * (n - 1)}
+                  for n in (1, 2, 4)]
+        drawing = bench_section.section(results({"with ranks": points}))
+        self.assertEqual([len(dots) for dots in self.places(drawing)], [3, 2])
+
+    def test_have_bars_in_proportion(self):
+        points = [{"name": "octetra, 1 rank", "cells_a_second": 8e6},
+                  {"name": "DOLFINx, 1 rank", "cells_a_second": 2e6}]
+        drawing = bench_section.section(results({"beside DOLFINx, uniform": points}))
+        ours, theirs = map(float, re.findall(r'<rect [^>]*height="([0-9.]+)"', drawing))
+        self.assertAlmostEqual(ours / theirs, 4, places=1)
+
+    def test_have_axes_that_reach_all_of_them(self):
+        self.assertEqual(log_frame.steps(10368, 29478000), [1e4, 1e5, 1e6, 1e7, 1e8])
+        self.assertEqual(log_frame.steps(0.3, 1.2), [0.2, 0.5, 1, 2])
+        for low, high in ((3, 3), (1, 1), (1e-6, 7e9), (0.99, 1.01)):
+            marks = log_frame.steps(low, high)
+            self.assertLessEqual(marks[0], low)
+            self.assertGreaterEqual(marks[-1], high)
+            self.assertGreater(len(marks), 1)

@@ -16,6 +16,7 @@ import sys
 import tempfile
 import time
 
+import bench_section
 import cases as all_cases
 import machine
 import pictures
@@ -34,6 +35,8 @@ def parse_command_line():
     parser.add_argument("--only", metavar="WORDS", help="only cases with this in their name, and "
                         "those that they follow")
     parser.add_argument("--no-pictures", action="store_true", help="leave pictures of meshes out")
+    parser.add_argument("--bench", metavar="FILE.json", default=bench_section.RESULTS,
+                        help="results of ./dev bench, which the page draws if they are there")
     parser.add_argument("--from", dest="old", metavar="FILE.json", help="run nothing: make the "
                         "pages of an older report anew, in the folder where it stands")
     return parser.parse_args()
@@ -119,7 +122,8 @@ def main():
             report = make_report(options)
             write(os.path.join(options.output, "equivalence.json"),
                   json.dumps(report, indent=1) + "\n")
-        write(os.path.join(options.output, "index.html"), page(report, options.output))
+        write(os.path.join(options.output, "index.html"),
+              page(report, options.output, bench_section.load(options.bench)))
         write(os.path.join(options.output, "equivalence.md"), markdown(report))
     except (Failure, OSError) as failure:
         tell(f"equivalence: {failure}")

@@ -5,6 +5,7 @@ import os
 import shlex
 from html import escape
 
+import bench_section
 import plots
 from charts import legend
 from summary import paper_rows, run_of, totals
@@ -261,8 +262,9 @@ def runs_section(cases):
         "".join(map(case_details, cases)))
 
 
-def page(report, folder):
-    """The whole page; pictures are taken from `folder`."""
+def page(report, folder, benchmarks=None):
+    """The whole page; pictures are taken from `folder`. `benchmarks`: what ./dev bench found, if it
+    was run."""
     cases, machine = report["cases"], report["machine"]
     timed, cores = timed_cases(cases), machine["cores"]
     with open(STYLE, encoding="utf-8") as file:
@@ -272,7 +274,8 @@ def page(report, folder):
             + verdict(totals(cases)) + faults_section(cases) + load_notice(machine)
             + cases_section(cases) + picture_section(report, folder) + paper_section(cases)
             + angles_section(cases) + balance_section(cases) + time_section(timed, cores)
-            + scaling_section(timed, cores) + runs_section(cases))
+            + scaling_section(timed, cores) + bench_section.section(benchmarks)
+            + runs_section(cases))
     return ('<!DOCTYPE html>\n<html lang="en"><head><meta charset="utf-8">'
             '<meta name="viewport" content="width=device-width, initial-scale=1">'
             f"<title>Octetra: equivalence report</title><style>{style}</style></head>"

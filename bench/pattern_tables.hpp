@@ -1,0 +1,20 @@
+#pragma once
+
+#include <vector>
+
+#include <octetra/distributed/refine.hpp>
+
+#include "support/meshes.hpp"
+
+namespace octetra::bench {
+
+/// Has this process make the engine's pattern tables, which it makes but once and which are no part
+/// of what a refinement costs in the long run. Not collective.
+inline void make_pattern_tables() {
+    const Mesh cube = test::kuhn(1, 1, 1);
+    const std::vector<int> parts(cube.cells.size(), 0);
+    auto mesh = distributed::distribute({}, cube, parts);
+    (void)distributed::refine(mesh, {.all = true}, {});
+}
+
+}  // namespace octetra::bench

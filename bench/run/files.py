@@ -1,0 +1,89 @@
+"""Files, and the whole program."""
+
+import json
+import os
+import shutil
+import statistics
+
+from measuring import Case, Figure, Run, driver, median
+from running import must, run
+
+FILES = "bench/bench_files"
+
+
+def rate(line):
+    """MB (10^6 bytes) of the file a second, by the wall clock."""
+    (benchmark,) = line["benchmarks"]
+    return benchmark["file MB"] / (benchmark["real_time"] * 1e-3)
+
+
+def rates(lines):
+    return [Figure(f"{name} TetGen files", statistics.median(map(rate, of_run)),
+                   "MB/s", at_least=200) for name, of_run in lines.items()]
+
+
+def tetgen():
+    """Google Benchmark chooses how often it repeats within a run."""
+    return Case("TetGen files", [
+        driver(name, FILES, f"--benchmark_filter={name}_file/tetgen --benchmark_format=json")
+        for name in ("read", "write")], rates)
+
+
+# --- octetra refine
+
+
+def whole_program(place, ranks, shape):
+    mesh = place.mesh(shape, "whole.ele")
+    folder = os.path.join(place.folder, "whole")
+    os.mkdir(folder)
+    try:
+        launcher = ["mpirun", "-n", str(ranks)] if ranks > 1 else []
+        command = [*launcher, place.program("cli/octetra"), "refine", mesh, "--all", "--quiet",
+                   "-o", os.path.join(folder, "fine.ele")]
+        # The clock runs for the program as people use it, without a profile.
+        seconds = timed(command, folder)
+        must([*command, "--profile", os.path.join(folder, "profile.json")], folder)
+        with open(os.path.join(folder, "profile.json"), encoding="utf-8") as file:
+            profile = json.load(file)
+    finally:
+        shutil.rmtree(folder)
+    return {"seconds": seconds, "profiled_seconds": profile["seconds"]["max"],
+            "files_seconds": sum(of_phase(profile, name) for name in ("read", "write")),
+            "cells": profile["levels"][-1]["cells"]["sum"],
+            "peak_bytes": profile["peak_memory_bytes"]["max"]}
+
+
+def timed(command, folder):
+    outcome = run(command, folder)
+    if outcome.status != 0:
+        must(command, folder)  # which says what is wrong
+    return outcome.seconds
+
+
+def of_phase(profile, name):
+    return sum(entry[part]["max"] for entry in profile["phases"] if entry["phase"] == name
+               for part in ("computing_seconds", "communicating_seconds"))
+
+
+def program_figures(lines):
+    made = []
+    for name, of_run in lines.items():
+        against = statistics.median(line["profiled_seconds"] / line["files_seconds"]
+                                    for line in of_run)
+        peak = median(of_run, "peak_bytes")
+        made += [Figure(f"octetra refine, {name}", median(of_run, "seconds"), "s"),
+                 Figure(f"peak memory of a rank, {name}", 1e-6 * peak, "MB"),
+                 Figure(f"against its reading and writing alone, {name}", against, "times",
+                        at_most=3)]
+    return made
+
+
+def program(cubes):
+    shape = f"kuhn {cubes}"
+
+    def one(ranks):
+        words = f"mpirun -n {ranks} " if ranks > 1 else ""
+        return Run("1 rank" if ranks == 1 else f"{ranks} ranks",
+                   lambda place: whole_program(place, ranks, shape),
+                   f"{words}octetra refine ({shape}) --all -o fine.ele")
+    return Case("the whole program", [one(ranks) for ranks in (1, 2)], program_figures)

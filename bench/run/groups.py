@@ -1,0 +1,50 @@
+"""All cases, by group."""
+
+import files
+import growth
+import peers
+import refinement
+from measuring import Group
+
+NAMES = ["refinement", "growth", "files", "peers"]  # in the order of the tables
+
+ABOUT = {
+    "refinement": "The engine alone, from when all ranks have their parts to when all are done.",
+    "growth": "With cells: uniform refinement on one rank, without what a program does but once. "
+              "With ranks: one mesh, a tenth of its cells chosen by lot; more ranks than cores "
+              "take turns, so seconds are those of the processor, waiting included.",
+    "files": "Files in the page cache, and `octetra refine` from its start to its end.",
+    "peers": "DOLFINx as Debian has it, the same mesh and the same cells chosen. Timed from "
+             "barrier to barrier, its edges included.",
+}
+
+
+def group(name, cases):
+    return Group(name, ABOUT[name], cases)
+
+
+def standard(with_peers):
+    made = [
+        group("refinement", [refinement.uniform(55), refinement.sphere(32),
+                             refinement.around_a_point(88, 10, 1000), refinement.by_lot(25500)]),
+        group("growth", [growth.with_cells((6, 12, 24, 44, 55, 85)),
+                         growth.with_ranks(40, (1, 2, 4, 8, 16, 32))]),
+        group("files", [files.tetgen(), files.program(55)]),
+    ]
+    if with_peers:
+        made.append(group("peers", [peers.uniform(55), peers.sphere(32), peers.bare(55),
+                                    peers.valid(32, 2)]))
+    return made
+
+
+def quick(with_peers):
+    made = [
+        group("refinement", [refinement.uniform(24), refinement.sphere(12),
+                             refinement.around_a_point(24, 4, 200), refinement.by_lot(2000)]),
+        group("growth", [growth.with_cells((6, 12, 24)), growth.with_ranks(10, (1, 2, 4))]),
+        group("files", [files.tetgen(), files.program(16)]),
+    ]
+    if with_peers:
+        made.append(group("peers", [peers.uniform(12), peers.sphere(8), peers.bare(12),
+                                    peers.valid(8, 2)]))
+    return made

@@ -1,0 +1,119 @@
+"""Cases, and how they are measured."""
+
+import json
+import os
+import shlex
+import statistics
+from collections.abc import Callable
+from dataclasses import dataclass, field
+
+from running import Failure, must
+
+
+@dataclass(frozen=True)
+class Place:
+    build: str  # the folder of the programs
+    folder: str  # of files that cases make
+
+    def program(self, name):
+        path = os.path.join(self.build, name)
+        if not os.access(path, os.X_OK):
+            raise Failure(f"{path} is not there: build it first")
+        return path
+
+    def mesh(self, shape, name):
+        """The file of a generated mesh, made when it is first asked for."""
+        path = os.path.join(self.folder, name)
+        if not os.path.exists(path):
+            must([self.program("cli/octetra"), "generate", *shape.split(), "--quiet", "-o", path],
+                 self.folder)
+        return path
+
+
+@dataclass(frozen=True)
+class Run:
+    """One of the programs that a case runs in turns. `line` runs it once and returns a dictionary
+    of what it measured."""
+    name: str
+    line: Callable[[Place], dict]
+    command: str = ""
+
+
+@dataclass(frozen=True)
+class Figure:
+    """What a case comes to. With a target, the value is to be at most (or at least) that."""
+    name: str
+    value: float
+    unit: str
+    at_most: float = None
+    at_least: float = None
+
+    def as_dict(self):
+        made = {"name": self.name, "value": self.value, "unit": self.unit}
+        if self.at_most is not None:
+            made |= {"at_most": self.at_most, "met": self.value <= self.at_most}
+        if self.at_least is not None:
+            made |= {"at_least": self.at_least, "met": self.value >= self.at_least}
+        return made
+
+
+@dataclass(frozen=True)
+class Case:
+    """`figures` gets the lines of each run, by its name; so do `points`, which returns what is
+    drawn over an axis, a dictionary each, and `wrong`, which returns what must not be, in words."""
+    name: str
+    runs: list
+    figures: Callable[[dict], list]
+    points: Callable[[dict], list] = field(default=lambda lines: [])
+    wrong: Callable[[dict], list] = field(default=lambda lines: [])
+
+
+@dataclass(frozen=True)
+class Group:
+    name: str
+    about: str
+    cases: list
+
+    def of(self, cases):
+        return Group(self.name, self.about, cases)
+
+
+def driver(name, program, arguments, ranks=1, mesh=None):
+    """A run of a driver that prints JSON. `mesh`, a shape and a file name, is generated before, and
+    is the first argument."""
+    def line(place):
+        first = [place.mesh(*mesh)] if mesh else []
+        launcher = ["mpirun", "-n", str(ranks)] if ranks > 1 else []
+        printed = must([*launcher, place.program(program), *first, *shlex.split(arguments)],
+                       place.folder)
+        try:
+            return json.loads(printed)
+        except ValueError as error:
+            raise Failure(f"{program} printed no JSON:\n{printed[-300:]}") from error
+
+    words = [f"mpirun -n {ranks}"] if ranks > 1 else []
+    words += [program, *([f"({mesh[0]})"] if mesh else []), arguments]
+    return Run(name, line, " ".join(words))
+
+
+def measure(case, place, repetitions):
+    """The case with every raw line, and the figures that follow from them."""
+    lines = {run.name: [] for run in case.runs}
+    for _ in range(repetitions):
+        for one in case.runs:
+            lines[one.name].append(one.line(place))
+    return {"name": case.name,
+            "runs": [{"name": one.name, "command": one.command, "lines": lines[one.name]}
+                     for one in case.runs],
+            "figures": [figure.as_dict() for figure in case.figures(lines)],
+            "points": case.points(lines), "wrong": case.wrong(lines)}
+
+
+def median(lines, *keys):
+    """Of the number that stands under these keys in every line."""
+    def inside(line):
+        for key in keys:
+            line = line[key]
+        return line
+    return statistics.median(inside(line) for line in lines)
+

@@ -1,0 +1,133 @@
+"""Octetra beside DOLFINx: the same mesh from the same file, the same cells chosen, in turns."""
+
+import os
+
+from measuring import Case, Figure, Run, driver, median
+from running import must, run
+
+OURS, THEIRS = "bench/bench_refine", "bench/peers/peer_dolfinx"
+SPHERE = "0.5,0.5,0.5,0.25"
+
+
+def name_of(program, ranks):
+    return f"{program}, " + ("1 rank" if ranks == 1 else f"{ranks} ranks")
+
+
+def runs(mesh, ours, theirs):
+    return [driver(name_of(program, ranks), path, arguments, ranks, mesh)
+            for ranks in (1, 2)
+            for program, path, arguments in (("octetra", OURS, ours), ("DOLFINx", THEIRS, theirs))]
+
+
+def cells_a_second(lines, level, clock="seconds"):
+    return lines[0]["levels"][level]["cells"] / median(lines, "levels", level, clock)
+
+
+def ratio(lines, level, ranks, clock="seconds"):
+    """Of speeds: cells of the result a second, ours by theirs."""
+    ours, theirs = (lines[name_of(program, ranks)] for program in ("octetra", "DOLFINx"))
+    return cells_a_second(ours, level, clock) / cells_a_second(theirs, level, clock)
+
+
+def other_counts(lines):
+    """Where a run has other cells than the first, a line each: none must."""
+    first_name, first = next(iter(lines.items()))
+    expected = [level["cells"] for level in first[0]["levels"]]
+    return [f"{name} has {found} cells, {first_name} {expected}"
+            for name, of_run in lines.items() for line in of_run
+            if (found := [level["cells"] for level in line["levels"]]) != expected]
+
+
+def level_figures(least):
+    def figures(lines):
+        made = []
+        for level, first in enumerate(lines[name_of("octetra", 1)][0]["levels"]):
+            words = f"level {level + 1}"
+            made.append(Figure(f"{words}: cells of the result, of both", first["cells"], ""))
+            for ranks in (1, 2):
+                made += [Figure(f"{words}: {name}", median(lines[name], "levels", level, "seconds"),
+                                "s")
+                         for name in (name_of("octetra", ranks), name_of("DOLFINx", ranks))]
+                made.append(Figure(f"{words}: speed against DOLFINx, " + name_of("", ranks)[2:],
+                                   ratio(lines, level, ranks), "times", at_least=least))
+            made.append(Figure(f"{words}: speed against DOLFINx, 1 rank, by the processor",
+                               ratio(lines, level, 1, "processor_seconds"), "times"))
+        memory = [median(lines[name_of(program, 1)], "peak_bytes")
+                  for program in ("DOLFINx", "octetra")]
+        return made + [Figure("its peak memory against ours, 1 rank", memory[0] / memory[1],
+                              "times")]
+    return figures
+
+
+def bars(lines):
+    """Of the last level."""
+    return [{"name": name, "cells_a_second": cells_a_second(of_run, -1)}
+            for name, of_run in lines.items()]
+
+
+def uniform(cubes):
+    mesh = (f"kuhn {cubes}", "uniform-peers.mesh")
+    return Case("beside DOLFINx, uniform", runs(mesh, "1 0 --json", ""), level_figures(80), bars,
+                other_counts)
+
+
+def sphere(cubes):
+    mesh = (f"kuhn {cubes}", "sphere-peers.mesh")
+    return Case("beside DOLFINx, sphere",
+                runs(mesh, "3 0.25 --json", f"--levels 3 --sphere {SPHERE}"), level_figures(60),
+                bars, other_counts)
+
+
+def bare_figures(lines):
+    return [Figure("speed against DOLFINx, which makes no mesh of its cells, 1 rank",
+                   ratio(lines, 0, 1), "times")]
+
+
+def bare(cubes):
+    mesh = (f"kuhn {cubes}", "uniform-peers.mesh")
+    return Case("beside DOLFINx, uniform, new cells and points alone", [
+        driver(name_of("octetra", 1), OURS, "1 0 --json", 1, mesh),
+        driver(name_of("DOLFINx", 1), THEIRS, "--bare", 1, mesh)], bare_figures,
+        wrong=other_counts)
+
+
+# --- is what it makes right?
+
+
+def judged(place, ranks, mesh, levels):
+    """What octetra verify says of DOLFINx's result, and how many cells it has. DOLFINx keeps no
+    markers and turns some cells over, so the coarse mesh goes through its hands, too."""
+    path = place.mesh(*mesh)
+    launcher = ["mpirun", "-n", str(ranks)] if ranks > 1 else []
+    octetra, theirs = place.program("cli/octetra"), place.program(THEIRS)
+    for name, options in (("coarse", ["--levels", "0"]),
+                          ("fine", ["--levels", str(levels), "--sphere", SPHERE])):
+        made, turned = (os.path.join(place.folder, name + end) for end in (".made.mesh", ".mesh"))
+        must([*launcher, theirs, path, *options, "--write", made], place.folder)
+        must([octetra, "convert", made, turned, "--fix-orientation", "--quiet"], place.folder)
+    outcome = run([octetra, "verify", "coarse.mesh", "fine.mesh", "--sphere", SPHERE,
+                   "--levels", str(levels)], place.folder)
+    said = (outcome.out.strip() or outcome.err.strip() or "nothing").splitlines()
+    return {"status": outcome.status, "verdict": said[-1]}
+
+
+def valid_figures(lines):
+    good = [all(line["status"] == 0 for line in of_run) for of_run in lines.values()]
+    return [Figure("meshes of DOLFINx found valid, and refined as asked", sum(good),
+                   f"of {len(good)}")]
+
+
+def invalid(lines):
+    return [f"DOLFINx, {name}: {line['verdict']}" for name, of_run in lines.items()
+            for line in of_run if line["status"] != 0]
+
+
+def valid(cubes, levels):
+    mesh = (f"kuhn {cubes}", "valid-peers.mesh")
+
+    def one(ranks):
+        return Run("1 rank" if ranks == 1 else f"{ranks} ranks",
+                   lambda place: judged(place, ranks, mesh, levels),
+                   f"peer_dolfinx ({mesh[0]}) --levels {levels} --sphere {SPHERE} --write "
+                   "fine.mesh; octetra verify coarse.mesh fine.mesh")
+    return Case("what DOLFINx makes", [one(1), one(2)], valid_figures, wrong=invalid)

@@ -1,0 +1,135 @@
+"""The engine by itself: where everything is refined, some of it, little of it, and by lot."""
+
+import statistics
+
+from measuring import Case, Figure, driver, median
+
+REFINE, LOCAL = "bench/bench_refine", "bench/bench_local"
+RANKS = (1, 2, 4)
+
+
+def on(ranks):
+    return "1 rank" if ranks == 1 else f"{ranks} ranks"
+
+
+def last(lines, key):
+    return median(lines, "levels", -1, key)
+
+
+# --- everywhere
+
+
+def uniform_figures(lines):
+    one = lines[on(1)]
+    seconds = {ranks: last(lines[on(ranks)], "seconds") for ranks in RANKS}
+    cells = one[0]["levels"][-1]["cells"]
+    made = [Figure("cells of the result", cells, "")]
+    for ranks in RANKS:
+        made += [Figure(f"time, {on(ranks)}", seconds[ranks], "s"),
+                 Figure(f"cells of the result a second, {on(ranks)}",
+                        cells / seconds[ranks] * 1e-6, "million")]
+    return made + [
+        Figure("speed on 2 ranks against 1", seconds[1] / seconds[2], "times"),
+        Figure("peak memory for a cell of the result, 1 rank",
+               median(one, "peak_bytes") / cells, "bytes", at_most=70),
+        Figure("time against memcpy of input and output, 1 rank", against_memcpy(one, "used"),
+               "times", at_most=8),
+        Figure("the same into memory that is new, as a result's is", against_memcpy(one, "new"),
+               "times")]
+
+
+def against_memcpy(lines, into):
+    """Each repetition beside its own copying: the machine's memory is not always equally fast."""
+    return statistics.median(line["levels"][-1]["seconds"] / line["memcpy_seconds"][into]
+                             for line in lines)
+
+
+def uniform(cubes):
+    return Case("uniform, one level", [
+        driver(on(ranks), REFINE, f"{cubes} 1 --json" + (" --memcpy" if ranks == 1 else ""), ranks)
+        for ranks in RANKS], uniform_figures)
+
+
+# --- in a sphere
+
+
+def sphere_figures(lines):
+    made = []
+    for level, figures in enumerate(lines[on(1)][0]["levels"]):
+        made.append(Figure(f"cells after level {level + 1}", figures["cells"], ""))
+        made += [Figure(f"level {level + 1}, {on(ranks)}",
+                        1e3 * median(lines[on(ranks)], "levels", level, "seconds"), "ms")
+                 for ranks in RANKS]
+    return made + [Figure("a new cell, 1 rank, processor", 1e9 * per_new_cell(lines[on(1)]), "ns")]
+
+
+def per_new_cell(lines):
+    """Seconds of the processor, over all levels."""
+    levels = range(len(lines[0]["levels"]))
+    used = sum(median(lines, "levels", level, "processor_seconds") for level in levels)
+    return used / (lines[0]["levels"][-1]["cells"] - lines[0]["levels"][0]["before"])
+
+
+def sphere(cubes):
+    return Case("sphere, three levels", [driver(on(ranks), REFINE, f"{cubes} 3 0.25 --json", ranks)
+                                         for ranks in RANKS], sphere_figures)
+
+
+# --- around a point
+
+
+def shares(lines):
+    """Of each level, in the time of a uniform one: medians over the repetitions."""
+    return [statistics.median(line["levels"][level]["processor_seconds"]
+                              / line["uniform"]["processor_seconds"] for line in lines)
+            for level in range(len(lines[0]["levels"]))]
+
+
+def point_figures(lines):
+    of_level = shares(lines["1 rank"])
+    return [Figure("level 1, of a uniform level's time", 100 * of_level[0], "%"),
+            Figure("levels 2 and later, the median one", 100 * statistics.median(of_level[1:]),
+                   "%"),
+            Figure("levels 2 and later, the most", 100 * max(of_level[1:]), "%")]
+
+
+def point_curve(lines):
+    lines = lines["1 rank"]
+    return [{"level": i + 1, "cells": level["cells"],
+             "processor_seconds": median(lines, "levels", i, "processor_seconds")}
+            for i, level in enumerate(lines[0]["levels"])]
+
+
+def around_a_point(cubes, levels, chosen):
+    return Case("around a point", [driver("1 rank", LOCAL, f"{cubes} {levels} {chosen} --json")],
+                point_figures, point_curve)
+
+
+# --- by lot
+
+
+def lot_figures(lines):
+    made = []
+    for name, of_run in lines.items():
+        levels = of_run[0]["levels"]
+        made += [Figure(f"{name}: cells of the result", levels[-1]["cells"], ""),
+                 Figure(f"{name}: rounds", levels[-1]["rounds"], ""),
+                 Figure(f"{name}: time", 1e3 * last(of_run, "seconds"), "ms"),
+                 Figure(f"{name}: share of synchronisation",
+                        100 * statistics.median(map(share, of_run)), "%", at_most=15)]
+    return made
+
+
+def share(line):
+    """Of the time of all phases, the part in which ranks told each other, or waited for it."""
+    profile = line["profile"]
+    return profile["synchronising_seconds"] / (profile["computing_seconds"]
+                                               + profile["communicating_seconds"])
+
+
+def by_lot(points):
+    mesh = (f"random {points} --seed 1", "delaunay.mesh")
+    return Case("random Delaunay mesh, cells by lot, 2 ranks", [
+        driver(f"{100 * chosen:g} %", REFINE,
+               f"1 --random {chosen} --partition lepp --profile --json", 2, mesh)
+        for chosen in (0.001, 0.01, 0.05, 0.2)], lot_figures)

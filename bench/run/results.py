@@ -1,0 +1,82 @@
+"""RESULTS.md: the figures as tables."""
+
+from words import plural, size
+
+
+def number(value):
+    """To three digits, or whole where it is large or counts something."""
+    if isinstance(value, int) or abs(value) >= 1000:
+        return f"{value:,.0f}"
+    return f"{value:.3g}"
+
+
+def with_unit(value, unit):
+    return f"{number(value)} {unit}".rstrip()
+
+
+def target(figure):
+    for key, words in (("at_most", "at most"), ("at_least", "at least")):
+        if key in figure:
+            return f"{words} {with_unit(figure[key], figure['unit'])}"
+    return ""
+
+
+def answer(figure):
+    if "met" not in figure:
+        return ""
+    return "met" if figure["met"] else "**not met**"
+
+
+def rows(case, quick):
+    for i, figure in enumerate(case["figures"]):
+        if quick:  # targets are for the sizes of a full run
+            figure = {key: figure[key] for key in ("name", "value", "unit")}
+        yield (f"| {case['name'] if i == 0 else ''} | {figure['name']} "
+               f"| {with_unit(figure['value'], figure['unit'])} | {target(figure)} "
+               f"| {answer(figure)} |")
+
+
+def table(group, date, quick):
+    lines = [f"## {group['name'].capitalize()}", "", group["about"], ""]
+    if group["date"] != date:
+        lines += [f"Measured {group['date']}, of the same commit.", ""]
+    lines += ["| case | figure | value | target | |", "|---|---|---:|---:|---|"]
+    for case in group["cases"]:
+        lines += rows(case, quick)
+        lines += [f"| {case['name']} | **wrong** | {line} | | |" for line in case["wrong"]]
+    return lines + [""]
+
+
+def where(machine):
+    memory = size(machine["memory_bytes"]) + " of memory" if machine["memory_bytes"] else None
+    known = [machine["date"], f"commit {machine['commit']}" if machine["commit"] else None,
+             plural(machine["cores"], "core") + " of " + machine["processor"], memory,
+             machine["system"], machine["compiler"],
+             machine["build"] and machine["build"] + " build", machine["mpi"],
+             f"load {machine['load']:.1f} when it began"]
+    return ", ".join(word for word in known if word) + "."
+
+
+def loud(machine):
+    if machine["load"] < 0.5 * machine["cores"]:
+        return []
+    return ["**Other programs ran at the same time**, so seconds are no measure.", ""]
+
+
+def of_what(made):
+    repetitions = sorted({group["repetitions"] for group in made["groups"]})
+    runs = ("Single runs" if repetitions == [1] else
+            f"Medians of {' or '.join(map(str, repetitions))} runs in turns")
+    words = "Small meshes, to see that all runs. " if made["quick"] else ""
+    return (f"{words}{runs}; seconds by the wall clock unless it says "
+            "processor. What each group means: [README.md](README.md); every raw time: "
+            "`results.json`.")
+
+
+def results(made):
+    lines = ["# Results of the benchmarks", "",
+             "Made by `./dev bench`; do not edit.", "", where(made["machine"]), "",
+             *loud(made["machine"]), of_what(made), ""]
+    for group in made["groups"]:
+        lines += table(group, made["machine"]["date"], made["quick"])
+    return "\n".join(lines)

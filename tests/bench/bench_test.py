@@ -1,0 +1,163 @@
+"""What ./dev bench makes of what its programs print, and that they print it."""
+
+import copy
+import json
+import os
+import subprocess
+import sys
+import tempfile
+import unittest
+
+ROOT = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..")
+RUN = os.path.join(ROOT, "bench", "run")
+sys.path[:0] = [RUN, os.path.join(ROOT, "tools", "equivalence")]
+
+import groups  # noqa: E402
+import kept  # noqa: E402
+import peers  # noqa: E402
+import results  # noqa: E402
+from measuring import Case, Figure, Run, measure, median  # noqa: E402
+from slopes import slope, steepest  # noqa: E402
+
+
+class Slopes(unittest.TestCase):
+    def test_are_the_exponents_of_powers(self):
+        xs = [10, 300, 5000, 2e6]
+        for exponent in (0.5, 1, 1.05, 2):
+            ys = [7 * x ** exponent for x in xs]
+            self.assertAlmostEqual(slope(xs, ys), exponent)
+            self.assertAlmostEqual(steepest(xs, ys), exponent)
+
+    def test_show_a_late_rise_behind_a_high_beginning(self):
+        xs, ys = [1, 10, 100, 1000], [50, 50, 100, 2000]
+        self.assertLess(slope(xs, ys), 1)
+        self.assertGreater(steepest(xs, ys), 1.25)
+
+
+class Figures(unittest.TestCase):
+    def test_are_medians_of_runs_in_turns(self):
+        order, values = [], {"a": iter([9, 1, 3]), "b": iter([2, 2, 8])}
+
+        def run(name):
+            def line(_):
+                order.append(name)
+                return {"levels": [{"seconds": next(values[name])}]}
+            return Run(name, line)
+        case = Case("both", [run("a"), run("b")], lambda lines: [
+            Figure(name, median(of_run, "levels", -1, "seconds"), "s")
+            for name, of_run in lines.items()])
+        made = measure(case, None, 3)
+        self.assertEqual(order, ["a", "b"] * 3)
+        self.assertEqual([figure["value"] for figure in made["figures"]], [3, 2])
+        self.assertEqual([len(run["lines"]) for run in made["runs"]], [3, 3])
+
+    def test_meet_their_targets_or_do_not(self):
+        self.assertTrue(Figure("", 3, "", at_most=3).as_dict()["met"])
+        self.assertFalse(Figure("", 3.1, "", at_most=3).as_dict()["met"])
+        self.assertTrue(Figure("", 3, "", at_least=3).as_dict()["met"])
+        self.assertFalse(Figure("", 2.9, "", at_least=3).as_dict()["met"])
+        self.assertNotIn("met", Figure("", 3, "").as_dict())
+
+    def test_of_a_peer_with_other_cells_are_called_wrong(self):
+        def lines(ours, theirs):
+            return {"octetra, 1 rank": [{"levels": [{"cells": ours}]}],
+                    "DOLFINx, 1 rank": [{"levels": [{"cells": theirs}]}]}
+        self.assertEqual(peers.other_counts(lines(8, 8)), [])
+        self.assertEqual(len(peers.other_counts(lines(8, 9))), 1)
+
+
+WHAT_COUNTS = ("processor", "cores", "memory_bytes", "system", "mpi", "compiler", "build", "commit")
+
+
+def made(commit="abc", quick=False, date="now", names=("growth",), value=1.0):
+    figure = Figure("time", value, "s", at_most=2).as_dict()
+    case = {"name": "a case", "runs": [], "figures": [figure], "points": [], "wrong": []}
+    machine = {key: "x" for key in WHAT_COUNTS} | {"commit": commit, "date": date, "load": 0.1,
+                                                 "cores": 2, "memory_bytes": 8e9}
+    return {"format": "octetra bench", "version": 1, "quick": quick, "machine": machine,
+            "groups": [{"name": name, "about": "", "repetitions": 5, "cases": [case]}
+                       for name in names]}
+
+
+class Table(unittest.TestCase):
+    def table(self, **options):
+        return results.results(kept.with_old(made(**options), "/nowhere", groups.NAMES))
+
+    def test_says_what_is_met_and_what_is_not(self):
+        self.assertIn("| a case | time | 1 s | at most 2 s | met |", self.table())
+        self.assertIn("| a case | time | 3 s | at most 2 s | **not met** |", self.table(value=3.0))
+
+    def test_holds_no_target_against_small_meshes(self):
+        self.assertIn("| a case | time | 3 s |  |  |", self.table(value=3.0, quick=True))
+
+    def test_warns_where_other_programs_ran(self):
+        busy = kept.with_old(made(), "/nowhere", groups.NAMES)
+        self.assertNotIn("no measure", results.results(busy))
+        busy["machine"]["load"] = 1.5
+        self.assertIn("no measure", results.results(busy))
+
+
+class OldResults(unittest.TestCase):
+    def names_with(self, old, new):
+        with tempfile.TemporaryDirectory() as folder:
+            path = os.path.join(folder, "results.json")
+            with open(path, "w", encoding="utf-8") as file:
+                json.dump(kept.with_old(old, "/nowhere", groups.NAMES), file)
+            return [group["name"] for group in kept.with_old(new, path, groups.NAMES)["groups"]]
+
+    def test_of_the_same_commit_and_machine_are_kept(self):
+        both = self.names_with(made(names=("peers", "files")), made(names=("growth", "files")))
+        self.assertEqual(both, ["growth", "files", "peers"])
+
+    def test_of_anything_else_are_left_out(self):
+        self.assertEqual(self.names_with(made("old", names=["peers"]), made("new")), ["growth"])
+        self.assertEqual(self.names_with(made(quick=True, names=["peers"]), made()), ["growth"])
+        # "with changes" may be different changes
+        changed = "abc and changes"
+        self.assertEqual(self.names_with(made(changed, names=["peers"]), made(changed)), ["growth"])
+        for key in WHAT_COUNTS:
+            other = copy.deepcopy(made(names=["peers"]))
+            other["machine"][key] = "another"
+            self.assertEqual(self.names_with(other, made()), ["growth"], key)
+
+
+class Programs(unittest.TestCase):
+    """The smallest meshes, with the programs as they are built."""
+
+    def run_only(self, folder, *only):
+        return subprocess.run([sys.executable, RUN, "--build", os.environ["OCTETRA_BUILD"],
+                               "-o", folder, "--quick", "--only", *only],
+                              capture_output=True, text=True, check=False)
+
+    def cases_of(self, *only):
+        with tempfile.TemporaryDirectory() as folder:
+            done = self.run_only(folder, *only)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            with open(os.path.join(folder, "results.json"), encoding="utf-8") as file:
+                found = json.load(file)
+            with open(os.path.join(folder, "RESULTS.md"), encoding="utf-8") as file:
+                self.assertIn("| case | figure | value |", file.read())
+        return {case["name"]: case for group in found["groups"] for case in group["cases"]}
+
+    def test_print_what_is_read(self):
+        cases = self.cases_of("growth", "around a point", "sphere", "whole program")
+        self.assertEqual([p["cells"] for p in cases["with cells"]["points"]],
+                         [8 * 6 * n ** 3 for n in (6, 12, 24)])
+        self.assertEqual([p["ranks"] for p in cases["with ranks"]["points"]], [1, 2, 4])
+        # One rank has nobody to tell; two have.
+        self.assertEqual(cases["with ranks"]["points"][0]["bytes"], 0)
+        self.assertGreater(cases["with ranks"]["points"][1]["bytes"], 0)
+        self.assertEqual(len(cases["around a point"]["points"]), 4)
+        for case in cases.values():
+            for figure in case["figures"]:
+                self.assertGreaterEqual(figure["value"], 0, figure)
+
+    def test_say_where_there_is_no_such_case(self):
+        with tempfile.TemporaryDirectory() as folder:
+            done = self.run_only(folder, "nonsense")
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("no case has nonsense in its name", done.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,74 @@
+"""The section of the page that shows bench/results.json."""
+
+import json
+import os
+from html import escape
+
+import bench_plots as plots
+from machine import ROOT
+from words import plural
+
+RESULTS = os.path.join(ROOT, "bench", "results.json")
+
+# What is drawn of the points of a case, and what is said of it.
+DRAWN = {
+    "with cells": [
+        (plots.time_by_cells, "Uniform refinement on one rank; dashed: what would grow in "
+         "proportion."),
+        (plots.memory_by_cells, "The most memory of that process, the dashed line likewise."),
+    ],
+    "with ranks": [
+        (plots.time_by_ranks, "One mesh, a tenth of its cells chosen, on more and more ranks, "
+         "which take turns on the cores: seconds of the processor, waiting included."),
+        (plots.bytes_by_ranks, "Messages of that run: bytes that all ranks send together."),
+    ],
+    "around a point": [
+        (plots.time_by_level, "Level by level around one point of a large mesh. The first "
+         "looks at every cell; later ones at what changes, unless an array has to move to grow."),
+    ],
+    "beside DOLFINx, uniform": [(plots.speeds, "Everything refined, beside DOLFINx.")],
+    "beside DOLFINx, sphere": [(plots.speeds, "The third level in a sphere, beside DOLFINx.")],
+}
+
+
+def load(path=RESULTS):
+    """The results of the benchmarks, or None if there are none."""
+    try:
+        with open(path, encoding="utf-8") as file:
+            return json.load(file)
+    except FileNotFoundError:
+        return None
+
+
+def figures(results):
+    points = {case["name"]: case["points"] for group in results["groups"]
+              for case in group["cases"]}
+    for name, drawings in DRAWN.items():
+        for draw, caption in drawings if points.get(name) else []:
+            yield (f"<figure>{draw(points[name])}<figcaption>{escape(caption)}</figcaption>"
+                   "</figure>")
+
+
+def where(results):
+    machine = results["machine"]
+    known = [machine["date"], f"commit {machine['commit']}" if machine["commit"] else None,
+             plural(machine["cores"], "core") + " of " + machine["processor"], machine["compiler"],
+             machine["mpi"]]
+    return " · ".join(word for word in known if word)
+
+
+def loud(machine):
+    if machine["load"] < 0.5 * machine["cores"]:
+        return ""
+    return " Other programs ran at the same time, so seconds are no measure."
+
+
+def section(results):
+    """HTML; nothing where nothing was measured."""
+    drawn = "".join(figures(results)) if results else ""
+    if not drawn:
+        return ""
+    return ("<h2>How cost grows</h2><p>Not measured with this report, but by "
+            f"<code>./dev bench</code>: {escape(where(results))}."
+            f"{loud(results['machine'])}</p>"
+            f'<div class="plots">{drawn}</div>')

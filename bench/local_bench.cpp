@@ -129,6 +129,7 @@ int run(const Communicator& world, int argc, char** argv) {
 }  // namespace
 }  // namespace octetra::bench
 
+// NOLINTNEXTLINE(bugprone-exception-escape): it ends this process, and mpirun then all others
 int main(int argc, char** argv) {
     const octetra::distributed::MpiSession session(&argc, &argv);
     return octetra::bench::run(session.world(), argc, argv);

@@ -1,9 +1,9 @@
 #pragma once
 
 #include <sys/resource.h>
-#include <time.h>
 
 #include <cstdint>
+#include <ctime>
 
 /// What benchmarks measure of the process that they are in.
 namespace octetra::bench {

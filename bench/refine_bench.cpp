@@ -90,8 +90,9 @@ ordered_json profile_of(const Communicator& processes) {
             sum.bytes += rank.bytes;
             sum.collectives += rank.collectives;
             sum.collective_bytes += rank.collective_bytes;
-            if (phase.name == "synchronise")
+            if (phase.name == "synchronise") {
                 synchronising += rank.computing_seconds + rank.communicating_seconds;
+            }
         }
     }
     const double ranks = processes.size();
@@ -112,6 +113,7 @@ std::size_t bytes_of(const DistributedMesh& mesh) {
 /// must, and into memory that was written before.
 ordered_json memcpy_seconds(std::size_t bytes) {
     const std::vector<char> from(bytes, 1);
+    // NOLINTNEXTLINE(modernize-avoid-c-arrays): a vector would write it
     const std::unique_ptr<char[]> to(new char[bytes]);  // not written yet
     ordered_json seconds;
     for (const char* into : {"new", "used"}) {
@@ -137,12 +139,14 @@ void print_level(int number, const ordered_json& level) {
 void measure(const Communicator& world, const Options& options) {
     Mesh input = world.is_first() ? mesh_of(options.mesh) : Mesh{};
     std::vector<int> parts;
-    if (world.is_first())
+    if (world.is_first()) {
         parts =
             partition_cells(input, world.size(), distributed::parse_partition(options.partition));
+    }
     auto mesh = distributed::distribute(world, std::move(input), parts);
-    if (options.profile)
+    if (options.profile) {
         mesh.processes = distributed::profiled(world, distributed::ProfileDetail::sums);
+    }
 
     if (options.warm) make_pattern_tables();
 
@@ -181,6 +185,7 @@ int run(const Communicator& world, int argc, char** argv) {
 }  // namespace
 }  // namespace octetra::bench
 
+// NOLINTNEXTLINE(bugprone-exception-escape): it ends this process, and mpirun then all others
 int main(int argc, char** argv) {
     const octetra::distributed::MpiSession session(&argc, &argv);
     return octetra::bench::run(session.world(), argc, argv);

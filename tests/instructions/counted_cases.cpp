@@ -1,6 +1,7 @@
 /// `counted_cases CASE` refines a small mesh on one process, for callgrind to count what counted()
 /// takes: not the making of the mesh, nor the pattern tables, which a program makes but once.
 
+#include <array>
 #include <cstdio>
 #include <string_view>
 
@@ -19,13 +20,13 @@ struct CountedCase {
     double sparse_below = 0;  ///< see DistributedMesh
 };
 
-constexpr CountedCase cases[] = {
+constexpr std::array<CountedCase, 3> cases{{
     {.name = "uniform", .cubes = 12},
     // Twelve cells of 24,576, and then what is nearer to the middle than they are: few at each
     // level.
     {.name = "sparse", .cubes = 16, .radius = 0.04, .levels = 3, .sparse_below = 0.125},
     {.name = "dense", .cubes = 8, .radius = 0.25, .levels = 3},
-};
+}};
 
 distributed::DistributedMesh lattice(std::size_t n) {
     Mesh mesh = test::kuhn(n, n, n, 1.0 / static_cast<double>(n));

@@ -6,6 +6,7 @@ from measuring import Case, Figure, driver, median
 
 REFINE, LOCAL = "bench/bench_refine", "bench/bench_local"
 RANKS = (1, 2, 4)
+EVERYWHERE = "all cells chosen, 1 rank"
 
 
 def on(ranks):
@@ -29,7 +30,8 @@ def uniform_figures(lines):
                  Figure(f"cells of the result a second, {on(ranks)}",
                         cells / seconds[ranks] * 1e-6, "million")]
     return made + [
-        Figure("speed on 2 ranks against 1", seconds[1] / seconds[2], "times"),
+        Figure("speed on 2 ranks against 1", seconds[1] / seconds[2], "times", at_least=1.8),
+        Figure("speed on 4 ranks against 2", seconds[2] / seconds[4], "times", at_least=0.85),
         Figure("peak memory for a cell of the result, 1 rank",
                median(one, "peak_bytes") / cells, "bytes", at_most=70),
         Figure("time against memcpy of input and output, 1 rank", against_memcpy(one, "used"),
@@ -60,7 +62,12 @@ def sphere_figures(lines):
         made += [Figure(f"level {level + 1}, {on(ranks)}",
                         1e3 * median(lines[on(ranks)], "levels", level, "seconds"), "ms")
                  for ranks in RANKS]
-    return made + [Figure("a new cell, 1 rank, processor", 1e9 * per_new_cell(lines[on(1)]), "ns")]
+    per_cell, uniformly = per_new_cell(lines[on(1)]), per_new_cell(lines[EVERYWHERE])
+    return made + [
+        Figure("a new cell, 1 rank, processor", 1e9 * per_cell, "ns"),
+        Figure("the same where all cells are chosen", 1e9 * uniformly, "ns"),
+        Figure("a new cell against one where all are chosen", per_cell / uniformly, "times",
+               at_most=3)]
 
 
 def per_new_cell(lines):
@@ -71,8 +78,9 @@ def per_new_cell(lines):
 
 
 def sphere(cubes):
-    return Case("sphere, three levels", [driver(on(ranks), REFINE, f"{cubes} 3 0.25 --json", ranks)
-                                         for ranks in RANKS], sphere_figures)
+    runs = [driver(on(ranks), REFINE, f"{cubes} 3 0.25 --json", ranks) for ranks in RANKS]
+    return Case("sphere, three levels",
+                [*runs, driver(EVERYWHERE, REFINE, f"{cubes} 2 --json")], sphere_figures)
 
 
 # --- around a point
@@ -90,7 +98,7 @@ def point_figures(lines):
     return [Figure("level 1, of a uniform level's time", 100 * of_level[0], "%"),
             Figure("levels 2 and later, the median one", 100 * statistics.median(of_level[1:]),
                    "%"),
-            Figure("levels 2 and later, the most", 100 * max(of_level[1:]), "%")]
+            Figure("levels 2 and later, the most", 100 * max(of_level[1:]), "%", at_most=2)]
 
 
 def point_curve(lines):

@@ -24,13 +24,18 @@ std::string bytes_of(const Path& mesh) {
     return bytes;
 }
 
-/// Medit has no attributes, and takes vertex markers that are all 0 for none, by which midpoints
-/// would have none, either.
+void drop_if_all_zero(auto& markers) {
+    if (std::ranges::all_of(markers, [](Marker marker) { return marker == 0; })) markers.clear();
+}
+
+/// Medit has no attributes, and takes markers that are all 0 for none. Midpoints have none where
+/// vertices have none; and a listed edge without one leaves its midpoint that of a facet.
 void fit_medit(Mesh& mesh) {
     mesh.attributes_per_point = 0;
     mesh.point_attributes.clear();
-    const auto is_zero = [](Marker marker) { return marker == 0; };
-    if (std::ranges::all_of(mesh.point_markers, is_zero)) mesh.point_markers.clear();
+    drop_if_all_zero(mesh.point_markers);
+    drop_if_all_zero(mesh.facet_markers);
+    drop_if_all_zero(mesh.edge_markers);
 }
 
 /// Cells have other numbers in the file between, so none can be chosen by number.

@@ -98,14 +98,19 @@ TEST(Communication, ThroughTheGatewayIsAMessageARoundEachWayAndTwelveBytesASelec
     });
 }
 
+constexpr double always_sparse = 10;
+constexpr double always_dense = 0;
+
 /// Six cells round one edge that is the longest of all, a cell on each rank as far as there are so
 /// many, refined once by 2t: what each rank sends.
 std::vector<std::uint64_t> bytes_sent_in_a_ring(const Selection& selection,
-                                                Synchronisation synchronisation) {
+                                                Synchronisation synchronisation,
+                                                double sparse_below) {
     const Mesh ring = test::kuhn(1, 1, 1);
     std::vector<int> cell_to_part;
     for (int c = 0; c < 6; ++c) cell_to_part.push_back(c % test::world().size());
     DistributedMesh mesh = distribute(test::world(), ring, cell_to_part);
+    mesh.sparse_below = sparse_below;
     std::vector<std::uint64_t> bytes;
     for (const PhaseCounts& counts :
          refine_once(mesh, selection, Scheme::two, synchronisation).of_rank) {
@@ -122,14 +127,16 @@ std::size_t sharers_of_a_ring() {
 
 TEST(Communication, OfNeighboursIsNotToldBackToWhoHasTold) {
     const Selection one_cell{.cells = {GlobalCell{0}}};  // which the first rank has
-    const auto bytes = bytes_sent_in_a_ring(one_cell, Synchronisation::neighbour);
-    for (std::size_t r = 0; r < bytes.size(); ++r) {
-        EXPECT_EQ(bytes[r], r == 0 ? 4 * (sharers_of_a_ring() - 1) : 0) << "rank " << r;
+    for (const double sparse_below : {always_dense, always_sparse}) {
+        const auto bytes = bytes_sent_in_a_ring(one_cell, Synchronisation::neighbour, sparse_below);
+        for (std::size_t r = 0; r < bytes.size(); ++r) {
+            EXPECT_EQ(bytes[r], r == 0 ? 4 * (sharers_of_a_ring() - 1) : 0) << "rank " << r;
+        }
     }
 }
 
 TEST(Communication, ThroughTheGatewayIsNotPassedOnToWhoSaidTheSame) {
-    const auto bytes = bytes_sent_in_a_ring({.all = true}, Synchronisation::gateway);
+    const auto bytes = bytes_sent_in_a_ring({.all = true}, Synchronisation::gateway, always_dense);
     for (std::size_t r = 0; r < bytes.size(); ++r) {
         const bool speaks = r > 0 && r < sharers_of_a_ring();
         EXPECT_EQ(bytes[r], speaks ? 12 * (sharers_of_a_ring() - 1) : 0) << "rank " << r;

@@ -29,6 +29,12 @@ from results import results  # noqa: E402
 from running import Failure  # noqa: E402
 
 
+def positive(word):
+    if int(word) < 1:
+        raise argparse.ArgumentTypeError("one or more")
+    return int(word)
+
+
 def parse_command_line():
     parser = argparse.ArgumentParser(prog="bench", description=__doc__.split("\n\n")[0])
     parser.add_argument("--build", metavar="FOLDER", default="build/release")
@@ -38,7 +44,7 @@ def parse_command_line():
     parser.add_argument("--peers", action="store_true", help="DOLFINx, too, in turns with octetra")
     parser.add_argument("--only", metavar="CASE", nargs="+", default=[],
                         help="only cases with one of these in the name of them or their group")
-    parser.add_argument("--repetitions", metavar="N", type=int,
+    parser.add_argument("--repetitions", metavar="N", type=positive,
                         help="5 unless told, with --quick 1")
     return parser.parse_args()
 
@@ -110,4 +116,7 @@ def main():
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    try:
+        sys.exit(main())
+    except KeyboardInterrupt:
+        sys.exit(130)

@@ -142,7 +142,10 @@ TEST(WriteMaps, NumbersEverythingAsTheMeshFilesDo) {
     EXPECT_EQ(written(1), "cells 3\n1 1\n2 1\n3 2\nmidpoints 2\n6 1 4\n7 2 6\n");
 }
 
-TEST(RoundTrip, EmptyMeshesAreMeshes) { EXPECT_EQ(through_file(Mesh{}, "a.ele"), Mesh{}); }
+TEST(RoundTrip, EmptyMeshesAreMeshes) {
+    EXPECT_EQ(through_file(Mesh{}, "a.ele"), Mesh{});
+    EXPECT_EQ(through_file(Mesh{}, "a.mesh"), Mesh{});
+}
 
 TEST(RoundTrip, TetgenLeavesNoFacesOfAnotherMeshBehind) {
     const TemporaryFolder folder;

@@ -232,7 +232,8 @@ def main():
     known = [mutant["name"] for mutant in mutants]
     for name in arguments.names + ([arguments.first] if arguments.first else []):
         if name not in known:
-            die(f"there is no mutant {name}")
+            print(f"mutants: there is no mutant {name}", file=sys.stderr)
+            sys.exit(2)
     if arguments.names:
         mutants = [mutant for mutant in mutants if mutant["name"] in arguments.names]
     elif arguments.first:

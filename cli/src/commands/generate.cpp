@@ -66,6 +66,10 @@ private:
     std::shared_ptr<GenerateOptions> common_;
 };
 
+CLI::Validator any_whole_number() {  // else -1 would be taken for 2^64 - 1
+    return whole_number(0, std::numeric_limits<std::uint64_t>::max(), "0 up");
+}
+
 /// Declares an option with a default that --help shows; returns where its value will be.
 template <class Number>
 std::shared_ptr<Number> option(CLI::App& shape, const std::string& name, Number standard,
@@ -74,8 +78,8 @@ std::shared_ptr<Number> option(CLI::App& shape, const std::string& name, Number 
     CLI::Option* declared =
         shape.add_option(name, *value, fmt::format("{} [{}]", description, standard));
     declared->type_name(type);
-    if (std::unsigned_integral<Number>) {  // else -1 would be taken for 2^64 - 1
-        declared->check(whole_number(0, std::numeric_limits<std::uint64_t>::max(), "0 up"));
+    if (std::unsigned_integral<Number>) {
+        declared->check(any_whole_number());
     }
     return value;
 }
@@ -83,7 +87,10 @@ std::shared_ptr<Number> option(CLI::App& shape, const std::string& name, Number 
 std::shared_ptr<std::uint64_t> required_count(CLI::App& shape, const std::string& name,
                                               const std::string& description) {
     auto value = std::make_shared<std::uint64_t>(0);
-    shape.add_option(name, *value, description)->type_name("")->required();
+    shape.add_option(name, *value, description)
+        ->type_name("")
+        ->required()
+        ->check(any_whole_number());
     return value;
 }
 
@@ -96,7 +103,8 @@ void add_lattices(Shapes& shapes) {
             shape.add_option("N", *counts, "bricks along every axis, or along x, y and z")
                 ->type_name("")
                 ->expected(1, 3)
-                ->required();
+                ->required()
+                ->check(any_whole_number());
             shape.add_option("--size", *size, "the box's extent [1,1,1]")->type_name("X,Y,Z");
             return [=] {
                 if (counts->size() == 2) {

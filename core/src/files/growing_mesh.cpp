@@ -52,6 +52,8 @@ void GrowingMesh::tell(const ListedKind<I, N>& kind) {
 }
 
 void GrowingMesh::finish() {
+    const bool is_empty = is_streaming() ? facts_.vertices == 0 : mesh.points.empty();
+    if (is_empty) mesh.first_number = 0;  // of nothing, whatever the format counts from
     if (is_streaming()) {
         facts_.first_number = mesh.first_number;
         facts_.first_midpoint = facts_.vertices;

@@ -48,17 +48,33 @@ EdgeMask closure_of(EdgeMask selected, const LongestFirst& longest_first) {
     }
 }
 
+/// A list of at most 8 that asks for no memory: there are thousands of patterns to make.
+class Pieces {
+public:
+    using Piece = std::array<Place, 4>;
+    void push_back(const Piece& piece) { pieces_[count_++] = piece; }
+    [[nodiscard]] Piece& back() { return pieces_[count_ - 1]; }
+    [[nodiscard]] std::size_t size() const { return count_; }
+    [[nodiscard]] const Piece* begin() const { return pieces_.data(); }
+    [[nodiscard]] const Piece* end() const { return pieces_.data() + count_; }
+
+private:
+    std::array<Piece, 8> pieces_{};
+    std::size_t count_ = 0;
+};
+
 /// Bisects by the edges from longest to shortest: each pass cuts every piece that has the edge. A
 /// piece's own longest selected edge is met first, so this is the recursion of the rule, breadth
 /// first; and as each cut puts its two halves where the piece stood, in the order of the recursion.
 Pattern pattern_of(EdgeMask selected, const LongestFirst& longest_first) {
-    std::vector<std::array<Place, 4>> pieces{{0, 1, 2, 3}};
+    Pieces pieces;
+    pieces.push_back({0, 1, 2, 3});
     for (const std::uint8_t edge : longest_first) {
         if ((selected & bit(edge)) == 0) continue;
         const auto& [low, high] = cell_edges[edge];
         const auto midpoint = static_cast<Place>(4 + edge);
-        std::vector<std::array<Place, 4>> halves;
-        for (const auto& piece : pieces) {
+        Pieces halves;
+        for (const Pieces::Piece& piece : pieces) {
             // An original corner never leaves its position but for a midpoint.
             if (piece[low] != low || piece[high] != high) {
                 halves.push_back(piece);
@@ -69,7 +85,7 @@ Pattern pattern_of(EdgeMask selected, const LongestFirst& longest_first) {
             halves.push_back(piece);
             halves.back()[low] = midpoint;
         }
-        pieces = std::move(halves);
+        pieces = halves;
     }
     Pattern pattern;
     pattern.child_count = static_cast<std::uint8_t>(pieces.size());

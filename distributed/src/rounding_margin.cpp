@@ -7,7 +7,7 @@ namespace octetra::distributed {
 namespace {
 
 double largest_coordinate(const Point& p) {
-    return std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)});
+    return std::max(std::max(std::abs(p.x), std::abs(p.y)), std::abs(p.z));
 }
 
 Point difference(const Point& a, const Point& b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
@@ -36,7 +36,7 @@ bool has_rounding_margin(const IndexVector<VertexIndex, Point>& points, const Ce
     const Point v = difference(points[cell[2]], a);
     const Point w = difference(points[cell[3]], a);
     const double s =
-        std::max({largest_coordinate(u), largest_coordinate(v), largest_coordinate(w)});
+        std::max(std::max(largest_coordinate(u), largest_coordinate(v)), largest_coordinate(w));
     const double m = largest_coordinate(a) + s;
     const double bound = 0x1p-41 * m * s * s;
     return bound > 0x1p-900 && determinant(u, v, w) > bound;

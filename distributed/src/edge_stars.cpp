@@ -20,8 +20,9 @@ EdgeStars::EdgeStars(std::size_t vertex_count, const IndexVector<CellIndex, Cell
 std::vector<std::uint32_t> EdgeStars::fill_buckets(
     const IndexVector<CellIndex, CellVertices>& cells) {
     std::vector<std::uint32_t> end(begin_.begin(), begin_.end() - 1);
-    reserve_in_huge_pages(high_end_, 6 * cells.size());
-    high_end_.resize(6 * cells.size());
+    const std::size_t slots = 6 * cells.size() + read_beyond;
+    reserve_in_huge_pages(high_end_, slots);
+    high_end_.resize(slots);
     reserve_in_huge_pages(cell_to_edges_, cells.size());
     for (const CellVertices& cell : cells) {
         std::array<EdgeIndex, 6> edges;
@@ -55,7 +56,7 @@ void EdgeStars::close_gaps(const std::vector<std::uint32_t>& end,
         }
     }
     begin_.back() = filled;
-    high_end_.resize(filled);
+    high_end_.resize(filled + read_beyond);
     high_end_.shrink_to_fit();
 
     for (CellIndex c{0}; c < cells.end_index(); ++c) {

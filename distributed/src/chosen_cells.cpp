@@ -15,31 +15,23 @@ public:
           by_place_only_(selection.cells.empty() && selection.regions.empty() &&
                          !selection.random && !selection.max_volume) {}
 
-    void judge(CellIndex c, std::size_t root) {
-        ++chosen_.judged;
-        const Lineage& lineage = mesh_->cell_lineage;
-        Corners corners;
-        for (std::size_t k = 0; k < 4; ++k) corners[k] = mesh_->points[mesh_->cells[c][k]];
-        // Most cells are far away, which is found sooner than their centroids.
-        if (by_place_only_ && !may_be_chosen(*selection_, box_of(corners))) return;
-        const Marker region = lineage.markers.empty() ? 0 : lineage.markers[root];
-        if (chooses(*selection_, corners, region, GlobalCell{lineage.roots[root]})) {
-            chosen_.cells.push_back(c);
-        }
-    }
-
     void judge_all() {
+        const auto beyond = sides_beyond();
         const Lineage& lineage = mesh_->cell_lineage;
         for (std::size_t r = 0; r < lineage.roots.size(); ++r) {
             for (CellIndex c{lineage.first[r]}; c < CellIndex{lineage.first[r + 1]}; ++c) {
-                judge(c, r);
+                const auto& [v0, v1, v2, v3] = mesh_->cells[c];
+                if (!by_place_only_ || (beyond[v0] & beyond[v1] & beyond[v2] & beyond[v3]) == 0) {
+                    judge(c, r, corners_of(c));
+                }
             }
         }
+        chosen_.judged = mesh_->cells.size();
     }
 
     void judge_new(const Adjacency& adjacency) {
         for (const CellIndex c : adjacency.new_cells) {
-            judge(c, adjacency.cells.root_of(c, mesh_->cell_lineage));
+            judge_if_near(c, adjacency.cells.root_of(c, mesh_->cell_lineage));
         }
     }
 
@@ -49,8 +41,9 @@ public:
             if (by_place_only_ && !may_be_chosen(*selection_, boxes[b])) continue;
             const std::size_t begin = b * CellBlocks::size;
             const std::size_t end = std::min(begin + CellBlocks::size, mesh_->cells.size());
-            adjacency.cells.for_each_root(CellIndex{begin}, CellIndex{end}, mesh_->cell_lineage,
-                                          [&](CellIndex c, std::size_t root) { judge(c, root); });
+            adjacency.cells.for_each_root(
+                CellIndex{begin}, CellIndex{end}, mesh_->cell_lineage,
+                [&](CellIndex c, std::size_t root) { judge_if_near(c, root); });
         }
     }
 
@@ -60,6 +53,37 @@ public:
     }
 
 private:
+    [[nodiscard]] Corners corners_of(CellIndex c) const {
+        Corners corners;
+        for (std::size_t k = 0; k < 4; ++k) corners[k] = mesh_->points[mesh_->cells[c][k]];
+        return corners;
+    }
+
+    /// Of all vertices, if only places matter.
+    [[nodiscard]] IndexVector<VertexIndex, std::uint8_t> sides_beyond() const {
+        IndexVector<VertexIndex, std::uint8_t> sides;
+        if (!by_place_only_) return sides;
+        const Reach reach(*selection_);
+        sides.reserve(mesh_->points.size());
+        for (const Point& p : mesh_->points) sides.push_back(reach.sides_beyond(p));
+        return sides;
+    }
+
+    void judge_if_near(CellIndex c, std::size_t root) {
+        ++chosen_.judged;
+        const Corners corners = corners_of(c);
+        if (by_place_only_ && !may_be_chosen(*selection_, box_of(corners))) return;
+        judge(c, root, corners);
+    }
+
+    void judge(CellIndex c, std::size_t root, const Corners& corners) {
+        const Lineage& lineage = mesh_->cell_lineage;
+        const Marker region = lineage.markers.empty() ? 0 : lineage.markers[root];
+        if (chooses(*selection_, corners, region, GlobalCell{lineage.roots[root]})) {
+            chosen_.cells.push_back(c);
+        }
+    }
+
     const DistributedMesh* mesh_;
     const Selection* selection_;
     bool by_place_only_;

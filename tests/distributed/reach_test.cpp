@@ -1,4 +1,4 @@
-#include "cell_blocks.hpp"
+#include "reach.hpp"
 
 #include <cmath>
 #include <random>
@@ -7,6 +7,13 @@
 
 namespace octetra::distributed {
 namespace {
+
+/// Those on which all corners are beyond reach.
+int sides_in_common(const Reach& reach, const Corners& corners) {
+    int sides = 0b111111;
+    for (const Point& corner : corners) sides &= reach.sides_beyond(corner);
+    return sides;
+}
 
 /// Random cells of a size, and spheres whose border goes through their centroids, or nearly.
 void expect_chosen_only_where_it_may_be(double size, double offset) {
@@ -29,12 +36,13 @@ void expect_chosen_only_where_it_may_be(double size, double offset) {
             if (!chooses(selection, corners, 0, GlobalCell{0})) continue;
             ++chosen;
             ASSERT_TRUE(may_be_chosen(selection, box_of(corners))) << "case " << i;
+            ASSERT_EQ(sides_in_common(Reach(selection), corners), 0) << "case " << i;
         }
     }
     EXPECT_GT(chosen, 20000);
 }
 
-TEST(CellBlocks, NeverPassOverACellThatIsChosen) {
+TEST(Reach, NeverPassOverACellThatIsChosen) {
     for (const double size : {1.0, 1e-9, 1e-165, 3e-320, 1e153, 1e170, 8e307}) {
         expect_chosen_only_where_it_may_be(size, 0);
     }
@@ -42,12 +50,23 @@ TEST(CellBlocks, NeverPassOverACellThatIsChosen) {
     expect_chosen_only_where_it_may_be(1e300, 1e307);
 }
 
-TEST(CellBlocks, PassOverWhatIsFarAway) {
+TEST(Reach, PassOverWhatIsFarAway) {
     const Box corners{{0, 0, 0}, {1, 1, 1}};
     EXPECT_FALSE(may_be_chosen({.spheres = {{{2, 0.5, 0.5}, 0.999}}}, corners));
     EXPECT_TRUE(may_be_chosen({.spheres = {{{2, 0.5, 0.5}, 1.001}}}, corners));
     EXPECT_FALSE(may_be_chosen({.boxes = {{{0, 0, 1.001}, {1, 1, 2}}}}, corners));
     EXPECT_TRUE(may_be_chosen({.boxes = {{{0, 0, 0.999}, {1, 1, 2}}}}, corners));
+}
+
+TEST(Reach, EndsWhereSpheresAndBoxesEnd) {
+    const Reach reach({.spheres = {{{0, 0, 0}, 1}}, .boxes = {{{2, 2, 2}, {3, 3, 3}}}});
+    EXPECT_EQ(reach.sides_beyond({-0.999, 0, 2.999}), 0);
+    EXPECT_EQ(reach.sides_beyond({-1.001, 0, 3.001}), 0b100001);
+    EXPECT_EQ(reach.sides_beyond({3.001, -1.001, 0}), 0b000110);
+    // Beyond it each, but not on the same side.
+    const Corners around{{{-5, 0, 0}, {5, 0, 0}, {0, 5, 0}, {0, -5, 1}}};
+    EXPECT_EQ(sides_in_common(reach, around), 0);
+    EXPECT_EQ(Reach({.spheres = {{{0, 0, 0}, infinity}}}).sides_beyond({1e308, 0, 0}), 0);
 }
 
 }  // namespace

@@ -6,8 +6,7 @@
 
 namespace octetra::distributed {
 
-DenseClosure::DenseClosure(const EdgeStars& stars,
-                           const IndexVector<CellIndex, LengthOrder>& orders,
+DenseClosure::DenseClosure(const EdgeStars& stars, CellOrders& orders,
                            const std::vector<Interface>& interfaces)
     : stars_(&stars),
       orders_(&orders),
@@ -25,6 +24,11 @@ DenseClosure::DenseClosure(const EdgeStars& stars,
         }
     }
     std::ranges::sort(shared_edges_, {}, &SharedEdge::edge);
+}
+
+void DenseClosure::select_all() {
+    for (EdgeIndex edge{0}; edge < selected_.end_index(); ++edge) selected_[edge] = 1;
+    selected_count_ = selected_.size();
 }
 
 void DenseClosure::select(EdgeIndex edge) {
@@ -63,8 +67,9 @@ EdgeMask DenseClosure::selected_of(CellIndex cell) const {
 
 void DenseClosure::close(CellIndex cell) {
     const EdgeMask mask = selected_of(cell);
+    if (is_all_or_none(mask)) return;
     const auto missing =
-        static_cast<EdgeMask>(table_->closure((*orders_)[cell], mask) & ~unsigned{mask});
+        static_cast<EdgeMask>(table_->closure(orders_->of(cell), mask) & ~unsigned{mask});
     for (std::size_t e = 0; missing >> e != 0; ++e) {
         if ((missing >> e & 1U) != 0) select(stars_->edges_of(cell)[e]);
     }
@@ -74,7 +79,7 @@ void DenseClosure::close(CellIndex cell) {
 // every other one goes backwards; but a path may turn round as often as it likes.
 void DenseClosure::drain() {
     constexpr int most_sweeps = 8;
-    if (sweep_count_ == 0) sweep();
+    if (sweep_count_ == 0 && selected_count_ < selected_.size()) sweep();
     while (!queue_.empty() && sweep_count_ < most_sweeps) sweep();
     if (queue_.empty()) return;
     if (cells_begin_.empty()) index_cells_at_edges();
@@ -91,7 +96,7 @@ void DenseClosure::drain() {
 void DenseClosure::sweep() {
     queue_.clear();
     const bool backwards = sweep_count_++ % 2 != 0;
-    const std::size_t count = orders_->size();
+    const std::size_t count = orders_->end_index().value();
     for (std::size_t i = 0; i < count; ++i) close(CellIndex{backwards ? count - 1 - i : i});
 }
 

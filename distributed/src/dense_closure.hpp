@@ -5,6 +5,7 @@
 
 #include <octetra/distributed/distributed_mesh.hpp>
 
+#include "cell_orders.hpp"
 #include "closure.hpp"
 #include "edge_stars.hpp"
 #include "patterns.hpp"
@@ -15,8 +16,11 @@ namespace octetra::distributed {
 /// to find, and then from edge to edge.
 class DenseClosure final : public Closure {
 public:
-    DenseClosure(const EdgeStars& stars, const IndexVector<CellIndex, LengthOrder>& orders,
+    DenseClosure(const EdgeStars& stars, CellOrders& orders,
                  const std::vector<Interface>& interfaces);
+
+    /// Every edge, as all processes do then: nobody is told.
+    void select_all();
 
     /// Selects an edge of this process's own will, without following its path. All that share the
     /// edge will be told.
@@ -43,7 +47,7 @@ private:
     void index_cells_at_edges();
 
     const EdgeStars* stars_;
-    const IndexVector<CellIndex, LengthOrder>* orders_;
+    CellOrders* orders_;
     const PatternTable* table_ = &PatternTable::get();
     IndexVector<EdgeIndex, std::uint8_t> selected_;
     IndexVector<EdgeIndex, std::uint8_t> shared_;  // empty if no edge is

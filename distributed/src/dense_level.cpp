@@ -9,7 +9,6 @@
 
 #include "huge_pages.hpp"
 #include "interfaces.hpp"
-#include "length_order.hpp"
 #include "midpoints.hpp"
 #include "rounding_margin.hpp"
 #include "triangle.hpp"
@@ -17,33 +16,35 @@
 namespace octetra::distributed {
 namespace {
 
-IndexVector<CellIndex, LengthOrder> length_orders(const DistributedMesh& mesh) {
-    IndexVector<CellIndex, LengthOrder> orders;
-    reserve_in_huge_pages(orders, mesh.cells.size());
-    for (const CellVertices& cell : mesh.cells) orders.push_back(length_order(mesh.points, cell));
-    return orders;
-}
-
 class CellBisection {
 public:
-    CellBisection(DistributedMesh& mesh, const EdgeStars& stars,
-                  const IndexVector<CellIndex, LengthOrder>& orders, const DenseClosure& closure,
-                  const IndexVector<EdgeIndex, VertexIndex>& midpoints)
+    CellBisection(DistributedMesh& mesh, const EdgeStars& stars, CellOrders& orders,
+                  const DenseClosure& closure, const IndexVector<EdgeIndex, VertexIndex>& midpoints)
         : mesh_(&mesh),
           stars_(&stars),
           orders_(&orders),
           closure_(&closure),
           midpoints_(&midpoints) {}
 
-    [[nodiscard]] std::size_t child_count() const {
+    [[nodiscard]] std::size_t child_count() {
         std::size_t count = 0;
-        for (CellIndex c{0}; c < mesh_->cells.end_index(); ++c) count += pattern_of(c).child_count;
+        for (CellIndex c{0}; c < mesh_->cells.end_index(); ++c) {
+            const EdgeMask selected = closure_->selected_of(c);
+            // These need no order.
+            if (selected == 0) {
+                ++count;
+            } else if (is_all_or_none(selected)) {
+                count += most_children;
+            } else {
+                count += pattern_of(c, selected).child_count;
+            }
+        }
         return count;
     }
 
     /// Replaces the cells by their children, so many in all.
     [[nodiscard]] RoundingFailure run(std::size_t child_count) {
-        reserve_in_huge_pages(children_, child_count);
+        reserve_in_huge_pages(children_, child_count + most_children);
         Lineage& lineage = mesh_->cell_lineage;
         for (std::size_t r = 0; r < lineage.roots.size(); ++r) {
             const CellIndex end{lineage.first[r + 1]};
@@ -57,25 +58,37 @@ public:
     }
 
 private:
-    [[nodiscard]] const Pattern& pattern_of(CellIndex cell) const {
-        return table_->pattern((*orders_)[cell], closure_->selected_of(cell));
+    static constexpr std::size_t most_children = 8;
+
+    [[nodiscard]] const Pattern& pattern_of(CellIndex cell, EdgeMask selected) {
+        return table_->pattern(orders_->of(cell), selected);
     }
 
     void bisect(CellIndex c, std::uint64_t root) {
-        const Pattern& pattern = pattern_of(c);
         const CellVertices& cell = mesh_->cells[c];
+        const EdgeMask selected = closure_->selected_of(c);
+        if (selected == 0) {
+            children_.push_back(cell);
+            return;
+        }
+        const Pattern& pattern = pattern_of(c, selected);
         std::array<VertexIndex, 10> vertices;  // by place
         std::ranges::copy(cell, vertices.begin());
         for (std::size_t e = 0; e < 6; ++e) {
             vertices[4 + e] = (*midpoints_)[stars_->edges_of(c)[e]];
         }
-        std::array<CellVertices, 8> children;
-        const std::span filled(children.data(), pattern.child_count);
-        for (std::size_t k = 0; k < filled.size(); ++k) {
-            filled[k] = child_of(vertices, pattern.children[k]);
+        // Always eight, as to write what is not needed takes less time than to foresee their
+        // number.
+        std::array<CellVertices, most_children> children;
+        for (std::size_t k = 0; k < most_children; ++k) {
+            children[k] = child_of(vertices, pattern.children[k]);
         }
-        if (filled.size() > 1 && !has_rounding_margin(mesh_->points, cell)) check(filled, root);
-        children_.insert(children_.end(), filled.begin(), filled.end());
+        const std::size_t count = pattern.child_count;
+        if (!has_rounding_margin(mesh_->points, cell)) {
+            check(std::span(children).first(count), root);
+        }
+        children_.insert(children_.end(), children.begin(), children.end());
+        children_.resize(children_.size() - most_children + count);
     }
 
     void check(std::span<const CellVertices> children, std::uint64_t root) {
@@ -88,7 +101,7 @@ private:
 
     DistributedMesh* mesh_;
     const EdgeStars* stars_;
-    const IndexVector<CellIndex, LengthOrder>* orders_;
+    CellOrders* orders_;
     const DenseClosure* closure_;
     const IndexVector<EdgeIndex, VertexIndex>* midpoints_;
     const PatternTable* table_ = &PatternTable::get();
@@ -117,11 +130,13 @@ DenseLevel::DenseLevel(DistributedMesh& mesh)
     : mesh_(&mesh),
       stars_(in_phase(mesh.processes, "number edges",
                       [&] { return EdgeStars(mesh.points.size(), mesh.cells); })),
-      orders_(in_phase(mesh.processes, "order edges", [&] { return length_orders(mesh); })),
+      orders_(mesh),
       closure_(stars_, orders_, mesh.interfaces) {}
 
 void DenseLevel::select(const ChosenCells& chosen, Scheme scheme) {
-    if (chosen.all) {
+    if (chosen.all && scheme == Scheme::eight) {
+        closure_.select_all();
+    } else if (chosen.all) {
         for (CellIndex c{0}; c < mesh_->cells.end_index(); ++c) select(c, scheme);
     } else {
         for (const CellIndex c : chosen.cells) select(c, scheme);
@@ -129,7 +144,7 @@ void DenseLevel::select(const ChosenCells& chosen, Scheme scheme) {
 }
 
 void DenseLevel::select(CellIndex cell, Scheme scheme) {
-    const EdgeMask mask = selected_by(scheme, orders_[cell]);
+    const EdgeMask mask = selected_by(scheme, orders_.of(cell));
     for (std::size_t e = 0; e < 6; ++e) {
         if ((mask >> e & 1U) != 0) closure_.select(stars_.edges_of(cell)[e]);
     }
@@ -139,7 +154,7 @@ void DenseLevel::bisect_edges() {
     midpoints_ = distributed::bisect_edges(*mesh_, stars_, closure_);
 }
 
-std::size_t DenseLevel::cell_count_afterwards() const {
+std::size_t DenseLevel::cell_count_afterwards() {
     return CellBisection(*mesh_, stars_, orders_, closure_, midpoints_).child_count();
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "cell_orders.hpp"
 #include "chosen_cells.hpp"
 #include "dense_closure.hpp"
 #include "edge_stars.hpp"
@@ -19,18 +20,18 @@ public:
 
     [[nodiscard]] Closure& closure() override { return closure_; }
     void bisect_edges() override;
-    [[nodiscard]] std::size_t cell_count_afterwards() const override;
+    [[nodiscard]] std::size_t cell_count_afterwards() override;
     [[nodiscard]] RoundingFailure bisect_cells(std::size_t cell_count) override;
     void bisect_listed() override;
     void bisect_interfaces() override;
-    [[nodiscard]] std::size_t cells_touched() const override { return orders_.size(); }
+    [[nodiscard]] std::size_t cells_touched() const override { return orders_.end_index().value(); }
 
 private:
     void select(CellIndex cell, Scheme scheme);
 
     DistributedMesh* mesh_;
     EdgeStars stars_;
-    IndexVector<CellIndex, LengthOrder> orders_;
+    CellOrders orders_;
     DenseClosure closure_;
     IndexVector<EdgeIndex, VertexIndex> midpoints_;  ///< of each edge, or none()
 };

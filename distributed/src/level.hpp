@@ -27,7 +27,7 @@ public:
     [[nodiscard]] virtual Closure& closure() = 0;
 
     virtual void bisect_edges() = 0;
-    [[nodiscard]] virtual std::size_t cell_count_afterwards() const = 0;
+    [[nodiscard]] virtual std::size_t cell_count_afterwards() = 0;
     /// Into so many. Where a failure is found, the mesh is not usable any more.
     [[nodiscard]] virtual RoundingFailure bisect_cells(std::size_t cell_count) = 0;
     virtual void bisect_listed() = 0;

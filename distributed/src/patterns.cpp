@@ -133,9 +133,4 @@ PatternTable::PatternTable()
     }
 }
 
-const PatternTable& PatternTable::get() {
-    static const PatternTable table;
-    return table;
-}
-
 }  // namespace octetra::distributed

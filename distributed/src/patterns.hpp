@@ -10,6 +10,11 @@ namespace octetra::distributed {
 /// A set of the cell's edges (numbered as in cell_edges) or of a triangle's, one bit each.
 using EdgeMask = std::uint8_t;
 
+/// Of a cell's edges: such a set is closed in any order of lengths.
+[[nodiscard]] constexpr bool is_all_or_none(EdgeMask edges) {
+    return edges == 0 || edges == 0b111111;
+}
+
 /// A corner (0..3) or the midpoint of edge k (4 + k).
 using Place = std::uint8_t;
 
@@ -30,7 +35,10 @@ using Comparisons = std::uint16_t;
 class PatternTable {
 public:
     /// Built on first use, in some milliseconds.
-    static const PatternTable& get();
+    static const PatternTable& get() {
+        static const PatternTable table;
+        return table;
+    }
 
     [[nodiscard]] LengthOrder order(Comparisons comparisons) const {
         return order_by_comparisons_[comparisons];

@@ -88,7 +88,7 @@ const Pattern& SparseLevel::pattern_of(const SparseClosure::Note& note) const {
     return PatternTable::get().pattern(note.order, note.selected);
 }
 
-std::size_t SparseLevel::cell_count_afterwards() const {
+std::size_t SparseLevel::cell_count_afterwards() {
     std::size_t count = mesh_->cells.size() - closure_.notes().size();
     for (const auto& note : closure_.notes()) count += pattern_of(note).child_count;
     return count;

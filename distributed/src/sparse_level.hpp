@@ -21,7 +21,7 @@ public:
 
     [[nodiscard]] Closure& closure() override { return closure_; }
     void bisect_edges() override;
-    [[nodiscard]] std::size_t cell_count_afterwards() const override;
+    [[nodiscard]] std::size_t cell_count_afterwards() override;
     [[nodiscard]] RoundingFailure bisect_cells(std::size_t cell_count) override;
     void bisect_listed() override;
     void bisect_interfaces() override;

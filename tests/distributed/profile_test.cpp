@@ -139,8 +139,8 @@ TEST_P(Profiled, LevelsHaveTheirCellsAndPhases) {
     }
     const auto& at_first = profile.levels.front().cells_of_rank;
     EXPECT_EQ(std::accumulate(at_first.begin(), at_first.end(), std::uint64_t{0}), 6U * 4 * 4 * 4);
-    for (const std::string name : {"level", "number edges", "order edges", "select", "synchronise",
-                                   "closure", "bisect edges", "bisect tetrahedra", "interfaces"}) {
+    for (const std::string name : {"level", "number edges", "select", "synchronise", "closure",
+                                   "bisect edges", "bisect tetrahedra", "interfaces"}) {
         for (const int level : {1, 2, 3}) {
             EXPECT_TRUE(std::ranges::any_of(profile.phases,
                                             [&](const ProfiledPhase& phase) {

@@ -6,7 +6,7 @@ from words import count, seconds
 # The steps of the paper's algorithm, and the phases of a profile that each consists of.
 STEPS = [
     ("partition,|distribute", ("partition", "distribute", "interfaces")),
-    ("select,|local LEPP", ("number edges", "order edges", "select", "closure")),
+    ("select,|local LEPP", ("number edges", "select", "closure")),
     ("synchronise", ("synchronise",)),
     ("bisect edges", ("bisect edges",)),
     ("bisect|tetrahedra", ("bisect tetrahedra",)),

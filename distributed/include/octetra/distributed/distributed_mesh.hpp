@@ -86,7 +86,7 @@ struct DistributedMesh {
     /// it takes the way whose work is in proportion to what changes; else the one that goes through
     /// its whole part, and has less work with each cell. 0: always the latter. The result is the
     /// same, whatever each process says here.
-    double sparse_below = 0.125;
+    double sparse_below = 0.0625;
     /// The engine's own. While there is one, the mesh is loose.
     std::unique_ptr<Adjacency, DeleteAdjacency> adjacency;
 

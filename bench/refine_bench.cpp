@@ -16,6 +16,7 @@
 #include <octetra/distributed/refine.hpp>
 
 #include "measuring.hpp"
+#include "memory_at_hand.hpp"
 #include "pattern_tables.hpp"
 #include "support/meshes.hpp"
 
@@ -35,6 +36,8 @@ struct Options {
     bool warm = false;
     bool profile = false;
     bool memcpy = false;
+    std::size_t at_hand_megabytes = 0;
+    double sparse_below = -1;  ///< of the mesh; negative: as it is
     bool json = false;
 };
 
@@ -137,6 +140,7 @@ void print_level(int number, const ordered_json& level) {
 }
 
 void measure(const Communicator& world, const Options& options) {
+    if (options.at_hand_megabytes > 0) keep_memory_at_hand(options.at_hand_megabytes << 20U);
     Mesh input = world.is_first() ? mesh_of(options.mesh) : Mesh{};
     std::vector<int> parts;
     if (world.is_first()) {
@@ -144,6 +148,7 @@ void measure(const Communicator& world, const Options& options) {
             partition_cells(input, world.size(), distributed::parse_partition(options.partition));
     }
     auto mesh = distributed::distribute(world, std::move(input), parts);
+    if (options.sparse_below >= 0) mesh.sparse_below = options.sparse_below;
     if (options.profile) {
         mesh.processes = distributed::profiled(world, distributed::ProfileDetail::sums);
     }
@@ -174,6 +179,10 @@ int run(const Communicator& world, int argc, char** argv) {
     app.add_option("--random", options.random, "this share of the cells, by lot");
     app.add_option("--partition", options.partition, "as of octetra refine");
     app.add_flag("--warm", options.warm, "leave out what a program does but once");
+    app.add_option("--memory-at-hand", options.at_hand_megabytes,
+                   "so many MiB for each rank, written to before: as in a program's later levels");
+    app.add_option("--sparse-below", options.sparse_below,
+                   "the sparse way where chosen cells have less than this share of the vertices");
     app.add_flag("--profile", options.profile, "with --json: seconds of synchronisation, bytes");
     app.add_flag("--memcpy", options.memcpy, "with --json: what copying the mesh's arrays takes");
     app.add_flag("--json", options.json, "print a line of JSON instead of words");

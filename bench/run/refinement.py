@@ -20,24 +20,15 @@ def last(lines, key):
 # --- everywhere
 
 
-def uniform_figures(lines):
-    one = lines[on(1)]
-    seconds = {ranks: last(lines[on(ranks)], "seconds") for ranks in RANKS}
-    cells = one[0]["levels"][-1]["cells"]
-    made = [Figure("cells of the result", cells, "")]
+def speeds(lines):
+    cells = lines[on(1)][0]["levels"][-1]["cells"]
+    made = []
     for ranks in RANKS:
-        made += [Figure(f"time, {on(ranks)}", seconds[ranks], "s"),
-                 Figure(f"cells of the result a second, {on(ranks)}",
-                        cells / seconds[ranks] * 1e-6, "million")]
-    return made + [
-        Figure("speed on 2 ranks against 1", seconds[1] / seconds[2], "times", at_least=1.8),
-        Figure("speed on 4 ranks against 2", seconds[2] / seconds[4], "times", at_least=0.85),
-        Figure("peak memory for a cell of the result, 1 rank",
-               median(one, "peak_bytes") / cells, "bytes", at_most=70),
-        Figure("time against memcpy of input and output, 1 rank", against_memcpy(one, "used"),
-               "times", at_most=8),
-        Figure("the same into memory that is new, as a result's is", against_memcpy(one, "new"),
-               "times")]
+        seconds = last(lines[on(ranks)], "seconds")
+        made += [Figure(f"time, {on(ranks)}", seconds, "s"),
+                 Figure(f"cells of the result a second, {on(ranks)}", cells / seconds * 1e-6,
+                        "million")]
+    return made
 
 
 def against_memcpy(lines, into):
@@ -46,10 +37,41 @@ def against_memcpy(lines, into):
                              for line in lines)
 
 
+def uniform_figures(lines):
+    one = lines[on(1)]
+    cells = one[0]["levels"][-1]["cells"]
+    return [
+        Figure("cells of the result", cells, ""),
+        *speeds(lines),
+        Figure("peak memory for a cell of the result, 1 rank",
+               median(one, "peak_bytes") / cells, "bytes", at_most=70),
+        Figure("time against memcpy of input and output into new memory, 1 rank",
+               against_memcpy(one, "new"), "times")]
+
+
 def uniform(cubes):
     return Case("uniform, one level", [
         driver(on(ranks), REFINE, f"{cubes} 1 --json" + (" --memcpy" if ranks == 1 else ""), ranks)
         for ranks in RANKS], uniform_figures)
+
+
+def at_hand_figures(lines):
+    seconds = {ranks: last(lines[on(ranks)], "seconds") for ranks in RANKS}
+    return [
+        *speeds(lines),
+        Figure("speed on 2 ranks against 1", seconds[1] / seconds[2], "times", at_least=1.8),
+        Figure("speed on 4 ranks against 2", seconds[2] / seconds[4], "times", at_least=0.85),
+        Figure("time against memcpy of input and output into used memory, 1 rank",
+               against_memcpy(lines[on(1)], "used"), "times", at_most=8)]
+
+
+def uniform_at_hand(cubes, megabytes):
+    """The same in memory that the process has written to before."""
+    return Case("the same, memory at hand", [
+        driver(on(ranks), REFINE,
+               f"{cubes} 1 --warm --memory-at-hand {megabytes // ranks} --json"
+               + (" --memcpy" if ranks == 1 else ""), ranks)
+        for ranks in RANKS], at_hand_figures)
 
 
 # --- in a sphere

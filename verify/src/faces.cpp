@@ -21,7 +21,7 @@ std::string check_faces(const Subject& subject, Findings& findings) {
     for (const CellVertices& cell : subject.mesh.cells) {
         if (subject.owns(cell)) ++facts.cells;
     }
-    subject.edges.for_each_group([&](const EdgeVertices& edge, auto) {
+    subject.edges.for_each([&](const EdgeVertices& edge) {
         if (subject.owns(edge)) ++facts.edges;
     });
     subject.faces.for_each_group([&](const FacetVertices& vertices, auto entries) {

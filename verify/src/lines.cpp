@@ -13,8 +13,7 @@ Lines::Lines(const Subject& fine, const Places& places)
       whole_(2 * fine.mesh.cells.size()),
       midpoints_(2 * fine.mesh.cells.size()),
       halves_(fine.mesh.points.size(), 0) {
-    fine.edges.for_each_group(
-        [&](const EdgeVertices& edge, auto) { whole_.at(edge[0], edge[1]) = 1; });
+    fine.edges.for_each([&](const EdgeVertices& edge) { whole_.at(edge[0], edge[1]) = 1; });
 }
 
 VertexIndex Lines::midpoint(VertexIndex a, VertexIndex b) {

@@ -12,7 +12,7 @@ void count_singular(const Subject& subject, Facts& facts) {
     std::vector<char> on_boundary(vertex_count, 0);
     std::vector<char> singular(vertex_count, 0);
 
-    subject.edges.for_each_group([&](const EdgeVertices& edge, auto) {
+    subject.edges.for_each([&](const EdgeVertices& edge) {
         for (const VertexIndex v : edge) {
             ++characteristic[v.value()];
             used[v.value()] = 1;

@@ -53,7 +53,7 @@ public:
 
     void run() {
         const BoxTree boundary_faces = tree_of(faces_);
-        subject_.edges.for_each_group([&](const EdgeVertices& edge, auto) {
+        subject_.edges.for_each([&](const EdgeVertices& edge) {
             boundary_faces.for_each_meeting(bounds_of(places(edge)), [&](std::uint32_t number) {
                 judge(edge, faces_[number]);
             });

@@ -9,6 +9,7 @@
 
 #include "box_tree.hpp"
 #include "buckets.hpp"
+#include "edge_set.hpp"
 #include "findings.hpp"
 #include "parts/domain.hpp"
 
@@ -48,9 +49,10 @@ struct Subject {
     std::vector<char> sound{};
     /// +1, 0, -1 of each cell; 0 also where it is not sound.
     std::vector<std::int8_t> sign{};
-    Buckets<4> cells{};  ///< of all with four different vertices; tag: the cell's number
-    Buckets<3> faces{};  ///< of sound cells; tag: tag_of(CellFace)
-    Buckets<2> edges{};  ///< of sound cells; tag: the cell's number
+    bool keeps_cells = true;  ///< else `cells` stays empty: only refinements are asked for them
+    Buckets<4> cells{};       ///< of all with four different vertices; tag: the cell's number
+    Buckets<3> faces{};       ///< of sound cells; tag: tag_of(CellFace)
+    EdgeSet edges{};          ///< of sound cells
 
     [[nodiscard]] bool is_sound(CellIndex c) const { return sound[c.value()] != 0; }
     [[nodiscard]] std::array<Point, 4> corners(CellIndex c) const {

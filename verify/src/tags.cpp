@@ -141,7 +141,7 @@ private:
         const IndexVector<EdgeIndex, Marker> piece_markers(markers.begin(), markers.end());
         const auto expected = buckets_of(pieces, fine_.points.size());
         const auto found = buckets_of(fine_.edges, fine_.points.size());
-        fine_subject_.edges.for_each_group([&](const EdgeVertices& edge, auto) {
+        fine_subject_.edges.for_each([&](const EdgeVertices& edge) {
             if (!fine_subject_.owns(edge)) return;
             compare(edge, markers_of(found.find(edge), fine_.edge_markers),
                     markers_of(expected.find(edge), piece_markers), Code::missing_edge,

@@ -10,6 +10,7 @@ namespace {
 
 /// A mesh, or a part of one, that is in range.
 void judge(Subject& subject, const VerifyOptions& options, Findings& findings) {
+    subject.keeps_cells = false;
     findings.run("well-formed", [&] { return check_well_formed(subject, findings); });
     findings.run("markers", [&] { return check_listed_markers(subject, findings); });
     const bool no_coincidence =

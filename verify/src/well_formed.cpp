@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <functional>
 #include <numeric>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -43,10 +44,9 @@ void check_length(std::string_view what, std::size_t length, std::size_t expecte
 }
 
 /// Listed facets or edges: different vertices, of some cell.
-template <class I, std::size_t N>
-void check_listed(const IndexVector<I, std::array<VertexIndex, N>>& list,
-                  const Buckets<N>& of_cells, Code stray, const Subject& subject,
-                  Findings& findings) {
+template <class I, std::size_t N, class OfCells>
+void check_listed(const IndexVector<I, std::array<VertexIndex, N>>& list, const OfCells& of_cells,
+                  Code stray, const Subject& subject, Findings& findings) {
     const Which which = subject.which;
     for (I i{0}; i < list.end_index(); ++i) {
         if (!subject.owns(list[i])) continue;
@@ -97,12 +97,12 @@ void find_sound_cells(Subject& subject, Findings& findings) {
             return {{entity(c, subject.which)}, "a vertex twice", "four different vertices"};
         });
     }
-    subject.cells = Buckets<4>(mesh.points.size(), [&](auto&& visit) {
+    Buckets<4> by_vertices(mesh.points.size(), [&](auto&& visit) {
         for (CellIndex c{0}; c < mesh.cells.end_index(); ++c) {
             if (subject.is_sound(c)) visit(mesh.cells[c], c.value());
         }
     });
-    subject.cells.for_each_group([&](const CellVertices& vertices, auto cells) {
+    by_vertices.for_each_group([&](const CellVertices& vertices, auto cells) {
         for (std::size_t k = 1; k < cells.size(); ++k) {
             const CellIndex first{cells[0].tag};
             const CellIndex again{cells[k].tag};
@@ -115,6 +115,7 @@ void find_sound_cells(Subject& subject, Findings& findings) {
             });
         }
     });
+    if (subject.keeps_cells) subject.cells = std::move(by_vertices);
 }
 
 }  // namespace
@@ -172,11 +173,9 @@ std::string check_well_formed(Subject& subject, Findings& findings) {
             }
         });
     });
-    subject.edges = Buckets<2>(mesh.points.size(), [&](auto&& visit) {
-        for_each_sound([&](CellIndex c, const CellVertices& cell) {
-            for (const auto& [i, j] : cell_edges) {
-                visit(EdgeVertices{cell[i], cell[j]}, c.value());
-            }
+    subject.edges = EdgeSet(mesh.points.size(), [&](auto&& visit) {
+        for_each_sound([&](CellIndex, const CellVertices& cell) {
+            for (const auto& [i, j] : cell_edges) visit(EdgeVertices{cell[i], cell[j]});
         });
     });
     check_listed(mesh.facets, subject.faces, Code::stray_facet, subject, findings);

@@ -27,6 +27,7 @@
 #include "answer.hpp"
 #include "choice.hpp"
 #include "commands/commands.hpp"
+#include "commands/files_apart.hpp"
 #include "commands/mesh_options.hpp"
 #include "commands/number_checks.hpp"
 #include "commands/profile_options.hpp"
@@ -314,6 +315,15 @@ void check_side_files(const RefineOptions& options) {
     }
 }
 
+void check_inputs_stay(const RefineOptions& options, const Plan& plan) {
+    check_files_apart({mesh_named("MESH", options.input.path),
+                       file_named("--cells", options.refinement.selection.cells_file),
+                       file_named("--partition", plan.partition.path)},
+                      {mesh_named("-o", options.output), file_named("--maps", options.maps),
+                       file_named("--profile", options.profile.profile),
+                       file_named("--trace", options.profile.trace)});
+}
+
 void refine(const RefineOptions& options, const distributed::Communicator& all) {
     Plan plan = plan_of(options);
     Stopwatch watch;
@@ -323,6 +333,7 @@ void refine(const RefineOptions& options, const distributed::Communicator& all) 
         distributed::on_first(world, [&] {
             check_writable(options.output);
             check_side_files(options);
+            check_inputs_stay(options, plan);
             mesh = read_input(options.input);
             complete_selection(plan.selection, options.refinement.selection,
                                {!mesh.regions.empty(), mesh.first_number, mesh.cells.size()});

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -63,8 +64,8 @@ struct RefineOptions {
     std::string maps;
     RefinementOptions refinement;
     std::string engine = "distributed";
-    std::string partition = "lepp";
-    std::string synchronisation = "neighbour";
+    std::optional<std::string> partition;
+    std::optional<std::string> synchronisation;
     ProfileOptions profile;
     std::uint64_t max_cells = std::numeric_limits<std::uint64_t>::max();
     bool verify = false;
@@ -80,11 +81,17 @@ void report(const RefineOptions& options, std::string_view doing, std::uint64_t 
 }
 
 Plan plan_of(const RefineOptions& options) {
+    const Engine engine = parse_choice("--engine", options.engine, engines);
+    if (engine == Engine::reference && (options.partition || options.synchronisation)) {
+        throw InputError(
+            "--partition and --sync say how ranks share the work; --engine reference works on one");
+    }
     return {.selection = parse_selection(options.refinement.selection),
             .scheme = parse_scheme(options.refinement),
-            .engine = parse_choice("--engine", options.engine, engines),
-            .partition = distributed::parse_partition(options.partition),
-            .synchronisation = parse_choice("--sync", options.synchronisation, synchronisations)};
+            .engine = engine,
+            .partition = distributed::parse_partition(options.partition.value_or("lepp")),
+            .synchronisation = parse_choice("--sync", options.synchronisation.value_or("neighbour"),
+                                            synchronisations)};
 }
 
 std::string refined_line(int levels, int ranks) {

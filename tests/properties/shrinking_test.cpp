@@ -6,6 +6,7 @@
 #include <octetra/generator/lattices.hpp>
 
 #include "properties/case_files.hpp"
+#include "properties/one_level.hpp"
 #include "support/run_program.hpp"
 
 /// How cases are made smaller that end the process that tries them, or leave it waiting. They are
@@ -50,6 +51,13 @@ protected:
 private:
     test::TemporaryFolder folder_;
 };
+
+/// As faulty_laws.cpp has it.
+bool is_faulty(const Case& c) {
+    std::size_t chosen = 0;
+    for (CellIndex i{0}; i < c.mesh.cells.end_index(); ++i) chosen += is_chosen(c, i) ? 1U : 0U;
+    return chosen > 3 && std::ranges::max(c.cell_to_rank) > 0;
+}
 
 void expect_smallest(const Case& c) {
     EXPECT_EQ(c.mesh.cells.size(), 4U);
@@ -125,6 +133,7 @@ TEST_F(Shrinking, EndsInTimeAndKeepsTheSmallestSoFar) {
     EXPECT_EQ(status, 0) << out << err;
     EXPECT_NE(out.find("time is up"), out.npos) << out;
     EXPECT_LE(kept().refinement.mesh.cells.size(), some_case().mesh.cells.size());
+    EXPECT_TRUE(is_faulty(kept().refinement));
     EXPECT_FALSE(is_running_name(kept_file().stem()));
 }
 
@@ -138,6 +147,7 @@ TEST_F(Shrinking, KeepsTheSmallestSoFarWhenInterrupted) {
     EXPECT_EQ(status, 130) << out << err;
     EXPECT_NE(out.find("\nreplay: "), out.npos) << out;
     EXPECT_LT(kept().refinement.mesh.cells.size(), some_case().mesh.cells.size());
+    EXPECT_TRUE(is_faulty(kept().refinement));
     EXPECT_FALSE(is_running_name(kept_file().stem()));
 }
 

@@ -19,8 +19,7 @@ struct NamedFiles {
 /// The file `path`; none, if that is empty.
 [[nodiscard]] NamedFiles file_named(std::string_view argument, const std::filesystem::path& path);
 
-/// Throws InputError if a file to write is one to read, be it by another name: what was read would
-/// be gone.
+/// Throws InputError if a file to write is one to read, be it by another name or a link.
 void check_files_apart(const std::vector<NamedFiles>& read, const std::vector<NamedFiles>& written);
 
 }  // namespace octetra::cli

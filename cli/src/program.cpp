@@ -1,9 +1,5 @@
 #include "program.hpp"
 
-#ifdef __GLIBC__
-#include <malloc.h>
-#endif
-
 #include <csignal>
 #include <cstdio>
 #include <exception>
@@ -22,6 +18,10 @@
 
 #include "answer.hpp"
 #include "commands/commands.hpp"
+
+#ifdef __GLIBC__  // which only a header of the library says
+#include <malloc.h>
+#endif
 
 namespace octetra::cli {
 namespace {

@@ -1,15 +1,13 @@
 #include "program.hpp"
 
-#ifdef __GLIBC__
-#include <malloc.h>
-#endif
-
 #include <csignal>
 #include <cstdio>
 #include <exception>
 #include <filesystem>
 #include <new>
+#include <string>
 #include <string_view>
+#include <vector>
 
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
@@ -20,6 +18,10 @@
 
 #include "answer.hpp"
 #include "commands/commands.hpp"
+
+#ifdef __GLIBC__  // which only a header of the library says
+#include <malloc.h>
+#endif
 
 namespace octetra::cli {
 namespace {
@@ -64,6 +66,23 @@ int fail_alone(std::string_view what, const distributed::Communicator& world) {
     distributed::MpiSession::abort(status);
 }
 
+/// CLI11 says only that there should be a subcommand, also where there is a word in its place.
+std::string what_is_wrong(const CLI::App& program, const CLI::ParseError& error) {
+    const CLI::App* app = &program;
+    while (!app->get_subcommands().empty()) app = app->get_subcommands().front();
+    const std::vector<std::string> words = app->remaining();
+    const bool lacks_subcommand = app->get_require_subcommand_min() > 0;
+    if (!lacks_subcommand || words.empty()) return error.what();
+    if (words.front().starts_with("-")) {
+        return fmt::format("{} has no option {}", app->get_name(), words.front());
+    }
+    std::string names;
+    for (const CLI::App* subcommand : app->get_subcommands({})) {
+        names += fmt::format("{}{}", names.empty() ? "" : ", ", subcommand->get_name());
+    }
+    return fmt::format("{} takes one of {}, not '{}'", app->get_name(), names, words.front());
+}
+
 int parse_and_run(CLI::App& program, int argc, char** argv,
                   const distributed::Communicator& world) {
     auto status = Status::done;
@@ -74,10 +93,10 @@ int parse_and_run(CLI::App& program, int argc, char** argv,
     } catch (const CLI::Success& help_or_version) {
         return world.is_first() ? program.exit(help_or_version) : 0;
     } catch (const CLI::ParseError& error) {
-        return fail(
-            Status::bad_input,
-            fmt::format("{}\nTry octetra --help, or octetra SUBCOMMAND --help.", error.what()),
-            world);
+        return fail(Status::bad_input,
+                    fmt::format("{}\nTry octetra --help, or octetra SUBCOMMAND --help.",
+                                what_is_wrong(program, error)),
+                    world);
     }
     std::fflush(stdout);
     // Whoever reads the results from a pipe or a full disk must hear of it.

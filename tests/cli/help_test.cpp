@@ -116,6 +116,22 @@ INSTANTIATE_TEST_SUITE_P(
         "generate gear --bore 5 -o out.ele", "generate sphere --edge 0 -o out.ele",
         "generate random 3 -o out.ele", "generate random 9 --seed -1 -o out.ele"));
 
+/// A word where a subcommand should be: that word, and those that there are.
+TEST(BadUsage, NamesTheWordThatIsNoSubcommand) {
+    const TemporaryFolder folder;
+    EXPECT_THAT(test::octetra("frobnicate gear.1.ele -o x.ele", folder).err,
+                StartsWith("octetra: octetra takes one of refine, info, generate, convert, "
+                           "partition, verify, compare, not 'frobnicate'\n"));
+    EXPECT_THAT(test::octetra("generate sphear -o x.ele", folder).err,
+                StartsWith("octetra: generate takes one of kuhn, bcc, regular, random, slivers, "
+                           "sphere, fichera, torus, gear, two-material, not 'sphear'\n"));
+    EXPECT_THAT(test::octetra("--frobnicate", folder).err,
+                StartsWith("octetra: octetra has no option --frobnicate\n"));
+    EXPECT_THAT(test::octetra("refine a.ele --all -o x.ele --frobnicate", folder).err,
+                HasSubstr("--frobnicate"));
+    EXPECT_THAT(test::octetra("", folder).err, HasSubstr("A subcommand is required"));
+}
+
 TEST(Version, IsPrinted) {
     const TemporaryFolder folder;
     EXPECT_THAT(test::octetra("--version", folder).out, StartsWith("octetra "));

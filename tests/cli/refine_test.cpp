@@ -214,6 +214,22 @@ TEST(Refine, EndsBeforeALevelThatWouldMakeMoreCellsThanAllowed) {
         0);
 }
 
+TEST(Refine, RefusesOptionsThatTheReferenceHasNoUseFor) {
+    const TemporaryFolder folder;
+    ASSERT_EQ(test::octetra("generate kuhn 1 -o cube.ele", folder).status, 0);
+    for (const std::string option :
+         {"--sync neighbour", "--sync gateway", "--partition lepp", "--partition file:parts.txt"}) {
+        const std::string refine = "refine cube.ele --all -o f.ele --engine reference ";
+        const auto run = test::octetra(refine + option, folder);
+        EXPECT_EQ(run.status, 2) << option;
+        EXPECT_EQ(run.err,
+                  "octetra: --partition and --sync say how ranks share the work; --engine "
+                  "reference works on one\n")
+            << option;
+        EXPECT_FALSE(std::filesystem::exists(folder / "f.ele"));
+    }
+}
+
 TEST(Refine, TurnsInvertedCellsRoundOnlyWhenAsked) {
     const TemporaryFolder folder;
     (void)folder.write("m.node", "4 3 0 0\n0 0 0 0\n1 1 0 0\n2 0 1 0\n3 0 0 1\n");

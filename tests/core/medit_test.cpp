@@ -50,6 +50,8 @@ INSTANTIATE_TEST_SUITE_P(
     testing::ValuesIn(std::vector<BadCase>{
         {"Empty", "", 1, "the file is empty"},
         {"Garbage", std::string("\x00\x01\x02\xff\xfe", 5), 1, "begins with MeshVersionFormatted"},
+        {"VersionZero", "MeshVersionFormatted\n0\nDimension 3\n", 2, "versions 1 to 4, not 0"},
+        {"VersionFive", "MeshVersionFormatted 5\nDimension 3\n", 1, "versions 1 to 4, not 5"},
         {"OnlyHead", head, 2, "no section Vertices"},
         {"Dimension", "MeshVersionFormatted 2 Dimension 2", 1, "dimension 3 expected, 2 found"},
         {"UnknownKeyword", head + vertices + "Tetraheda\n0\nEnd\n", 9, "'Tetraheda' found"},
@@ -107,6 +109,15 @@ TEST(MeditReader, TakesTokensAcrossLinesInAnyOrderWithComments) {
     EXPECT_EQ(read("# a mesh\r\nMeshVersionFormatted\r\n2 Dimension 3 Tetrahedra 1 1\r\n2 3 # ...\n"
                    "4 5\nVertices 4 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1 0 Hexahedra 0 End"),
               read(good));
+}
+
+/// They differ in the width of binary numbers; as text all four are the same.
+TEST(MeditReader, TakesVersionsOneToFour) {
+    for (const std::string version : {"1", "2", "3", "4"}) {
+        std::string text = good;
+        text.replace(text.find('2'), 1, version);
+        EXPECT_EQ(read(text), read(good)) << version;
+    }
 }
 
 TEST(MeditReader, TakesCarriageReturnsAloneForBlanks) {

@@ -16,6 +16,7 @@ import log_frame  # noqa: E402
 import measure  # noqa: E402
 import page  # noqa: E402
 import plots  # noqa: E402
+import tables  # noqa: E402
 import words  # noqa: E402
 
 
@@ -124,6 +125,22 @@ def results(points):
     machine = {"date": "today", "commit": "abc", "cores": 2, "processor": "<one>",
                "compiler": "GNU 12", "mpi": None, "load": 0.1}
     return {"machine": machine, "groups": [{"cases": [case, {"name": "else", "points": []}]}]}
+
+
+class Style(unittest.TestCase):
+    def test_asks_for_no_width_that_a_narrow_window_lacks(self):
+        with open(page.STYLE, encoding="utf-8") as file:
+            style = file.read()
+        asked = re.findall(r"(?:[^-]width:|minmax\() *(\d+)px|(?:min-width:) *(\d+)px", style)
+        self.assertTrue(asked, "the swatch of a legend has a width")
+        for width in (int(number) for numbers in asked for number in numbers if number):
+            self.assertLess(width, 320)
+
+    def test_lets_wide_tables_scroll(self):
+        with open(page.STYLE, encoding="utf-8") as file:
+            self.assertIn(".wide { overflow-x: auto;", file.read())
+        made = tables.table("<tr></tr>", [], "Cases")
+        self.assertRegex(made, r'^<div class="wide"><table.*</table></div>$')
 
 
 class Benchmarks(unittest.TestCase):

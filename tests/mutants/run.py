@@ -216,10 +216,17 @@ def run(mutants, minutes, jobs):
     return bad
 
 
+def positive(text):
+    number = float(text)
+    if not number > 0:
+        raise argparse.ArgumentTypeError(f"takes a number greater than 0, not {text}")
+    return number
+
+
 def main():
     parser = argparse.ArgumentParser(prog="./dev mutants")
     parser.add_argument("--check", action="store_true", help="only see whether they fit the sources")
-    parser.add_argument("--minutes", type=float, default=30, help="begin no other after so long")
+    parser.add_argument("--minutes", type=positive, default=30, help="begin no other after so long")
     parser.add_argument("--from", dest="first", metavar="NAME", help="go on with this one")
     parser.add_argument("--jobs", type=int, default=os.cpu_count(), help=argparse.SUPPRESS)
     parser.add_argument("names", metavar="NAME", nargs="*", help="only these; all if none is named")

@@ -1,5 +1,7 @@
 #include "properties/case_files.hpp"
 
+#include <unistd.h>
+
 #include <cstdlib>
 #include <stdexcept>
 
@@ -12,12 +14,19 @@ namespace octetra::properties {
 
 namespace fs = std::filesystem;
 
+std::string running_name(const std::string& law) {
+    return law + "-running-" + std::to_string(::getpid());
+}
+
+bool is_running_name(const std::string& name) { return name.find("-running-") != name.npos; }
+
 fs::path write_finding(const Finding& finding, const fs::path& folder, const std::string& name) {
     fs::create_directories(folder);
     (void)write_mesh(finding.refinement.mesh, folder / (name + ".ele"));
     nlohmann::json json = json_of(finding.refinement);
     json["law"] = finding.law;
     json["fault"] = finding.fault;
+    if (finding.ranks > 0) json["ranks"] = finding.ranks;
     const fs::path file = folder / (name + ".json");
     write_text(json.dump(1) + "\n", file);
     return file;
@@ -25,7 +34,7 @@ fs::path write_finding(const Finding& finding, const fs::path& folder, const std
 
 Finding read_finding(const fs::path& file) {
     const auto json = nlohmann::json::parse(test::content_of(file));
-    Finding finding{json.at("law"), json.at("fault"), case_of(json)};
+    Finding finding{json.at("law"), json.at("fault"), case_of(json), json.value("ranks", 0)};
     fs::path mesh = file;
     finding.refinement.mesh = read_mesh(mesh.replace_extension(".ele"));
     if (finding.refinement.cell_to_rank.size() != finding.refinement.mesh.cells.size()) {

@@ -70,7 +70,7 @@ void check(const Law& law) {
         if (smallest.fault.empty()) census.count(c);
         const std::string fault = judge(law, c);
         if (fault.empty()) return;
-        smallest = {law.name, fault, c};
+        smallest = {law.name, fault, c, test::world().size()};
         RC_FAIL(fault);
     });
     census.print();
@@ -78,7 +78,7 @@ void check(const Law& law) {
     if (smallest.fault.empty()) {
         FAIL() << law.name << ": no cases could be drawn";
     }
-    FAIL() << kept(smallest);
+    FAIL() << kept(smallest, found_folder());
 }
 
 class Laws : public testing::TestWithParam<Law> {};

@@ -1,17 +1,20 @@
 #pragma once
 
+#include <filesystem>
 #include <string>
 
 #include "properties/case_files.hpp"
 
 namespace octetra::properties {
 
-/// Writes a finding to found_folder(), under a name that its content decides. What to print: the
-/// law, the fault and a line that replays it on as many ranks.
-[[nodiscard]] std::string kept(const Finding& finding);
+/// "LAW-DIGITS": the digits follow from the case.
+[[nodiscard]] std::string name_of(const Finding& finding);
 
-/// The smallest case that simplifications lead to and that still breaks the law. For cases that
-/// rapidcheck has not drawn, and so does not shrink.
-[[nodiscard]] Finding shrunk(Finding finding);
+/// What to print of a finding in this `.json` file: the law, the fault and a line that replays it
+/// on as many ranks.
+[[nodiscard]] std::string description(const Finding& finding, const std::filesystem::path& file);
+
+/// Writes it to the folder under that name, and says what to print.
+[[nodiscard]] std::string kept(const Finding& finding, const std::filesystem::path& folder);
 
 }  // namespace octetra::properties

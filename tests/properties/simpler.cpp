@@ -190,4 +190,26 @@ Simplifications simplifications(const Case& c) {
     return all;
 }
 
+Case simplest(Case c, const std::function<Trial(const Case&)>& attempt) {
+    Simplifications ways = simplifications(c);
+    std::size_t way = 0;
+    // A simplification that failed is often followed by one like it, so the search goes on where it
+    // is; it ends when it has come round without a failure.
+    for (std::size_t held = 0; held < ways.size();) {
+        way %= ways.size();
+        Case simpler = ways[way]();
+        const Trial trial = attempt(simpler);
+        if (trial == Trial::not_made) break;
+        if (trial == Trial::holds) {
+            ++held;
+            ++way;
+            continue;
+        }
+        c = std::move(simpler);
+        ways = simplifications(c);
+        held = 0;
+    }
+    return c;
+}
+
 }  // namespace octetra::properties

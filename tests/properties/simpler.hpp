@@ -12,4 +12,10 @@ namespace octetra::properties {
 /// None leads back, so trying them over and over ends. Each may be called once the case is gone.
 [[nodiscard]] std::vector<std::function<Case()>> simplifications(const Case& c);
 
+enum class Trial { fails, holds, not_made };
+
+/// Follows the simplifications that fail until none does, or a trial is not made: then it ends
+/// there. The last case that failed; `c`, if none did.
+[[nodiscard]] Case simplest(Case c, const std::function<Trial(const Case&)>& attempt);
+
 }  // namespace octetra::properties

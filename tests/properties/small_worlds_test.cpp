@@ -48,7 +48,9 @@ std::size_t count_orders(const std::vector<Mesh>& worlds) {
 /// On the first rank. Holds the case against the law that engines and verifier agree.
 void expect_equality(const Case& c) {
     const std::string fault = judge(law_named("equality"), c);
-    if (!fault.empty()) FAIL() << kept(shrunk({"equality", fault, c}));
+    if (fault.empty()) return;
+    const Finding finding{"equality", fault, c, test::world().size()};
+    FAIL() << kept(shrunk(finding), found_folder());
 }
 
 /// Worlds of `cells` cells each: for each scheme and each choice of cells, which is a set of bits,

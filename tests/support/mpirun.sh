@@ -8,4 +8,6 @@ export OMPI_MCA_btl_vader_single_copy_mechanism=none OMPI_MCA_rmaps_base_oversub
 # Open MPI keeps some memory until the end of the process, which the leak sanitizer would report;
 # and the address sanitizer wants to be told that a test may preload a library.
 export ASAN_OPTIONS="detect_leaks=0:verify_asan_link_order=0${ASAN_OPTIONS:+:$ASAN_OPTIONS}"
+# To the ranks mpirun always looks like a terminal.
+if [ ! -t 1 ]; then export GTEST_COLOR=no; fi
 exec mpirun -n "$ranks" "$@"

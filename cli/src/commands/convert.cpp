@@ -8,6 +8,7 @@
 #include <octetra/distributed/agreement.hpp>
 
 #include "commands/commands.hpp"
+#include "commands/files_apart.hpp"
 #include "commands/mesh_options.hpp"
 
 namespace octetra::cli {
@@ -21,6 +22,8 @@ struct ConvertOptions {
 
 void convert(const ConvertOptions& options) {
     check_writable(options.output);
+    check_files_apart({mesh_named("MESH", options.input.path)},
+                      {mesh_named("OUT", options.output)});
     const Mesh mesh = read_input(options.input);
     write_output(mesh, options.output);
     if (!options.quiet) report_written(mesh, options.output);

@@ -11,6 +11,7 @@
 #include <octetra/distributed/partition.hpp>
 
 #include "commands/commands.hpp"
+#include "commands/files_apart.hpp"
 #include "commands/mesh_options.hpp"
 #include "commands/number_checks.hpp"
 #include "grouped.hpp"
@@ -52,6 +53,9 @@ void print_statistics(const distributed::PartitionStatistics& statistics) {
 void partition(const PartitionOptions& options) {
     const auto method = distributed::parse_partition(options.method);
     if (!options.output.empty()) check_side_file("-o", options.output);
+    check_files_apart(
+        {mesh_named("MESH", options.input.path), file_named("--partition", method.path)},
+        {file_named("-o", options.output)});
     const Mesh mesh = read_input(options.input);
     const auto cell_to_part = distributed::partition_cells(mesh, options.parts, method);
     fmt::print("{}: {} cell{} in {} parts by {}\n\n", options.input.path,

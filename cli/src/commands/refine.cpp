@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -27,6 +28,7 @@
 #include "answer.hpp"
 #include "choice.hpp"
 #include "commands/commands.hpp"
+#include "commands/files_apart.hpp"
 #include "commands/mesh_options.hpp"
 #include "commands/number_checks.hpp"
 #include "commands/profile_options.hpp"
@@ -62,8 +64,8 @@ struct RefineOptions {
     std::string maps;
     RefinementOptions refinement;
     std::string engine = "distributed";
-    std::string partition = "lepp";
-    std::string synchronisation = "neighbour";
+    std::optional<std::string> partition;
+    std::optional<std::string> synchronisation;
     ProfileOptions profile;
     std::uint64_t max_cells = std::numeric_limits<std::uint64_t>::max();
     bool verify = false;
@@ -79,11 +81,17 @@ void report(const RefineOptions& options, std::string_view doing, std::uint64_t 
 }
 
 Plan plan_of(const RefineOptions& options) {
+    const Engine engine = parse_choice("--engine", options.engine, engines);
+    if (engine == Engine::reference && (options.partition || options.synchronisation)) {
+        throw InputError(
+            "--partition and --sync say how ranks share the work; --engine reference works on one");
+    }
     return {.selection = parse_selection(options.refinement.selection),
             .scheme = parse_scheme(options.refinement),
-            .engine = parse_choice("--engine", options.engine, engines),
-            .partition = distributed::parse_partition(options.partition),
-            .synchronisation = parse_choice("--sync", options.synchronisation, synchronisations)};
+            .engine = engine,
+            .partition = distributed::parse_partition(options.partition.value_or("lepp")),
+            .synchronisation = parse_choice("--sync", options.synchronisation.value_or("neighbour"),
+                                            synchronisations)};
 }
 
 std::string refined_line(int levels, int ranks) {
@@ -314,6 +322,15 @@ void check_side_files(const RefineOptions& options) {
     }
 }
 
+void check_inputs_stay(const RefineOptions& options, const Plan& plan) {
+    check_files_apart({mesh_named("MESH", options.input.path),
+                       file_named("--cells", options.refinement.selection.cells_file),
+                       file_named("--partition", plan.partition.path)},
+                      {mesh_named("-o", options.output), file_named("--maps", options.maps),
+                       file_named("--profile", options.profile.profile),
+                       file_named("--trace", options.profile.trace)});
+}
+
 void refine(const RefineOptions& options, const distributed::Communicator& all) {
     Plan plan = plan_of(options);
     Stopwatch watch;
@@ -323,6 +340,7 @@ void refine(const RefineOptions& options, const distributed::Communicator& all) 
         distributed::on_first(world, [&] {
             check_writable(options.output);
             check_side_files(options);
+            check_inputs_stay(options, plan);
             mesh = read_input(options.input);
             complete_selection(plan.selection, options.refinement.selection,
                                {!mesh.regions.empty(), mesh.first_number, mesh.cells.size()});

@@ -11,6 +11,7 @@
 
 #include "answer.hpp"
 #include "commands/commands.hpp"
+#include "commands/files_apart.hpp"
 #include "commands/mesh_options.hpp"
 #include "commands/number_checks.hpp"
 #include "commands/refinement_options.hpp"
@@ -129,7 +130,12 @@ verify::Verdict judge_together(const VerifyCommandOptions& given, verify::Verify
 bool run(const VerifyCommandOptions& given, const distributed::Communicator& world) {
     const verify::VerifyOptions options = options_of(given);
     distributed::on_first(world, [&] {
-        if (!given.report.empty()) check_side_file("--report", given.report);
+        if (given.report.empty()) return;
+        check_side_file("--report", given.report);
+        check_files_apart({mesh_named("MESH", given.first), mesh_named("REFINED", given.second),
+                           file_named("--maps", given.maps),
+                           file_named("--cells", given.refinement.selection.cells_file)},
+                          {file_named("--report", given.report)});
     });
     Judged judged;
     const verify::Verdict verdict = world.size() == 1

@@ -87,6 +87,15 @@ std::string write_pieces(MeshSource& piece, const WriterGroup& group, const fs::
     return write_pvtu(piece, group, path);
 }
 
+std::vector<fs::path> files_of_mesh(const fs::path& path) {
+    if (format_of(path) != Format::tetgen) return {path};
+    std::vector<fs::path> files;
+    for (const char* const extension : {".node", ".ele", ".face", ".edge"}) {
+        files.push_back(fs::path(path).replace_extension(extension));
+    }
+    return files;
+}
+
 void check_writable(const fs::path& path) {
     if (format_of(path) == Format::unknown) {
         throw InputError(

@@ -144,7 +144,10 @@ private:
             reader_.fail(
                 fmt::format("a Medit file begins with MeshVersionFormatted, not {}", shown(token)));
         }
-        (void)tokens_.unsigned_integer("the format's version");
+        const std::uint64_t version = tokens_.unsigned_integer("the format's version");
+        if (version < 1 || version > 4) {
+            reader_.fail(fmt::format("the Medit format has versions 1 to 4, not {}", version));
+        }
     }
 
     /// Reads one section; false at the end.

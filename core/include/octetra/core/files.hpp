@@ -71,6 +71,10 @@ void stream_mesh(const std::filesystem::path& path, MeshSink& sink,
 /// `midpoints M`, then M lines "vertex end end". Throws SystemError.
 void write_maps(MeshSource& mesh, const std::filesystem::path& path);
 
+/// The files that a mesh of this name is, be they there or not: `.node`, `.ele`, `.face` and
+/// `.edge` for TetGen, else `path` itself.
+[[nodiscard]] std::vector<std::filesystem::path> files_of_mesh(const std::filesystem::path& path);
+
 /// Throws InputError unless `path` has an extension that can be written and stands where
 /// check_place lets it. (To refuse before the work, not after it.)
 void check_writable(const std::filesystem::path& path);

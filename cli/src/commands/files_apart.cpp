@@ -1,0 +1,47 @@
+#include "commands/files_apart.hpp"
+
+#include <system_error>
+
+#include <fmt/format.h>
+
+#include <octetra/core/error.hpp>
+#include <octetra/core/files.hpp>
+
+namespace octetra::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+void check_pair(const NamedFiles& input, const fs::path& read, const NamedFiles& output,
+                const fs::path& written) {
+    std::error_code not_there;
+    if (!fs::equivalent(read, written, not_there)) return;
+    const std::string alias =
+        read == written ? std::string() : fmt::format(", which is {},", read.native());
+    throw InputError(fmt::format("{} would write over {}{} of {}; choose another name",
+                                 output.argument, written.native(), alias, input.argument));
+}
+
+}  // namespace
+
+NamedFiles mesh_named(std::string_view argument, const fs::path& path) {
+    return {argument, files_of_mesh(path)};
+}
+
+NamedFiles file_named(std::string_view argument, const fs::path& path) {
+    if (path.empty()) return {argument, {}};
+    return {argument, {path}};
+}
+
+void check_files_apart(const std::vector<NamedFiles>& read,
+                       const std::vector<NamedFiles>& written) {
+    for (const NamedFiles& output : written) {
+        for (const NamedFiles& input : read) {
+            for (const fs::path& to : output.files) {
+                for (const fs::path& from : input.files) check_pair(input, from, output, to);
+            }
+        }
+    }
+}
+
+}  // namespace octetra::cli

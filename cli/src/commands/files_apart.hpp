@@ -1,0 +1,25 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace octetra::cli {
+
+/// What one argument names: a file, or the several of a TetGen mesh.
+struct NamedFiles {
+    std::string_view argument;  ///< "MESH", "--maps" ...
+    std::vector<std::filesystem::path> files;
+};
+
+/// The files of the mesh `path`.
+[[nodiscard]] NamedFiles mesh_named(std::string_view argument, const std::filesystem::path& path);
+
+/// The file `path`; none, if that is empty.
+[[nodiscard]] NamedFiles file_named(std::string_view argument, const std::filesystem::path& path);
+
+/// Throws InputError if a file to write is one to read, be it by another name or a link.
+void check_files_apart(const std::vector<NamedFiles>& read, const std::vector<NamedFiles>& written);
+
+}  // namespace octetra::cli

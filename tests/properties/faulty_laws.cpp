@@ -1,0 +1,52 @@
+#include <algorithm>
+#include <chrono>
+#include <cstdlib>
+#include <thread>
+
+#include "distributed/world.hpp"
+#include "properties/laws.hpp"
+#include "properties/one_level.hpp"
+
+/// Stand in the places of the laws where it is tried how cases become smaller: each has a fault of
+/// its own where more than three cells are chosen and a rank other than the first one has a cell.
+namespace octetra::properties {
+namespace {
+
+bool is_faulty(const Case& c) {
+    std::size_t chosen = 0;
+    for (CellIndex i{0}; i < c.mesh.cells.end_index(); ++i) chosen += is_chosen(c, i) ? 1U : 0U;
+    return chosen > 3 && std::ranges::max(c.cell_to_rank) > 0;
+}
+
+}  // namespace
+
+/// Aborts.
+std::string fault_of_equality(const Case& c) {
+    if (is_faulty(c)) std::abort();
+    return {};
+}
+
+/// Waits for ever: nobody else takes part.
+std::string fault_of_numbering(const Case& c) {
+    if (is_faulty(c)) (void)test::world().sum(1);
+    return {};
+}
+
+/// Is broken.
+std::string fault_of_closure(const Case& c) { return is_faulty(c) ? "as it should be" : ""; }
+
+/// Ends the process as if all were well.
+std::string fault_of_files(const Case& c) {
+    if (is_faulty(c)) std::_Exit(0);
+    return {};
+}
+
+/// Takes its time by the clock, as on a machine that has other work to do, and holds.
+std::string fault_of_geometry(const Case& /*c*/) {
+    std::this_thread::sleep_for(std::chrono::seconds(3));
+    return {};
+}
+
+std::string fault_of_counts(const Case& /*c*/) { return {}; }
+
+}  // namespace octetra::properties

@@ -50,12 +50,12 @@ const Known known_of_classes{
 };
 
 const Known known_of_orders{
-    {three_cells(0, 2, 2, 1), {2160, 144, 74'156}},        // of 75,600
+    {three_cells(0, 2, 2, 1), {2160, 144, 74'156}},        // of 75,600 of the third kind
     {three_cells(0, 2, 2, 2), {2160, 2'706, 347'184}},     // of 414,720
-    {three_cells(1, 2, 1, 0), {2160, 3'744, 971'900}},     // of 972,000
-    {three_cells(1, 2, 1, 1), {2160, 38'900, 1'000'000}},  // of 40,704
+    {three_cells(1, 2, 1, 0), {2160, 3'744, 971'972}},     // of 972,000
+    {three_cells(1, 2, 1, 1), {2160, 39'468, 2'047'920}},  // of 2,206,080
     {three_cells(2, 1, 0, 0), {2160, 1'152, 311'036}},     // of 311,040
-    {three_cells(2, 1, 1, 1), {2160, 148'524, 729'012}},   // of 170,496 and 938,304
+    {three_cells(2, 1, 1, 1), {2160, 148'524, 729'012}},   // of 938,304
 };
 
 CombinationCounts to_be_met(const Complex& complex, const Known& known) {

@@ -66,7 +66,7 @@ CombinationCounts to_be_met(const Complex& complex, const Known& known) {
 /// Worlds that were found on the way to a goal, and have what is to be met.
 std::vector<Mesh> worlds_that_meet(const CombinationCounts& least, const CombinationCounts& goal,
                                    const Complex& complex) {
-    constexpr std::size_t patience = 1'000'000;
+    constexpr std::size_t patience = 2'000'000;
     Census census = empty_census(complex, goal[2] > 0);
     std::vector<Mesh> worlds;
     for (const auto& points : find_worlds(complex, goal, patience)) {

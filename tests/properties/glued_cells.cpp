@@ -5,13 +5,13 @@
 #include <utility>
 #include <vector>
 
+#include "properties/order_classes.hpp"
 #include "support/meshes.hpp"
 
 namespace octetra::properties {
 namespace {
 
-using Order = std::array<std::size_t, 6>;  // edges of a cell as in cell_edges, longest first
-using Face = std::array<std::size_t, 3>;   // numbers of points
+using Face = std::array<std::size_t, 3>;  // numbers of points
 
 constexpr double unit_length = 0x1p20;
 

@@ -3,15 +3,15 @@
 #include <set>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include <gtest/gtest.h>
 
 #include "distributed/world.hpp"
 #include "properties/glued_cells.hpp"
-#include "properties/judge.hpp"
-#include "properties/report.hpp"
 #include "properties/small_worlds.hpp"
 #include "properties/team.hpp"
+#include "properties/worlds_equality.hpp"
 #include "support/meshes.hpp"
 
 /// The smallest meshes, exhausted: what goes wrong with three cells goes wrong in large meshes,
@@ -34,51 +34,15 @@ std::vector<Mesh> worlds(World&& world, std::size_t first, std::size_t end, std:
 
 /// In how many ways the edges of cells are ordered.
 std::size_t count_orders(const std::vector<Mesh>& worlds) {
-    std::set<std::vector<std::array<std::size_t, 6>>> orders;
+    std::set<std::vector<Order>> orders;
     for (const Mesh& world : worlds) {
-        std::vector<std::array<std::size_t, 6>> of_cells;
+        std::vector<Order> of_cells;
         for (CellIndex c{0}; c < world.cells.end_index(); ++c) {
             of_cells.push_back(order_of(world, c));
         }
         orders.insert(of_cells);
     }
     return orders.size();
-}
-
-/// On the first rank. Holds the case against the law that engines and verifier agree.
-void expect_equality(const Case& c) {
-    const std::string fault = judge(law_named("equality"), c);
-    if (fault.empty()) return;
-    const Finding finding{"equality", fault, c, test::world().size()};
-    FAIL() << kept(shrunk(finding), found_folder());
-}
-
-/// Worlds of `cells` cells each: for each scheme and each choice of cells, which is a set of bits,
-/// all worlds at once. Neighbours in a world are on different ranks.
-void expect_equality_of_all(const std::string& kind, const std::vector<Mesh>& worlds,
-                            const std::vector<unsigned>& choices) {
-    const std::size_t cells = worlds.front().cells.size();
-    Case c{.kind = kind, .mesh = side_by_side(worlds, 0x1p23)};
-    for (std::size_t i = 0; i < c.mesh.cells.size(); ++i) {
-        c.cell_to_rank.push_back(static_cast<int>(i % cells));
-    }
-    for (const unsigned choice : choices) {
-        c.selection.cells.clear();
-        for (std::size_t i = 0; i < c.mesh.cells.size(); ++i) {
-            if ((choice >> (i % cells) & 1U) != 0) c.selection.cells.push_back(GlobalCell{i});
-        }
-        for (const Scheme scheme : {Scheme::eight, Scheme::four, Scheme::two}) {
-            c.scheme = scheme;
-            expect_equality(c);
-            if (testing::Test::HasFailure()) return;
-        }
-    }
-}
-
-std::vector<unsigned> all_choices(std::size_t cells) {
-    std::vector<unsigned> choices;
-    for (unsigned choice = 1; choice < 1U << cells; ++choice) choices.push_back(choice);
-    return choices;
 }
 
 TEST(SmallWorlds, OfOneCellInEveryOrderOfItsEdges) {
@@ -124,25 +88,6 @@ TEST(SmallWorlds, OfThreeCellsInARowInEveryOrderOfTheirEdges) {
         const auto some = worlds_by_first_cell(three_cells_in_order, three_cell_worlds, 577);
         EXPECT_EQ(count_orders(some), some.size());
         expect_equality_of_all("three cells in a row", some, all_choices(3));
-    });
-}
-
-/// Every complex, every choice of cells; of the orders of edges as many as random corners meet.
-TEST(SmallWorlds, OfUpToThreeCellsInEveryComplexAndRandomOrders) {
-    lead([] {
-        const auto complexes = all_small_complexes();
-        EXPECT_EQ(complexes.size(), 1U + 4U + 24U);
-        constexpr std::size_t geometries = 40 / std::min<std::size_t>(stride, 20);
-        for (std::size_t cells = 1; cells <= 3; ++cells) {
-            std::vector<Mesh> some;
-            for (const auto& complex : complexes) {
-                if (complex.size() != cells) continue;
-                for (std::size_t i = 0; i < geometries; ++i) {
-                    some.push_back(some_geometry(complex, i));
-                }
-            }
-            expect_equality_of_all("small complexes", some, all_choices(cells));
-        }
     });
 }
 

@@ -1,0 +1,88 @@
+#include "properties/combinations.hpp"
+
+#include <algorithm>
+#include <map>
+#include <vector>
+
+namespace octetra::properties {
+namespace {
+
+using DescendingEdges = std::vector<Edge>;
+
+/// Of the classes of a cell, those that put its shared edges in one order: how many they are, and
+/// of how many orders.
+struct Alike {
+    std::size_t classes = 0;
+    std::size_t orders = 0;
+};
+
+std::map<DescendingEdges, Alike> by_shared_edges(const std::array<std::size_t, 4>& cell,
+                                                 const OrderClasses& classes) {
+    std::map<DescendingEdges, Alike> result;
+    for (const OrderClass& one : classes.classes) {
+        DescendingEdges edges;
+        for (const std::size_t e : one.shared) edges.push_back(edge_of(cell, e));
+        Alike& alike = result[edges];
+        ++alike.classes;
+        alike.orders += one.size;
+    }
+    return result;
+}
+
+/// Is there one order that all of these agree with? Takes away, as long as there are any, edges
+/// that are the longest in all lists that have them.
+bool can_be_merged(std::vector<DescendingEdges> lists) {
+    while (true) {
+        std::erase_if(lists, [](const DescendingEdges& list) { return list.empty(); });
+        if (lists.empty()) return true;
+        const auto longest = std::ranges::find_if(lists, [&](const DescendingEdges& candidate) {
+            return std::ranges::all_of(lists, [&](const DescendingEdges& list) {
+                return std::ranges::find(list, candidate.front()) == list.end() ||
+                       list.front() == candidate.front();
+            });
+        });
+        if (longest == lists.end()) return false;
+        const Edge edge = longest->front();
+        for (DescendingEdges& list : lists) std::erase(list, edge);
+    }
+}
+
+/// Adds the combinations in which the first cells put their edges as `lists` has them.
+void add_combinations(CombinationCounts& counts,
+                      const std::vector<std::map<DescendingEdges, Alike>>& cells,
+                      std::vector<DescendingEdges>& lists, std::vector<Alike>& chosen) {
+    if (chosen.size() == cells.size()) {
+        if (!can_be_merged(lists)) return;
+        std::size_t all = 1;
+        for (const Alike& alike : chosen) all *= alike.classes;
+        counts[1] += all;
+        for (const Alike& alike : chosen) {
+            counts[2] += all / alike.classes * alike.orders;
+        }
+        return;
+    }
+    for (const auto& [edges, alike] : cells[chosen.size()]) {
+        lists.push_back(edges);
+        chosen.push_back(alike);
+        add_combinations(counts, cells, lists, chosen);
+        lists.pop_back();
+        chosen.pop_back();
+    }
+}
+
+}  // namespace
+
+CombinationCounts count_combinations(const Complex& complex) {
+    std::vector<std::map<DescendingEdges, Alike>> cells;
+    const std::vector<OrderClasses> classes = classes_of_cells(complex);
+    for (std::size_t cell = 0; cell < complex.size(); ++cell) {
+        cells.push_back(by_shared_edges(complex[cell], classes[cell]));
+    }
+    CombinationCounts counts{order_count * complex.size(), 0, 0};
+    std::vector<DescendingEdges> lists;
+    std::vector<Alike> chosen;
+    add_combinations(counts, cells, lists, chosen);
+    return counts;
+}
+
+}  // namespace octetra::properties

@@ -1,0 +1,119 @@
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdlib>
+#include <map>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "properties/census.hpp"
+#include "properties/small_complexes.hpp"
+#include "properties/team.hpp"
+#include "properties/world_search.hpp"
+#include "properties/worlds_equality.hpp"
+#include "support/meshes.hpp"
+
+/// The complexes of two and three cells whose edges have more orders than can all be tried. They
+/// are exhausted by what passes between cells (order_classes.hpp).
+namespace octetra::properties {
+namespace {
+
+/// Under sanitizers fewer.
+constexpr std::size_t stride = OCTETRA_SMALL_WORLDS_STRIDE;
+
+/// All but those that small_worlds_test.cpp has in all orders: one cell, two at an edge, two at a
+/// face, three in a row.
+std::vector<Complex> complexes_by_classes() {
+    std::vector<Complex> complexes = all_small_complexes();
+    for (const Complex& other :
+         {Complex{{0, 1, 2, 3}}, two_cells(2), two_cells(3), three_cells(2, 1, 1, 0)}) {
+        std::erase(complexes, other);
+    }
+    return complexes;
+}
+
+TEST(SmallWorlds, AreOfTwentyNineComplexes) {
+    EXPECT_EQ(all_small_complexes().size(), 1U + 4U + 24U);
+    EXPECT_EQ(complexes_by_classes().size(), 2U + 23U);
+}
+
+/// How many combinations of each kind must be met in complexes that do not have all, or not within
+/// reasonable time.
+using Known = std::map<Complex, CombinationCounts>;
+
+const Known known_of_classes{
+    {three_cells(0, 2, 2, 2), {2160, 2'400, 0}},    // of 3,072
+    {three_cells(1, 2, 1, 1), {2160, 36'000, 0}},   // of 40,704
+    {three_cells(2, 1, 1, 1), {2160, 130'000, 0}},  // of 170,496
+};
+
+const Known known_of_orders{
+    {three_cells(0, 2, 2, 1), {2160, 144, 74'156}},        // of 75,600 of the third kind
+    {three_cells(0, 2, 2, 2), {2160, 2'706, 347'184}},     // of 414,720
+    {three_cells(1, 2, 1, 0), {2160, 3'744, 971'972}},     // of 972,000
+    {three_cells(1, 2, 1, 1), {2160, 39'468, 2'047'920}},  // of 2,206,080
+    {three_cells(2, 1, 0, 0), {2160, 1'152, 311'036}},     // of 311,040
+    {three_cells(2, 1, 1, 1), {2160, 148'524, 729'012}},   // of 938,304
+};
+
+CombinationCounts to_be_met(const Complex& complex, const Known& known) {
+    const auto place = known.find(complex);
+    return place == known.end() ? count_combinations(complex) : place->second;
+}
+
+/// Worlds that were found on the way to a goal, and have what is to be met.
+std::vector<Mesh> worlds_that_meet(const CombinationCounts& least, const CombinationCounts& goal,
+                                   const Complex& complex) {
+    constexpr std::size_t patience = 2'000'000;
+    Census census = empty_census(complex, goal[2] > 0);
+    std::vector<Mesh> worlds;
+    for (const auto& points : find_worlds(complex, goal, patience)) {
+        note(census, points);
+        worlds.push_back(test::mesh_of(points, complex));
+    }
+    for (std::size_t kind = 0; kind < 3; ++kind) EXPECT_GE(counts(census)[kind], least[kind]);
+    return worlds;
+}
+
+/// Each order of each cell, and each combination of classes; of the worlds that have them every
+/// fifth.
+TEST(SmallWorlds, OfTheOtherComplexesInAllCombinationsOfClasses) {
+    lead([] {
+        std::array<std::vector<Mesh>, 4> some;  // by the number of cells
+        for (const Complex& complex : complexes_by_classes()) {
+            CombinationCounts goal = to_be_met(complex, known_of_classes);
+            goal[2] = 0;
+            const auto all = worlds_that_meet(goal, goal, complex);
+            for (std::size_t i = 0; i < all.size(); i += 5 * stride) {
+                some[complex.size()].push_back(all[i]);
+            }
+        }
+        expect_equality_of_all("two cells, by classes", some[2], all_choices(2));
+        expect_equality_of_all("three cells, by classes", some[3], all_choices(3));
+    });
+}
+
+/// Each order of each cell among each combination of classes of the others, for the complex whose
+/// number, from 1, is in OCTETRA_COMPLEX, else for a small one. ./dev worlds goes through them.
+TEST(SmallWorlds, OfOneComplexInAllCombinationsOfOrdersAndClasses) {
+    const char* const number = std::getenv("OCTETRA_COMPLEX");
+    lead([&] {
+        const Complex complex = number == nullptr
+                                    ? three_cells(0, 2, 0, 0)
+                                    : complexes_by_classes().at(std::stoul(number) - 1);
+        const auto all = worlds_that_meet(to_be_met(complex, known_of_orders),
+                                          count_combinations(complex), complex);
+        constexpr std::size_t at_once = 10'000;
+        for (std::size_t i = 0; i < all.size() && !HasFailure(); i += at_once) {
+            const auto begin = all.begin() + static_cast<std::ptrdiff_t>(i);
+            const auto end = begin + static_cast<std::ptrdiff_t>(std::min(at_once, all.size() - i));
+            expect_equality_of_all("one complex, by orders and classes", {begin, end},
+                                   all_choices(complex.size()));
+        }
+    });
+}
+
+}  // namespace
+}  // namespace octetra::properties

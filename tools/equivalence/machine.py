@@ -5,6 +5,7 @@ import os
 import platform
 import re
 import subprocess
+import time
 
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 
@@ -28,9 +29,30 @@ def first_line(command):
     return lines[0] if done.returncode == 0 and lines else None
 
 
+def processor_times():
+    """Of all cores together since the system began: at work, and in all. None where /proc is not."""
+    line = first_match("/proc/stat", r"^cpu +(.*)$")
+    if line is None:
+        return None
+    # user, nice, system, idle, waiting for disks, interrupts; guests are in the first two.
+    times = [int(time) for time in line.split()[:8]]
+    return sum(times) - times[3] - times[4], sum(times)
+
+
+def busy_cores(seconds=2):
+    """How many cores other programs keep busy, on average over some seconds from now. (The load that
+    the system tells is that of the last minute, in which this may have been built.)"""
+    before = processor_times()
+    if before is None:
+        return os.getloadavg()[0]
+    time.sleep(seconds)
+    work, together = (now - then for now, then in zip(processor_times(), before))
+    return os.cpu_count() * work / max(together, 1)
+
+
 def describe(octetra):
-    """The machine as it is now. What is not known is None. `load` is how many processes wanted a
-    core in the last minute, before anything was run here."""
+    """The machine as it is now. What is not known is None. `load` is how many cores others keep
+    busy, before anything is run here."""
     memory = first_match("/proc/meminfo", r"^MemTotal: +(\d+) kB")
     return {
         "processor": first_match("/proc/cpuinfo", r"^model name\s*: (.*)$") or platform.machine(),
@@ -41,5 +63,5 @@ def describe(octetra):
         "octetra": first_line([octetra, "--version"]),
         "commit": first_line(["git", "-C", ROOT, "describe", "--always", "--dirty", "--abbrev=12"]),
         "date": datetime.datetime.now(datetime.timezone.utc).strftime("%Y-%m-%d %H:%M UTC"),
-        "load": os.getloadavg()[0],
+        "load": busy_cores(),
     }

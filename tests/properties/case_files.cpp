@@ -33,8 +33,15 @@ fs::path write_finding(const Finding& finding, const fs::path& folder, const std
 }
 
 Finding read_finding(const fs::path& file) {
-    const auto json = nlohmann::json::parse(test::content_of(file));
-    Finding finding{json.at("law"), json.at("fault"), case_of(json), json.value("ranks", 0)};
+    const auto read = [&] {
+        try {
+            const auto json = nlohmann::json::parse(test::content_of(file));
+            return Finding{json.at("law"), json.at("fault"), case_of(json), json.value("ranks", 0)};
+        } catch (const nlohmann::json::exception& error) {
+            throw std::invalid_argument(file.string() + ": " + error.what());
+        }
+    };
+    Finding finding = read();
     fs::path mesh = file;
     finding.refinement.mesh = read_mesh(mesh.replace_extension(".ele"));
     if (finding.refinement.cell_to_rank.size() != finding.refinement.mesh.cells.size()) {

@@ -96,7 +96,8 @@ void shrink(Search& search, Ending wanted) {
 
 int run(Search search) {
     if (search.smallest.ranks < 1) {
-        throw std::invalid_argument("the file does not say on how many ranks; name their number");
+        throw std::invalid_argument(
+            "the file does not say on how many ranks it was found: give --ranks N");
     }
     print_size(search.smallest.refinement);
     // What tried it is gone, and so it is in nobody's hands but ours.
@@ -106,15 +107,18 @@ int run(Search search) {
         fmt::print("{} before it was tried once\n",
                    interrupted != 0 ? "interrupted" : "time was up");
     } else if (*ending == Ending::held) {
-        fmt::print("tried again, its law holds: what was seen may depend on chance\n");
+        fmt::print(
+            "on {} ranks its law holds: what broke it is mended, or depends on chance.\n"
+            "{} stays as it is.\n",
+            search.smallest.ranks, search.file.string());
+        return 1;
     } else {
         fmt::print("on {} ranks {}\n", search.smallest.ranks,
                    *ending == Ending::died ? "it dies or waits for ever" : "it breaks its law");
         shrink(search, *ending);
     }
     fmt::print("{}\n", description(search.smallest, search.file));
-    if (interrupted != 0) return 130;
-    return ending == Ending::held ? 1 : 0;
+    return interrupted != 0 ? 130 : 0;
 }
 
 Search search_of(std::span<char*> arguments) {

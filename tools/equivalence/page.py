@@ -67,9 +67,8 @@ def load_notice(machine):
     if machine["load"] < 0.5 * machine["cores"]:
         return ""
     return (f'<p class="notice"><b>Times on this page are no measure.</b> When the report began, '
-            f"{machine['load']:.1f} other processes on average wanted the "
-            f"{plural(machine['cores'], 'core')} of this machine. Bytes, rounds and messages do "
-            "not depend on that.</p>")
+            f"other programs kept {machine['load']:.1f} of {plural(machine['cores'], 'core')} busy. "
+            "Bytes, rounds and messages do not depend on that.</p>")
 
 
 def faults(case):

@@ -1,6 +1,8 @@
 #include "patterns.hpp"
 
 #include <algorithm>
+#include <map>
+#include <numeric>
 
 #include <octetra/core/mesh.hpp>
 
@@ -13,18 +15,17 @@ constexpr std::array<EdgeMask, 4> edges_of_face{0b111000, 0b100110, 0b010101, 0b
 
 constexpr EdgeMask bit(std::size_t edge) { return static_cast<EdgeMask>(1U << edge); }
 
-/// An edge comes after all that are longer.
-LongestFirst longest_first_of(Comparisons comparisons) {
-    std::array<std::size_t, 6> longer{};  // so many are
+Comparisons comparisons_of(const LongestFirst& longest_first) {
+    std::array<std::size_t, 6> rank{};
+    for (std::size_t r = 0; r < 6; ++r) rank[longest_first[r]] = r;
+    unsigned comparisons = 0;
     unsigned pair = 0;
     for (std::size_t i = 0; i < 6; ++i) {
         for (std::size_t j = i + 1; j < 6; ++j, ++pair) {
-            ++longer[(comparisons >> pair & 1U) != 0 ? j : i];
+            if (rank[i] < rank[j]) comparisons |= 1U << pair;
         }
     }
-    LongestFirst longest_first{};
-    for (std::uint8_t e = 0; e < 6; ++e) longest_first[longer[e]] = e;
-    return longest_first;
+    return static_cast<Comparisons>(comparisons);
 }
 
 /// The longest edge of a non-empty set.
@@ -92,46 +93,44 @@ Pattern pattern_of(EdgeMask selected, const LongestFirst& longest_first) {
     return pattern;
 }
 
-}  // namespace
+/// A pattern as two numbers, for comparison: four bits for each place.
+using Code = std::array<std::uint64_t, 2>;
 
-PatternTable::PatternTable()
-    : order_by_comparisons_(std::size_t{1} << 15U, order_count),
-      closure_(order_count * mask_count),
-      pattern_number_(order_count * mask_count, 0) {
-    patterns_.reserve(pattern_count);
-}
-
-LengthOrder PatternTable::add(Comparisons comparisons) {
-    const LengthOrder order = known_orders_++;
-    order_by_comparisons_[comparisons] = order;
-    const LongestFirst longest_first = longest_first_of(comparisons);
-    longest_edge_[order] = longest_first.front();
-    for (const EdgeMask face : edges_of_face) {
-        face_longest_edges_[order] |= bit(longest_in(face, longest_first));
-    }
-    for (unsigned mask = 0; mask < mask_count; ++mask) {
-        const auto selected = static_cast<EdgeMask>(mask);
-        const std::size_t entry = order * mask_count + mask;
-        closure_[entry] = closure_of(selected, longest_first);
-        if (closure_[entry] != selected) continue;
-        pattern_number_[entry] = number_of(pattern_of(selected, longest_first));
-    }
-    return order;
-}
-
-std::uint16_t PatternTable::number_of(const Pattern& pattern) {
-    const auto [place, fresh] =
-        number_by_code_.try_emplace(code_of(pattern), static_cast<std::uint16_t>(patterns_.size()));
-    if (fresh) patterns_.push_back(pattern);
-    return place->second;
-}
-
-PatternTable::Code PatternTable::code_of(const Pattern& pattern) {
+Code code_of(const Pattern& pattern) {
     Code code{};
     for (std::size_t k = 0; k < 8; ++k) {
         for (const Place place : pattern.children[k]) code[k / 4] = code[k / 4] << 4U | place;
     }
     return code;
+}
+
+}  // namespace
+
+PatternTable::PatternTable()
+    : order_by_comparisons_(std::size_t{1} << 15U, 0),
+      closure_(order_count * mask_count),
+      pattern_number_(order_count * mask_count, 0) {
+    LongestFirst longest_first{0, 1, 2, 3, 4, 5};
+    std::map<Code, std::uint16_t> known;
+    for (LengthOrder order = 0; order < order_count; ++order) {
+        order_by_comparisons_[comparisons_of(longest_first)] = order;
+        longest_edge_[order] = longest_first.front();
+        for (const EdgeMask face : edges_of_face) {
+            face_longest_edges_[order] |= bit(longest_in(face, longest_first));
+        }
+        for (unsigned mask = 0; mask < mask_count; ++mask) {
+            const auto selected = static_cast<EdgeMask>(mask);
+            const std::size_t entry = order * mask_count + mask;
+            closure_[entry] = closure_of(selected, longest_first);
+            if (closure_[entry] != selected) continue;
+            const Pattern pattern = pattern_of(selected, longest_first);
+            const auto [place, fresh] =
+                known.try_emplace(code_of(pattern), static_cast<std::uint16_t>(patterns_.size()));
+            if (fresh) patterns_.push_back(pattern);
+            pattern_number_[entry] = place->second;
+        }
+        std::ranges::next_permutation(longest_first);
+    }
 }
 
 }  // namespace octetra::distributed

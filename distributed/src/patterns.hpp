@@ -2,10 +2,9 @@
 
 #include <array>
 #include <cstdint>
-#include <map>
 #include <vector>
 
-/// Every way in which one cell can be bisected, worked out from the rule when it is first met.
+/// Every way in which one cell can be bisected, worked out once from the rule.
 namespace octetra::distributed {
 
 /// A set of the cell's edges (numbered as in cell_edges) or of a triangle's, one bit each.
@@ -25,13 +24,9 @@ struct Pattern {
     std::array<std::array<Place, 4>, 8> children{};
 };
 
-/// The order of a cell's six edges by length, as a number below `order_count`: the first order that
-/// a PatternTable was asked for is 0.
+/// The order of a cell's six edges by length, as a number below `order_count`.
 using LengthOrder = std::uint16_t;
 inline constexpr std::size_t order_count = 720;
-
-/// So many different patterns there are.
-inline constexpr std::size_t pattern_count = 535;
 
 /// Which of two edges is the longer one, for each of the 15 pairs (i, j), i < j, in lexicographic
 /// order: the bit of a pair is set if edge i is longer than edge j.
@@ -39,17 +34,14 @@ using Comparisons = std::uint16_t;
 
 class PatternTable {
 public:
-    /// This thread's. An order takes some microseconds when it is first asked for: most meshes have
-    /// few of the 720, and small ones are refined in less time than it takes to make all.
-    static PatternTable& get() {
-        static thread_local PatternTable table;
+    /// Built on first use, in some milliseconds.
+    static const PatternTable& get() {
+        static const PatternTable table;
         return table;
     }
 
-    /// The comparisons must be those of an order.
-    [[nodiscard]] LengthOrder order(Comparisons comparisons) {
-        const LengthOrder known = order_by_comparisons_[comparisons];
-        return known != order_count ? known : add(comparisons);
+    [[nodiscard]] LengthOrder order(Comparisons comparisons) const {
+        return order_by_comparisons_[comparisons];
     }
     [[nodiscard]] std::size_t longest_edge(LengthOrder order) const { return longest_edge_[order]; }
     /// The longest edges of the four faces.
@@ -66,24 +58,16 @@ public:
     }
 
 private:
-    /// A pattern as two numbers, for comparison: four bits for each place.
-    using Code = std::array<std::uint64_t, 2>;
-
     static constexpr std::size_t mask_count = 64;
 
     PatternTable();
-    LengthOrder add(Comparisons comparisons);
-    std::uint16_t number_of(const Pattern& pattern);
-    static Code code_of(const Pattern& pattern);
 
     std::vector<LengthOrder> order_by_comparisons_;
     std::array<std::uint8_t, order_count> longest_edge_{};
     std::array<EdgeMask, order_count> face_longest_edges_{};
     std::vector<EdgeMask> closure_;
     std::vector<std::uint16_t> pattern_number_;
-    std::vector<Pattern> patterns_;  ///< different ones; there is room for all, so they never move
-    std::map<Code, std::uint16_t> number_by_code_;
-    LengthOrder known_orders_ = 0;
+    std::vector<Pattern> patterns_;
 };
 
 }  // namespace octetra::distributed

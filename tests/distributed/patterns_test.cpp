@@ -1,7 +1,6 @@
 #include "patterns.hpp"
 
 #include <algorithm>
-#include <set>
 
 #include <gtest/gtest.h>
 
@@ -38,7 +37,6 @@ void for_each_order(F&& f) {
 
 TEST(PatternTable, BisectsAsTheReferenceDoesForEveryOrderAndClosedSelection) {
     const PatternTable& table = PatternTable::get();
-    std::set<const Pattern*> patterns;
     std::size_t compared = 0;
     for_each_order([&](const LongestFirst& longest_first, LengthOrder order) {
         for (unsigned mask = 0; mask < 64; ++mask) {
@@ -60,12 +58,10 @@ TEST(PatternTable, BisectsAsTheReferenceDoesForEveryOrderAndClosedSelection) {
                     ASSERT_EQ(VertexIndex{pattern.children[k][i]}, expected[k][i]);
                 }
             }
-            patterns.insert(&pattern);
             ++compared;
         }
     });
     EXPECT_GT(compared, 720U * 10);
-    EXPECT_EQ(patterns.size(), pattern_count);
 }
 
 TEST(PatternTable, ClosesByTheFaceRuleAndNoFurther) {

@@ -39,8 +39,8 @@ def processor_times():
     return sum(times) - times[3] - times[4], sum(times)
 
 
-def busy_cores(seconds=2):
-    """How many cores other programs keep busy, on average over some seconds from now. (The load that
+def busy_cores(seconds=0.5):
+    """How many cores other programs keep busy, on average from now on for a moment. (The load that
     the system tells is that of the last minute, in which this may have been built.)"""
     before = processor_times()
     if before is None:

@@ -19,8 +19,8 @@ public:
     /// `for_each(visit)` calls visit(edge) for each edge, as often as it likes to come; it is
     /// called once and then for every turn. The vertices must be less than `vertex_count`.
     EdgeSet(std::size_t vertex_count, auto&& for_each) : begin_(vertex_count + 1, 0) {
-        std::vector<std::uint32_t> room(vertex_count,
-                                        0);  // so often comes an edge of this lower end
+        // How often an edge comes, of each lower end.
+        std::vector<std::uint32_t> room(vertex_count, 0);
         std::uint64_t total = 0;
         for_each([&](const EdgeVertices& edge) {
             ++room[lower(edge)];

@@ -4,20 +4,37 @@
 
 namespace octetra::distributed {
 
-/// The higher ends of each vertex's edges, in places 0 to 15 as they are met; each in a line of the
-/// cache.
+/// The higher ends of each vertex's edges as they are met, sixteen to a bucket, which is a line of
+/// the cache. A vertex whose bucket is full gets further ones.
 struct EdgeStars::Buckets {
     struct alignas(64) Bucket : std::array<VertexIndex, in_bucket> {};
 
-    explicit Buckets(std::size_t vertex_count) {
+    explicit Buckets(std::size_t vertices) : vertex_count(vertices) {
         reserve_in_huge_pages(of, vertex_count);
         of.resize(vertex_count);
     }
+    /// The one after a bucket, or 0.
+    [[nodiscard]] std::uint32_t after(std::uint32_t bucket) const {
+        return next.empty() ? 0 : next[bucket];
+    }
+    [[nodiscard]] std::uint32_t count_at(std::uint32_t vertex) const {
+        std::uint32_t count = 0;
+        std::uint32_t bucket = vertex;
+        for (; after(bucket) != 0; bucket = after(bucket)) count += in_bucket;
+        count += first_of_sixteen(of[bucket].data(), VertexIndex::none());
+        return count < searched || !hub_counts.contains(vertex) ? count : hub_counts.at(vertex);
+    }
+    std::uint32_t add_after(std::uint32_t bucket) {
+        const auto added = static_cast<std::uint32_t>(of.size());
+        of.emplace_back();
+        next.resize(of.size(), 0);
+        return next[bucket] = added;
+    }
 
-    IndexVector<VertexIndex, Bucket> of;
-    /// For each vertex, so many edges are in its bucket and in hub_edges_; empty before the first
-    /// bucket overflows.
-    IndexVector<VertexIndex, std::uint32_t> counts;
+    std::size_t vertex_count;
+    std::vector<Bucket> of;  ///< of each vertex, and then further ones
+    std::vector<std::uint32_t> next;
+    std::unordered_map<std::uint32_t, std::uint32_t> hub_counts;  ///< if more than are searched
 };
 
 EdgeStars::EdgeStars(std::size_t vertex_count, const IndexVector<CellIndex, CellVertices>& cells) {
@@ -41,7 +58,7 @@ void EdgeStars::find_places(const IndexVector<CellIndex, CellVertices>& cells, B
     for (std::size_t c = 0; c < cells.size(); ++c) {
         if (c + ahead < cells.size()) {
             for (const VertexIndex v : cells[CellIndex{c + ahead}]) {
-                __builtin_prefetch(&buckets.of[v], 1);
+                __builtin_prefetch(&buckets.of[v.value()], 1);
             }
         }
         const CellVertices& cell = cells[CellIndex{c}];
@@ -53,14 +70,14 @@ void EdgeStars::find_places(const IndexVector<CellIndex, CellVertices>& cells, B
             const std::uint32_t exchange = (a.value() ^ b.value()) & -std::uint32_t{b < a};
             const VertexIndex low{a.value() ^ exchange};
             const VertexIndex high{b.value() ^ exchange};
-            auto& bucket = buckets.of[low];
+            auto& bucket = buckets.of[low.value()];
             std::uint32_t place = first_of_sixteen(bucket.data(), high);
             if (place == in_bucket) {
                 place = first_of_sixteen(bucket.data(), VertexIndex::none());
                 if (place < in_bucket) {
                     bucket[place] = high;
                 } else {
-                    place = find_place_at_hub(low, high, buckets);
+                    place = find_further_place(low, high, buckets);
                 }
             }
             places[e] = EdgeIndex{place};
@@ -68,27 +85,46 @@ void EdgeStars::find_places(const IndexVector<CellIndex, CellVertices>& cells, B
     }
 }
 
-std::uint32_t EdgeStars::find_place_at_hub(VertexIndex low, VertexIndex high, Buckets& buckets) {
-    if (buckets.counts.empty()) buckets.counts.resize(buckets.of.size(), in_bucket);
-    const auto [edge, is_new] = hub_edges_.emplace(key(low, high), buckets.counts[low]);
-    if (is_new) ++buckets.counts[low];
+/// The same where it is not in the first bucket, which is full.
+std::uint32_t EdgeStars::find_further_place(VertexIndex low, VertexIndex high, Buckets& buckets) {
+    std::uint32_t bucket = low.value();
+    for (std::uint32_t before = in_bucket; before < searched; before += in_bucket) {
+        const std::uint32_t next = buckets.after(bucket);
+        bucket = next != 0 ? next : buckets.add_after(bucket);
+        VertexIndex* const list = buckets.of[bucket].data();
+        const std::uint32_t place = first_of_sixteen(list, high);
+        if (place < in_bucket) return before + place;
+        const std::uint32_t free = first_of_sixteen(list, VertexIndex::none());
+        if (free < in_bucket) {
+            list[free] = high;
+            return before + free;
+        }
+    }
+    const auto count = buckets.hub_counts.try_emplace(low.value(), searched).first;
+    const auto [edge, is_new] = hub_edges_.try_emplace(key(low, high), count->second);
+    if (is_new) ++count->second;
     return edge->second;
 }
 
 /// Numbers the edges from vertex to vertex.
 void EdgeStars::move_together(const Buckets& buckets) {
+    begin_.reserve(buckets.vertex_count + 1);
     std::uint32_t count = 0;
-    for (VertexIndex v{0}; v < buckets.of.end_index(); ++v) {
+    for (std::uint32_t v = 0; v < buckets.vertex_count; ++v) {
         begin_.push_back(count);
-        const std::uint32_t met = first_of_sixteen(buckets.of[v].data(), VertexIndex::none());
-        count += met == in_bucket && !buckets.counts.empty() ? buckets.counts[v] : met;
+        count += buckets.count_at(v);
     }
     begin_.push_back(count);
 
-    // A bucket is copied whole: what follows its last edge is overwritten by the next one.
-    high_end_.resize(count + read_beyond + 1);
-    for (VertexIndex v{0}; v < buckets.of.end_index(); ++v) {
-        std::ranges::copy(buckets.of[v], high_end_.begin() + begin_[v.value()]);
+    // Buckets are copied whole: what follows the last edge is overwritten by the next vertex's.
+    high_end_.resize(count + read_beyond);
+    for (std::uint32_t v = 0; v < buckets.vertex_count; ++v) {
+        auto to = high_end_.begin() + begin_[v];
+        std::uint32_t bucket = v;
+        do {
+            to = std::ranges::copy(buckets.of[bucket], to).out;
+            bucket = buckets.after(bucket);
+        } while (bucket != 0);
     }
     for (const auto& [key, place] : hub_edges_) {
         high_end_[begin_[key >> 32U] + place] = VertexIndex{key & VertexIndex::none_value};

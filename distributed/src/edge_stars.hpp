@@ -34,14 +34,16 @@ public:
         const VertexIndex low = std::min(a, b);
         const VertexIndex high = std::max(a, b);
         const std::uint32_t begin = begin_[low.value()];
-        const std::uint32_t place = first_of_sixteen(high_end_.data() + begin, high);
-        if (place < in_bucket) {
-            const EdgeIndex edge{std::size_t{begin} + place};
-            return edge < end_of(low) ? edge : EdgeIndex::none();
+        const std::uint32_t end = begin_[low.value() + 1U];
+        const std::uint32_t stop = std::min(end, begin + searched);
+        for (std::uint32_t edge = begin; edge < stop; edge += in_bucket) {
+            const std::uint32_t place = first_of_sixteen(high_end_.data() + edge, high);
+            if (place < in_bucket && edge + place < stop) return EdgeIndex{edge + place};
         }
+        if (stop == end) return EdgeIndex::none();
         const auto hub_edge = hub_edges_.find(key(low, high));
         return hub_edge == hub_edges_.end() ? EdgeIndex::none()
-                                            : EdgeIndex{std::size_t{begin} + hub_edge->second};
+                                            : EdgeIndex{begin + hub_edge->second};
     }
 
     /// The edges whose lower end is `low` are begin_of(low) .. end_of(low)-1, in no order.
@@ -54,23 +56,24 @@ public:
     [[nodiscard]] VertexIndex high_end(EdgeIndex edge) const { return high_end_[edge.value()]; }
 
 private:
-    /// So many of a vertex's edges are looked for in its bucket, all others in hub_edges_.
     static constexpr std::uint32_t in_bucket = 16;
-    static constexpr std::size_t read_beyond = in_bucket - 1;
+    /// Of a vertex's edges so many are searched; further ones are in hub_edges_.
+    static constexpr std::uint32_t searched = 4 * in_bucket;
+    static constexpr std::size_t read_beyond = in_bucket;
     struct Buckets;
 
     static std::uint64_t key(VertexIndex low, VertexIndex high) {
         return std::uint64_t{low.value()} << 32U | high.value();
     }
     void find_places(const IndexVector<CellIndex, CellVertices>& cells, Buckets& buckets);
-    [[nodiscard]] std::uint32_t find_place_at_hub(VertexIndex low, VertexIndex high,
-                                                  Buckets& buckets);
+    [[nodiscard]] std::uint32_t find_further_place(VertexIndex low, VertexIndex high,
+                                                   Buckets& buckets);
     void move_together(const Buckets& buckets);
 
     std::vector<std::uint32_t> begin_;
     std::vector<VertexIndex> high_end_;  ///< and `read_beyond` more
     IndexVector<CellIndex, std::array<EdgeIndex, 6>> cell_to_edges_;
-    /// The place among its lower end's edges, 16 or more.
+    /// The place among its lower end's edges, `searched` or more.
     std::unordered_map<std::uint64_t, std::uint32_t> hub_edges_;
 };
 

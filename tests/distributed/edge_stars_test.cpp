@@ -54,9 +54,7 @@ TEST(EdgeStars, HaveEveryEdgeOnceHoweverManyAVertexHas) {
     for (std::size_t count = 2; count < 70; ++count) expect_every_edge_once(fan(count));
 }
 
-TEST(EdgeStars, HaveEveryEdgeOnceAtAHubOfThousands) {
-    expect_every_edge_once(fan(5000));
-}
+TEST(EdgeStars, HaveEveryEdgeOnceAtAHubOfThousands) { expect_every_edge_once(fan(5000)); }
 
 }  // namespace
 }  // namespace octetra::distributed

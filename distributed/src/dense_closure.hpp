@@ -29,6 +29,7 @@ public:
     void drain() override;
 
     [[nodiscard]] bool is_selected(EdgeIndex edge) const { return selected_[edge] != 0; }
+    [[nodiscard]] bool all_selected() const { return selected_count_ == selected_.size(); }
     [[nodiscard]] EdgeMask selected_of(CellIndex cell) const;
     [[nodiscard]] std::size_t selected_count() const override { return selected_count_; }
     [[nodiscard]] std::vector<std::vector<std::uint32_t>> take_outboxes() override;

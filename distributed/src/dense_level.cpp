@@ -16,62 +16,75 @@
 namespace octetra::distributed {
 namespace {
 
+constexpr std::size_t most_children = 8;
+
 class CellBisection {
 public:
     CellBisection(DistributedMesh& mesh, const EdgeStars& stars, CellOrders& orders,
-                  const DenseClosure& closure, const IndexVector<EdgeIndex, VertexIndex>& midpoints)
+                  const IndexVector<CellIndex, EdgeMask>& selected,
+                  const IndexVector<EdgeIndex, VertexIndex>& midpoints)
         : mesh_(&mesh),
           stars_(&stars),
           orders_(&orders),
-          closure_(&closure),
+          selected_(&selected),
           midpoints_(&midpoints) {}
-
-    [[nodiscard]] std::size_t child_count() {
-        std::size_t count = 0;
-        for (CellIndex c{0}; c < mesh_->cells.end_index(); ++c) {
-            const EdgeMask selected = closure_->selected_of(c);
-            // These need no order.
-            if (selected == 0) {
-                ++count;
-            } else if (is_all_or_none(selected)) {
-                count += most_children;
-            } else {
-                count += pattern_of(c, selected).child_count;
-            }
-        }
-        return count;
-    }
 
     /// Replaces the cells by their children, so many in all.
     [[nodiscard]] RoundingFailure run(std::size_t child_count) {
-        reserve_in_huge_pages(children_, child_count + most_children);
+        reserve_in_huge_pages(children_, child_count);
         Lineage& lineage = mesh_->cell_lineage;
         for (std::size_t r = 0; r < lineage.roots.size(); ++r) {
             const CellIndex end{lineage.first[r + 1]};
             CellIndex c{lineage.first[r]};
-            lineage.first[r] = children_.end_index().value();
-            for (; c < end; ++c) bisect(c, lineage.roots[r]);
+            lineage.first[r] = static_cast<std::uint32_t>(children_.size() + written_);
+            for (; c < end; ++c) {
+                if (c == block_end_) begin_block();
+                bisect(c, lineage.roots[r]);
+            }
         }
+        append_written();
         lineage.first.back() = children_.end_index().value();
         mesh_->cells = std::move(children_);
         return failure_;
     }
 
 private:
-    static constexpr std::size_t most_children = 8;
+    static constexpr std::size_t block_size = 64;
 
-    [[nodiscard]] const Pattern& pattern_of(CellIndex cell, EdgeMask selected) {
-        return table_->pattern(orders_->of(cell), selected);
+    /// What is to be known of the next cells: the same of one after the other, as a machine begins
+    /// with several of them before the first is done.
+    void begin_block() {
+        append_written();
+        std::array<CellIndex, block_size> touched;
+        std::size_t touched_count = 0;
+        const std::size_t end = std::min(mesh_->cells.size(), block_end_.value() + block_size);
+        for (; block_end_ < CellIndex{end}; ++block_end_) {
+            touched[touched_count] = block_end_;
+            touched_count += (*selected_)[block_end_] != 0 ? 1U : 0U;
+        }
+        const auto all_touched = std::span(touched).first(touched_count);
+        for (const CellIndex c : all_touched) {
+            patterns_[place_of(c)] = &table_->pattern(orders_->of(c), (*selected_)[c]);
+        }
+        for (const CellIndex c : all_touched) {
+            is_safe_[place_of(c)] = has_rounding_margin(mesh_->points, mesh_->cells[c]);
+        }
+    }
+    static std::size_t place_of(CellIndex cell) { return cell.value() % block_size; }
+
+    void append_written() {
+        children_.insert(children_.end(), block_.begin(),
+                         block_.begin() + static_cast<std::ptrdiff_t>(written_));
+        written_ = 0;
     }
 
     void bisect(CellIndex c, std::uint64_t root) {
         const CellVertices& cell = mesh_->cells[c];
-        const EdgeMask selected = closure_->selected_of(c);
-        if (selected == 0) {
-            children_.push_back(cell);
+        if ((*selected_)[c] == 0) {
+            block_[written_++] = cell;
             return;
         }
-        const Pattern& pattern = pattern_of(c, selected);
+        const Pattern& pattern = *patterns_[place_of(c)];
         std::array<VertexIndex, 10> vertices;  // by place
         std::ranges::copy(cell, vertices.begin());
         for (std::size_t e = 0; e < 6; ++e) {
@@ -79,16 +92,13 @@ private:
         }
         // Always eight, as to write what is not needed takes less time than to foresee their
         // number.
-        std::array<CellVertices, most_children> children;
+        CellVertices* const children = block_.data() + written_;
         for (std::size_t k = 0; k < most_children; ++k) {
             children[k] = child_of(vertices, pattern.children[k]);
         }
         const std::size_t count = pattern.child_count;
-        if (!has_rounding_margin(mesh_->points, cell)) {
-            check(std::span(children).first(count), root);
-        }
-        children_.insert(children_.end(), children.begin(), children.end());
-        children_.resize(children_.size() - most_children + count);
+        if (!is_safe_[place_of(c)]) check({children, count}, root);
+        written_ += count;
     }
 
     void check(std::span<const CellVertices> children, std::uint64_t root) {
@@ -102,11 +112,18 @@ private:
     DistributedMesh* mesh_;
     const EdgeStars* stars_;
     CellOrders* orders_;
-    const DenseClosure* closure_;
+    const IndexVector<CellIndex, EdgeMask>* selected_;
     const IndexVector<EdgeIndex, VertexIndex>* midpoints_;
     const PatternTable* table_ = &PatternTable::get();
     IndexVector<CellIndex, CellVertices> children_;
     RoundingFailure failure_;
+
+    CellIndex block_end_{0};  ///< blocks begin at multiples of their size
+    std::array<const Pattern*, block_size> patterns_{};
+    std::array<bool, block_size> is_safe_{};
+    /// Children yet to be appended. To copy what was just written in small pieces takes long.
+    std::array<CellVertices, block_size * most_children> block_;
+    std::size_t written_ = 0;
 };
 
 /// Replaces the entities of a list by their pieces: append_pieces(entity, pieces) for each, in
@@ -155,11 +172,30 @@ void DenseLevel::bisect_edges() {
 }
 
 std::size_t DenseLevel::cell_count_afterwards() {
-    return CellBisection(*mesh_, stars_, orders_, closure_, midpoints_).child_count();
+    const std::size_t cell_count = mesh_->cells.size();
+    if (closure_.all_selected()) {
+        selected_.assign(cell_count, all_edges);
+        return most_children * cell_count;
+    }
+    std::size_t count = 0;
+    selected_.reserve(cell_count);
+    for (CellIndex c{0}; c < mesh_->cells.end_index(); ++c) {
+        const EdgeMask selected = closure_.selected_of(c);
+        selected_.push_back(selected);
+        // These need no order.
+        if (selected == 0) {
+            ++count;
+        } else if (selected == all_edges) {
+            count += most_children;
+        } else {
+            count += PatternTable::get().pattern(orders_.of(c), selected).child_count;
+        }
+    }
+    return count;
 }
 
 RoundingFailure DenseLevel::bisect_cells(std::size_t cell_count) {
-    return CellBisection(*mesh_, stars_, orders_, closure_, midpoints_).run(cell_count);
+    return CellBisection(*mesh_, stars_, orders_, selected_, midpoints_).run(cell_count);
 }
 
 void DenseLevel::bisect_listed() {

@@ -1,73 +1,134 @@
 #include "edge_stars.hpp"
 
-#include <numeric>
-
 #include "huge_pages.hpp"
 
 namespace octetra::distributed {
 
-EdgeStars::EdgeStars(std::size_t vertex_count, const IndexVector<CellIndex, CellVertices>& cells)
-    : begin_(vertex_count + 1, 0) {
-    for (const CellVertices& cell : cells) {
-        for (const auto& [i, j] : cell_edges) ++begin_[std::min(cell[i], cell[j]).value()];
-    }
-    std::exclusive_scan(begin_.begin(), begin_.end(), begin_.begin(), 0U);
-    close_gaps(fill_buckets(cells), cells);
-}
+/// The higher ends of each vertex's edges as they are met, sixteen to a bucket, which is a line of
+/// the cache. A vertex whose bucket is full gets further ones.
+struct EdgeStars::Buckets {
+    struct alignas(64) Bucket : std::array<VertexIndex, in_bucket> {};
 
-/// Lists every edge once, at the beginning of a bucket that has as many slots as there are cells at
-/// its edges, so that it never overflows. Returns where each bucket's list ends.
-std::vector<std::uint32_t> EdgeStars::fill_buckets(
-    const IndexVector<CellIndex, CellVertices>& cells) {
-    std::vector<std::uint32_t> end(begin_.begin(), begin_.end() - 1);
-    const std::size_t slots = 6 * cells.size() + read_beyond;
-    reserve_in_huge_pages(high_end_, slots);
-    high_end_.resize(slots);
-    reserve_in_huge_pages(cell_to_edges_, cells.size());
-    for (const CellVertices& cell : cells) {
-        std::array<EdgeIndex, 6> edges;
-        for (std::size_t e = 0; e < 6; ++e) {
-            const auto [low, high] = std::minmax(cell[cell_edges[e][0]], cell[cell_edges[e][1]]);
-            const std::uint32_t begin = begin_[low.value()];
-            const std::uint32_t slot = find_slot(low, high, begin, end[low.value()]);
-            if (slot == end[low.value()]) {
-                high_end_[slot] = high;
-                ++end[low.value()];
-                if (slot - begin >= searched) hub_edges_.emplace(key(low, high), slot);
-            }
-            edges[e] = EdgeIndex{slot};
-        }
-        cell_to_edges_.push_back(edges);
+    explicit Buckets(std::size_t vertices) : vertex_count(vertices) {
+        reserve_in_huge_pages(of, vertex_count);
+        of.resize(vertex_count);
     }
-    return end;
-}
-
-/// Moves the lists together.
-void EdgeStars::close_gaps(const std::vector<std::uint32_t>& end,
-                           const IndexVector<CellIndex, CellVertices>& cells) {
-    std::vector<std::uint32_t> shift(end.size());
-    std::uint32_t filled = 0;
-    for (std::size_t low = 0; low < end.size(); ++low) {
-        const std::uint32_t begin = begin_[low];
-        shift[low] = begin - filled;
-        begin_[low] = filled;
-        for (std::uint32_t slot = begin; slot < end[low]; ++slot) {
-            high_end_[filled++] = high_end_[slot];
-        }
+    /// The one after a bucket, or 0.
+    [[nodiscard]] std::uint32_t after(std::uint32_t bucket) const {
+        return next.empty() ? 0 : next[bucket];
     }
-    begin_.back() = filled;
-    high_end_.resize(filled + read_beyond);
-    high_end_.shrink_to_fit();
+    [[nodiscard]] std::uint32_t count_at(std::uint32_t vertex) const {
+        std::uint32_t count = 0;
+        std::uint32_t bucket = vertex;
+        for (; after(bucket) != 0; bucket = after(bucket)) count += in_bucket;
+        count += first_of_sixteen(of[bucket].data(), VertexIndex::none());
+        return count < searched || !hub_counts.contains(vertex) ? count : hub_counts.at(vertex);
+    }
+    std::uint32_t add_after(std::uint32_t bucket) {
+        const auto added = static_cast<std::uint32_t>(of.size());
+        of.emplace_back();
+        next.resize(of.size(), 0);
+        return next[bucket] = added;
+    }
 
+    std::size_t vertex_count;
+    std::vector<Bucket> of;  ///< of each vertex, and then further ones
+    std::vector<std::uint32_t> next;
+    std::unordered_map<std::uint32_t, std::uint32_t> hub_counts;  ///< if more than are searched
+};
+
+EdgeStars::EdgeStars(std::size_t vertex_count, const IndexVector<CellIndex, CellVertices>& cells) {
+    Buckets buckets(vertex_count);
+    find_places(cells, buckets);
+    move_together(buckets);
     for (CellIndex c{0}; c < cells.end_index(); ++c) {
         for (std::size_t e = 0; e < 6; ++e) {
-            const VertexIndex low =
-                std::min(cells[c][cell_edges[e][0]], cells[c][cell_edges[e][1]]);
+            const auto& [a, b] = cell_edges[e];
+            const VertexIndex low = std::min(cells[c][a], cells[c][b]);
             EdgeIndex& edge = cell_to_edges_[c][e];
-            edge = EdgeIndex{edge.value() - shift[low.value()]};
+            edge = EdgeIndex{std::size_t{begin_[low.value()]} + edge.value()};
         }
     }
-    for (auto& [key, slot] : hub_edges_) slot -= shift[key >> 32U];
+}
+
+/// For each edge of each cell its place among the edges of its lower end.
+void EdgeStars::find_places(const IndexVector<CellIndex, CellVertices>& cells, Buckets& buckets) {
+    constexpr std::size_t ahead = 8;
+    reserve_in_huge_pages(cell_to_edges_, cells.size());
+    for (std::size_t c = 0; c < cells.size(); ++c) {
+        if (c + ahead < cells.size()) {
+            for (const VertexIndex v : cells[CellIndex{c + ahead}]) {
+                __builtin_prefetch(&buckets.of[v.value()], 1);
+            }
+        }
+        const CellVertices& cell = cells[CellIndex{c}];
+        auto& places = cell_to_edges_.emplace_back();
+        for (std::size_t e = 0; e < 6; ++e) {
+            const VertexIndex a = cell[cell_edges[e][0]];
+            const VertexIndex b = cell[cell_edges[e][1]];
+            // Without a branch: which one is lower cannot be foreseen.
+            const std::uint32_t exchange = (a.value() ^ b.value()) & -std::uint32_t{b < a};
+            const VertexIndex low{a.value() ^ exchange};
+            const VertexIndex high{b.value() ^ exchange};
+            auto& bucket = buckets.of[low.value()];
+            std::uint32_t place = first_of_sixteen(bucket.data(), high);
+            if (place == in_bucket) {
+                place = first_of_sixteen(bucket.data(), VertexIndex::none());
+                if (place < in_bucket) {
+                    bucket[place] = high;
+                } else {
+                    place = find_further_place(low, high, buckets);
+                }
+            }
+            places[e] = EdgeIndex{place};
+        }
+    }
+}
+
+/// The same where it is not in the first bucket, which is full.
+std::uint32_t EdgeStars::find_further_place(VertexIndex low, VertexIndex high, Buckets& buckets) {
+    std::uint32_t bucket = low.value();
+    for (std::uint32_t before = in_bucket; before < searched; before += in_bucket) {
+        const std::uint32_t next = buckets.after(bucket);
+        bucket = next != 0 ? next : buckets.add_after(bucket);
+        VertexIndex* const list = buckets.of[bucket].data();
+        const std::uint32_t place = first_of_sixteen(list, high);
+        if (place < in_bucket) return before + place;
+        const std::uint32_t free = first_of_sixteen(list, VertexIndex::none());
+        if (free < in_bucket) {
+            list[free] = high;
+            return before + free;
+        }
+    }
+    const auto count = buckets.hub_counts.try_emplace(low.value(), searched).first;
+    const auto [edge, is_new] = hub_edges_.try_emplace(key(low, high), count->second);
+    if (is_new) ++count->second;
+    return edge->second;
+}
+
+/// Numbers the edges from vertex to vertex.
+void EdgeStars::move_together(const Buckets& buckets) {
+    begin_.reserve(buckets.vertex_count + 1);
+    std::uint32_t count = 0;
+    for (std::uint32_t v = 0; v < buckets.vertex_count; ++v) {
+        begin_.push_back(count);
+        count += buckets.count_at(v);
+    }
+    begin_.push_back(count);
+
+    // Buckets are copied whole: what follows the last edge is overwritten by the next vertex's.
+    high_end_.resize(count + read_beyond);
+    for (std::uint32_t v = 0; v < buckets.vertex_count; ++v) {
+        auto to = high_end_.begin() + begin_[v];
+        std::uint32_t bucket = v;
+        do {
+            to = std::ranges::copy(buckets.of[bucket], to).out;
+            bucket = buckets.after(bucket);
+        } while (bucket != 0);
+    }
+    for (const auto& [key, place] : hub_edges_) {
+        high_end_[begin_[key >> 32U] + place] = VertexIndex{key & VertexIndex::none_value};
+    }
 }
 
 }  // namespace octetra::distributed

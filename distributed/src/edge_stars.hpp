@@ -2,13 +2,13 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cstdint>
-#include <cstring>
 #include <unordered_map>
 #include <vector>
 
 #include <octetra/core/mesh.hpp>
+
+#include "first_of_sixteen.hpp"
 
 namespace octetra::distributed {
 
@@ -16,8 +16,7 @@ namespace octetra::distributed {
 /// point with the lower number; that vertex's bucket lists the other ends, and the buckets follow
 /// each other.
 ///
-/// Memory: 4 bytes per vertex and edge, 24 per cell; 8 per vertex and 24 per cell more while it is
-/// made.
+/// Memory: 4 bytes per vertex and edge, 24 per cell; 64 per vertex more while it is made.
 class EdgeStars {
 public:
     EdgeStars(std::size_t vertex_count, const IndexVector<CellIndex, CellVertices>& cells);
@@ -34,9 +33,17 @@ public:
     [[nodiscard]] EdgeIndex find(VertexIndex a, VertexIndex b) const {
         const VertexIndex low = std::min(a, b);
         const VertexIndex high = std::max(a, b);
-        const std::uint32_t slot =
-            find_slot(low, high, begin_[low.value()], begin_[low.value() + 1U]);
-        return slot == begin_[low.value() + 1U] ? EdgeIndex::none() : EdgeIndex{slot};
+        const std::uint32_t begin = begin_[low.value()];
+        const std::uint32_t end = begin_[low.value() + 1U];
+        const std::uint32_t stop = std::min(end, begin + searched);
+        for (std::uint32_t edge = begin; edge < stop; edge += in_bucket) {
+            const std::uint32_t place = first_of_sixteen(high_end_.data() + edge, high);
+            if (place < in_bucket && edge + place < stop) return EdgeIndex{edge + place};
+        }
+        if (stop == end) return EdgeIndex::none();
+        const auto hub_edge = hub_edges_.find(key(low, high));
+        return hub_edge == hub_edges_.end() ? EdgeIndex::none()
+                                            : EdgeIndex{begin + hub_edge->second};
     }
 
     /// The edges whose lower end is `low` are begin_of(low) .. end_of(low)-1, in no order.
@@ -49,48 +56,24 @@ public:
     [[nodiscard]] VertexIndex high_end(EdgeIndex edge) const { return high_end_[edge.value()]; }
 
 private:
-    static constexpr std::uint32_t searched = 64;
-    static constexpr std::size_t read_beyond = 7;
-
-    /// Which of the eight is the first that is wanted? 8 or more: none. All at once, as a branch
-    /// for each would be foreseen badly.
-    static unsigned first_of_eight(const VertexIndex* list, VertexIndex wanted) {
-        using Four = std::uint32_t __attribute__((vector_size(16)));
-        static_assert(sizeof(VertexIndex) == sizeof(std::uint32_t));
-        Four low;
-        Four high;
-        std::memcpy(&low, list, sizeof(low));
-        std::memcpy(&high, list + 4, sizeof(high));
-        const auto found = ((low == wanted.value()) & Four{1, 2, 4, 8}) |
-                           ((high == wanted.value()) & Four{16, 32, 64, 128});
-        const auto halves = std::bit_cast<std::array<std::uint64_t, 2>>(found);
-        const std::uint64_t both = halves[0] | halves[1];
-        return static_cast<unsigned>(std::countr_zero(both | both >> 32U));
-    }
+    static constexpr std::uint32_t in_bucket = 16;
+    /// Of a vertex's edges so many are searched; further ones are in hub_edges_.
+    static constexpr std::uint32_t searched = 4 * in_bucket;
+    static constexpr std::size_t read_beyond = in_bucket;
+    struct Buckets;
 
     static std::uint64_t key(VertexIndex low, VertexIndex high) {
         return std::uint64_t{low.value()} << 32U | high.value();
     }
-    /// The slot of the edge in the bucket begin .. end-1, or the end.
-    [[nodiscard]] std::uint32_t find_slot(VertexIndex low, VertexIndex high, std::uint32_t begin,
-                                          std::uint32_t end) const {
-        const std::uint32_t stop = std::min(end, begin + searched);
-        for (std::uint32_t slot = begin; slot < stop; slot += 8) {
-            const unsigned first = first_of_eight(high_end_.data() + slot, high);
-            if (first < 8 && slot + first < stop) return slot + first;
-        }
-        if (stop == end) return end;
-        const auto hub_edge = hub_edges_.find(key(low, high));
-        return hub_edge == hub_edges_.end() ? end : hub_edge->second;
-    }
-    [[nodiscard]] std::vector<std::uint32_t> fill_buckets(
-        const IndexVector<CellIndex, CellVertices>& cells);
-    void close_gaps(const std::vector<std::uint32_t>& end,
-                    const IndexVector<CellIndex, CellVertices>& cells);
+    void find_places(const IndexVector<CellIndex, CellVertices>& cells, Buckets& buckets);
+    [[nodiscard]] std::uint32_t find_further_place(VertexIndex low, VertexIndex high,
+                                                   Buckets& buckets);
+    void move_together(const Buckets& buckets);
 
     std::vector<std::uint32_t> begin_;
     std::vector<VertexIndex> high_end_;  ///< and `read_beyond` more
     IndexVector<CellIndex, std::array<EdgeIndex, 6>> cell_to_edges_;
+    /// The place among its lower end's edges, `searched` or more.
     std::unordered_map<std::uint64_t, std::uint32_t> hub_edges_;
 };
 

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <map>
-#include <numeric>
 
 #include <octetra/core/mesh.hpp>
 
@@ -36,8 +35,10 @@ std::uint8_t longest_in(EdgeMask set, const LongestFirst& longest_first) {
     return 6;
 }
 
-EdgeMask closure_of(EdgeMask selected, const LongestFirst& longest_first) {
-    EdgeMask closed = selected;
+/// Of one edge alone. A face that has one selected edge asks for one other, so the closure of a set
+/// has nothing but the closures of its edges.
+EdgeMask closure_of(std::size_t edge, const LongestFirst& longest_first) {
+    EdgeMask closed = bit(edge);
     while (true) {
         EdgeMask next = closed;
         for (const EdgeMask face : edges_of_face) {
@@ -63,34 +64,26 @@ private:
     std::size_t count_ = 0;
 };
 
-/// Bisects by the edges from longest to shortest: each pass cuts every piece that has the edge. A
-/// piece's own longest selected edge is met first, so this is the recursion of the rule, breadth
-/// first; and as each cut puts its two halves where the piece stood, in the order of the recursion.
-Pattern pattern_of(EdgeMask selected, const LongestFirst& longest_first) {
+Pieces whole_cell() {
     Pieces pieces;
     pieces.push_back({0, 1, 2, 3});
-    for (const std::uint8_t edge : longest_first) {
-        if ((selected & bit(edge)) == 0) continue;
-        const auto& [low, high] = cell_edges[edge];
-        const auto midpoint = static_cast<Place>(4 + edge);
-        Pieces halves;
-        for (const Pieces::Piece& piece : pieces) {
-            // An original corner never leaves its position but for a midpoint.
-            if (piece[low] != low || piece[high] != high) {
-                halves.push_back(piece);
-                continue;
-            }
-            halves.push_back(piece);
-            halves.back()[high] = midpoint;
-            halves.push_back(piece);
-            halves.back()[low] = midpoint;
-        }
-        pieces = halves;
+    return pieces;
+}
+
+/// The pieces, each cut in two if it has the edge. An original corner never leaves its position but
+/// for a midpoint.
+Pieces bisected(const Pieces& pieces, std::uint8_t edge) {
+    const auto& [low, high] = cell_edges[edge];
+    const auto midpoint = static_cast<Place>(4 + edge);
+    Pieces halves;
+    for (const Pieces::Piece& piece : pieces) {
+        halves.push_back(piece);
+        if (piece[low] != low || piece[high] != high) continue;
+        halves.back()[high] = midpoint;
+        halves.push_back(piece);
+        halves.back()[low] = midpoint;
     }
-    Pattern pattern;
-    pattern.child_count = static_cast<std::uint8_t>(pieces.size());
-    std::ranges::copy(pieces, pattern.children.begin());
-    return pattern;
+    return halves;
 }
 
 /// A pattern as two numbers, for comparison: four bits for each place.
@@ -104,6 +97,55 @@ Code code_of(const Pattern& pattern) {
     return code;
 }
 
+/// A cell bisected by edges from longest to shortest, for every sequence that was asked for: what
+/// begins alike is cut but once. A piece's own longest selected edge is met first, so this is the
+/// recursion of the rule, breadth first; and as each cut puts its two halves where the piece stood,
+/// in the order of the recursion.
+class Bisections {
+public:
+    using Number = std::uint16_t;
+
+    /// The pattern's number among `patterns`, to which it is added if it is new.
+    Number pattern_of(EdgeMask selected, const LongestFirst& longest_first,
+                      std::vector<Pattern>& patterns) {
+        std::size_t at = 0;
+        for (const std::uint8_t edge : longest_first) {
+            if ((selected & bit(edge)) != 0) at = after(at, edge);
+        }
+        if (nodes_[at].pattern == none) nodes_[at].pattern = number_of(nodes_[at].pieces, patterns);
+        return nodes_[at].pattern;
+    }
+
+private:
+    static constexpr Number none = 0xffff;
+    struct Node {
+        Pieces pieces;
+        std::array<Number, 6> after{};  ///< by the next edge; 0: not yet known
+        Number pattern = none;
+    };
+
+    std::size_t after(std::size_t node, std::uint8_t edge) {
+        if (nodes_[node].after[edge] == 0) {
+            nodes_[node].after[edge] = static_cast<Number>(nodes_.size());
+            nodes_.push_back({bisected(nodes_[node].pieces, edge)});
+        }
+        return nodes_[node].after[edge];
+    }
+
+    Number number_of(const Pieces& pieces, std::vector<Pattern>& patterns) {
+        Pattern pattern;
+        pattern.child_count = static_cast<std::uint8_t>(pieces.size());
+        std::ranges::copy(pieces, pattern.children.begin());
+        const auto [place, fresh] =
+            numbers_.try_emplace(code_of(pattern), static_cast<Number>(patterns.size()));
+        if (fresh) patterns.push_back(pattern);
+        return place->second;
+    }
+
+    std::vector<Node> nodes_ = {{whole_cell()}};
+    std::map<Code, Number> numbers_;
+};
+
 }  // namespace
 
 PatternTable::PatternTable()
@@ -111,23 +153,25 @@ PatternTable::PatternTable()
       closure_(order_count * mask_count),
       pattern_number_(order_count * mask_count, 0) {
     LongestFirst longest_first{0, 1, 2, 3, 4, 5};
-    std::map<Code, std::uint16_t> known;
+    Bisections bisections;
     for (LengthOrder order = 0; order < order_count; ++order) {
         order_by_comparisons_[comparisons_of(longest_first)] = order;
         longest_edge_[order] = longest_first.front();
         for (const EdgeMask face : edges_of_face) {
             face_longest_edges_[order] |= bit(longest_in(face, longest_first));
         }
+        for (std::size_t e = 0; e < 6; ++e) {
+            const EdgeMask of_edge = closure_of(e, longest_first);
+            for (std::size_t others = 0; others < bit(e); ++others) {
+                closure_[order * mask_count + bit(e) + others] =
+                    of_edge | closure_[order * mask_count + others];
+            }
+        }
         for (unsigned mask = 0; mask < mask_count; ++mask) {
-            const auto selected = static_cast<EdgeMask>(mask);
             const std::size_t entry = order * mask_count + mask;
-            closure_[entry] = closure_of(selected, longest_first);
-            if (closure_[entry] != selected) continue;
-            const Pattern pattern = pattern_of(selected, longest_first);
-            const auto [place, fresh] =
-                known.try_emplace(code_of(pattern), static_cast<std::uint16_t>(patterns_.size()));
-            if (fresh) patterns_.push_back(pattern);
-            pattern_number_[entry] = place->second;
+            if (closure_[entry] != mask) continue;
+            pattern_number_[entry] =
+                bisections.pattern_of(static_cast<EdgeMask>(mask), longest_first, patterns_);
         }
         std::ranges::next_permutation(longest_first);
     }

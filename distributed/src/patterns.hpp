@@ -10,9 +10,11 @@ namespace octetra::distributed {
 /// A set of the cell's edges (numbered as in cell_edges) or of a triangle's, one bit each.
 using EdgeMask = std::uint8_t;
 
+inline constexpr EdgeMask all_edges = 0b111111;  ///< of a cell
+
 /// Of a cell's edges: such a set is closed in any order of lengths.
 [[nodiscard]] constexpr bool is_all_or_none(EdgeMask edges) {
-    return edges == 0 || edges == 0b111111;
+    return edges == 0 || edges == all_edges;
 }
 
 /// A corner (0..3) or the midpoint of edge k (4 + k).

@@ -9,8 +9,7 @@
 namespace octetra::properties {
 namespace {
 
-// ---- orders up to the names of corners
-// -----------------------------------------------------------
+// ---- orders up to the names of corners ----------------------------------------------------------
 
 /// Where in the order the edges 01 02 03 12 13 23 stand.
 using PlaceOfEdge = std::array<std::size_t, 6>;
@@ -61,8 +60,7 @@ std::vector<Order> orders_apart() {
     return orders([](const PlaceOfEdge& at) { return at[0] == 0 && is_02_longest_of_four(at); });
 }
 
-// ---- numbers
-// -------------------------------------------------------------------------------------
+// ---- numbers ------------------------------------------------------------------------------------
 
 /// In how many ways some cells can have some of so many orders, if it does not matter which has
 /// which.
@@ -76,15 +74,15 @@ std::size_t count_ways(const AlikeCells& cells) {
     return count_ways(cells.orders.size(), cells.count);
 }
 
-/// The way that has this number. The ways in which the last of the orders that are had is `last`
-/// come after those that do with the orders before it.
+/// The way that has this number. Those that do with the first n orders come before all others: so
+/// the last order that is had is found first, and then likewise what stands before it, which may be
+/// the same order again.
 void add_orders(std::vector<Order>& result, const AlikeCells& cells, std::size_t number) {
     std::size_t last = cells.orders.size();
     for (std::size_t left = cells.count; left > 0; --left) {
         while (count_ways(last, left) > number) --last;
         result.push_back(cells.orders[last]);
         number -= count_ways(last, left);
-        ++last;
     }
 }
 
@@ -99,14 +97,12 @@ std::vector<Order> orders_of_world(const WorldKind& kind, std::size_t number) {
     return result;
 }
 
-// ---- complexes
-// -----------------------------------------------------------------------------------
+// ---- complexes ----------------------------------------------------------------------------------
 
 const std::array<std::size_t, 4> first{0, 1, 2, 3};
 
-/// What matters about which end of the edge is which is whether cells have it alike, and there are
-/// two ways to name the ends. So of two cells both or one have it the one way, and of three all or
-/// two: the last cell has it the other way where it is `turned`.
+/// A marked edge is at the vertex 0 or at 1, and exchanging these two moves those of all cells. So
+/// of two cells both have theirs at 0, or the last one at 1; and of three cells likewise.
 std::vector<WorldKind> kinds_at_an_edge() {
     const AlikeCells one{orders_with_a_marked_edge(), 1};
     const AlikeCells two{orders_with_a_marked_edge(), 2};
@@ -114,7 +110,7 @@ std::vector<WorldKind> kinds_at_an_edge() {
     const AlikeCells one_apart{orders_apart(), 1};
     return {
         {"two cells at an edge, one apart", {first, {0, 1, 4, 5}, {6, 7, 8, 9}}, {two, one_apart}},
-        {"two cells at an edge, turned, one apart",
+        {"two cells at an edge, one turned, one apart",
          {first, {1, 0, 4, 5}, {6, 7, 8, 9}},
          {two, one_apart}},
         {"three cells at an edge", {first, {0, 1, 4, 5}, {0, 1, 6, 7}}, {three}},

@@ -23,8 +23,7 @@ struct World {
     std::array<std::array<int, 12>, 12> steps{};
 };
 
-// ---- lengths
-// ---------------------------------------------------------------------------------------
+// ---- lengths ------------------------------------------------------------------------------------
 
 void set_steps(World& world, std::size_t a, std::size_t b, int steps) {
     world.steps[a][b] = world.steps[b][a] = steps;
@@ -74,8 +73,7 @@ Face with_descending_edges(const World& world, Face face) {
     return face;
 }
 
-// ---- places
-// ----------------------------------------------------------------------------------------
+// ---- places -------------------------------------------------------------------------------------
 
 Point plus(const Point& p, double t, const Point& v) {
     return {p.x + t * v.x, p.y + t * v.y, p.z + t * v.z};
@@ -136,8 +134,7 @@ std::array<Point, 4> by_itself(const World& world, const Cell& cell) {
     return {Point{}, second, third, over(world, {a, b, c}, {Point{}, second, third}, d)};
 }
 
-// ---- gluing
-// ----------------------------------------------------------------------------------------
+// ---- gluing -------------------------------------------------------------------------------------
 
 void add_first(World& world, const Cell& cell, const Order& order) {
     order_edges_of_first_cell(world, order);

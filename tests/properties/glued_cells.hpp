@@ -1,41 +1,58 @@
 #pragma once
 
-#include <array>
 #include <cstddef>
+#include <string>
+#include <vector>
 
 #include <octetra/core/mesh.hpp>
 
-/// Nearly regular cells, glued at faces and edges, whose edges have any order by length that is
-/// asked for. Of an order nothing but comparisons within cells matters to refinement: of two orders
-/// that agree on these there is one world. Corners are named so that no two worlds are the same but
-/// for that. Coordinates are whole numbers of at most 22 bits.
+#include "properties/order_classes.hpp"
+#include "properties/small_complexes.hpp"
+
+/// The worlds of a complex, one for each way to order the edges of its cells by length. Nothing but
+/// comparisons within cells matters to refinement: of two orders that agree on these there is one
+/// world. Corners are named so that no two worlds are the same but for that.
 namespace octetra::properties {
 
-inline constexpr std::size_t one_cell_worlds = 720;
+/// Cells that have orders out of one list, whichever for each of them, and are so much alike that
+/// it does not matter which cell has which.
+struct AlikeCells {
+    std::vector<Order> orders;
+    std::size_t count = 1;
+};
 
-/// A cell in the order of its edges that has this number, from 0.
-[[nodiscard]] Mesh one_cell_in_order(std::size_t number);
+/// What `glued` takes: cells, and for one after the other what orders they have.
+struct WorldKind {
+    std::string name;
+    Complex complex;
+    std::vector<AlikeCells> cells;
+};
+
+[[nodiscard]] std::size_t count_worlds(const WorldKind& kind);
+
+/// The world that has this number, from 0.
+[[nodiscard]] Mesh world_of(const WorldKind& kind, std::size_t number);
+
+/// In each of the 720 orders.
+[[nodiscard]] const WorldKind& one_cell();
 
 /// For each of the 120 orders of a cell in which the edges of one face descend, 120 of the other.
 /// Each pair is there both ways round.
-inline constexpr std::size_t two_cell_worlds = 120 * 120;
-
-/// Two cells at a face.
-[[nodiscard]] Mesh two_cells_in_order(std::size_t number);
+[[nodiscard]] const WorldKind& two_cells_at_a_face();
 
 /// For each of 180 orders of the first cell, 360 of the other. (720 by four, as exchanging the ends
 /// of the common edge, or the two other corners, only names corners otherwise; and by two.) Each
 /// pair is there both ways round.
-inline constexpr std::size_t two_cell_worlds_at_an_edge = 180 * 360;
+[[nodiscard]] const WorldKind& two_cells_at_an_edge();
 
-/// Two cells at an edge.
-[[nodiscard]] Mesh two_cells_at_an_edge_in_order(std::size_t number);
+/// The first has a face in common with either of the others. For each of 180 orders of the cell in
+/// the middle, 120 of either cell beside it. (720 by four: exchanging its two faces, or the ends of
+/// the edge between them, only names corners otherwise.)
+[[nodiscard]] const WorldKind& three_cells_in_a_row();
 
-/// For each of 180 orders of the cell in the middle, 120 of either cell beside it. (720 by four:
-/// exchanging its two faces, or the ends of the edge between them, only names corners otherwise.)
-inline constexpr std::size_t three_cell_worlds = 180 * 120 * 120;
-
-/// Three cells in a row: the first has a face in common with either of the others.
-[[nodiscard]] Mesh three_cells_in_order(std::size_t number);
+/// Cells that meet at one vertex, at one edge, or not at all; or two at one vertex, edge or face
+/// and one apart. Also up to exchanging cells. Those with an edge are two kinds, one after the
+/// other.
+[[nodiscard]] const std::vector<WorldKind>& kinds_up_to_exchange();
 
 }  // namespace octetra::properties

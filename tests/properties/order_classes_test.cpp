@@ -21,8 +21,8 @@ TEST(OrderClasses, NumberOrdersLexicographically) {
 
 /// In all orders, from all edges: what the rule of faces makes of sets of edges of meshes.
 TEST(OrderClasses, CloseACellAsAMeshOfOneCellIsClosed) {
-    for (std::size_t number = 0; number < one_cell_worlds; ++number) {
-        const Mesh mesh = one_cell_in_order(number);
+    for (std::size_t number = 0; number < order_count; ++number) {
+        const Mesh mesh = world_of(one_cell(), number);
         const Order order = order_of(mesh, CellIndex{0});
         const auto edges = edges_of(mesh.cells[CellIndex{0}]);
         const auto set_of = [&](EdgeBits bits) {

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cstdlib>
+#include <numeric>
 #include <set>
 #include <string>
 #include <utility>
@@ -25,11 +26,15 @@ namespace {
 constexpr std::size_t stride = OCTETRA_SMALL_WORLDS_STRIDE;
 
 /// Those with the numbers first, first + step, ... below `end`.
-template <class World>
-std::vector<Mesh> worlds(World&& world, std::size_t first, std::size_t end, std::size_t step) {
+std::vector<Mesh> worlds(const WorldKind& kind, std::size_t first, std::size_t end,
+                         std::size_t step) {
     std::vector<Mesh> some;
-    for (std::size_t i = first; i < end; i += step) some.push_back(world(i));
+    for (std::size_t i = first; i < end; i += step) some.push_back(world_of(kind, i));
     return some;
+}
+
+std::vector<Mesh> every(std::size_t step, const WorldKind& kind) {
+    return worlds(kind, 0, count_worlds(kind), step);
 }
 
 /// In how many ways the edges of cells are ordered.
@@ -47,7 +52,7 @@ std::size_t count_orders(const std::vector<Mesh>& worlds) {
 
 TEST(SmallWorlds, OfOneCellInEveryOrderOfItsEdges) {
     lead([] {
-        const auto all = worlds(one_cell_in_order, 0, one_cell_worlds, 1);
+        const auto all = every(1, one_cell());
         EXPECT_EQ(count_orders(all), 720U);
         expect_equality_of_all("one cell", all, {1});
     });
@@ -56,7 +61,7 @@ TEST(SmallWorlds, OfOneCellInEveryOrderOfItsEdges) {
 /// The second cell chosen alone is the first one chosen alone of the pair the other way round.
 TEST(SmallWorlds, OfTwoCellsAtAFaceInEveryPairOfOrders) {
     lead([] {
-        const auto all = worlds(two_cells_in_order, 0, two_cell_worlds, stride);
+        const auto all = every(stride, two_cells_at_a_face());
         EXPECT_EQ(count_orders(all), all.size());
         expect_equality_of_all("two cells at a face", all, {1, 3});
     });
@@ -65,19 +70,17 @@ TEST(SmallWorlds, OfTwoCellsAtAFaceInEveryPairOfOrders) {
 /// Worlds whose first cell has 180 orders in turn: every so-manieth; or, where OCTETRA_FIRST_CELL
 /// is a number from 1 to 180, all those of the order with that number. ./dev worlds goes through
 /// them.
-template <class World>
-std::vector<Mesh> worlds_by_first_cell(World&& world, std::size_t count, std::size_t step) {
+std::vector<Mesh> worlds_by_first_cell(const WorldKind& kind, std::size_t step) {
     const char* const number = std::getenv("OCTETRA_FIRST_CELL");
-    if (number == nullptr) return worlds(world, 0, count, step * stride);
-    const std::size_t of_each_order = count / 180;
+    if (number == nullptr) return every(step * stride, kind);
+    const std::size_t of_each_order = count_worlds(kind) / 180;
     const std::size_t end = std::stoul(number) * of_each_order;
-    return worlds(world, end - of_each_order, end, 1);
+    return worlds(kind, end - of_each_order, end, 1);
 }
 
 TEST(SmallWorlds, OfTwoCellsAtAnEdgeInEveryPairOfOrders) {
     lead([] {
-        const auto some =
-            worlds_by_first_cell(two_cells_at_an_edge_in_order, two_cell_worlds_at_an_edge, 17);
+        const auto some = worlds_by_first_cell(two_cells_at_an_edge(), 17);
         EXPECT_EQ(count_orders(some), some.size());
         expect_equality_of_all("two cells at an edge", some, {1, 3});
     });
@@ -85,11 +88,71 @@ TEST(SmallWorlds, OfTwoCellsAtAnEdgeInEveryPairOfOrders) {
 
 TEST(SmallWorlds, OfThreeCellsInARowInEveryOrderOfTheirEdges) {
     lead([] {
-        const auto some = worlds_by_first_cell(three_cells_in_order, three_cell_worlds, 577);
+        const auto some = worlds_by_first_cell(three_cells_in_a_row(), 577);
         EXPECT_EQ(count_orders(some), some.size());
         expect_equality_of_all("three cells in a row", some, all_choices(3));
     });
 }
+
+/// The worlds of a kind with numbers from `begin` on and below `end`.
+struct Part {
+    const WorldKind* kind = nullptr;
+    std::size_t begin = 0;
+    std::size_t end = 0;
+};
+
+/// All worlds up to exchange, kind by kind; a kind is cut into equal parts, none of which takes
+/// more than some minutes.
+std::vector<Part> parts_up_to_exchange() {
+    constexpr std::size_t most = 110'000;
+    std::vector<Part> parts;
+    for (const WorldKind& kind : kinds_up_to_exchange()) {
+        const std::size_t worlds = count_worlds(kind);
+        const std::size_t count = (worlds + most - 1) / most;
+        for (std::size_t i = 0; i < count; ++i) {
+            parts.push_back({&kind, i * worlds / count, (i + 1) * worlds / count});
+        }
+    }
+    return parts;
+}
+
+void expect_equality_of_part(const Part& part) {
+    constexpr std::size_t at_once = 10'000;
+    for (std::size_t i = part.begin; i < part.end && !testing::Test::HasFailure(); i += at_once) {
+        const auto some = worlds(*part.kind, i, std::min(i + at_once, part.end), 1);
+        EXPECT_EQ(count_orders(some), some.size());
+        expect_equality_of_all(part.kind->name, some, all_choices(part.kind->complex.size()));
+    }
+}
+
+/// Some 250 of a kind. A step that has no divisor in common with their number meets all orders of
+/// each cell sooner or later.
+std::vector<Mesh> some_worlds(const WorldKind& kind) {
+    const std::size_t count = count_worlds(kind);
+    std::size_t step = count / 250;
+    while (std::gcd(step, count) != 1) ++step;
+    return every(step * stride, kind);
+}
+
+/// Some of each kind; or, where OCTETRA_PART_UP_TO_EXCHANGE is a number from 1, all those of the
+/// part with that number. ./dev worlds goes through them.
+TEST(SmallWorlds, OfEightMoreComplexesInEveryOrderOfTheirEdges) {
+    const char* const number = std::getenv("OCTETRA_PART_UP_TO_EXCHANGE");
+    lead([&] {
+        if (number != nullptr) {
+            expect_equality_of_part(parts_up_to_exchange().at(std::stoul(number) - 1));
+            return;
+        }
+        for (const WorldKind& kind : kinds_up_to_exchange()) {
+            const auto some = some_worlds(kind);
+            EXPECT_EQ(count_orders(some), some.size());
+            expect_equality_of_all(kind.name, some, all_choices(kind.complex.size()));
+        }
+    });
+}
+
+/// Which ./dev worlds calls 206 to 261.
+TEST(SmallWorlds, UpToExchangeAreFiftySixParts) { EXPECT_EQ(parts_up_to_exchange().size(), 56U); }
 
 /// Six cells round an edge, once for each way to cut them between as many ranks.
 Case rings(const Mesh& ring, std::size_t ranks) {

@@ -1,0 +1,166 @@
+#include "properties/glued_cells.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <cstdlib>
+#include <limits>
+#include <map>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "properties/small_complexes.hpp"
+#include "properties/small_worlds.hpp"
+#include "properties/team.hpp"
+
+/// That worlds up to exchange are all there are, and each once: those that differ from them by a
+/// symmetry of their complex are, taken together, as many as there are ways to order the edges.
+namespace octetra::properties {
+namespace {
+
+using Places = std::array<std::size_t, 4>;
+
+/// By number, what becomes of the orders of a cell whose corners come to other places.
+using NewOrders = std::vector<std::uint64_t>;
+
+NewOrders new_orders(const Places& places) {
+    std::array<std::size_t, 6> new_edges{};
+    for (std::size_t e = 0; e < 6; ++e) {
+        while (edge_of({0, 1, 2, 3}, new_edges[e]) != edge_of(places, e)) ++new_edges[e];
+    }
+    NewOrders result;
+    Order order{0, 1, 2, 3, 4, 5};
+    do {
+        Order image{};
+        for (std::size_t i = 0; i < 6; ++i) image[i] = new_edges[order[i]];
+        result.push_back(number_of(image));
+    } while (std::ranges::next_permutation(order).found);
+    return result;
+}
+
+/// What a symmetry does to the orders of each cell, and where the number of the new one stands
+/// among those of all cells, which are written as one.
+struct Symmetry {
+    std::array<const NewOrders*, 3> orders{};
+    std::array<unsigned, 3> shift{};
+};
+
+Symmetry symmetry(const Complex& complex, const std::vector<std::size_t>& numbers) {
+    static std::map<Places, NewOrders> known;
+    Symmetry result;
+    for (std::size_t c = 0; c < complex.size(); ++c) {
+        Places image{};
+        for (std::size_t i = 0; i < 4; ++i) image[i] = numbers[complex[c][i]];
+        const auto other = std::ranges::find_if(
+            complex, [&](const auto& cell) { return std::ranges::is_permutation(cell, image); });
+        Places places{};
+        for (std::size_t i = 0; i < 4; ++i) {
+            while ((*other)[places[i]] != image[i]) ++places[i];
+        }
+        if (!known.contains(places)) known[places] = new_orders(places);
+        result.orders[c] = &known[places];
+        result.shift[c] = 10 * static_cast<unsigned>(other - complex.begin());
+    }
+    return result;
+}
+
+/// All that a world becomes by symmetries.
+struct Orbit {
+    std::uint64_t least = std::numeric_limits<std::uint64_t>::max();
+    std::size_t size = 0;
+};
+
+/// `orders` are those of its cells, by number. The orbit is as many times smaller than the group as
+/// there are symmetries that leave the world as it is.
+Orbit orbit_of(const std::vector<std::size_t>& orders, const std::vector<Symmetry>& all) {
+    Orbit orbit;
+    std::size_t times = 0;
+    for (const Symmetry& one : all) {
+        std::uint64_t image = 0;
+        for (std::size_t c = 0; c < orders.size(); ++c) {
+            image |= (*one.orders[c])[orders[c]] << one.shift[c];
+        }
+        if (image < orbit.least) {
+            orbit.least = image;
+            times = 0;
+        }
+        if (image == orbit.least) ++times;
+    }
+    orbit.size = all.size() / times;
+    return orbit;
+}
+
+/// Read off the lengths that the world has.
+std::vector<std::size_t> orders_in(Mesh world, const Complex& complex) {
+    world.cells.clear();
+    std::vector<std::size_t> numbers;
+    for (const auto& [a, b, c, d] : complex) {
+        const CellIndex cell =
+            world.cells.append({VertexIndex{a}, VertexIndex{b}, VertexIndex{c}, VertexIndex{d}});
+        numbers.push_back(number_of(order_of(world, cell)));
+    }
+    return numbers;
+}
+
+/// Kinds of one complex, and in how many ways its edges can be ordered.
+struct Whole {
+    std::vector<WorldKind> kinds;
+    std::size_t ways = 0;
+};
+
+void expect_each_once(const Whole& whole) {
+    const Complex& complex = whole.kinds.front().complex;
+    std::vector<Symmetry> all;
+    for (const auto& numbers : symmetries(complex)) all.push_back(symmetry(complex, numbers));
+    std::vector<std::uint64_t> worlds;
+    std::size_t ways = 0;
+    for (const WorldKind& kind : whole.kinds) {
+        for (std::size_t number = 0; number < count_worlds(kind); ++number) {
+            const Orbit orbit = orbit_of(orders_in(world_of(kind, number), complex), all);
+            worlds.push_back(orbit.least);
+            ways += orbit.size;
+        }
+    }
+    const std::size_t count = worlds.size();
+    std::ranges::sort(worlds);
+    worlds.erase(std::unique(worlds.begin(), worlds.end()), worlds.end());
+    EXPECT_EQ(worlds.size(), count) << whole.kinds.front().name;
+    EXPECT_EQ(ways, whole.ways) << whole.kinds.front().name;
+}
+
+WorldKind without_last_cell(WorldKind kind) {
+    kind.complex.pop_back();
+    kind.cells.pop_back();
+    return kind;
+}
+
+/// Without a common face there are 720^2 ways, and with one 720 * 120.
+TEST(GluedCells, OfTwoCellsUpToExchangeAreEachOnce) {
+    lead([] {
+        const auto& kinds = kinds_up_to_exchange();
+        expect_each_once({{kinds[0]}, 720 * 720});
+        expect_each_once({{kinds[1]}, 720 * 720});
+        expect_each_once({{without_last_cell(kinds[5])}, 720 * 120});
+        expect_each_once({{without_last_cell(kinds[6]), without_last_cell(kinds[7])}, 720 * 720});
+    });
+}
+
+/// In ./dev test one complex of six, two cells at a face and one apart. Where
+/// OCTETRA_COUNT_ALL_WORLDS is set, as in part 206 of ./dev worlds, all.
+TEST(GluedCells, OfThreeCellsUpToExchangeAreEachOnce) {
+    lead([] {
+        constexpr std::size_t ways = 720 * 720 * 720;
+        const auto& kinds = kinds_up_to_exchange();
+        expect_each_once({{kinds[5]}, 720 * 120 * 720});
+        if (std::getenv("OCTETRA_COUNT_ALL_WORLDS") == nullptr) return;
+        expect_each_once({{kinds[2]}, ways});
+        expect_each_once({{kinds[3]}, ways});
+        expect_each_once({{kinds[4]}, ways});
+        expect_each_once({{kinds[6], kinds[7]}, ways});
+        expect_each_once({{kinds[8], kinds[9]}, ways});
+    });
+}
+
+}  // namespace
+}  // namespace octetra::properties

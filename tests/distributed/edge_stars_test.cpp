@@ -44,6 +44,18 @@ void expect_every_edge_once(const Mesh& mesh) {
     EXPECT_TRUE(stars.find(VertexIndex{0}, VertexIndex{0}).is_none());
 }
 
+/// An edge that there is not may be one of a neighbour's.
+TEST(EdgeStars, FindNothingBetweenVerticesWithoutAnEdge) {
+    const Mesh mesh = test::kuhn(3, 2, 4);
+    const EdgeStars stars(mesh.points.size(), mesh.cells);
+    const auto edges = test::cells_at_edges(mesh);
+    for (VertexIndex a{0}; a < mesh.points.end_index(); ++a) {
+        for (VertexIndex b{0}; b < a; ++b) {
+            EXPECT_EQ(stars.find(a, b).is_none(), !edges.contains({b, a}));
+        }
+    }
+}
+
 TEST(EdgeStars, HaveEveryEdgeOfTheCellsOnce) {
     expect_every_edge_once(test::kuhn(3, 2, 4));
     expect_every_edge_once(test::one_cell(test::cube_corner));

@@ -60,12 +60,14 @@ class Figure:
 @dataclass(frozen=True)
 class Case:
     """`figures` gets the lines of each run, by its name; so do `points`, which returns what is
-    drawn over an axis, a dictionary each, and `wrong`, which returns what must not be, in words."""
+    drawn over an axis, a dictionary each, and `wrong`, which returns what must not be, in words.
+    A case whose runs are short has some multiple of the repetitions."""
     name: str
     runs: list
     figures: Callable[[dict], list]
     points: Callable[[dict], list] = field(default=lambda lines: [])
     wrong: Callable[[dict], list] = field(default=lambda lines: [])
+    multiple: int = 1
 
 
 @dataclass(frozen=True)
@@ -99,7 +101,7 @@ def driver(name, program, arguments, ranks=1, mesh=None):
 def measure(case, place, repetitions):
     """The case with every raw line, and the figures that follow from them."""
     lines = {run.name: [] for run in case.runs}
-    for _ in range(repetitions):
+    for _ in range(case.multiple * repetitions):
         for one in case.runs:
             lines[one.name].append(one.line(place))
     return {"name": case.name,
@@ -109,11 +111,20 @@ def measure(case, place, repetitions):
             "points": case.points(lines), "wrong": case.wrong(lines)}
 
 
+def inside(line, keys):
+    """The number that stands under these keys."""
+    for key in keys:
+        line = line[key]
+    return line
+
+
 def median(lines, *keys):
     """Of the number that stands under these keys in every line."""
-    def inside(line):
-        for key in keys:
-            line = line[key]
-        return line
-    return statistics.median(inside(line) for line in lines)
+    return statistics.median(inside(line, keys) for line in lines)
 
+
+def median_ratio(lines, by_lines, *keys):
+    """Of that number in a line by that in the line of the same turn: what slows the machine down
+    for a while mostly slows both."""
+    return statistics.median(inside(line, keys) / inside(by_line, keys)
+                             for line, by_line in zip(lines, by_lines, strict=True))

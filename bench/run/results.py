@@ -66,7 +66,8 @@ def loud(machine):
 def of_what(made):
     repetitions = sorted({group["repetitions"] for group in made["groups"]})
     runs = ("Single runs" if repetitions == [1] else
-            f"Medians of {' or '.join(map(str, repetitions))} runs in turns")
+            f"Medians of {' or '.join(map(str, repetitions))} runs in turns; of one "
+            "program's speed against another's, of what it was in each turn")
     words = "Small meshes, to see that all runs. " if made["quick"] else ""
     return (f"{words}{runs}; seconds by the wall clock unless it says "
             "processor. What each group means: [README.md](README.md); every raw time: "

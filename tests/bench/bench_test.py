@@ -16,7 +16,7 @@ import groups  # noqa: E402
 import kept  # noqa: E402
 import peers  # noqa: E402
 import results  # noqa: E402
-from measuring import Case, Figure, Run, measure, median  # noqa: E402
+from measuring import Case, Figure, Run, measure, median, median_ratio  # noqa: E402
 from slopes import slope, steepest  # noqa: E402
 
 
@@ -50,6 +50,18 @@ class Figures(unittest.TestCase):
         self.assertEqual(order, ["a", "b"] * 3)
         self.assertEqual([figure["value"] for figure in made["figures"]], [3, 2])
         self.assertEqual([len(run["lines"]) for run in made["runs"]], [3, 3])
+
+    def test_of_one_against_another_compare_what_ran_in_the_same_turn(self):
+        # Twice as fast throughout, while the machine was slow for the one in its second turn, and
+        # for the other in its third.
+        slow, fast = [{"s": 10}, {"s": 30}, {"s": 10}], [{"s": 5}, {"s": 5}, {"s": 15}]
+        self.assertEqual(median_ratio(slow, fast, "s"), 2)
+        with self.assertRaises(ValueError):
+            median_ratio(slow, fast[:2], "s")
+
+    def test_of_short_runs_come_from_more_of_them(self):
+        case = Case("short", [Run("a", lambda _: {})], lambda lines: [], multiple=3)
+        self.assertEqual(len(measure(case, None, 5)["runs"][0]["lines"]), 15)
 
     def test_meet_their_targets_or_do_not(self):
         self.assertTrue(Figure("", 3, "", at_most=3).as_dict()["met"])

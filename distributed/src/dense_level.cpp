@@ -51,8 +51,8 @@ public:
 private:
     static constexpr std::size_t block_size = 64;
 
-    /// What is to be known of the next cells: the same of one after the other, as a machine begins
-    /// with several of them before the first is done.
+    /// Of the next 64 cells all patterns, and then all rounding margins: a processor works on
+    /// several cells at once as long as it does the same with them.
     void begin_block() {
         append_written();
         std::array<CellIndex, block_size> touched;
@@ -121,7 +121,7 @@ private:
     CellIndex block_end_{0};  ///< blocks begin at multiples of their size
     std::array<const Pattern*, block_size> patterns_{};
     std::array<bool, block_size> is_safe_{};
-    /// Children yet to be appended. To copy what was just written in small pieces takes long.
+    /// Children yet to be appended: to copy at once what was just written takes longer.
     std::array<CellVertices, block_size * most_children> block_;
     std::size_t written_ = 0;
 };
@@ -178,6 +178,7 @@ std::size_t DenseLevel::cell_count_afterwards() {
         return most_children * cell_count;
     }
     std::size_t count = 0;
+    selected_.clear();
     selected_.reserve(cell_count);
     for (CellIndex c{0}; c < mesh_->cells.end_index(); ++c) {
         const EdgeMask selected = closure_.selected_of(c);

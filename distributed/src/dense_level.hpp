@@ -33,7 +33,7 @@ private:
     EdgeStars stars_;
     CellOrders orders_;
     DenseClosure closure_;
-    IndexVector<CellIndex, EdgeMask> selected_;      // of each cell, once they are counted
+    IndexVector<CellIndex, EdgeMask> selected_;      ///< of each cell, once they are counted
     IndexVector<EdgeIndex, VertexIndex> midpoints_;  ///< of each edge, or none()
 };
 

@@ -1,16 +1,20 @@
 #include "edge_stars.hpp"
 
+#include <stdexcept>
+
+#include <fmt/format.h>
+
 #include "huge_pages.hpp"
 
 namespace octetra::distributed {
 
-/// The higher ends of each vertex's edges as they are met, sixteen to a bucket, which is a line of
+/// Stars that are being filled with edges as they are met, sixteen to a bucket, which is a line of
 /// the cache. A vertex whose bucket is full gets further ones.
 struct EdgeStars::Buckets {
     struct alignas(64) Bucket : std::array<VertexIndex, in_bucket> {};
 
     explicit Buckets(std::size_t vertices) : vertex_count(vertices) {
-        reserve_in_huge_pages(of, vertex_count);
+        reserve_with_room(of, vertex_count);
         of.resize(vertex_count);
     }
     /// The one after a bucket, or 0.
@@ -51,7 +55,7 @@ EdgeStars::EdgeStars(std::size_t vertex_count, const IndexVector<CellIndex, Cell
     }
 }
 
-/// For each edge of each cell its place among the edges of its lower end.
+/// For each edge of each cell its place in the star of its lower end.
 void EdgeStars::find_places(const IndexVector<CellIndex, CellVertices>& cells, Buckets& buckets) {
     constexpr std::size_t ahead = 8;
     reserve_in_huge_pages(cell_to_edges_, cells.size());
@@ -109,14 +113,20 @@ std::uint32_t EdgeStars::find_further_place(VertexIndex low, VertexIndex high, B
 /// Numbers the edges from vertex to vertex.
 void EdgeStars::move_together(const Buckets& buckets) {
     begin_.reserve(buckets.vertex_count + 1);
-    std::uint32_t count = 0;
+    std::size_t count = 0;
     for (std::uint32_t v = 0; v < buckets.vertex_count; ++v) {
-        begin_.push_back(count);
+        begin_.push_back(static_cast<std::uint32_t>(count));
         count += buckets.count_at(v);
     }
-    begin_.push_back(count);
+    if (count >= EdgeIndex::limit - searched) {
+        throw std::length_error(
+            fmt::format("one process has {} edges, more than 32 bits number: "
+                        "use more processes",
+                        count));
+    }
+    begin_.push_back(static_cast<std::uint32_t>(count));
 
-    // Buckets are copied whole: what follows the last edge is overwritten by the next vertex's.
+    // Buckets are copied whole: what follows the last edge is overwritten by the next star.
     high_end_.resize(count + read_beyond);
     for (std::uint32_t v = 0; v < buckets.vertex_count; ++v) {
         auto to = high_end_.begin() + begin_[v];

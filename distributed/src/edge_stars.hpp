@@ -13,12 +13,14 @@
 namespace octetra::distributed {
 
 /// Numbers the edges of a set of cells without sorting them all. Every edge belongs to its end
-/// point with the lower number; that vertex's bucket lists the other ends, and the buckets follow
-/// each other.
+/// point with the lower number; that vertex's star lists the other ends, and the stars follow each
+/// other.
 ///
-/// Memory: 4 bytes per vertex and edge, 24 per cell; 64 per vertex more while it is made.
+/// Memory: 4 bytes per vertex and edge, 24 per cell; while it is made 68 per vertex more, and 68
+/// for each further sixteen edges of one vertex.
 class EdgeStars {
 public:
+    /// Throws std::length_error if there are more edges than 32 bits number.
     EdgeStars(std::size_t vertex_count, const IndexVector<CellIndex, CellVertices>& cells);
 
     /// As many as there are edges.
@@ -57,7 +59,7 @@ public:
 
 private:
     static constexpr std::uint32_t in_bucket = 16;
-    /// Of a vertex's edges so many are searched; further ones are in hub_edges_.
+    /// Of a star so many edges are searched; further ones are in hub_edges_.
     static constexpr std::uint32_t searched = 4 * in_bucket;
     static constexpr std::size_t read_beyond = in_bucket;
     struct Buckets;
@@ -73,7 +75,7 @@ private:
     std::vector<std::uint32_t> begin_;
     std::vector<VertexIndex> high_end_;  ///< and `read_beyond` more
     IndexVector<CellIndex, std::array<EdgeIndex, 6>> cell_to_edges_;
-    /// The place among its lower end's edges, `searched` or more.
+    /// The place in the star, `searched` or more.
     std::unordered_map<std::uint64_t, std::uint32_t> hub_edges_;
 };
 

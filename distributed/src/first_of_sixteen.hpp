@@ -20,7 +20,7 @@ inline std::uint32_t first_of_sixteen(const VertexIndex* list, VertexIndex wante
     for (std::size_t k = 0; k < 16; k += 4) {
         Four four;
         std::memcpy(&four, list + k, sizeof(four));
-        found |= (four == wanted.value()) & bits;
+        found |= std::bit_cast<Four>(four == wanted.value()) & bits;
         bits <<= 4U;
     }
     const auto halves = std::bit_cast<Two>(found);

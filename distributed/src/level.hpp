@@ -41,7 +41,7 @@ public:
 [[nodiscard]] inline EdgeMask selected_by(Scheme scheme, LengthOrder order) {
     const PatternTable& table = PatternTable::get();
     switch (scheme) {
-        case Scheme::eight: return 0b111111;
+        case Scheme::eight: return all_edges;
         case Scheme::four: return table.face_longest_edges(order);
         case Scheme::two: return static_cast<EdgeMask>(1U << table.longest_edge(order));
     }

@@ -35,8 +35,8 @@ std::uint8_t longest_in(EdgeMask set, const LongestFirst& longest_first) {
     return 6;
 }
 
-/// Of one edge alone. A face that has one selected edge asks for one other, so the closure of a set
-/// has nothing but the closures of its edges.
+/// Of one edge alone. What a face asks for, its longest edge, any selected edge of it asks for
+/// alone; so the closure of a set is the union of its edges' closures.
 EdgeMask closure_of(std::size_t edge, const LongestFirst& longest_first) {
     EdgeMask closed = bit(edge);
     while (true) {
@@ -49,7 +49,7 @@ EdgeMask closure_of(std::size_t edge, const LongestFirst& longest_first) {
     }
 }
 
-/// A list of at most 8 that asks for no memory: there are thousands of patterns to make.
+/// A list of at most 8 that asks for no memory: there are two thousand to make.
 class Pieces {
 public:
     using Piece = std::array<Place, 4>;

@@ -36,7 +36,7 @@ using Comparisons = std::uint16_t;
 
 class PatternTable {
 public:
-    /// Built on first use, in some milliseconds.
+    /// Built on first use, in less than a millisecond.
     static const PatternTable& get() {
         static const PatternTable table;
         return table;

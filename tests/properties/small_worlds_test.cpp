@@ -129,9 +129,9 @@ void expect_equality_of_part(const Part& part) {
 /// each cell sooner or later.
 std::vector<Mesh> some_worlds(const WorldKind& kind) {
     const std::size_t count = count_worlds(kind);
-    std::size_t step = count / 250;
+    std::size_t step = stride * std::max<std::size_t>(1, count / 250);
     while (std::gcd(step, count) != 1) ++step;
-    return every(step * stride, kind);
+    return every(step, kind);
 }
 
 /// Some of each kind; or, where OCTETRA_PART_UP_TO_EXCHANGE is a number from 1, all those of the

@@ -14,12 +14,21 @@ std::string name_of(const Finding& finding) {
     return fmt::format("{}-{:016x}", finding.law, std::hash<std::string>{}(content));
 }
 
+std::string counted(std::size_t count, const std::string& what) {
+    return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
+}
+
+std::string size_of(const Case& c) {
+    return counted(c.mesh.cells.size(), "cell") + ", " +
+           counted(static_cast<std::size_t>(c.levels), "level");
+}
+
 std::string description(const Finding& finding, const std::filesystem::path& file) {
     return fmt::format(
-        "{}: {}\n{} cells, {} levels\nreplay: OCTETRA_FINDING={} {}/tests/support/mpirun.sh {} {} "
+        "{}: {}\n{}\nreplay: OCTETRA_FINDING={} {}/tests/support/mpirun.sh {} {} "
         "--gtest_filter='*Findings*'",
-        finding.law, finding.fault, finding.refinement.mesh.cells.size(), finding.refinement.levels,
-        file.string(), OCTETRA_SOURCE_DIR, finding.ranks, OCTETRA_TEST_PROGRAM);
+        finding.law, finding.fault, size_of(finding.refinement), file.string(), OCTETRA_SOURCE_DIR,
+        finding.ranks, OCTETRA_TEST_PROGRAM);
 }
 
 std::string kept(const Finding& finding, const std::filesystem::path& folder) {

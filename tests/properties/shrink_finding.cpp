@@ -72,7 +72,7 @@ std::optional<Ending> ending_of(const Search& search, const Case& c) {
 }
 
 void print_size(const Case& c) {
-    fmt::print("{} cells, {} levels\n", c.mesh.cells.size(), c.levels);
+    fmt::print("{}\n", size_of(c));
     std::fflush(stdout);
 }
 
@@ -100,6 +100,7 @@ int run(Search search) {
             "the file does not say on how many ranks it was found: give --ranks N");
     }
     print_size(search.smallest.refinement);
+    const std::string ranks = counted(static_cast<std::size_t>(search.smallest.ranks), "rank");
     // What tried it is gone, and so it is in nobody's hands but ours.
     if (is_running_name(search.file.stem())) keep(search, search.smallest.refinement);
     const auto ending = ending_of(search, search.smallest.refinement);
@@ -108,12 +109,12 @@ int run(Search search) {
                    interrupted != 0 ? "interrupted" : "time was up");
     } else if (*ending == Ending::held) {
         fmt::print(
-            "on {} ranks its law holds: what broke it is mended, or depends on chance.\n"
+            "on {} its law holds: what broke it is mended, or depends on chance.\n"
             "{} stays as it is.\n",
-            search.smallest.ranks, search.file.string());
+            ranks, search.file.string());
         return 1;
     } else {
-        fmt::print("on {} ranks {}\n", search.smallest.ranks,
+        fmt::print("on {} {}\n", ranks,
                    *ending == Ending::died ? "it dies or waits for ever" : "it breaks its law");
         shrink(search, *ending);
     }

@@ -33,6 +33,7 @@ struct Options {
     double radius = 0;  ///< 0: all cells
     double random = 0;  ///< this share of the cells, by lot
     std::string partition = "block";
+    bool apart = false;
     bool warm = false;
     bool profile = false;
     bool memcpy = false;
@@ -61,8 +62,8 @@ double sum_of(const Communicator& world, double seconds) {
 }
 
 /// Collective. One level; seconds of the processor, messages and bytes are those of all ranks.
-ordered_json refine_level(DistributedMesh& mesh, const Selection& selection) {
-    const Communicator world = mesh.processes;
+ordered_json refine_level(const Communicator& world, DistributedMesh& mesh,
+                          const Selection& selection) {
     const auto before = world.sum(mesh.cells.size());
     const double processor = processor_seconds();
     const double start = wall_seconds();
@@ -141,16 +142,17 @@ void print_level(int number, const ordered_json& level) {
 
 void measure(const Communicator& world, const Options& options) {
     if (options.at_hand_megabytes > 0) keep_memory_at_hand(options.at_hand_megabytes << 20U);
-    Mesh input = world.is_first() ? mesh_of(options.mesh) : Mesh{};
+    const Communicator group = options.apart ? Communicator() : world;
+    Mesh input = group.is_first() ? mesh_of(options.mesh) : Mesh{};
     std::vector<int> parts;
-    if (world.is_first()) {
+    if (group.is_first()) {
         parts =
-            partition_cells(input, world.size(), distributed::parse_partition(options.partition));
+            partition_cells(input, group.size(), distributed::parse_partition(options.partition));
     }
-    auto mesh = distributed::distribute(world, std::move(input), parts);
+    auto mesh = distributed::distribute(group, std::move(input), parts);
     if (options.sparse_below >= 0) mesh.sparse_below = options.sparse_below;
     if (options.profile) {
-        mesh.processes = distributed::profiled(world, distributed::ProfileDetail::sums);
+        mesh.processes = distributed::profiled(group, distributed::ProfileDetail::sums);
     }
 
     if (options.warm) make_pattern_tables();
@@ -158,7 +160,7 @@ void measure(const Communicator& world, const Options& options) {
     const std::size_t input_bytes = bytes_of(mesh);
     ordered_json line{{"program", "octetra"}, {"ranks", world.size()}};
     for (int level = 1; level <= options.levels; ++level) {
-        line["levels"].push_back(refine_level(mesh, selection_of(options)));
+        line["levels"].push_back(refine_level(world, mesh, selection_of(options)));
         if (world.is_first() && !options.json) print_level(level, line["levels"].back());
     }
     line["peak_bytes"] = world.max(peak_bytes());
@@ -178,6 +180,8 @@ int run(const Communicator& world, int argc, char** argv) {
     app.add_option("radius", options.radius, "only cells nearer to (1/2, 1/2, 1/2); 0: all");
     app.add_option("--random", options.random, "this share of the cells, by lot");
     app.add_option("--partition", options.partition, "as of octetra refine");
+    app.add_flag("--apart", options.apart,
+                 "each rank has a mesh of its own, and nothing to do with the others");
     app.add_flag("--warm", options.warm, "leave out what a program does but once");
     app.add_option("--memory-at-hand", options.at_hand_megabytes,
                    "so many MiB for each rank, written to before: as in a program's later levels");

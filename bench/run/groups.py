@@ -25,7 +25,7 @@ def group(name, cases):
 
 def standard(with_peers):
     made = [
-        group("refinement", [refinement.uniform(55), refinement.uniform_at_hand(55, 800),
+        group("refinement", [refinement.uniform(55), refinement.uniform_at_hand(55, 44, 800),
                              refinement.sphere(32),
                              refinement.around_a_point(88, 10, 1000), refinement.by_lot(25500)]),
         group("growth", [growth.with_cells((6, 12, 24, 44, 55, 85)),
@@ -40,7 +40,7 @@ def standard(with_peers):
 
 def quick(with_peers):
     made = [
-        group("refinement", [refinement.uniform(24), refinement.uniform_at_hand(24, 100),
+        group("refinement", [refinement.uniform(24), refinement.uniform_at_hand(24, 19, 100),
                              refinement.sphere(12),
                              refinement.around_a_point(24, 4, 200), refinement.by_lot(2000)]),
         group("growth", [growth.with_cells((6, 12, 24)), growth.with_ranks(10, (1, 2, 4))]),

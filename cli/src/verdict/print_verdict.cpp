@@ -20,7 +20,11 @@ constexpr std::size_t shown_of_each_code = 5;
 
 void print_checks(const Verdict& verdict) {
     for (const verify::Check& check : verdict.checks) {
-        fmt::print("{:<22} {:<8} {}\n", check.name, word_of(check.status), check.note);
+        if (check.note.empty()) {
+            fmt::print("{:<22} {}\n", check.name, word_of(check.status));
+        } else {
+            fmt::print("{:<22} {:<8} {}\n", check.name, word_of(check.status), check.note);
+        }
     }
 }
 

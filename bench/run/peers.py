@@ -13,9 +13,9 @@ def name_of(program, ranks):
     return f"{program}, " + ("1 rank" if ranks == 1 else f"{ranks} ranks")
 
 
-def runs(mesh, ours, theirs):
+def runs(mesh, ours, theirs, all_ranks):
     return [driver(name_of(program, ranks), path, arguments, ranks, mesh)
-            for ranks in (1, 2)
+            for ranks in all_ranks
             for program, path, arguments in (("octetra", OURS, ours), ("DOLFINx", THEIRS, theirs))]
 
 
@@ -38,13 +38,13 @@ def other_counts(lines):
             if (found := [level["cells"] for level in line["levels"]]) != expected]
 
 
-def level_figures(least):
+def level_figures(least, all_ranks):
     def figures(lines):
         made = []
         for level, first in enumerate(lines[name_of("octetra", 1)][0]["levels"]):
             words = f"level {level + 1}"
             made.append(Figure(f"{words}: cells of the result, of both", first["cells"], ""))
-            for ranks in (1, 2):
+            for ranks in all_ranks:
                 made += [Figure(f"{words}: {name}", median(lines[name], "levels", level, "seconds"),
                                 "s")
                          for name in (name_of("octetra", ranks), name_of("DOLFINx", ranks))]
@@ -67,15 +67,17 @@ def bars(lines):
 
 def uniform(cubes):
     mesh = (f"kuhn {cubes}", "uniform-peers.mesh")
-    return Case("beside DOLFINx, uniform", runs(mesh, "1 0 --json", ""), level_figures(80), bars,
-                other_counts)
+    all_ranks = (1, 2)
+    return Case("beside DOLFINx, uniform", runs(mesh, "1 0 --json", "", all_ranks),
+                level_figures(80, all_ranks), bars, other_counts)
 
 
 def sphere(cubes):
     mesh = (f"kuhn {cubes}", "sphere-peers.mesh")
+    all_ranks = (1, 2, 4)
     return Case("beside DOLFINx, sphere",
-                runs(mesh, "3 0.25 --json", f"--levels 3 --sphere {SPHERE}"), level_figures(60),
-                bars, other_counts)
+                runs(mesh, "3 0.25 --json", f"--levels 3 --sphere {SPHERE}", all_ranks),
+                level_figures(60, all_ranks), bars, other_counts)
 
 
 def bare_figures(lines):

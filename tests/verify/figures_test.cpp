@@ -100,6 +100,37 @@ TEST(FaceAngles, OfAnEquilateralTriangleMayBeHalvedAndNoMore) {
     EXPECT_EQ(arithmetic.exact, exact_before + 2);
 }
 
+/// Near each cell of a lattice are vertices in the plane of one of its faces and beyond another.
+TEST(Vertices, ThatAreClearlyBeyondAFaceTakeNoExactArithmeticForTheOthers) {
+    Mesh lattice = test::kuhn(3, 3, 3);
+    for (Point& p : lattice.points) {
+        p = {(p.x + 0.3 * p.y) * awkward / 3, (p.y + 0.7 * p.z) * awkward / 3, p.z * awkward / 3};
+    }
+    const Verdict verdict = test::judged_by_all(lattice, lattice);
+    EXPECT_TRUE(verdict.valid());
+    // The volume of each cell and the area of each boundary face are added up exactly.
+    EXPECT_EQ(verdict.arithmetic.exact, lattice.cells.size() + 108);
+}
+
+/// Half of a smallest angle is 30 degrees at most, so neither a right angle nor one of 45 or 60
+/// degrees needs rational numbers, though intervals cannot tell the sign of a cosine of 0.
+TEST(FaceAngles, AreTakenForLargeEnoughByIntervalsFrom30DegreesUp) {
+    constexpr double a = awkward;
+    const Point o{0.3 * a, 0.7 * a, -0.9 * a};
+    const auto at = [&](double x, double y) { return Point{o.x + x * a, o.y + y * a, o.z}; };
+    const std::array<Point, 3> right{at(0, 0), at(1, 0), at(0, 1)};
+    const std::array<Point, 3> half{at(0, 0), at(1, 0), at(0.5, 0.5)};
+    const std::array<Point, 3> turned{at(0, 0), at(0.6, 0.8), at(-0.8, 0.6)};
+    Arithmetic arithmetic;
+    for (const auto& piece : {right, half, turned}) {
+        for (const auto& whole : {right, half, turned}) {
+            EXPECT_TRUE(exact::keeps_half_of_smallest_angle(piece, whole, arithmetic));
+        }
+    }
+    EXPECT_EQ(arithmetic.exact, 0U);
+    EXPECT_EQ(arithmetic.filtered, 9U);
+}
+
 TEST(Depths, HaveTheKnownQualitiesOfTheTieFreeExample) {
     const Mesh coarse = test::one_cell(test::tie_free_corners);
     const Mesh fine = reference::refine(coarse, {.all = true}, Scheme::eight, 3).mesh;

@@ -1,3 +1,6 @@
+#include <array>
+#include <optional>
+
 #include <fmt/format.h>
 
 #include "box_tree.hpp"
@@ -7,13 +10,23 @@
 namespace octetra::verify {
 namespace {
 
-/// On how many faces of a cell a point lies that is not outside; -1 if it is outside.
+/// On how many faces of a cell a point lies that is not outside; -1 if it is outside. In a lattice
+/// most points near a cell are in the plane of some face, which takes rational numbers to tell, but
+/// clearly beyond another; so that is asked first.
 int faces_touched(const std::array<Point, 4>& corners, const Point& p, Arithmetic& arithmetic) {
+    const auto with_p_as_corner = [&](std::size_t k, auto&& judge) {
+        auto q = corners;
+        q[k] = p;
+        return judge(q[0], q[1], q[2], q[3], arithmetic);
+    };
+    std::array<std::optional<int>, 4> signs;
+    for (std::size_t k = 0; k < 4; ++k) {
+        signs[k] = with_p_as_corner(k, exact::clear_orientation);
+        if (signs[k] == -1) return -1;
+    }
     int touched = 0;
     for (std::size_t k = 0; k < 4; ++k) {
-        auto with_p = corners;
-        with_p[k] = p;
-        const int sign = exact::orientation(with_p[0], with_p[1], with_p[2], with_p[3], arithmetic);
+        const int sign = signs[k] ? *signs[k] : with_p_as_corner(k, exact::orientation);
         if (sign < 0) return -1;
         if (sign == 0) ++touched;
     }

@@ -71,18 +71,38 @@ std::optional<bool> is_greater(const Cosine<T>& cosine, int sign_of_c, const T& 
     return sign_of_c >= 0 ? *excess > 0 : *excess < 0;
 }
 
-/// cos(piece's angle) > cos(whole's angle / 2), for whole's smallest angle: with r = cos^2 of the
-/// first, that is 2 r - 1 > cos(whole's angle), which is positive.
+/// Is the angle more than 60 degrees, and so not the smallest of its triangle? Nothing if
+/// undecided; a right angle, whose cosine has a sign that no interval tells, is decided by the
+/// square.
+template <class T>
+std::optional<bool> is_over_60_degrees(const Cosine<T>& angle) {
+    const auto sign = sign_of(angle.numerator);
+    if (sign && *sign <= 0) return true;
+    const auto excess = sign_of(T(angle.square - T(4) * angle.numerator * angle.numerator));
+    if (!excess) return std::nullopt;
+    return *excess > 0;
+}
+
+/// Is it 30 degrees or more, and so half of any triangle's smallest angle or more?
+template <class T>
+std::optional<bool> is_30_degrees_or_more(const Cosine<T>& angle) {
+    const auto sign = sign_of(angle.numerator);
+    if (sign && *sign <= 0) return true;
+    const auto excess = sign_of(T(T(3) * angle.square - T(4) * angle.numerator * angle.numerator));
+    if (!excess) return std::nullopt;
+    return *excess >= 0;
+}
+
+/// cos(piece's angle) > cos(whole's angle / 2), for less than 30 and at most 60 degrees: with
+/// r = cos^2 of the first, that is 2 r - 1 > cos(whole's angle), where both are positive.
 template <class T>
 std::optional<bool> is_less_than_half(const Cosine<T>& piece, const Cosine<T>& whole) {
-    const auto sign = sign_of(piece.numerator);
-    if (!sign) return std::nullopt;
-    if (*sign <= 0) return false;
     // With r = n^2 / s: (2 n^2 - s) / s > m / sqrt(t).
     const T twice_less_one = T(2) * piece.numerator * piece.numerator - piece.square;
-    const auto obtuse = sign_of(twice_less_one);
-    if (!obtuse) return std::nullopt;
-    if (*obtuse <= 0) return false;
+    if (sign_of(piece.numerator) != 1 || sign_of(twice_less_one) != 1 ||
+        sign_of(whole.numerator) != 1) {
+        return std::nullopt;  // the angles are too near to those bounds for T
+    }
     const T left = twice_less_one * twice_less_one * whole.square;
     const T right = whole.numerator * whole.numerator * piece.square * piece.square;
     const auto excess = sign_of(T(left - right));
@@ -104,13 +124,13 @@ std::optional<bool> has_angle_less_than_half_of_all(const std::array<Point, 3>& 
     bool undecided = false;
     for (std::size_t i = 0; i < 3; ++i) {
         const auto angle = cosine_at<T>(piece, i);
+        if (is_30_degrees_or_more(angle) == true) continue;
         bool less_than_all = true;
         bool unknown = false;
         for (std::size_t k = 0; k < 3 && less_than_all; ++k) {
             const auto other = cosine_at<T>(whole, k);
-            const auto sign = sign_of(other.numerator);
-            if (sign && *sign <= 0) continue;  // not the smallest, which is at most 60 degrees
-            const auto less = sign ? is_less_than_half(angle, other) : std::nullopt;
+            if (is_over_60_degrees(other) == true) continue;
+            const auto less = is_less_than_half(angle, other);
             if (!less) {
                 unknown = true;
             } else if (!*less) {
@@ -219,7 +239,7 @@ bool keeps_half_of_smallest_angle(const std::array<Point, 3>& piece,
         }
     }
     ++arithmetic.exact;
-    return !*has_angle_less_than_half_of_all<mpq_class>(piece, whole);
+    return !has_angle_less_than_half_of_all<mpq_class>(piece, whole).value();
 }
 
 }  // namespace octetra::verify::exact

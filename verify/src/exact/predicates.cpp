@@ -20,17 +20,19 @@ typename K::Point_3 point(const Point& p) {
 
 }  // namespace
 
+std::optional<int> clear_orientation(const Point& a, const Point& b, const Point& c, const Point& d,
+                                     Arithmetic& arithmetic) {
+    const CGAL::Protect_FPU_rounding<true> upward;
+    const auto sign = Intervals::Orientation_3()(point<Intervals>(a), point<Intervals>(b),
+                                                 point<Intervals>(c), point<Intervals>(d));
+    if (!CGAL::is_certain(sign)) return std::nullopt;
+    ++arithmetic.filtered;
+    return static_cast<int>(CGAL::get_certain(sign));
+}
+
 int orientation(const Point& a, const Point& b, const Point& c, const Point& d,
                 Arithmetic& arithmetic) {
-    {
-        const CGAL::Protect_FPU_rounding<true> upward;
-        const auto sign = Intervals::Orientation_3()(point<Intervals>(a), point<Intervals>(b),
-                                                     point<Intervals>(c), point<Intervals>(d));
-        if (CGAL::is_certain(sign)) {
-            ++arithmetic.filtered;
-            return static_cast<int>(CGAL::get_certain(sign));
-        }
-    }
+    if (const auto sign = clear_orientation(a, b, c, d, arithmetic)) return *sign;
     ++arithmetic.exact;
     return static_cast<int>(Rationals::Orientation_3()(point<Rationals>(a), point<Rationals>(b),
                                                        point<Rationals>(c), point<Rationals>(d)));

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 
 #include <octetra/core/point.hpp>
 #include <octetra/verify/verdict.hpp>
@@ -13,6 +14,10 @@ namespace octetra::verify::exact {
 /// code.
 [[nodiscard]] int orientation(const Point& a, const Point& b, const Point& c, const Point& d,
                               Arithmetic& arithmetic);
+
+/// The same where intervals decide; nothing, and nothing counted, where they do not.
+[[nodiscard]] std::optional<int> clear_orientation(const Point& a, const Point& b, const Point& c,
+                                                   const Point& d, Arithmetic& arithmetic);
 
 /// Have the closed segment and the closed triangle, which is not degenerate, a point in common?
 [[nodiscard]] bool meet(const std::array<Point, 2>& segment, const std::array<Point, 3>& triangle,

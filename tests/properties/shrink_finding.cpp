@@ -19,11 +19,12 @@
 ///
 ///     shrink_finding FILE.json RANKS SECONDS [PROGRAM]
 ///
-/// RANKS 0: as many as it was found on. A step is kept if its replay ends as that of the finding
-/// does: without a verdict, whether by a signal, an abort or time that is up; or with a broken law.
-/// The smallest so far is on disk at any time, in place of the one before, so Ctrl-C loses nothing.
-/// Exit status: 0 it is as small as it gets, or time is up; 1 its law holds; 2 it cannot be tried;
-/// 130 interrupted.
+/// RANKS 0: as many as it was found on. It is tried on fewer, too, before all else and at the end,
+/// when the case may need fewer than it did. A step is kept if its replay ends as that of the
+/// finding does: without a verdict, whether by a signal, an abort or time that is up; or with a
+/// broken law. The smallest so far is on disk at any time, in place of the one before, so Ctrl-C
+/// loses nothing. Exit status: 0 it is as small as it gets, or time is up; 1 its law holds; 2 it
+/// cannot be tried; 130 interrupted.
 namespace octetra::properties {
 namespace {
 
@@ -46,8 +47,8 @@ struct Search {
 };
 
 /// Puts a smaller one in the place of what is on disk.
-void keep(Search& search, Case smaller) {
-    search.smallest.refinement = std::move(smaller);
+void keep(Search& search, Finding smaller) {
+    search.smallest = std::move(smaller);
     const fs::path before = search.file;
     const fs::path folder = before.parent_path();
     search.file = write_finding(search.smallest, folder, name_of(search.smallest));
@@ -56,12 +57,10 @@ void keep(Search& search, Case smaller) {
 
 bool is_over(const Search& search) { return interrupted != 0 || Clock::now() >= search.end; }
 
-/// How a replay of the case ends; nothing, if it was cut short, for then nobody knows.
-std::optional<Ending> ending_of(const Search& search, const Case& c) {
+/// How a replay of the finding ends; nothing, if it was cut short, for then nobody knows.
+std::optional<Ending> ending_of(const Search& search, const Finding& candidate) {
     const std::chrono::duration<double> left = search.end - Clock::now();
     if (is_over(search)) return {};
-    Finding candidate = search.smallest;
-    candidate.refinement = c;
     try {
         const Ending ending = replay(candidate, search.program, left.count());
         if (!is_over(search)) return ending;
@@ -76,18 +75,43 @@ void print_size(const Case& c) {
     std::fflush(stdout);
 }
 
+/// Keeps the candidate if it ends as it should.
+Trial attempt(Search& search, Ending wanted, Finding candidate) {
+    const auto ending = ending_of(search, candidate);
+    if (!ending) return Trial::not_made;
+    ++search.tried;
+    if (*ending != wanted) return Trial::holds;
+    keep(search, std::move(candidate));
+    return Trial::fails;
+}
+
+/// To the least number of ranks that will do. What the case gives to others they divide.
+void take_fewer_ranks(Search& search, Ending wanted) {
+    for (int ranks = 1; ranks < search.smallest.ranks; ++ranks) {
+        Finding candidate = search.smallest;
+        candidate.ranks = ranks;
+        if (attempt(search, wanted, std::move(candidate)) != Trial::fails) continue;
+        fmt::print("on {}, too\n", counted(static_cast<std::size_t>(ranks), "rank"));
+        std::fflush(stdout);
+    }
+}
+
+void take_simpler_cases(Search& search, Ending wanted) {
+    (void)simplest(search.smallest.refinement, [&](const Case& c) {
+        Finding candidate = search.smallest;
+        candidate.refinement = c;
+        const std::size_t cells = search.smallest.refinement.mesh.cells.size();
+        const Trial trial = attempt(search, wanted, std::move(candidate));
+        if (trial == Trial::fails && c.mesh.cells.size() < cells) print_size(c);
+        return trial;
+    });
+}
+
 /// As small as it gets, or as time allows.
 void shrink(Search& search, Ending wanted) {
-    (void)simplest(search.smallest.refinement, [&](const Case& c) {
-        const auto ending = ending_of(search, c);
-        if (!ending) return Trial::not_made;
-        ++search.tried;
-        if (*ending != wanted) return Trial::holds;
-        const std::size_t cells = search.smallest.refinement.mesh.cells.size();
-        keep(search, c);
-        if (c.mesh.cells.size() < cells) print_size(c);
-        return Trial::fails;
-    });
+    take_fewer_ranks(search, wanted);
+    take_simpler_cases(search, wanted);
+    take_fewer_ranks(search, wanted);
     fmt::print("{} smaller cases tried: {}\n", search.tried,
                interrupted != 0  ? "interrupted"
                : is_over(search) ? "time is up"
@@ -102,8 +126,8 @@ int run(Search search) {
     print_size(search.smallest.refinement);
     const std::string ranks = counted(static_cast<std::size_t>(search.smallest.ranks), "rank");
     // What tried it is gone, and so it is in nobody's hands but ours.
-    if (is_running_name(search.file.stem())) keep(search, search.smallest.refinement);
-    const auto ending = ending_of(search, search.smallest.refinement);
+    if (is_running_name(search.file.stem())) keep(search, search.smallest);
+    const auto ending = ending_of(search, search.smallest);
     if (!ending) {
         fmt::print("{} before it was tried once\n",
                    interrupted != 0 ? "interrupted" : "time was up");

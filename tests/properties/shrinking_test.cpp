@@ -16,13 +16,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// 24 cells, many of them chosen, marked; rank 1 has some.
-Case some_case() {
+/// 24 cells, many of them chosen, marked; that rank has some.
+Case some_case(int rank = 1) {
     Case c{.kind = "a lattice", .mesh = generator::kuhn(1, 2, 2, {1, 1, 1}), .levels = 2};
     c.mesh.regions.assign(c.mesh.cells.size(), Marker{5});
     c.selection.random = RandomShare{0.5, 1};
     for (std::size_t i = 0; i < c.mesh.cells.size(); ++i) {
-        c.cell_to_rank.push_back(i % 5 == 3 ? 1 : 0);
+        c.cell_to_rank.push_back(i % 5 == 3 ? rank : 0);
     }
     return c;
 }
@@ -30,7 +30,10 @@ Case some_case() {
 class Shrinking : public testing::Test {
 protected:
     fs::path write(const std::string& law, const std::string& name) const {
-        return write_finding({law, "seen", some_case(), 2}, folder_.path(), name);
+        return write({law, "seen", some_case(), 2}, name);
+    }
+    fs::path write(const Finding& finding, const std::string& name) const {
+        return write_finding(finding, folder_.path(), name);
     }
     test::Outcome shrink(const std::vector<std::string>& arguments) const {
         std::vector<std::string> command{"env", "OCTETRA_CPU_SECONDS=1", OCTETRA_SHRINK_FINDING};
@@ -52,7 +55,7 @@ private:
     test::TemporaryFolder folder_;
 };
 
-/// As faulty_laws.cpp has it.
+/// As faulty_laws.cpp has it on two ranks.
 bool is_faulty(const Case& c) {
     std::size_t chosen = 0;
     for (CellIndex i{0}; i < c.mesh.cells.end_index(); ++i) chosen += is_chosen(c, i) ? 1U : 0U;
@@ -85,6 +88,24 @@ TEST_F(Shrinking, OfACaseThatWaitsForEverEndsAtTheSmallestThatDoes) {
     const auto file = write("numbering", "numbering-running-17");
     const auto [status, out, err] = shrink({file, "0", "250", OCTETRA_FAULTY_LAWS});
     EXPECT_EQ(status, 0) << out << err;
+    expect_smallest(kept().refinement);
+}
+
+TEST_F(Shrinking, TakesFewerRanksBeforeItTakesFewerCells) {
+    const auto file = write({"closure", "seen", some_case(), 4}, "some");
+    const auto [status, out, err] = shrink({file, "0", "200", OCTETRA_FAULTY_LAWS});
+    EXPECT_EQ(status, 0) << out << err;
+    EXPECT_LT(out.find("on 2 ranks, too"), out.find("\n4 cells")) << out;
+    EXPECT_EQ(kept().ranks, 2);
+    expect_smallest(kept().refinement);
+}
+
+/// On two ranks the first one would have all cells, until they are of rank 1.
+TEST_F(Shrinking, TakesFewerRanksOnceFewerCellsAllowIt) {
+    const auto file = write({"closure", "seen", some_case(2), 3}, "some");
+    const auto [status, out, err] = shrink({file, "0", "200", OCTETRA_FAULTY_LAWS});
+    EXPECT_EQ(status, 0) << out << err;
+    EXPECT_EQ(kept().ranks, 2);
     expect_smallest(kept().refinement);
 }
 

@@ -24,10 +24,10 @@ TEST_P(BadUsage, EndsInStatus2AndOneMessage) {
 
 INSTANTIATE_TEST_SUITE_P(
     CommandLines, BadUsage,
-    testing::Values("frobnicate", "build --fast", "test --slow", "test A B", "fuzz --minutes",
-                    "fuzz --minutes 0", "fuzz --minutes 00", "fuzz --minutes x", "fuzz 5",
-                    "worlds --minutes 0", "worlds --from 0", "worlds --from 262", "shrink",
-                    "shrink a.ele", "shrink no-such-file.json", "shrink a.json b.json",
+    testing::Values("frobnicate", "build --fast", "build relaese", "test --slow", "test A B",
+                    "fuzz --minutes", "fuzz --minutes 0", "fuzz --minutes 00", "fuzz --minutes x",
+                    "fuzz 5", "worlds --minutes 0", "worlds --from 0", "worlds --from 262",
+                    "shrink", "shrink a.ele", "shrink no-such-file.json", "shrink a.json b.json",
                     "shrink a.json --minutes 0", "shrink a.json --ranks 0", "shrink a.json --ranks",
                     "shrink --slow 1 a.json", "fuzz-files --minutes 0", "format --slow"));
 

@@ -69,6 +69,23 @@ class Report(unittest.TestCase):
         return [(run["ranks"], run["sync"]) for case in report["cases"] for run in case["runs"]
                 if not run["identical"]]
 
+    def names(self, *options):
+        """Status, the cases that are listed, and what stands on stderr."""
+        out = os.path.join(self.folder, "out")
+        done = subprocess.run([sys.executable, TOOL, "-o", out, "--list", *options],
+                              capture_output=True, text=True, check=False)
+        self.assertFalse(os.path.exists(out))
+        return done.returncode, done.stdout.splitlines(), done.stderr
+
+    def test_lists_its_cases_and_runs_nothing(self):
+        status, names, _ = self.names("--only", "kuhn-2")
+        self.assertEqual((status, names), (0, ["kuhn-2"]))
+        self.assertGreater(len(self.names()[1]), len(self.names("--quick")[1]))
+
+    def test_refuses_a_name_that_no_case_has(self):
+        self.assertEqual(self.names("--only", "no such case"),
+                         (2, [], "equivalence: no case has 'no such case' in its name\n"))
+
     def test_says_that_all_is_identical_and_valid(self):
         status, said, report = self.report("kuhn-2")
         self.assertEqual(status, 0)

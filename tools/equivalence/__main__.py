@@ -34,6 +34,7 @@ def parse_command_line():
     parser.add_argument("--quick", action="store_true", help="a few small cases, every run once")
     parser.add_argument("--only", metavar="WORDS", help="only cases with this in their name, and "
                         "those that they follow")
+    parser.add_argument("--list", action="store_true", help="run nothing: name the cases")
     parser.add_argument("--no-pictures", action="store_true", help="leave pictures of meshes out")
     parser.add_argument("--bench", metavar="FILE.json", default=bench_section.RESULTS,
                         help="results of ./dev bench, which the page draws if they are there")
@@ -51,6 +52,8 @@ def chosen_cases(options):
     for case in reversed(cases):  # a case stands behind the one that it follows
         if case.name in names and case.after:
             names.add(case.after)
+    if not names:
+        raise Failure(f"no case has '{options.only}' in its name")
     return [case for case in cases if case.name in names]
 
 
@@ -96,8 +99,6 @@ def make_report(options):
         raise Failure(f"{options.octetra}: no such program; --octetra says where it is")
     octetra, output = os.path.abspath(octetra), os.path.abspath(options.output)
     cases = chosen_cases(options)
-    if not cases:
-        raise Failure(f"no case has '{options.only}' in its name")
     where = machine.describe(octetra)
     begin = time.monotonic()
     with tempfile.TemporaryDirectory(prefix="equivalence-", dir=output) as work:
@@ -114,6 +115,9 @@ def write(path, words):
 def main():
     options = parse_command_line()
     try:
+        if options.list:
+            print("\n".join(case.name for case in chosen_cases(options)))
+            return 0
         os.makedirs(options.output, exist_ok=True)
         if options.old:
             with open(options.old, encoding="utf-8") as file:

@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <exception>
 #include <filesystem>
+#include <iostream>
 #include <new>
 #include <string>
 #include <string_view>
@@ -83,6 +84,17 @@ std::string what_is_wrong(const CLI::App& program, const CLI::ParseError& error)
     return fmt::format("{} takes one of {}, not '{}'", app->get_name(), names, words.front());
 }
 
+/// "octetra", or "octetra refine" once that was read.
+std::string innermost_command(const CLI::App& program) {
+    std::string words = program.get_name();
+    const CLI::App* app = &program;
+    while (!app->get_subcommands().empty()) {
+        app = app->get_subcommands().front();
+        words += fmt::format(" {}", app->get_name());
+    }
+    return words;
+}
+
 int parse_and_run(CLI::App& program, int argc, char** argv,
                   const distributed::Communicator& world) {
     auto status = Status::done;
@@ -91,16 +103,19 @@ int parse_and_run(CLI::App& program, int argc, char** argv,
     } catch (const AnswerIsNo&) {
         status = Status::no;
     } catch (const CLI::Success& help_or_version) {
-        return world.is_first() ? program.exit(help_or_version) : 0;
+        if (world.is_first()) program.exit(help_or_version);
     } catch (const CLI::ParseError& error) {
         return fail(Status::bad_input,
-                    fmt::format("{}\nTry octetra --help, or octetra SUBCOMMAND --help.",
-                                what_is_wrong(program, error)),
+                    fmt::format("{}\nTry {} --help.", what_is_wrong(program, error),
+                                innermost_command(program)),
                     world);
     }
+    std::cout.flush();  // help and version
     std::fflush(stdout);
     // Whoever reads the results from a pipe or a full disk must hear of it.
-    if (std::ferror(stdout) != 0) throw SystemError("standard output cannot be written");
+    if (std::ferror(stdout) != 0 || !std::cout) {
+        throw SystemError("standard output cannot be written");
+    }
     return static_cast<int>(status);
 }
 

@@ -168,13 +168,31 @@ TEST(Refine, BeyondALimitOnFileSizesIsAFailureOfTheSystemThatLeavesNothing) {
     EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
 }
 
-TEST(Info, ToAFullDiskIsAFailureOfTheSystem) {
+TEST(Output, ToAFullDiskIsAFailureOfTheSystem) {
     const TemporaryFolder folder;
     ASSERT_EQ(test::octetra("generate regular -o one.mesh", folder).status, 0);
-    const test::Outcome run = test::run_program(
-        {"/bin/bash", "-c", OCTETRA_PROGRAM " info one.mesh > /dev/full"}, folder.path());
-    EXPECT_EQ(run.status, 3);
-    EXPECT_EQ(run.err, "octetra: standard output cannot be written\n");
+    for (const std::string arguments : {"info one.mesh", "--version", "refine --help"}) {
+        const test::Outcome run = test::run_program(
+            {"/bin/bash", "-c", OCTETRA_PROGRAM " " + arguments + " > /dev/full"}, folder.path());
+        EXPECT_EQ(run.status, 3) << arguments;
+        EXPECT_EQ(run.err, "octetra: standard output cannot be written\n") << arguments;
+    }
+}
+
+/// A unit cube of six cells; each level halves lengths.
+TEST(Refine, SaysHowManyCellsAreStillTooLarge) {
+    const TemporaryFolder folder;
+    ASSERT_EQ(test::octetra("generate kuhn 1 -o cube.ele", folder).status, 0);
+    const auto notes = [&](const std::string& options) {
+        const std::string refine = "refine cube.ele -o fine.ele --max-volume 0.01 ";
+        return test::octetra(refine + options, folder).err;
+    };
+    const std::string note =
+        "octetra: note: 48 cells are larger than --max-volume after 1 level: more --levels may "
+        "help\n";
+    EXPECT_EQ(notes("--levels 1"), note);
+    EXPECT_EQ(notes("--levels 1 --engine reference"), note);
+    EXPECT_EQ(notes("--levels 2"), "");
 }
 
 TEST(Refine, OutOfMemoryIsAFailureOfTheSystemThatLeavesNothing) {

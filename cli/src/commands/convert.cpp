@@ -36,7 +36,7 @@ void add_convert(CLI::App& program, const distributed::Communicator& world) {
     CLI::App* command = program.add_subcommand(
         "convert", "Write a mesh in another format, coordinates bit for bit");
     add_input_options(*command, options->input);
-    command->add_option("OUT", options->output, "where to write: .ele, .mesh or .vtu")
+    command->add_option("OUT", options->output, "where to write: .ele, .mesh, .vtu or .pvtu")
         ->type_name("")
         ->required();
     command->add_flag("--quiet", options->quiet, "print nothing but notes and errors");

@@ -125,10 +125,35 @@ void note_idle_levels(const RefineOptions& options, int levels) {
                                    options.refinement.levels));
 }
 
-void report_refined(const RefineOptions& options, int levels, int ranks, const MeshFacts& facts,
-                    double seconds) {
-    report(options, refined_line(levels, ranks), facts.vertices, facts.cells, seconds);
-    note_idle_levels(options, levels);
+/// How many cells have more volume than the selection wants; none, if it says nothing of it.
+std::uint64_t too_large_cells(const IndexVector<VertexIndex, Point>& points,
+                              const IndexVector<CellIndex, CellVertices>& cells,
+                              const Selection& selection) {
+    if (!selection.max_volume) return 0;
+    const Selection too_large{.max_volume = selection.max_volume};
+    return static_cast<std::uint64_t>(std::ranges::count_if(cells, [&](const CellVertices& cell) {
+        const auto& [a, b, c, d] = cell;
+        return chooses(too_large, {points[a], points[b], points[c], points[d]}, Marker{0},
+                       GlobalCell{0});
+    }));
+}
+
+/// What the engine has made, in numbers.
+struct Made {
+    int levels = 0;
+    int ranks = 1;
+    MeshFacts facts;
+    std::uint64_t too_large = 0;  ///< cells
+};
+
+void report_refined(const RefineOptions& options, const Made& made, double seconds) {
+    report(options, refined_line(made.levels, made.ranks), made.facts.vertices, made.facts.cells,
+           seconds);
+    note_idle_levels(options, made.levels);
+    if (made.too_large == 0) return;
+    note(fmt::format("{} cell{} larger than --max-volume after {} level{}: more --levels may help",
+                     grouped(made.too_large), made.too_large == 1 ? " is" : "s are", made.levels,
+                     made.levels == 1 ? "" : "s"));
 }
 
 void report_written(const RefineOptions& options, const std::string& lost, const MeshFacts& facts,
@@ -217,8 +242,8 @@ bool judge_and_write(const Mesh& coarse, const Mesh& fine, const RefinementMaps&
         }
         const distributed::Phase phase(world, "write");
         const std::string lost = write_mesh(source, options.output);
-        if (!options.maps.empty()) write_maps(source, options.maps);
         report_written(options, lost, source.facts(), watch.lap());
+        if (!options.maps.empty()) write_maps(source, options.maps);
     });
     world.broadcast(valid);
     return valid.front() == 1;
@@ -235,8 +260,12 @@ bool refine_by_reference(const Mesh& mesh, const Plan& plan, const RefineOptions
             return reference::refine(mesh, plan.selection, plan.scheme, levels, options.max_cells);
         });
         const bool idle = fine.mesh.cells.size() == mesh.cells.size();
-        report_refined(options, idle ? 0 : levels, 1, WholeMesh(fine.mesh, &fine.maps).facts(),
-                       watch.lap());
+        report_refined(
+            options,
+            {.levels = idle ? 0 : levels,
+             .facts = WholeMesh(fine.mesh, &fine.maps).facts(),
+             .too_large = too_large_cells(fine.mesh.points, fine.mesh.cells, plan.selection)},
+            watch.lap());
     });
     return judge_and_write(mesh, fine.mesh, fine.maps, plan, options, world, watch);
 }
@@ -271,16 +300,18 @@ bool refine_distributed(Mesh mesh, const Plan& plan, const RefineOptions& option
         levels = level;
         if (show) show(level, cells);
     };
+    std::uint64_t too_large = 0;
     const auto report_parts = [&](const MeshFacts& facts) {
         if (!world.is_first()) return;
         if (show) fmt::print(stderr, "\r{:60}\r", "");
-        report_refined(options, levels, world.size(), facts, watch.lap());
+        report_refined(options, {levels, world.size(), facts, too_large}, watch.lap());
     };
     naming_the_mesh(options, [&] {
         distributed::refine(parts, plan.selection,
                             {plan.scheme, options.refinement.levels, plan.synchronisation,
                              options.max_cells, on_level});
     });
+    too_large = world.sum(too_large_cells(parts.points, parts.cells, plan.selection));
     if (verify_alone) {
         const auto fine =
             naming_the_mesh(options, [&] { return distributed::collect(std::move(parts)); });
@@ -299,8 +330,8 @@ bool refine_distributed(Mesh mesh, const Plan& plan, const RefineOptions& option
     }
     const distributed::Phase phase(world, "write");
     const std::string lost = distributed::write_mesh(fine, options.output);
-    if (!options.maps.empty()) write_maps(fine.whole(), options.maps);
     if (world.is_first()) report_written(options, lost, fine.facts(), watch.lap());
+    if (!options.maps.empty()) write_maps(fine.whole(), options.maps);
     return true;
 }
 

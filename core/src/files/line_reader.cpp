@@ -113,8 +113,9 @@ void LineReader::check_count(std::uint64_t count, std::size_t fields, std::strin
     // Each number takes a digit and a separator; the last separator of a file may be missing.
     const std::uint64_t most = (file_size_ + 1) / (2 * fields);
     if (count > most) {
-        fail(fmt::format("{} {} announced, but a file of {} bytes holds at most {}", count, what,
-                         file_size_, most));
+        fail(
+            fmt::format("{} {} announced, but a file of {} bytes holds at most {}; was it cut off?",
+                        count, what, file_size_, most));
     }
     if (count >= VertexIndex::limit) {
         fail(fmt::format("{} {} announced; at most {} are supported", count, what,

@@ -1,12 +1,14 @@
 #include "child_process.hpp"
 
 #include <fcntl.h>
+#include <sys/prctl.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <array>
 #include <cerrno>
+#include <csignal>
 #include <cstdlib>
 #include <cstring>
 #include <utility>
@@ -27,6 +29,12 @@ void be_silent() {
     if (nowhere < 0) return;
     ::dup2(nowhere, STDOUT_FILENO);
     ::dup2(nowhere, STDERR_FILENO);
+}
+
+/// So that whoever kills the parent, and knows of no child, leaves nothing running.
+void end_with(pid_t parent) {
+    ::prctl(PR_SET_PDEATHSIG, SIGKILL);
+    if (::getppid() != parent) ::_exit(EXIT_FAILURE);  // it was gone before that was heard
 }
 
 [[noreturn]] void be_child(int pipe_end, const std::function<int(ToParent&)>& work) noexcept {
@@ -100,6 +108,7 @@ ChildResult run_in_child(const std::function<int(ToParent&)>& work) {
     std::array<int, 2> ends{};
     if (::pipe2(ends.data(), O_CLOEXEC) != 0) fail("making a pipe");
     const auto [read_end, write_end] = ends;
+    const pid_t parent = ::getpid();
     const pid_t process = ::fork();
     if (process < 0) {
         ::close(read_end);
@@ -108,6 +117,7 @@ ChildResult run_in_child(const std::function<int(ToParent&)>& work) {
     }
     if (process == 0) {
         ::close(read_end);
+        end_with(parent);
         be_child(write_end, work);
     }
     ::close(write_end);

@@ -1,0 +1,47 @@
+#include <fcntl.h>
+#include <poll.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <array>
+#include <csignal>
+
+#include <gtest/gtest.h>
+
+#include "child_process.hpp"
+
+namespace octetra::generator {
+namespace {
+
+/// The child holds the writing end of a pipe, which its end closes, whoever notices.
+TEST(ChildProcess, EndsWhenItsParentIsKilled) {
+    std::array<int, 2> ends{};
+    ASSERT_EQ(::pipe(ends.data()), 0);
+    const auto [read_end, write_end] = ends;
+    const pid_t parent = ::fork();
+    ASSERT_GE(parent, 0);
+    if (parent == 0) {
+        ::close(read_end);
+        (void)run_in_child([&](ToParent&) {
+            if (::write(write_end, "!", 1) != 1) return 1;
+            constexpr unsigned much_longer_than_the_test_waits = 300;
+            ::sleep(much_longer_than_the_test_waits);
+            return 0;
+        });
+        ::_exit(0);
+    }
+    ::close(write_end);
+    char begun = 0;
+    ASSERT_EQ(::read(read_end, &begun, 1), 1);
+    ASSERT_EQ(::kill(parent, SIGKILL), 0);
+    int ignored = 0;
+    ASSERT_EQ(::waitpid(parent, &ignored, 0), parent);
+    pollfd pipe{.fd = read_end, .events = POLLIN, .revents = 0};
+    constexpr int milliseconds = 60'000;
+    ASSERT_EQ(::poll(&pipe, 1, milliseconds), 1) << "the child goes on without its parent";
+    EXPECT_EQ(::read(read_end, &begun, 1), 0);
+    ::close(read_end);
+}
+
+}  // namespace
+}  // namespace octetra::generator

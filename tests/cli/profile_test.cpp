@@ -148,6 +148,13 @@ TEST_F(Profiled, RunsOfAnyNumberOfRanksSayWhereTheTimeWent) {
     }
 }
 
+/// Cells that are still too large are counted by all ranks together, after the last level.
+TEST_F(Profiled, RunsForAVolumeTalkWithinPhases) {
+    ASSERT_EQ(test::octetra_on(3, measured + " --max-volume 1e-4", folder).status, 0);
+    expect_schema(json("p.json"), 3);
+    expect_trace(json("t.json"), 3);
+}
+
 TEST_F(Profiled, RunsOfTheReferenceReadRefineAndWrite) {
     for (const int ranks : {0, 2}) {
         const std::string command = measured + " --engine reference";

@@ -311,7 +311,10 @@ bool refine_distributed(Mesh mesh, const Plan& plan, const RefineOptions& option
                             {plan.scheme, options.refinement.levels, plan.synchronisation,
                              options.max_cells, on_level});
     });
-    too_large = world.sum(too_large_cells(parts.points, parts.cells, plan.selection));
+    if (plan.selection.max_volume) {
+        const distributed::Phase phase(world, "select");
+        too_large = world.sum(too_large_cells(parts.points, parts.cells, plan.selection));
+    }
     if (verify_alone) {
         const auto fine =
             naming_the_mesh(options, [&] { return distributed::collect(std::move(parts)); });

@@ -7,17 +7,18 @@
 
 #include "cell_orders.hpp"
 #include "closure.hpp"
-#include "edge_stars.hpp"
+#include "near_edges.hpp"
 #include "patterns.hpp"
 
 namespace octetra::distributed {
 
-/// With a mark for every edge of the mesh; goes through all cells, as often as there is something
-/// to find, and then from edge to edge.
+/// With a mark for every edge that has a number; goes through all cells, as often as there is
+/// something to find, and then from edge to edge. Where a path leads further, widens what is
+/// numbered.
 class DenseClosure final : public Closure {
 public:
-    DenseClosure(const EdgeStars& stars, CellOrders& orders,
-                 const std::vector<Interface>& interfaces);
+    /// Keeps pointers to all of them.
+    DenseClosure(NearEdges& edges, CellOrders& orders, const std::vector<Interface>& interfaces);
 
     /// Every edge, as all processes do then: nobody is told.
     void select_all();
@@ -41,14 +42,20 @@ private:
         std::uint32_t position = 0;
     };
 
+    void make_marks();
     void mark(EdgeIndex edge);
     void tell_sharers(EdgeIndex edge);
     void close(CellIndex cell);
+    void drain_near();
+    void widen();
+    [[nodiscard]] std::vector<EdgeVertices> ends_of_selected() const;
     void sweep();
     void index_cells_at_edges();
 
-    const EdgeStars* stars_;
+    NearEdges* edges_;
+    const EdgeStars* stars_ = &edges_->stars();
     CellOrders* orders_;
+    const std::vector<Interface>* interfaces_;
     const PatternTable* table_ = &PatternTable::get();
     IndexVector<EdgeIndex, std::uint8_t> selected_;
     IndexVector<EdgeIndex, std::uint8_t> shared_;  // empty if no edge is
@@ -58,6 +65,7 @@ private:
     std::vector<EdgeIndex> queue_;
     std::size_t selected_count_ = 0;
     int sweep_count_ = 0;
+    bool leads_beyond_ = false;  ///< an edge is selected around which not all cells have edges
     // The cells at edge e are cells_[cells_begin_[e]] .. cells_[cells_begin_[e + 1] - 1].
     std::vector<std::uint32_t> cells_begin_;
     std::vector<CellIndex> cells_;

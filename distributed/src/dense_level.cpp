@@ -87,9 +87,8 @@ private:
         const Pattern& pattern = *patterns_[place_of(c)];
         std::array<VertexIndex, 10> vertices;  // by place
         std::ranges::copy(cell, vertices.begin());
-        for (std::size_t e = 0; e < 6; ++e) {
-            vertices[4 + e] = (*midpoints_)[stars_->edges_of(c)[e]];
-        }
+        const auto& edges = stars_->edges_of(c);
+        for (std::size_t e = 0; e < 6; ++e) vertices[4 + e] = (*midpoints_)[edges[e]];
         // Always eight, as to write what is not needed takes less time than to foresee their
         // number.
         CellVertices* const children = block_.data() + written_;
@@ -143,12 +142,11 @@ void replace_by_pieces(IndexVector<I, Vertices>& list, Lineage& lineage, auto&& 
 
 }  // namespace
 
-DenseLevel::DenseLevel(DistributedMesh& mesh)
+DenseLevel::DenseLevel(DistributedMesh& mesh, const ChosenCells& chosen)
     : mesh_(&mesh),
-      stars_(in_phase(mesh.processes, "number edges",
-                      [&] { return EdgeStars(mesh.points.size(), mesh.cells); })),
+      edges_(in_phase(mesh.processes, "number edges", [&] { return NearEdges(mesh, chosen); })),
       orders_(mesh),
-      closure_(stars_, orders_, mesh.interfaces) {}
+      closure_(edges_, orders_, mesh.interfaces) {}
 
 void DenseLevel::select(const ChosenCells& chosen, Scheme scheme) {
     if (chosen.all && scheme == Scheme::eight) {
@@ -162,13 +160,14 @@ void DenseLevel::select(const ChosenCells& chosen, Scheme scheme) {
 
 void DenseLevel::select(CellIndex cell, Scheme scheme) {
     const EdgeMask mask = selected_by(scheme, orders_.of(cell));
+    const auto edges = stars_->edges_of(cell);
     for (std::size_t e = 0; e < 6; ++e) {
-        if ((mask >> e & 1U) != 0) closure_.select(stars_.edges_of(cell)[e]);
+        if ((mask >> e & 1U) != 0) closure_.select(edges[e]);
     }
 }
 
 void DenseLevel::bisect_edges() {
-    midpoints_ = distributed::bisect_edges(*mesh_, stars_, closure_);
+    midpoints_ = distributed::bisect_edges(*mesh_, *stars_, closure_);
 }
 
 std::size_t DenseLevel::cell_count_afterwards() {
@@ -177,12 +176,12 @@ std::size_t DenseLevel::cell_count_afterwards() {
         selected_.assign(cell_count, all_edges);
         return most_children * cell_count;
     }
-    std::size_t count = 0;
-    selected_.clear();
-    selected_.reserve(cell_count);
-    for (CellIndex c{0}; c < mesh_->cells.end_index(); ++c) {
+    selected_.assign(cell_count, 0);
+    std::size_t count = cell_count - stars_->cell_count();  // none of the others' edges is selected
+    for (std::size_t k = 0; k < stars_->cell_count(); ++k) {
+        const CellIndex c = stars_->cell_at(k);
         const EdgeMask selected = closure_.selected_of(c);
-        selected_.push_back(selected);
+        selected_[c] = selected;
         // These need no order.
         if (selected == 0) {
             ++count;
@@ -196,19 +195,19 @@ std::size_t DenseLevel::cell_count_afterwards() {
 }
 
 RoundingFailure DenseLevel::bisect_cells(std::size_t cell_count) {
-    return CellBisection(*mesh_, stars_, orders_, selected_, midpoints_).run(cell_count);
+    return CellBisection(*mesh_, *stars_, orders_, selected_, midpoints_).run(cell_count);
 }
 
 void DenseLevel::bisect_listed() {
     DistributedMesh& mesh = *mesh_;
     replace_by_pieces(mesh.facets, mesh.facet_lineage, [&](const FacetVertices& facet, auto& all) {
         const BisectedTriangle bisected =
-            bisect_triangle(facet, midpoints_of(facet, stars_, midpoints_), mesh.points);
+            bisect_triangle(facet, midpoints_of(facet, *stars_, midpoints_), mesh.points);
         std::copy_n(bisected.pieces.begin(), bisected.piece_count, std::back_inserter(all));
     });
     replace_by_pieces(mesh.edges, mesh.edge_lineage, [&](const EdgeVertices& edge, auto& all) {
         // Which half comes first is a matter of the end points' positions in the list.
-        const VertexIndex midpoint = midpoints_[stars_.find(edge[0], edge[1])];
+        const VertexIndex midpoint = midpoints_[stars_->find(edge[0], edge[1])];
         if (midpoint.is_none()) {
             all.append(edge);
         } else {
@@ -219,7 +218,7 @@ void DenseLevel::bisect_listed() {
 }
 
 void DenseLevel::bisect_interfaces() {
-    distributed::bisect_interfaces(mesh_->interfaces, mesh_->points, stars_, midpoints_);
+    distributed::bisect_interfaces(mesh_->interfaces, mesh_->points, *stars_, midpoints_);
 }
 
 }  // namespace octetra::distributed

@@ -3,19 +3,19 @@
 #include "cell_orders.hpp"
 #include "chosen_cells.hpp"
 #include "dense_closure.hpp"
-#include "edge_stars.hpp"
 #include "level.hpp"
+#include "near_edges.hpp"
 
 namespace octetra::distributed {
 
-/// The way for many chosen cells: numbers all edges, and makes all lists anew. Takes time in
-/// proportion to the process's part, and least for each cell that it bisects.
+/// The way for many chosen cells: numbers edges, and makes all lists anew. Takes time in proportion
+/// to the process's part, and least for each cell that it bisects.
 class DenseLevel final : public Level {
 public:
     /// The mesh must be in order.
-    explicit DenseLevel(DistributedMesh& mesh);
+    DenseLevel(DistributedMesh& mesh, const ChosenCells& chosen);
 
-    /// Selects edges of the chosen cells.
+    /// Selects edges of the chosen cells, the same as before.
     void select(const ChosenCells& chosen, Scheme scheme);
 
     [[nodiscard]] Closure& closure() override { return closure_; }
@@ -30,7 +30,8 @@ private:
     void select(CellIndex cell, Scheme scheme);
 
     DistributedMesh* mesh_;
-    EdgeStars stars_;
+    NearEdges edges_;
+    const EdgeStars* stars_ = &edges_.stars();
     CellOrders orders_;
     DenseClosure closure_;
     IndexVector<CellIndex, EdgeMask> selected_;      ///< of each cell, once they are counted

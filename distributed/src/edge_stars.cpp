@@ -1,6 +1,7 @@
 #include "edge_stars.hpp"
 
 #include <stdexcept>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -42,31 +43,48 @@ struct EdgeStars::Buckets {
 };
 
 EdgeStars::EdgeStars(std::size_t vertex_count, const IndexVector<CellIndex, CellVertices>& cells) {
+    number(vertex_count, cells.size(),
+           [&](std::size_t k) -> const CellVertices& { return cells[CellIndex{k}]; });
+}
+
+EdgeStars::EdgeStars(std::size_t vertex_count, const IndexVector<CellIndex, CellVertices>& cells,
+                     std::vector<CellIndex> of)
+    : of_(std::move(of)) {
+    number(vertex_count, of_.size(),
+           [&](std::size_t k) -> const CellVertices& { return cells[of_[k]]; });
+    cell_to_row_.assign(cells.size(), static_cast<std::uint32_t>(of_.size()));
+    for (std::uint32_t row = 0; row < of_.size(); ++row) cell_to_row_[of_[row]] = row;
+    rows_.emplace_back().fill(other());
+}
+
+/// The cells cell_at(0) .. cell_at(cell_count - 1).
+void EdgeStars::number(std::size_t vertex_count, std::size_t cell_count, const auto& cell_at) {
     Buckets buckets(vertex_count);
-    find_places(cells, buckets);
+    find_places(cell_count, cell_at, buckets);
     move_together(buckets);
-    for (CellIndex c{0}; c < cells.end_index(); ++c) {
+    for (std::size_t k = 0; k < cell_count; ++k) {
+        const CellVertices& cell = cell_at(k);
         for (std::size_t e = 0; e < 6; ++e) {
             const auto& [a, b] = cell_edges[e];
-            const VertexIndex low = std::min(cells[c][a], cells[c][b]);
-            EdgeIndex& edge = cell_to_edges_[c][e];
+            const VertexIndex low = std::min(cell[a], cell[b]);
+            EdgeIndex& edge = rows_[k][e];
             edge = EdgeIndex{std::size_t{begin_[low.value()]} + edge.value()};
         }
     }
 }
 
 /// For each edge of each cell its place in the star of its lower end.
-void EdgeStars::find_places(const IndexVector<CellIndex, CellVertices>& cells, Buckets& buckets) {
+void EdgeStars::find_places(std::size_t cell_count, const auto& cell_at, Buckets& buckets) {
     constexpr std::size_t ahead = 8;
-    reserve_in_huge_pages(cell_to_edges_, cells.size());
-    for (std::size_t c = 0; c < cells.size(); ++c) {
-        if (c + ahead < cells.size()) {
-            for (const VertexIndex v : cells[CellIndex{c + ahead}]) {
+    reserve_in_huge_pages(rows_, cell_count + 1);
+    for (std::size_t k = 0; k < cell_count; ++k) {
+        if (k + ahead < cell_count) {
+            for (const VertexIndex v : cell_at(k + ahead)) {
                 __builtin_prefetch(&buckets.of[v.value()], 1);
             }
         }
-        const CellVertices& cell = cells[CellIndex{c}];
-        auto& places = cell_to_edges_.emplace_back();
+        const CellVertices& cell = cell_at(k);
+        auto& places = rows_.emplace_back();
         for (std::size_t e = 0; e < 6; ++e) {
             const VertexIndex a = cell[cell_edges[e][0]];
             const VertexIndex b = cell[cell_edges[e][1]];

@@ -70,7 +70,7 @@ std::unique_ptr<Level> begin_level(DistributedMesh& mesh, const Selection& selec
         put_in_order(mesh);
         chosen = choose_cells(mesh, selection, false);
     }
-    auto level = std::make_unique<DenseLevel>(mesh);
+    auto level = std::make_unique<DenseLevel>(mesh, chosen);
     const Phase phase(mesh.processes, "select");
     level->select(chosen, options.scheme);
     return level;

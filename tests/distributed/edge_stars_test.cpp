@@ -68,5 +68,48 @@ TEST(EdgeStars, HaveEveryEdgeOnceHoweverManyAVertexHas) {
 
 TEST(EdgeStars, HaveEveryEdgeOnceAtAHubOfThousands) { expect_every_edge_once(fan(5000)); }
 
+/// Of some cells: their edges have the numbers, and one more stands for all others.
+TEST(EdgeStars, OfSomeCellsLeaveOneNumberForAllOtherEdges) {
+    const Mesh mesh = test::kuhn(3, 2, 4);
+    std::vector<CellIndex> some;
+    for (std::size_t c = 3; c < mesh.cells.size(); c += 7) some.emplace_back(c);
+    const EdgeStars stars(mesh.points.size(), mesh.cells, some);
+
+    ASSERT_EQ(stars.cell_count(), some.size());
+    std::set<EdgeVertices> of_some;
+    const EdgeIndex other{stars.end_index().value() - 1U};
+    for (std::size_t k = 0; k < some.size(); ++k) {
+        ASSERT_EQ(stars.cell_at(k), some[k]);
+        for (std::size_t e = 0; e < 6; ++e) {
+            const VertexIndex a = mesh.cells[some[k]][cell_edges[e][0]];
+            const VertexIndex b = mesh.cells[some[k]][cell_edges[e][1]];
+            const EdgeVertices edge{std::min(a, b), std::max(a, b)};
+            of_some.insert(edge);
+            EXPECT_EQ(stars.edges_of(some[k])[e], stars.find(edge[0], edge[1]));
+            EXPECT_NE(stars.edges_of(some[k])[e], other);
+        }
+    }
+    EXPECT_EQ(other.value(), of_some.size());
+    for (const auto& [edge, cells] : test::cells_at_edges(mesh)) {
+        EXPECT_EQ(stars.find(edge[0], edge[1]) == other, !of_some.contains(edge));
+    }
+    for (CellIndex c{0}; c < mesh.cells.end_index(); ++c) {
+        if (std::ranges::binary_search(some, c)) continue;
+        for (const EdgeIndex e : stars.edges_of(c)) EXPECT_EQ(e, other);
+    }
+}
+
+/// A hub's further edges are looked up in another place.
+TEST(EdgeStars, OfSomeCellsFindNoOtherEdgeOfAHub) {
+    const Mesh mesh = fan(200);
+    std::vector<CellIndex> some;
+    for (std::size_t c = 0; c < 150; ++c) some.emplace_back(c);
+    const EdgeStars stars(mesh.points.size(), mesh.cells, some);
+    const EdgeIndex other{stars.end_index().value() - 1U};
+    const VertexIndex hub{0};
+    EXPECT_NE(stars.find(hub, mesh.cells[CellIndex{149}][3]), other);
+    EXPECT_EQ(stars.find(hub, mesh.cells[CellIndex{151}][3]), other);
+}
+
 }  // namespace
 }  // namespace octetra::distributed

@@ -175,15 +175,19 @@ TEST(Rounding, OfTheSmallestNumbersThereAreIsRefusedToo) {
 
 /// As many as there come to be are allowed; with one less the level is refused that makes them.
 TEST(MostCells, AreCountedBeforeALevelIsMadeAndRefusedInTheWordsOfTheReference) {
-    const Mesh mesh = marked(test::shaken_kuhn(2, 0.3, 5), 1);
-    const Selection selection{.random = RandomShare{0.2, 3}};
+    const Mesh mesh = marked(test::shaken_kuhn(5, 0.3, 5), 1);
+    const Selection selection{.spheres = {{{0, 0, 0}, 1.1}}};
     const std::size_t most = reference::refine(mesh, selection, Scheme::eight, 3).mesh.cells.size();
     for (const Partition& partition : partitions) {
-        for (const double sparse_below : {0.0, 10.0}) {
-            const auto refined_to = [&](std::size_t max_cells) {
+        constexpr double always = 10;
+        for (const auto& [sparse_below, near_below] :
+             {std::pair{0.0, 0.0}, std::pair{0.0, always}, std::pair{always, 0.0}}) {
+            const auto refined_to = [&, sparse = sparse_below,
+                                     near = near_below](std::size_t max_cells) {
                 const auto ranks = partition_cells(mesh, test::world().size(), partition);
                 DistributedMesh part = distribute(test::world(), mesh, ranks);
-                part.sparse_below = sparse_below;
+                part.sparse_below = sparse;
+                part.near_below = near;
                 refine(part, selection, {.levels = 3, .max_cells = max_cells});
                 return test::world().sum(part.cells.size());
             };

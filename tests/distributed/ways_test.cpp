@@ -1,3 +1,4 @@
+#include <array>
 #include <cstdlib>
 #include <numeric>
 #include <random>
@@ -15,22 +16,25 @@
 #include "support/meshes.hpp"
 #include "support/thrown.hpp"
 
-/// Each rank goes about a level in one of two ways, the dense or the sparse one: whichever it is,
-/// the result is the reference's, and the work of the sparse one is in proportion to what changes.
+/// Each rank goes about a level in one of two ways, the dense or the sparse one, and in the dense
+/// one it numbers all edges or those near the chosen cells: whichever it is, the result is the
+/// reference's, and the work of the sparse one is in proportion to what changes.
 namespace octetra::distributed {
 namespace {
 
-constexpr double always_sparse = 10;
-constexpr double always_dense = 0;
+constexpr double always = 10;
 
-/// Which rank takes which way.
-enum class Ways { dense, sparse, alternating, alternating_otherwise };
+/// Which rank takes which way; `near` is the dense one with edges numbered near the chosen cells.
+enum class Ways { dense, near, sparse, alternating, alternating_otherwise };
 
-double sparse_below(Ways ways, int level) {
-    if (ways == Ways::dense) return always_dense;
-    if (ways == Ways::sparse) return always_sparse;
-    const int turn = test::world().rank() + level + (ways == Ways::alternating ? 0 : 1);
-    return turn % 2 == 0 ? always_sparse : always_dense;
+void take_way(DistributedMesh& mesh, Ways ways, int level) {
+    if (ways == Ways::alternating || ways == Ways::alternating_otherwise) {
+        const int turn = test::world().rank() + level + (ways == Ways::alternating ? 0 : 1);
+        constexpr std::array turns{Ways::sparse, Ways::near, Ways::sparse, Ways::dense};
+        ways = turns[static_cast<std::size_t>(turn) % turns.size()];
+    }
+    mesh.sparse_below = ways == Ways::sparse ? always : 0;
+    mesh.near_below = ways == Ways::near ? always : 0;
 }
 
 DistributedMesh shared_out(const Mesh& mesh, const Partition& partition) {
@@ -53,7 +57,7 @@ protected:
         for (const Partition& partition : partitions) {
             for (const Selection& selection : selections) {
                 DistributedMesh part = shared_out(mesh, partition);
-                part.sparse_below = sparse_below(ways, 0);
+                take_way(part, ways, 0);
                 (void)refine(part, selection, {scheme, 3, synchronisation});
                 const Collected whole = collect(std::move(part));
                 if (!test::world().is_first()) continue;
@@ -109,7 +113,7 @@ TEST_P(WaysOfALevel, MayChangeFromLevelToLevelAndSoMayTheSelection) {
             selection.spheres.push_back({point(), 1 / (1.0 + level)});
             const Point low = point();
             selection.boxes.push_back({low, {low.x + 0.5, low.y + 0.5, low.z + 0.5}});
-            part.sparse_below = sparse_below(ways, level / 2);
+            take_way(part, ways, level / 2);
             (void)refine(part, selection, {scheme, 1, synchronisation});
             expected = reference::refine(expected, selection, scheme, 1).mesh;
         }
@@ -127,7 +131,7 @@ TEST_P(WaysOfALevel, RefuseRoundingInTheSameWords) {
         test::thrown_by<InputError>([&] { (void)reference::refine(mesh, selection, scheme, 6); });
     for (const Partition& partition : partitions) {
         DistributedMesh part = shared_out(mesh, partition);
-        part.sparse_below = sparse_below(ways, 0);
+        take_way(part, ways, 0);
         EXPECT_EQ(test::thrown_by<InputError>([&] {
                       (void)refine(part, selection, {scheme, 6, synchronisation});
                   }),
@@ -139,7 +143,7 @@ INSTANTIATE_TEST_SUITE_P(
     SchemesSynchronisationsWays, WaysOfALevel,
     testing::Combine(testing::Values(Scheme::eight, Scheme::four, Scheme::two),
                      testing::Values(Synchronisation::neighbour, Synchronisation::gateway),
-                     testing::Values(Ways::dense, Ways::sparse, Ways::alternating,
+                     testing::Values(Ways::dense, Ways::near, Ways::sparse, Ways::alternating,
                                      Ways::alternating_otherwise)));
 
 struct Work {
@@ -172,7 +176,7 @@ TEST(SparseWay, OfALaterLevelDoesNotSeeHowLargeTheMeshIs) {
     std::vector<std::vector<std::uint64_t>> touched;
     for (const std::size_t n : {8U, 16U}) {
         DistributedMesh mesh = shared_out(test::kuhn(n, n, n), partitions[1]);
-        mesh.sparse_below = always_sparse;
+        mesh.sparse_below = always;
         const auto work = work_of(mesh, around_the_middle(n, 0.8), 3);
         if (!test::world().is_first()) continue;
         ASSERT_EQ(work.size(), 4U);

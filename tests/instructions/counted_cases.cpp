@@ -20,12 +20,14 @@ struct CountedCase {
     double sparse_below = 0;  ///< see DistributedMesh
 };
 
-constexpr std::array<CountedCase, 3> cases{{
+constexpr std::array<CountedCase, 4> cases{{
     {.name = "uniform", .cubes = 12},
     // Twelve cells of 24,576, and then what is nearer to the middle than they are: few at each
     // level.
     {.name = "sparse", .cubes = 16, .radius = 0.04, .levels = 3, .sparse_below = 0.125},
     {.name = "dense", .cubes = 8, .radius = 0.25, .levels = 3},
+    // 380 cells of 48,000, the dense way all the same: few have to be numbered.
+    {.name = "near", .cubes = 20, .radius = 0.125},
 }};
 
 distributed::DistributedMesh lattice(std::size_t n) {
@@ -63,6 +65,6 @@ int main(int argc, char** argv) {
     for (const auto& one : octetra::cases) {
         if (argc == 2 && one.name == argv[1]) return octetra::run(one);
     }
-    std::fprintf(stderr, "usage: counted_cases uniform|sparse|dense\n");
+    std::fprintf(stderr, "usage: counted_cases uniform|sparse|dense|near\n");
     return 2;
 }

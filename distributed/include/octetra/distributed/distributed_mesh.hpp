@@ -87,6 +87,10 @@ struct DistributedMesh {
     /// its whole part, and has less work with each cell. 0: always the latter. The result is the
     /// same, whatever each process says here.
     double sparse_below = 0.0625;
+    /// The latter way numbers edges only near the chosen cells where that concerns less than this
+    /// share of the cells; or, when paths led further the first time, half as many again. 0: always
+    /// all edges. The result is the same here, too.
+    double near_below = 0.5;
     /// The engine's own. While there is one, the mesh is loose.
     std::unique_ptr<Adjacency, DeleteAdjacency> adjacency;
 

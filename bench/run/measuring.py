@@ -7,7 +7,7 @@ import statistics
 from collections.abc import Callable
 from dataclasses import dataclass, field
 
-from running import Failure, must
+from running import Failure, must, run
 
 
 @dataclass(frozen=True)
@@ -80,16 +80,33 @@ class Group:
         return Group(self.name, self.about, cases)
 
 
-def driver(name, program, arguments, ranks=1, mesh=None):
+BEGUN_AGAIN = "begun_again"
+
+
+def printed_by(command, folder, patience=None):
+    """What a command prints, and how often it was begun again: a program that does not always end
+    is ended after `patience` seconds, if there is such, and tried once more, up to five times."""
+    tries = 5 if patience else 0
+    for times in range(tries):
+        outcome = run(command, folder, patience)
+        if outcome.status == 0:
+            return outcome.out, times
+        if outcome.status != 124:
+            break
+    return must(command, folder), tries
+
+
+def driver(name, program, arguments, ranks=1, mesh=None, patience=None):
     """A run of a driver that prints JSON. `mesh`, a shape and a file name, is generated before, and
-    is the first argument."""
+    is the first argument. With `patience`, see printed_by(), the line says how often it was begun
+    again."""
     def line(place):
         first = [place.mesh(*mesh)] if mesh else []
         launcher = ["mpirun", "-n", str(ranks)] if ranks > 1 else []
-        printed = must([*launcher, place.program(program), *first, *shlex.split(arguments)],
-                       place.folder)
+        command = [*launcher, place.program(program), *first, *shlex.split(arguments)]
+        printed, times = printed_by(command, place.folder, patience)
         try:
-            return json.loads(printed)
+            return json.loads(printed) | ({BEGUN_AGAIN: times} if patience else {})
         except ValueError as error:
             raise Failure(f"{program} printed no JSON:\n{printed[-300:]}") from error
 

@@ -16,8 +16,9 @@ import groups  # noqa: E402
 import kept  # noqa: E402
 import peers  # noqa: E402
 import results  # noqa: E402
-from measuring import Case, Figure, Run, measure, median, median_ratio  # noqa: E402
+from measuring import Case, Figure, Run, measure, median, median_ratio, printed_by  # noqa: E402
 from slopes import slope, steepest  # noqa: E402
+from running import Failure  # noqa: E402
 
 
 class Slopes(unittest.TestCase):
@@ -32,6 +33,26 @@ class Slopes(unittest.TestCase):
         xs, ys = [1, 10, 100, 1000], [50, 50, 100, 2000]
         self.assertLess(slope(xs, ys), 1)
         self.assertGreater(steepest(xs, ys), 1.25)
+
+
+class Tries(unittest.TestCase):
+    # Waits as often as the first word says, of which a file keeps count, and then prints.
+    WAITS = ("n=$(cat count 2>/dev/null || echo 0); echo $((n + 1)) > count; "
+             "if [ $n -lt $0 ]; then exec sleep 60; fi; echo done; exit $1")
+
+    def printed(self, waits, status, patience):
+        with tempfile.TemporaryDirectory() as folder:
+            return printed_by(["sh", "-c", self.WAITS, str(waits), str(status)], folder, patience)
+
+    def test_of_what_does_not_end_are_several(self):
+        self.assertEqual(self.printed(2, 0, 0.5), ("done\n", 2))
+        self.assertEqual(self.printed(0, 0, 0.5), ("done\n", 0))
+
+    def test_of_what_fails_are_one(self):
+        with self.assertRaisesRegex(Failure, "status 3"):
+            self.printed(0, 3, 0.5)
+        with self.assertRaisesRegex(Failure, "status 3"):
+            self.printed(0, 3, None)
 
 
 class Figures(unittest.TestCase):

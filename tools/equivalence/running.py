@@ -27,15 +27,15 @@ class Outcome:
     seconds: float  # by the wall clock, start of processes included
 
 
-def run(command, folder):
+def run(command, folder, timeout=TIMEOUT):
     """Runs `command` in `folder` until it ends. Raises Failure if there is no such program."""
     begin = time.monotonic()
     try:
         done = subprocess.run(command, cwd=folder, env={**os.environ, **MPI_ENVIRONMENT},
-                              capture_output=True, text=True, errors="replace", timeout=TIMEOUT,
+                              capture_output=True, text=True, errors="replace", timeout=timeout,
                               stdin=subprocess.DEVNULL, check=False)
     except subprocess.TimeoutExpired:
-        return Outcome(124, "", f"ended after {TIMEOUT} s", time.monotonic() - begin)
+        return Outcome(124, "", f"ended after {timeout} s", time.monotonic() - begin)
     except OSError as error:
         raise Failure(f"{command[0]} cannot be run: {error.strerror}") from error
     return Outcome(done.returncode, done.stdout, done.stderr, time.monotonic() - begin)

@@ -7,7 +7,7 @@ import statistics
 from collections.abc import Callable
 from dataclasses import dataclass, field
 
-from running import Failure, must, run
+from running import TOO_LONG, Failure, must, printed, run
 
 
 @dataclass(frozen=True)
@@ -85,15 +85,14 @@ BEGUN_AGAIN = "begun_again"
 
 def printed_by(command, folder, patience=None):
     """What a command prints, and how often it was begun again: a program that does not always end
-    is ended after `patience` seconds, if there is such, and tried once more, up to five times."""
-    tries = 5 if patience else 0
-    for times in range(tries):
+    is ended after `patience` seconds, if there is such, and begun again up to five times."""
+    if patience is None:
+        return must(command, folder), 0
+    for times in range(6):
         outcome = run(command, folder, patience)
-        if outcome.status == 0:
-            return outcome.out, times
-        if outcome.status != 124:
-            break
-    return must(command, folder), tries
+        if outcome.status != TOO_LONG:
+            return printed(command, outcome), times
+    return printed(command, outcome), times
 
 
 def driver(name, program, arguments, ranks=1, mesh=None, patience=None):
@@ -104,11 +103,11 @@ def driver(name, program, arguments, ranks=1, mesh=None, patience=None):
         first = [place.mesh(*mesh)] if mesh else []
         launcher = ["mpirun", "-n", str(ranks)] if ranks > 1 else []
         command = [*launcher, place.program(program), *first, *shlex.split(arguments)]
-        printed, times = printed_by(command, place.folder, patience)
+        words, times = printed_by(command, place.folder, patience)
         try:
-            return json.loads(printed) | ({BEGUN_AGAIN: times} if patience else {})
+            return json.loads(words) | ({BEGUN_AGAIN: times} if patience else {})
         except ValueError as error:
-            raise Failure(f"{program} printed no JSON:\n{printed[-300:]}") from error
+            raise Failure(f"{program} printed no JSON:\n{words[-300:]}") from error
 
     words = [f"mpirun -n {ranks}"] if ranks > 1 else []
     words += [program, *([f"({mesh[0]})"] if mesh else []), arguments]

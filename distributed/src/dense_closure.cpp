@@ -79,7 +79,7 @@ void DenseClosure::close(CellIndex cell) {
     for (std::size_t e = 0; missing >> e != 0; ++e) {
         if ((missing >> e & 1U) == 0) continue;
         select(stars_->edges_of(cell)[e]);
-        leads_beyond_ = leads_beyond_ || !edges_->surround(cell, e);
+        leads_beyond_ = leads_beyond_ || !edges_->is_surrounded(cell, e);
     }
 }
 
@@ -95,11 +95,16 @@ void DenseClosure::drain() {
 /// it.
 void DenseClosure::widen() {
     const std::vector<EdgeVertices> selected = ends_of_selected();
+    // All that goes by the old numbers goes before the new ones need memory.
+    selected_ = {};
+    shared_ = {};
+    cells_begin_ = {};
+    cells_ = {};
+    queue_.clear();
     edges_->widen();
     make_marks();
     leads_beyond_ = false;
     sweep_count_ = 0;
-    cells_begin_.clear();
     for (const auto& [a, b] : selected) mark(stars_->find(a, b));
 }
 

@@ -20,7 +20,7 @@ public:
     /// Keeps pointers to all of them.
     DenseClosure(NearEdges& edges, CellOrders& orders, const std::vector<Interface>& interfaces);
 
-    /// Every edge, as all processes do then: nobody is told.
+    /// Every edge, all of which have numbers, as all processes do then: nobody is told.
     void select_all();
 
     /// Selects an edge of this process's own will, without following its path. All that share the

@@ -14,7 +14,7 @@ namespace octetra::distributed {
 
 /// Numbers the edges of a set of cells without sorting them all. Every edge belongs to its end
 /// point with the lower number; that vertex's star lists the other ends, and the stars follow each
-/// other. If the set is not all cells, one more number, the last, stands for all other edges.
+/// other. If they are told to be some cells', one more number, the last, stands for other edges.
 ///
 /// Memory: 4 bytes per vertex and edge, 24 per cell; or, if there are others, 28 per cell of the
 /// set and 4 per cell. While it is made 68 per vertex more, and 68 for each further sixteen edges
@@ -47,7 +47,7 @@ public:
         return rows_[has_all() ? cell.value() : cell_to_row_[cell]];
     }
 
-    /// The edge between two vertices. If there is none, the number that stands for others, or
+    /// The edge between two vertices. If it has no number, the one that stands for others, or
     /// none() if all cells have edges of their own.
     [[nodiscard]] EdgeIndex find(VertexIndex a, VertexIndex b) const {
         const VertexIndex low = std::min(a, b);

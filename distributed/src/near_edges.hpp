@@ -11,13 +11,13 @@
 namespace octetra::distributed {
 
 /// Numbers the edges that one level may select. Most propagation paths end close to the chosen
-/// cells, so that, if these are not most cells anyway, only the edges near them are numbered: those
-/// of all cells at a vertex of a chosen cell's, of one within two edges of it, or of an interface.
-/// A path that leads further is noticed at its first edge whose ends are both beyond, as then there
-/// may be cells around it whose edges have no number; and widen() goes further, too.
+/// cells, so that, if these are not most cells anyway, only the edges of the cells that have a near
+/// vertex are numbered: one of a chosen cell, one within two edges of such, or one of a shared
+/// edge. A path that leads further is noticed at its first edge whose ends are both beyond, as then
+/// there may be cells around it whose edges have no number; and widen() goes further, too.
 ///
 /// Keeps a pointer to the mesh, which must stay as it is while edges are still selected. Memory,
-/// beyond that of the stars: a byte per vertex, and twice that and 4 bytes per near cell meanwhile.
+/// beyond that of the stars: a byte per vertex, and another meanwhile.
 class NearEdges {
 public:
     NearEdges(const DistributedMesh& mesh, const ChosenCells& chosen);
@@ -25,25 +25,30 @@ public:
     /// Stays where it is, but numbers otherwise after widen().
     [[nodiscard]] const EdgeStars& stars() const { return stars_; }
 
-    /// Have all cells around this edge of a cell's, by its place in cell_edges, edges of their own?
-    [[nodiscard]] bool surround(CellIndex cell, std::size_t edge) const {
+    /// Is it certain that all cells around this edge of a cell's, by its place in cell_edges, have
+    /// edges of their own?
+    [[nodiscard]] bool is_surrounded(CellIndex cell, std::size_t edge) const {
         if (is_near_.empty()) return true;
         const auto& [a, b] = cell_edges[edge];
         const CellVertices& vertices = mesh_->cells[cell];
         return (is_near_[vertices[a]] | is_near_[vertices[b]]) != 0;
     }
 
-    /// Takes in vertices twice as far away; or all, if it comes to many.
+    /// Takes in vertices twice as far away the first time, and all the second, or if it comes to
+    /// many: each time costs a numbering, and nobody knows how far a path will lead.
     void widen();
 
 private:
-    void number_all();
+    void number(double most);
     void add_ring();
-    [[nodiscard]] std::vector<CellIndex> near_cells() const;
+    [[nodiscard]] bool is_near(const CellVertices& cell) const {
+        const auto& [a, b, c, d] = cell;
+        return (is_near_[a] | is_near_[b] | is_near_[c] | is_near_[d]) != 0;
+    }
 
     const DistributedMesh* mesh_;
     IndexVector<VertexIndex, std::uint8_t> is_near_;  ///< empty if all are
-    int rings_ = 0;                                   ///< of vertices around the first ones
+    bool is_wider_ = false;
     EdgeStars stars_;
 };
 

@@ -40,13 +40,22 @@ class Tries(unittest.TestCase):
     WAITS = ("n=$(cat count 2>/dev/null || echo 0); echo $((n + 1)) > count; "
              "if [ $n -lt $0 ]; then exec sleep 60; fi; echo done; exit $1")
 
-    def printed(self, waits, status, patience):
+    def printed(self, waits, status, patience, tries=1):
         with tempfile.TemporaryDirectory() as folder:
-            return printed_by(["sh", "-c", self.WAITS, str(waits), str(status)], folder, patience)
+            try:
+                return printed_by(["sh", "-c", self.WAITS, str(waits), str(status)], folder,
+                                  patience)
+            finally:
+                with open(os.path.join(folder, "count"), encoding="utf-8") as count:
+                    self.assertEqual(int(count.read()), tries)
 
     def test_of_what_does_not_end_are_several(self):
-        self.assertEqual(self.printed(2, 0, 0.5), ("done\n", 2))
+        self.assertEqual(self.printed(2, 0, 0.5, tries=3), ("done\n", 2))
         self.assertEqual(self.printed(0, 0, 0.5), ("done\n", 0))
+
+    def test_of_what_never_ends_are_six(self):
+        with self.assertRaisesRegex(Failure, "ended after 0.2 s"):
+            self.printed(9, 0, 0.2, tries=6)
 
     def test_of_what_fails_are_one(self):
         with self.assertRaisesRegex(Failure, "status 3"):

@@ -27,12 +27,12 @@ ChosenCells chosen(std::vector<CellIndex> cells) {
     return result;
 }
 
-/// Has every cell that an edge of these cells touches edges of its own, if surround() says so?
+/// Has every cell that an edge of these cells touches edges of its own, if is_surrounded() says so?
 void expect_to_know_what_surrounds(const DistributedMesh& mesh, const NearEdges& edges) {
     const EdgeStars& stars = edges.stars();
     std::vector<std::uint8_t> has_edges(mesh.cells.size(), 0);
     for (std::size_t k = 0; k < stars.cell_count(); ++k) has_edges[stars.cell_at(k).value()] = 1;
-    std::map<EdgeVertices, bool> is_surrounded;
+    std::map<EdgeVertices, bool> all_have;
     const auto edge_of = [&](CellIndex c, std::size_t e) {
         const VertexIndex a = mesh.cells[c][cell_edges[e][0]];
         const VertexIndex b = mesh.cells[c][cell_edges[e][1]];
@@ -40,26 +40,25 @@ void expect_to_know_what_surrounds(const DistributedMesh& mesh, const NearEdges&
     };
     for (CellIndex c{0}; c < mesh.cells.end_index(); ++c) {
         for (std::size_t e = 0; e < 6; ++e) {
-            auto& known = is_surrounded.try_emplace(edge_of(c, e), true).first->second;
+            auto& known = all_have.try_emplace(edge_of(c, e), true).first->second;
             known = known && has_edges[c.value()] != 0;
         }
     }
     std::size_t surrounded = 0;
     for (CellIndex c{0}; c < mesh.cells.end_index(); ++c) {
         for (std::size_t e = 0; e < 6; ++e) {
-            if (!edges.surround(c, e)) continue;
+            if (!edges.is_surrounded(c, e)) continue;
             ++surrounded;
-            EXPECT_TRUE(is_surrounded.at(edge_of(c, e))) << "cell " << c.value();
+            EXPECT_TRUE(all_have.at(edge_of(c, e))) << "cell " << c.value();
         }
     }
     EXPECT_GE(surrounded, stars.cell_count());
 }
 
-TEST(NearEdges, AreThoseOfTheCellsWithinTwoEdgesAndThenTwiceAsFar) {
+TEST(NearEdges, AreThoseOfTheCellsWithinTwoEdgesThenTwiceAsFarAndThenAll) {
     const DistributedMesh mesh = lattice();
     NearEdges edges(mesh, chosen({CellIndex{0}}));  // at the corner 0 0 0
-    for (const double reach :
-         {4.0, 6.0, 10.0}) {  // 1 and the rings, and the cells at the last ones
+    for (const double reach : {4.0, 6.0}) {  // 1 and the rings, and the cells at the last ones
         double farthest = 0;
         for (std::size_t k = 0; k < edges.stars().cell_count(); ++k) {
             for (const VertexIndex v : mesh.cells[edges.stars().cell_at(k)]) {
@@ -71,7 +70,8 @@ TEST(NearEdges, AreThoseOfTheCellsWithinTwoEdgesAndThenTwiceAsFar) {
         expect_to_know_what_surrounds(mesh, edges);
         edges.widen();
     }
-    EXPECT_EQ(edges.stars().cell_count(), mesh.cells.size()) << "too many to number only theirs";
+    EXPECT_EQ(edges.stars().cell_count(), mesh.cells.size())
+        << "or a long path would take for ever";
 }
 
 TEST(NearEdges, AreAllWhereThatIsHalfOfTheCells) {
@@ -83,15 +83,13 @@ TEST(NearEdges, AreAllWhereThatIsHalfOfTheCells) {
     expect_to_know_what_surrounds(mesh, edges);
 }
 
-TEST(NearEdges, BecomeAllHoweverFarAPathLeads) {
-    const DistributedMesh mesh = lattice();
-    NearEdges edges(mesh, chosen({CellIndex{mesh.cells.size() / 2}}));
-    int times = 0;
-    for (; edges.stars().cell_count() < mesh.cells.size(); ++times) {
-        ASSERT_LT(times, 5);
-        edges.widen();
-    }
-    EXPECT_GE(times, 1);
+TEST(NearEdges, BecomeAllWhereTwiceAsFarIsTooMany) {
+    DistributedMesh mesh = lattice();
+    mesh.near_below = 0.05;  // 4 % of the cells are within 4 of the corner, 12 % within 6
+    NearEdges edges(mesh, chosen({CellIndex{0}}));
+    EXPECT_LT(edges.stars().cell_count(), mesh.cells.size());
+    edges.widen();
+    EXPECT_EQ(edges.stars().cell_count(), mesh.cells.size());
     expect_to_know_what_surrounds(mesh, edges);
 }
 

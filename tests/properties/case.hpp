@@ -20,7 +20,8 @@ struct Case {
     distributed::Synchronisation synchronisation = distributed::Synchronisation::neighbour;
     /// One for each cell. Ranks that a run does not have stand for those left over by division.
     std::vector<int> cell_to_rank;
-    std::uint64_t seed = 0;  ///< of what a law draws by itself: a numbering, a translation
+    std::uint64_t seed =
+        0;  ///< of what a law draws by itself (a numbering, a translation), and of the ranks' ways
 };
 
 }  // namespace octetra::properties

@@ -6,6 +6,7 @@ import time
 from dataclasses import dataclass
 
 TIMEOUT = 600  # seconds; a run that hangs is a failure, not a wait for ever
+TOO_LONG = 124  # the status of such a run
 
 # What mpirun asks for as root and for more ranks than cores; and in many containers the kernel does
 # not let one process copy from another's memory.
@@ -21,7 +22,7 @@ class Failure(Exception):
 
 @dataclass(frozen=True)
 class Outcome:
-    status: int  # of the process; 124 if it was ended for taking too long
+    status: int  # of the process; TOO_LONG if it was ended for that
     out: str
     err: str
     seconds: float  # by the wall clock, start of processes included
@@ -31,19 +32,37 @@ def run(command, folder, timeout=TIMEOUT):
     """Runs `command` in `folder` until it ends. Raises Failure if there is no such program."""
     begin = time.monotonic()
     try:
-        done = subprocess.run(command, cwd=folder, env={**os.environ, **MPI_ENVIRONMENT},
-                              capture_output=True, text=True, errors="replace", timeout=timeout,
-                              stdin=subprocess.DEVNULL, check=False)
-    except subprocess.TimeoutExpired:
-        return Outcome(124, "", f"ended after {timeout} s", time.monotonic() - begin)
+        process = subprocess.Popen(command, cwd=folder, env={**os.environ, **MPI_ENVIRONMENT},
+                                   stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
+                                   stderr=subprocess.PIPE, text=True, errors="replace")
     except OSError as error:
         raise Failure(f"{command[0]} cannot be run: {error.strerror}") from error
-    return Outcome(done.returncode, done.stdout, done.stderr, time.monotonic() - begin)
+    with process:
+        try:
+            out, err = process.communicate(timeout=timeout)
+        except subprocess.TimeoutExpired:
+            end(process)
+            return Outcome(TOO_LONG, "", f"ended after {timeout} s", time.monotonic() - begin)
+    return Outcome(process.returncode, out, err, time.monotonic() - begin)
+
+
+def end(process):
+    """An mpirun that is asked to end ends its ranks; one that is killed may leave them behind."""
+    process.terminate()
+    try:
+        process.communicate(timeout=10)
+    except subprocess.TimeoutExpired:
+        process.kill()
+        process.communicate()
 
 
 def must(command, folder):
     """Runs a command that the report cannot do without; returns what it printed."""
-    outcome = run(command, folder)
+    return printed(command, run(command, folder))
+
+
+def printed(command, outcome):
+    """What it printed; raises Failure if it failed."""
     if outcome.status != 0:
         raise Failure(f"'{' '.join(map(str, command))}' ended with status {outcome.status}:\n"
                       f"{outcome.err.strip()}")

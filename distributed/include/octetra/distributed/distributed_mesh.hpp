@@ -87,9 +87,9 @@ struct DistributedMesh {
     /// its whole part, and has less work with each cell. 0: always the latter. The result is the
     /// same, whatever each process says here.
     double sparse_below = 0.0625;
-    /// The latter way numbers edges only near the chosen cells where that concerns less than this
-    /// share of the cells; or, when paths led further the first time, half as many again. 0: always
-    /// all edges. The result is the same here, too.
+    /// The way that goes through the whole part numbers the edges of all cells, unless the cells
+    /// near the chosen ones are less than this share of all; or less than 1.5 times this share,
+    /// when paths led further. 0: always all. The result is the same here, too.
     double near_below = 0.5;
     /// The engine's own. While there is one, the mesh is loose.
     std::unique_ptr<Adjacency, DeleteAdjacency> adjacency;

@@ -91,7 +91,7 @@ def printed_by(command, folder, patience=None):
     for times in range(6):
         outcome = run(command, folder, patience)
         if outcome.status != TOO_LONG:
-            return printed(command, outcome), times
+            break
     return printed(command, outcome), times
 
 

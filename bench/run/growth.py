@@ -11,22 +11,41 @@ def cells_curve(lines):
              "peak_bytes": median(of_run, "peak_bytes")} for of_run in lines.values()]
 
 
-def cells_figures(lines):
-    curve = cells_curve(lines)
-    cells = [point["cells"] for point in curve]
-    made = [Figure("cells of the results, least", cells[0], ""),
-            Figure("cells of the results, most", cells[-1], "")]
-    for key, words in (("processor_seconds", "processor time"), ("peak_bytes", "peak memory")):
-        values = [point[key] for point in curve]
-        made += [Figure(f"{words}: slope of the log-log fit", slope(cells, values), "",
-                        at_most=1.05),
-                 Figure(f"{words}: steepest slope between neighbours", steepest(cells, values), "")]
-    return made
+def slope_figures(curve, key, words, at_most=None):
+    cells, values = [point["cells"] for point in curve], [point[key] for point in curve]
+    return [Figure(f"{words}: slope of the log-log fit", slope(cells, values), "",
+                   at_most=at_most),
+            Figure(f"{words}: steepest slope between neighbours", steepest(cells, values), "")]
+
+
+def new_memory_figures(lines):
+    curve = [point | {"copying": median(of_run, "memcpy_seconds", "new")}
+             for point, of_run in zip(cells_curve(lines), lines.values(), strict=True)]
+    return [Figure("cells of the results, least", curve[0]["cells"], ""),
+            Figure("cells of the results, most", curve[-1]["cells"], ""),
+            *slope_figures(curve, "peak_bytes", "peak memory", at_most=1.05),
+            *slope_figures(curve, "processor_seconds", "processor time, memory new", at_most=1.05),
+            *slope_figures(curve, "copying", "memcpy of input and output, memory new")]
 
 
 def with_cells(sizes):
-    return Case("with cells", [driver(f"{n}^3 cubes", REFINE, f"{n} 1 --warm --json")
-                               for n in sizes], cells_figures, cells_curve)
+    return Case("with cells", [driver(f"{n}^3 cubes", REFINE, f"{n} 1 --warm --memcpy --json")
+                               for n in sizes], new_memory_figures, cells_curve)
+
+
+def megabytes_for(cubes):
+    """More than all that the run of so many cubes a side has at any one time."""
+    return 64 + 48 * cubes ** 3 * 64 // 1000000
+
+
+def at_hand_figures(lines):
+    return slope_figures(cells_curve(lines), "processor_seconds", "processor time", at_most=1.05)
+
+
+def with_cells_at_hand(sizes):
+    return Case("with cells, memory at hand", [
+        driver(f"{n}^3 cubes", REFINE, f"{n} 1 --warm --memory-at-hand {megabytes_for(n)} --json")
+        for n in sizes], at_hand_figures, cells_curve)
 
 
 def ranks_curve(lines):

@@ -17,9 +17,9 @@ def is_alike(old, new):
 
 
 def merged(old_cases, new_cases):
-    """New cases in the place of old ones of the same name; others stay."""
-    names = {case["name"] for case in new_cases}
-    return [case for case in old_cases if case["name"] not in names] + new_cases
+    """New cases in the place of old ones of the same name; others stay, and where they were."""
+    old, new = ({case["name"]: case for case in cases} for cases in (old_cases, new_cases))
+    return list((old | new).values())
 
 
 def with_old(made, path, order):

@@ -151,6 +151,12 @@ class OldResults(unittest.TestCase):
         both = self.names_with(made(names=("peers", "files")), made(names=("growth", "files")))
         self.assertEqual(both, ["growth", "files", "peers"])
 
+    def test_stay_in_the_place_of_their_case(self):
+        def cases(*names_and_values):
+            return [{"name": name, "value": value} for name, value in names_and_values]
+        self.assertEqual(kept.merged(cases(("a", 1), ("b", 1)), cases(("c", 2), ("a", 2))),
+                         cases(("a", 2), ("b", 1), ("c", 2)))
+
     def test_of_anything_else_are_left_out(self):
         self.assertEqual(self.names_with(made("old", names=["peers"]), made("new")), ["growth"])
         self.assertEqual(self.names_with(made(quick=True, names=["peers"]), made()), ["growth"])
@@ -183,8 +189,9 @@ class Programs(unittest.TestCase):
 
     def test_print_what_is_read(self):
         cases = self.cases_of("growth", "around a point", "sphere", "whole program")
-        self.assertEqual([p["cells"] for p in cases["with cells"]["points"]],
-                         [8 * 6 * n ** 3 for n in (6, 12, 24)])
+        for name in ("with cells", "with cells, memory at hand"):
+            self.assertEqual([p["cells"] for p in cases[name]["points"]],
+                             [8 * 6 * n ** 3 for n in (6, 12, 24)])
         self.assertEqual([p["ranks"] for p in cases["with ranks"]["points"]], [1, 2, 4])
         # One rank has nobody to tell; two have.
         self.assertEqual(cases["with ranks"]["points"][0]["bytes"], 0)

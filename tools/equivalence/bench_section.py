@@ -13,9 +13,12 @@ RESULTS = os.path.join(ROOT, "bench", "results.json")
 # What is drawn of the points of a case, and what is said of it.
 DRAWN = {
     "with cells": [
-        (plots.time_by_cells, "Uniform refinement on one rank; dashed: what would grow in "
-         "proportion."),
+        (plots.time_by_cells, "Uniform refinement on one rank, into memory that the system has "
+         "yet to hand out; dashed: what would grow in proportion."),
         (plots.memory_by_cells, "The most memory of that process, the dashed line likewise."),
+    ],
+    "with cells, memory at hand": [
+        (plots.time_by_cells, "The same in memory that the process has written to before."),
     ],
     "with ranks": [
         (plots.time_by_ranks, "One mesh, a tenth of its cells chosen, on more and more ranks, "

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <array>
+#include <numeric>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -10,44 +12,86 @@ namespace {
 
 using Ends = std::array<std::uint64_t, 2>;
 
-/// Collective. The places of these pairs among the different pairs of all processes, in ascending
-/// order; adds their number to `total`. The pairs are ascending in their lower ends, which are less
-/// than `end_count`: each process answers for a block of lower ends.
-std::vector<std::uint64_t> ranked(const Communicator& processes, std::vector<Ends> pairs,
-                                  std::uint64_t end_count, std::uint64_t& total) {
-    const auto process_count = static_cast<std::size_t>(processes.size());
-    const std::uint64_t block = end_count / process_count + 1;
-    std::vector<std::vector<Ends>> asked;
-    {
-        std::vector<std::vector<Ends>> questions(process_count);
-        auto begin = pairs.begin();
-        for (std::size_t r = 0; r < process_count; ++r) {
-            const auto end = std::partition_point(
-                begin, pairs.end(), [&](const Ends& pair) { return pair[0] / block == r; });
-            questions[r].assign(begin, end);
-            begin = end;
+/// Collective. Who is to put pairs in order gets them: processes answer for blocks of lower ends.
+/// The pairs are ascending in their lower ends.
+std::vector<std::vector<Ends>> ask(const Communicator& processes, std::span<const Ends> pairs,
+                                   std::uint64_t block) {
+    std::vector<std::vector<Ends>> questions(static_cast<std::size_t>(processes.size()));
+    auto begin = pairs.begin();
+    for (std::size_t r = 0; r < questions.size(); ++r) {
+        const auto end = std::partition_point(
+            begin, pairs.end(), [&](const Ends& pair) { return pair[0] / block == r; });
+        questions[r].assign(begin, end);
+        begin = end;
+    }
+    return processes.all_to_all(questions);
+}
+
+/// The different pairs among those asked for whose lower ends are in one block, in ascending order.
+/// Put there by counting, as few pairs have the same lower end.
+class OrderedPairs {
+public:
+    OrderedPairs(const std::vector<std::vector<Ends>>& asked, std::uint64_t first_low,
+                 std::uint64_t block)
+        : first_low_(first_low), begin_(block + 1, 0) {
+        for (const auto& from_one : asked) {
+            for (const Ends& pair : from_one) ++begin_[pair[0] - first_low_];
         }
-        pairs = {};
-        asked = processes.all_to_all(questions);
+        std::inclusive_scan(begin_.begin(), begin_.end(), begin_.begin());
+        highs_.resize(begin_.back());
+        // Filled from behind, after which every beginning is where it belongs.
+        for (const auto& from_one : asked) {
+            for (const Ends& pair : from_one) highs_[--begin_[pair[0] - first_low_]] = pair[1];
+        }
+        std::uint64_t count = 0;
+        for (std::uint64_t low = 0; low < block; ++low) {
+            const std::uint64_t begin = begin_[low];
+            const std::uint64_t end = begin_[low + 1];
+            std::sort(highs_.data() + begin, highs_.data() + end);
+            begin_[low] = count;
+            for (std::uint64_t k = begin; k < end; ++k) {
+                if (count > begin_[low] && highs_[count - 1] == highs_[k]) continue;
+                highs_[count++] = highs_[k];
+            }
+        }
+        begin_.back() = count;
+        highs_.resize(count);
     }
 
-    std::vector<Ends> known;
-    std::size_t known_count = 0;
-    for (const auto& from_one : asked) known_count += from_one.size();
-    known.reserve(known_count);
-    for (const auto& from_one : asked) known.insert(known.end(), from_one.begin(), from_one.end());
-    std::ranges::sort(known);
-    known.erase(std::unique(known.begin(), known.end()), known.end());
+    [[nodiscard]] std::uint64_t size() const { return highs_.size(); }
+
+    /// The place of a pair that is there.
+    [[nodiscard]] std::uint64_t place_of(const Ends& pair) const {
+        const std::uint64_t low = pair[0] - first_low_;
+        const auto* const found =
+            std::lower_bound(highs_.data() + begin_[low], highs_.data() + begin_[low + 1], pair[1]);
+        return static_cast<std::uint64_t>(found - highs_.data());
+    }
+
+private:
+    std::uint64_t first_low_;
+    std::vector<std::uint64_t> begin_;  ///< by the lower end
+    std::vector<std::uint64_t> highs_;
+};
+
+/// Collective. The places of these pairs among the different pairs of all processes, in ascending
+/// order; adds their number to `total`. The pairs are ascending in their lower ends, which are less
+/// than `end_count`.
+std::vector<std::uint64_t> ranked(const Communicator& processes, std::vector<Ends> pairs,
+                                  std::uint64_t end_count, std::uint64_t& total) {
+    const auto process_count = static_cast<std::uint64_t>(processes.size());
+    const std::uint64_t block = end_count / process_count + 1;
+    auto asked = ask(processes, pairs, block);
+    pairs = {};
+
+    const OrderedPairs known(asked, block * static_cast<std::uint64_t>(processes.rank()), block);
     const std::uint64_t first = total + processes.sum_before(known.size());
     total += processes.sum(known.size());
 
-    std::vector<std::vector<std::uint64_t>> answers(process_count);
-    for (std::size_t r = 0; r < process_count; ++r) {
+    std::vector<std::vector<std::uint64_t>> answers(asked.size());
+    for (std::size_t r = 0; r < asked.size(); ++r) {
         answers[r].reserve(asked[r].size());
-        for (const Ends& pair : asked[r]) {
-            const auto place = std::ranges::lower_bound(known, pair);
-            answers[r].push_back(first + static_cast<std::uint64_t>(place - known.begin()));
-        }
+        for (const Ends& pair : asked[r]) answers[r].push_back(first + known.place_of(pair));
         asked[r] = {};
     }
     // The pairs were ascending in their lower ends, so the answers come in their order.

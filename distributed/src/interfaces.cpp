@@ -24,6 +24,9 @@ public:
         for (std::size_t v = 1; v < begin_.size(); ++v) begin_[v] += begin_[v - 1];
     }
 
+    /// Does another process have this vertex?
+    [[nodiscard]] bool has(VertexIndex v) const { return !of(v).empty(); }
+
     /// Is there another process that has all of these vertices?
     template <std::size_t N>
     [[nodiscard]] bool may_be_shared(const std::array<VertexIndex, N>& vertices) const {
@@ -46,28 +49,24 @@ private:
 template <std::size_t N>
 using VertexLists = std::vector<std::array<VertexIndex, N>>;
 
-VertexLists<2> candidate_edges(const DistributedMesh& mesh, const VertexSharers& sharers) {
-    VertexLists<2> candidates;
-    const EdgeStars stars(mesh.points.size(), mesh.cells);
-    for (VertexIndex low{0}; low < mesh.points.end_index(); ++low) {
-        for (EdgeIndex e = stars.begin_of(low); e < stars.end_of(low); ++e) {
-            const EdgeVertices edge{low, stars.high_end(e)};
-            if (sharers.may_be_shared(edge)) candidates.push_back(edge);
-        }
-    }
-    return candidates;
-}
-
-VertexLists<3> candidate_faces(const DistributedMesh& mesh, const VertexSharers& sharers) {
-    VertexLists<3> candidates;
+/// The sides (edges or faces) of the cells, each as often as cells have it, that another process
+/// may have, too; their vertices ascending.
+template <std::size_t N, std::size_t Sides>
+VertexLists<N> candidates(const DistributedMesh& mesh, const VertexSharers& sharers,
+                          const std::array<std::array<std::uint8_t, N>, Sides>& sides) {
+    VertexLists<N> found;
+    const auto is_shared = [&](VertexIndex v) { return sharers.has(v); };
     for (const CellVertices& cell : mesh.cells) {
-        for (const auto& [i, j, k] : cell_faces) {
-            FacetVertices face{cell[i], cell[j], cell[k]};
-            std::ranges::sort(face);
-            if (sharers.may_be_shared(face)) candidates.push_back(face);
+        if (std::ranges::count_if(cell, is_shared) < 2) continue;
+        for (const auto& side : sides) {
+            std::array<VertexIndex, N> vertices;
+            for (std::size_t k = 0; k < N; ++k) vertices[k] = cell[side[k]];
+            if (!sharers.may_be_shared(vertices)) continue;
+            std::ranges::sort(vertices);
+            found.push_back(vertices);
         }
     }
-    return candidates;
+    return found;
 }
 
 /// Calls share(rank, vertices) for each of the candidates that other processes really have, in
@@ -92,9 +91,9 @@ std::vector<Interface> find_interfaces(const DistributedMesh& mesh) {
     if (mesh.processes.size() == 1) return {};
     const VertexSharers sharers(mesh);
     std::map<int, Interface> by_rank;
-    find_shared(mesh, candidate_edges(mesh, sharers),
+    find_shared(mesh, candidates(mesh, sharers, cell_edges),
                 [&](int rank, const EdgeVertices& edge) { by_rank[rank].edges.push_back(edge); });
-    find_shared(mesh, candidate_faces(mesh, sharers),
+    find_shared(mesh, candidates(mesh, sharers, cell_faces),
                 [&](int rank, const FacetVertices& face) { by_rank[rank].faces.push_back(face); });
     std::vector<Interface> interfaces;
     for (auto& [rank, interface] : by_rank) {

@@ -25,6 +25,12 @@ void bring_to_slices(const Communicator& processes, const Window& window, auto&&
         const std::uint64_t begin = window.begin_of(rank);
         const std::uint64_t end = window.end_of(rank);
         if (begin == end) continue;
+        if (rank == processes.rank()) {
+            between(begin, end, [&](std::uint64_t number, const T& value) {
+                place(static_cast<std::uint32_t>(number - begin), value);
+            });
+            continue;
+        }
         auto& outbox = outboxes[static_cast<std::size_t>(rank)];
         between(begin, end, [&](std::uint64_t number, const T& value) {
             outbox.push_back({static_cast<std::uint32_t>(number - begin), value});

@@ -34,12 +34,13 @@ public:
 
     /// Calls found(i) for each entity i of the list that has these vertices.
     void find(const Vertices& vertices, auto&& found) const {
-        const Vertices wanted = sorted(vertices);
-        const std::uint32_t bucket = wanted.front().value();
+        const std::uint32_t bucket = smallest(vertices);
+        const auto begin = members_.begin() + bucket_begin_[bucket];
         const auto end = members_.begin() + bucket_begin_[bucket + 1];
-        auto member =
-            std::ranges::lower_bound(members_.begin() + bucket_begin_[bucket], end, wanted, {},
-                                     [&](I i) { return sorted((*list_)[i]); });
+        if (begin == end) return;  // as at most vertices that are not on the boundary
+        const Vertices wanted = sorted(vertices);
+        auto member = std::ranges::lower_bound(begin, end, wanted, {},
+                                               [&](I i) { return sorted((*list_)[i]); });
         for (; member != end && sorted((*list_)[*member]) == wanted; ++member) found(*member);
     }
 

@@ -38,7 +38,7 @@ def positive(word):
 def parse_command_line():
     parser = argparse.ArgumentParser(prog="bench", description=__doc__.split("\n\n")[0])
     parser.add_argument("--build", metavar="FOLDER", default="build/release")
-    parser.add_argument("-o", "--output", metavar="FOLDER", required=True)
+    parser.add_argument("-o", "--output", metavar="FOLDER", default="bench")
     parser.add_argument("--quick", action="store_true",
                         help="small meshes, once each: to see that all runs")
     parser.add_argument("--peers", action="store_true", help="DOLFINx, too, in turns with octetra")
@@ -46,6 +46,8 @@ def parse_command_line():
                         help="only cases with one of these in the name of them or their group")
     parser.add_argument("--repetitions", metavar="N", type=positive,
                         help="5 unless told, with --quick 1")
+    parser.add_argument("--list", action="store_true",
+                        help="only name the cases that would be run")
     return parser.parse_args()
 
 
@@ -64,8 +66,18 @@ def chosen(every, words):
         if cases:
             picked.append(group.of(cases))
     if not picked:
-        raise Failure(f"no case has {' or '.join(words)} in its name")
+        raise Failure(f"no case has {' or '.join(words)} in its name; there are\n"
+                      + listed(every))
     return picked
+
+
+def listed(every):
+    return "\n".join(f"  {group.name}: {case.name}" for group in every for case in group.cases)
+
+
+def chosen_groups(options):
+    every = groups.quick(options.peers) if options.quick else groups.standard(options.peers)
+    return chosen(every, options.only)
 
 
 def measure_group(group, place, repetitions):
@@ -81,13 +93,12 @@ def measure_group(group, place, repetitions):
 def make_results(options):
     build, output = os.path.abspath(options.build), os.path.abspath(options.output)
     repetitions = options.repetitions or (1 if options.quick else 5)
-    every = groups.quick(options.peers) if options.quick else groups.standard(options.peers)
     machine = where.describe(build)
     begin = time.monotonic()
     with tempfile.TemporaryDirectory(prefix="bench-") as folder:
         place = Place(build, folder)
         measured = [measure_group(group, place, repetitions)
-                    for group in chosen(every, options.only)]
+                    for group in chosen_groups(options)]
     made = {"format": "octetra bench", "version": 1, "quick": options.quick, "machine": machine,
             "seconds": time.monotonic() - begin, "groups": measured}
     return kept.with_old(made, os.path.join(output, "results.json"), groups.NAMES)
@@ -101,6 +112,9 @@ def write(path, words):
 def main():
     options = parse_command_line()
     try:
+        if options.list:
+            print(listed(chosen_groups(options)))
+            return 0
         os.makedirs(options.output, exist_ok=True)
         made = make_results(options)
         write(os.path.join(options.output, "results.json"), json.dumps(made, indent=1) + "\n")

@@ -17,7 +17,8 @@ ABOUT = {
               "take turns, so seconds are those of the processor, waiting included.",
     "files": "Files in the page cache, and `octetra refine` from its start to its end.",
     "peers": "DOLFINx as Debian has it, the same mesh and the same cells chosen. Timed from "
-             "barrier to barrier, its edges included.",
+             "barrier to barrier, its edges included. Into memory that the process has yet to get, "
+             "as above.",
 }
 
 

@@ -61,8 +61,9 @@ def ranks_figures(lines):
     made = []
     for point in ranks_curve(lines):
         name = on(point["ranks"])
-        made += [Figure(f"{name}: processor of a rank",
-                        1e3 * point["processor_seconds_of_rank"], "ms"),
+        of_rank = 1e3 * point["processor_seconds_of_rank"]
+        made += [Figure(f"{name}: processor, of a rank", of_rank, "ms"),
+                 Figure(f"{name}: processor, all ranks", of_rank * point["ranks"], "ms"),
                  Figure(f"{name}: bytes sent, all ranks", point["bytes"], "bytes")]
     return made
 

@@ -25,7 +25,9 @@ def merged(old_cases, new_cases):
 def with_old(made, path, order):
     """`made`, and from the results at `path` what was not measured now, if it still holds; else it
     is left out."""
-    dated = [{**group, "date": made["machine"]["date"]} for group in made["groups"]]
+    machine = made["machine"]
+    dated = [{**group, "date": machine["date"], "load": machine["load"]}
+             for group in made["groups"]]
     made = {**made, "groups": dated}
     try:
         with open(path, encoding="utf-8") as file:

@@ -41,15 +41,19 @@ class Run:
 
 @dataclass(frozen=True)
 class Figure:
-    """What a case comes to. With a target, the value is to be at most (or at least) that."""
+    """What a case comes to. With a target, the value is to be at most (or at least) that. `spread`:
+    the least and the most of the runs that it is the median of."""
     name: str
     value: float
     unit: str
     at_most: float = None
     at_least: float = None
+    spread: tuple = None
 
     def as_dict(self):
         made = {"name": self.name, "value": self.value, "unit": self.unit}
+        if self.spread is not None:
+            made |= {"least": self.spread[0], "most": self.spread[1]}
         if self.at_most is not None:
             made |= {"at_most": self.at_most, "met": self.value <= self.at_most}
         if self.at_least is not None:
@@ -137,6 +141,12 @@ def inside(line, keys):
 def median(lines, *keys):
     """Of the number that stands under these keys in every line."""
     return statistics.median(inside(line, keys) for line in lines)
+
+
+def spread_figure(name, unit, lines, *keys):
+    """The median of that number, with the least and the most."""
+    values = [inside(line, keys) for line in lines]
+    return Figure(name, statistics.median(values), unit, spread=(min(values), max(values)))
 
 
 def median_ratio(lines, by_lines, *keys):

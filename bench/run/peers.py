@@ -2,7 +2,8 @@
 
 import os
 
-from measuring import BEGUN_AGAIN, Case, Figure, Run, driver, median, median_ratio
+from measuring import (BEGUN_AGAIN, Case, Figure, Run, driver, median, median_ratio,
+                       spread_figure)
 from running import must, run
 
 OURS, THEIRS = "bench/bench_refine", "bench/peers/peer_dolfinx"
@@ -48,8 +49,8 @@ def level_figures(least, all_ranks):
             words = f"level {level + 1}"
             made.append(Figure(f"{words}: cells of the result, of both", first["cells"], ""))
             for ranks in all_ranks:
-                made += [Figure(f"{words}: {name}", median(lines[name], "levels", level, "seconds"),
-                                "s")
+                made += [spread_figure(f"{words}: {name}", "s", lines[name],
+                                       "levels", level, "seconds")
                          for name in (name_of("octetra", ranks), name_of("DOLFINx", ranks))]
                 made.append(Figure(f"{words}: speed against DOLFINx, " + name_of("", ranks)[2:],
                                    ratio(lines, level, ranks), "times", at_least=least))
@@ -87,7 +88,9 @@ def sphere(cubes):
 
 
 def bare_figures(lines):
-    return [Figure("speed against DOLFINx, which makes no mesh of its cells, 1 rank",
+    return [*(spread_figure(name, "s", of_run, "levels", 0, "seconds")
+              for name, of_run in lines.items()),
+            Figure("speed against DOLFINx, which makes no mesh of its cells, 1 rank",
                    ratio(lines, 0, 1), "times")]
 
 

@@ -2,7 +2,7 @@
 
 import statistics
 
-from measuring import Case, Figure, driver, median, median_ratio
+from measuring import Case, Figure, driver, median, median_ratio, spread_figure
 
 REFINE, LOCAL = "bench/bench_refine", "bench/bench_local"
 RANKS = (1, 2, 4)
@@ -25,7 +25,8 @@ def speeds(lines):
     made = []
     for ranks in RANKS:
         seconds = last(lines[on(ranks)], "seconds")
-        made += [Figure(f"time, {on(ranks)}", seconds, "s"),
+        made += [spread_figure(f"time, {on(ranks)}", "s", lines[on(ranks)],
+                               "levels", -1, "seconds"),
                  Figure(f"cells of the result a second, {on(ranks)}", cells / seconds * 1e-6,
                         "million")]
     return made

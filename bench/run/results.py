@@ -14,6 +14,12 @@ def with_unit(value, unit):
     return f"{number(value)} {unit}".rstrip()
 
 
+def spread(figure):
+    if "least" not in figure:
+        return ""
+    return f" ({number(figure['least'])} to {number(figure['most'])})"
+
+
 def target(figure):
     for key, words in (("at_most", "at most"), ("at_least", "at least")):
         if key in figure:
@@ -32,19 +38,24 @@ def rows(case, quick):
         if quick:  # targets are for the sizes of a full run
             figure = {key: figure[key] for key in ("name", "value", "unit")}
         yield (f"| {case['name'] if i == 0 else ''} | {figure['name']} "
-               f"| {with_unit(figure['value'], figure['unit'])} | {target(figure)} "
-               f"| {answer(figure)} |")
+               f"| {with_unit(figure['value'], figure['unit'])}{spread(figure)} "
+               f"| {target(figure)} | {answer(figure)} |")
 
 
 def table(group, date, quick):
     lines = [f"## {group['name'].capitalize()}", "", group["about"], ""]
     if group["date"] != date:
-        lines += [f"Measured {group['date']}, of the same commit.", ""]
+        lines += [f"Measured {group['date']}, of the same commit, {busy(group['load'])} when it "
+                  "began.", ""]
     lines += ["| case | figure | value | target | |", "|---|---|---:|---:|---|"]
     for case in group["cases"]:
         lines += rows(case, quick)
         lines += [f"| {case['name']} | **wrong** | {line} | | |" for line in case["wrong"]]
     return lines + [""]
+
+
+def busy(load):
+    return f"{load:.1f} cores busy with other work"
 
 
 def where(machine):
@@ -53,7 +64,7 @@ def where(machine):
              plural(machine["cores"], "core") + " of " + machine["processor"], memory,
              machine["system"], machine["compiler"],
              machine["build"] and machine["build"] + " build", machine["mpi"],
-             f"load {machine['load']:.1f} when it began"]
+             busy(machine['load']) + " when it began"]
     return ", ".join(word for word in known if word) + "."
 
 
@@ -67,8 +78,9 @@ def of_what(made):
     repetitions = sorted({group["repetitions"] for group in made["groups"]})
     runs = ("Single runs" if repetitions == [1] else
             f"Medians of {' or '.join(map(str, repetitions))} runs in turns; of one "
-            "program's speed against another's, of what it was in each turn")
-    words = "Small meshes, to see that all runs. " if made["quick"] else ""
+            "program's speed against another's, of what it was in each turn; in parentheses the "
+            "least and the most of the runs")
+    words = "Small meshes, to see that all runs; targets are for large ones. " if made["quick"] else ""
     return (f"{words}{runs}; seconds by the wall clock unless it says "
             "processor. What each group means: [README.md](README.md); every raw time: "
             "`results.json`.")

@@ -12,11 +12,13 @@ ROOT = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..")
 RUN = os.path.join(ROOT, "bench", "run")
 sys.path[:0] = [RUN, os.path.join(ROOT, "tools", "equivalence")]
 
+import files  # noqa: E402
 import groups  # noqa: E402
 import kept  # noqa: E402
 import peers  # noqa: E402
 import results  # noqa: E402
-from measuring import Case, Figure, Run, measure, median, median_ratio, printed_by  # noqa: E402
+from measuring import (Case, Figure, Run, measure, median, median_ratio,  # noqa: E402
+                       printed_by, spread_figure)
 from slopes import slope, steepest  # noqa: E402
 from running import Failure  # noqa: E402
 
@@ -92,6 +94,26 @@ class Figures(unittest.TestCase):
     def test_of_short_runs_come_from_more_of_them(self):
         case = Case("short", [Run("a", lambda _: {})], lambda lines: [], multiple=3)
         self.assertEqual(len(measure(case, None, 5)["runs"][0]["lines"]), 15)
+
+    def test_say_how_far_runs_lie_apart(self):
+        lines = [{"s": value} for value in (3, 1, 8)]
+        case = {"name": "a case", "figures": [spread_figure("time", "s", lines, "s").as_dict()]}
+        self.assertEqual(list(results.rows(case, quick=False)),
+                         ["| a case | time | 3 s (1 to 8) |  |  |"])
+
+    def test_count_the_time_of_files_once(self):
+        # While one rank reads, the other waits for it.
+        def of_rank(*seconds):
+            return {"of_rank": seconds}
+        profile = {"phases": [
+            {"phase": "read", "computing_seconds": of_rank(3, 0),
+             "communicating_seconds": of_rank(0, 3)},
+            {"phase": "write", "computing_seconds": of_rank(1, 2),
+             "communicating_seconds": of_rank(1, 1)},
+            {"phase": "write", "computing_seconds": of_rank(1, 2),
+             "communicating_seconds": of_rank(0, 0)}]}
+        self.assertEqual(files.of_phase(profile, "read"), 3)
+        self.assertEqual(files.of_phase(profile, "write"), 5)
 
     def test_meet_their_targets_or_do_not(self):
         self.assertTrue(Figure("", 3, "", at_most=3).as_dict()["met"])

@@ -40,7 +40,7 @@ def markdown(report):
     machine, cases = report["machine"], report["cases"]
     lines = ["# Equivalence report", "", answer(totals(cases))[1], "",
              f"{machine['date']}, commit {machine['commit']}, {machine['cores']} cores of "
-             f"{machine['processor']}, load {machine['load']:.1f} when it began.", "",
+             f"{machine['processor']}, {machine['load']:.1f} cores busy with other work when it began.", "",
              "| case | cells before | after | same bytes | exact verification "
              "| rounds / messages, neighbour, 4 ranks | gateway | reference | 1 rank | 2 ranks |",
              "|---|---:|---:|---:|---|---:|---:|---:|---:|---:|",

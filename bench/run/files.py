@@ -6,6 +6,7 @@ import shutil
 import statistics
 
 from measuring import Case, Figure, Run, driver, median
+from refinement import on
 from running import must, run
 
 FILES = "bench/bench_files"
@@ -56,6 +57,39 @@ def whole_program(place, ranks, shape):
             "peak_bytes": profile["peak_memory_bytes"]["max"]}
 
 
+def in_a_corner(cubes, levels):
+    """What each rank comes to have where one place of the mesh is refined."""
+    shape = f"kuhn {cubes}"
+    arguments = f"--sphere 0.2,0.2,0.2,0.1 --levels {levels}"
+
+    def line(place, ranks):
+        mesh = place.mesh(shape, "corner.mesh")
+        launcher = ["mpirun", "-n", str(ranks)] if ranks > 1 else []
+        profile = os.path.join(place.folder, "corner.json")
+        must([*launcher, place.program("cli/octetra"), "refine", mesh, *arguments.split(),
+              "--quiet", "-o", "corner-fine.mesh", "--profile", profile], place.folder)
+        with open(profile, encoding="utf-8") as file:
+            found = json.load(file)
+        return {"cells": found["levels"][-1]["cells"],
+                "peak_bytes": found["peak_memory_bytes"]["max"]}
+    return Case("a sphere in a corner", [
+        Run(on(ranks), lambda place, ranks=ranks: line(place, ranks),
+            f"mpirun -n {ranks} octetra refine ({shape}) {arguments} -o corner-fine.mesh")
+        for ranks in (1, 2, 4)], corner_figures)
+
+
+def corner_figures(lines):
+    made = [Figure("cells of the result", lines[on(1)][0]["cells"]["sum"], "")]
+    for name, of_run in lines.items():
+        cells = of_run[0]["cells"]
+        if name != on(1):
+            made.append(Figure(f"cells of the rank that has most against the mean, {name}",
+                               cells["max"] / cells["mean"], "times", at_most=1.25))
+        made.append(Figure(f"peak memory of a rank, {name}", 1e-6 * median(of_run, "peak_bytes"),
+                           "MB"))
+    return made
+
+
 def timed(command, folder):
     outcome = run(command, folder)
     if outcome.status != 0:
@@ -89,7 +123,7 @@ def program(cubes):
 
     def one(ranks):
         words = f"mpirun -n {ranks} " if ranks > 1 else ""
-        return Run("1 rank" if ranks == 1 else f"{ranks} ranks",
+        return Run(on(ranks),
                    lambda place: whole_program(place, ranks, shape),
                    f"{words}octetra refine ({shape}) --all -o fine.ele")
     return Case("the whole program", [one(ranks) for ranks in (1, 2)], program_figures)

@@ -34,7 +34,7 @@ def standard(with_peers):
         group("growth", [growth.with_cells((6, 12, 24, 44, 55, 85)),
                          growth.with_cells_at_hand((6, 12, 24, 44, 55, 85)),
                          growth.with_ranks(40, (1, 2, 4, 8, 16, 32))]),
-        group("files", [files.tetgen(), files.program(55)]),
+        group("files", [files.tetgen(), files.program(55), files.in_a_corner(30, 4)]),
     ]
     if with_peers:
         made.append(group("peers", [peers.uniform(55), peers.sphere(32), peers.bare(55),
@@ -49,7 +49,7 @@ def quick(with_peers):
                              refinement.around_a_point(24, 4, 200), refinement.by_lot(2000)]),
         group("growth", [growth.with_cells((6, 12, 24)), growth.with_cells_at_hand((6, 12, 24)),
                          growth.with_ranks(10, (1, 2, 4))]),
-        group("files", [files.tetgen(), files.program(16)]),
+        group("files", [files.tetgen(), files.program(16), files.in_a_corner(10, 2)]),
     ]
     if with_peers:
         made.append(group("peers", [peers.uniform(12), peers.sphere(8), peers.bare(12),

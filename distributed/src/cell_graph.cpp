@@ -80,12 +80,12 @@ private:
 };
 
 CellGraph graph_of(const Neighbours& neighbours, std::vector<std::int32_t> cell_to_node,
-                   const LinkWeights& weights) {
+                   const CellWeights& cell_weights, const LinkWeights& weights) {
     const CellsOfNodes nodes(cell_to_node);
     CellGraph graph;
     graph.begin.reserve(nodes.count() + 1);
     graph.begin.push_back(0);
-    graph.cells_of_node.reserve(nodes.count());
+    graph.node_weights.reserve(nodes.count());
     Row row(nodes.count());
     for (std::size_t node = 0; node < nodes.count(); ++node) {
         for (const CellIndex c : nodes[node]) {
@@ -103,7 +103,7 @@ CellGraph graph_of(const Neighbours& neighbours, std::vector<std::int32_t> cell_
         }
         row.clear();
         graph.begin.push_back(static_cast<std::int32_t>(graph.neighbours.size()));
-        graph.cells_of_node.push_back(static_cast<std::int32_t>(nodes[node].size()));
+        graph.node_weights.push_back(static_cast<std::int32_t>(cell_weights.of_all(nodes[node])));
     }
     graph.cell_to_node = std::move(cell_to_node);
     return graph;
@@ -125,32 +125,31 @@ void check_graph_size(std::uint64_t cells) {
                     cells, most));
 }
 
-CellGraph face_dual_graph(const Mesh& mesh) {
+CellGraph face_dual_graph(const Mesh& mesh, const CellWeights& weights) {
     check_graph_size(mesh.cells.size());
     const auto neighbours =
         neighbours_of_cells(mesh, [](const FacetVertices&, CellIndex, CellIndex) { return 0U; });
     std::vector<std::int32_t> cell_to_node(mesh.cells.size());
     std::iota(cell_to_node.begin(), cell_to_node.end(), 0);
-    return graph_of(neighbours, std::move(cell_to_node), {.face = 1, .path = 0});
+    return graph_of(neighbours, std::move(cell_to_node), weights, {.face = 1, .path = 0});
 }
 
-CellGraph lepp_graph(const Mesh& mesh, std::size_t most_cells) {
+CellGraph lepp_graph(const Mesh& mesh, const CellWeights& weights, std::int64_t most) {
     check_graph_size(mesh.cells.size());
     std::vector<std::int32_t> cell_to_node;
     Neighbours neighbours;
     {
         const LongestEdges edges(mesh);
-        cell_to_node = groups_of_longest_edges(edges, most_cells);
+        cell_to_node = groups_of_longest_edges(edges, weights, most);
         neighbours =
             neighbours_of_cells(mesh, [&](const FacetVertices& face, CellIndex a, CellIndex b) {
                 return static_cast<unsigned>(has(face, edges.longest_of(a))) +
                        static_cast<unsigned>(has(face, edges.longest_of(b)));
             });
     }  // the edges make room for the graph
-    constexpr std::size_t most_with_lone_cells = 6;
-    join_lone_cells(neighbours, std::min(most_cells, most_with_lone_cells), cell_to_node);
+    join_lone_cells(neighbours, weights, most, cell_to_node);
     // The ratio was measured: see bench/README.md.
-    return graph_of(neighbours, std::move(cell_to_node), {.face = 1, .path = 1});
+    return graph_of(neighbours, std::move(cell_to_node), weights, {.face = 1, .path = 1});
 }
 
 }  // namespace octetra::distributed

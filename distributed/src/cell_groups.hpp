@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "cell_weights.hpp"
 #include "longest_edges.hpp"
 #include "neighbours.hpp"
 
@@ -11,14 +12,16 @@
 namespace octetra::distributed {
 
 /// Cells with the same longest edge are a group: whatever is selected in one of them selects that
-/// edge, so that they are bisected together. But if they are more than `most_cells`, as in a wheel,
+/// edge, so that they are bisected together. But if they weigh more than `most`, as in a wheel,
 /// each of them remains alone. Groups are in the order of their edges.
 [[nodiscard]] std::vector<std::int32_t> groups_of_longest_edges(const LongestEdges& edges,
-                                                                std::size_t most_cells);
+                                                                const CellWeights& weights,
+                                                                std::int64_t most);
 
 /// Every cell that is alone joins the group of a neighbour, if it can in a direction in which
-/// selections go, and of those in that direction the smallest; none gets more than `most_cells`.
-void join_lone_cells(const Neighbours& neighbours, std::size_t most_cells,
+/// selections go, and of those in that direction the smallest; none comes to weigh more than
+/// `most`, nor gets more than six cells.
+void join_lone_cells(const Neighbours& neighbours, const CellWeights& weights, std::int64_t most,
                      std::vector<std::int32_t>& cell_to_group);
 
 }  // namespace octetra::distributed

@@ -25,17 +25,17 @@ bool is_worth_a_cut(const Mesh& mesh, int parts) {
     return mesh.cells.size() >= cells_per_part * static_cast<std::size_t>(parts);
 }
 
-/// How many cells with the same longest edge may be one node of the graph: so few that METIS can
-/// still balance the parts.
-std::size_t most_cells_of_a_node(const Mesh& mesh, int parts) {
-    constexpr std::size_t nodes_per_part = 20;
-    return mesh.cells.size() / (nodes_per_part * static_cast<std::size_t>(parts));
+/// How much the cells with the same longest edge may weigh as one node of the graph: so little that
+/// METIS can still balance the parts.
+std::int64_t most_of_a_node(std::int64_t all, int parts) {
+    constexpr std::int64_t nodes_per_part = 20;
+    return all / (nodes_per_part * parts);
 }
 
 std::vector<int> partition_graph(CellGraph graph, int parts) {
     static_assert(sizeof(idx_t) == sizeof(std::int32_t));
-    auto node_count = static_cast<idx_t>(graph.cells_of_node.size());
-    std::vector<int> node_to_part(graph.cells_of_node.size());
+    auto node_count = static_cast<idx_t>(graph.node_weights.size());
+    std::vector<int> node_to_part(graph.node_weights.size());
     idx_t constraints = 1;
     idx_t part_count = parts;
     idx_t cut = 0;
@@ -44,7 +44,7 @@ std::vector<int> partition_graph(CellGraph graph, int parts) {
     options[METIS_OPTION_SEED] = 1;
     const int status =
         METIS_PartGraphKway(&node_count, &constraints, graph.begin.data(), graph.neighbours.data(),
-                            graph.cells_of_node.data(), nullptr, graph.weights.data(), &part_count,
+                            graph.node_weights.data(), nullptr, graph.weights.data(), &part_count,
                             nullptr, nullptr, options.data(), &cut, node_to_part.data());
     if (status != METIS_OK) throw SystemError("METIS could not partition the mesh");
     std::vector<int> cell_to_part(graph.cell_to_node.size());
@@ -122,15 +122,20 @@ Partition parse_partition(const std::string& text) {
         "--partition takes lepp, dual, block, random:SEED or file:PATH, not '{}'", text));
 }
 
-std::vector<int> partition_cells(const Mesh& mesh, int parts, const Partition& partition) {
+std::vector<int> partition_cells(const Mesh& mesh, int parts, const Partition& partition,
+                                 const std::vector<float>& weights) {
     const std::size_t cells = mesh.cells.size();
     const bool by_graph =
         partition.method == PartitionMethod::lepp || partition.method == PartitionMethod::dual;
     if (by_graph && (parts == 1 || !is_worth_a_cut(mesh, parts))) return equal_blocks(cells, parts);
     switch (partition.method) {
-        case PartitionMethod::lepp:
-            return partition_graph(lepp_graph(mesh, most_cells_of_a_node(mesh, parts)), parts);
-        case PartitionMethod::dual: return partition_graph(face_dual_graph(mesh), parts);
+        case PartitionMethod::lepp: {
+            const CellWeights of_cells(weights);
+            const std::int64_t most = most_of_a_node(of_cells.sum(cells), parts);
+            return partition_graph(lepp_graph(mesh, of_cells, most), parts);
+        }
+        case PartitionMethod::dual:
+            return partition_graph(face_dual_graph(mesh, CellWeights(weights)), parts);
         case PartitionMethod::block: return equal_blocks(cells, parts);
         case PartitionMethod::random: return by_lot(cells, parts, partition.seed);
         case PartitionMethod::file: return from_file(partition.path, cells, parts);

@@ -148,6 +148,28 @@ TEST_F(Profiled, RunsOfAnyNumberOfRanksSayWhereTheTimeWent) {
     }
 }
 
+/// The sphere is in one corner of the gear. Shares of the input that are equal in their cells would
+/// leave nearly all of the result to one rank.
+TEST_F(Profiled, RunsShareOutWhatIsRefined) {
+    for (const int ranks : {2, 4}) {
+        for (const std::string method : {"lepp", "dual"}) {
+            ASSERT_EQ(
+                test::octetra_on(ranks,
+                                 "refine gear.1.ele --sphere 1,0,0.15,0.2 --levels 4 -o p.ele "
+                                 "--profile p.json --partition " +
+                                     method,
+                                 folder)
+                    .status,
+                0);
+            const Json profile = json("p.json");
+            const Json cells = profile.at("levels").back().at("cells");
+            EXPECT_EQ(cells.at("sum"), 294'000);
+            EXPECT_LT(cells.at("max").get<double>(), 1.3 * cells.at("mean").get<double>())
+                << method << " on " << ranks;
+        }
+    }
+}
+
 /// Cells that are still too large are counted by all ranks together, after the last level.
 TEST_F(Profiled, RunsForAVolumeTalkWithinPhases) {
     ASSERT_EQ(test::octetra_on(3, measured + " --max-volume 1e-4", folder).status, 0);

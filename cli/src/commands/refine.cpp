@@ -20,6 +20,7 @@
 #include <octetra/distributed/agreement.hpp>
 #include <octetra/distributed/canonical_mesh.hpp>
 #include <octetra/distributed/partition.hpp>
+#include <octetra/distributed/predicted_cells.hpp>
 #include <octetra/distributed/profile.hpp>
 #include <octetra/distributed/refine.hpp>
 #include <octetra/reference/refine.hpp>
@@ -271,7 +272,7 @@ bool refine_by_reference(const Mesh& mesh, const Plan& plan, const RefineOptions
 }
 
 /// Collective. The parts of a mesh that the first process has.
-distributed::DistributedMesh share_out(Mesh mesh, const Plan& plan,
+distributed::DistributedMesh share_out(Mesh mesh, const Plan& plan, int levels,
                                        const distributed::Communicator& world) {
     std::vector<int> cell_to_rank;
     distributed::in_phase(world, "partition", [&] {
@@ -279,7 +280,9 @@ distributed::DistributedMesh share_out(Mesh mesh, const Plan& plan,
             // A part file that does not fit is a mistake on one rank, too.
             const bool by_file = plan.partition.method == distributed::PartitionMethod::file;
             if (world.size() == 1 && !by_file) return;
-            cell_to_rank = distributed::partition_cells(mesh, world.size(), plan.partition);
+            cell_to_rank = distributed::partition_cells(
+                mesh, world.size(), plan.partition,
+                distributed::predicted_cells(mesh, plan.selection, plan.scheme, levels));
         });
     });
     return distributed::distribute(world, std::move(mesh), cell_to_rank);
@@ -293,7 +296,7 @@ bool refine_distributed(Mesh mesh, const Plan& plan, const RefineOptions& option
     const Mesh coarse = verify_alone ? mesh : Mesh{};
     verify::MeshSlice coarse_slice;
     if (verify_together) coarse_slice = verify::share_out(mesh, Judges(world));
-    auto parts = share_out(std::move(mesh), plan, world);
+    auto parts = share_out(std::move(mesh), plan, options.refinement.levels, world);
     int levels = 0;
     const auto show = level_progress(options);
     const auto on_level = [&](int level, std::uint64_t cells) {

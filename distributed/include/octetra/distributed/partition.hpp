@@ -28,10 +28,13 @@ struct Partition {
 /// "lepp", "dual", "block", "random:SEED" or "file:PATH". Throws InputError.
 [[nodiscard]] Partition parse_partition(const std::string& text);
 
-/// The part, 0 to parts-1, of each cell; parts may be empty. Not collective: one process decides.
-/// Throws InputError where a part file does not fit the mesh.
+/// The part, 0 to parts-1, of each cell; parts may be empty. By lepp and dual, parts are about
+/// equal in the sum of their cells' weights, positive, such as predicted_cells() finds; if there are
+/// none, in their number. Not collective: one process decides. Throws InputError where a part file
+/// does not fit the mesh.
 [[nodiscard]] std::vector<int> partition_cells(const Mesh& mesh, int parts,
-                                               const Partition& partition);
+                                               const Partition& partition,
+                                               const std::vector<float>& weights = {});
 
 /// How good a partition is. Less cut, fewer shared vertices and an even balance are better.
 struct PartitionStatistics {

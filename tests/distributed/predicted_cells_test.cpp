@@ -1,0 +1,189 @@
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numeric>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <octetra/distributed/partition.hpp>
+#include <octetra/distributed/predicted_cells.hpp>
+#include <octetra/distributed/refine.hpp>
+
+#include "cell_graph.hpp"
+#include "support/meshes.hpp"
+
+/// How many cells each cell is expected to become, and parts that are equal in that.
+namespace octetra::distributed {
+namespace {
+
+using testing::Each;
+using testing::IsEmpty;
+
+constexpr std::array<std::pair<Scheme, int>, 3> schemes{
+    {{Scheme::eight, 8}, {Scheme::four, 4}, {Scheme::two, 2}}};
+
+/// What becomes of each cell of the mesh.
+std::vector<float> real_cells(const Mesh& mesh, const Selection& selection, int levels) {
+    DistributedMesh refined = distribute(Communicator(), mesh, {});
+    refine(refined, selection, {.levels = levels});
+    const Collected collected = collect(std::move(refined));
+    std::vector<float> cells(mesh.cells.size(), 0);
+    for (const CellIndex parent : collected.maps.cell_to_parent) ++cells[parent.value()];
+    return cells;
+}
+
+double sum_of(const std::vector<float>& values) {
+    return std::accumulate(values.begin(), values.end(), 0.0);
+}
+
+Selection ball(const Point& centre, double radius) {
+    return {.spheres = {{.centre = centre, .radius = radius}}};
+}
+
+TEST(PredictedCells, AreNoneWhereNothingTellsWhichBecomeMore) {
+    const Mesh mesh = test::kuhn(3, 3, 3);
+    const auto predicted = [&](const Selection& selection, int levels) {
+        return predicted_cells(mesh, selection, Scheme::eight, levels);
+    };
+    EXPECT_THAT(predicted({.all = true}, 3), IsEmpty());
+    EXPECT_THAT(predicted(ball({1, 1, 1}, 1), 0), IsEmpty());
+    EXPECT_THAT(predicted(ball({9, 9, 9}, 1), 3), IsEmpty()) << "it chooses nothing";
+    EXPECT_THAT(predicted({.boxes = {{{0, 0, 0}, {3, 3, 3}}}}, 3), IsEmpty()) << "it chooses all";
+    EXPECT_THAT(predicted({.random = RandomShare{0.3, 1}}, 3), IsEmpty());
+    EXPECT_THAT(predicted_cells(Mesh{}, ball({0, 0, 0}, 1), Scheme::eight, 3), IsEmpty());
+}
+
+TEST(PredictedCells, OfTagsAndNumbersAreAsManyAsTheSchemeMakes) {
+    Mesh mesh = test::kuhn(2, 2, 2);
+    for (std::size_t c = 0; c < mesh.cells.size(); ++c) {
+        mesh.regions.append(c % 3 == 0 ? -7 : 0);
+    }
+    Selection selection;
+    selection.cells.push_back(GlobalCell{4});
+    selection.regions.push_back(-7);
+    for (const auto& [scheme, of_one] : schemes) {
+        const auto predicted = predicted_cells(mesh, selection, scheme, 3);
+        ASSERT_EQ(predicted.size(), mesh.cells.size());
+        for (std::size_t c = 0; c < predicted.size(); ++c) {
+            const bool is_chosen = c == 4 || c % 3 == 0;
+            EXPECT_EQ(predicted[c], is_chosen ? of_one * of_one * of_one : 1) << c;
+        }
+    }
+}
+
+TEST(PredictedCells, OfALargestVolumeAreAsManyAsMakeThemSmall) {
+    Mesh mesh = test::kuhn(2, 1, 1);
+    for (Point& p : mesh.points)
+        p.x = p.x == 2 ? 9 : p.x;  // the second cube is eight times as long
+    for (const auto& [scheme, of_one] : schemes) {
+        const auto predicted = predicted_cells(mesh, {.max_volume = 0.17}, scheme, 4);
+        ASSERT_EQ(predicted.size(), 12U);
+        EXPECT_THAT(std::vector(predicted.begin(), predicted.begin() + 6), Each(1));
+        EXPECT_THAT(std::vector(predicted.begin() + 6, predicted.end()),
+                    Each(scheme == Scheme::four ? 16 : 8));
+        const auto once = predicted_cells(mesh, {.max_volume = 0.17}, scheme, 1);
+        EXPECT_EQ(once.back(), of_one) << "as there is but one level";
+    }
+}
+
+TEST(PredictedCells, OfABoxCountWhatIsInside) {
+    const Mesh mesh = test::kuhn(4, 4, 4);
+    const auto predicted =
+        predicted_cells(mesh, {.boxes = {{{0, 0, 0}, {1.5, 4, 4}}}}, Scheme::eight, 4);
+    // Of the cubes' four layers the first is inside, half of the second, nothing of the others.
+    std::array<double, 4> of_layer{};
+    for (CellIndex c{0}; c < mesh.cells.end_index(); ++c) {
+        double x = 0;
+        for (const VertexIndex v : mesh.cells[c]) x += mesh.points[v].x / 4;
+        of_layer.at(static_cast<std::size_t>(x)) += predicted[c.value()];
+    }
+    constexpr double whole = 16 * 6 * 4096;
+    EXPECT_EQ(of_layer[0], whole);
+    EXPECT_NEAR(of_layer[1], whole / 2, whole / 20);
+    EXPECT_EQ(of_layer[2], 16 * 6);
+    EXPECT_EQ(of_layer[3], 16 * 6);
+}
+
+TEST(PredictedCells, OfASphereAreAboutWhatRefinementMakes) {
+    for (const std::uint32_t seed : {1U, 2U, 3U}) {
+        const Mesh mesh = test::shaken_kuhn(8, 0.2, seed);
+        for (const double radius : {0.9, 1.7, 3.0}) {
+            const Selection selection = ball({2, 2, 3}, radius);
+            const auto predicted = predicted_cells(mesh, selection, Scheme::eight, 3);
+            const auto real = real_cells(mesh, selection, 3);
+            ASSERT_EQ(predicted.size(), real.size());
+            double difference = 0;
+            for (std::size_t c = 0; c < real.size(); ++c) {
+                difference += std::abs(predicted[c] - real[c]);
+            }
+            EXPECT_LT(difference, 0.5 * sum_of(real)) << radius;
+            EXPECT_GT(sum_of(predicted), 0.5 * sum_of(real)) << radius;
+            EXPECT_LT(sum_of(predicted), 1.1 * sum_of(real)) << radius;
+        }
+    }
+}
+
+TEST(PredictedCells, AreFiniteHoweverManyLevelsAndHoweverLargeTheMesh) {
+    const Mesh mesh = test::kuhn(2, 2, 2, 8e307);  // opposite corners: sums overflow
+    Selection selection = ball({8e307, 8e307, 8e307}, 4e307);
+    selection.max_volume = 1e-300;
+    for (const int levels : {1, 50}) {
+        const auto predicted = predicted_cells(mesh, selection, Scheme::eight, levels);
+        for (const float cells : predicted) {
+            EXPECT_GE(cells, 1);
+            EXPECT_LE(cells, 1e9F);
+        }
+    }
+    EXPECT_THAT(predicted_cells(mesh, ball({0, 0, 0}, 1.4e308), Scheme::eight, 50),
+                testing::Contains(testing::FloatEq(1e9F)));
+}
+
+TEST(Weights, MakePartsEqualInTheirSums) {
+    const Mesh mesh = test::shaken_kuhn(10, 0.2, 1);
+    for (const int levels : {1, 4}) {
+        const auto weights = predicted_cells(mesh, ball({2, 2, 2}, 1.8), Scheme::eight, levels);
+        ASSERT_GT(std::ranges::max(weights), 1);
+        for (const std::string method : {"lepp", "dual"}) {
+            for (const int parts : {2, 3, 5}) {
+                const auto part = partition_cells(mesh, parts, parse_partition(method), weights);
+                std::vector<double> sums(static_cast<std::size_t>(parts), 0);
+                for (std::size_t c = 0; c < part.size(); ++c) {
+                    sums[static_cast<std::size_t>(part[c])] += weights[c];
+                }
+                EXPECT_LT(std::ranges::max(sums) * parts, 1.15 * sum_of(weights))
+                    << method << " in " << parts << ", " << levels << " levels";
+            }
+        }
+    }
+}
+
+TEST(Weights, MayAddUpToMoreThanMetisCountsTo) {
+    const Mesh mesh = test::shaken_kuhn(6, 0.2, 1);
+    const std::vector<float> weights(mesh.cells.size(), 1e9F);
+    const auto part = partition_cells(mesh, 4, parse_partition("lepp"), weights);
+    for (int p = 0; p < 4; ++p) {
+        EXPECT_NEAR(static_cast<double>(std::ranges::count(part, p)), 6 * 216 / 4.0, 20);
+    }
+}
+
+TEST(Weights, AreThoseOfTheNodesAndOfNoneTooMuchButOfSingleCells) {
+    const Mesh mesh = test::shaken_kuhn(5, 0.2, 1);
+    std::vector<float> of_cells(mesh.cells.size());
+    for (std::size_t c = 0; c < of_cells.size(); ++c) of_cells[c] = c % 7 == 0 ? 100 : 2;
+    const CellWeights weights(of_cells);
+    for (const CellGraph& graph : {lepp_graph(mesh, weights, 50), face_dual_graph(mesh, weights)}) {
+        std::map<std::int32_t, std::vector<float>> nodes;
+        for (std::size_t c = 0; c < of_cells.size(); ++c) {
+            nodes[graph.cell_to_node[c]].push_back(of_cells[c]);
+        }
+        for (const auto& [node, cells] : nodes) {
+            const double sum = sum_of(cells);
+            EXPECT_EQ(graph.node_weights[static_cast<std::size_t>(node)], sum);
+            EXPECT_TRUE(cells.size() == 1 || sum <= 50) << sum;
+        }
+    }
+}
+
+}  // namespace
+}  // namespace octetra::distributed

@@ -29,9 +29,9 @@ struct Partition {
 [[nodiscard]] Partition parse_partition(const std::string& text);
 
 /// The part, 0 to parts-1, of each cell; parts may be empty. By lepp and dual, parts are about
-/// equal in the sum of their cells' weights, positive, such as predicted_cells() finds; if there are
-/// none, in their number. Not collective: one process decides. Throws InputError where a part file
-/// does not fit the mesh.
+/// equal in the sum of their cells' weights, positive, such as predicted_cells() finds; if there
+/// are none, in their number. Not collective: one process decides. Throws InputError where a part
+/// file does not fit the mesh.
 [[nodiscard]] std::vector<int> partition_cells(const Mesh& mesh, int parts,
                                                const Partition& partition,
                                                const std::vector<float>& weights = {});

@@ -6,9 +6,7 @@
 #include <filesystem>
 #include <iostream>
 #include <new>
-#include <string>
 #include <string_view>
-#include <vector>
 
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
@@ -19,6 +17,7 @@
 
 #include "answer.hpp"
 #include "commands/commands.hpp"
+#include "usage_errors.hpp"
 
 #ifdef __GLIBC__  // which only a header of the library says
 #include <malloc.h>
@@ -67,34 +66,6 @@ int fail_alone(std::string_view what, const distributed::Communicator& world) {
     distributed::MpiSession::abort(status);
 }
 
-/// CLI11 says only that there should be a subcommand, also where there is a word in its place.
-std::string what_is_wrong(const CLI::App& program, const CLI::ParseError& error) {
-    const CLI::App* app = &program;
-    while (!app->get_subcommands().empty()) app = app->get_subcommands().front();
-    const std::vector<std::string> words = app->remaining();
-    const bool lacks_subcommand = app->get_require_subcommand_min() > 0;
-    if (!lacks_subcommand || words.empty()) return error.what();
-    if (words.front().starts_with("-")) {
-        return fmt::format("{} has no option {}", app->get_name(), words.front());
-    }
-    std::string names;
-    for (const CLI::App* subcommand : app->get_subcommands({})) {
-        names += fmt::format("{}{}", names.empty() ? "" : ", ", subcommand->get_name());
-    }
-    return fmt::format("{} takes one of {}, not '{}'", app->get_name(), names, words.front());
-}
-
-/// "octetra", or "octetra refine" once that was read.
-std::string innermost_command(const CLI::App& program) {
-    std::string words = program.get_name();
-    const CLI::App* app = &program;
-    while (!app->get_subcommands().empty()) {
-        app = app->get_subcommands().front();
-        words += fmt::format(" {}", app->get_name());
-    }
-    return words;
-}
-
 int parse_and_run(CLI::App& program, int argc, char** argv,
                   const distributed::Communicator& world) {
     auto status = Status::done;
@@ -105,10 +76,7 @@ int parse_and_run(CLI::App& program, int argc, char** argv,
     } catch (const CLI::Success& help_or_version) {
         if (world.is_first()) program.exit(help_or_version);
     } catch (const CLI::ParseError& error) {
-        return fail(Status::bad_input,
-                    fmt::format("{}\nTry {} --help.", what_is_wrong(program, error),
-                                innermost_command(program)),
-                    world);
+        return fail(Status::bad_input, usage_error(program, error), world);
     }
     std::cout.flush();  // help and version
     std::fflush(stdout);

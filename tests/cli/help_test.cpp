@@ -124,12 +124,34 @@ TEST(BadUsage, NamesTheWordThatIsNoSubcommand) {
                            "partition, verify, compare, not 'frobnicate'\n"));
     EXPECT_THAT(test::octetra("generate sphear -o x.ele", folder).err,
                 StartsWith("octetra: generate takes one of kuhn, bcc, regular, random, slivers, "
-                           "sphere, fichera, torus, gear, two-material, not 'sphear'\n"));
+                           "sphere, fichera, torus, gear, two-material, not 'sphear'; did you "
+                           "mean sphere?\n"));
     EXPECT_THAT(test::octetra("--frobnicate", folder).err,
                 StartsWith("octetra: octetra has no option --frobnicate\n"));
-    EXPECT_THAT(test::octetra("refine a.ele --all -o x.ele --frobnicate", folder).err,
-                HasSubstr("--frobnicate"));
     EXPECT_THAT(test::octetra("", folder).err, HasSubstr("A subcommand is required"));
+}
+
+/// The first word that has no place, and what was meant by it.
+TEST(BadUsage, NamesTheWordThatIsNotExpected) {
+    const TemporaryFolder folder;
+    const auto said = [&](const std::string& words) {
+        return test::octetra("refine a.ele --all -o x.ele " + words, folder).err;
+    };
+    const std::string try_help = "\nTry octetra refine --help.\n";
+    EXPECT_EQ(said("--frobnicate 1"), "octetra: refine has no option --frobnicate" + try_help);
+    for (const char* words : {"--shpere 1,0,0,1", "-sphere 1,0,0,1", "--spere=1,0,0,1"}) {
+        EXPECT_THAT(said(words), testing::EndsWith("; did you mean --sphere?" + try_help));
+    }
+    EXPECT_EQ(said("b.ele"), "octetra: refine does not expect 'b.ele'" + try_help);
+    for (const char* words :
+         {"--sphere 1 0 0 .4", "--sphere -1 0 0 .4", "--sphere 1, 0 0 .4", "--sphere 1,1,1,1 0"}) {
+        EXPECT_THAT(said(words), StartsWith("octetra: refine does not expect '0'; what belongs to "
+                                            "one option is one word with commas, as in --sphere "
+                                            "X,Y,Z,R\n"))
+            << words;
+    }
+    EXPECT_THAT(test::octetra("info a.ele 3", folder).err,
+                StartsWith("octetra: info does not expect '3'\n"));
 }
 
 TEST(Version, IsPrinted) {

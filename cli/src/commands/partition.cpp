@@ -50,6 +50,12 @@ void print_statistics(const distributed::PartitionStatistics& statistics) {
     print_counts("neighbouring parts", statistics.neighbours_of_part);
 }
 
+void note_empty_parts(const std::vector<std::uint64_t>& cells_of_part) {
+    const auto empty = static_cast<std::size_t>(std::ranges::count(cells_of_part, 0U));
+    if (empty == 0) return;
+    note(fmt::format("{} of {} parts have no cell", grouped(empty), grouped(cells_of_part.size())));
+}
+
 void partition(const PartitionOptions& options) {
     const auto method = distributed::parse_partition(options.method);
     if (!options.output.empty()) check_side_file("-o", options.output);
@@ -61,7 +67,9 @@ void partition(const PartitionOptions& options) {
     fmt::print("{}: {} cell{} in {} parts by {}\n\n", options.input.path,
                grouped(mesh.cells.size()), mesh.cells.size() == 1 ? "" : "s", options.parts,
                options.method);
-    print_statistics(distributed::measure_partition(mesh, cell_to_part, options.parts));
+    const auto statistics = distributed::measure_partition(mesh, cell_to_part, options.parts);
+    print_statistics(statistics);
+    note_empty_parts(statistics.cells_of_part);
     if (options.output.empty()) return;
     write_list(cell_to_part, options.output);
     fmt::print("\nwrote {}: the part of each cell, for --partition file:{}\n", options.output,

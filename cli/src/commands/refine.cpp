@@ -120,6 +120,7 @@ std::function<void(int, std::uint64_t)> level_progress(const RefineOptions& opti
 
 /// Says so where there was less to do than was asked for, or more is left than there may seem.
 void note_idle_levels(const RefineOptions& options, int levels) {
+    if (options.refinement.levels == 0) return note("--levels 0: the mesh stays as it is");
     if (levels == options.refinement.levels) return;
     note(levels == 0 ? std::string("no cell was chosen: the mesh stays as it is")
                      : fmt::format("no cell was chosen any more after level {} of {}", levels,

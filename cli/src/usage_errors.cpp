@@ -1,0 +1,121 @@
+#include "usage_errors.hpp"
+
+#include <algorithm>
+#include <numeric>
+#include <string_view>
+#include <vector>
+
+#include <fmt/format.h>
+
+namespace octetra::cli {
+namespace {
+
+/// The subcommand that was read, and its name with those before it: "octetra refine".
+struct Innermost {
+    const CLI::App* app;
+    std::string name;
+};
+
+Innermost innermost(const CLI::App& program) {
+    Innermost found{&program, program.get_name()};
+    while (!found.app->get_subcommands().empty()) {
+        found.app = found.app->get_subcommands().front();
+        found.name += fmt::format(" {}", found.app->get_name());
+    }
+    return found;
+}
+
+/// How many characters have to be put in, left out or replaced to make one word of the other.
+std::size_t distance(std::string_view a, std::string_view b) {
+    std::vector<std::size_t> row(b.size() + 1);
+    std::iota(row.begin(), row.end(), std::size_t{0});
+    for (std::size_t i = 0; i < a.size(); ++i) {
+        std::size_t diagonal = row[0];
+        row[0] = i + 1;
+        for (std::size_t j = 0; j < b.size(); ++j) {
+            const std::size_t replaced = diagonal + (a[i] == b[j] ? 0 : 1);
+            diagonal = row[j + 1];
+            row[j + 1] = std::min({replaced, row[j] + 1, row[j + 1] + 1});
+        }
+    }
+    return row.back();
+}
+
+/// The name among these that somebody may have meant, or nothing.
+std::string meant_by(std::string_view word, const std::vector<std::string>& names) {
+    constexpr std::size_t most = 2;
+    std::string best;
+    std::size_t least = std::min(most, word.size() / 2) + 1;
+    for (const std::string& name : names) {
+        const std::size_t found = distance(word, name);
+        if (found < least) {
+            least = found;
+            best = name;
+        }
+    }
+    return best;
+}
+
+std::string did_you_mean(const std::string& meant) {
+    return meant.empty() ? std::string() : fmt::format("; did you mean {}?", meant);
+}
+
+bool is_option(std::string_view word) {
+    return word.size() > 1 && word[0] == '-' &&
+           std::string_view(".0123456789").find(word[1]) == std::string_view::npos;
+}
+
+std::string unknown_option(const Innermost& command, std::string_view word) {
+    std::vector<std::string> names;
+    for (const CLI::Option* option : command.app->get_options()) {
+        for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+    }
+    const std::string_view name = word.substr(0, word.find('='));
+    return fmt::format("{} has no option {}{}", command.app->get_name(), name,
+                       did_you_mean(meant_by(name, names)));
+}
+
+std::string unknown_subcommand(const Innermost& command, const std::string& word) {
+    std::vector<std::string> names;
+    for (const CLI::App* subcommand : command.app->get_subcommands({})) {
+        names.push_back(subcommand->get_name());
+    }
+    return fmt::format("{} takes one of {}, not '{}'{}", command.app->get_name(),
+                       fmt::join(names, ", "), word, did_you_mean(meant_by(word, names)));
+}
+
+std::string unexpected_word(const Innermost& command, std::string_view word) {
+    const bool is_coordinate =
+        word.find_first_not_of("0123456789.-+eE") == std::string_view::npos &&
+        command.app->get_option_no_throw("--sphere") != nullptr;
+    return fmt::format("{} does not expect '{}'{}", command.app->get_name(), word,
+                       is_coordinate
+                           ? "; what belongs to one option is one word with commas, as in "
+                             "--sphere X,Y,Z,R"
+                           : "");
+}
+
+/// CLI11 lists what it could not place from the last to the first, and asks for a subcommand where
+/// there is a word in its place.
+std::string what_is_wrong(const Innermost& command, const CLI::ParseError& error) {
+    const std::vector<std::string> words = command.app->remaining();
+    const bool lacks_subcommand = command.app->get_require_subcommand_min() > 0;
+    const bool has_extras = dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr;
+    if (words.empty() || !(lacks_subcommand || has_extras)) return error.what();
+    if (lacks_subcommand) {
+        return is_option(words.front()) ? unknown_option(command, words.front())
+                                        : unknown_subcommand(command, words.front());
+    }
+    const auto option = std::ranges::find_if(words, is_option);
+    return option != words.end() ? unknown_option(command, *option)
+                                 : unexpected_word(command, words.front());
+}
+
+}  // namespace
+
+std::string usage_error(const CLI::App& program, const CLI::ParseError& error) {
+    const Innermost command = innermost(program);
+    return fmt::format("{}\nTry {} --help.", what_is_wrong(command, error), command.name);
+}
+
+}  // namespace octetra::cli

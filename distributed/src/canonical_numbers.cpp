@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
 #include <numeric>
-#include <span>
 #include <utility>
 #include <vector>
 
@@ -14,7 +14,7 @@ using Ends = std::array<std::uint64_t, 2>;
 
 /// Collective. Who is to put pairs in order gets them: processes answer for blocks of lower ends.
 /// The pairs are ascending in their lower ends.
-std::vector<std::vector<Ends>> ask(const Communicator& processes, std::span<const Ends> pairs,
+std::vector<std::vector<Ends>> ask(const Communicator& processes, std::vector<Ends> pairs,
                                    std::uint64_t block) {
     std::vector<std::vector<Ends>> questions(static_cast<std::size_t>(processes.size()));
     auto begin = pairs.begin();
@@ -24,54 +24,73 @@ std::vector<std::vector<Ends>> ask(const Communicator& processes, std::span<cons
         questions[r].assign(begin, end);
         begin = end;
     }
+    pairs = {};
     return processes.all_to_all(questions);
 }
 
-/// The different pairs among those asked for whose lower ends are in one block, in ascending order.
-/// Put there by counting, as few pairs have the same lower end.
+/// The different pairs among those asked for, in ascending order. Put there by counting, as few
+/// pairs have lower ends close to each other; there are no more bins than pairs, however far lower
+/// ends are apart.
 class OrderedPairs {
 public:
-    OrderedPairs(const std::vector<std::vector<Ends>>& asked, std::uint64_t first_low,
-                 std::uint64_t block)
-        : first_low_(first_low), begin_(block + 1, 0) {
-        for (const auto& from_one : asked) {
-            for (const Ends& pair : from_one) ++begin_[pair[0] - first_low_];
-        }
+    explicit OrderedPairs(const std::vector<std::vector<Ends>>& asked) {
+        find_bins(asked);
+        for_each(asked, [&](const Ends& pair) { ++begin_[bin_of(pair)]; });
         std::inclusive_scan(begin_.begin(), begin_.end(), begin_.begin());
-        highs_.resize(begin_.back());
         // Filled from behind, after which every beginning is where it belongs.
-        for (const auto& from_one : asked) {
-            for (const Ends& pair : from_one) highs_[--begin_[pair[0] - first_low_]] = pair[1];
-        }
+        for_each(asked, [&](const Ends& pair) { pairs_[--begin_[bin_of(pair)]] = pair; });
         std::uint64_t count = 0;
-        for (std::uint64_t low = 0; low < block; ++low) {
-            const std::uint64_t begin = begin_[low];
-            const std::uint64_t end = begin_[low + 1];
-            std::sort(highs_.data() + begin, highs_.data() + end);
-            begin_[low] = count;
+        for (std::size_t bin = 0; bin + 1 < begin_.size(); ++bin) {
+            const std::uint64_t begin = begin_[bin];
+            const std::uint64_t end = begin_[bin + 1];
+            std::sort(pairs_.data() + begin, pairs_.data() + end);
+            begin_[bin] = count;
             for (std::uint64_t k = begin; k < end; ++k) {
-                if (count > begin_[low] && highs_[count - 1] == highs_[k]) continue;
-                highs_[count++] = highs_[k];
+                if (count > begin_[bin] && pairs_[count - 1] == pairs_[k]) continue;
+                pairs_[count++] = pairs_[k];
             }
         }
         begin_.back() = count;
-        highs_.resize(count);
+        pairs_.resize(count);
     }
 
-    [[nodiscard]] std::uint64_t size() const { return highs_.size(); }
+    [[nodiscard]] std::uint64_t size() const { return pairs_.size(); }
 
     /// The place of a pair that is there.
     [[nodiscard]] std::uint64_t place_of(const Ends& pair) const {
-        const std::uint64_t low = pair[0] - first_low_;
+        const std::size_t bin = bin_of(pair);
         const auto* const found =
-            std::lower_bound(highs_.data() + begin_[low], highs_.data() + begin_[low + 1], pair[1]);
-        return static_cast<std::uint64_t>(found - highs_.data());
+            std::lower_bound(pairs_.data() + begin_[bin], pairs_.data() + begin_[bin + 1], pair);
+        return static_cast<std::uint64_t>(found - pairs_.data());
     }
 
 private:
-    std::uint64_t first_low_;
-    std::vector<std::uint64_t> begin_;  ///< by the lower end
-    std::vector<std::uint64_t> highs_;
+    static void for_each(const std::vector<std::vector<Ends>>& asked, auto&& visit) {
+        for (const auto& from_one : asked) std::ranges::for_each(from_one, visit);
+    }
+    void find_bins(const std::vector<std::vector<Ends>>& asked) {
+        std::uint64_t count = 0;
+        std::uint64_t last = 0;
+        least_ = std::numeric_limits<std::uint64_t>::max();
+        for (const auto& from_one : asked) {
+            if (from_one.empty()) continue;
+            count += from_one.size();
+            least_ = std::min(least_, from_one.front()[0]);
+            last = std::max(last, from_one.back()[0]);
+        }
+        pairs_.resize(count);
+        if (count == 0) return begin_.assign(1, 0);
+        while ((last - least_) >> shift_ >= count) ++shift_;
+        begin_.assign(((last - least_) >> shift_) + 2, 0);
+    }
+    [[nodiscard]] std::size_t bin_of(const Ends& pair) const {
+        return (pair[0] - least_) >> shift_;
+    }
+
+    std::uint64_t least_ = 0;  ///< lower end
+    unsigned shift_ = 0;
+    std::vector<std::uint64_t> begin_;  ///< by bin
+    std::vector<Ends> pairs_;
 };
 
 /// Collective. The places of these pairs among the different pairs of all processes, in ascending
@@ -81,10 +100,9 @@ std::vector<std::uint64_t> ranked(const Communicator& processes, std::vector<End
                                   std::uint64_t end_count, std::uint64_t& total) {
     const auto process_count = static_cast<std::uint64_t>(processes.size());
     const std::uint64_t block = end_count / process_count + 1;
-    auto asked = ask(processes, pairs, block);
-    pairs = {};
+    auto asked = ask(processes, std::move(pairs), block);
 
-    const OrderedPairs known(asked, block * static_cast<std::uint64_t>(processes.rank()), block);
+    const OrderedPairs known(asked);
     const std::uint64_t first = total + processes.sum_before(known.size());
     total += processes.sum(known.size());
 

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <algorithm>
-#include <cmath>
 #include <cstdint>
 #include <numeric>
 #include <vector>
@@ -10,21 +8,16 @@
 
 namespace octetra::distributed {
 
-/// What parts are to be equal in, as METIS counts it: a weight of at least 1 for each cell.
+/// What parts are to be equal in, as METIS counts it: a weight of at least 1 for each cell, and in
+/// all so little that METIS, which multiplies it by three in 32 bits, does not overflow.
 class CellWeights {
 public:
     /// 1 for each cell.
     CellWeights() = default;
 
-    /// In proportion to these, where such sums fit 32 bits; 1 for each cell if there are none.
-    explicit CellWeights(const std::vector<float>& weights) : of_cell_(weights.size()) {
-        constexpr double most = 1e9;  // in all, but for those that come to less than 1
-        const double sum = std::accumulate(weights.begin(), weights.end(), 0.0);
-        const double scale = std::min(1.0, most / sum);
-        std::ranges::transform(weights, of_cell_.begin(), [&](float weight) {
-            return std::max(1, static_cast<std::int32_t>(std::lround(weight * scale)));
-        });
-    }
+    /// In proportion to these, which are positive and finite; but no cell weighs more than a part
+    /// is to weigh, as METIS fills no part with what is left beside such a cell.
+    CellWeights(const std::vector<float>& weights, int parts);
 
     [[nodiscard]] std::int32_t of(CellIndex c) const {
         return of_cell_.empty() ? 1 : of_cell_[c.value()];

@@ -2,8 +2,10 @@
 
 #include <metis.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <charconv>
+#include <cmath>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
@@ -60,6 +62,30 @@ std::vector<int> equal_blocks(std::size_t cells, int parts) {
         part[c] = static_cast<int>(c * static_cast<std::size_t>(parts) / cells);
     }
     return part;
+}
+
+/// Throws InputError unless there is one for each cell, positive and finite, or none.
+CellWeights weights_of(std::size_t cells, const std::vector<float>& weights, int parts) {
+    if (weights.empty()) return {};
+    const auto is_weight = [](float weight) { return weight > 0 && std::isfinite(weight); };
+    if (weights.size() != cells || !std::ranges::all_of(weights, is_weight)) {
+        throw InputError("a partition takes one weight for each cell, positive and finite");
+    }
+    return {weights, parts};
+}
+
+/// By METIS.
+std::vector<int> by_graph(const Mesh& mesh, int parts, PartitionMethod method,
+                          const std::vector<float>& weights) {
+    const std::size_t cells = mesh.cells.size();
+    if (parts == 1 || !is_worth_a_cut(mesh, parts)) return equal_blocks(cells, parts);
+    check_graph_size(cells);
+    const CellWeights of_cells = weights_of(cells, weights, parts);
+    if (method == PartitionMethod::dual) {
+        return partition_graph(face_dual_graph(mesh, of_cells), parts);
+    }
+    const std::int64_t most = most_of_a_node(of_cells.sum(cells), parts);
+    return partition_graph(lepp_graph(mesh, of_cells, most), parts);
 }
 
 std::vector<int> by_lot(std::size_t cells, int parts, std::uint64_t seed) {
@@ -125,17 +151,9 @@ Partition parse_partition(const std::string& text) {
 std::vector<int> partition_cells(const Mesh& mesh, int parts, const Partition& partition,
                                  const std::vector<float>& weights) {
     const std::size_t cells = mesh.cells.size();
-    const bool by_graph =
-        partition.method == PartitionMethod::lepp || partition.method == PartitionMethod::dual;
-    if (by_graph && (parts == 1 || !is_worth_a_cut(mesh, parts))) return equal_blocks(cells, parts);
     switch (partition.method) {
-        case PartitionMethod::lepp: {
-            const CellWeights of_cells(weights);
-            const std::int64_t most = most_of_a_node(of_cells.sum(cells), parts);
-            return partition_graph(lepp_graph(mesh, of_cells, most), parts);
-        }
-        case PartitionMethod::dual:
-            return partition_graph(face_dual_graph(mesh, CellWeights(weights)), parts);
+        case PartitionMethod::lepp:
+        case PartitionMethod::dual: return by_graph(mesh, parts, partition.method, weights);
         case PartitionMethod::block: return equal_blocks(cells, parts);
         case PartitionMethod::random: return by_lot(cells, parts, partition.seed);
         case PartitionMethod::file: return from_file(partition.path, cells, parts);

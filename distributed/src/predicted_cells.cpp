@@ -99,8 +99,14 @@ public:
     Prediction(const Mesh& mesh, Scheme scheme, int levels)
         : mesh_(&mesh),
           of_one_(cells_of_one(scheme)),
+          levels_(levels),
           full_(std::min(std::pow(of_one_, levels), most_of_one)),
           cells_(mesh.cells.size(), 1) {}
+
+    void add_by_lot(double share) {
+        const double of_all = std::pow(1 + share * (of_one_ - 1), levels_);
+        std::ranges::fill(cells_, static_cast<float>(std::min(of_all, full_)));
+    }
 
     void add_tagged(const Selection& selection) {
         if (selection.regions.empty() && selection.cells.empty()) return;
@@ -141,11 +147,12 @@ private:
     static constexpr double most_of_one = 1e9;  // no mesh has many more
 
     void expect(CellIndex c, double cells) {
-        cells_[c.value()] = std::max(cells_[c.value()], static_cast<float>(cells));
+        cells_[c.value()] = std::max(cells_[c.value()], static_cast<float>(std::min(cells, full_)));
     }
 
     const Mesh* mesh_;
     double of_one_;
+    int levels_;
     double full_;  ///< what a cell becomes that is chosen in all levels
     std::vector<float> cells_;
 };
@@ -156,6 +163,7 @@ std::vector<float> predicted_cells(const Mesh& mesh, const Selection& selection,
                                    int levels) {
     if (selection.all || levels < 1 || mesh.cells.empty()) return {};
     Prediction prediction(mesh, scheme, levels);
+    if (selection.random) prediction.add_by_lot(selection.random->fraction);
     prediction.add_tagged(selection);
     if (selection.max_volume) prediction.add_larger_than(*selection.max_volume);
     prediction.add_inside(Bodies(selection));

@@ -109,6 +109,8 @@ INSTANTIATE_TEST_SUITE_P(
         "compare cube.ele", "partition cube.ele", "partition cube.ele -n 0",
         "partition cube.ele -n 2 --partition metis", "partition missing.ele -n 2",
         "partition cube.ele -n 2 -o out.ele", "partition cube.ele -n 2 -o no/parts.txt",
+        "partition cube.ele -n 2 --levels 3", "partition cube.ele -n 2 --sphere 1,2,3",
+        "partition cube.ele -n 2 --region 7", "partition cube.ele -n 2 --cells missing.txt",
         "refine cube.ele --all --partition x -o out.ele",
         "refine cube.ele --all --sync x -o out.ele", "refine cube.ele --all --scheme 0 -o out.ele",
         "convert cube.ele out.obj", "generate", "generate cube", "generate kuhn 0 -o out.ele",

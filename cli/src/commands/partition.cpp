@@ -6,14 +6,17 @@
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
+#include <octetra/core/error.hpp>
 #include <octetra/core/files.hpp>
 #include <octetra/distributed/agreement.hpp>
 #include <octetra/distributed/partition.hpp>
+#include <octetra/distributed/predicted_cells.hpp>
 
 #include "commands/commands.hpp"
 #include "commands/files_apart.hpp"
 #include "commands/mesh_options.hpp"
 #include "commands/number_checks.hpp"
+#include "commands/refinement_options.hpp"
 #include "grouped.hpp"
 
 namespace octetra::cli {
@@ -24,6 +27,8 @@ struct PartitionOptions {
     int parts = 0;
     std::string method = "lepp";
     std::string output;
+    RefinementOptions refinement;
+    bool says_how_refined = false;  ///< be it by options that say what is taken for granted
 };
 
 void print_counts(std::string_view what, const std::vector<std::uint64_t>& counts) {
@@ -56,19 +61,48 @@ void note_empty_parts(const std::vector<std::uint64_t>& cells_of_part) {
     note(fmt::format("{} of {} parts have no cell", grouped(empty), grouped(cells_of_part.size())));
 }
 
+/// What `octetra refine` with the same criteria weighs the cells of the mesh by; empty without.
+std::vector<float> weights_of(const Mesh& mesh, const PartitionOptions& options) {
+    const SelectionOptions& chosen = options.refinement.selection;
+    if (!has_criterion(chosen)) {
+        if (!options.says_how_refined) return {};
+        throw InputError(
+            "partition: --levels, --scheme and --seed say how a selection is to be refined; give "
+            "it, too, as in --sphere X,Y,Z,R --levels 2");
+    }
+    Selection selection = parse_selection(chosen);
+    complete_selection(selection, chosen,
+                       {!mesh.regions.empty(), mesh.first_number, mesh.cells.size()});
+    return distributed::predicted_cells(mesh, selection, parse_scheme(options.refinement),
+                                        options.refinement.levels);
+}
+
+void print_expected(const std::vector<int>& cell_to_part, const std::vector<float>& weights,
+                    int parts) {
+    if (weights.empty()) return;
+    std::vector<double> expected(static_cast<std::size_t>(parts), 0);
+    for (std::size_t c = 0; c < cell_to_part.size(); ++c) {
+        expected[static_cast<std::size_t>(cell_to_part[c])] += weights[c];
+    }
+    print_counts("cells expected after refinement", {expected.begin(), expected.end()});
+}
+
 void partition(const PartitionOptions& options) {
     const auto method = distributed::parse_partition(options.method);
     if (!options.output.empty()) check_side_file("-o", options.output);
     check_files_apart(
-        {mesh_named("MESH", options.input.path), file_named("--partition", method.path)},
+        {mesh_named("MESH", options.input.path), file_named("--partition", method.path),
+         file_named("--cells", options.refinement.selection.cells_file)},
         {file_named("-o", options.output)});
     const Mesh mesh = read_input(options.input);
-    const auto cell_to_part = distributed::partition_cells(mesh, options.parts, method);
+    const std::vector<float> weights = weights_of(mesh, options);
+    const auto cell_to_part = distributed::partition_cells(mesh, options.parts, method, weights);
     fmt::print("{}: {} cell{} in {} parts by {}\n\n", options.input.path,
                grouped(mesh.cells.size()), mesh.cells.size() == 1 ? "" : "s", options.parts,
                options.method);
     const auto statistics = distributed::measure_partition(mesh, cell_to_part, options.parts);
     print_statistics(statistics);
+    print_expected(cell_to_part, weights, options.parts);
     note_empty_parts(statistics.cells_of_part);
     if (options.output.empty()) return;
     write_list(cell_to_part, options.output);
@@ -93,12 +127,18 @@ void add_partition(CLI::App& program, const distributed::Communicator& world) {
         ->type_name("METHOD");
     command->add_option("-o,--output", options->output, "also write each cell's part, a line each")
         ->type_name("FILE");
+    add_refinement_options(*command, options->refinement,
+                           "Even in what cells become where these are refined (as for refine)");
     command->footer(
         "Example:\n"
         "  octetra generate gear -o gear.1.ele\n"
-        "  octetra partition gear.1.ele -n 4");
-    command->callback(
-        [options, world] { distributed::on_first(world, [&] { partition(*options); }); });
+        "  octetra partition gear.1.ele -n 4\n"
+        "  octetra partition gear.1.ele -n 4 --sphere 1,0,0.15,0.4 --levels 2");
+    command->callback([options, command, world] {
+        options->says_how_refined =
+            command->count("--levels") + command->count("--scheme") + command->count("--seed") > 0;
+        distributed::on_first(world, [&] { partition(*options); });
+    });
 }
 
 }  // namespace octetra::cli

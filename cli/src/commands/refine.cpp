@@ -281,9 +281,12 @@ distributed::DistributedMesh share_out(Mesh mesh, const Plan& plan, int levels,
             // A part file that does not fit is a mistake on one rank, too.
             const bool by_file = plan.partition.method == distributed::PartitionMethod::file;
             if (world.size() == 1 && !by_file) return;
-            cell_to_rank = distributed::partition_cells(
-                mesh, world.size(), plan.partition,
-                distributed::predicted_cells(mesh, plan.selection, plan.scheme, levels));
+            const std::vector<float> weights =
+                takes_weights(plan.partition)
+                    ? distributed::predicted_cells(mesh, plan.selection, plan.scheme, levels)
+                    : std::vector<float>{};
+            cell_to_rank =
+                distributed::partition_cells(mesh, world.size(), plan.partition, weights);
         });
     });
     return distributed::distribute(world, std::move(mesh), cell_to_rank);

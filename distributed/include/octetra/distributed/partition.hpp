@@ -25,13 +25,19 @@ struct Partition {
     std::filesystem::path path;  ///< for file: part numbers from 0, one for each cell, in order
 };
 
+/// Does it make parts even in weights? Those by METIS do.
+[[nodiscard]] inline bool takes_weights(const Partition& partition) {
+    return partition.method == PartitionMethod::lepp || partition.method == PartitionMethod::dual;
+}
+
 /// "lepp", "dual", "block", "random:SEED" or "file:PATH". Throws InputError.
 [[nodiscard]] Partition parse_partition(const std::string& text);
 
 /// The part, 0 to parts-1, of each cell; parts may be empty. By lepp and dual, parts are about
-/// equal in the sum of their cells' weights, positive, such as predicted_cells() finds; if there
-/// are none, in their number. Not collective: one process decides. Throws InputError where a part
-/// file does not fit the mesh.
+/// equal in the sum of their cells' weights, such as predicted_cells() finds, as far as no single
+/// cell outweighs a part; without weights, in their number. Not collective: one process decides.
+/// Throws InputError where a part file does not fit the mesh, METIS cannot count so many cells, or
+/// there are weights but not one for each cell, positive and finite.
 [[nodiscard]] std::vector<int> partition_cells(const Mesh& mesh, int parts,
                                                const Partition& partition,
                                                const std::vector<float>& weights = {});

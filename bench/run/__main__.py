@@ -80,32 +80,37 @@ def chosen_groups(options):
     return chosen(every, options.only)
 
 
-def measure_group(group, place, repetitions):
-    measured = []
-    for case in group.cases:
-        begin = time.monotonic()
-        measured.append(measure(case, place, repetitions))
-        tell(f"{group.name}, {case.name}: {time.monotonic() - begin:.0f} s")
-    return {"name": group.name, "about": group.about, "repetitions": repetitions,
-            "cases": measured}
+def measured_groups(options, place):
+    """All groups so far, after each case anew."""
+    repetitions = options.repetitions or (1 if options.quick else 5)
+    groups_so_far = []
+    for group in chosen_groups(options):
+        groups_so_far.append({"name": group.name, "about": group.about,
+                              "repetitions": repetitions, "cases": []})
+        for case in group.cases:
+            begin = time.monotonic()
+            groups_so_far[-1]["cases"].append(measure(case, place, repetitions))
+            tell(f"{group.name}, {case.name}: {time.monotonic() - begin:.0f} s")
+            yield groups_so_far
 
 
 def make_results(options):
-    build, output = os.path.abspath(options.build), os.path.abspath(options.output)
-    repetitions = options.repetitions or (1 if options.quick else 5)
-    machine = where.describe(build)
+    """Writes them after each case, so that what fails later takes nothing with it."""
+    machine = where.describe(os.path.abspath(options.build))
     begin = time.monotonic()
+    old = kept.load(os.path.join(options.output, "results.json"))
     with tempfile.TemporaryDirectory(prefix="bench-") as folder:
-        place = Place(build, folder)
-        measured = [measure_group(group, place, repetitions)
-                    for group in chosen_groups(options)]
-    made = {"format": "octetra bench", "version": 1, "quick": options.quick, "machine": machine,
-            "seconds": time.monotonic() - begin, "groups": measured}
-    return kept.with_old(made, os.path.join(output, "results.json"), groups.NAMES)
+        for measured in measured_groups(options, Place(os.path.abspath(options.build), folder)):
+            made = {"format": "octetra bench", "version": 1, "quick": options.quick,
+                    "machine": machine, "seconds": time.monotonic() - begin, "groups": measured}
+            made = kept.with_old(made, old, groups.NAMES)
+            write(options.output, "results.json", json.dumps(made, indent=1) + "\n")
+            write(options.output, "RESULTS.md", results(made))
+    return made
 
 
-def write(path, words):
-    with open(path, "w", encoding="utf-8") as file:
+def write(folder, name, words):
+    with open(os.path.join(folder, name), "w", encoding="utf-8") as file:
         file.write(words)
 
 
@@ -117,8 +122,6 @@ def main():
             return 0
         os.makedirs(options.output, exist_ok=True)
         made = make_results(options)
-        write(os.path.join(options.output, "results.json"), json.dumps(made, indent=1) + "\n")
-        write(os.path.join(options.output, "RESULTS.md"), results(made))
     except (Failure, OSError) as failure:
         tell(f"bench: {failure}")
         return 2

@@ -22,19 +22,23 @@ def merged(old_cases, new_cases):
     return list((old | new).values())
 
 
-def with_old(made, path, order):
-    """`made`, and from the results at `path` what was not measured now, if it still holds; else it
-    is left out."""
+def load(path):
+    """The results there; None if there are none."""
+    try:
+        with open(path, encoding="utf-8") as file:
+            return json.load(file)
+    except (OSError, ValueError):
+        return None
+
+
+def with_old(made, old, order):
+    """`made`, and from old results, if there are any, what was not measured now, if it still holds;
+    else it is left out."""
     machine = made["machine"]
     dated = [{**group, "date": machine["date"], "load": machine["load"]}
              for group in made["groups"]]
     made = {**made, "groups": dated}
-    try:
-        with open(path, encoding="utf-8") as file:
-            old = json.load(file)
-    except (OSError, ValueError):
-        return made
-    if not is_alike(old, made):
+    if old is None or not is_alike(old, made):
         return made
     by_name = {group["name"]: group for group in old["groups"]}
     for group in dated:

@@ -87,14 +87,20 @@ class Group:
 BEGUN_AGAIN = "begun_again"
 
 
+def has_crashed(outcome):
+    """By a signal, or in what MPI was asked for; not a program that says itself what is wrong."""
+    return not 0 <= outcome.status <= 128 or "*** An error occurred in MPI_" in outcome.err
+
+
 def printed_by(command, folder, patience=None):
-    """What a command prints, and how often it was begun again: a program that does not always end
-    is ended after `patience` seconds, if there is such, and begun again up to five times."""
+    """What a command prints, and how often it was begun again: a program that does not always end,
+    or crashes now and then, is ended after `patience` seconds, if there is such, and begun again up
+    to five times."""
     if patience is None:
         return must(command, folder), 0
     for times in range(6):
         outcome = run(command, folder, patience)
-        if outcome.status != TOO_LONG:
+        if outcome.status != TOO_LONG and not has_crashed(outcome):
             break
     return printed(command, outcome), times
 

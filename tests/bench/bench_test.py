@@ -59,6 +59,13 @@ class Tries(unittest.TestCase):
         with self.assertRaisesRegex(Failure, "ended after 0.2 s"):
             self.printed(9, 0, 0.2, tries=6)
 
+    def test_of_what_crashes_are_several(self):
+        for end in ("kill -SEGV $$", "exit 139",
+                    "echo '*** An error occurred in MPI_Waitany' >&2; exit 15"):
+            with tempfile.TemporaryDirectory() as folder:
+                words = f"if [ -e was ]; then echo done; exit; fi; touch was; {end}"
+                self.assertEqual(printed_by(["sh", "-c", words], folder, 5), ("done\n", 1), end)
+
     def test_of_what_fails_are_one(self):
         with self.assertRaisesRegex(Failure, "status 3"):
             self.printed(0, 3, 0.5)
@@ -145,7 +152,7 @@ def made(commit="abc", quick=False, date="now", names=("growth",), value=1.0):
 
 class Table(unittest.TestCase):
     def table(self, **options):
-        return results.results(kept.with_old(made(**options), "/nowhere", groups.NAMES))
+        return results.results(kept.with_old(made(**options), None, groups.NAMES))
 
     def test_says_what_is_met_and_what_is_not(self):
         self.assertIn("| a case | time | 1 s | at most 2 s | met |", self.table())
@@ -155,7 +162,7 @@ class Table(unittest.TestCase):
         self.assertIn("| a case | time | 3 s |  |  |", self.table(value=3.0, quick=True))
 
     def test_warns_where_other_programs_ran(self):
-        busy = kept.with_old(made(), "/nowhere", groups.NAMES)
+        busy = kept.with_old(made(), None, groups.NAMES)
         self.assertNotIn("no measure", results.results(busy))
         busy["machine"]["load"] = 1.5
         self.assertIn("no measure", results.results(busy))
@@ -163,11 +170,11 @@ class Table(unittest.TestCase):
 
 class OldResults(unittest.TestCase):
     def names_with(self, old, new):
-        with tempfile.TemporaryDirectory() as folder:
-            path = os.path.join(folder, "results.json")
-            with open(path, "w", encoding="utf-8") as file:
-                json.dump(kept.with_old(old, "/nowhere", groups.NAMES), file)
-            return [group["name"] for group in kept.with_old(new, path, groups.NAMES)["groups"]]
+        old = kept.with_old(old, None, groups.NAMES)
+        return [group["name"] for group in kept.with_old(new, old, groups.NAMES)["groups"]]
+
+    def test_are_none_where_there_is_no_such_file(self):
+        self.assertIsNone(kept.load("/nowhere"))
 
     def test_of_the_same_commit_and_machine_are_kept(self):
         both = self.names_with(made(names=("peers", "files")), made(names=("growth", "files")))

@@ -5,7 +5,7 @@ import os
 import shutil
 import statistics
 
-from measuring import Case, Figure, Run, driver, median
+from measuring import Case, Figure, Run, driver, launcher, median
 from refinement import on
 from running import must, run
 
@@ -38,8 +38,7 @@ def whole_program(place, ranks, shape):
     folder = os.path.join(place.folder, "whole")
     os.mkdir(folder)
     try:
-        launcher = ["mpirun", "-n", str(ranks)] if ranks > 1 else []
-        command = [*launcher, place.program("cli/octetra"), "refine", mesh, "--all", "--quiet",
+        command = [*launcher(ranks), place.program("cli/octetra"), "refine", mesh, "--all", "--quiet",
                    "-o", os.path.join(folder, "fine.ele")]
         # The clock runs for the program as people use it, without a profile. Both runs write where
         # nothing is: to take an old file's place costs as much again.
@@ -64,9 +63,8 @@ def in_a_corner(cubes, levels):
 
     def line(place, ranks):
         mesh = place.mesh(shape, "corner.mesh")
-        launcher = ["mpirun", "-n", str(ranks)] if ranks > 1 else []
         profile = os.path.join(place.folder, "corner.json")
-        must([*launcher, place.program("cli/octetra"), "refine", mesh, *arguments.split(),
+        must([*launcher(ranks), place.program("cli/octetra"), "refine", mesh, *arguments.split(),
               "--quiet", "-o", "corner-fine.mesh", "--profile", profile], place.folder)
         with open(profile, encoding="utf-8") as file:
             found = json.load(file)

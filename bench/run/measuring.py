@@ -105,14 +105,18 @@ def printed_by(command, folder, patience=None):
     return printed(command, outcome), times
 
 
+def launcher(ranks):
+    """What stands before a program that runs on so many."""
+    return ["mpirun", "-n", str(ranks)] if ranks > 1 else []
+
+
 def driver(name, program, arguments, ranks=1, mesh=None, patience=None):
     """A run of a driver that prints JSON. `mesh`, a shape and a file name, is generated before, and
     is the first argument. With `patience`, see printed_by(), the line says how often it was begun
     again."""
     def line(place):
         first = [place.mesh(*mesh)] if mesh else []
-        launcher = ["mpirun", "-n", str(ranks)] if ranks > 1 else []
-        command = [*launcher, place.program(program), *first, *shlex.split(arguments)]
+        command = [*launcher(ranks), place.program(program), *first, *shlex.split(arguments)]
         words, times = printed_by(command, place.folder, patience)
         try:
             return json.loads(words) | ({BEGUN_AGAIN: times} if patience else {})

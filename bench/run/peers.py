@@ -2,7 +2,7 @@
 
 import os
 
-from measuring import (BEGUN_AGAIN, Case, Figure, Run, driver, median, median_ratio,
+from measuring import (BEGUN_AGAIN, Case, Figure, Run, driver, launcher, median, median_ratio,
                        spread_figure)
 from running import must, run
 
@@ -110,12 +110,11 @@ def judged(place, ranks, mesh, levels):
     """What octetra verify says of DOLFINx's result, and how many cells it has. DOLFINx keeps no
     markers and turns some cells over, so the coarse mesh goes through its hands, too."""
     path = place.mesh(*mesh)
-    launcher = ["mpirun", "-n", str(ranks)] if ranks > 1 else []
     octetra, theirs = place.program("cli/octetra"), place.program(THEIRS)
     for name, options in (("coarse", ["--levels", "0"]),
                           ("fine", ["--levels", str(levels), "--sphere", SPHERE])):
         made, turned = (os.path.join(place.folder, name + end) for end in (".made.mesh", ".mesh"))
-        must([*launcher, theirs, path, *options, "--write", made], place.folder)
+        must([*launcher(ranks), theirs, path, *options, "--write", made], place.folder)
         must([octetra, "convert", made, turned, "--fix-orientation", "--quiet"], place.folder)
     outcome = run([octetra, "verify", "coarse.mesh", "fine.mesh", "--sphere", SPHERE,
                    "--levels", str(levels)], place.folder)

@@ -80,7 +80,8 @@ def of_what(made):
             f"Medians of {' or '.join(map(str, repetitions))} runs in turns; of one "
             "program's speed against another's, of what it was in each turn; in parentheses the "
             "least and the most of the runs")
-    words = "Small meshes, to see that all runs; targets are for large ones. " if made["quick"] else ""
+    words = ("Small meshes, to see that all runs; targets are for large ones. " if made["quick"]
+             else "")
     return (f"{words}{runs}; seconds by the wall clock unless it says "
             "processor. What each group means: [README.md](README.md); every raw time: "
             "`results.json`.")

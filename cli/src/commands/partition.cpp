@@ -135,8 +135,7 @@ void add_partition(CLI::App& program, const distributed::Communicator& world) {
         "  octetra partition gear.1.ele -n 4\n"
         "  octetra partition gear.1.ele -n 4 --sphere 1,0,0.15,0.4 --levels 2");
     command->callback([options, command, world] {
-        options->says_how_refined =
-            command->count("--levels") + command->count("--scheme") + command->count("--seed") > 0;
+        options->says_how_refined = says_how_refined(*command);
         distributed::on_first(world, [&] { partition(*options); });
     });
 }

@@ -23,6 +23,12 @@ void add_refinement_options(CLI::App& subcommand, RefinementOptions& options,
         ->type_name("8t|4t|2t");
 }
 
+bool says_how_refined(const CLI::App& subcommand) {
+    return subcommand.count("--levels") + subcommand.count("--scheme") +
+               subcommand.count("--seed") >
+           0;
+}
+
 Scheme parse_scheme(const RefinementOptions& options) {
     constexpr std::array<Word<Scheme>, 3> schemes{
         {{"8t", Scheme::eight}, {"4t", Scheme::four}, {"2t", Scheme::two}}};

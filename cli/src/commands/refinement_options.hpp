@@ -19,6 +19,10 @@ struct RefinementOptions {
 void add_refinement_options(CLI::App& subcommand, RefinementOptions& options,
                             const std::string& group);
 
+/// Was --levels, --scheme or --seed typed, be it with what is taken for granted? Without a
+/// criterion they mean nothing.
+[[nodiscard]] bool says_how_refined(const CLI::App& subcommand);
+
 /// Throws InputError for a word that is no scheme.
 [[nodiscard]] Scheme parse_scheme(const RefinementOptions& options);
 

@@ -184,8 +184,7 @@ void add_verify(CLI::App& program, const distributed::Communicator& world) {
         "  octetra verify gear.1.ele fine.1.ele --sphere 1,0,0.1,0.3 --levels 2\n"
         "  mpirun -n 4 octetra verify gear.1.ele fine.1.ele");
     command->callback([options, command, world] {
-        options->says_how_refined =
-            command->count("--levels") + command->count("--scheme") + command->count("--seed") > 0;
+        options->says_how_refined = says_how_refined(*command);
         if (!run(*options, world)) throw AnswerIsNo{};
     });
 }

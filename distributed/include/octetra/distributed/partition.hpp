@@ -37,7 +37,7 @@ struct Partition {
 /// equal in the sum of their cells' weights, such as predicted_cells() finds, as far as no single
 /// cell outweighs a part; without weights, in their number. Not collective: one process decides.
 /// Throws InputError where a part file does not fit the mesh, METIS cannot count so many cells, or
-/// there are weights but not one for each cell, positive and finite.
+/// is given weights but not one for each cell, positive and finite.
 [[nodiscard]] std::vector<int> partition_cells(const Mesh& mesh, int parts,
                                                const Partition& partition,
                                                const std::vector<float>& weights = {});

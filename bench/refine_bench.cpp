@@ -15,6 +15,7 @@
 #include <octetra/distributed/profile.hpp>
 #include <octetra/distributed/refine.hpp>
 
+#include "level/tuning.hpp"
 #include "measuring.hpp"
 #include "memory_at_hand.hpp"
 #include "pattern_tables.hpp"
@@ -38,7 +39,7 @@ struct Options {
     bool profile = false;
     bool memcpy = false;
     std::size_t at_hand_megabytes = 0;
-    double sparse_below = -1;  ///< of the mesh; negative: as it is
+    distributed::Tuning tuning;
     bool json = false;
 };
 
@@ -63,11 +64,11 @@ double sum_of(const Communicator& world, double seconds) {
 
 /// Collective. One level; seconds of the processor, messages and bytes are those of all ranks.
 ordered_json refine_level(const Communicator& world, DistributedMesh& mesh,
-                          const Selection& selection) {
+                          const Selection& selection, const distributed::Tuning& tuning) {
     const auto before = world.sum(mesh.cells.size());
     const double processor = processor_seconds();
     const double start = wall_seconds();
-    const auto counts = distributed::refine(mesh, selection, {.levels = 1});
+    const auto counts = distributed::refine(mesh, selection, {.levels = 1}, tuning);
     const auto cells = world.sum(mesh.cells.size());
     const double seconds = wall_seconds() - start;
     const double used = processor_seconds() - processor;
@@ -150,7 +151,6 @@ void measure(const Communicator& world, const Options& options) {
             partition_cells(input, group.size(), distributed::parse_partition(options.partition));
     }
     auto mesh = distributed::distribute(group, std::move(input), parts);
-    if (options.sparse_below >= 0) mesh.sparse_below = options.sparse_below;
     if (options.profile) {
         mesh.processes = distributed::profiled(group, distributed::ProfileDetail::sums);
     }
@@ -160,7 +160,7 @@ void measure(const Communicator& world, const Options& options) {
     const std::size_t input_bytes = bytes_of(mesh);
     ordered_json line{{"program", "octetra"}, {"ranks", world.size()}};
     for (int level = 1; level <= options.levels; ++level) {
-        line["levels"].push_back(refine_level(world, mesh, selection_of(options)));
+        line["levels"].push_back(refine_level(world, mesh, selection_of(options), options.tuning));
         if (world.is_first() && !options.json) print_level(level, line["levels"].back());
     }
     line["peak_bytes"] = world.max(peak_bytes());
@@ -185,8 +185,9 @@ int run(const Communicator& world, int argc, char** argv) {
     app.add_flag("--warm", options.warm, "leave out what a program does but once");
     app.add_option("--memory-at-hand", options.at_hand_megabytes,
                    "so many MiB for each rank, written to before: as in a program's later levels");
-    app.add_option("--sparse-below", options.sparse_below,
-                   "the sparse way where chosen cells have less than this share of the vertices");
+    app.add_option(
+        "--incremental-below", options.tuning.incremental_below,
+        "incremental levels where marked cells have less than this share of the vertices");
     app.add_flag("--profile", options.profile, "with --json: seconds of synchronisation, bytes");
     app.add_flag("--memcpy", options.memcpy, "with --json: what copying the mesh's arrays takes");
     app.add_flag("--json", options.json, "print a line of JSON instead of words");

@@ -1,10 +1,8 @@
 #include "program.hpp"
 
 #include <csignal>
-#include <cstdio>
 #include <exception>
 #include <filesystem>
-#include <iostream>
 #include <new>
 #include <string_view>
 
@@ -17,6 +15,7 @@
 
 #include "answer.hpp"
 #include "commands/commands.hpp"
+#include "terminal.hpp"
 #include "usage_errors.hpp"
 
 #ifdef __GLIBC__  // which only a header of the library says
@@ -36,6 +35,8 @@ void handle_signals() {
     // Beyond a limit on file sizes a write then fails like one to a full disk, and is cleaned up
     // after, rather than that the signal ends the program.
     std::signal(SIGXFSZ, SIG_IGN);
+    // A pipe that nobody reads any more is a stream that cannot be written: the mesh still can.
+    std::signal(SIGPIPE, SIG_IGN);
     for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
         // Who is started to ignore a signal, as by nohup, goes on ignoring it.
         if (std::signal(signal, remove_files_and_end) == SIG_IGN) std::signal(signal, SIG_IGN);
@@ -53,16 +54,16 @@ void give_back_freed_memory() {
 }
 
 int fail(Status status, std::string_view what, const distributed::Communicator& world) {
-    if (world.is_first()) fmt::print(stderr, "octetra: {}\n", what);
+    if (world.is_first()) tell("{}", what);
     return static_cast<int>(status);
 }
 
 /// What one process met alone, and the others may be waiting for it.
-int fail_alone(std::string_view what, const distributed::Communicator& world) {
+int fail_alone(std::string_view what, const distributed::MpiSession& session) {
     constexpr auto status = static_cast<int>(Status::system_failed);
+    const distributed::Communicator& world = session.world();
     if (world.size() == 1) return fail(Status::system_failed, what, world);
-    fmt::print(stderr, "octetra: rank {}: {}\n", world.rank(), what);
-    std::fflush(stderr);
+    if (session.is_first_to_fail()) tell("rank {}: {}", world.rank(), what);
     distributed::MpiSession::abort(status);
 }
 
@@ -78,18 +79,16 @@ int parse_and_run(CLI::App& program, int argc, char** argv,
     } catch (const CLI::ParseError& error) {
         return fail(Status::bad_input, usage_error(program, error), world);
     }
-    std::cout.flush();  // help and version
-    std::fflush(stdout);
-    // Whoever reads the results from a pipe or a full disk must hear of it.
-    if (std::ferror(stdout) != 0 || !std::cout) {
-        throw SystemError("standard output cannot be written");
-    }
+    world.on_first([] {
+        if (!stdout_was_written()) throw SystemError("standard output cannot be written");
+    });
     return static_cast<int>(status);
 }
 
 }  // namespace
 
 int run(int argc, char** argv) {
+    hold_closed_streams();
     handle_signals();
     give_back_freed_memory();
     const distributed::MpiSession session(&argc, &argv);
@@ -102,9 +101,11 @@ int run(int argc, char** argv) {
         "octetra");
     program.set_version_flag("--version", "octetra " OCTETRA_VERSION);
     program.require_subcommand(1);
+    program.option_defaults()->disable_flag_override();  // --all=3
     program.get_formatter()->column_width(34);
     program.footer(
-        "Exit status: 0 done; 1 the answer is no; 2 bad usage or input; 3 the system failed.\n"
+        "Exit status: 0 done; 1 the answer is no; 2 bad usage or input; 3 the system failed;\n"
+        "128 + its number: a signal ended octetra or, under mpirun, one of its ranks.\n"
         "Example:\n"
         "  octetra generate gear -o gear.1.ele\n"
         "  octetra refine gear.1.ele --sphere 1,0,0.1,0.3 --levels 2 -o fine.1.ele\n"
@@ -125,9 +126,9 @@ int run(int argc, char** argv) {
     } catch (const SystemError& error) {
         return fail(Status::system_failed, error.what(), world);
     } catch (const std::bad_alloc&) {
-        return fail_alone("out of memory", world);
+        return fail_alone("out of memory", session);
     } catch (const std::exception& error) {  // filesystem_error ...
-        return fail_alone(error.what(), world);
+        return fail_alone(error.what(), session);
     }
 }
 

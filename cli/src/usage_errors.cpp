@@ -25,6 +25,21 @@ Innermost innermost(const CLI::App& program) {
     return found;
 }
 
+/// The command that takes what this one does not know, or null.
+const CLI::App* falls_through_to(const CLI::App& app) {
+    return app.get_fallthrough() ? app.get_parent() : nullptr;
+}
+
+/// The words that no command could place.
+std::vector<std::string> words_left(const CLI::App& innermost) {
+    std::vector<std::string> words;
+    for (const CLI::App* app = &innermost; app != nullptr && words.empty();
+         app = falls_through_to(*app)) {
+        words = app->remaining();
+    }
+    return words;
+}
+
 /// How many characters have to be put in, left out or replaced to make one word of the other.
 std::size_t distance(std::string_view a, std::string_view b) {
     std::vector<std::size_t> row(b.size() + 1);
@@ -67,8 +82,10 @@ bool is_option(std::string_view word) {
 
 std::string unknown_option(const Innermost& command, std::string_view word) {
     std::vector<std::string> names;
-    for (const CLI::Option* option : command.app->get_options()) {
-        for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+    for (const CLI::App* app = command.app; app != nullptr; app = falls_through_to(*app)) {
+        for (const CLI::Option* option : app->get_options()) {
+            for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+        }
     }
     const std::string_view name = word.substr(0, word.find('='));
     return fmt::format("{} has no option {}{}", command.app->get_name(), name,
@@ -95,27 +112,57 @@ std::string unexpected_word(const Innermost& command, std::string_view word) {
                            : "");
 }
 
+/// What stands in `text` behind `before` and ends where `after` ends it; else nothing.
+std::string between(std::string_view text, std::string_view before, std::string_view after) {
+    const auto begin = text.find(before);
+    if (begin == std::string_view::npos || !text.ends_with(after)) return {};
+    text.remove_prefix(begin + before.size());
+    return std::string(text.substr(0, text.size() - after.size()));
+}
+
+/// What CLI11 says of an option that has too few values, or too many.
+std::string in_plain_words(std::string_view said) {
+    const std::string_view option = said.substr(0, said.find_first_of(": "));
+    if (said.ends_with(" was given a disallowed flag override")) {
+        return fmt::format("--{} takes no value", option);
+    }
+    if (const std::string value = between(said, ": 1 required ", " missing"); !value.empty()) {
+        return fmt::format("{} lacks its value, {}", option, value);
+    }
+    if (const std::string given = between(said, " required but received ", ""); !given.empty()) {
+        const std::string most = between(said.substr(0, said.find(" required")), ": At Most ", "");
+        return fmt::format("{} takes no more than {} value{}, not {}", option, most,
+                           most == "1" ? "" : "s", given);
+    }
+    return std::string(said);
+}
+
 /// CLI11 lists what it could not place from the last to the first, and asks for a subcommand where
 /// there is a word in its place.
 std::string what_is_wrong(const Innermost& command, const CLI::ParseError& error) {
-    const std::vector<std::string> words = command.app->remaining();
+    const std::vector<std::string> words = words_left(*command.app);
     const bool lacks_subcommand = command.app->get_require_subcommand_min() > 0;
     const bool has_extras = dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr;
-    if (words.empty() || !(lacks_subcommand || has_extras)) return error.what();
+    const bool lacks_something = dynamic_cast<const CLI::RequiredError*>(&error) != nullptr;
+    if (words.empty() || !(lacks_subcommand || has_extras || lacks_something)) {
+        return in_plain_words(error.what());
+    }
     if (lacks_subcommand) {
         return is_option(words.front()) ? unknown_option(command, words.front())
                                         : unknown_subcommand(command, words.front());
     }
     const auto option = std::ranges::find_if(words, is_option);
-    return option != words.end() ? unknown_option(command, *option)
-                                 : unexpected_word(command, words.front());
+    if (option != words.end()) return unknown_option(command, *option);
+    return has_extras ? unexpected_word(command, words.front()) : in_plain_words(error.what());
 }
 
 }  // namespace
 
 std::string usage_error(const CLI::App& program, const CLI::ParseError& error) {
     const Innermost command = innermost(program);
-    return fmt::format("{}\nTry {} --help.", what_is_wrong(command, error), command.name);
+    const std::string what = what_is_wrong(command, error);
+    return fmt::format("{}{} {} --help", what, what.ends_with('?') ? " See" : "; see",
+                       command.name);
 }
 
 }  // namespace octetra::cli

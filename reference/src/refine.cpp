@@ -41,9 +41,8 @@ EdgeToMidpoint bisect_edges(const Mesh& mesh, const EdgeTable& table, const Edge
         if (!mesh.point_markers.empty()) fine.mesh.point_markers.append(markers[e]);
         for (std::size_t k = 0; k < attributes; ++k) {
             fine.mesh.point_attributes.push_back(
-                (mesh.point_attributes[a.value() * attributes + k] +
-                 mesh.point_attributes[b.value() * attributes + k]) /
-                2);
+                mean(mesh.point_attributes[a.value() * attributes + k],
+                     mesh.point_attributes[b.value() * attributes + k]));
         }
     }
     return midpoints;
@@ -74,7 +73,7 @@ void check_allowed(const Mesh& mesh, const EdgeTable& table, const EdgeToMidpoin
     }
     if (count <= max_cells || count == mesh.cells.size()) return;
     throw InputError(
-        fmt::format("level {} would make {} cells, more than the {} allowed: choose fewer cells or "
+        fmt::format("level {} would make {} cells, more than the {} allowed: mark fewer cells or "
                     "levels, or allow more",
                     level, count, max_cells));
 }

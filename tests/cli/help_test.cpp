@@ -49,10 +49,11 @@ TEST_P(Help, FitsATerminal) {
 
 TEST(ExitStatus, IsExplainedWhereItTellsMoreThanWhetherAllWentWell) {
     const TemporaryFolder folder;
-    for (const std::string command : {"refine", "verify"}) {
-        EXPECT_THAT(test::octetra(command + " --help", folder).out,
-                    HasSubstr("3 the system failed"))
-            << command;
+    for (const std::string command : {"", "refine", "verify"}) {
+        const std::string help = test::octetra(command + " --help", folder).out;
+        EXPECT_THAT(help, HasSubstr("3 the system failed")) << command;
+        EXPECT_THAT(help, HasSubstr("128 + its number")) << command;
+        EXPECT_THAT(help, testing::Not(HasSubstr("lost rank"))) << command;
     }
 }
 
@@ -72,6 +73,7 @@ TEST_P(BadUsage, EndsInStatus2AndOneMessageAndWritesNothing) {
     EXPECT_EQ(run.status, 2);
     EXPECT_EQ(run.out, "");
     EXPECT_THAT(run.err, StartsWith("octetra: "));
+    EXPECT_EQ(test::occurrences(run.err, "\n"), 1U) << run.err;
     EXPECT_FALSE(std::filesystem::exists(folder / "out.ele"));
 }
 
@@ -123,13 +125,13 @@ TEST(BadUsage, NamesTheWordThatIsNoSubcommand) {
     const TemporaryFolder folder;
     EXPECT_THAT(test::octetra("frobnicate gear.1.ele -o x.ele", folder).err,
                 StartsWith("octetra: octetra takes one of refine, info, generate, convert, "
-                           "partition, verify, compare, not 'frobnicate'\n"));
+                           "partition, verify, compare, not 'frobnicate'; see octetra --help\n"));
     EXPECT_THAT(test::octetra("generate sphear -o x.ele", folder).err,
                 StartsWith("octetra: generate takes one of kuhn, bcc, regular, random, slivers, "
                            "sphere, fichera, torus, gear, two-material, not 'sphear'; did you "
-                           "mean sphere?\n"));
+                           "mean sphere? See octetra generate --help\n"));
     EXPECT_THAT(test::octetra("--frobnicate", folder).err,
-                StartsWith("octetra: octetra has no option --frobnicate\n"));
+                StartsWith("octetra: octetra has no option --frobnicate; see octetra --help\n"));
     EXPECT_THAT(test::octetra("", folder).err, HasSubstr("A subcommand is required"));
 }
 
@@ -139,21 +141,22 @@ TEST(BadUsage, NamesTheWordThatIsNotExpected) {
     const auto said = [&](const std::string& words) {
         return test::octetra("refine a.ele --all -o x.ele " + words, folder).err;
     };
-    const std::string try_help = "\nTry octetra refine --help.\n";
-    EXPECT_EQ(said("--frobnicate 1"), "octetra: refine has no option --frobnicate" + try_help);
+    const std::string see_help = "; see octetra refine --help\n";
+    EXPECT_EQ(said("--frobnicate 1"), "octetra: refine has no option --frobnicate" + see_help);
     for (const char* words : {"--shpere 1,0,0,1", "-sphere 1,0,0,1", "--spere=1,0,0,1"}) {
-        EXPECT_THAT(said(words), testing::EndsWith("; did you mean --sphere?" + try_help));
+        EXPECT_THAT(said(words),
+                    testing::EndsWith("; did you mean --sphere? See octetra refine --help\n"));
     }
-    EXPECT_EQ(said("b.ele"), "octetra: refine does not expect 'b.ele'" + try_help);
+    EXPECT_EQ(said("b.ele"), "octetra: refine does not expect 'b.ele'" + see_help);
     for (const char* words :
          {"--sphere 1 0 0 .4", "--sphere -1 0 0 .4", "--sphere 1, 0 0 .4", "--sphere 1,1,1,1 0"}) {
         EXPECT_THAT(said(words), StartsWith("octetra: refine does not expect '0'; what belongs to "
                                             "one option is one word with commas, as in --sphere "
-                                            "X,Y,Z,R\n"))
+                                            "X,Y,Z,R; see octetra refine --help\n"))
             << words;
     }
     EXPECT_THAT(test::octetra("info a.ele 3", folder).err,
-                StartsWith("octetra: info does not expect '3'\n"));
+                StartsWith("octetra: info does not expect '3'; see octetra info --help\n"));
 }
 
 TEST(Version, IsPrinted) {

@@ -30,7 +30,7 @@ protected:
     [[nodiscard]] std::map<std::string, std::string> content() const {
         std::map<std::string, std::string> all;
         for (const auto& entry : fs::directory_iterator(folder.path())) {
-            if (!entry.is_directory())
+            if (entry.is_regular_file())
                 all[entry.path().filename()] = test::content_of(entry.path());
         }
         return all;
@@ -60,6 +60,51 @@ TEST_F(Inputs, AreNotReplacedByTheMeshThatIsWritten) {
     expect_refused("convert m.1.ele m.1.node", "OUT would write over m.1.node of MESH");
 }
 
+constexpr const char* byte_order_mark = "\xef\xbb\xbf";
+
+/// Whatever text is read: meshes, lists, maps and parts.
+TEST_F(Inputs, MayBeginWithAByteOrderMark) {
+    EXPECT_EQ(test::octetra("convert f.1.ele f.mesh", folder).status, 0);
+    const std::vector<std::string> commands{"info m.1.ele",
+                                            "info m.mesh",
+                                            "verify m.1.ele f.1.ele --maps maps.txt",
+                                            "compare f.1.ele f.mesh",
+                                            "refine m.1.ele --cells cells.txt -o g.mesh",
+                                            "partition m.1.ele -n 2 --partition file:parts.txt"};
+    std::vector<std::string> results;
+    for (const std::string& command : commands) {
+        results.push_back(test::octetra(command, folder).out);
+        EXPECT_NE(results.back(), "") << command;
+    }
+    const std::string refined = test::content_of(folder / "g.mesh");
+    for (const auto& [name, bytes] : content()) {
+        if (name != "link.1.face") (void)folder.write(name, byte_order_mark + bytes);
+    }
+    for (std::size_t i = 0; i < commands.size(); ++i) {
+        const auto run = test::octetra(commands[i], folder);
+        EXPECT_EQ(run.err, "") << commands[i];
+        if (commands[i].starts_with("refine")) continue;  // which prints seconds
+        EXPECT_EQ(run.out, results[i]) << commands[i];
+    }
+    EXPECT_EQ(test::content_of(folder / "g.mesh"), refined);
+}
+
+/// Not twice, not later, and lines are counted as before.
+TEST_F(Inputs, HaveTheirLinesCountedAsWithoutAByteOrderMark) {
+    const auto said = [&](const std::string& cells) {
+        (void)folder.write("cells.txt", cells);
+        return test::octetra("refine m.1.ele --cells cells.txt -o g.mesh", folder).err;
+    };
+    const std::string mark = byte_order_mark;
+    EXPECT_EQ(said(mark + "1\n# two\nx\n"), said("1\n# two\nx\n"));
+    EXPECT_EQ(said(mark + "x\n"), said("x\n"));
+    EXPECT_THAT(said(mark + mark + "1\n"), HasSubstr("cells.txt:1: "));
+    EXPECT_THAT(said("1\n" + mark + "2\n"), HasSubstr("cells.txt:2: "));
+    (void)folder.write("only.node", mark);
+    (void)folder.write("only.ele", mark);
+    EXPECT_THAT(test::octetra("info only.ele", folder).err, HasSubstr("octetra: only.node:1: "));
+}
+
 TEST_F(Inputs, AreNotReplacedByFilesBesideTheMesh) {
     const std::string refine = "refine m.1.ele -o g.1.ele ";
     expect_refused(refine + "--cells cells.txt --maps ./cells.txt",
@@ -74,6 +119,79 @@ TEST_F(Inputs, AreNotReplacedByFilesBesideTheMesh) {
                    "--report would write over maps.txt of --maps");
     expect_refused("verify m.1.ele f.1.ele --cells cells.txt --report cells.txt",
                    "--report would write over cells.txt of --cells");
+}
+
+/// Each link stands where the file would be that is written.
+TEST_F(Inputs, AreNotReplacedThroughLinks) {
+    fs::create_symlink("../m.mesh", folder / "sub/chain");
+    for (const std::string name : {"o.mesh", "o.face", "o_0.vtu", "o.json"}) {
+        fs::create_symlink("sub/chain", folder / name);
+    }
+    const auto refusal = [](const std::string& argument, const std::string& name) {
+        return argument + " would write over " + name + ", which is m.mesh, of MESH";
+    };
+    expect_refused("refine m.mesh --all -o o.mesh", refusal("-o", "o.mesh"));
+    expect_refused("refine m.mesh --all -o o.ele", refusal("-o", "o.face"));
+    expect_refused("refine m.mesh --all -o o.pvtu", refusal("-o", "o_0.vtu"));
+    expect_refused("refine m.mesh --all -o p.ele --maps o.json", refusal("--maps", "o.json"));
+    expect_refused("refine m.mesh --all -o p.ele --profile o.json", refusal("--profile", "o.json"));
+    expect_refused("refine m.mesh --all -o p.ele --trace o.json", refusal("--trace", "o.json"));
+    expect_refused("partition m.mesh -n 2 -o o.json", refusal("-o", "o.json"));
+    expect_refused("verify m.mesh --report o.json", refusal("--report", "o.json"));
+    expect_refused("convert m.mesh o.mesh", refusal("OUT", "o.mesh"));
+    // The list beside what a link leads to would be removed.
+    fs::create_symlink("far.ele", folder / "near.ele");
+    fs::create_symlink("m.mesh", folder / "far.face");
+    expect_refused("refine m.mesh --all -o near.ele",
+                   refusal("-o", (fs::canonical(folder.path()) / "far.face").native()));
+}
+
+TEST_F(Inputs, OfOneNameForTwoOutputsAreRefused) {
+    fs::create_symlink("one.json", folder / "two.json");
+    fs::create_symlink("out.1.face", folder / "three.json");
+    const auto message = [&](const std::string& options) {
+        const auto run = test::octetra("refine m.1.ele --all -o out.1.ele " + options, folder);
+        EXPECT_EQ(run.status, 2) << options;
+        EXPECT_FALSE(fs::exists(folder / "out.1.ele")) << options;
+        return run.err;
+    };
+    EXPECT_EQ(message("--maps one.json --trace ./one.json"),
+              "octetra: --maps and --trace name the same file, ./one.json, which is one.json\n");
+    EXPECT_EQ(message("--profile one.json --trace two.json"),
+              "octetra: --profile and --trace name the same file, two.json, which is one.json\n");
+    EXPECT_EQ(message("--maps three.json"),
+              "octetra: -o and --maps name the same file, three.json, which is out.1.face\n");
+}
+
+/// All that the program writes, on one rank and on two.
+TEST_F(Inputs, LeaveOutputsTheirLinksAndPermissions) {
+    const std::vector<std::string> names{"o.node",  "o.ele",  "o.face",  "o.mesh",
+                                         "o.vtu",   "o.pvtu", "o_0.vtu", "maps",
+                                         "profile", "trace",  "report",  "parts"};
+    for (const std::string& name : names) {
+        (void)folder.write("sub/" + name, "as it was");
+        fs::permissions(folder / ("sub/" + name), fs::perms::owner_read | fs::perms::owner_write);
+        fs::create_symlink("sub/" + name, folder / name);
+    }
+    const std::string refine = "refine m.1.ele --all -o ";
+    for (const int ranks : {1, 2}) {
+        for (const std::string& name : names) (void)folder.write("sub/" + name, "as it was");
+        for (const std::string& command :
+             {refine + "o.ele --maps maps --profile profile --trace trace", refine + "o.mesh",
+              refine + "o.vtu", refine + "o.pvtu", std::string("verify m.1.ele --report report"),
+              std::string("partition m.1.ele -n 2 -o parts")}) {
+            const auto run = ranks == 1 ? test::octetra(command, folder)
+                                        : test::octetra_on(ranks, command, folder);
+            EXPECT_EQ(run.status, 0) << command << "\n" << run.err;
+        }
+        for (const std::string& name : names) {
+            EXPECT_TRUE(fs::is_symlink(folder / name)) << name;
+            EXPECT_NE(test::content_of(folder / ("sub/" + name)), "as it was") << name;
+            EXPECT_EQ(fs::status(folder / ("sub/" + name)).permissions(),
+                      fs::perms::owner_read | fs::perms::owner_write)
+                << name;
+        }
+    }
 }
 
 TEST_F(Inputs, LeaveOtherNamesFree) {

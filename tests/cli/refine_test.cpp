@@ -223,7 +223,7 @@ TEST(Refine, EndsBeforeALevelThatWouldMakeMoreCellsThanAllowed) {
         EXPECT_EQ(run.status, 2);
         EXPECT_EQ(run.err,
                   "octetra: cube.ele: level 3 would make 3072 cells, more than the 1000 allowed: "
-                  "choose fewer cells or levels, or allow more\n");
+                  "mark fewer cells or levels, or allow more\n");
         EXPECT_EQ(test::content_of(folder / "f.ele"), "as it was");
         EXPECT_FALSE(std::filesystem::exists(folder / "f.node"));
     }

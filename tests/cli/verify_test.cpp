@@ -158,11 +158,11 @@ TEST_F(Verify, SaysWhatAnOptionTakes) {
         return expect_status(2, "verify gear.1.ele fine.1.ele " + options).err;
     };
     EXPECT_THAT(message("--min-dihedral abc"),
-                HasSubstr("--min-dihedral: 'abc' is not a number from 0 to 180\n"));
+                HasSubstr("--min-dihedral takes a number from 0 to 180, not 'abc'\n"));
     EXPECT_THAT(message("--all --levels 1.5"),
-                HasSubstr("--levels: '1.5' is not a whole number from 0 to 50\n"));
+                HasSubstr("--levels takes a whole number from 0 to 50, not '1.5'\n"));
     EXPECT_THAT(message("--random .1 --seed -1"),
-                HasSubstr("--seed: '-1' is not a whole number from 0 up\n"));
+                HasSubstr("--seed takes a whole number from 0 up, not '-1'\n"));
     EXPECT_THAT(message("--all --seed 3"), HasSubstr("--random 0.1 --seed 7"));
     EXPECT_THAT(message("--scheme 8t"), HasSubstr("as in --all --levels 2"));
 }

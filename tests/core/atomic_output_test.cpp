@@ -48,7 +48,7 @@ TEST(WriteMesh, ThatFailsLeavesWhatWasThereBefore) {
     // The second file of the set cannot take its place: a folder stands there.
     std::filesystem::remove(folder / "a.ele");
     std::filesystem::create_directory(folder / "a.ele");
-    EXPECT_THROW((void)write_mesh(test::kuhn(2, 2, 2), folder / "a.node"), SystemError);
+    EXPECT_THROW((void)write_mesh(test::kuhn(2, 2, 2), folder / "a.node"), InputError);
     EXPECT_EQ(test::content_of(folder / "a.node"), before);
     EXPECT_THAT(names_in(folder.path()), testing::ElementsAre("a.ele", "a.node"));
 }
@@ -57,7 +57,7 @@ TEST(WriteMesh, RemovesNoFolderThatStandsWhereFacesOfAnotherMeshMight) {
     for (const std::string extension : {"face", "edge"}) {
         const TemporaryFolder folder;
         std::filesystem::create_directory(folder / ("a." + extension));
-        EXPECT_THAT(test::thrown_by<SystemError>(
+        EXPECT_THAT(test::thrown_by<InputError>(
                         [&] { (void)write_mesh(test::kuhn(1, 1, 1), folder / "a.ele"); }),
                     HasSubstr("a." + extension + ": is a directory"));
         EXPECT_THAT(names_in(folder.path()), testing::ElementsAre("a." + extension));
@@ -71,7 +71,7 @@ TEST(WriteMesh, TakesThePlaceOfNothingButAFile) {
     EXPECT_THAT(test::thrown_by<InputError>([&] { (void)write_mesh(mesh, folder / "a.mesh"); }),
                 HasSubstr("a.mesh: is a device or the like"));
     ASSERT_EQ(::mkfifo((folder / "a.node").c_str(), 0600), 0);
-    EXPECT_THROW((void)write_mesh(mesh, folder / "a.ele"), SystemError);
+    EXPECT_THROW((void)write_mesh(mesh, folder / "a.ele"), InputError);
     const RefinementMaps maps{.first_midpoint = mesh.points.end_index()};
     WholeMesh source(mesh, &maps);
     EXPECT_THROW(write_maps(source, folder / "a.node"), SystemError);

@@ -1,9 +1,12 @@
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <limits>
 #include <random>
 #include <vector>
 
 #include <gtest/gtest.h>
+#include <boost/multiprecision/cpp_bin_float.hpp>
 
 #include <octetra/core/edge_order.hpp>
 
@@ -95,10 +98,95 @@ TEST(EdgeOrder, RoundsEveryProductByItself) {
     EXPECT_GT(telling, 100);
 }
 
-TEST(EdgeOrder, LengthsBeyondTheLargestDoubleStillCompareStrictly) {
-    const Segment e{{0, 0, 0}, {1e200, 0, 0}};
-    const Segment f{{0, 0, 0}, {0, 1e200, 0}};
-    EXPECT_NE(longer(e, f), longer(f, e));
+/// Binary64 as it would be if exponents had no limits; of this test alone.
+using Unlimited = boost::multiprecision::number<
+    boost::multiprecision::cpp_bin_float<53, boost::multiprecision::digit_base_2, void,
+                                         std::int32_t, -100000, 100000>,
+    boost::multiprecision::et_off>;
+
+Unlimited unlimited_squared_length(const Segment& s) {
+    const Unlimited dx = Unlimited(s.a.x) - Unlimited(s.b.x);
+    const Unlimited dy = Unlimited(s.a.y) - Unlimited(s.b.y);
+    const Unlimited dz = Unlimited(s.a.z) - Unlimited(s.b.z);
+    const Unlimited xx = dx * dx;
+    const Unlimited yy = dy * dy;
+    const Unlimited zz = dz * dz;
+    const Unlimited sum = xx + yy;
+    return sum + zz;
+}
+
+/// A segment whose coordinates are some bits wide, at most 2^exponent, and often nearly as long as
+/// another.
+Segment draw_segment(std::mt19937_64& random, int exponent) {
+    const int bits = random() % 2 == 0 ? 52 : 2;
+    const auto coordinate = [&] {
+        const auto value = static_cast<double>(random() % (std::uint64_t{1} << bits));
+        return std::scalbn(random() % 2 == 0 ? value : -value, exponent - bits);
+    };
+    return {{coordinate(), coordinate(), coordinate()}, {coordinate(), coordinate(), coordinate()}};
+}
+
+TEST(EdgeOrder, GoesByLengthsAsIfExponentsHadNoLimits) {
+    std::mt19937_64 random(1);
+    int ties = 0;
+    for (const int exponent :
+         {-1070, -1040, -1022, -1000, -540, -530, -512, -470, -450, -400, 0, 500, 513, 600, 1023}) {
+        for (int i = 0; i < 2000; ++i) {
+            const Segment e = draw_segment(random, exponent);
+            const Segment f = draw_segment(random, exponent - static_cast<int>(random() % 3));
+            const auto length_e = unlimited_squared_length(e);
+            const auto length_f = unlimited_squared_length(f);
+            if (length_e == length_f) {
+                ++ties;
+                continue;
+            }
+            ASSERT_EQ(longer(e, f), length_e > length_f) << exponent;
+            ASSERT_EQ(longer(f, e), length_e < length_f) << exponent;
+        }
+    }
+    EXPECT_GT(ties, 50);
+}
+
+TEST(EdgeOrder, GoesByLengthsWhereCoordinatesDifferByManyMagnitudes) {
+    std::mt19937_64 random(1);
+    const auto coordinate = [&] {
+        const auto bits = static_cast<double>(random() % 8);
+        return std::scalbn(bits, static_cast<int>(random() % 120) * 17 - 1074);
+    };
+    for (int i = 0; i < 20000; ++i) {
+        const Segment e{{coordinate(), coordinate(), coordinate()}, {}};
+        const Segment f{{coordinate(), coordinate(), coordinate()}, {}};
+        const auto length_e = unlimited_squared_length(e);
+        const auto length_f = unlimited_squared_length(f);
+        if (length_e == length_f) continue;
+        ASSERT_EQ(longer(e, f), length_e > length_f);
+    }
+}
+
+TEST(EdgeOrder, DoesNotChangeWhenAllIsMultipliedByAPowerOfTwo) {
+    const auto segments = lattice_segments();
+    for (const int exponent : {-1074, -1022, -540, -450, 510, 600, 1021}) {
+        auto scaled = segments;
+        for (Segment& s : scaled) {
+            for (Point* const p : {&s.a, &s.b}) {
+                *p = {std::scalbn(p->x, exponent), std::scalbn(p->y, exponent),
+                      std::scalbn(p->z, exponent)};
+            }
+        }
+        for (std::size_t i = 0; i < segments.size(); ++i) {
+            for (std::size_t j = 0; j < segments.size(); ++j) {
+                ASSERT_EQ(longer(scaled[i], scaled[j]), longer(segments[i], segments[j]));
+            }
+        }
+    }
+}
+
+TEST(EdgeOrder, HoldsOfTheLargestCoordinatesThatThereCanBe) {
+    const double most = std::numeric_limits<double>::max() / 2;
+    const Segment diagonal{{-most, -most, -most}, {most, most, most}};
+    const Segment side{{-most, -most, -most}, {most, most, 0}};
+    EXPECT_TRUE(longer(diagonal, side));
+    EXPECT_FALSE(longer(side, diagonal));
 }
 
 }  // namespace

@@ -61,6 +61,7 @@ INSTANTIATE_TEST_SUITE_P(
         {"EndsEarly", head + "Vertices\n2\n0 0 0 0\n0 0", 6, "the file ends where z should be"},
         {"CountHuge", head + "Vertices\n4000000000\n", 4, "holds at most"},
         {"NaN", head + "Vertices\n1\n0 nan 0 0\n", 5, "y is not finite"},
+        {"BeyondMidpoints", head + "Vertices\n1\n0 0 -9e307 0\n", 5, "z is '-9e307': coordinates"},
         {"VertexZero", head + vertices + "Tetrahedra\n1\n0 1 2 3 0\nEnd\n", 11,
          "there is no vertex 0"},
         {"VertexTooLarge", head + vertices + "Tetrahedra\n2\n1 2 3 4 0\n1 2 3 5 0\nEnd\n", 12,

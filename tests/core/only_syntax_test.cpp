@@ -5,6 +5,8 @@
 #include <octetra/core/error.hpp>
 #include <octetra/core/files.hpp>
 
+#include "support/temporary_folder.hpp"
+
 /// ReadOptions::only_syntax takes what a judge must be able to see, and nothing that it cannot.
 namespace octetra {
 namespace {
@@ -22,21 +24,23 @@ TEST_P(WrongMesh, IsReadAsItStandsIfOnlySyntaxIsAskedFor) {
     EXPECT_GE(mesh.cells.size(), 1U);
 }
 
-INSTANTIATE_TEST_SUITE_P(, WrongMesh,
-                         testing::Values("inverted-cell.ele", "flat-cell.ele",
-                                         "nearly-flat-cell.ele", "repeated-vertex.ele",
-                                         "face-of-no-cell.ele", "face-with-repeated-vertex.ele",
-                                         "edge-of-no-cell.ele", "medit-inverted-cell.mesh",
-                                         "medit-flat-cell.mesh", "medit-repeated-vertex.mesh",
-                                         "medit-face-of-no-cell.mesh",
-                                         "medit-edge-of-no-cell.mesh"),
-                         [](const auto& test_case) {
-                             std::string name = test_case.param;
-                             for (char& c : name) {
-                                 if (c == '-' || c == '.') c = '_';
-                             }
-                             return name;
-                         });
+INSTANTIATE_TEST_SUITE_P(
+    , WrongMesh,
+    testing::Values("inverted-cell.ele", "flat-cell.ele", "nearly-flat-cell.ele",
+                    "repeated-vertex.ele", "face-of-no-cell.ele", "face-with-repeated-vertex.ele",
+                    "edge-of-no-cell.ele", "medit-inverted-cell.mesh", "medit-flat-cell.mesh",
+                    "medit-repeated-vertex.mesh", "medit-face-of-no-cell.mesh",
+                    "medit-edge-of-no-cell.mesh", "repeated-cell.ele", "three-cells-at-a-face.ele",
+                    "face-with-two-markers.ele", "edge-with-two-markers.ele",
+                    "medit-repeated-cell.mesh", "medit-overlapping-cells.mesh",
+                    "medit-face-with-two-markers.mesh", "medit-edge-with-two-markers.mesh"),
+    [](const auto& test_case) {
+        std::string name = test_case.param;
+        for (char& c : name) {
+            if (c == '-' || c == '.') c = '_';
+        }
+        return name;
+    });
 
 class WrongFile : public testing::TestWithParam<std::string> {};
 
@@ -50,10 +54,11 @@ INSTANTIATE_TEST_SUITE_P(Indices, WrongFile,
                                          "medit-inf.mesh", "region-not-whole.ele"));
 
 TEST(OnlySyntax, LeavesInvertedCellsAsTheyAre) {
-    const Mesh mesh = read_bad("inverted-cell.ele", true);
-    const Mesh fixed = read_mesh(
-        std::filesystem::path(OCTETRA_SOURCE_DIR) / "corpus" / "bad" / "inverted-cell.ele",
-        {.fix_orientation = true});
+    const test::TemporaryFolder folder;
+    (void)folder.write("a.node", "4 3\n0 0 0 0\n1 1 0 0\n2 0 1 0\n3 0 0 1\n");
+    (void)folder.write("a.ele", "1 4\n0 1 0 2 3\n");
+    const Mesh mesh = read_mesh(folder / "a.ele", {.only_syntax = true});
+    const Mesh fixed = read_mesh(folder / "a.ele", {.fix_orientation = true});
     EXPECT_NE(mesh.cells, fixed.cells);
 }
 

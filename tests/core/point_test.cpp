@@ -1,3 +1,4 @@
+#include <cmath>
 #include <limits>
 #include <random>
 
@@ -18,6 +19,21 @@ TEST(Midpoint, IsTheSameBitsFromEitherEnd) {
         ASSERT_EQ(midpoint(b, a), m);
         ASSERT_EQ(m, (Point{(a.x + b.x) / 2, (a.y + b.y) / 2, (a.z + b.z) / 2}));
     }
+}
+
+TEST(Midpoint, IsFiniteUpToTheLimitOfCoordinates) {
+    const double most = std::nextafter(coordinate_limit, 0.0);
+    EXPECT_EQ(midpoint({most, -most, 0}, {most, -most, most}), (Point{most, -most, most / 2}));
+}
+
+TEST(Mean, IsThatOfAnyFiniteNumbers) {
+    const double most = std::numeric_limits<double>::max();
+    EXPECT_EQ(mean(most, most), most);
+    EXPECT_EQ(mean(-most, -most), -most);
+    EXPECT_EQ(mean(most, -most), 0);
+    EXPECT_EQ(mean(most, 0x1p+1023), most / 2 + 0x1p+1022);
+    EXPECT_EQ(mean(1, 2), 1.5);
+    EXPECT_EQ(mean(0x3p-1074, 0x1p-1074), 0x2p-1074);
 }
 
 TEST(Point, IsFiniteWhereEveryCoordinateIs) {

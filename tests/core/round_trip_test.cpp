@@ -90,7 +90,7 @@ TEST(RoundTrip, CoordinatesTakeNoMoreDigitsThanTheyNeed) {
 }
 
 TEST(RoundTrip, ExtremeCoordinatesKeepEveryBit) {
-    constexpr double largest = std::numeric_limits<double>::max();
+    const double largest = std::nextafter(coordinate_limit, 0.0);
     constexpr double smallest = std::numeric_limits<double>::denorm_min();
     const Mesh mesh = test::one_cell({{{-0.0, 0, smallest},
                                        {largest, -smallest, 0},

@@ -96,6 +96,8 @@ INSTANTIATE_TEST_SUITE_P(
         {"NaN", node_line(4, "2 0 nan 0"), "m.node:4", "y is not finite: 'nan'"},
         {"Infinity", node_line(4, "2 -inf 0 0"), "m.node:4", "x is not finite: '-inf'"},
         {"BeyondDoubles", node_line(4, "2 0 1e999 0"), "m.node:4", "y is out of range: '1e999'"},
+        {"BeyondMidpoints", node_line(4, "2 9e307 1 0"), "m.node:4",
+         "x is '9e307': coordinates must be"},
         {"Numbering", node_line(4, "7 0 1 0"), "m.node:4", "entry number 2 expected, 7 found"},
         {"FirstNumber", {.node = "1 3 0 0\n5 0 0 0\n"}, "m.node:2", "begins with 0 or 1"},
         {"CountTooLarge", node_line(1, "5 3 0 0"), "m.node:5", "ends after 4 of 5 entries"},
@@ -278,8 +280,8 @@ TEST(TetgenReader, TakesEveryMarkerOf32Bits) {
                                                std::numeric_limits<Marker>::max()}));
 }
 
-TEST(TetgenReader, TakesFacesThatAreListedTwice) {
-    EXPECT_EQ(read({.face = "3 1\n0 0 1 2 7\n1 2 1 0 8\n2 0 1 2 7\n"}).facet_markers,
+TEST(TetgenReader, TakesFacesThatAreListedTwiceWithOneMarker) {
+    EXPECT_EQ(read({.face = "3 1\n0 0 1 2 7\n1 0 1 3 8\n2 2 1 0 7\n"}).facet_markers,
               (IndexVector<FacetIndex, Marker>{7, 8, 7}));
 }
 

@@ -7,6 +7,7 @@
 #include <octetra/distributed/refine.hpp>
 
 #include "distributed/world.hpp"
+#include "level/tuning.hpp"
 #include "support/meshes.hpp"
 
 /// How much synchronisation may send: bounds that hold for every mesh, partition and rank. The
@@ -33,11 +34,11 @@ struct LevelFigures {
 
 /// Collective. Refines once; the first process gets the figures.
 LevelFigures refine_once(DistributedMesh& mesh, const Selection& selection, Scheme scheme,
-                         Synchronisation synchronisation) {
+                         Synchronisation synchronisation, const Tuning& tuning = {}) {
     LevelFigures figures;
     figures.borders = test::world().gather(std::vector{border_of(mesh)});
     mesh.processes = profiled(test::world(), ProfileDetail::sums);
-    refine(mesh, selection, {scheme, 1, synchronisation});
+    refine(mesh, selection, {scheme, 1, synchronisation}, tuning);
     for (ProfiledPhase& phase : gather_profile(mesh.processes).phases) {
         if (phase.name == "synchronise") figures.of_rank = std::move(phase.of_rank);
     }
@@ -98,22 +99,21 @@ TEST(Communication, ThroughTheGatewayIsAMessageARoundEachWayAndTwelveBytesASelec
     });
 }
 
-constexpr double always_sparse = 10;
-constexpr double always_dense = 0;
+constexpr Tuning always_incremental{.incremental_below = 10};
+constexpr Tuning always_sweep{.incremental_below = 0};
 
 /// Six cells round one edge that is the longest of all, a cell on each rank as far as there are so
 /// many, refined once by 2t: what each rank sends.
 std::vector<std::uint64_t> bytes_sent_in_a_ring(const Selection& selection,
                                                 Synchronisation synchronisation,
-                                                double sparse_below) {
+                                                const Tuning& tuning) {
     const Mesh ring = test::kuhn(1, 1, 1);
     std::vector<int> cell_to_part;
     for (int c = 0; c < 6; ++c) cell_to_part.push_back(c % test::world().size());
     DistributedMesh mesh = distribute(test::world(), ring, cell_to_part);
-    mesh.sparse_below = sparse_below;
     std::vector<std::uint64_t> bytes;
     for (const PhaseCounts& counts :
-         refine_once(mesh, selection, Scheme::two, synchronisation).of_rank) {
+         refine_once(mesh, selection, Scheme::two, synchronisation, tuning).of_rank) {
         EXPECT_EQ(counts.rounds, test::world().size() > 1 ? 1 : 0);
         bytes.push_back(counts.bytes);
     }
@@ -127,8 +127,8 @@ std::size_t sharers_of_a_ring() {
 
 TEST(Communication, OfNeighboursIsNotToldBackToWhoHasTold) {
     const Selection one_cell{.cells = {GlobalCell{0}}};  // which the first rank has
-    for (const double sparse_below : {always_dense, always_sparse}) {
-        const auto bytes = bytes_sent_in_a_ring(one_cell, Synchronisation::neighbour, sparse_below);
+    for (const Tuning& tuning : {always_sweep, always_incremental}) {
+        const auto bytes = bytes_sent_in_a_ring(one_cell, Synchronisation::neighbour, tuning);
         for (std::size_t r = 0; r < bytes.size(); ++r) {
             EXPECT_EQ(bytes[r], r == 0 ? 4 * (sharers_of_a_ring() - 1) : 0) << "rank " << r;
         }
@@ -136,7 +136,7 @@ TEST(Communication, OfNeighboursIsNotToldBackToWhoHasTold) {
 }
 
 TEST(Communication, ThroughTheGatewayIsNotPassedOnToWhoSaidTheSame) {
-    const auto bytes = bytes_sent_in_a_ring({.all = true}, Synchronisation::gateway, always_dense);
+    const auto bytes = bytes_sent_in_a_ring({.all = true}, Synchronisation::gateway, always_sweep);
     for (std::size_t r = 0; r < bytes.size(); ++r) {
         const bool speaks = r > 0 && r < sharers_of_a_ring();
         EXPECT_EQ(bytes[r], speaks ? 12 * (sharers_of_a_ring() - 1) : 0) << "rank " << r;

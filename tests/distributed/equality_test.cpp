@@ -12,6 +12,7 @@
 
 #include "distributed/marked_mesh.hpp"
 #include "distributed/world.hpp"
+#include "level/tuning.hpp"
 #include "support/meshes.hpp"
 #include "support/thrown.hpp"
 
@@ -180,15 +181,11 @@ TEST(MostCells, AreCountedBeforeALevelIsMadeAndRefusedInTheWordsOfTheReference) 
     const std::size_t most = reference::refine(mesh, selection, Scheme::eight, 3).mesh.cells.size();
     for (const Partition& partition : partitions) {
         constexpr double always = 10;
-        for (const auto& [sparse_below, near_below] :
-             {std::pair{0.0, 0.0}, std::pair{0.0, always}, std::pair{always, 0.0}}) {
-            const auto refined_to = [&, sparse = sparse_below,
-                                     near = near_below](std::size_t max_cells) {
+        for (const Tuning& tuning : {Tuning{0, 0}, Tuning{0, always}, Tuning{always, 0}}) {
+            const auto refined_to = [&](std::size_t max_cells) {
                 const auto ranks = partition_cells(mesh, test::world().size(), partition);
                 DistributedMesh part = distribute(test::world(), mesh, ranks);
-                part.sparse_below = sparse;
-                part.near_below = near;
-                refine(part, selection, {.levels = 3, .max_cells = max_cells});
+                refine(part, selection, {.levels = 3, .max_cells = max_cells}, tuning);
                 return test::world().sum(part.cells.size());
             };
             EXPECT_EQ(refined_to(most), most);

@@ -13,6 +13,7 @@
 #include <octetra/reference/refine.hpp>
 
 #include "distributed/world.hpp"
+#include "level/tuning.hpp"
 #include "support/meshes.hpp"
 #include "support/refinement.hpp"
 #include "support/thrown.hpp"
@@ -84,7 +85,7 @@ class FirstBadChild : public testing::TestWithParam<std::tuple<Scheme, int, doub
 protected:
     const Scheme scheme = std::get<0>(GetParam());
     const int levels = std::get<1>(GetParam());
-    const double sparse_below = std::get<2>(GetParam());
+    const Tuning tuning{.incremental_below = std::get<2>(GetParam())};
 
     /// Of both engines, on all ranks, by partitions that separate the cells in several ways.
     void expect_words(const Mesh& mesh, const std::string& words) const {
@@ -97,9 +98,8 @@ protected:
             const auto cell_to_rank = partition_cells(
                 mesh, test::world().size(), {.method = PartitionMethod::random, .seed = seed});
             DistributedMesh part = distribute(test::world(), mesh, cell_to_rank);
-            part.sparse_below = sparse_below;
             EXPECT_THAT(test::thrown_by<InputError>([&] {
-                            (void)refine(part, every, {scheme, levels});
+                            (void)refine(part, every, {scheme, levels}, tuning);
                         }),
                         testing::HasSubstr(words));
         }

@@ -14,7 +14,7 @@
 #include <octetra/core/error.hpp>
 #include <octetra/distributed/partition.hpp>
 
-#include "cell_graph.hpp"
+#include "partition/cell_graph.hpp"
 #include "support/meshes.hpp"
 #include "support/temporary_folder.hpp"
 #include "support/thrown.hpp"

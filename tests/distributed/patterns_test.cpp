@@ -1,11 +1,13 @@
-#include "patterns.hpp"
+#include "pattern/patterns.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <random>
 
 #include <gtest/gtest.h>
 
 #include "bisect.hpp"
-#include "length_order.hpp"
+#include "pattern/length_order.hpp"
 #include "support/meshes.hpp"
 
 /// The tables against the recursion of the reference, for every order of the edges and selection.
@@ -87,22 +89,41 @@ TEST(PatternTable, ClosesByTheFaceRuleAndNoFurther) {
     });
 }
 
+void expect_the_strict_order(const Mesh& mesh, CellVertices cell) {
+    std::ranges::sort(cell);
+    do {
+        LongestFirst longest_first{0, 1, 2, 3, 4, 5};
+        std::ranges::sort(longest_first, [&](std::size_t e, std::size_t f) {
+            const auto segment = [&](std::size_t k) {
+                return Segment{mesh.points[cell[cell_edges[k][0]]],
+                               mesh.points[cell[cell_edges[k][1]]]};
+            };
+            return longer(segment(e), segment(f));
+        });
+        ASSERT_EQ(length_order(mesh.points, cell),
+                  PatternTable::get().order(comparisons_of(longest_first)));
+    } while (std::ranges::next_permutation(cell).found);
+}
+
 TEST(LengthOrder, IsThatOfTheStrictOrderOnLatticesFullOfTies) {
     const Mesh mesh = test::kuhn(2, 2, 2);
-    for (CellVertices cell : mesh.cells) {
-        std::ranges::sort(cell);
-        do {
-            LongestFirst longest_first{0, 1, 2, 3, 4, 5};
-            std::ranges::sort(longest_first, [&](std::size_t e, std::size_t f) {
-                const auto segment = [&](std::size_t k) {
-                    return Segment{mesh.points[cell[cell_edges[k][0]]],
-                                   mesh.points[cell[cell_edges[k][1]]]};
+    for (const CellVertices& cell : mesh.cells) expect_the_strict_order(mesh, cell);
+}
+
+TEST(LengthOrder, IsThatOfTheStrictOrderWhereSquaresOverflowOrLoseDigits) {
+    std::mt19937_64 random(1);
+    for (const int exponent : {-1074, -1040, -540, -530, -460, -450, 480, 500, 600, 1000}) {
+        for (int i = 0; i < 200; ++i) {
+            Mesh mesh;
+            for (int v = 0; v < 4; ++v) {
+                const auto coordinate = [&] {
+                    return std::scalbn(static_cast<double>(random() % 1024), exponent);
                 };
-                return longer(segment(e), segment(f));
-            });
-            ASSERT_EQ(length_order(mesh.points, cell),
-                      PatternTable::get().order(comparisons_of(longest_first)));
-        } while (std::ranges::next_permutation(cell).found);
+                mesh.points.push_back({coordinate(), coordinate(), coordinate()});
+            }
+            expect_the_strict_order(
+                mesh, {VertexIndex{0}, VertexIndex{1}, VertexIndex{2}, VertexIndex{3}});
+        }
     }
 }
 

@@ -12,7 +12,7 @@
 #include <octetra/distributed/predicted_cells.hpp>
 #include <octetra/distributed/refine.hpp>
 
-#include "cell_graph.hpp"
+#include "partition/cell_graph.hpp"
 #include "support/meshes.hpp"
 
 /// How many cells each cell is expected to become, and parts that are equal in that.

@@ -1,12 +1,12 @@
-#include "rounding_margin.hpp"
+#include "level/rounding_margin.hpp"
 
 #include <cmath>
 #include <random>
 
 #include <gtest/gtest.h>
 
-#include "patterns.hpp"
-#include "rounding_failure.hpp"
+#include "level/rounding_failure.hpp"
+#include "pattern/patterns.hpp"
 #include "support/meshes.hpp"
 
 /// A cell that is said to have a margin has sound children, whatever the order of its edges and

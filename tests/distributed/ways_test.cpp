@@ -13,10 +13,11 @@
 
 #include "distributed/marked_mesh.hpp"
 #include "distributed/world.hpp"
+#include "level/tuning.hpp"
 #include "support/meshes.hpp"
 #include "support/thrown.hpp"
 
-/// Each rank goes about a level in one of two ways, the dense or the sparse one, and in the dense
+/// Each rank goes about a level in one of two kinds, the dense or the sparse one, and in the dense
 /// one it numbers all edges or those near the chosen cells: whichever it is, the result is the
 /// reference's, and the work of the sparse one is in proportion to what changes.
 namespace octetra::distributed {
@@ -25,16 +26,17 @@ namespace {
 constexpr double always = 10;
 
 /// Which rank takes which way; `near` is the dense one with edges numbered near the chosen cells.
-enum class Ways { dense, near, sparse, alternating, alternating_otherwise };
+enum class Kinds { full_sweep, local_sweep, incremental, alternating, alternating_otherwise };
 
-void take_way(DistributedMesh& mesh, Ways ways, int level) {
-    if (ways == Ways::alternating || ways == Ways::alternating_otherwise) {
-        const int turn = test::world().rank() + level + (ways == Ways::alternating ? 0 : 1);
-        constexpr std::array turns{Ways::sparse, Ways::near, Ways::sparse, Ways::dense};
-        ways = turns[static_cast<std::size_t>(turn) % turns.size()];
+Tuning tuning_of(Kinds kinds, int level) {
+    if (kinds == Kinds::alternating || kinds == Kinds::alternating_otherwise) {
+        const int turn = test::world().rank() + level + (kinds == Kinds::alternating ? 0 : 1);
+        constexpr std::array turns{Kinds::incremental, Kinds::local_sweep, Kinds::incremental,
+                                   Kinds::full_sweep};
+        kinds = turns[static_cast<std::size_t>(turn) % turns.size()];
     }
-    mesh.sparse_below = ways == Ways::sparse ? always : 0;
-    mesh.near_below = ways == Ways::near ? always : 0;
+    return {.incremental_below = kinds == Kinds::incremental ? always : 0,
+            .local_below = kinds == Kinds::local_sweep ? always : 0};
 }
 
 DistributedMesh shared_out(const Mesh& mesh, const Partition& partition) {
@@ -47,18 +49,17 @@ const std::vector<Partition> partitions{
     {.method = PartitionMethod::random, .seed = 1},
 };
 
-class WaysOfALevel : public testing::TestWithParam<std::tuple<Scheme, Synchronisation, Ways>> {
+class LevelKinds : public testing::TestWithParam<std::tuple<Scheme, Synchronisation, Kinds>> {
 protected:
     const Scheme scheme = std::get<0>(GetParam());
     const Synchronisation synchronisation = std::get<1>(GetParam());
-    const Ways ways = std::get<2>(GetParam());
+    const Kinds kinds = std::get<2>(GetParam());
 
     void expect_equal(const Mesh& mesh, const std::vector<Selection>& selections) const {
         for (const Partition& partition : partitions) {
             for (const Selection& selection : selections) {
                 DistributedMesh part = shared_out(mesh, partition);
-                take_way(part, ways, 0);
-                (void)refine(part, selection, {scheme, 3, synchronisation});
+                (void)refine(part, selection, {scheme, 3, synchronisation}, tuning_of(kinds, 0));
                 const Collected whole = collect(std::move(part));
                 if (!test::world().is_first()) continue;
                 const auto expected = reference::refine(mesh, selection, scheme, 3);
@@ -69,25 +70,25 @@ protected:
     }
 };
 
-TEST_P(WaysOfALevel, GiveTheSameOnAShakenLatticeWithEverythingMarked) {
+TEST_P(LevelKinds, GiveTheSameOnAShakenLatticeWithEverythingMarked) {
     expect_equal(test::marked(test::shaken_kuhn(3, 0.3, 5), 1),
                  {{.random = RandomShare{0.1, 3}},
                   {.spheres = {{{1, 1, 1}, 0.6}}},
                   {.regions = {2}, .max_volume = 0.1}});
 }
 
-TEST_P(WaysOfALevel, GiveTheSameOnALatticeFullOfTies) {
+TEST_P(LevelKinds, GiveTheSameOnALatticeFullOfTies) {
     expect_equal(test::marked(test::kuhn(3, 2, 2), 2),
                  {{.boxes = {{{0, 0, 0}, {1, 1, 2}}}}, {.cells = {GlobalCell{0}, GlobalCell{40}}}});
 }
 
-TEST_P(WaysOfALevel, GiveTheSameOnCoordinatesThatRound) {
+TEST_P(LevelKinds, GiveTheSameOnCoordinatesThatRound) {
     Mesh mesh = test::kuhn(2, 2, 3, 1.0 / 3);
     for (Point& p : mesh.points) p = {p.x / 7 + 1, p.y * 0.3, p.z * 1e-3};
     expect_equal(mesh, {{.random = RandomShare{0.2, 3}}, {.max_volume = 2e-7}});
 }
 
-TEST_P(WaysOfALevel, FollowPathsThatGoThroughAllCells) {
+TEST_P(LevelKinds, FollowPathsThatGoThroughAllCells) {
     const Mesh shell = test::shell(200, 1);
     expect_equal(shell, {{.cells = {GlobalCell{0}}}});
     if (!test::world().is_first()) return;
@@ -95,7 +96,7 @@ TEST_P(WaysOfALevel, FollowPathsThatGoThroughAllCells) {
     EXPECT_GT(fine.cells.size(), 2 * shell.cells.size()) << "none was spared";
 }
 
-TEST_P(WaysOfALevel, MayChangeFromLevelToLevelAndSoMayTheSelection) {
+TEST_P(LevelKinds, MayChangeFromLevelToLevelAndSoMayTheSelection) {
     const char* const given = std::getenv("OCTETRA_WAYS_SEED");
     const unsigned seed = given != nullptr ? static_cast<unsigned>(std::atoi(given)) : 1;
     SCOPED_TRACE("OCTETRA_WAYS_SEED=" + std::to_string(seed));
@@ -113,8 +114,8 @@ TEST_P(WaysOfALevel, MayChangeFromLevelToLevelAndSoMayTheSelection) {
             selection.spheres.push_back({point(), 1 / (1.0 + level)});
             const Point low = point();
             selection.boxes.push_back({low, {low.x + 0.5, low.y + 0.5, low.z + 0.5}});
-            take_way(part, ways, level / 2);
-            (void)refine(part, selection, {scheme, 1, synchronisation});
+            (void)refine(part, selection, {scheme, 1, synchronisation},
+                         tuning_of(kinds, level / 2));
             expected = reference::refine(expected, selection, scheme, 1).mesh;
         }
         const Collected whole = collect(std::move(part));
@@ -123,7 +124,7 @@ TEST_P(WaysOfALevel, MayChangeFromLevelToLevelAndSoMayTheSelection) {
     }
 }
 
-TEST_P(WaysOfALevel, RefuseRoundingInTheSameWords) {
+TEST_P(LevelKinds, RefuseRoundingInTheSameWords) {
     Mesh mesh = test::kuhn(2, 2, 2);
     for (Point& p : mesh.points) p = {p.x * 2 + 0x1p52, p.y, p.z};
     const Selection selection{.random = RandomShare{0.5, 2}};
@@ -131,20 +132,20 @@ TEST_P(WaysOfALevel, RefuseRoundingInTheSameWords) {
         test::thrown_by<InputError>([&] { (void)reference::refine(mesh, selection, scheme, 6); });
     for (const Partition& partition : partitions) {
         DistributedMesh part = shared_out(mesh, partition);
-        take_way(part, ways, 0);
-        EXPECT_EQ(test::thrown_by<InputError>([&] {
-                      (void)refine(part, selection, {scheme, 6, synchronisation});
-                  }),
-                  expected);
+        EXPECT_EQ(
+            test::thrown_by<InputError>([&] {
+                (void)refine(part, selection, {scheme, 6, synchronisation}, tuning_of(kinds, 0));
+            }),
+            expected);
     }
 }
 
 INSTANTIATE_TEST_SUITE_P(
-    SchemesSynchronisationsWays, WaysOfALevel,
+    SchemesSynchronisationsKinds, LevelKinds,
     testing::Combine(testing::Values(Scheme::eight, Scheme::four, Scheme::two),
                      testing::Values(Synchronisation::neighbour, Synchronisation::gateway),
-                     testing::Values(Ways::dense, Ways::near, Ways::sparse, Ways::alternating,
-                                     Ways::alternating_otherwise)));
+                     testing::Values(Kinds::full_sweep, Kinds::local_sweep, Kinds::incremental,
+                                     Kinds::alternating, Kinds::alternating_otherwise)));
 
 struct Work {
     std::uint64_t cells = 0;    ///< of all ranks, after the level
@@ -153,9 +154,10 @@ struct Work {
 };
 
 /// Collective. What all levels of a run take; on the first rank.
-std::vector<Work> work_of(DistributedMesh& mesh, const Selection& selection, int levels) {
+std::vector<Work> work_of(DistributedMesh& mesh, const Selection& selection, int levels,
+                          const Tuning& tuning = {}) {
     mesh.processes = profiled(test::world(), ProfileDetail::sums);
-    (void)refine(mesh, selection, {.levels = levels});
+    (void)refine(mesh, selection, {.levels = levels}, tuning);
     std::vector<Work> work;
     for (const ProfiledLevel& level : gather_profile(mesh.processes).levels) {
         const auto sum = [](const std::vector<std::uint64_t>& of_rank) {
@@ -172,12 +174,12 @@ Selection around_the_middle(std::size_t n, double radius) {
     return {.spheres = {{{middle, middle, middle}, radius}}};
 }
 
-TEST(SparseWay, OfALaterLevelDoesNotSeeHowLargeTheMeshIs) {
+TEST(IncrementalLevel, OfALaterLevelDoesNotSeeHowLargeTheMeshIs) {
     std::vector<std::vector<std::uint64_t>> touched;
     for (const std::size_t n : {8U, 16U}) {
         DistributedMesh mesh = shared_out(test::kuhn(n, n, n), partitions[1]);
-        mesh.sparse_below = always;
-        const auto work = work_of(mesh, around_the_middle(n, 0.8), 3);
+        const auto work =
+            work_of(mesh, around_the_middle(n, 0.8), 3, {.incremental_below = always});
         if (!test::world().is_first()) continue;
         ASSERT_EQ(work.size(), 4U);
         for (const std::size_t level : {2U, 3U}) {
@@ -190,7 +192,7 @@ TEST(SparseWay, OfALaterLevelDoesNotSeeHowLargeTheMeshIs) {
     EXPECT_EQ(touched[0], touched[1]);
 }
 
-TEST(SparseWay, IsTakenWhereFewCellsAreChosenByAnotherSelectionEachTime) {
+TEST(IncrementalLevel, IsTakenWhereFewCellsAreChosenByAnotherSelectionEachTime) {
     const std::size_t n = 24;
     DistributedMesh mesh = shared_out(test::kuhn(n, n, n), partitions[1]);
     for (int level = 1; level <= 6; ++level) {
@@ -204,7 +206,7 @@ TEST(SparseWay, IsTakenWhereFewCellsAreChosenByAnotherSelectionEachTime) {
     }
 }
 
-TEST(SparseWay, IsNotTakenWhereManyCellsAreChosenOrFewEverywhere) {
+TEST(IncrementalLevel, IsNotTakenWhereManyCellsAreChosenOrFewEverywhere) {
     for (const Selection& selection : {Selection{.all = true}, around_the_middle(8, 4),
                                        Selection{.random = RandomShare{0.05, 3}}}) {
         DistributedMesh mesh = shared_out(test::kuhn(8, 8, 8), partitions[1]);

@@ -4,6 +4,7 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <map>
 #include <set>
 
 #include <octetra/core/orientation.hpp>
@@ -59,6 +60,42 @@ bool all_of_cells(const IndexVector<I, std::array<VertexIndex, N>>& list, const 
         list, [&](const auto& vertices) { return of_cells.contains(sorted(vertices)); });
 }
 
+bool has_repetition(const Mesh& mesh) {
+    std::set<CellVertices> cells;
+    return !std::ranges::all_of(mesh.cells,
+                                [&](const auto& c) { return cells.insert(sorted(c)).second; });
+}
+
+/// Is an entity of the list there twice, with different markers?
+template <class I, std::size_t N>
+bool has_two_markers(const IndexVector<I, std::array<VertexIndex, N>>& list,
+                     const IndexVector<I, Marker>& markers) {
+    std::map<std::array<VertexIndex, N>, Marker> first;
+    for (I i{0}; !markers.empty() && i < list.end_index(); ++i) {
+        if (first.emplace(sorted(list[i]), markers[i]).first->second != markers[i]) return true;
+    }
+    return false;
+}
+
+/// Has a listed facet more than one cell on either side?
+bool has_overlap_at_facet(const Mesh& mesh) {
+    std::map<FacetVertices, std::array<int, 2>> cells_at_sides;
+    for (const FacetVertices& facet : mesh.facets) cells_at_sides[sorted(facet)] = {};
+    for (const CellVertices& cell : mesh.cells) {
+        for (const VertexIndex apex : cell) {
+            FacetVertices face;
+            std::ranges::copy_if(sorted(cell), face.begin(),
+                                 [&](VertexIndex v) { return v != apex; });
+            const auto sides = cells_at_sides.find(face);
+            if (sides == cells_at_sides.end()) continue;
+            const auto& p = mesh.points;
+            const bool above = orientation(p[face[0]], p[face[1]], p[face[2]], p[apex]) > 0;
+            if (++sides->second[above ? 1 : 0] > 1) return true;
+        }
+    }
+    return false;
+}
+
 bool is_positive(const CellVertices& cell, const Mesh& mesh) {
     const auto& points = mesh.points;
     return orientation(points[cell[0]], points[cell[1]], points[cell[2]], points[cell[3]]) > 0;
@@ -100,6 +137,10 @@ std::string broken_invariant(const Mesh& mesh, bool only_syntax) {
     }
     if (!all_of_cells(mesh.facets, mesh, cell_faces)) return "a facet is of no cell";
     if (!all_of_cells(mesh.edges, mesh, cell_edges)) return "an edge is of no cell";
+    if (has_repetition(mesh)) return "two cells have the same vertices";
+    if (has_two_markers(mesh.facets, mesh.facet_markers)) return "a facet has two markers";
+    if (has_two_markers(mesh.edges, mesh.edge_markers)) return "an edge has two markers";
+    if (has_overlap_at_facet(mesh)) return "two cells are on the same side of a facet";
     return {};
 }
 

@@ -96,6 +96,32 @@ TEST(BrokenInvariant, IsSeen) {
     EXPECT_EQ(broken(invert, true), "");
     EXPECT_THAT(broken(list_stray_edge), HasSubstr("an edge is of no cell"));
     EXPECT_EQ(broken(list_stray_edge, true), "");
+    const auto repeat = [&](Mesh& mesh) { mesh.cells.append(mesh.cells[cell]); };
+    EXPECT_THAT(broken(repeat), HasSubstr("same vertices"));
+    EXPECT_EQ(broken(repeat, true), "");
+    const auto list_face = [&](Mesh& mesh, Marker marker) {
+        mesh.facets.append({vertex(0), vertex(1), vertex(2)});
+        mesh.facet_markers.append(marker);
+    };
+    const auto list_edge = [&](Mesh& mesh, Marker marker) {
+        mesh.edges.append({vertex(0), vertex(1)});
+        mesh.edge_markers.append(marker);
+    };
+    EXPECT_EQ(broken([&](Mesh& mesh) {
+                  list_face(mesh, 1), list_face(mesh, 1), list_edge(mesh, 2), list_edge(mesh, 2);
+              }),
+              "");
+    EXPECT_THAT(broken([&](Mesh& mesh) { list_face(mesh, 1), list_face(mesh, 2); }),
+                HasSubstr("facet has two markers"));
+    EXPECT_THAT(broken([&](Mesh& mesh) { list_edge(mesh, 1), list_edge(mesh, 2); }),
+                HasSubstr("edge has two markers"));
+    const auto overlap = [&](Mesh& mesh) {
+        mesh.points.append({0.25, 0.25, 0.5});
+        mesh.cells.append({vertex(0), vertex(1), vertex(2), vertex(4)});
+    };
+    EXPECT_EQ(broken(overlap), "");  // of a face that is not listed
+    EXPECT_THAT(broken([&](Mesh& mesh) { overlap(mesh), list_face(mesh, 1); }),
+                HasSubstr("same side"));
 }
 
 TEST(Message, ThatNamesNoFileAndLineIsSeen) {

@@ -15,8 +15,8 @@ using nlohmann::json;
 using testing::HasSubstr;
 using testing::Not;
 
-MeshStatistics sample() {
-    MeshStatistics s;
+quality::MeshStatistics sample() {
+    quality::MeshStatistics s;
     s.counts = {.vertices = 1'234'567,
                 .edges = 8'000'000,
                 .faces = 13'000'000,
@@ -26,11 +26,11 @@ MeshStatistics sample() {
                 .euler_characteristic = -3};
     s.bounding_box = Box{{0, -0.0, -1}, {1, 2, 1.0 / 3}};
     s.volume = 1.0 / 3;
-    s.dihedral_angle = Range{10.123456789, 170};
+    s.dihedral_angle = quality::Range{10.123456789, 170};
     s.dihedral_histogram.counts[1] = 1;
     s.dihedral_histogram.counts[9] = 3'999'999'999;
-    s.eta = Quality{0.25, 0.75, 1};
-    s.adjacency = Adjacency{4.5, 20, 12, 4, 6, 24};
+    s.eta = quality::Quality{0.25, 0.75, 1};
+    s.adjacency = quality::Adjacency{4.5, 20, 12, 4, 6, 24};
     return s;
 }
 
@@ -62,14 +62,14 @@ TEST(Table, DrawsABarForEvenOneOfBillions) {
 }
 
 TEST(Table, OfAMeshWithoutCellsSaysNone) {
-    const std::string table = format_table(measure(Mesh{}));
+    const std::string table = format_table(quality::measure(Mesh{}));
     EXPECT_THAT(table, HasSubstr("none"));
     EXPECT_THAT(table, Not(HasSubstr("nan")));
     EXPECT_THAT(table, Not(HasSubstr("inf")));
 }
 
 TEST(Table, ShowsTheFirstTwentyTagsOfMany) {
-    MeshStatistics s = sample();
+    quality::MeshStatistics s = sample();
     for (Marker tag = 100; tag < 1150; ++tag) s.regions.push_back({tag, 1, 1});
     const std::string table = format_table(s);
     EXPECT_THAT(table, HasSubstr("\n  119 "));
@@ -100,7 +100,7 @@ TEST(Json, HasTheNamesThatTheHeaderPromises) {
 }
 
 TEST(Json, ListsEveryTag) {
-    MeshStatistics s = sample();
+    quality::MeshStatistics s = sample();
     for (Marker tag = 0; tag < 30; ++tag) s.regions.push_back({tag, 2, 0.5});
     s.facet_markers = {{-1, 7, 0.25}};
     const json out = json::parse(format_json(s));
@@ -110,7 +110,7 @@ TEST(Json, ListsEveryTag) {
 }
 
 TEST(Json, OfAMeshWithoutCellsHasNullsNotZeros) {
-    const json out = json::parse(format_json(measure(Mesh{})));
+    const json out = json::parse(format_json(quality::measure(Mesh{})));
     for (const char* name : {"bounding_box", "edge_length", "cell_volume", "face_angle",
                              "dihedral_angle", "eta", "adjacency"}) {
         EXPECT_TRUE(out[name].is_null()) << name;

@@ -1,5 +1,10 @@
+#include <algorithm>
+#include <bit>
 #include <cmath>
+#include <cstdint>
 #include <functional>
+#include <limits>
+#include <utility>
 
 #include <octetra/core/edge_order.hpp>
 #include <octetra/reference/refine.hpp>
@@ -59,6 +64,46 @@ std::string fault_of_scaling(const Case& c, Draw& draw) {
         factor);
 }
 
+/// By which powers of two all coordinates of a mesh can be multiplied exactly, from least to most.
+std::pair<int, int> exact_scales(const Mesh& mesh) {
+    constexpr int digits = std::numeric_limits<double>::digits;
+    constexpr int lowest = std::numeric_limits<double>::min_exponent - digits;  // of a last bit
+    constexpr int highest = std::numeric_limits<double>::max_exponent - 2;      // of a first one
+    std::pair<int, int> scales{-2000, 2000};
+    for (const Point& p : mesh.points) {
+        for (const double x : {p.x, p.y, p.z}) {
+            if (x == 0) continue;
+            const auto integer =
+                static_cast<std::int64_t>(std::scalbn(x, digits - 1 - std::ilogb(x)));
+            const int last = std::countr_zero(static_cast<std::uint64_t>(integer)) -
+                             (digits - 1 - std::ilogb(x));
+            scales.first = std::max(scales.first, lowest - last);
+            scales.second = std::min(scales.second, highest - std::ilogb(x));
+        }
+    }
+    return scales;
+}
+
+/// To where squared lengths overflow or lose digits; chosen by number, as radii and volumes may
+/// have no place there.
+std::string fault_of_extreme_scaling(const Case& c, Draw& draw) {
+    Case plain = c;
+    plain.selection = by_number(c);
+    const Outcome one = refined_by_all(plain);
+    if (!one.error.empty()) return one.error;
+    const auto [least, most] = exact_scales(one.mesh);
+    if (least > most) return {};
+    const int exponent = draw.below(2) == 0 ? least + static_cast<int>(draw.below(60))
+                                            : most - static_cast<int>(draw.below(500));
+    return fault_of_map(
+        plain,
+        [&](const Point& p) {
+            return Point{std::scalbn(p.x, exponent), std::scalbn(p.y, exponent),
+                         std::scalbn(p.z, exponent)};
+        },
+        1);
+}
+
 std::string fault_of_translation(const Case& c, Draw& draw) {
     constexpr int far = 1 << 20;
     const Point by{static_cast<double>(draw.between(-far, far)),
@@ -113,9 +158,10 @@ std::string fault_of_mirror(const Case& c, Draw& draw) {
 
 std::string fault_of_geometry(const Case& c) {
     Draw draw(c.seed);
-    switch (draw.below(3)) {
+    switch (draw.below(4)) {
         case 0: return fault_of_scaling(c, draw);
-        case 1: return fault_of_translation(c, draw);
+        case 1: return fault_of_extreme_scaling(c, draw);
+        case 2: return fault_of_translation(c, draw);
         default: return fault_of_mirror(c, draw);
     }
 }

@@ -5,6 +5,7 @@
 #include <octetra/reference/refine.hpp>
 
 #include "distributed/world.hpp"
+#include "level/tuning.hpp"
 #include "properties/case_json.hpp"
 
 namespace octetra::properties {
@@ -34,14 +35,13 @@ std::vector<int> folded(std::vector<int> cell_to_rank) {
     return cell_to_rank;
 }
 
-/// Each rank takes a way through its levels that is a matter of the case: by itself, or always the
-/// one that numbers all edges, near ones only, or none. None of it may show.
-void choose_way(distributed::DistributedMesh& part, std::uint64_t seed) {
+/// What kind of level each rank makes depends on the case: as suits it, or always a full sweep with
+/// all edges numbered or local ones only, or an incremental one. None of it may show.
+distributed::Tuning tuning_of(std::uint64_t seed) {
     const std::uint64_t turn = (seed + static_cast<std::uint64_t>(test::world().rank())) % 4;
-    if (turn == 0) return;
+    if (turn == 0) return {};
     constexpr double always = 10;
-    part.sparse_below = turn == 3 ? always : 0;
-    part.near_below = turn == 2 ? always : 0;
+    return {.incremental_below = turn == 3 ? always : 0, .local_below = turn == 2 ? always : 0};
 }
 
 /// Collective. If ranks do not agree whether it can be done, all get to know that instead.
@@ -52,8 +52,8 @@ Outcome carry_out(const Order& order) {
     try {
         distributed::DistributedMesh part =
             distributed::distribute(world, c.mesh, folded(c.cell_to_rank));
-        choose_way(part, c.seed);
-        distributed::refine(part, c.selection, {c.scheme, c.levels, c.synchronisation});
+        distributed::refine(part, c.selection, {c.scheme, c.levels, c.synchronisation},
+                            tuning_of(c.seed));
         if (order.file.empty()) {
             auto [mesh, maps] = distributed::collect(std::move(part));
             outcome = {std::move(mesh), std::move(maps), {}};

@@ -111,6 +111,24 @@ inline void list_boundary(Mesh& mesh) {
     }
 }
 
+/// Removes the vertices that no cell has, which dropping cells leaves behind, and all tags.
+inline void drop_unused(Mesh& mesh) {
+    std::vector<char> used(mesh.points.size(), 0);
+    for (const CellVertices& cell : mesh.cells) {
+        for (const VertexIndex v : cell) used[v.value()] = 1;
+    }
+    Mesh kept;
+    std::vector<VertexIndex> new_number(mesh.points.size());
+    for (VertexIndex v{0}; v < mesh.points.end_index(); ++v) {
+        if (used[v.value()] != 0) new_number[v.value()] = kept.points.append(mesh.points[v]);
+    }
+    for (CellVertices cell : mesh.cells) {
+        for (VertexIndex& v : cell) v = new_number[v.value()];
+        kept.cells.push_back(cell);
+    }
+    mesh = kept;
+}
+
 /// The regular tetrahedron and its like, by integer coordinates.
 inline const std::array<Point, 4> regular_corners{
     {{1, 1, 1}, {1, -1, -1}, {-1, 1, -1}, {-1, -1, 1}}};

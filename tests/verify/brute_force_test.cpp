@@ -202,24 +202,6 @@ void mutate(Mesh& mesh, std::mt19937_64& random) {
     }
 }
 
-/// Removes what no cell has, which dropping cells leaves behind.
-void drop_unused(Mesh& mesh) {
-    std::vector<char> used(mesh.points.size(), 0);
-    for (const CellVertices& cell : mesh.cells) {
-        for (const VertexIndex v : cell) used[v.value()] = 1;
-    }
-    Mesh kept;
-    std::vector<VertexIndex> new_number(mesh.points.size());
-    for (VertexIndex v{0}; v < mesh.points.end_index(); ++v) {
-        if (used[v.value()] != 0) new_number[v.value()] = kept.points.append(mesh.points[v]);
-    }
-    for (CellVertices cell : mesh.cells) {
-        for (VertexIndex& v : cell) v = new_number[v.value()];
-        kept.cells.push_back(cell);
-    }
-    mesh = kept;
-}
-
 TEST(BruteForce, AgreesWithTheCertificateOnValidAndBrokenMeshes) {
     std::mt19937_64 random(20240);
     int valid = 0;
@@ -229,7 +211,7 @@ TEST(BruteForce, AgreesWithTheCertificateOnValidAndBrokenMeshes) {
         Mesh mesh = round % 2 == 0 ? test::kuhn(2, 2, 1, 4) : test::kuhn(1, 1, 1, 4);
         const std::size_t mutations = 1 + random() % 3;
         for (std::size_t i = 0; i < mutations; ++i) mutate(mesh, random);
-        if (round % 5 != 0) drop_unused(mesh);
+        if (round % 5 != 0) test::drop_unused(mesh);
         const Verdict verdict = verify_mesh(mesh);
         const bool expected = is_valid_by_brute_force(mesh);
         ASSERT_EQ(verdict.valid(), expected) << "round " << round << ": " << codes_of(verdict);
@@ -256,7 +238,7 @@ TEST(BruteForce, AgreesWithTheCertificateOnTwoCellsAnywhere) {
         const std::size_t shared = random() % 4;
         Mesh mesh =
             test::mesh_of(points, {{0, 1, 2, 3}, {4 - shared, 5 - shared, 6 - shared, 7 - shared}});
-        drop_unused(mesh);
+        test::drop_unused(mesh);
         const Verdict verdict = verify_mesh(mesh);
         const bool expected = is_valid_by_brute_force(mesh);
         ASSERT_EQ(verdict.valid(), expected) << "round " << round << ": " << codes_of(verdict);

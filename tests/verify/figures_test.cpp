@@ -234,6 +234,34 @@ TEST(Notes, OfSkippedSumsAndDescentNameTheChecksThatFailed) {
     EXPECT_EQ(why_not("sums by tag", wrong), "orientation failed");
 }
 
+/// Of each process what it does: from 0 on, and never back within a check.
+TEST(Progress, IsToldOfEveryCheckThatRuns) {
+    const Mesh coarse = test::kuhn(6, 6, 6);
+    const Mesh fine = reference::refine(coarse, {.all = true}, Scheme::eight, 1).mesh;
+    std::vector<std::string> told;
+    double last = 0;
+    std::size_t steps = 0;
+    const auto hear = [&](std::string_view check, double share) {
+        if (told.empty() || told.back() != check) {
+            told.emplace_back(check);
+            EXPECT_EQ(share, 0);
+        } else {
+            EXPECT_GE(share, last) << check;
+            ++steps;
+        }
+        EXPECT_LE(share, 1);
+        last = share;
+    };
+    const Verdict verdict =
+        verify_refinement(coarse, fine, {.min_dihedral = 1.0, .progress = hear});
+    std::vector<std::string> run;
+    for (const Check& check : verdict.checks) {
+        if (check.status != Status::skipped) run.push_back(check.name);
+    }
+    EXPECT_EQ(told, run);
+    EXPECT_GT(steps, 40U);
+}
+
 TEST(Violations, AreAllCountedWhereNotAllAreKept) {
     Mesh mesh = test::kuhn(2, 2, 2);
     for (CellVertices& cell : mesh.cells) std::swap(cell[0], cell[1]);

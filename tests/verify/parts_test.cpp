@@ -35,8 +35,8 @@ Mesh bar() {
 /// Calls visit(part of the mesh, domain) for each process of a group.
 void for_each_part(int size, const Mesh& mesh, auto&& visit) {
     std::mutex one_at_a_time;
-    test::run_together(size, [&](const Group& group) {
-        const Parts parts = part_of(share_out(mesh, group), group);
+    test::run_together(size, [&](const ProcessGroup& group) {
+        const Parts parts = part_of(verify::share_out(mesh, group), group);
         const std::scoped_lock lock(one_at_a_time);
         visit(parts.fine, parts.domain);
     });
@@ -112,8 +112,9 @@ TEST(Parts, SeeNoMoreThanTheirNeighbourhood) {
     const Mesh mesh = bar();
     const Mesh fine = reference::refine(mesh, {.all = true}, Scheme::eight, 1).mesh;
     std::atomic<std::size_t> most = 0;
-    test::run_together(4, [&](const Group& group) {
-        const Parts parts = parts_of(share_out(mesh, group), share_out(fine, group), group);
+    test::run_together(4, [&](const ProcessGroup& group) {
+        const Parts parts =
+            parts_of(verify::share_out(mesh, group), verify::share_out(fine, group), group);
         most = std::max(most.load(), parts.fine.mesh.cells.size());
     });
     // A quarter, and on each side two cubes of 48 fine cells each and those that touch them.
@@ -156,8 +157,8 @@ TEST(Parts, AreJudgedAsTheWholeWhateverIsBroken) {
 
 TEST(Slices, AreThoseOfTheMeshWherever) {
     const Mesh mesh = bar();
-    test::run_together(3, [&](const Group& group) {
-        const MeshSlice slice = share_out(group.is_first() ? mesh : Mesh{}, group);
+    test::run_together(3, [&](const ProcessGroup& group) {
+        const MeshSlice slice = verify::share_out(group.is_first() ? mesh : Mesh{}, group);
         EXPECT_EQ(slice.totals.cells, mesh.cells.size());
         const std::uint64_t begin = slice_begin(mesh.cells.size(), group.rank(), 3);
         for (CellIndex c{0}; c < slice.lists.cells.end_index(); ++c) {
@@ -167,7 +168,7 @@ TEST(Slices, AreThoseOfTheMeshWherever) {
         EXPECT_EQ(slice.lists.cells.size(), end - begin);
     });
     WholeMesh source(mesh);
-    EXPECT_EQ(slice_of(source).lists, mesh);
+    EXPECT_EQ(verify::slice_of(source).lists, mesh);
 }
 
 TEST(Slices, OfAFileAreThoseOfItsMesh) {
@@ -179,9 +180,9 @@ TEST(Slices, OfAFileAreThoseOfItsMesh) {
         const auto path = folder.path() / name;
         ASSERT_EQ(write_mesh(mesh, path), "");
         for (const int size : {1, 2, 5}) {
-            test::run_together(size, [&](const Group& group) {
-                const MeshSlice read = read_slice(path, {}, group);
-                MeshSlice expected = share_out(mesh, group);
+            test::run_together(size, [&](const ProcessGroup& group) {
+                const MeshSlice read = verify::read_slice(path, {}, group);
+                MeshSlice expected = verify::share_out(mesh, group);
                 expected.lists.first_number = read.lists.first_number;
                 EXPECT_EQ(read.lists, expected.lists) << name;
                 EXPECT_EQ(read.totals.cells, mesh.cells.size());
@@ -204,8 +205,8 @@ TEST(Slices, OfABadFileAreAnErrorOnAllProcesses) {
     };
     const std::string alone = message_of([&] { (void)read_mesh(path); });
     ASSERT_NE(alone, "none");
-    test::run_together(3, [&](const Group& group) {
-        EXPECT_EQ(message_of([&] { (void)read_slice(path, {}, group); }), alone);
+    test::run_together(3, [&](const ProcessGroup& group) {
+        EXPECT_EQ(message_of([&] { (void)verify::read_slice(path, {}, group); }), alone);
     });
 }
 

@@ -103,10 +103,10 @@ TEST(RandomMutations, DoNotPassUnlessTheMeshIsTheSame) {
 
         const int size = *rc::gen::inRange(2, 9);
         Verdict together;
-        test::run_together(size, [&](const Group& group) {
+        test::run_together(size, [&](const ProcessGroup& group) {
             Verdict of_one =
-                verify_refinement(share_out(c.coarse, group), share_out(mutated, group), group,
-                                  {.request = c.request});
+                verify_refinement(verify::share_out(c.coarse, group),
+                                  verify::share_out(mutated, group), group, {.request = c.request});
             if (group.is_first()) together = std::move(of_one);
         });
         RC_ASSERT(test::text_of(together) == test::text_of(verdict));

@@ -5,12 +5,12 @@
 #include <thread>
 #include <vector>
 
-#include <octetra/verify/group.hpp>
+#include <octetra/core/process_group.hpp>
 
 namespace octetra::test {
 
-/// Threads in place of processes, for what knows of others by verify::Group alone.
-class ThreadGroup final : public verify::Group {
+/// Threads in place of processes, for what knows of others by ProcessGroup alone.
+class ThreadGroup final : public ProcessGroup {
 public:
     struct Board {
         explicit Board(int size) : meeting(size), outboxes(static_cast<std::size_t>(size)) {}
@@ -39,7 +39,7 @@ private:
 };
 
 /// Runs work(group) on so many threads.
-inline void run_together(int size, const std::function<void(const verify::Group&)>& work) {
+inline void run_together(int size, const std::function<void(const ProcessGroup&)>& work) {
     ThreadGroup::Board board(size);
     std::vector<std::thread> threads;
     for (int rank = 0; rank < size; ++rank) {

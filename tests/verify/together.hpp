@@ -61,11 +61,11 @@ inline std::string text_of(const verify::Verdict& verdict) {
 
 inline void expect_same_verdict_together(
     const verify::Verdict& alone,
-    const std::function<verify::Verdict(const verify::Group&)>& judge) {
+    const std::function<verify::Verdict(const ProcessGroup&)>& judge) {
     for (const int size : {2, 3, 4, 7}) {
         SCOPED_TRACE(fmt::format("{} processes", size));
         verify::Verdict first;
-        run_together(size, [&](const verify::Group& group) {
+        run_together(size, [&](const ProcessGroup& group) {
             verify::Verdict verdict = judge(group);
             if (group.is_first()) {
                 first = std::move(verdict);
@@ -80,8 +80,8 @@ inline void expect_same_verdict_together(
 /// The verdict of this process alone; and expects that of 2, 3, 4 and 7 together to be the same.
 inline verify::Verdict judged_by_all(const Mesh& mesh, const verify::VerifyOptions& options = {}) {
     const verify::Verdict alone = verify_mesh(mesh, options);
-    expect_same_verdict_together(alone, [&](const verify::Group& group) {
-        return verify_mesh(share_out(mesh, group), group, options);
+    expect_same_verdict_together(alone, [&](const ProcessGroup& group) {
+        return verify_mesh(verify::share_out(mesh, group), group, options);
     });
     return alone;
 }
@@ -89,8 +89,9 @@ inline verify::Verdict judged_by_all(const Mesh& mesh, const verify::VerifyOptio
 inline verify::Verdict judged_by_all(const Mesh& coarse, const Mesh& fine,
                                      const verify::VerifyOptions& options = {}) {
     const verify::Verdict alone = verify_refinement(coarse, fine, options);
-    expect_same_verdict_together(alone, [&](const verify::Group& group) {
-        return verify_refinement(share_out(coarse, group), share_out(fine, group), group, options);
+    expect_same_verdict_together(alone, [&](const ProcessGroup& group) {
+        return verify_refinement(verify::share_out(coarse, group), verify::share_out(fine, group),
+                                 group, options);
     });
     return alone;
 }

@@ -6,8 +6,6 @@
 
 #include <fmt/format.h>
 
-#include <octetra/core/edge_order.hpp>
-
 #include "exact/angles.hpp"
 
 namespace octetra::verify {
@@ -39,16 +37,24 @@ struct Normalised {
 /// The same shape about as large as 1, at the origin, so that no product over- or underflows.
 template <std::size_t N>
 Normalised<N> normalised(std::array<Point, N> p) {
+    const auto multiply_by = [&p](double factor) {
+        for (Point& q : p) q = {q.x * factor, q.y * factor, q.z * factor};
+    };
+    const auto largest = [&p] {
+        double size = 0;
+        for (const Point& q : p)
+            size = std::max({size, std::abs(q.x), std::abs(q.y), std::abs(q.z)});
+        return size;
+    };
+    // A difference of the largest numbers is none.
+    const double beforehand = largest() > 0x1p1000 ? 0x1p-4 : 1;
+    if (beforehand != 1) multiply_by(beforehand);
     const Point origin = p[0];
-    double size = 0;
-    for (Point& q : p) {
-        q = difference(q, origin);
-        size = std::max({size, std::abs(q.x), std::abs(q.y), std::abs(q.z)});
-    }
+    for (Point& q : p) q = difference(q, origin);
     constexpr int least_exponent = -1000;
-    const double scale = std::ldexp(1.0, -std::max(std::ilogb(size), least_exponent));
-    for (Point& q : p) q = {q.x * scale, q.y * scale, q.z * scale};
-    return {p, scale};
+    const double factor = std::ldexp(1.0, -std::max(std::ilogb(largest()), least_exponent));
+    multiply_by(factor);
+    return {p, beforehand * factor};
 }
 
 CellAngles angles_of(const std::array<Point, 4>& corners) {
@@ -71,7 +77,8 @@ CellAngles angles_of(const std::array<Point, 4>& corners) {
         result.max_dihedral = std::max(result.max_dihedral, dihedral);
         around[i] += dihedral;
         around[j] += dihedral;
-        squares += squared_length({p[i], p[j]});
+        const Point edge = difference(p[i], p[j]);
+        squares += dot(edge, edge);
     }
     result.min_solid = *std::min_element(around.begin(), around.end()) - std::numbers::pi;
     const double volume6 = dot(difference(p[3], p[0]), normal[3]) * -1;
@@ -154,7 +161,9 @@ std::vector<DepthFigures> measure_by_depth(const Subject& fine, const Descent& d
 
 std::string check_dihedral_angles(const Subject& subject, double degrees, Findings& findings) {
     const exact::AngleLimit limit(degrees);
+    Steps step(findings, subject.mesh.cells.size());
     for (CellIndex c{0}; c < subject.mesh.cells.end_index(); ++c) {
+        step();
         if (subject.sign[c.value()] <= 0 || !subject.owns(subject.mesh.cells[c])) continue;
         const auto p = subject.corners(c);
         bool less = false;
@@ -179,7 +188,9 @@ std::string check_dihedral_angles(const Subject& subject, double degrees, Findin
 std::string check_face_angles(const Subject& coarse, const Subject& fine, const Descent& descent,
                               Findings& findings) {
     std::uint64_t by_slack = 0;
+    Steps step(findings, 2 * fine.mesh.cells.size());  // a face has mostly two cells
     fine.faces.for_each_group([&](const FacetVertices& face, auto entries) {
+        step();
         const CellFace f = cell_face(entries.front().tag);
         const auto on = descent.coarse_face(f);
         if (!on || !fine.owns(face)) return;

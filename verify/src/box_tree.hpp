@@ -32,7 +32,7 @@ struct Bounds {
     }
     [[nodiscard]] bool meets(const Bounds& b) const {
         for (std::size_t k = 0; k < 3; ++k) {
-            if (low[k] > b.high[k] || b.low[k] > high[k]) return false;
+            if (b.low[k] > high[k] || low[k] > b.high[k]) return false;
         }
         return true;
     }
@@ -45,17 +45,33 @@ template <std::size_t N>
     return b;
 }
 
-/// Boxes, findable by what they meet: a binary tree, cut at the median of the longer side.
+/// Boxes, findable by what they meet: a binary tree, cut at the median.
 class BoxTree {
 public:
-    explicit BoxTree(std::vector<Bounds> boxes) : boxes_(std::move(boxes)), order_(boxes_.size()) {
+    /// Along which axis a node is cut: its longest side; or the one along which most of its boxes
+    /// find room side by side, which takes longer, and pays where boxes are long and thin.
+    enum class Cut : std::uint8_t { longest_side, most_room };
+
+    explicit BoxTree(std::vector<Bounds> boxes, Cut cut = Cut::longest_side)
+        : boxes_(std::move(boxes)), order_(boxes_.size()), cut_(cut) {
         std::iota(order_.begin(), order_.end(), 0U);
         if (!boxes_.empty()) build(0, boxes_.size());
     }
 
-    /// Calls visit(i) for each box i that meets `wanted`.
-    void for_each_meeting(const Bounds& wanted, auto&& visit) const {
-        if (!nodes_.empty()) descend(0, 0, boxes_.size(), wanted, visit);
+    /// Calls visit(i) for each box i that meets `wanted`: another box, or what tells by meets(box)
+    /// and does so of a box if it does of one within.
+    void for_each_meeting(const auto& wanted, auto&& visit) const {
+        for (std::size_t n = 0; n < nodes_.size();) {
+            const Node& node = nodes_[n];
+            if (!wanted.meets(node.bounds)) {
+                n = node.after;
+                continue;
+            }
+            for (std::size_t i = node.first; i < node.last; ++i) {
+                if (wanted.meets(boxes_[order_[i]])) visit(order_[i]);
+            }
+            ++n;
+        }
     }
 
 private:
@@ -64,19 +80,19 @@ private:
     /// Nodes stand in the order of a walk: a node, its first half, its second half.
     struct Node {
         Bounds bounds;
-        std::size_t second = 0;
+        std::uint32_t after = 0;  ///< the node behind it and its halves
+        std::uint32_t first = 0;  ///< into order_, of a node that has no halves
+        std::uint32_t last = 0;
     };
 
-    std::size_t build(std::size_t first, std::size_t last) {
+    void build(std::size_t first, std::size_t last) {
         const std::size_t node = nodes_.size();
         nodes_.emplace_back();
         Bounds bounds;
         for (std::size_t i = first; i < last; ++i) bounds.take(boxes_[order_[i]]);
         nodes_[node].bounds = bounds;
         if (last - first > leaf_size) {
-            std::size_t axis = 0;
-            const auto side = [&](std::size_t k) { return bounds.high[k] - bounds.low[k]; };
-            for (std::size_t k = 1; k < 3; ++k) axis = side(k) > side(axis) ? k : axis;
+            const std::size_t axis = axis_to_cut(first, last, bounds);
             const std::size_t middle = first + (last - first) / 2;
             const auto at = [&](std::size_t i) {
                 return order_.begin() + static_cast<std::ptrdiff_t>(i);
@@ -88,28 +104,36 @@ private:
                 return centre(i) < centre(j);
             });
             build(first, middle);
-            const std::size_t second = build(middle, last);
-            nodes_[node].second = second;
+            build(middle, last);
+        } else {
+            nodes_[node].first = static_cast<std::uint32_t>(first);
+            nodes_[node].last = static_cast<std::uint32_t>(last);
         }
-        return node;
+        nodes_[node].after = static_cast<std::uint32_t>(nodes_.size());
     }
 
-    void descend(std::size_t node, std::size_t first, std::size_t last, const Bounds& wanted,
-                 auto&& visit) const {
-        if (!nodes_[node].bounds.meets(wanted)) return;
-        if (last - first <= leaf_size) {
+    [[nodiscard]] std::size_t axis_to_cut(std::size_t first, std::size_t last,
+                                          const Bounds& bounds) const {
+        std::array<double, 3> widths{};  // of the boxes, in sum
+        if (cut_ == Cut::most_room) {
             for (std::size_t i = first; i < last; ++i) {
-                if (boxes_[order_[i]].meets(wanted)) visit(order_[i]);
+                const Bounds& box = boxes_[order_[i]];
+                for (std::size_t k = 0; k < 3; ++k) widths[k] += box.high[k] - box.low[k];
             }
-            return;
         }
-        const std::size_t middle = first + (last - first) / 2;
-        descend(node + 1, first, middle, wanted, visit);
-        descend(nodes_[node].second, middle, last, wanted, visit);
+        std::size_t axis = 0;
+        const auto side = [&](std::size_t k) { return bounds.high[k] - bounds.low[k]; };
+        const auto has_more_room = [&](std::size_t i, std::size_t k) {
+            return cut_ == Cut::most_room ? side(i) * widths[k] > side(k) * widths[i]
+                                          : side(i) > side(k);
+        };
+        for (std::size_t k = 1; k < 3; ++k) axis = has_more_room(k, axis) ? k : axis;
+        return axis;
     }
 
     std::vector<Bounds> boxes_;
     std::vector<std::uint32_t> order_;
+    Cut cut_;
     std::vector<Node> nodes_;
 };
 

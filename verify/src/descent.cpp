@@ -245,6 +245,14 @@ double rounding_of_half(double a, double b) {
     return std::abs(lost) / 2 + underflow;
 }
 
+/// In numbers of which no coordinate's square is too large or too small.
+long double squared_distance(const Point& a, const Point& b) {
+    const long double x = static_cast<long double>(a.x) - b.x;
+    const long double y = static_cast<long double>(a.y) - b.y;
+    const long double z = static_cast<long double>(a.z) - b.z;
+    return x * x + y * y + z * z;
+}
+
 double rounding_of_midpoint(const Point& a, const Point& b) {
     return std::max(
         {rounding_of_half(a.x, b.x), rounding_of_half(a.y, b.y), rounding_of_half(a.z, b.z)});
@@ -285,7 +293,9 @@ public:
     std::string run() {
         Divider divider(coarse_, fine_, lines_);
         std::vector<std::pair<CellIndex, CellVertices>> stuck;
+        Steps step(findings_, coarse_.mesh.cells.size());
         for (CellIndex c{0}; c < coarse_.mesh.cells.end_index(); ++c) {
+            step();
             CellVertices corners = coarse_.mesh.cells[c];
             for (VertexIndex& v : corners) v = descent_.coarse_to_fine[v];
             if (divider.divide_cell(corners)) {
@@ -408,11 +418,11 @@ private:
         --searches_left_;
         const auto& points = fine_.mesh.points;
         const Point half = midpoint(points[edge[0]], points[edge[1]]);
-        double best_distance = squared_length({points[edge[0]], points[edge[1]]}) / 16;
+        auto best_distance = squared_distance(points[edge[0]], points[edge[1]]) / 16;
         for (VertexIndex v{0}; v < points.end_index(); ++v) {
             if (points[v] == half) return VertexIndex::none();  // what is wrong is something else
             if (descent_.is_coarse[v.value()] != 0 || lines_.halves_a_line(v)) continue;
-            const double distance = squared_length({points[v], half});
+            const auto distance = squared_distance(points[v], half);
             if (distance >= best_distance) continue;
             best = v;
             best_distance = distance;

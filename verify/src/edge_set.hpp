@@ -45,6 +45,8 @@ public:
                                   highs_.begin() + offset(begin_[low.value() + 1U]), high);
     }
 
+    [[nodiscard]] std::size_t size() const { return highs_.size(); }
+
     /// Calls visit(edge) for each, in ascending order, the lower end first.
     void for_each(auto&& visit) const {
         for (std::size_t low = 0; low + 1 < begin_.size(); ++low) {

@@ -80,6 +80,7 @@ void join(Verdict& a, Verdict b) {
     join(a.by_depth, b.by_depth);
     a.arithmetic.filtered += b.arithmetic.filtered;
     a.arithmetic.exact += b.arithmetic.exact;
+    a.looked_at += b.looked_at;
     std::move(b.violations.begin(), b.violations.end(), std::back_inserter(a.violations));
 }
 
@@ -91,9 +92,10 @@ void pack_or_unpack(Stream& stream, auto& verdict) {
     stream(verdict.coarse_angles);
     stream.list(verdict.by_depth);
     stream(verdict.arithmetic);
+    stream(verdict.looked_at);
 }
 
-Group::Bytes packed(const Verdict& verdict, bool with_violations) {
+ProcessGroup::Bytes packed(const Verdict& verdict, bool with_violations) {
     Packer pack;
     pack_or_unpack(pack, verdict);
     pack(std::uint64_t{with_violations ? verdict.violations.size() : 0});
@@ -113,7 +115,7 @@ Group::Bytes packed(const Verdict& verdict, bool with_violations) {
     return std::move(pack.bytes());
 }
 
-Verdict unpacked(const Group::Bytes& bytes) {
+Verdict unpacked(const ProcessGroup::Bytes& bytes) {
     Unpacker unpack(bytes);
     Verdict verdict;
     pack_or_unpack(unpack, verdict);
@@ -193,10 +195,10 @@ Verdict Findings::finish() {
     call_cell_as_in_whole(verdict_.angles, Which::fine);
     call_cell_as_in_whole(verdict_.coarse_angles, Which::coarse);
 
-    std::vector<Group::Bytes> to_each(static_cast<std::size_t>(group_->size()));
+    std::vector<ProcessGroup::Bytes> to_each(static_cast<std::size_t>(group_->size()));
     for (std::size_t r = 0; r < to_each.size(); ++r) to_each[r] = packed(verdict_, r == 0);
     Verdict own = std::exchange(verdict_, {});
-    for (Group::Bytes& bytes : group_->exchange(std::move(to_each))) {
+    for (ProcessGroup::Bytes& bytes : group_->exchange(std::move(to_each))) {
         join(verdict_, unpacked(bytes));
         bytes = {};
     }

@@ -8,8 +8,9 @@
 #include <vector>
 
 #include <octetra/core/mesh.hpp>
-#include <octetra/verify/group.hpp>
+#include <octetra/core/process_group.hpp>
 #include <octetra/verify/verdict.hpp>
+#include <octetra/verify/verify.hpp>
 
 #include "parts/exchange.hpp"
 #include "parts/numbers.hpp"
@@ -20,8 +21,9 @@ namespace octetra::verify {
 /// added by the process in whose domain it lies, and by no other.
 class Findings {
 public:
-    explicit Findings(std::size_t kept_per_code, const Group& group = Group::alone())
-        : kept_per_code_(kept_per_code), group_(&group) {}
+    explicit Findings(std::size_t kept_per_code, const ProcessGroup& group = ProcessGroup::alone(),
+                      Progress progress = {})
+        : kept_per_code_(kept_per_code), group_(&group), progress_(std::move(progress)) {}
 
     /// From here on entities of this mesh are those of a part, called so in the whole one; or, with
     /// null, of the whole one. Keeps the pointer.
@@ -50,6 +52,8 @@ public:
     bool run(std::string_view name, auto&& check) {
         const std::uint64_t before = count_;
         const auto start = std::chrono::steady_clock::now();
+        running_ = name;
+        tell_progress(0);
         std::string note = check();
         const bool clean = sum(*group_, count_ - before) == 0;
         const std::chrono::duration<double> passed = std::chrono::steady_clock::now() - start;
@@ -57,6 +61,11 @@ public:
         verdict_.checks.push_back({std::string(name), clean ? Status::passed : Status::failed,
                                    std::move(note), passed.count()});
         return clean;
+    }
+
+    /// Whoever listens hears what share of the running check is done.
+    void tell_progress(double share) const {
+        if (progress_) progress_(running_, share);
     }
 
     /// On all processes.
@@ -77,7 +86,7 @@ public:
         std::string expected;
     };
 
-    [[nodiscard]] const Group& group() const { return *group_; }
+    [[nodiscard]] const ProcessGroup& group() const { return *group_; }
     [[nodiscard]] Verdict& verdict() { return verdict_; }
     [[nodiscard]] Facts& facts() { return verdict_.facts; }  ///< until finish(), of this process
     [[nodiscard]] Arithmetic& arithmetic() { return verdict_.arithmetic; }
@@ -88,11 +97,32 @@ private:
     void drop_surplus(std::vector<Violation>& violations) const;
 
     std::size_t kept_per_code_;
-    const Group* group_;
+    const ProcessGroup* group_;
+    Progress progress_;
+    std::string_view running_;
     std::array<const Numbers*, 2> numbers_{};
     std::uint64_t count_ = 0;
     std::array<std::vector<Violation>, code_count> kept_;
     Verdict verdict_;
+};
+
+/// Steps of the running check, about `total`; tells of some.
+class Steps {
+public:
+    Steps(const Findings& findings, std::uint64_t total) : findings_(&findings), total_(total) {}
+
+    void operator()() {
+        if (++done_ % told != 0) return;
+        findings_->tell_progress(
+            done_ < total_ ? static_cast<double>(done_) / static_cast<double>(total_) : 1);
+    }
+
+private:
+    static constexpr std::uint64_t told = 1024;  ///< one of so many
+
+    const Findings* findings_;
+    std::uint64_t total_;
+    std::uint64_t done_ = 0;
 };
 
 [[nodiscard]] inline Entity entity(Entity::Kind kind, std::size_t number, Which mesh) {

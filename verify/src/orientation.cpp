@@ -6,7 +6,9 @@ namespace octetra::verify {
 std::string check_orientation(Subject& subject, Findings& findings) {
     const Mesh& mesh = subject.mesh;
     subject.sign.assign(mesh.cells.size(), 0);
+    Steps step(findings, mesh.cells.size());
     for (CellIndex c{0}; c < mesh.cells.end_index(); ++c) {
+        step();
         if (!subject.is_sound(c)) continue;
         const auto [p, q, r, s] = subject.corners(c);
         const int sign = exact::orientation(p, q, r, s, findings.arithmetic());

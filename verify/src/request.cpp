@@ -147,7 +147,7 @@ private:
     /// Collective. Tells who may see them of the edges selected since the last time; returns
     /// whether the others have told of any that were not selected here.
     bool take_selected_elsewhere() {
-        const Group& group = findings_.group();
+        const ProcessGroup& group = findings_.group();
         if (group.size() == 1) return false;
         const Numbers& numbers = findings_.numbers(Which::fine);
         std::vector<std::vector<EdgeVertices>> to_each(static_cast<std::size_t>(group.size()));

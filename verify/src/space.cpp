@@ -1,58 +1,105 @@
 #include <array>
-#include <optional>
 
 #include <fmt/format.h>
 
 #include "box_tree.hpp"
 #include "exact/predicates.hpp"
+#include "fans.hpp"
+#include "hubs.hpp"
 #include "subject.hpp"
 
 namespace octetra::verify {
 namespace {
 
-/// On how many faces of a cell a point lies that is not outside; -1 if it is outside. In a lattice
-/// most points near a cell are in the plane of some face, which takes rational numbers to tell, but
-/// clearly beyond another; so that is asked first.
-int faces_touched(const std::array<Point, 4>& corners, const Point& p, Arithmetic& arithmetic) {
-    const auto with_p_as_corner = [&](std::size_t k, auto&& judge) {
-        auto q = corners;
-        q[k] = p;
-        return judge(q[0], q[1], q[2], q[3], arithmetic);
-    };
-    std::array<std::optional<int>, 4> signs;
-    for (std::size_t k = 0; k < 4; ++k) {
-        signs[k] = with_p_as_corner(k, exact::clear_orientation);
-        if (signs[k] == -1) return -1;
+/// Vertices against cells. Cells look for the vertices in their boxes; but vertices look for the
+/// cells at hubs, as boxes of these may have each a share of all vertices.
+class HangingCheck {
+public:
+    HangingCheck(const Subject& subject, Findings& findings)
+        : subject_(subject), mesh_(subject.mesh), findings_(findings), hubs_(subject) {
+        std::vector<char> used(mesh_.points.size(), 0);
+        for (const CellVertices& cell : mesh_.cells) {
+            for (const VertexIndex v : cell) used[v.value()] = 1;
+        }
+        for (VertexIndex v{0}; v < mesh_.points.end_index(); ++v) {
+            if (used[v.value()] != 0 && subject.owns(v)) vertices_.push_back(v);
+        }
     }
-    int touched = 0;
-    for (std::size_t k = 0; k < 4; ++k) {
-        const int sign = signs[k] ? *signs[k] : with_p_as_corner(k, exact::orientation);
-        if (sign < 0) return -1;
-        if (sign == 0) ++touched;
-    }
-    return touched;
-}
 
-void report(const Subject& subject, CellIndex c, VertexIndex v, int touched, Findings& findings) {
-    constexpr std::array<std::string_view, 3> where{"inside the cell", "on a face of the cell",
-                                                    "on an edge of the cell"};
-    findings.add(touched == 0 ? Code::vertex_in_cell : Code::hanging_vertex,
-                 [&]() -> Findings::Description {
-                     return {{entity(v, subject.which), entity(c, subject.which)},
-                             std::string(where[static_cast<std::size_t>(touched)]),
-                             "outside of every cell that does not have it"};
-                 });
-}
+    void run() {
+        std::vector<Bounds> boxes;
+        for (const VertexIndex v : vertices_) boxes.emplace_back().take(mesh_.points[v]);
+        const BoxTree places(std::move(boxes));
+        std::vector<Fans<4>::Entity> at_hubs;
+        Steps step(findings_, mesh_.cells.size() + (hubs_.none() ? 0 : vertices_.size()));
+        for (CellIndex c{0}; c < mesh_.cells.end_index(); ++c) {
+            step();
+            if (subject_.sign[c.value()] <= 0) continue;  // no inside to speak of
+            const Apex apex = hubs_.apex_of(mesh_.cells[c]);
+            if (!apex.is_none()) {
+                at_hubs.push_back({apex, mesh_.cells[c], c.value()});
+                continue;
+            }
+            places.for_each_meeting(bounds_of(subject_.corners(c)),
+                                    [&](std::uint32_t number) { judge(vertices_[number], c); });
+        }
+        const Fans<4> cells(mesh_.points, std::move(at_hubs));
+        if (cells.empty()) return;
+        for (const VertexIndex v : vertices_) {
+            step();
+            cells.for_each_near(std::array{v}, looked_at(), [&](const Fans<4>::Entity& cell) {
+                judge(v, CellIndex{cell.number});
+            });
+        }
+    }
+
+private:
+    void judge(VertexIndex v, CellIndex c) {
+        ++looked_at();
+        const CellVertices& cell = mesh_.cells[c];
+        if (std::find(cell.begin(), cell.end(), v) != cell.end()) return;
+        const int touched =
+            exact::faces_touched(subject_.corners(c), mesh_.points[v], findings_.arithmetic());
+        // On three faces it is at a corner: two vertices at one place, which is reported as such.
+        if (touched >= 0 && touched < 3) report(v, c, touched);
+    }
+
+    void report(VertexIndex v, CellIndex c, int touched) {
+        constexpr std::array<std::string_view, 3> where{"inside the cell", "on a face of the cell",
+                                                        "on an edge of the cell"};
+        findings_.add(touched == 0 ? Code::vertex_in_cell : Code::hanging_vertex,
+                      [&]() -> Findings::Description {
+                          return {{entity(v, subject_.which), entity(c, subject_.which)},
+                                  std::string(where[static_cast<std::size_t>(touched)]),
+                                  "outside of every cell that does not have it"};
+                      });
+    }
+
+    [[nodiscard]] std::uint64_t& looked_at() { return findings_.verdict().looked_at; }
+
+    const Subject& subject_;
+    const Mesh& mesh_;
+    Findings& findings_;
+    Hubs hubs_;
+    std::vector<VertexIndex> vertices_;  ///< to be judged
+};
 
 /// Edges against faces, one of the two on the boundary: if they have no vertex in common, they must
 /// not meet. (With one in common they could cross in their plane, the edge leaving the face through
 /// the opposite side. Then another face at that edge, or at that side, of the same cell meets what
 /// it has no vertex in common with: else that cell would be flat. An edge cannot end within a face:
 /// check_hanging would have found that.)
+///
+/// Edges at hubs are looked for by all faces, and other edges look for the faces at hubs; so no
+/// pair is looked at twice, nor any that has the hub in common.
 class CrossingCheck {
 public:
     CrossingCheck(const Subject& subject, Findings& findings)
-        : subject_(subject), mesh_(subject.mesh), findings_(findings) {
+        : subject_(subject),
+          mesh_(subject.mesh),
+          findings_(findings),
+          hubs_(subject),
+          step_(findings, steps_of(subject, hubs_)) {
         for (const CellFace f : boundary_faces(subject)) {
             faces_.push_back(outward_face(mesh_.cells[f.cell], f.face));
         }
@@ -65,22 +112,105 @@ public:
     }
 
     void run() {
-        const BoxTree boundary_faces = tree_of(faces_);
-        subject_.edges.for_each([&](const EdgeVertices& edge) {
-            boundary_faces.for_each_meeting(bounds_of(places(edge)), [&](std::uint32_t number) {
-                judge(edge, faces_[number]);
-            });
-        });
-        const BoxTree boundary_edges = tree_of(edges_);
-        subject_.faces.for_each_group([&](const FacetVertices& face, auto cells) {
-            if (cells.size() == 1) return;  // with all edges, above
-            boundary_edges.for_each_meeting(bounds_of(places(face)), [&](std::uint32_t number) {
-                judge(edges_[number], face);
-            });
-        });
+        check_away_from_hubs();
+        if (hubs_.none()) return;
+        check_edges_at_hubs();
+        check_faces_at_hubs();
     }
 
 private:
+    /// Edges and faces that look for others, once away from hubs and once at hubs. (A face has
+    /// mostly two cells.)
+    static std::uint64_t steps_of(const Subject& subject, const Hubs& hubs) {
+        const std::uint64_t once = subject.edges.size() + 2 * subject.mesh.cells.size();
+        return hubs.none() ? once : 2 * once;
+    }
+
+    template <std::size_t N>
+    [[nodiscard]] bool is_at_hub(const std::array<VertexIndex, N>& entity) const {
+        return !hubs_.apex_of(entity).is_none();
+    }
+
+    void for_each_inner_face(auto&& visit) const {
+        subject_.faces.for_each_group([&](const FacetVertices& face, auto cells) {
+            if (cells.size() > 1) visit(face);
+        });
+    }
+
+    void check_away_from_hubs() {
+        const auto away_from_hubs = [&](auto entities) {
+            std::erase_if(entities, [&](const auto& entity) { return is_at_hub(entity); });
+            return entities;
+        };
+        const auto faces = away_from_hubs(faces_);
+        const BoxTree boundary_faces = tree_of(faces);
+        subject_.edges.for_each([&](const EdgeVertices& edge) {
+            step_();
+            if (is_at_hub(edge)) return;
+            boundary_faces.for_each_meeting(
+                bounds_of(places(edge)), [&](std::uint32_t number) { judge(edge, faces[number]); });
+        });
+        const auto edges = away_from_hubs(edges_);
+        const BoxTree boundary_edges = tree_of(edges);
+        for_each_inner_face([&](const FacetVertices& face) {  // the others with all edges, above
+            step_();
+            if (is_at_hub(face)) return;
+            boundary_edges.for_each_meeting(
+                bounds_of(places(face)), [&](std::uint32_t number) { judge(edges[number], face); });
+        });
+    }
+
+    void check_edges_at_hubs() {
+        std::vector<Fans<2>::Entity> boundary;
+        std::vector<Fans<2>::Entity> inner;
+        subject_.edges.for_each([&](const EdgeVertices& edge) {
+            const Apex apex = hubs_.apex_of(edge);
+            if (apex.is_none()) return;
+            const bool on_boundary = std::binary_search(edges_.begin(), edges_.end(), edge);
+            (on_boundary ? boundary : inner).push_back({apex, edge});
+        });
+        const Fans<2> boundary_edges(mesh_.points, std::move(boundary));
+        const Fans<2> inner_edges(mesh_.points, std::move(inner));
+        const auto look_for = [&](const Fans<2>& edges, const FacetVertices& face) {
+            edges.for_each_near(face, looked_at(),
+                                [&](const Fans<2>::Entity& edge) { judge(edge.vertices, face); });
+        };
+        for (const FacetVertices& face : faces_) {
+            look_for(boundary_edges, face);
+            look_for(inner_edges, face);
+        }
+        for_each_inner_face([&](const FacetVertices& face) {
+            step_();
+            look_for(boundary_edges, face);
+        });
+    }
+
+    void check_faces_at_hubs() {
+        std::vector<Fans<3>::Entity> boundary;
+        std::vector<Fans<3>::Entity> inner;
+        const auto sort_into = [&](std::vector<Fans<3>::Entity>& list, const FacetVertices& face) {
+            const Apex apex = hubs_.apex_of(face);
+            if (!apex.is_none()) list.push_back({apex, face});
+        };
+        for (const FacetVertices& face : faces_) sort_into(boundary, face);
+        for_each_inner_face([&](const FacetVertices& face) { sort_into(inner, face); });
+        const Fans<3> boundary_faces(mesh_.points, std::move(boundary));
+        const Fans<3> inner_faces(mesh_.points, std::move(inner));
+        const auto look_for = [&](const Fans<3>& faces, const EdgeVertices& edge) {
+            faces.for_each_near(edge, looked_at(),
+                                [&](const Fans<3>::Entity& face) { judge(edge, face.vertices); });
+        };
+        subject_.edges.for_each([&](const EdgeVertices& edge) {
+            step_();
+            if (!is_at_hub(edge)) look_for(boundary_faces, edge);
+        });
+        for (const EdgeVertices& edge : edges_) {
+            if (!is_at_hub(edge)) look_for(inner_faces, edge);
+        }
+    }
+
+    [[nodiscard]] std::uint64_t& looked_at() { return findings_.verdict().looked_at; }
+
     template <std::size_t N>
     [[nodiscard]] std::array<Point, N> places(const std::array<VertexIndex, N>& vertices) const {
         std::array<Point, N> points;
@@ -97,6 +227,7 @@ private:
     }
 
     void judge(const EdgeVertices& edge, const FacetVertices& face) {
+        ++looked_at();
         for (const VertexIndex v : face) {
             if (v == edge[0] || v == edge[1]) return;
         }
@@ -118,40 +249,16 @@ private:
     const Subject& subject_;
     const Mesh& mesh_;
     Findings& findings_;
+    Hubs hubs_;
+    Steps step_;
     std::vector<FacetVertices> faces_;  ///< of the boundary
-    std::vector<EdgeVertices> edges_;   ///< of these faces
+    std::vector<EdgeVertices> edges_;   ///< of these faces, ascending
 };
 
 }  // namespace
 
 std::string check_hanging(const Subject& subject, Findings& findings) {
-    const Mesh& mesh = subject.mesh;
-    std::vector<char> used(mesh.points.size(), 0);
-    for (const CellVertices& cell : mesh.cells) {
-        for (const VertexIndex v : cell) used[v.value()] = 1;
-    }
-    std::vector<VertexIndex> judged;
-    std::vector<Bounds> boxes;
-    for (VertexIndex v{0}; v < mesh.points.end_index(); ++v) {
-        if (used[v.value()] == 0 || !subject.owns(v)) continue;
-        judged.push_back(v);
-        boxes.emplace_back().take(mesh.points[v]);
-    }
-    const BoxTree vertices(std::move(boxes));
-
-    for (CellIndex c{0}; c < mesh.cells.end_index(); ++c) {
-        if (subject.sign[c.value()] <= 0) continue;  // no inside to speak of
-        const auto corners = subject.corners(c);
-        const CellVertices& cell = mesh.cells[c];
-        vertices.for_each_meeting(bounds_of(corners), [&](std::uint32_t number) {
-            const VertexIndex v = judged[number];
-            if (std::find(cell.begin(), cell.end(), v) != cell.end()) return;
-            const int touched = faces_touched(corners, mesh.points[v], findings.arithmetic());
-            // On three faces it is at a corner: two vertices at one place, which is reported as
-            // such.
-            if (touched >= 0 && touched < 3) report(subject, c, v, touched, findings);
-        });
-    }
+    HangingCheck(subject, findings).run();
     return {};
 }
 

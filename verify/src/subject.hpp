@@ -37,6 +37,9 @@ struct Subject {
     Totals totals{};  ///< of the whole mesh
     /// Of each process a box around the cells that it sees; of a coarse mesh only.
     std::vector<Bounds> views{};
+    /// A vertex of more edges, or an edge of more cells, is a hub: not all pairs of what is there
+    /// are looked at. With fewer that costs less than being clever.
+    std::uint32_t many = 128;
 
     [[nodiscard]] bool owns(VertexIndex v) const { return domain.owns(mesh.points[v]); }
     template <std::size_t N>

@@ -121,7 +121,7 @@ std::vector<TagTotal> totals_of(std::vector<Term> terms, const TagBounds& bounds
     return totals;
 }
 
-Group::Bytes packed(const std::vector<TagTotal>& totals) {
+ProcessGroup::Bytes packed(const std::vector<TagTotal>& totals) {
     Packer pack;
     pack(std::uint64_t{totals.size()});
     for (const TagTotal& total : totals) {
@@ -133,7 +133,7 @@ Group::Bytes packed(const std::vector<TagTotal>& totals) {
     return std::move(pack.bytes());
 }
 
-std::vector<TagTotal> unpacked(const Group::Bytes& bytes) {
+std::vector<TagTotal> unpacked(const ProcessGroup::Bytes& bytes) {
     Unpacker unpack(bytes);
     std::uint64_t count = 0;
     unpack(count);
@@ -148,12 +148,12 @@ std::vector<TagTotal> unpacked(const Group::Bytes& bytes) {
 }
 
 /// Collective. The totals of all processes, those of one tag next to each other.
-std::vector<TagTotal> totals_of_all(std::vector<TagTotal> totals, const Group& group) {
+std::vector<TagTotal> totals_of_all(std::vector<TagTotal> totals, const ProcessGroup& group) {
     if (group.size() == 1) return totals;
-    const Group::Bytes own = packed(totals);
+    const ProcessGroup::Bytes own = packed(totals);
     totals.clear();
-    for (const auto& bytes :
-         group.exchange(std::vector<Group::Bytes>(static_cast<std::size_t>(group.size()), own))) {
+    for (const auto& bytes : group.exchange(
+             std::vector<ProcessGroup::Bytes>(static_cast<std::size_t>(group.size()), own))) {
         for (TagTotal& total : unpacked(bytes)) totals.push_back(std::move(total));
     }
     std::stable_sort(totals.begin(), totals.end(),
@@ -163,7 +163,7 @@ std::vector<TagTotal> totals_of_all(std::vector<TagTotal> totals, const Group& g
 
 /// Collective. The figures of each tag; calls judge(figures, exact difference, bound).
 std::vector<TagSum> sum_up(std::vector<TagTotal> own_totals, double multiple, bool of_refinement,
-                           const Group& group, auto&& judge) {
+                           const ProcessGroup& group, auto&& judge) {
     const std::vector<TagTotal> totals = totals_of_all(std::move(own_totals), group);
     std::vector<TagSum> sums;
     exact::NumberSum fine;

@@ -246,7 +246,7 @@ private:
             const auto& [a, b] = descent_.halves[v];
             if (a.is_none() || !fine_subject_.owns(v)) continue;
             for (std::size_t k = 0; k < count; ++k) {
-                judge(v, k, (value(a, k) + value(b, k)) / 2);
+                judge(v, k, mean(value(a, k), value(b, k)));
             }
         }
     }

@@ -51,7 +51,7 @@ void judge(Subject& subject, const VerifyOptions& options, Findings& findings) {
 }  // namespace
 
 Verdict verify_mesh(const Mesh& mesh, const VerifyOptions& options) {
-    Findings findings(options.kept_per_code);
+    Findings findings(options.kept_per_code, ProcessGroup::alone(), options.progress);
     Subject subject = whole_subject(mesh, Which::fine);
     if (findings.run("numbers in range", [&] {
             return check_ranges(mesh, mesh.points.size(), Which::fine, findings);
@@ -61,8 +61,8 @@ Verdict verify_mesh(const Mesh& mesh, const VerifyOptions& options) {
     return findings.finish();
 }
 
-Verdict verify_mesh(MeshSlice mesh, const Group& group, const VerifyOptions& options) {
-    Findings findings(options.kept_per_code, group);
+Verdict verify_mesh(MeshSlice mesh, const ProcessGroup& group, const VerifyOptions& options) {
+    Findings findings(options.kept_per_code, group, options.progress);
     if (!findings.run("numbers in range",
                       [&] { return check_slice_ranges(mesh, Which::fine, findings); })) {
         return findings.finish();

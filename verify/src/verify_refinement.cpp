@@ -233,7 +233,7 @@ private:
 }  // namespace
 
 Verdict verify_refinement(const Mesh& coarse, const Mesh& fine, const VerifyOptions& options) {
-    Findings findings(options.kept_per_code);
+    Findings findings(options.kept_per_code, ProcessGroup::alone(), options.progress);
     const auto in_range = [&](const Mesh& mesh, Which which) {
         return findings.run(name_of_range_check(which), [&] {
             return check_ranges(mesh, mesh.points.size(), which, findings);
@@ -247,9 +247,9 @@ Verdict verify_refinement(const Mesh& coarse, const Mesh& fine, const VerifyOpti
     return findings.finish();
 }
 
-Verdict verify_refinement(MeshSlice coarse, MeshSlice fine, const Group& group,
+Verdict verify_refinement(MeshSlice coarse, MeshSlice fine, const ProcessGroup& group,
                           const VerifyOptions& options) {
-    Findings findings(options.kept_per_code, group);
+    Findings findings(options.kept_per_code, group, options.progress);
     const auto in_range = [&](const MeshSlice& slice, Which which) {
         return findings.run(name_of_range_check(which),
                             [&] { return check_slice_ranges(slice, which, findings); });

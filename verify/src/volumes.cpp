@@ -37,7 +37,9 @@ Bound check_cell_volumes(const Subject& coarse, const Subject& fine, const Desce
     const Grouped children = group(coarse_cells + 1, parents);
     exact::VolumeSum difference;
     Bound largest = 0;
+    Steps step(findings, coarse.mesh.cells.size());
     for (CellIndex c{0}; c < coarse.mesh.cells.end_index(); ++c) {
+        step();
         if (!coarse.owns(coarse.mesh.cells[c])) continue;
         const std::uint32_t first = children.begin[c.value()];
         const std::uint32_t last = children.begin[c.value() + 1];
@@ -119,7 +121,7 @@ Bound check_boundary_areas(const Subject& coarse, const Subject& fine, const Des
 
 std::string check_volumes(const Subject& coarse, const Subject& fine, const Descent& descent,
                           Findings& findings) {
-    const Group& group = findings.group();
+    const ProcessGroup& group = findings.group();
     const Bound volume = greatest(group, check_cell_volumes(coarse, fine, descent, findings));
     const Bound area = greatest(group, check_boundary_areas(coarse, fine, descent, findings));
     if (volume == 0 && area == 0) return "of every coarse cell and boundary face, exactly";

@@ -145,7 +145,7 @@ std::string check_ranges(const Mesh& mesh, std::uint64_t vertex_count, Which whi
 }
 
 std::string check_slice_ranges(const MeshSlice& slice, Which which, Findings& findings) {
-    const Group& group = findings.group();
+    const ProcessGroup& group = findings.group();
     const auto numbered = [&](std::uint64_t count) {
         return NumberList{
             .first = static_cast<std::uint32_t>(slice_begin(count, group.rank(), group.size()))};

@@ -4,7 +4,7 @@
 #include <CLI/CLI.hpp>
 
 #include <octetra/core/files.hpp>
-#include <octetra/distributed/agreement.hpp>
+#include <octetra/distributed/communicator.hpp>
 #include <octetra/verify/compare.hpp>
 
 #include "answer.hpp"
@@ -38,8 +38,14 @@ void add_compare(CLI::App& program, const distributed::Communicator& world) {
         "compare",
         "Are two meshes the same, be it with other numbers?\n"
         "Ends with status 0 if they are, 1 if not, 2 if one cannot be read.");
-    command->add_option("A", options->a, "a mesh")->type_name("")->required();
-    command->add_option("B", options->b, "another")->type_name("")->required();
+    command->add_option("A", options->a, "a mesh")
+        ->type_name("")
+        ->check(names_a_file())
+        ->required();
+    command->add_option("B", options->b, "another")
+        ->type_name("")
+        ->check(names_a_file())
+        ->required();
     command->add_flag("--identical", options->identical, "numbers must be the same, too");
     command->footer(
         "Example:\n"
@@ -48,7 +54,7 @@ void add_compare(CLI::App& program, const distributed::Communicator& world) {
         "  octetra compare gear.1.ele gear.mesh");
     command->callback([options, world] {
         std::vector<char> same{0};
-        distributed::on_first(world, [&] { same.front() = run(*options) ? 1 : 0; });
+        world.on_first([&] { same.front() = run(*options) ? 1 : 0; });
         world.broadcast(same);
         if (same.front() == 0) throw AnswerIsNo{};
     });

@@ -4,8 +4,7 @@
 #include <CLI/CLI.hpp>
 
 #include <octetra/core/files.hpp>
-
-#include <octetra/distributed/agreement.hpp>
+#include <octetra/distributed/communicator.hpp>
 
 #include "commands/commands.hpp"
 #include "commands/files_apart.hpp"
@@ -23,7 +22,7 @@ struct ConvertOptions {
 void convert(const ConvertOptions& options) {
     check_writable(options.output);
     check_files_apart({mesh_named("MESH", options.input.path)},
-                      {mesh_named("OUT", options.output)});
+                      {mesh_to_write("OUT", options.output)});
     const Mesh mesh = read_input(options.input);
     write_output(mesh, options.output);
     if (!options.quiet) report_written(mesh, options.output);
@@ -38,14 +37,14 @@ void add_convert(CLI::App& program, const distributed::Communicator& world) {
     add_input_options(*command, options->input);
     command->add_option("OUT", options->output, "where to write: .ele, .mesh, .vtu or .pvtu")
         ->type_name("")
+        ->check(names_a_file())
         ->required();
     command->add_flag("--quiet", options->quiet, "print nothing but notes and errors");
     command->footer(
         "Example:\n"
         "  octetra generate torus -o torus.1.ele\n"
         "  octetra convert torus.1.ele torus.mesh");
-    command->callback(
-        [options, world] { distributed::on_first(world, [&] { convert(*options); }); });
+    command->callback([options, world] { world.on_first([&] { convert(*options); }); });
 }
 
 }  // namespace octetra::cli

@@ -22,10 +22,26 @@ void check_pair(const NamedFiles& input, const fs::path& read, const NamedFiles&
                                  output.argument, written.native(), alias, input.argument));
 }
 
+void check_written_pair(const NamedFiles& one, const NamedFiles& other) {
+    for (const fs::path& a : one.files) {
+        for (const fs::path& b : other.files) {
+            if (!are_one_place(a, b)) continue;
+            const std::string alias =
+                a == b ? std::string() : fmt::format(", which is {}", a.native());
+            throw InputError(fmt::format("{} and {} name the same file, {}{}", one.argument,
+                                         other.argument, b.native(), alias));
+        }
+    }
+}
+
 }  // namespace
 
 NamedFiles mesh_named(std::string_view argument, const fs::path& path) {
     return {argument, files_of_mesh(path)};
+}
+
+NamedFiles mesh_to_write(std::string_view argument, const fs::path& path, int pieces) {
+    return {argument, files_to_write(path, pieces)};
 }
 
 NamedFiles file_named(std::string_view argument, const fs::path& path) {
@@ -41,6 +57,9 @@ void check_files_apart(const std::vector<NamedFiles>& read,
                 for (const fs::path& from : input.files) check_pair(input, from, output, to);
             }
         }
+    }
+    for (std::size_t i = 0; i < written.size(); ++i) {
+        for (std::size_t j = 0; j < i; ++j) check_written_pair(written[j], written[i]);
     }
 }
 

@@ -13,13 +13,18 @@ struct NamedFiles {
     std::vector<std::filesystem::path> files;
 };
 
-/// The files of the mesh `path`.
+/// The files of the mesh `path`, which is read.
 [[nodiscard]] NamedFiles mesh_named(std::string_view argument, const std::filesystem::path& path);
 
 /// The file `path`; none, if that is empty.
 [[nodiscard]] NamedFiles file_named(std::string_view argument, const std::filesystem::path& path);
 
-/// Throws InputError if a file to write is one to read, be it by another name or a link.
+/// All that a mesh written at `path` replaces or removes; of a `.pvtu` so many pieces.
+[[nodiscard]] NamedFiles mesh_to_write(std::string_view argument, const std::filesystem::path& path,
+                                       int pieces = 1);
+
+/// Throws InputError if a file to write is one to read, be it by another name or a link; or if two
+/// arguments name one file to write.
 void check_files_apart(const std::vector<NamedFiles>& read, const std::vector<NamedFiles>& written);
 
 }  // namespace octetra::cli

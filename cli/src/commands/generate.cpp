@@ -1,4 +1,3 @@
-#include <concepts>
 #include <cstdint>
 #include <functional>
 #include <limits>
@@ -10,14 +9,14 @@
 #include <CLI/CLI.hpp>
 
 #include <octetra/core/error.hpp>
-#include <octetra/distributed/agreement.hpp>
+#include <octetra/distributed/communicator.hpp>
 #include <octetra/generator/clouds.hpp>
 #include <octetra/generator/lattices.hpp>
 #include <octetra/generator/solids.hpp>
 
 #include "commands/commands.hpp"
 #include "commands/mesh_options.hpp"
-#include "commands/number_checks.hpp"
+#include "commands/number_options.hpp"
 #include "parse_numbers.hpp"
 
 namespace octetra::cli {
@@ -48,7 +47,7 @@ public:
         shape->fallthrough();  // -o belongs to `generate`, and may stand behind the shape
         shape->footer(fmt::format("Example:\n  octetra generate {}", example));
         shape->callback([common = common_, world = world_, make = declare(*shape)] {
-            distributed::on_first(world, [&] { generate(*common, make); });
+            world.on_first([&] { generate(*common, make); });
         });
         // The analyzer loses sight of a function that is kept in another one.
     }  // NOLINT(clang-analyzer-cplusplus.NewDeleteLeaks)
@@ -66,8 +65,16 @@ private:
     std::shared_ptr<GenerateOptions> common_;
 };
 
-CLI::Validator any_whole_number() {  // else -1 would be taken for 2^64 - 1
-    return whole_number(0, std::numeric_limits<std::uint64_t>::max(), "0 up");
+/// What shapes can be made of; each asks for more of its own.
+template <class Number>
+Range<Number> numbers_for_shapes();
+template <>
+Range<std::uint64_t> numbers_for_shapes() {
+    return whole_numbers_from(0);
+}
+template <>
+Range<double> numbers_for_shapes() {
+    return {1e-30, 1e30, "1e-30 to 1e30"};
 }
 
 /// Declares an option with a default that --help shows; returns where its value will be.
@@ -75,22 +82,16 @@ template <class Number>
 std::shared_ptr<Number> option(CLI::App& shape, const std::string& name, Number standard,
                                const std::string& description, const std::string& type = "LENGTH") {
     auto value = std::make_shared<Number>(standard);
-    CLI::Option* declared =
-        shape.add_option(name, *value, fmt::format("{} [{}]", description, standard));
-    declared->type_name(type);
-    if (std::unsigned_integral<Number>) {
-        declared->check(any_whole_number());
-    }
+    add_number(shape, name, *value, numbers_for_shapes<Number>(),
+               fmt::format("{} [{}]", description, standard))
+        ->type_name(type);
     return value;
 }
 
 std::shared_ptr<std::uint64_t> required_count(CLI::App& shape, const std::string& name,
                                               const std::string& description) {
     auto value = std::make_shared<std::uint64_t>(0);
-    shape.add_option(name, *value, description)
-        ->type_name("")
-        ->required()
-        ->check(any_whole_number());
+    add_number(shape, name, *value, whole_numbers_from(1), description)->type_name("")->required();
     return value;
 }
 
@@ -98,21 +99,24 @@ void add_lattices(Shapes& shapes) {
     shapes.add(
         "kuhn", "a box of bricks, six cells in each", "kuhn 8 -o cube.1.ele",
         [](CLI::App& shape) -> std::function<Mesh()> {
-            auto counts = std::make_shared<std::vector<std::uint64_t>>();
+            auto texts = std::make_shared<std::vector<std::string>>();
             auto size = std::make_shared<std::string>("1,1,1");
-            shape.add_option("N", *counts, "bricks along every axis, or along x, y and z")
+            shape.add_option("N", *texts, "bricks along every axis, or along x, y and z")
                 ->type_name("")
                 ->expected(1, 3)
-                ->required()
-                ->check(any_whole_number());
+                ->required();
             shape.add_option("--size", *size, "the box's extent [1,1,1]")->type_name("X,Y,Z");
             return [=] {
-                if (counts->size() == 2) {
+                if (texts->size() == 2) {
                     throw InputError("kuhn takes one number of bricks or three, not two");
                 }
+                std::vector<std::uint64_t> counts;
+                for (const std::string& text : *texts) {
+                    counts.push_back(parse_number("N", text, whole_numbers_from(1)));
+                }
                 const auto s = parse_reals(*size, 3, "--size", "X,Y,Z");
-                return generator::kuhn(counts->front(), (*counts)[counts->size() / 2],
-                                       counts->back(), {s[0], s[1], s[2]});
+                return generator::kuhn(counts.front(), counts[counts.size() / 2], counts.back(),
+                                       {s[0], s[1], s[2]});
             };
         });
     shapes.add("bcc", "a body-centred cubic lattice (Sommerville's cell)", "bcc 4 -o bcc.1.ele",

@@ -2,11 +2,11 @@
 
 #include <CLI/CLI.hpp>
 
-#include <octetra/distributed/agreement.hpp>
+#include <octetra/distributed/communicator.hpp>
+#include <octetra/quality/mesh_statistics.hpp>
 
 #include "commands/commands.hpp"
 #include "commands/mesh_options.hpp"
-#include "info/mesh_statistics.hpp"
 #include "info/print_statistics.hpp"
 
 namespace octetra::cli {
@@ -30,8 +30,8 @@ void add_info(CLI::App& program, const distributed::Communicator& world) {
         "  octetra generate kuhn 4 -o cube.1.ele\n"
         "  octetra info cube.1.ele --json");
     command->callback([options, world] {
-        distributed::on_first(world, [&] {
-            const MeshStatistics statistics = measure(read_input(options->input));
+        world.on_first([&] {
+            const quality::MeshStatistics statistics = quality::measure(read_input(options->input));
             options->json ? print_json(statistics) : print_table(statistics);
         });
     });

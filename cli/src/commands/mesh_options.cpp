@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cstdio>
 
 #include <fmt/format.h>
 
@@ -10,12 +9,14 @@
 #include <octetra/core/error.hpp>
 
 #include "grouped.hpp"
+#include "terminal.hpp"
 
 namespace octetra::cli {
 
 void add_input_options(CLI::App& subcommand, InputOptions& options) {
     subcommand.add_option("MESH", options.path, "the mesh: .ele or .node (TetGen), .mesh (Medit)")
         ->type_name("")
+        ->check(names_a_file())
         ->required();
     subcommand.add_flag("--fix-orientation", options.fix_orientation,
                         "turn inverted cells round rather than refuse them");
@@ -26,7 +27,15 @@ void add_output_option(CLI::App& subcommand, std::string& path) {
         .add_option("-o,--output", path,
                     "where to write: .ele (TetGen), .mesh (Medit), .vtu or .pvtu (VTK)")
         ->type_name("OUT")
+        ->check(names_a_file())
         ->required();
+}
+
+CLI::Validator names_a_file() {
+    const auto refusal = [](const std::string& name) {
+        return std::string(name.empty() ? "'' is no name of a file" : "");
+    };
+    return {refusal, ""};
 }
 
 void check_side_file(std::string_view option, const std::filesystem::path& path) {
@@ -43,14 +52,14 @@ void check_side_file(std::string_view option, const std::filesystem::path& path)
     check_place(path);
 }
 
-void note(std::string_view what) { fmt::print(stderr, "octetra: note: {}\n", what); }
+void note(std::string_view what) { tell("note: {}", what); }
 
 void report_written(const Mesh& mesh, const std::string& path) {
     const auto extension = std::filesystem::path(path).extension();
     const bool holds_facets = extension != ".vtu" && extension != ".pvtu";
-    fmt::print("wrote {}: {} vertices, {} cells{}\n", path, grouped(mesh.points.size()),
-               grouped(mesh.cells.size()),
-               holds_facets ? fmt::format(", {} facets", grouped(mesh.facets.size())) : "");
+    print("wrote {}: {} vertices, {} cells{}\n", path, grouped(mesh.points.size()),
+          grouped(mesh.cells.size()),
+          holds_facets ? fmt::format(", {} facets", grouped(mesh.facets.size())) : "");
 }
 
 Mesh read_input(const InputOptions& options) {

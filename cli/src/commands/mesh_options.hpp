@@ -4,12 +4,10 @@
 #include <string>
 #include <string_view>
 
+#include <CLI/CLI.hpp>
+
 #include <octetra/core/files.hpp>
 #include <octetra/core/mesh.hpp>
-
-namespace CLI {
-class App;
-}
 
 /// What every subcommand that reads or writes a mesh has in common.
 namespace octetra::cli {
@@ -28,6 +26,9 @@ void add_output_option(CLI::App& subcommand, std::string& path);
 /// Refuses, before the work, a path for a file beside the mesh (maps, parts) that cannot be written
 /// or would take the place of a mesh. Throws InputError.
 void check_side_file(std::string_view option, const std::filesystem::path& path);
+
+/// What an option takes that is the name of a file: anything but "".
+[[nodiscard]] CLI::Validator names_a_file();
 
 /// A remark on stderr that is not an error: "octetra: note: ...".
 void note(std::string_view what);

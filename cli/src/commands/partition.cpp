@@ -8,16 +8,17 @@
 
 #include <octetra/core/error.hpp>
 #include <octetra/core/files.hpp>
-#include <octetra/distributed/agreement.hpp>
+#include <octetra/distributed/communicator.hpp>
 #include <octetra/distributed/partition.hpp>
 #include <octetra/distributed/predicted_cells.hpp>
 
 #include "commands/commands.hpp"
 #include "commands/files_apart.hpp"
 #include "commands/mesh_options.hpp"
-#include "commands/number_checks.hpp"
+#include "commands/number_options.hpp"
 #include "commands/refinement_options.hpp"
 #include "grouped.hpp"
+#include "terminal.hpp"
 
 namespace octetra::cli {
 namespace {
@@ -35,21 +36,21 @@ void print_counts(std::string_view what, const std::vector<std::uint64_t>& count
     const auto sum = std::accumulate(counts.begin(), counts.end(), std::uint64_t{0});
     const auto mean = static_cast<double>(sum) / static_cast<double>(counts.size());
     const std::uint64_t most = std::ranges::max(counts);
-    fmt::print("{:<34} {:>11} {:>13.1f} {:>13} {:>9.3f}\n", what, grouped(std::ranges::min(counts)),
-               mean, grouped(most), mean > 0 ? static_cast<double>(most) / mean : 1.0);
+    print("{:<34} {:>11} {:>13.1f} {:>13} {:>9.3f}\n", what, grouped(std::ranges::min(counts)),
+          mean, grouped(most), mean > 0 ? static_cast<double>(most) / mean : 1.0);
 }
 
 void print_cut(std::string_view what, std::uint64_t cut, std::uint64_t all) {
     const double share = all == 0 ? 0 : 100 * static_cast<double>(cut) / static_cast<double>(all);
-    fmt::print("{:<34} {:>11} of {:>13}   {:6.2f} %\n", what, grouped(cut), grouped(all), share);
+    print("{:<34} {:>11} of {:>13}   {:6.2f} %\n", what, grouped(cut), grouped(all), share);
 }
 
 void print_statistics(const distributed::PartitionStatistics& statistics) {
     print_cut("cut faces", statistics.cut_faces, statistics.inner_faces);
     print_cut("cut links through longest edges", statistics.cut_longest_edge_links,
               statistics.longest_edge_links);
-    fmt::print("\n{:<34} {:>11} {:>13} {:>13} {:>9}\n", "of a part", "least", "mean", "most",
-               "most/mean");
+    print("\n{:<34} {:>11} {:>13} {:>13} {:>9}\n", "of a part", "least", "mean", "most",
+          "most/mean");
     print_counts("cells", statistics.cells_of_part);
     print_counts("vertices shared with other parts", statistics.shared_vertices_of_part);
     print_counts("neighbouring parts", statistics.neighbours_of_part);
@@ -97,17 +98,16 @@ void partition(const PartitionOptions& options) {
     const Mesh mesh = read_input(options.input);
     const std::vector<float> weights = weights_of(mesh, options);
     const auto cell_to_part = distributed::partition_cells(mesh, options.parts, method, weights);
-    fmt::print("{}: {} cell{} in {} parts by {}\n\n", options.input.path,
-               grouped(mesh.cells.size()), mesh.cells.size() == 1 ? "" : "s", options.parts,
-               options.method);
+    print("{}: {} cell{} in {} parts by {}\n\n", options.input.path, grouped(mesh.cells.size()),
+          mesh.cells.size() == 1 ? "" : "s", options.parts, options.method);
     const auto statistics = distributed::measure_partition(mesh, cell_to_part, options.parts);
     print_statistics(statistics);
     print_expected(cell_to_part, weights, options.parts);
     note_empty_parts(statistics.cells_of_part);
     if (options.output.empty()) return;
     write_list(cell_to_part, options.output);
-    fmt::print("\nwrote {}: the part of each cell, for --partition file:{}\n", options.output,
-               options.output);
+    print("\nwrote {}: the part of each cell, for --partition file:{}\n", options.output,
+          options.output);
 }
 
 }  // namespace
@@ -117,16 +117,17 @@ void add_partition(CLI::App& program, const distributed::Communicator& world) {
     CLI::App* command = program.add_subcommand(
         "partition", "Share a mesh out among ranks, and say how good the shares are");
     add_input_options(*command, options->input);
-    command->add_option("-n,--parts", options->parts, "how many parts")
+    add_number<std::uint64_t>(*command, "-n,--parts", options->parts,
+                              {1, 1'000'000, "1 to 1000000"}, "how many parts")
         ->type_name("P")
-        ->required()
-        ->check(whole_number(1, 1'000'000, "1 to 1000000"));
+        ->required();
     command
         ->add_option("--partition", options->method,
                      "lepp, dual, block, random:SEED or file:PATH [lepp]")
         ->type_name("METHOD");
     command->add_option("-o,--output", options->output, "also write each cell's part, a line each")
-        ->type_name("FILE");
+        ->type_name("FILE")
+        ->check(names_a_file());
     add_refinement_options(*command, options->refinement,
                            "Even in what cells become where these are refined (as for refine)");
     command->footer(
@@ -136,7 +137,7 @@ void add_partition(CLI::App& program, const distributed::Communicator& world) {
         "  octetra partition gear.1.ele -n 4 --sphere 1,0,0.15,0.4 --levels 2");
     command->callback([options, command, world] {
         options->says_how_refined = says_how_refined(*command);
-        distributed::on_first(world, [&] { partition(*options); });
+        world.on_first([&] { partition(*options); });
     });
 }
 

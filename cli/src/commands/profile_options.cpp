@@ -1,15 +1,14 @@
 #include "commands/profile_options.hpp"
 
-#include <cstdio>
-
-#include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
 #include <octetra/core/files.hpp>
-#include <octetra/distributed/agreement.hpp>
+#include <octetra/distributed/communicator.hpp>
 #include <octetra/distributed/profile.hpp>
 
+#include "commands/mesh_options.hpp"
 #include "profile/format_profile.hpp"
+#include "terminal.hpp"
 
 namespace octetra::cli {
 
@@ -19,11 +18,13 @@ void add_profile_options(CLI::App& subcommand, ProfileOptions& options) {
         .add_option("--profile", options.profile,
                     "print seconds, messages and bytes of every phase, and write them as JSON")
         ->type_name("FILE")
+        ->check(names_a_file())
         ->group(group);
     subcommand
         .add_option("--trace", options.trace,
                     "write what each rank did when, as JSON for ui.perfetto.dev")
         ->type_name("FILE")
+        ->check(names_a_file())
         ->group(group);
 }
 
@@ -38,9 +39,9 @@ void write_profile(const distributed::Communicator& measured, const ProfileOptio
                    bool quiet) {
     if (measured.profile() == nullptr) return;
     const auto profile = distributed::gather_profile(measured);
-    distributed::on_first(measured, [&] {
+    measured.on_first([&] {
         if (!options.profile.empty()) {
-            if (!quiet) fmt::print("\n{}", format_profile_table(profile));
+            if (!quiet) print("\n{}", format_profile_table(profile));
             write_text(format_profile_json(profile), options.profile);
         }
         if (!options.trace.empty()) write_text(format_trace(profile), options.trace);

@@ -17,8 +17,8 @@
 #include <octetra/core/error.hpp>
 #include <octetra/core/files.hpp>
 #include <octetra/core/mesh_source.hpp>
-#include <octetra/distributed/agreement.hpp>
 #include <octetra/distributed/canonical_mesh.hpp>
+#include <octetra/distributed/communicator.hpp>
 #include <octetra/distributed/partition.hpp>
 #include <octetra/distributed/predicted_cells.hpp>
 #include <octetra/distributed/profile.hpp>
@@ -30,13 +30,14 @@
 #include "choice.hpp"
 #include "commands/commands.hpp"
 #include "commands/files_apart.hpp"
+#include "commands/input_check.hpp"
 #include "commands/mesh_options.hpp"
-#include "commands/number_checks.hpp"
+#include "commands/number_options.hpp"
 #include "commands/profile_options.hpp"
 #include "commands/refinement_options.hpp"
 #include "grouped.hpp"
-#include "judges.hpp"
 #include "stopwatch.hpp"
+#include "terminal.hpp"
 #include "verdict/print_verdict.hpp"
 
 namespace octetra::cli {
@@ -69,6 +70,7 @@ struct RefineOptions {
     std::optional<std::string> synchronisation;
     ProfileOptions profile;
     std::uint64_t max_cells = std::numeric_limits<std::uint64_t>::max();
+    bool check = false;
     bool verify = false;
     bool quiet = false;
 };
@@ -76,8 +78,8 @@ struct RefineOptions {
 void report(const RefineOptions& options, std::string_view doing, std::uint64_t vertices,
             std::uint64_t cells, double seconds) {
     if (options.quiet) return;
-    fmt::print("{:<30} {:>13} vertices {:>13} cells {:>8.2f} s\n", doing, grouped(vertices),
-               grouped(cells), seconds);
+    print("{:<30} {:>13} vertices {:>13} cells {:>8.2f} s\n", doing, grouped(vertices),
+          grouped(cells), seconds);
     std::fflush(stdout);
 }
 
@@ -113,8 +115,7 @@ auto naming_the_mesh(const RefineOptions& options, auto&& engine) {
 std::function<void(int, std::uint64_t)> level_progress(const RefineOptions& options) {
     if (options.quiet || ::isatty(STDERR_FILENO) == 0) return {};
     return [levels = options.refinement.levels](int level, std::uint64_t cells) {
-        fmt::print(stderr, "\rlevel {} of {}: {} cells ", level, levels, grouped(cells));
-        std::fflush(stderr);
+        print_error_text(fmt::format("\rlevel {} of {}: {} cells ", level, levels, grouped(cells)));
     };
 }
 
@@ -173,6 +174,7 @@ verify::VerifyOptions verify_options(const Plan& plan, const RefineOptions& opti
 }
 
 void note_unchecked(const RefineOptions& options) {
+    if (options.check) return;
     note(
         fmt::format("of {} itself, orientation and faces were checked, not whether cells overlap: "
                     "octetra verify {} does",
@@ -182,7 +184,7 @@ void note_unchecked(const RefineOptions& options) {
 void print_refusal(const verify::Verdict& verdict, const RefineOptions& options,
                    std::uint32_t first_number) {
     print_verdict(verdict, {options.output, options.input.path, first_number, first_number});
-    fmt::print("nothing was written\n");
+    print("nothing was written\n");
 }
 
 /// Judges what an engine has made. If it is not valid, says why.
@@ -219,7 +221,7 @@ bool is_valid_together(verify::MeshSlice coarse, distributed::CanonicalMesh& fin
     RefinementMaps maps;
     if (!options.maps.empty()) maps = maps_of_all(fine.whole(), world);
     const auto verdict = verify::verify_refinement(
-        std::move(coarse), verify::slice_of(fine.whole()), Judges(world),
+        std::move(coarse), verify::slice_of(fine.whole()), world,
         verify_options(plan, options, options.maps.empty() ? nullptr : &maps));
     if (world.is_first() && verdict.valid()) note_unchecked(options);
     if (world.is_first() && !verdict.valid()) {
@@ -234,7 +236,7 @@ bool judge_and_write(const Mesh& coarse, const Mesh& fine, const RefinementMaps&
                      const Plan& plan, const RefineOptions& options,
                      const distributed::Communicator& world, Stopwatch& watch) {
     std::vector<char> valid{1};
-    distributed::on_first(world, [&] {
+    world.on_first([&] {
         WholeMesh source(fine, &maps);
         if (options.verify) {
             const distributed::Phase phase(world, "verify");
@@ -255,7 +257,7 @@ bool judge_and_write(const Mesh& coarse, const Mesh& fine, const RefinementMaps&
 bool refine_by_reference(const Mesh& mesh, const Plan& plan, const RefineOptions& options,
                          const distributed::Communicator& world, Stopwatch& watch) {
     reference::Refinement fine;
-    distributed::on_first(world, [&] {
+    world.on_first([&] {
         const distributed::Phase phase(world, "refine");
         const int levels = options.refinement.levels;
         fine = naming_the_mesh(options, [&] {
@@ -277,7 +279,7 @@ distributed::DistributedMesh share_out(Mesh mesh, const Plan& plan, int levels,
                                        const distributed::Communicator& world) {
     std::vector<int> cell_to_rank;
     distributed::in_phase(world, "partition", [&] {
-        distributed::on_first(world, [&] {
+        world.on_first([&] {
             // A part file that does not fit is a mistake on one rank, too.
             const bool by_file = plan.partition.method == distributed::PartitionMethod::file;
             if (world.size() == 1 && !by_file) return;
@@ -299,7 +301,7 @@ bool refine_distributed(Mesh mesh, const Plan& plan, const RefineOptions& option
     const bool verify_together = options.verify && world.size() > 1;
     const Mesh coarse = verify_alone ? mesh : Mesh{};
     verify::MeshSlice coarse_slice;
-    if (verify_together) coarse_slice = verify::share_out(mesh, Judges(world));
+    if (verify_together) coarse_slice = verify::share_out(mesh, world);
     auto parts = share_out(std::move(mesh), plan, options.refinement.levels, world);
     int levels = 0;
     const auto show = level_progress(options);
@@ -310,7 +312,7 @@ bool refine_distributed(Mesh mesh, const Plan& plan, const RefineOptions& option
     std::uint64_t too_large = 0;
     const auto report_parts = [&](const MeshFacts& facts) {
         if (!world.is_first()) return;
-        if (show) fmt::print(stderr, "\r{:60}\r", "");
+        if (show) print_error_text(fmt::format("\r{:60}\r", ""));
         report_refined(options, {levels, world.size(), facts, too_large}, watch.lap());
     };
     naming_the_mesh(options, [&] {
@@ -345,31 +347,20 @@ bool refine_distributed(Mesh mesh, const Plan& plan, const RefineOptions& option
     return true;
 }
 
-/// Refuses files beside the mesh that cannot be written or would take each other's place.
-void check_side_files(const RefineOptions& options) {
-    const std::array<std::pair<std::string_view, std::filesystem::path>, 3> files{
-        {{"--maps", options.maps},
-         {"--profile", options.profile.profile},
-         {"--trace", options.profile.trace}}};
-    for (const auto& [option, path] : files) {
-        if (path.empty()) continue;
-        check_side_file(option, path);
-        for (const auto& [other_option, other] : files) {
-            if (option == other_option) break;
-            if (path.lexically_normal() != other.lexically_normal()) continue;
-            throw InputError(fmt::format("{} and {} name the same file, {}", other_option, option,
-                                         path.native()));
-        }
+/// Refuses outputs that cannot be written, or would take the place of an input or of each other.
+void check_outputs(const RefineOptions& options, const Plan& plan, int ranks) {
+    check_writable(options.output, ranks);
+    const std::vector<NamedFiles> beside{file_named("--maps", options.maps),
+                                         file_named("--profile", options.profile.profile),
+                                         file_named("--trace", options.profile.trace)};
+    for (const auto& [option, files] : beside) {
+        for (const std::filesystem::path& file : files) check_side_file(option, file);
     }
-}
-
-void check_inputs_stay(const RefineOptions& options, const Plan& plan) {
-    check_files_apart({mesh_named("MESH", options.input.path),
-                       file_named("--cells", options.refinement.selection.cells_file),
-                       file_named("--partition", plan.partition.path)},
-                      {mesh_named("-o", options.output), file_named("--maps", options.maps),
-                       file_named("--profile", options.profile.profile),
-                       file_named("--trace", options.profile.trace)});
+    check_files_apart(
+        {mesh_named("MESH", options.input.path),
+         file_named("--cells", options.refinement.selection.cells_file),
+         file_named("--partition", plan.partition.path)},
+        {mesh_to_write("-o", options.output, ranks), beside[0], beside[1], beside[2]});
 }
 
 void refine(const RefineOptions& options, const distributed::Communicator& all) {
@@ -378,10 +369,8 @@ void refine(const RefineOptions& options, const distributed::Communicator& all) 
     const distributed::Communicator world = measured(all, options.profile);
     Mesh mesh;
     distributed::in_phase(world, "read", [&] {
-        distributed::on_first(world, [&] {
-            check_writable(options.output);
-            check_side_files(options);
-            check_inputs_stay(options, plan);
+        world.on_first([&] {
+            check_outputs(options, plan, world.size());
             mesh = read_input(options.input);
             complete_selection(plan.selection, options.refinement.selection,
                                {!mesh.regions.empty(), mesh.first_number, mesh.cells.size()});
@@ -390,6 +379,13 @@ void refine(const RefineOptions& options, const distributed::Communicator& all) 
         });
         world.broadcast(plan.selection.cells);
     });
+    if (options.check) {
+        check_input(mesh, options.input.path, world);
+        if (world.is_first()) {
+            report(options, fmt::format("checked {}", options.input.path), mesh.points.size(),
+                   mesh.cells.size(), watch.lap());
+        }
+    }
     const bool done = plan.engine == Engine::reference
                           ? refine_by_reference(mesh, plan, options, world, watch)
                           : refine_distributed(std::move(mesh), plan, options, world, watch);
@@ -429,24 +425,26 @@ void add_refine(CLI::App& program, const distributed::Communicator& world) {
     add_output_option(*refine_command, options->output);
     add_refinement_options(*refine_command, options->refinement,
                            "Which cells (criteria add up; give at least one)");
-    refine_command
-        ->add_option("--max-cells", options->max_cells,
-                     "end in an error, and write nothing, before a level that would make more")
-        ->type_name("N")
-        ->check(whole_number(1, std::numeric_limits<std::uint64_t>::max(), "1 up"));
+    add_number(*refine_command, "--max-cells", options->max_cells, whole_numbers_from(1),
+               "end in an error, and write nothing, before a level that would make more")
+        ->type_name("N");
     add_engine_options(*refine_command, *options);
     refine_command
         ->add_option("--maps", options->maps,
                      "also write each cell's parent and each midpoint's edge, as text")
-        ->type_name("FILE");
+        ->type_name("FILE")
+        ->check(names_a_file());
     add_profile_options(*refine_command, options->profile);
+    refine_command->add_flag("--check", options->check,
+                             "judge MESH as octetra verify does, and refine it if it is valid");
     refine_command->add_flag(
         "--verify", options->verify,
         "judge the result as octetra verify does, and write it if it is valid");
     refine_command->add_flag("--quiet", options->quiet, "print nothing but notes and errors");
     refine_command->footer(
         "Exit status: 0 done; 1 --verify finds the result not valid, and nothing is written;\n"
-        "2 bad usage or bad input; 3 the system failed: memory, disk, a lost rank.\n"
+        "2 bad usage or bad input; 3 the system failed: memory, disk; 128 + its number: a signal\n"
+        "ended a rank, as 137 where it was killed.\n"
         "Example:\n"
         "  octetra generate gear -o gear.1.ele\n"
         "  octetra refine gear.1.ele --sphere 1,0,0.1,0.3 --levels 2 -o fine.vtu\n"

@@ -5,18 +5,17 @@
 #include <CLI/CLI.hpp>
 
 #include "choice.hpp"
-#include "commands/number_checks.hpp"
+#include "commands/number_options.hpp"
 
 namespace octetra::cli {
 
 void add_refinement_options(CLI::App& subcommand, RefinementOptions& options,
                             const std::string& group) {
     add_selection_options(subcommand, options.selection, group);
-    subcommand
-        .add_option("--levels", options.levels,
-                    "how often to choose and bisect; what is chosen is judged afresh each time [1]")
-        ->type_name("L")
-        ->check(whole_number(0, 50, "0 to 50"));
+    add_number<std::uint64_t>(
+        subcommand, "--levels", options.levels, {0, 50, "0 to 50"},
+        "how often to choose and bisect; what is chosen is judged afresh each time [1]")
+        ->type_name("L");
     subcommand
         .add_option("--scheme", options.scheme,
                     "a chosen cell selects all its edges, its faces' longest, or its longest [8t]")

@@ -1,6 +1,5 @@
 #include "commands/selection_options.hpp"
 
-#include <cmath>
 #include <limits>
 
 #include <fmt/format.h>
@@ -9,7 +8,8 @@
 #include <octetra/core/error.hpp>
 #include <octetra/core/files.hpp>
 
-#include "commands/number_checks.hpp"
+#include "commands/mesh_options.hpp"
+#include "commands/number_options.hpp"
 #include "parse_numbers.hpp"
 
 namespace octetra::cli {
@@ -34,6 +34,12 @@ Box parse_box(const std::string& text) {
     return {{n[0], n[1], n[2]}, {n[3], n[4], n[5]}};
 }
 
+Marker parse_tag(const std::string& text) {
+    using Limits = std::numeric_limits<Marker>;
+    const std::string words = fmt::format("{} to {}", Limits::min(), Limits::max());
+    return parse_number<Marker>("--region", text, {Limits::min(), Limits::max(), words});
+}
+
 }  // namespace
 
 void add_selection_options(CLI::App& subcommand, SelectionOptions& options,
@@ -43,6 +49,7 @@ void add_selection_options(CLI::App& subcommand, SelectionOptions& options,
         .add_option("--cells", options.cells_file,
                     "cells listed in a file, numbered as MESH numbers them")
         ->type_name("FILE")
+        ->check(names_a_file())
         ->group(group);
     subcommand.add_option("--sphere", options.spheres, "cells with their centroid nearer than R")
         ->type_name("X,Y,Z,R")
@@ -56,14 +63,15 @@ void add_selection_options(CLI::App& subcommand, SelectionOptions& options,
         ->type_name("TAG")
         ->allow_extra_args(false)
         ->group(group);
-    subcommand.add_option("--random", options.random, "about this share of the cells, 0 to 1")
+    add_number<double>(subcommand, "--random", options.random, {0, 1, "0 to 1"},
+                       "about this share of the cells")
         ->type_name("FRACTION")
         ->group(group);
-    subcommand.add_option("--seed", options.seed, "for --random [0]")
+    add_number(subcommand, "--seed", options.seed, whole_numbers_from(0), "for --random [0]")
         ->type_name("N")
-        ->check(whole_number(0, std::numeric_limits<std::uint64_t>::max(), "0 up"))
         ->group(group);
-    subcommand.add_option("--max-volume", options.max_volume, "cells of a larger volume")
+    add_number<double>(subcommand, "--max-volume", options.max_volume,
+                       {0, std::numeric_limits<double>::max(), "0 up"}, "cells of a larger volume")
         ->type_name("V")
         ->group(group);
 }
@@ -79,20 +87,18 @@ Selection parse_selection(const SelectionOptions& options) {
     selection.all = options.all;
     for (const std::string& text : options.spheres) selection.spheres.push_back(parse_sphere(text));
     for (const std::string& text : options.boxes) selection.boxes.push_back(parse_box(text));
-    selection.regions = options.regions;
+    for (const std::string& text : options.regions) selection.regions.push_back(parse_tag(text));
     if (options.random) {
-        if (!(*options.random >= 0 && *options.random <= 1)) {
+        // No share that anybody means, and one of few digits.
+        if (*options.random > 0 && *options.random < std::numeric_limits<double>::min()) {
             throw InputError(
-                fmt::format("--random takes a fraction from 0 to 1, not {}", *options.random));
+                fmt::format("--random takes a number from 0 to 1, not '{}'; it is out of range",
+                            *options.random));
         }
         selection.random = RandomShare{*options.random, options.seed.value_or(0)};
     }
     if (options.seed && !options.random) {
         throw InputError("--seed is that of --random, which is not given: --random 0.1 --seed 7");
-    }
-    if (options.max_volume && !(*options.max_volume >= 0)) {
-        throw InputError(
-            fmt::format("--max-volume takes a volume from 0, not {}", *options.max_volume));
     }
     selection.max_volume = options.max_volume;
     if (!has_criterion(options)) {

@@ -20,7 +20,7 @@ struct SelectionOptions {
     std::string cells_file;
     std::vector<std::string> spheres;
     std::vector<std::string> boxes;
-    std::vector<Marker> regions;
+    std::vector<std::string> regions;
     std::optional<double> random;
     std::optional<std::uint64_t> seed;
     std::optional<double> max_volume;

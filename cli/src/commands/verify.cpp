@@ -6,16 +6,16 @@
 
 #include <octetra/core/error.hpp>
 #include <octetra/core/files.hpp>
-#include <octetra/distributed/agreement.hpp>
+#include <octetra/distributed/communicator.hpp>
 #include <octetra/verify/verify.hpp>
 
 #include "answer.hpp"
 #include "commands/commands.hpp"
 #include "commands/files_apart.hpp"
 #include "commands/mesh_options.hpp"
-#include "commands/number_checks.hpp"
+#include "commands/number_options.hpp"
 #include "commands/refinement_options.hpp"
-#include "judges.hpp"
+#include "verdict/check_progress.hpp"
 #include "verdict/print_verdict.hpp"
 
 namespace octetra::cli {
@@ -99,19 +99,18 @@ void share_maps(RefinementMaps& maps, const distributed::Communicator& world) {
 /// Collective. Every process judges a part; none has a mesh as a whole.
 verify::Verdict judge_together(const VerifyCommandOptions& given, verify::VerifyOptions options,
                                Judged& judged, const distributed::Communicator& world) {
-    const Judges judges(world);
     const ReadOptions as_it_stands{.only_syntax = true, .note = note};
-    verify::MeshSlice first = verify::read_slice(given.first, as_it_stands, judges);
+    verify::MeshSlice first = verify::read_slice(given.first, as_it_stands, world);
     const std::uint32_t first_number = first.lists.first_number;
     if (given.second.empty()) {
         judged = {.fine = given.first, .fine_first_number = first_number};
-        return verify_mesh(std::move(first), judges, options);
+        return verify_mesh(std::move(first), world, options);
     }
-    verify::MeshSlice second = verify::read_slice(given.second, as_it_stands, judges);
+    verify::MeshSlice second = verify::read_slice(given.second, as_it_stands, world);
     judged = {given.second, given.first, second.lists.first_number, first_number};
     if (options.request) {
         Selection& selection = options.request->selection;
-        distributed::on_first(world, [&] {
+        world.on_first([&] {
             complete_selection(selection, given.refinement.selection,
                                {!first.lists.regions.empty(), first_number, first.totals.cells});
         });
@@ -119,17 +118,17 @@ verify::Verdict judge_together(const VerifyCommandOptions& given, verify::Verify
     }
     RefinementMaps maps;
     if (!given.maps.empty()) {
-        distributed::on_first(world, [&] { maps = read_maps(given.maps, first_number); });
+        world.on_first([&] { maps = read_maps(given.maps, first_number); });
         share_maps(maps, world);
         options.maps = &maps;
     }
-    return verify_refinement(std::move(first), std::move(second), judges, options);
+    return verify_refinement(std::move(first), std::move(second), world, options);
 }
 
 /// Collective.
 bool run(const VerifyCommandOptions& given, const distributed::Communicator& world) {
-    const verify::VerifyOptions options = options_of(given);
-    distributed::on_first(world, [&] {
+    verify::VerifyOptions options = options_of(given);
+    world.on_first([&] {
         if (given.report.empty()) return;
         check_side_file("--report", given.report);
         check_files_apart({mesh_named("MESH", given.first), mesh_named("REFINED", given.second),
@@ -137,11 +136,14 @@ bool run(const VerifyCommandOptions& given, const distributed::Communicator& wor
                            file_named("--cells", given.refinement.selection.cells_file)},
                           {file_named("--report", given.report)});
     });
+    CheckProgress progress;
+    if (world.is_first()) options.progress = progress.listener();
     Judged judged;
     const verify::Verdict verdict = world.size() == 1
                                         ? judge(given, options, judged)
                                         : judge_together(given, options, judged, world);
-    distributed::on_first(world, [&] {
+    progress.clear();
+    world.on_first([&] {
         print_verdict(verdict, judged);
         if (!given.report.empty()) write_text(format_json(verdict, judged), given.report);
     });
@@ -156,27 +158,30 @@ void add_verify(CLI::App& program, const distributed::Communicator& world) {
         "verify", "Judge a mesh, or a mesh as the refinement of another, by exact arithmetic");
     command->add_option("MESH", options->first, "the mesh; or, with REFINED, the coarse one")
         ->type_name("")
+        ->check(names_a_file())
         ->required();
     command->add_option("REFINED", options->second, "the mesh that claims to refine MESH")
-        ->type_name("");
+        ->type_name("")
+        ->check(names_a_file());
     command->add_flag("--fast", options->fast,
                       "leave out what takes a search in space, exact sums or angles");
-    command
-        ->add_option("--min-dihedral", options->min_dihedral,
-                     "no dihedral angle may be less than D degrees; compared exactly")
-        ->type_name("D")
-        ->check(number(0, 180, "0 to 180"));
+    add_number<double>(*command, "--min-dihedral", options->min_dihedral, {0, 180, "0 to 180"},
+                       "no dihedral angle may be less than D degrees; compared exactly")
+        ->type_name("D");
     command->add_option("--report", options->report, "also write all that was found, as JSON")
-        ->type_name("FILE");
+        ->type_name("FILE")
+        ->check(names_a_file());
     command
         ->add_option("--maps", options->maps,
                      "check the parents and midpoints that refine --maps has written")
-        ->type_name("FILE");
+        ->type_name("FILE")
+        ->check(names_a_file());
     add_refinement_options(*command, options->refinement,
                            "Is it the 8T-LE refinement of these cells? (as for refine)");
     command->footer(
         "Exit status: 0 valid; 1 not valid; 2 bad usage, or a file that cannot be read;\n"
-        "3 the system failed: memory, disk, a lost rank.\n"
+        "3 the system failed: memory, disk; 128 + its number: a signal ended a rank, as 137 where\n"
+        "it was killed.\n"
         "Example:\n"
         "  octetra generate gear -o gear.1.ele\n"
         "  octetra refine gear.1.ele --sphere 1,0,0.1,0.3 --levels 2 -o fine.1.ele\n"

@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include "grouped.hpp"
+#include "terminal.hpp"
 
 namespace octetra::cli {
 namespace {
@@ -38,7 +39,7 @@ public:
     }
 
     /// A number of bins with bars; the longest bar stands for the largest count.
-    void histogram(std::string_view title, const Histogram& histogram) {
+    void histogram(std::string_view title, const quality::Histogram& histogram) {
         heading(title, "count", "share");
         const auto& counts = histogram.counts;
         const std::size_t total = std::reduce(counts.begin(), counts.end());
@@ -84,7 +85,7 @@ private:
     std::string text_;
 };
 
-void add_counts(Table& table, const EntityCounts& counts) {
+void add_counts(Table& table, const quality::EntityCounts& counts) {
     table.heading("Counts");
     table.row("vertices", shown(counts.vertices));
     table.row("edges", shown(counts.edges));
@@ -99,7 +100,7 @@ void add_counts(Table& table, const EntityCounts& counts) {
     table.row("Euler characteristic", fmt::format("{}", counts.euler_characteristic));
 }
 
-void add_extent(Table& table, const MeshStatistics& s) {
+void add_extent(Table& table, const quality::MeshStatistics& s) {
     table.heading("Extent, in the mesh's units", "minimum", "maximum", "size");
     const auto row = [&](const char* name, double low, double high) {
         table.row(name, shown(low), shown(high), shown(high - low));
@@ -116,9 +117,9 @@ void add_extent(Table& table, const MeshStatistics& s) {
     table.row("boundary area", "", "", shown(s.boundary_area));
 }
 
-void add_shapes(Table& table, const MeshStatistics& s) {
+void add_shapes(Table& table, const quality::MeshStatistics& s) {
     table.heading("Shape", "minimum", "maximum", "mean");
-    const auto row = [&](const char* name, const std::optional<Range>& range) {
+    const auto row = [&](const char* name, const std::optional<quality::Range>& range) {
         if (range) {
             table.row(name, shown(range->min), shown(range->max));
         } else {
@@ -136,7 +137,7 @@ void add_shapes(Table& table, const MeshStatistics& s) {
     }
 }
 
-void add_adjacency(Table& table, const std::optional<Adjacency>& adjacency) {
+void add_adjacency(Table& table, const std::optional<quality::Adjacency>& adjacency) {
     table.heading("Adjacency", "mean", "maximum");
     if (!adjacency) {
         table.row("none");
@@ -150,7 +151,7 @@ void add_adjacency(Table& table, const std::optional<Adjacency>& adjacency) {
     table.row("faces at an edge", shown(adjacency->faces_per_edge));
 }
 
-void add_tags(Table& table, const std::vector<TagTotal>& totals, const char* title,
+void add_tags(Table& table, const std::vector<quality::TagTotal>& totals, const char* title,
               const char* count, const char* size) {
     if (totals.empty()) return;
     table.heading(title, count, size);
@@ -165,7 +166,7 @@ void add_tags(Table& table, const std::vector<TagTotal>& totals, const char* tit
 
 }  // namespace
 
-std::string format_table(const MeshStatistics& s) {
+std::string format_table(const quality::MeshStatistics& s) {
     Table table;
     add_counts(table, s.counts);
     add_extent(table, s);
@@ -178,6 +179,8 @@ std::string format_table(const MeshStatistics& s) {
     return std::move(table).take();
 }
 
-void print_table(const MeshStatistics& statistics) { fmt::print("{}", format_table(statistics)); }
+void print_table(const quality::MeshStatistics& statistics) {
+    print_text(format_table(statistics));
+}
 
 }  // namespace octetra::cli

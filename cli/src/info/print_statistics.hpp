@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "info/mesh_statistics.hpp"
+#include <octetra/quality/mesh_statistics.hpp>
 
 /// Mesh statistics for people and for programs.
 ///
@@ -30,13 +30,13 @@
 namespace octetra::cli {
 
 /// Lines of at most 80 columns, numbers with six significant digits.
-[[nodiscard]] std::string format_table(const MeshStatistics& statistics);
+[[nodiscard]] std::string format_table(const quality::MeshStatistics& statistics);
 
 /// Indented JSON, and a line end.
-[[nodiscard]] std::string format_json(const MeshStatistics& statistics);
+[[nodiscard]] std::string format_json(const quality::MeshStatistics& statistics);
 
 /// The same, to stdout. Throws std::system_error where that fails.
-void print_table(const MeshStatistics& statistics);
-void print_json(const MeshStatistics& statistics);
+void print_table(const quality::MeshStatistics& statistics);
+void print_json(const quality::MeshStatistics& statistics);
 
 }  // namespace octetra::cli

@@ -1,10 +1,10 @@
 #include <optional>
 #include <vector>
 
-#include <fmt/core.h>
 #include <nlohmann/json.hpp>
 
 #include "info/print_statistics.hpp"
+#include "terminal.hpp"
 
 namespace octetra::cli {
 namespace {
@@ -15,17 +15,17 @@ Json json(const Point& p) { return {p.x, p.y, p.z}; }
 
 Json json(const Box& box) { return {{"low", json(box.low)}, {"high", json(box.high)}}; }
 
-Json json(const Range& range) { return {{"min", range.min}, {"max", range.max}}; }
+Json json(const quality::Range& range) { return {{"min", range.min}, {"max", range.max}}; }
 
-Json json(const Quality& quality) {
+Json json(const quality::Quality& quality) {
     return {{"min", quality.min}, {"mean", quality.mean}, {"max", quality.max}};
 }
 
-Json json(const Histogram& histogram) {
+Json json(const quality::Histogram& histogram) {
     return {{"low", histogram.low}, {"high", histogram.high}, {"counts", histogram.counts}};
 }
 
-Json json(const Adjacency& adjacency) {
+Json json(const quality::Adjacency& adjacency) {
     return {{"cells_per_edge", adjacency.cells_per_edge},
             {"cells_per_vertex", adjacency.cells_per_vertex},
             {"edges_per_vertex", adjacency.edges_per_vertex},
@@ -34,7 +34,7 @@ Json json(const Adjacency& adjacency) {
             {"max_cells_at_vertex", adjacency.max_cells_at_vertex}};
 }
 
-Json json(const EntityCounts& counts) {
+Json json(const quality::EntityCounts& counts) {
     return {{"vertices", counts.vertices},
             {"edges", counts.edges},
             {"faces", counts.faces},
@@ -53,10 +53,10 @@ Json json(const std::optional<T>& value) {
     return value ? json(*value) : Json(nullptr);
 }
 
-Json json(const std::vector<TagTotal>& totals, const char* tag, const char* count,
+Json json(const std::vector<quality::TagTotal>& totals, const char* tag, const char* count,
           const char* size) {
     Json out = Json::array();
-    for (const TagTotal& total : totals) {
+    for (const quality::TagTotal& total : totals) {
         out.push_back({{tag, total.tag}, {count, total.count}, {size, total.size}});
     }
     return out;
@@ -64,7 +64,7 @@ Json json(const std::vector<TagTotal>& totals, const char* tag, const char* coun
 
 }  // namespace
 
-std::string format_json(const MeshStatistics& s) {
+std::string format_json(const quality::MeshStatistics& s) {
     const Json out{{"counts", json(s.counts)},
                    {"bounding_box", json(s.bounding_box)},
                    {"volume", s.volume},
@@ -82,6 +82,6 @@ std::string format_json(const MeshStatistics& s) {
     return out.dump(2) + "\n";
 }
 
-void print_json(const MeshStatistics& statistics) { fmt::print("{}", format_json(statistics)); }
+void print_json(const quality::MeshStatistics& statistics) { print_text(format_json(statistics)); }
 
 }  // namespace octetra::cli

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "grouped.hpp"
+#include "terminal.hpp"
 #include "verdict/describe.hpp"
 
 namespace octetra::cli {
@@ -21,9 +22,9 @@ constexpr std::size_t shown_of_each_code = 5;
 void print_checks(const Verdict& verdict) {
     for (const verify::Check& check : verdict.checks) {
         if (check.note.empty()) {
-            fmt::print("{:<22} {}\n", check.name, word_of(check.status));
+            print("{:<22} {}\n", check.name, word_of(check.status));
         } else {
-            fmt::print("{:<22} {:<8} {}\n", check.name, word_of(check.status), check.note);
+            print("{:<22} {:<8} {}\n", check.name, word_of(check.status), check.note);
         }
     }
 }
@@ -33,15 +34,15 @@ void print_violation(const Violation& violation, const Judged& judged) {
     for (const verify::Entity& entity : violation.entities) {
         entities += (entities.empty() ? "" : ", ") + describe(entity, judged);
     }
-    fmt::print("  {}{}found {}; expected {}\n", entities, entities.empty() ? "" : ": ",
-               violation.found, violation.expected);
+    print("  {}{}found {}; expected {}\n", entities, entities.empty() ? "" : ": ", violation.found,
+          violation.expected);
 }
 
 void print_violations(const Verdict& verdict, const Judged& judged) {
     for (std::size_t code = 0; code < verify::code_count; ++code) {
         const std::uint64_t count = verdict.counts[code];
         if (count == 0) continue;
-        fmt::print("\n{}: {}\n", name(static_cast<Code>(code)), grouped(count));
+        print("\n{}: {}\n", name(static_cast<Code>(code)), grouped(count));
         std::size_t shown = 0;
         for (const Violation& violation : verdict.violations) {
             if (violation.code != static_cast<Code>(code)) continue;
@@ -49,7 +50,7 @@ void print_violations(const Verdict& verdict, const Judged& judged) {
             print_violation(violation, judged);
         }
         if (count > shown_of_each_code) {
-            fmt::print("  and {} more\n", grouped(count - shown_of_each_code));
+            print("  and {} more\n", grouped(count - shown_of_each_code));
         }
     }
 }
@@ -58,14 +59,14 @@ void print_violations(const Verdict& verdict, const Judged& judged) {
 void print_whose_numbers(const Verdict& verdict, const Judged& judged) {
     if (verdict.valid() || judged.coarse.empty()) return;
     if (judged.fine_first_number == judged.coarse_first_number) return;
-    fmt::print(
+    print(
         "\nNumbers are those of {}, which counts from {}; of what is called coarse, those of {}, "
         "from {}.\n",
         judged.fine, judged.fine_first_number, judged.coarse, judged.coarse_first_number);
 }
 
 void print_fact(std::string_view what, const std::string& value) {
-    fmt::print("{:<30} {:>16}\n", what, value);
+    print("{:<30} {:>16}\n", what, value);
 }
 
 void print_angles(std::string_view of, const verify::AngleFigures& angles) {
@@ -92,7 +93,7 @@ void print_sums(std::string_view what, const std::vector<verify::TagSum>& sums,
 
 void print_facts(const Verdict& verdict, bool of_refinement) {
     const verify::Facts& facts = verdict.facts;
-    fmt::print("\n");
+    print_text("\n");
     print_fact("vertices", grouped(facts.vertices));
     print_fact("cells", grouped(facts.cells));
     print_fact("boundary faces", grouped(facts.boundary_faces));
@@ -124,9 +125,9 @@ void print_verdict(const Verdict& verdict, const Judged& judged) {
                                     : fast           ? "valid, as far as --fast looks"
                                                      : "valid";
     if (judged.coarse.empty()) {
-        fmt::print("\n{}: {}\n", judged.fine, answer);
+        print("\n{}: {}\n", judged.fine, answer);
     } else {
-        fmt::print("\n{} as a refinement of {}: {}\n", judged.fine, judged.coarse, answer);
+        print("\n{} as a refinement of {}: {}\n", judged.fine, judged.coarse, answer);
     }
 }
 
@@ -137,17 +138,17 @@ void print_comparison(const verify::Comparison& comparison, const std::string& a
         for (const Point& p : difference.corners) {
             corners += fmt::format(" ({}, {}, {})", p.x, p.y, p.z);
         }
-        fmt::print("{} at{}: {} in {}, {} in {}\n", difference.kind, corners, difference.in_a, a,
-                   difference.in_b, b);
+        print("{} at{}: {} in {}, {} in {}\n", difference.kind, corners, difference.in_a, a,
+              difference.in_b, b);
     }
     const std::uint64_t more = comparison.difference_count - comparison.differences.size();
-    if (more > 0) fmt::print("and {} more differences\n", grouped(more));
+    if (more > 0) print("and {} more differences\n", grouped(more));
     constexpr std::array<std::string_view, 3> answers{"identical", "the same up to numbering",
                                                       "different"};
-    fmt::print("{}, {}: {}{}\n", a, b, answers[static_cast<std::size_t>(comparison.likeness)],
-               comparison.only_first_number_differs
-                   ? ": one counts from 0, the other from 1, and nothing else differs"
-                   : "");
+    print("{}, {}: {}{}\n", a, b, answers[static_cast<std::size_t>(comparison.likeness)],
+          comparison.only_first_number_differs
+              ? ": one counts from 0, the other from 1, and nothing else differs"
+              : "");
 }
 
 }  // namespace octetra::cli

@@ -7,6 +7,8 @@
 
 #include <fmt/format.h>
 
+#include <octetra/core/point.hpp>
+
 namespace octetra {
 namespace {
 
@@ -66,6 +68,18 @@ Number Fields::number(std::string_view what, std::string_view kind) {
 }
 
 std::uint64_t Fields::unsigned_integer(std::string_view what) {
+    // Nearly all are a few digits and nothing else, and most of a file; the rest goes the long way.
+    constexpr std::ptrdiff_t always_fits = 19;  // digits
+    std::uint64_t value = 0;
+    const char* stop = next_;
+    while (stop != end_ && *stop >= '0' && *stop <= '9' && stop - next_ < always_fits) {
+        value = 10 * value + static_cast<std::uint64_t>(*stop++ - '0');
+    }
+    if (stop != next_ && (stop == end_ || is_blank(*stop))) {
+        next_ = stop;
+        skip_blanks();
+        return value;
+    }
     return number<std::uint64_t>(what, "a whole number from 0");
 }
 
@@ -87,6 +101,18 @@ double Fields::real(std::string_view what) {
     const double value = number<double>(what, "a number");
     if (!std::isfinite(value)) {
         reader_->fail(fmt::format("{} is not finite: {}", what, shown(token_at(first, end_))));
+    }
+    return value;
+}
+
+double Fields::coordinate(std::string_view what) {
+    const char* const first = next_;
+    const double value = real(what);
+    if (std::abs(value) >= coordinate_limit) {
+        reader_->fail(
+            fmt::format("{} is {}: coordinates must be less than 2^1023, about 8.98e307, "
+                        "or midpoints overflow; scale the mesh down",
+                        what, shown(token_at(first, end_))));
     }
     return value;
 }

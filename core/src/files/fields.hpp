@@ -31,6 +31,8 @@ public:
     [[nodiscard]] std::int32_t marker(std::string_view what);
     /// A finite number.
     [[nodiscard]] double real(std::string_view what);
+    /// A number that a coordinate can be.
+    [[nodiscard]] double coordinate(std::string_view what);
 
     /// Refuses anything that is left on the line, after `expected` fields.
     void expect_end(std::size_t expected) const;

@@ -1,7 +1,5 @@
 #include <octetra/core/files.hpp>
 
-#include <unistd.h>
-
 #include <algorithm>
 #include <vector>
 
@@ -13,6 +11,7 @@
 #include "files/line_reader.hpp"
 #include "files/medit.hpp"
 #include "files/output_file.hpp"
+#include "files/places.hpp"
 #include "files/tetgen.hpp"
 #include "files/vtu.hpp"
 
@@ -67,7 +66,7 @@ std::string write_mesh(MeshSource& mesh, const fs::path& path) {
         case Format::tetgen: write_tetgen(mesh, path); return {};
         case Format::medit: return write_medit(mesh, path);
         case Format::vtu: return write_vtu(mesh, path);
-        case Format::pvtu: return write_pieces(mesh, WriterGroup::alone(), path);
+        case Format::pvtu: return write_pieces(mesh, ProcessGroup::alone(), path);
         case Format::unknown: break;
     }
     return {};
@@ -82,48 +81,19 @@ bool can_hold_attributes(const fs::path& path) { return format_of(path) != Forma
 
 bool is_in_pieces(const fs::path& path) { return format_of(path) == Format::pvtu; }
 
-std::string write_pieces(MeshSource& piece, const WriterGroup& group, const fs::path& path) {
-    group.on_first([&] { check_writable(path); });
+std::string write_pieces(MeshSource& piece, const ProcessGroup& group, const fs::path& path) {
+    group.on_first([&] { check_writable(path, group.size()); });
     return write_pvtu(piece, group, path);
 }
 
-std::vector<fs::path> files_of_mesh(const fs::path& path) {
-    if (format_of(path) != Format::tetgen) return {path};
-    std::vector<fs::path> files;
-    for (const char* const extension : {".node", ".ele", ".face", ".edge"}) {
-        files.push_back(fs::path(path).replace_extension(extension));
-    }
-    return files;
-}
-
-void check_writable(const fs::path& path) {
+void check_writable(const fs::path& path, int pieces) {
     if (format_of(path) == Format::unknown) {
         throw InputError(
             fmt::format("{}: a mesh to write is named by its extension: .ele or .node "
                         "(TetGen), .mesh (Medit), .vtu or .pvtu (VTK)",
                         path.native()));
     }
-    check_place(path);
-}
-
-void check_place(const fs::path& path) {
-    std::error_code ignored;
-    const fs::file_status there = fs::status(path, ignored);
-    if (fs::is_directory(there)) {
-        throw InputError(fmt::format("{}: is a directory, not a file", path.native()));
-    }
-    if (fs::exists(there) && !fs::is_regular_file(there)) {
-        throw InputError(fmt::format("{}: is a device or the like, not a file", path.native()));
-    }
-    const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
-    if (!fs::is_directory(folder, ignored)) {
-        throw InputError(fmt::format("{}: there is no folder {}; make it first", path.native(),
-                                     folder.native()));
-    }
-    if (::access(folder.c_str(), W_OK) != 0) {
-        throw InputError(
-            fmt::format("{}: the folder {} is not writable", path.native(), folder.native()));
-    }
+    check_places(path, pieces);
 }
 
 std::vector<GlobalCell> read_cell_list(const fs::path& path, std::uint32_t first_number,

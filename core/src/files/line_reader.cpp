@@ -17,6 +17,8 @@
 namespace octetra {
 namespace {
 
+/// What some editors put in front of UTF-8.
+constexpr std::string_view byte_order_mark = "\xef\xbb\xbf";
 constexpr std::size_t longest_line = std::size_t{1} << 20U;
 
 std::string_view without_comment_and_line_end(std::string_view raw) {
@@ -57,6 +59,9 @@ LineReader::~LineReader() { ::close(file_); }
 bool LineReader::next() {
     std::string_view raw;
     while (next_raw_line(raw)) {
+        if (line_number_ == 0 && raw.starts_with(byte_order_mark)) {
+            raw.remove_prefix(byte_order_mark.size());
+        }
         ++line_number_;
         line_ = without_comment_and_line_end(raw);
         if (!line_.empty()) return true;

@@ -9,7 +9,7 @@
 namespace octetra {
 
 /// Reads a text file line by line through one buffer, never the whole of it.
-/// Skips blank lines, cuts off `#` comments; CRLF counts as a line end.
+/// Skips blank lines and a UTF-8 byte order mark, cuts off `#` comments; CRLF counts as a line end.
 class LineReader {
 public:
     /// Throws InputError if `path` is not a regular file that can be read.

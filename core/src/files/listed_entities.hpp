@@ -2,13 +2,29 @@
 
 #include <octetra/core/mesh.hpp>
 
+#include "files/repeated_cells.hpp"
+
 namespace octetra {
 
-/// The first listed facet that is a face of no cell; none() if there is no such facet.
-/// Vertex numbers must be in range. Takes 8 bytes per vertex and 4 per facet meanwhile.
-[[nodiscard]] FacetIndex find_stray_facet(const Mesh& mesh);
+/// The first entry of a list of facets or edges that cannot be right.
+template <class I>
+struct WrongEntry {
+    I entry = I::none();    ///< none: there is no such entry
+    I earlier = I::none();  ///< has the same vertices and another marker; none: no cell has entry's
+};
 
-/// The first listed edge that is an edge of no cell, likewise.
-[[nodiscard]] EdgeIndex find_stray_edge(const Mesh& mesh);
+struct WrongFacets {
+    WrongEntry<FacetIndex> listed;
+    /// Two cells that lie on the same side of a listed facet, the first such in the order of cells.
+    CellPair overlap;
+    FacetIndex common = FacetIndex::none();  ///< the facet
+};
+
+/// Judges the listed facets. Vertex numbers must be in range, and cells positive.
+/// Takes 8 bytes per vertex and 4 per facet meanwhile.
+[[nodiscard]] WrongFacets find_wrong_facets(const Mesh& mesh);
+
+/// Judges the listed edges, likewise.
+[[nodiscard]] WrongEntry<EdgeIndex> find_wrong_edge(const Mesh& mesh);
 
 }  // namespace octetra

@@ -6,7 +6,7 @@
 namespace octetra {
 namespace {
 
-void put_heading(OutputFile& out, const WriterGroup& group, std::string_view what,
+void put_heading(OutputFile& out, const ProcessGroup& group, std::string_view what,
                  std::uint64_t count) {
     if (!group.is_first()) return;
     out.put(what);
@@ -18,7 +18,7 @@ void put_heading(OutputFile& out, const WriterGroup& group, std::string_view wha
 
 void write_maps(MeshSource& mesh, const std::filesystem::path& path) {
     const MeshFacts& facts = mesh.facts();
-    const WriterGroup& group = mesh.group();
+    const ProcessGroup& group = mesh.group();
     const auto put_number = [first = facts.first_number](OutputFile& out, std::uint64_t number) {
         out.put(number + first);
     };

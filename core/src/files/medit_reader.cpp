@@ -10,11 +10,13 @@
 #include <octetra/core/error.hpp>
 
 #include "files/cell_check.hpp"
+#include "files/conflicts.hpp"
 #include "files/fields.hpp"
 #include "files/growing_mesh.hpp"
 #include "files/line_reader.hpp"
 #include "files/listed_entities.hpp"
 #include "files/medit.hpp"
+#include "files/repeated_cells.hpp"
 
 namespace octetra {
 namespace {
@@ -62,6 +64,10 @@ public:
     double real(std::string_view what) {
         require(what);
         return fields_.real(what);
+    }
+    double coordinate(std::string_view what) {
+        require(what);
+        return fields_.coordinate(what);
     }
 
 private:
@@ -133,10 +139,14 @@ private:
         check_cells();
         check_listed(mesh_.facets, triangles_, "triangle");
         check_listed(mesh_.edges, edges_, "edge");
-        if (!options_->only_syntax) {
-            check_stray(find_stray_facet(mesh_), triangles_, "triangle");
-            check_stray(find_stray_edge(mesh_), edges_, "edge");
+        if (options_->only_syntax) return;
+        const WrongFacets wrong = find_wrong_facets(mesh_);
+        if (const CellIndex cell = wrong.overlap.cell; !cell.is_none()) {
+            fail_entry(tetrahedra_, cell, "cell",
+                       describe_overlap(wrong, mesh_, lines_of(tetrahedra_)));
         }
+        refuse_if_wrong(wrong.listed, triangles_, "triangle", mesh_.facet_markers);
+        refuse_if_wrong(find_wrong_edge(mesh_), edges_, "edge", mesh_.edge_markers);
     }
 
     void read_head() {
@@ -241,10 +251,10 @@ private:
                 growing_.expect_points(count, 0, true);
             },
             [&](auto&& started) {
-                const double x = tokens_.real("x");
+                const double x = tokens_.coordinate("x");
                 started();
-                const double y = tokens_.real("y");
-                const double z = tokens_.real("z");
+                const double y = tokens_.coordinate("y");
+                const double z = tokens_.coordinate("z");
                 mesh_.points.push_back({x, y, z});
                 mesh_.point_markers.push_back(tokens_.marker("the vertex's reference"));
                 growing_.point_complete();
@@ -348,27 +358,35 @@ private:
 
     void check_cells() {
         CellCheck check(mesh_, *options_);
+        RepeatedCells repeated(options_->only_syntax ? 0 : mesh_.cells.size());
         for (CellIndex c{0}; c < mesh_.cells.end_index(); ++c) {
             const std::string_view wrong = check.judge(mesh_.cells[c]);
             if (!wrong.empty()) fail_entry(tetrahedra_, c, "cell", wrong);
+            if (!options_->only_syntax) repeated.add(mesh_.cells[c]);
         }
         if (check.fixed_count() > 0) {
             options_->note(fmt::format("{}: {} inverted cells were turned round",
                                        reader_.path().native(), check.fixed_count()));
         }
+        if (const CellPair pair = repeated.find(mesh_); !pair.cell.is_none()) {
+            fail_entry(tetrahedra_, pair.cell, "cell",
+                       describe_repeated(pair, mesh_, lines_of(tetrahedra_)));
+        }
+    }
+
+    /// Lines are known where each entry has its own.
+    static LineOf lines_of(const Section& section) {
+        return [section](std::uint64_t entry) {
+            return section.consecutive ? std::optional(section.first_line + entry) : std::nullopt;
+        };
     }
 
     template <class I>
-    void check_stray(I stray, const Section& section, std::string_view name) {
-        if (stray.is_none()) return;
-        fail_entry(section, stray, name,
-                   fmt::format("{} {} belongs to no cell", name, stray.value() + 1));
-    }
-
-    // Every entity has a reference in this format; 0 says that nobody gave it one.
-    template <class I>
-    static void drop_if_all_zero(IndexVector<I, Marker>& markers) {
-        if (std::ranges::all_of(markers, [](Marker m) { return m == 0; })) markers = {};
+    void refuse_if_wrong(const WrongEntry<I>& wrong, const Section& section, std::string_view name,
+                         const IndexVector<I, Marker>& markers) const {
+        if (wrong.entry.is_none()) return;
+        fail_entry(section, wrong.entry, name,
+                   describe_wrong(wrong, name, markers, mesh_, lines_of(section)));
     }
 
     LineReader reader_;

@@ -22,7 +22,7 @@ struct Section {
     std::span<const Marker> (MeshSource::*markers)(const Window&);
 };
 
-void put_heading(OutputFile& out, const WriterGroup& group, std::string_view keyword,
+void put_heading(OutputFile& out, const ProcessGroup& group, std::string_view keyword,
                  std::uint64_t count) {
     if (!group.is_first()) return;
     out.put(keyword);
@@ -71,7 +71,7 @@ void write_vertices(OutputFile& out, MeshSource& mesh) {
 
 std::string write_medit(MeshSource& mesh, const std::filesystem::path& path) {
     const MeshFacts& facts = mesh.facts();
-    const WriterGroup& group = mesh.group();
+    const ProcessGroup& group = mesh.group();
     OutputFile out(path, group);
     if (group.is_first()) out.put(std::string_view{"MeshVersionFormatted 2\nDimension 3\n"});
     write_vertices(out, mesh);

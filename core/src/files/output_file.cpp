@@ -1,6 +1,7 @@
 #include "files/output_file.hpp"
 
 #include <fcntl.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -11,6 +12,9 @@
 #include <fmt/format.h>
 
 #include <octetra/core/error.hpp>
+#include <octetra/core/files.hpp>
+
+#include "files/places.hpp"
 
 namespace octetra {
 namespace {
@@ -18,29 +22,37 @@ namespace {
 constexpr std::size_t buffer_size = std::size_t{1} << 20U;
 
 /// A name that no other run uses at the same time, and that all processes of this one know.
-std::filesystem::path temporary_beside(const std::filesystem::path& path,
-                                       const WriterGroup& group) {
+std::filesystem::path temporary_beside(const std::filesystem::path& place,
+                                       const ProcessGroup& group) {
     const auto number = group.of_first(static_cast<std::uint64_t>(::getpid()));
-    return fmt::format("{}.{}.tmp", path.native(), number);
+    return fmt::format("{}.{}.tmp", place.native(), number);
+}
+
+/// Owner and group as far as the system allows. Where the group is another, it gets no more than
+/// everybody had.
+void pass_on_permissions(const struct stat& old, int file) {
+    mode_t mode = old.st_mode & 0777U;
+    constexpr auto same_owner = static_cast<uid_t>(-1);
+    if (::fchown(file, old.st_uid, old.st_gid) != 0 &&
+        ::fchown(file, same_owner, old.st_gid) != 0) {
+        mode = (mode & 0707U) | ((mode & 0007U) << 3U);
+    }
+    // Where this fails, as on file systems without permissions, there is nothing to pass on.
+    (void)::fchmod(file, mode);
 }
 
 }  // namespace
 
-OutputFile::OutputFile(std::filesystem::path path, const WriterGroup& group)
+OutputFile::OutputFile(std::filesystem::path path, const ProcessGroup& group)
     : group_(&group),
       path_(std::move(path)),
-      temporary_(temporary_beside(path_, group)),
+      place_(place_of(path_)),
+      temporary_(temporary_beside(place_, group)),
       unfinished_(temporary_),
       buffer_(buffer_size) {
     try {
-        // Taking the name of a device would put an end to the device: think of /dev/null.
-        std::error_code ignored;
-        if (const auto there = std::filesystem::status(path_, ignored);
-            std::filesystem::exists(there) && !std::filesystem::is_regular_file(there)) {
-            failure_ =
-                fmt::format("{}: {}, not a file", path_.native(),
-                            std::filesystem::is_directory(there) ? "is a directory"
-                                                                 : "is a device or the like");
+        if (const std::string what = in_the_way(path_); !what.empty()) {
+            failure_ = fmt::format("{}: {}", path_.native(), what);
         }
         agree();
         if (group_->is_first()) open();
@@ -80,7 +92,8 @@ void OutputFile::overwrite(std::uint64_t position, const void* data, std::size_t
 }
 
 void OutputFile::end_turn() {
-    const auto [before, total] = group_->share_of(used_);
+    const std::uint64_t before = group_->sum_before(used_);
+    const std::uint64_t total = group_->sum(used_);
     write_at(flushed_ + before, buffer_.data(), used_);
     flushed_ += total;
     used_ = 0;
@@ -88,6 +101,9 @@ void OutputFile::end_turn() {
 
 void OutputFile::close() {
     end_turn();
+    if (struct stat old{}; group_->is_first() && ::stat(place_.c_str(), &old) == 0) {
+        pass_on_permissions(old, file_);
+    }
     const int file = std::exchange(file_, -1);
     if (::close(file) != 0) fail("writing failed");
     agree();
@@ -95,7 +111,7 @@ void OutputFile::close() {
 
 void OutputFile::commit() {
     if (file_ >= 0) close();
-    if (group_->is_first() && ::rename(temporary_.c_str(), path_.c_str()) != 0) {
+    if (group_->is_first() && ::rename(temporary_.c_str(), place_.c_str()) != 0) {
         fail("cannot be put in place");
     }
     agree();
@@ -112,9 +128,11 @@ void OutputFile::make_room(std::size_t size) {
 }
 
 void OutputFile::open() {
-    constexpr mode_t read_write_for_all = 0666;  // less what the umask takes away
+    // What others may not read they may not read before it is complete, either.
+    const bool replaces = ::access(place_.c_str(), F_OK) == 0;
+    const mode_t mode = replaces ? 0600 : 0666;  // less what the umask takes away
     const int create = group_->is_first() ? O_CREAT | O_TRUNC : 0;
-    file_ = ::open(temporary_.c_str(), O_WRONLY | O_CLOEXEC | create, read_write_for_all);
+    file_ = ::open(temporary_.c_str(), O_WRONLY | O_CLOEXEC | create, mode);
     if (file_ >= 0) return;
     fail(group_->is_first() ? "cannot be written"
                             : "cannot be written by all ranks; do they share this folder?");

@@ -14,8 +14,10 @@
 
 namespace octetra {
 
-/// A file that is written under a temporary name beside its final one and takes that name only on
-/// commit(). Destroyed before, it leaves no trace. Every failure throws SystemError.
+/// A file that is written under a temporary name beside its final place and takes that place only
+/// on commit(). Destroyed before, it leaves no trace. Every failure throws SystemError.
+/// A link is followed: the place is where it leads. A file that is there already passes its
+/// permissions on and, as far as the system allows, its owner and group.
 ///
 /// A group of processes writes one file by taking turns: what each has put since the last turn
 /// follows what the lower ranks have put. Constructing, end_turn(), close() and commit() are
@@ -23,7 +25,7 @@ namespace octetra {
 class OutputFile {
 public:
     explicit OutputFile(std::filesystem::path path,
-                        const WriterGroup& group = WriterGroup::alone());
+                        const ProcessGroup& group = ProcessGroup::alone());
     ~OutputFile();
     OutputFile(const OutputFile&) = delete;
     OutputFile& operator=(const OutputFile&) = delete;
@@ -68,8 +70,9 @@ private:
     void fail(std::string_view doing);
     void agree();
 
-    const WriterGroup* group_;
-    std::filesystem::path path_;
+    const ProcessGroup* group_;
+    std::filesystem::path path_;   ///< as it was named
+    std::filesystem::path place_;  ///< where its links lead
     std::filesystem::path temporary_;
     UnfinishedFile unfinished_;
     int file_ = -1;

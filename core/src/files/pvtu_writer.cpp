@@ -8,6 +8,7 @@
 #include <octetra/core/error.hpp>
 
 #include "files/output_file.hpp"
+#include "files/places.hpp"
 #include "files/vtu.hpp"
 #include "files/vtu_arrays.hpp"
 
@@ -15,10 +16,6 @@ namespace octetra {
 namespace {
 
 namespace fs = std::filesystem;
-
-fs::path piece_path(const fs::path& path, int rank) {
-    return path.parent_path() / fmt::format("{}_{}.vtu", path.stem().native(), rank);
-}
 
 /// File names may have characters that mean something else in XML.
 std::string escaped(const std::string& text) {
@@ -70,7 +67,7 @@ void remove_stale_pieces(const fs::path& path, int pieces) {
 }
 
 /// Collective. What fails for this process is told to all.
-void together(const WriterGroup& group, auto&& work) {
+void together(const ProcessGroup& group, auto&& work) {
     std::string failure;
     try {
         work();
@@ -82,7 +79,7 @@ void together(const WriterGroup& group, auto&& work) {
 
 }  // namespace
 
-std::string write_pvtu(MeshSource& piece, const WriterGroup& group, const fs::path& path) {
+std::string write_pvtu(MeshSource& piece, const ProcessGroup& group, const fs::path& path) {
     const VtuData data = vtu_data_of_piece(piece, group.rank());
     std::unique_ptr<OutputFile> out;
     together(group, [&] {
@@ -97,8 +94,7 @@ std::string write_pvtu(MeshSource& piece, const WriterGroup& group, const fs::pa
         if (replaces) remove_stale_pieces(path, group.size());
     });
 
-    return lists_left_out(path, group.share_of(piece.facts().facets).total,
-                          group.share_of(piece.facts().edges).total);
+    return lists_left_out(path, group.sum(piece.facts().facets), group.sum(piece.facts().edges));
 }
 
 }  // namespace octetra

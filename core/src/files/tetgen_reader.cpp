@@ -9,10 +9,12 @@
 #include <octetra/core/error.hpp>
 
 #include "files/cell_check.hpp"
+#include "files/conflicts.hpp"
 #include "files/fields.hpp"
 #include "files/growing_mesh.hpp"
 #include "files/line_reader.hpp"
 #include "files/listed_entities.hpp"
+#include "files/repeated_cells.hpp"
 #include "files/tetgen.hpp"
 
 namespace octetra {
@@ -69,6 +71,14 @@ std::uint64_t line_of_entry(const fs::path& path, std::uint64_t entry) {
     return reader.line_number();
 }
 
+[[noreturn]] void fail_entry(const fs::path& path, std::uint64_t entry, std::string_view what) {
+    LineReader(path).fail(what, line_of_entry(path, entry));
+}
+
+LineOf lines_of(const fs::path& path) {
+    return [path](std::uint64_t entry) { return line_of_entry(path, entry); };
+}
+
 /// What files call the vertices of a mesh: `count` numbers from `first`.
 struct VertexNumbers {
     std::uint64_t first;
@@ -115,9 +125,9 @@ void read_node(const fs::path& path, GrowingMesh& growing) {
     growing.expect_points(count, attributes, markers == 1);
     Mesh& mesh = growing.mesh;
     const auto read_point = [&](Fields& fields) {
-        const double x = fields.real("x");
-        const double y = fields.real("y");
-        const double z = fields.real("z");
+        const double x = fields.coordinate("x");
+        const double y = fields.coordinate("y");
+        const double z = fields.coordinate("z");
         mesh.points.push_back({x, y, z});
         for (std::uint64_t k = 0; k < attributes; ++k) {
             mesh.point_attributes.push_back(fields.real("an attribute of the vertex"));
@@ -155,12 +165,14 @@ void read_ele(const fs::path& path, const ReadOptions& options, GrowingMesh& gro
     const VertexNumbers numbers = vertex_numbers(growing);
     Mesh& mesh = growing.mesh;
     CellCheck check(mesh, options);
+    RepeatedCells repeated(options.only_syntax ? 0 : count);
     const auto read_cell = [&](Fields& fields) {
         CellVertices cell;
         for (VertexIndex& vertex : cell) vertex = read_vertex(fields, reader, numbers);
         const std::string_view wrong = check.judge(cell);
         if (!wrong.empty()) reader.fail(wrong);
         mesh.cells.push_back(cell);
+        if (!options.only_syntax) repeated.add(cell);
         if (attributes == 1) mesh.regions.push_back(fields.marker("the region tag"));
     };
     read_entries(reader, count, field_count, mesh.first_number, read_cell,
@@ -170,12 +182,15 @@ void read_ele(const fs::path& path, const ReadOptions& options, GrowingMesh& gro
         options.note(fmt::format("{}: {} inverted cells were turned round", path.native(),
                                  check.fixed_count()));
     }
+    if (const CellPair pair = repeated.find(mesh); !pair.cell.is_none()) {
+        fail_entry(path, pair.cell.value(), describe_repeated(pair, mesh, lines_of(path)));
+    }
 }
 
 /// Reads a `.face` or `.edge` file: entities of N vertices each.
 template <class I, std::size_t N>
 void read_listed(const fs::path& path, std::string_view name, const ListedKind<I, N>& kind,
-                 I (*find_stray)(const Mesh&), const ReadOptions& options, GrowingMesh& growing) {
+                 const ReadOptions& options, GrowingMesh& growing) {
     LineReader reader(path);
     const auto header =
         read_header<2>(reader, {"the number of entries", "the markers flag"}, {0, 0});
@@ -215,12 +230,23 @@ void read_listed(const fs::path& path, std::string_view name, const ListedKind<I
         options.note(
             fmt::format("{}: the adjacent cells of each {} are not kept", path.native(), name));
     }
-    const I stray = options.only_syntax ? I::none() : find_stray(mesh);
-    if (!stray.is_none()) {
-        reader.fail(
-            fmt::format("{} {} belongs to no cell", name, stray.value() + mesh.first_number),
-            line_of_entry(path, stray.value()));
+}
+
+template <class I>
+void refuse_if_wrong(const WrongEntry<I>& wrong, std::string_view name,
+                     const IndexVector<I, Marker>& markers, const Mesh& mesh,
+                     const fs::path& path) {
+    if (wrong.entry.is_none()) return;
+    fail_entry(path, wrong.entry.value(),
+               describe_wrong(wrong, name, markers, mesh, lines_of(path)));
+}
+
+void check_facets(const Mesh& mesh, const fs::path& face, const fs::path& ele) {
+    const WrongFacets wrong = find_wrong_facets(mesh);
+    if (const CellIndex cell = wrong.overlap.cell; !cell.is_none()) {
+        fail_entry(ele, cell.value(), describe_overlap(wrong, mesh, lines_of(ele)));
     }
+    refuse_if_wrong(wrong.listed, "face", mesh.facet_markers, mesh, face);
 }
 
 fs::path companion(fs::path path, std::string_view extension) {
@@ -251,10 +277,14 @@ void read_files(const fs::path& path, const ReadOptions& options, GrowingMesh& g
     read_node(node, growing);
     read_ele(ele, options, growing);
     if (const fs::path face = companion(path, ".face"); is_there(face)) {
-        read_listed(face, "face", facet_kind, find_stray_facet, options, growing);
+        read_listed(face, "face", facet_kind, options, growing);
+        if (!options.only_syntax) check_facets(growing.mesh, face, ele);
     }
     if (const fs::path edge = companion(path, ".edge"); is_there(edge)) {
-        read_listed(edge, "edge", edge_kind, find_stray_edge, options, growing);
+        read_listed(edge, "edge", edge_kind, options, growing);
+        const Mesh& mesh = growing.mesh;
+        const auto wrong = options.only_syntax ? WrongEntry<EdgeIndex>{} : find_wrong_edge(mesh);
+        refuse_if_wrong(wrong, "edge", mesh.edge_markers, mesh, edge);
     }
     growing.finish();
 }

@@ -1,13 +1,9 @@
 #include <memory>
 #include <span>
-#include <system_error>
 #include <vector>
 
-#include <fmt/format.h>
-
-#include <octetra/core/error.hpp>
-
 #include "files/output_file.hpp"
+#include "files/places.hpp"
 #include "files/tetgen.hpp"
 #include "files/text_slices.hpp"
 
@@ -27,7 +23,7 @@ void put_line(OutputFile& out, auto... numbers) {
 }
 
 /// Collective. The first process's part of a turn of its own.
-void put_header(OutputFile& out, const WriterGroup& group, auto... numbers) {
+void put_header(OutputFile& out, const ProcessGroup& group, auto... numbers) {
     if (group.is_first()) put_line(out, numbers...);
 }
 
@@ -89,10 +85,12 @@ void write_list(OutputFile& out, MeshSource& mesh, const List<N>& list) {
     });
 }
 
-/// To fail on what cannot be removed before anything has been put in place, not after it.
-void refuse_directory(const fs::path& stale) {
-    if (std::error_code ignored; fs::is_directory(stale, ignored)) {
-        throw SystemError(fmt::format("{}: is a directory, not a file", stale.native()));
+/// Removes what is left from another mesh and would be read as lists of this one. Of a link goes
+/// the link alone: what it leads to is a file of something else, or removed under its own name.
+void remove_stale_lists(const fs::path& path, const char* extension, bool was_written) {
+    const fs::path written = fs::path(path).replace_extension(extension);
+    for (const fs::path& list : lists_read_with(path, extension)) {
+        if (!was_written || !are_one_place(list, written)) fs::remove(list);
     }
 }
 
@@ -100,9 +98,8 @@ void refuse_directory(const fs::path& stale) {
 
 void write_tetgen(MeshSource& mesh, const fs::path& path) {
     const MeshFacts& facts = mesh.facts();
-    const WriterGroup& group = mesh.group();
+    const ProcessGroup& group = mesh.group();
     std::vector<std::unique_ptr<OutputFile>> files;
-    std::vector<fs::path> stale;
     const auto companion = [&](const char* extension) {
         return fs::path(path).replace_extension(extension);
     };
@@ -116,18 +113,14 @@ void write_tetgen(MeshSource& mesh, const fs::path& path) {
     write_list<4>(ele, mesh,
                   {facts.cells, &MeshSource::cells, facts.has_regions, &MeshSource::regions});
 
-    if (facts.facets == 0) {
-        stale.push_back(companion(".face"));
-    } else {
+    if (facts.facets > 0) {
         OutputFile& face = create(".face");
         put_header(face, group, facts.facets, facts.has_facet_markers ? 1 : 0);
         write_list<3>(face, mesh,
                       {facts.facets, &MeshSource::facets, facts.has_facet_markers,
                        &MeshSource::facet_markers});
     }
-    if (facts.edges == 0) {
-        stale.push_back(companion(".edge"));
-    } else {
+    if (facts.edges > 0) {
         OutputFile& edge = create(".edge");
         put_header(edge, group, facts.edges, facts.has_edge_markers ? 1 : 0);
         write_list<2>(
@@ -135,14 +128,11 @@ void write_tetgen(MeshSource& mesh, const fs::path& path) {
             {facts.edges, &MeshSource::edges, facts.has_edge_markers, &MeshSource::edge_markers});
     }
 
-    group.on_first([&] {
-        for (const fs::path& file : stale) refuse_directory(file);
-    });
     for (const auto& file : files) file->close();
     for (const auto& file : files) file->commit();
-    // Left from another mesh, these would be read as this one's.
     group.on_first([&] {
-        for (const fs::path& file : stale) fs::remove(file);
+        remove_stale_lists(path, ".face", facts.facets > 0);
+        remove_stale_lists(path, ".edge", facts.edges > 0);
     });
 }
 

@@ -21,7 +21,7 @@ namespace octetra {
 /// `NAME_RANK.vtu` beside `NAME.pvtu`, which names them all; cells carry the `rank` of their piece
 /// too, and points their number in the whole mesh, `vertex`.
 /// Returns what of the mesh the files do not hold, in a sentence, or nothing.
-[[nodiscard]] std::string write_pvtu(MeshSource& piece, const WriterGroup& group,
+[[nodiscard]] std::string write_pvtu(MeshSource& piece, const ProcessGroup& group,
                                      const std::filesystem::path& path);
 
 /// What a file that holds cells only does not hold of these lists, in a sentence, or nothing.

@@ -70,7 +70,7 @@ struct Numbers {
     [[nodiscard]] std::size_t size() const { return end - first; }
 };
 
-auto numbers_of(const WriterGroup& group) {
+auto numbers_of(const ProcessGroup& group) {
     return [rank = group.rank()](const Window& window) {
         return Numbers{window.begin_of(rank), window.end_of(rank)};
     };

@@ -26,7 +26,7 @@ struct PackedLengths {
 
 /// Slices that begin at whole blocks, so that each block is one process's; large enough for few
 /// turns, small enough for a buffer, and of a small array about an equal share.
-std::uint64_t slice_length(const VtuArray& array, const WriterGroup& group) {
+std::uint64_t slice_length(const VtuArray& array, const ProcessGroup& group) {
     constexpr std::uint64_t most_bytes = 8 * vtu_block_size;
     const std::uint64_t unit = vtu_block_size / std::gcd(vtu_block_size, array.entity_size());
     const std::uint64_t share = array.entities / static_cast<std::uint64_t>(group.size());
@@ -36,7 +36,7 @@ std::uint64_t slice_length(const VtuArray& array, const WriterGroup& group) {
 
 class VtuFile {
 public:
-    VtuFile(OutputFile& out, const WriterGroup& group) : out_(&out), group_(&group) {}
+    VtuFile(OutputFile& out, const ProcessGroup& group) : out_(&out), group_(&group) {}
 
     void write(MeshSource& mesh, const VtuData& data) {
         static_assert(std::endian::native == std::endian::little);
@@ -134,7 +134,7 @@ private:
     }
 
     OutputFile* out_;
-    const WriterGroup* group_;
+    const ProcessGroup* group_;
     std::vector<Declared> declared_;
     std::vector<char> slice_;
     std::vector<Bytef> packed_ = std::vector<Bytef>(compressBound(vtu_block_size));

@@ -8,6 +8,8 @@
 
 #include <CGAL/Interval_nt.h>
 
+#include "exact/near_one.hpp"
+
 namespace octetra::verify::exact {
 namespace {
 
@@ -210,8 +212,9 @@ AngleLimit::AngleLimit(double degrees) : state_(std::make_unique<State>()) {
 
 AngleLimit::~AngleLimit() = default;
 
-bool AngleLimit::exceeds_dihedral(const Point& a, const Point& b, const Point& c, const Point& d,
+bool AngleLimit::exceeds_dihedral(const Point& p, const Point& q, const Point& r, const Point& s,
                                   Arithmetic& arithmetic) const {
+    const auto [a, b, c, d] = near_one<4>({p, q, r, s});
     {
         const Interval::Protector upward;
         const auto greater =
@@ -229,8 +232,10 @@ bool AngleLimit::exceeds_dihedral(const Point& a, const Point& b, const Point& c
                        state_->sign >= 0 ? state_->high_square : state_->low_square);
 }
 
-bool keeps_half_of_smallest_angle(const std::array<Point, 3>& piece,
-                                  const std::array<Point, 3>& whole, Arithmetic& arithmetic) {
+bool keeps_half_of_smallest_angle(const std::array<Point, 3>& given_piece,
+                                  const std::array<Point, 3>& given_whole, Arithmetic& arithmetic) {
+    const auto piece = near_one(given_piece);
+    const auto whole = near_one(given_whole);
     {
         const Interval::Protector upward;
         if (const auto less = has_angle_less_than_half_of_all<Interval>(piece, whole)) {

@@ -21,9 +21,9 @@ public:
     AngleLimit(AngleLimit&&) = delete;
     AngleLimit& operator=(AngleLimit&&) = delete;
 
-    /// Is the dihedral angle of the cell at its edge ab, between its faces abc and abd, less?
-    [[nodiscard]] bool exceeds_dihedral(const Point& a, const Point& b, const Point& c,
-                                        const Point& d, Arithmetic& arithmetic) const;
+    /// Is the dihedral angle of the cell at its edge pq, between its faces pqr and pqs, less?
+    [[nodiscard]] bool exceeds_dihedral(const Point& p, const Point& q, const Point& r,
+                                        const Point& s, Arithmetic& arithmetic) const;
 
 private:
     struct State;

@@ -1,9 +1,15 @@
 #include "exact/predicates.hpp"
 
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Segment_3.h>
 #include <CGAL/Triangle_3.h>
 #include <CGAL/intersections.h>
+
+#include "exact/near_one.hpp"
 
 namespace octetra::verify::exact {
 namespace {
@@ -18,11 +24,9 @@ typename K::Point_3 point(const Point& p) {
     return {Number(p.x), Number(p.y), Number(p.z)};
 }
 
-}  // namespace
-
+/// Nothing, and nothing counted, where intervals do not decide. Rounding must be upward.
 std::optional<int> clear_orientation(const Point& a, const Point& b, const Point& c, const Point& d,
                                      Arithmetic& arithmetic) {
-    const CGAL::Protect_FPU_rounding<true> upward;
     const auto sign = Intervals::Orientation_3()(point<Intervals>(a), point<Intervals>(b),
                                                  point<Intervals>(c), point<Intervals>(d));
     if (!CGAL::is_certain(sign)) return std::nullopt;
@@ -30,33 +34,164 @@ std::optional<int> clear_orientation(const Point& a, const Point& b, const Point
     return static_cast<int>(CGAL::get_certain(sign));
 }
 
-int orientation(const Point& a, const Point& b, const Point& c, const Point& d,
-                Arithmetic& arithmetic) {
-    if (const auto sign = clear_orientation(a, b, c, d, arithmetic)) return *sign;
+int rational_orientation(const Point& a, const Point& b, const Point& c, const Point& d,
+                         Arithmetic& arithmetic) {
     ++arithmetic.exact;
     return static_cast<int>(Rationals::Orientation_3()(point<Rationals>(a), point<Rationals>(b),
                                                        point<Rationals>(c), point<Rationals>(d)));
 }
 
-bool meet(const std::array<Point, 2>& segment, const std::array<Point, 3>& triangle,
-          Arithmetic& arithmetic) {
+/// Of points near 1.
+int orientation_near_one(const Point& a, const Point& b, const Point& c, const Point& d,
+                         Arithmetic& arithmetic) {
+    {
+        const CGAL::Protect_FPU_rounding<true> upward;
+        if (const auto sign = clear_orientation(a, b, c, d, arithmetic)) return *sign;
+    }
+    return rational_orientation(a, b, c, d, arithmetic);
+}
+
+/// Does the line of the segment pass two sides of the triangle on different sides? Where an end of
+/// the segment lies in the plane, that tells more than the end does. Rounding must be upward.
+bool line_clearly_misses(const std::array<Point, 2>& segment,
+                         const std::array<Point, 3>& triangle) {
+    Arithmetic counted_as_one;
+    bool passes_left = false;
+    bool passes_right = false;
+    for (std::size_t k = 0; k < 3; ++k) {
+        const auto sign = clear_orientation(segment[0], segment[1], triangle[k],
+                                            triangle[(k + 1) % 3], counted_as_one);
+        passes_left = passes_left || sign == 1;
+        passes_right = passes_right || sign == -1;
+    }
+    return passes_left && passes_right;
+}
+
+/// Along which axis a triangle is seen best, more or less.
+std::size_t best_axis(const std::array<Point, 3>& t) {
+    const Point u{t[1].x - t[0].x, t[1].y - t[0].y, t[1].z - t[0].z};
+    const Point v{t[2].x - t[0].x, t[2].y - t[0].y, t[2].z - t[0].z};
+    const std::array<double, 3> areas{std::abs(u.y * v.z - u.z * v.y),
+                                      std::abs(u.z * v.x - u.x * v.z),
+                                      std::abs(u.x * v.y - u.y * v.x)};
+    return static_cast<std::size_t>(std::max_element(areas.begin(), areas.end()) - areas.begin());
+}
+
+/// Seen along an axis, are the two on different sides of a line through a side of either? So are
+/// most pairs that lie in one plane, of which volumes say nothing. Rounding must be upward.
+bool are_clearly_apart_as_seen(const std::array<Point, 2>& segment,
+                               const std::array<Point, 3>& triangle) {
+    const std::size_t axis = best_axis(triangle);
+    const auto seen = [axis](const Point& p) -> Intervals::Point_2 {
+        if (axis == 0) return {p.y, p.z};
+        if (axis == 1) return {p.z, p.x};
+        return {p.x, p.y};
+    };
+    const std::array<Intervals::Point_2, 2> s{seen(segment[0]), seen(segment[1])};
+    const std::array<Intervals::Point_2, 3> t{seen(triangle[0]), seen(triangle[1]),
+                                              seen(triangle[2])};
+    const auto are_clearly = [](int sign, const auto& from, const auto& to, const auto& points) {
+        return std::all_of(points.begin(), points.end(), [&](const Intervals::Point_2& p) {
+            const auto found = Intervals::Orientation_2()(from, to, p);
+            return CGAL::is_certain(found) && static_cast<int>(CGAL::get_certain(found)) == sign;
+        });
+    };
+    for (const int sign : {-1, 1}) {
+        if (are_clearly(sign, s[0], s[1], t)) return true;
+        if (!are_clearly(sign, t[0], t[1], std::array{t[2]})) continue;
+        for (std::size_t k = 0; k < 3; ++k) {
+            if (are_clearly(-sign, t[k], t[(k + 1) % 3], s)) return true;
+        }
+    }
+    return false;
+}
+
+int faces_touched_near_one(std::array<Point, 4> corners, const Point& p, Arithmetic& arithmetic) {
+    // Puts the point in the place of each corner in turn.
+    const auto with_p_as_corner = [&](std::size_t k, auto&& judge) {
+        const Point corner = corners[k];
+        corners[k] = p;
+        const auto sign = judge(corners[0], corners[1], corners[2], corners[3], arithmetic);
+        corners[k] = corner;
+        return sign;
+    };
+    std::array<std::optional<int>, 4> signs;
+    {
+        const CGAL::Protect_FPU_rounding<true> upward;
+        for (std::size_t k = 0; k < 4; ++k) {
+            signs[k] = with_p_as_corner(k, clear_orientation);
+            if (signs[k] == -1) return -1;
+        }
+    }
+    int touched = 0;
+    for (std::size_t k = 0; k < 4; ++k) {
+        const int sign = signs[k] ? *signs[k] : with_p_as_corner(k, rational_orientation);
+        if (sign < 0) return -1;
+        if (sign == 0) ++touched;
+    }
+    return touched;
+}
+
+bool meet_near_one(const std::array<Point, 2>& segment, const std::array<Point, 3>& triangle,
+                   Arithmetic& arithmetic) {
     const auto& [p, q] = segment;
     const auto& [a, b, c] = triangle;
-    const int side_p = orientation(a, b, c, p, arithmetic);
-    const int side_q = orientation(a, b, c, q, arithmetic);
+    std::optional<int> clear_side_p;
+    std::optional<int> clear_side_q;
+    {
+        const CGAL::Protect_FPU_rounding<true> upward;
+        clear_side_p = clear_orientation(a, b, c, p, arithmetic);
+        clear_side_q = clear_orientation(a, b, c, q, arithmetic);
+        const std::optional<int> sides = clear_side_p && clear_side_q
+                                             ? std::optional(*clear_side_p * *clear_side_q)
+                                             : std::nullopt;
+        if (sides == 1) return false;
+        if (sides != -1 && (line_clearly_misses(segment, triangle) ||
+                            are_clearly_apart_as_seen(segment, triangle))) {
+            ++arithmetic.filtered;
+            return false;
+        }
+    }
+    const int side_p = clear_side_p ? *clear_side_p : rational_orientation(a, b, c, p, arithmetic);
+    const int side_q = clear_side_q ? *clear_side_q : rational_orientation(a, b, c, q, arithmetic);
     if (side_p * side_q > 0) return false;
     if (side_p != 0 || side_q != 0) {
         // The segment reaches the plane in one point. It is in the triangle unless the line of the
         // segment passes two of its sides on different sides.
-        const int ab = orientation(p, q, a, b, arithmetic);
-        const int bc = orientation(p, q, b, c, arithmetic);
-        const int ca = orientation(p, q, c, a, arithmetic);
+        const int ab = orientation_near_one(p, q, a, b, arithmetic);
+        const int bc = orientation_near_one(p, q, b, c, arithmetic);
+        const int ca = orientation_near_one(p, q, c, a, arithmetic);
         return (ab >= 0 && bc >= 0 && ca >= 0) || (ab <= 0 && bc <= 0 && ca <= 0);
     }
     ++arithmetic.exact;
     return CGAL::do_intersect(
         Rationals::Segment_3(point<Rationals>(p), point<Rationals>(q)),
         Rationals::Triangle_3(point<Rationals>(a), point<Rationals>(b), point<Rationals>(c)));
+}
+
+}  // namespace
+
+int orientation(const Point& a, const Point& b, const Point& c, const Point& d,
+                Arithmetic& arithmetic) {
+    if (are_near_one_by_axis(a, b, c, d)) return orientation_near_one(a, b, c, d, arithmetic);
+    const auto [p, q, r, s] = near_one_by_axis<4>({a, b, c, d});
+    return orientation_near_one(p, q, r, s, arithmetic);
+}
+
+int faces_touched(const std::array<Point, 4>& corners, const Point& p, Arithmetic& arithmetic) {
+    const auto& [a, b, c, d] = corners;
+    if (are_near_one_by_axis(a, b, c, d, p)) return faces_touched_near_one(corners, p, arithmetic);
+    const auto [q, r, s, t, at] = near_one_by_axis<5>({a, b, c, d, p});
+    return faces_touched_near_one({q, r, s, t}, at, arithmetic);
+}
+
+bool meet(const std::array<Point, 2>& segment, const std::array<Point, 3>& triangle,
+          Arithmetic& arithmetic) {
+    const auto& [p, q] = segment;
+    const auto& [a, b, c] = triangle;
+    if (are_near_one_by_axis(p, q, a, b, c)) return meet_near_one(segment, triangle, arithmetic);
+    const auto [s, t, u, v, w] = near_one_by_axis<5>({p, q, a, b, c});
+    return meet_near_one({s, t}, {u, v, w}, arithmetic);
 }
 
 }  // namespace octetra::verify::exact

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <array>
-#include <optional>
 
 #include <octetra/core/point.hpp>
 #include <octetra/verify/verdict.hpp>
@@ -15,9 +14,11 @@ namespace octetra::verify::exact {
 [[nodiscard]] int orientation(const Point& a, const Point& b, const Point& c, const Point& d,
                               Arithmetic& arithmetic);
 
-/// The same where intervals decide; nothing, and nothing counted, where they do not.
-[[nodiscard]] std::optional<int> clear_orientation(const Point& a, const Point& b, const Point& c,
-                                                   const Point& d, Arithmetic& arithmetic);
+/// On how many faces of a positive cell a point lies that is not outside; -1 if it is outside. In a
+/// lattice most points near a cell are in the plane of some face, which takes rational numbers to
+/// tell, but clearly beyond another; so that is asked first.
+[[nodiscard]] int faces_touched(const std::array<Point, 4>& corners, const Point& p,
+                                Arithmetic& arithmetic);
 
 /// Have the closed segment and the closed triangle, which is not degenerate, a point in common?
 [[nodiscard]] bool meet(const std::array<Point, 2>& segment, const std::array<Point, 3>& triangle,

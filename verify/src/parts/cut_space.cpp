@@ -13,7 +13,7 @@ using Place = std::array<double, 3>;
 /// So many of each process are looked at.
 constexpr std::size_t most_samples = 4096;
 
-std::vector<Place> samples_of_all(const std::vector<Point>& places, const Group& group) {
+std::vector<Place> samples_of_all(const std::vector<Point>& places, const ProcessGroup& group) {
     std::vector<Place> samples;
     const std::size_t stride = places.size() / most_samples + 1;
     for (std::size_t i = 0; i < places.size(); i += stride) {
@@ -62,7 +62,7 @@ void cut(const Domain& whole, std::span<Place> places, std::span<Domain> domains
 
 }  // namespace
 
-std::vector<Domain> cut_space(const std::vector<Point>& places, const Group& group) {
+std::vector<Domain> cut_space(const std::vector<Point>& places, const ProcessGroup& group) {
     std::vector<Domain> domains(static_cast<std::size_t>(group.size()));
     if (group.size() == 1) return domains;
     Domain everything;

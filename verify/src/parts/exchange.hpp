@@ -7,21 +7,21 @@
 #include <type_traits>
 #include <vector>
 
-#include <octetra/verify/group.hpp>
+#include <octetra/core/process_group.hpp>
 
-/// Group::exchange in terms of values. All functions here are collective.
+/// ProcessGroup::exchange in terms of values. All functions here are collective.
 namespace octetra::verify {
 
 template <class T>
-[[nodiscard]] Group::Bytes bytes_of(const std::vector<T>& values) {
+[[nodiscard]] ProcessGroup::Bytes bytes_of(const std::vector<T>& values) {
     static_assert(std::is_trivially_copyable_v<T>);
-    Group::Bytes bytes(values.size() * sizeof(T));
+    ProcessGroup::Bytes bytes(values.size() * sizeof(T));
     if (!bytes.empty()) std::memcpy(bytes.data(), values.data(), bytes.size());
     return bytes;
 }
 
 template <class T>
-[[nodiscard]] std::vector<T> values_of(const Group::Bytes& bytes) {
+[[nodiscard]] std::vector<T> values_of(const ProcessGroup::Bytes& bytes) {
     static_assert(std::is_trivially_copyable_v<T>);
     std::vector<T> values(bytes.size() / sizeof(T));
     if (!bytes.empty()) std::memcpy(values.data(), bytes.data(), bytes.size());
@@ -30,9 +30,9 @@ template <class T>
 
 /// to_each[r] goes to process r; the result's [r] came from there. Frees what it has sent.
 template <class T>
-[[nodiscard]] std::vector<std::vector<T>> exchange(const Group& group,
+[[nodiscard]] std::vector<std::vector<T>> exchange(const ProcessGroup& group,
                                                    std::vector<std::vector<T>> to_each) {
-    std::vector<Group::Bytes> outboxes;
+    std::vector<ProcessGroup::Bytes> outboxes;
     outboxes.reserve(to_each.size());
     for (std::vector<T>& values : to_each) {
         outboxes.push_back(bytes_of(values));
@@ -40,7 +40,7 @@ template <class T>
     }
     std::vector<std::vector<T>> received;
     received.reserve(to_each.size());
-    for (Group::Bytes& bytes : group.exchange(std::move(outboxes))) {
+    for (ProcessGroup::Bytes& bytes : group.exchange(std::move(outboxes))) {
         received.push_back(values_of<T>(bytes));
         bytes = {};
     }
@@ -49,7 +49,7 @@ template <class T>
 
 /// What each process has, by rank.
 template <class T>
-[[nodiscard]] std::vector<std::vector<T>> share_with_all(const Group& group,
+[[nodiscard]] std::vector<std::vector<T>> share_with_all(const ProcessGroup& group,
                                                          const std::vector<T>& values) {
     return exchange(group,
                     std::vector<std::vector<T>>(static_cast<std::size_t>(group.size()), values));
@@ -57,7 +57,7 @@ template <class T>
 
 /// One value of each process, put together.
 template <class T>
-[[nodiscard]] T reduce(const Group& group, T value, auto&& combine) {
+[[nodiscard]] T reduce(const ProcessGroup& group, T value, auto&& combine) {
     if (group.size() == 1) return value;
     const auto all = share_with_all(group, std::vector<T>{value});
     T result = all.front().front();
@@ -65,16 +65,16 @@ template <class T>
     return result;
 }
 
-[[nodiscard]] inline std::uint64_t sum(const Group& group, std::uint64_t number) {
+[[nodiscard]] inline std::uint64_t sum(const ProcessGroup& group, std::uint64_t number) {
     return reduce(group, number, std::plus<>());
 }
 
-[[nodiscard]] inline bool any(const Group& group, bool here) {
+[[nodiscard]] inline bool any(const ProcessGroup& group, bool here) {
     return sum(group, here ? 1 : 0) > 0;
 }
 
 template <class T>
-[[nodiscard]] T greatest(const Group& group, T value) {
+[[nodiscard]] T greatest(const ProcessGroup& group, T value) {
     return reduce(group, value, [](T a, T b) { return std::max(a, b); });
 }
 

@@ -8,7 +8,8 @@ namespace {
 /// Vertex numbers asked for by each process, of those that this one has.
 using Requests = std::vector<std::vector<std::uint32_t>>;
 
-Requests ask(const std::vector<std::uint32_t>& wanted, const MeshSlice& slice, const Group& group) {
+Requests ask(const std::vector<std::uint32_t>& wanted, const MeshSlice& slice,
+             const ProcessGroup& group) {
     Requests to_each;
     auto begin = wanted.begin();
     for (int r = 0; r < group.size(); ++r) {
@@ -24,7 +25,7 @@ Requests ask(const std::vector<std::uint32_t>& wanted, const MeshSlice& slice, c
 /// may be missing; in the order of the numbers asked for.
 template <class T>
 std::vector<T> answer(const Requests& requests, const std::vector<T>& list, std::size_t per_vertex,
-                      const MeshSlice& slice, const Group& group) {
+                      const MeshSlice& slice, const ProcessGroup& group) {
     const std::uint64_t first = slice_begin(slice.totals.vertices, group.rank(), group.size());
     std::vector<std::vector<T>> answers(requests.size());
     for (std::size_t r = 0; r < requests.size() && !list.empty(); ++r) {
@@ -44,14 +45,14 @@ std::vector<T> answer(const Requests& requests, const std::vector<T>& list, std:
 }  // namespace
 
 IndexVector<VertexIndex, Point> fetch_points(const std::vector<std::uint32_t>& wanted,
-                                             const MeshSlice& slice, const Group& group) {
+                                             const MeshSlice& slice, const ProcessGroup& group) {
     const auto points =
         answer<Point>(ask(wanted, slice, group), slice.lists.points, 1, slice, group);
     return {points.begin(), points.end()};
 }
 
 void fetch_vertices(const std::vector<std::uint32_t>& wanted, const MeshSlice& slice,
-                    const Group& group, Mesh& mesh) {
+                    const ProcessGroup& group, Mesh& mesh) {
     const Requests requests = ask(wanted, slice, group);
     const Mesh& lists = slice.lists;
     const auto points = answer<Point>(requests, lists.points, 1, slice, group);

@@ -31,7 +31,7 @@ std::vector<std::uint32_t> vertices_of_entities(const Mesh& lists) {
 /// A slice with the places of the vertices of its entities, wherever these are.
 class LocatedSlice {
 public:
-    LocatedSlice(MeshSlice slice, const Group& group)
+    LocatedSlice(MeshSlice slice, const ProcessGroup& group)
         : slice_(std::move(slice)),
           lookup_(vertices_of_entities(slice_.lists)),
           points_(fetch_points(lookup_.numbers(), slice_, group)) {}
@@ -76,7 +76,7 @@ Bounds joined(Bounds a, const Bounds& b) {
 }
 
 /// Collective. Each process's boxes, one for every process, joined with those of the others.
-std::vector<Bounds> joined_with_all(const std::vector<Bounds>& boxes, const Group& group) {
+std::vector<Bounds> joined_with_all(const std::vector<Bounds>& boxes, const ProcessGroup& group) {
     std::vector<Bounds> result(boxes.size());
     for (const auto& of_one : share_with_all(group, boxes)) {
         for (std::size_t r = 0; r < result.size(); ++r) result[r].take(of_one[r]);
@@ -95,7 +95,8 @@ struct Record {
 template <class I, std::size_t N>
 std::vector<Record<N>> deliver(const IndexVector<I, std::array<VertexIndex, N>>& list,
                                const IndexVector<I, Marker>& markers, std::uint64_t count,
-                               const LocatedSlice& from, const Views& views, const Group& group) {
+                               const LocatedSlice& from, const Views& views,
+                               const ProcessGroup& group) {
     std::vector<std::vector<Record<N>>> to_each(static_cast<std::size_t>(group.size()));
     const std::uint64_t first = slice_begin(count, group.rank(), group.size());
     for (I i{0}; i < list.end_index(); ++i) {
@@ -113,7 +114,7 @@ std::vector<Record<N>> deliver(const IndexVector<I, std::array<VertexIndex, N>>&
 
 /// Collective. The numbers of the vertices in this process's view.
 std::vector<std::uint32_t> vertices_in_view(const MeshSlice& slice, const Views& views,
-                                            const Group& group) {
+                                            const ProcessGroup& group) {
     std::vector<std::vector<std::uint32_t>> to_each(static_cast<std::size_t>(group.size()));
     const std::uint64_t first = slice_begin(slice.totals.vertices, group.rank(), group.size());
     for (VertexIndex v{0}; v < slice.lists.points.end_index(); ++v) {
@@ -153,7 +154,7 @@ void append_vertices(const std::vector<Record<N>>& records, std::vector<std::uin
 }
 
 /// Collective. What this process sees of a mesh.
-MeshPart see(const LocatedSlice& from, const Views& views, const Group& group) {
+MeshPart see(const LocatedSlice& from, const Views& views, const ProcessGroup& group) {
     const Mesh& lists = from.lists();
     const Totals& totals = from.slice().totals;
     const auto cells = deliver(lists.cells, lists.regions, totals.cells, from, views, group);
@@ -187,13 +188,13 @@ std::vector<Bounds> closed_boxes(const std::vector<Domain>& domains, const Bound
     return boxes;
 }
 
-const Domain& own(const std::vector<Domain>& domains, const Group& group) {
+const Domain& own(const std::vector<Domain>& domains, const ProcessGroup& group) {
     return domains[static_cast<std::size_t>(group.rank())];
 }
 
 }  // namespace
 
-Parts part_of(MeshSlice mesh, const Group& group) {
+Parts part_of(MeshSlice mesh, const ProcessGroup& group) {
     const LocatedSlice located(std::move(mesh), group);
     const Bounds bounds = reduce(group, located.bounds(), joined);
     const auto domains = cut_space(located.places_of_cells(), group);
@@ -204,7 +205,7 @@ Parts part_of(MeshSlice mesh, const Group& group) {
     return parts;
 }
 
-Parts parts_of(MeshSlice coarse, MeshSlice fine, const Group& group) {
+Parts parts_of(MeshSlice coarse, MeshSlice fine, const ProcessGroup& group) {
     const LocatedSlice located_coarse(std::move(coarse), group);
     const LocatedSlice located_fine(std::move(fine), group);
     const Bounds bounds =

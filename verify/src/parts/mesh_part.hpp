@@ -3,7 +3,7 @@
 #include <vector>
 
 #include <octetra/core/mesh.hpp>
-#include <octetra/verify/group.hpp>
+#include <octetra/core/process_group.hpp>
 #include <octetra/verify/mesh_slice.hpp>
 
 #include "box_tree.hpp"
@@ -30,11 +30,11 @@ struct Parts {
 
 /// Collective. A view that meets the domain is enough to judge a mesh by itself: what has a point
 /// of the domain is seen with all cells that have this point.
-[[nodiscard]] Parts part_of(MeshSlice mesh, const Group& group);
+[[nodiscard]] Parts part_of(MeshSlice mesh, const ProcessGroup& group);
 
 /// Collective. Here a process answers for the coarse cells of its domain, too. It sees all that
 /// these touch, so that what is in common with others looks the same to both; and of the fine
 /// mesh, what meets any coarse cell that it sees.
-[[nodiscard]] Parts parts_of(MeshSlice coarse, MeshSlice fine, const Group& group);
+[[nodiscard]] Parts parts_of(MeshSlice coarse, MeshSlice fine, const ProcessGroup& group);
 
 }  // namespace octetra::verify

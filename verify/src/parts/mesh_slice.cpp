@@ -8,7 +8,7 @@ namespace {
 /// Each process's stretch of a list that the first has, `per_entity` elements for each entity.
 template <class T>
 void share_out_list(const std::vector<T>& whole, std::uint64_t count, std::size_t per_entity,
-                    std::vector<T>& slice, const Group& group) {
+                    std::vector<T>& slice, const ProcessGroup& group) {
     std::vector<std::vector<T>> to_each(static_cast<std::size_t>(group.size()));
     if (group.is_first() && !whole.empty()) {
         const auto at = [&](int rank) {
@@ -24,7 +24,7 @@ void share_out_list(const std::vector<T>& whole, std::uint64_t count, std::size_
 
 }  // namespace
 
-MeshSlice share_out(const Mesh& mesh, const Group& group) {
+MeshSlice share_out(const Mesh& mesh, const ProcessGroup& group) {
     struct Head {
         Totals totals;
         std::uint64_t attributes_per_point;

@@ -5,7 +5,7 @@
 #include <cstring>
 #include <type_traits>
 
-#include <octetra/verify/group.hpp>
+#include <octetra/core/process_group.hpp>
 
 namespace octetra::verify {
 
@@ -24,7 +24,7 @@ public:
         (*this)(std::uint64_t{values.size()});
         append(values.data(), values.size() * sizeof(typename List::value_type));
     }
-    [[nodiscard]] Group::Bytes& bytes() { return bytes_; }
+    [[nodiscard]] ProcessGroup::Bytes& bytes() { return bytes_; }
 
 private:
     void append(const void* data, std::size_t size) {
@@ -32,13 +32,13 @@ private:
         const auto* begin = static_cast<const std::byte*>(data);
         bytes_.insert(bytes_.end(), begin, begin + size);
     }
-    Group::Bytes bytes_;
+    ProcessGroup::Bytes bytes_;
 };
 
 /// Takes values out in the order in which they were put in.
 class Unpacker {
 public:
-    explicit Unpacker(const Group::Bytes& bytes) : next_(bytes.data()) {}
+    explicit Unpacker(const ProcessGroup::Bytes& bytes) : next_(bytes.data()) {}
 
     template <class T>
     void operator()(T& value) {

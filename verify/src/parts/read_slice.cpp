@@ -40,7 +40,7 @@ struct Ending {
 class Receiver {
 public:
     /// Takes in a round. False after the last one. Throws what the first process has met.
-    bool take(const Group::Bytes& bytes) {
+    bool take(const ProcessGroup::Bytes& bytes) {
         Unpacker unpack(bytes);
         while (true) {
             Item item{};
@@ -98,7 +98,7 @@ private:
 /// the file has been read.
 class Distributor final : public MeshSink {
 public:
-    Distributor(const Group& group, Receiver& own)
+    Distributor(const ProcessGroup& group, Receiver& own)
         : group_(group), own_(own), to_each_(static_cast<std::size_t>(group.size())) {}
 
     void expect_points(std::uint64_t count, std::size_t attributes, bool) override {
@@ -195,7 +195,7 @@ private:
     }
 
     void send(auto&& pack_last) {
-        std::vector<Group::Bytes> outboxes;
+        std::vector<ProcessGroup::Bytes> outboxes;
         for (Packer& pack : to_each_) {
             pack_last(pack);
             outboxes.push_back(std::exchange(pack.bytes(), {}));
@@ -203,7 +203,7 @@ private:
         (void)own_.take(group_.exchange(std::move(outboxes)).front());
     }
 
-    const Group& group_;
+    const ProcessGroup& group_;
     Receiver& own_;
     std::vector<Packer> to_each_;
     Ending ending_{};
@@ -213,7 +213,7 @@ private:
 }  // namespace
 
 MeshSlice read_slice(const std::filesystem::path& path, const ReadOptions& options,
-                     const Group& group) {
+                     const ProcessGroup& group) {
     Receiver receiver;
     if (group.is_first()) {
         Distributor distributor(group, receiver);
@@ -231,7 +231,7 @@ MeshSlice read_slice(const std::filesystem::path& path, const ReadOptions& optio
         ended == Item::end ? distributor.send_end() : distributor.send_error(ended, what);
     } else {
         const auto nothing = [&] {
-            return std::vector<Group::Bytes>(static_cast<std::size_t>(group.size()));
+            return std::vector<ProcessGroup::Bytes>(static_cast<std::size_t>(group.size()));
         };
         while (receiver.take(group.exchange(nothing()).front())) {
         }

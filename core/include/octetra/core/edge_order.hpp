@@ -1,5 +1,7 @@
 #pragma once
 
+#include <compare>
+
 #include <octetra/core/point.hpp>
 
 /// The strict order of edges by length that all of Octetra bisects by.
@@ -7,7 +9,9 @@
 /// Laws, for edges of one cell that is not flat:
 ///  - exactly one of longer(e, f), longer(f, e) holds when e and f are different edges;
 ///  - longer(e, f) does not depend on the order in which end points are given, nor on any vertex
-///    number: only on coordinates. Every process finds the same longest edge.
+///    number: only on coordinates. Every process finds the same longest edge;
+///  - nor on the scale: multiplying all coordinates by a power of two changes no answer, as long as
+///    it is exact.
 /// Compile users with -ffp-contract=off (the CMake target passes it on): a fused multiply-add
 /// would round the squared length otherwise in one place than in another.
 namespace octetra {
@@ -25,12 +29,31 @@ struct Segment {
     return (dx * dx + dy * dy) + dz * dz;
 }
 
-/// Is e longer than f in the strict order: by squared length in binary64; a tie goes to the edge
-/// whose lexicographically smaller end point is larger, then to the one whose larger end point is.
+/// A squared length that is not less than this, and finite, is what it would be if exponents had no
+/// limits: a square that is denormal, and so has lost digits, is less than 2^-108 of it, and adding
+/// what is less than 2^-54 of a number to it changes nothing, be it once or twice.
+inline constexpr double least_sure_square = 0x1p-900;
+
+[[nodiscard]] constexpr bool is_sure_square(double square) {
+    constexpr double largest = 0x1.fffffffffffffp+1023;
+    return least_sure_square <= square && square <= largest;
+}
+
+/// Compares the squared lengths of two edges as binary64 would round them if exponents had no
+/// limits.
+[[nodiscard]] std::strong_ordering compare_lengths_of_any_scale(const Segment& e, const Segment& f);
+
+/// Is e longer than f in the strict order: by squared length, in binary64 as if exponents had no
+/// limits; a tie goes to the edge whose lexicographically smaller end point is larger, then to the
+/// one whose larger end point is.
 [[nodiscard]] constexpr bool longer(const Segment& e, const Segment& f) {
     const double length_e = squared_length(e);
     const double length_f = squared_length(f);
-    if (length_e != length_f) return length_e > length_f;
+    if (is_sure_square(length_e) && is_sure_square(length_f)) {
+        if (length_e != length_f) return length_e > length_f;
+    } else if (const auto order = compare_lengths_of_any_scale(e, f); order != 0) {
+        return order > 0;
+    }
 
     const bool e_ascends = e.a < e.b;
     const bool f_ascends = f.a < f.b;

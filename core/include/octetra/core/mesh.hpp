@@ -25,9 +25,14 @@ inline constexpr std::array<std::array<std::uint8_t, 2>, 3> triangle_edges{
     {{0, 1}, {0, 2}, {1, 2}}};
 
 /// A tetrahedral mesh of this process. Invariants of a mesh that read_mesh returned:
-///  - coordinates are finite; vertex numbers are in range; a cell's, facet's, edge's are different;
+///  - coordinates are finite, and less than coordinate_limit; vertex numbers are in range; a
+///  cell's, facet's, edge's are different;
 ///  - every cell is positively oriented, exactly;
-///  - every facet is a face of some cell, every edge an edge of some cell.
+///  - every facet is a face of some cell, every edge an edge of some cell;
+///  - no two cells have the same vertices, and no two lie on the same side of a listed facet;
+///  - a facet or edge that is listed again has the same marker again.
+/// Not promised: that cells do not overlap elsewhere, be it at a face that is not listed, nor that
+/// vertices are different points, and of cells. verify_mesh() of octetra_verify judges that.
 /// A list with the remark "or empty" is empty where the file had no such column.
 struct Mesh {
     IndexVector<VertexIndex, Point> points;

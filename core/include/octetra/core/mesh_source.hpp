@@ -3,59 +3,17 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
-#include <functional>
 #include <span>
-#include <string>
 #include <vector>
 
-#include <octetra/core/error.hpp>
 #include <octetra/core/index.hpp>
 #include <octetra/core/maps.hpp>
 #include <octetra/core/mesh.hpp>
+#include <octetra/core/process_group.hpp>
 
 /// Where the writers of files get a mesh from: slice by slice, so that it need not be in any one
 /// memory as a whole, and nothing here need know how processes talk to each other.
 namespace octetra {
-
-/// The processes that write a file together: this class is one process alone, a derived one speaks
-/// for more. Collective functions are called by all of them, in the same order.
-class WriterGroup {
-public:
-    WriterGroup() = default;
-    virtual ~WriterGroup() = default;
-    WriterGroup(const WriterGroup&) = delete;
-    WriterGroup& operator=(const WriterGroup&) = delete;
-    WriterGroup(WriterGroup&&) = delete;
-    WriterGroup& operator=(WriterGroup&&) = delete;
-
-    [[nodiscard]] virtual int rank() const { return 0; }
-    [[nodiscard]] virtual int size() const { return 1; }
-    [[nodiscard]] bool is_first() const { return rank() == 0; }
-
-    struct Share {
-        std::uint64_t before = 0;  ///< sum over the lower ranks
-        std::uint64_t total = 0;   ///< sum over all
-    };
-    /// Collective.
-    [[nodiscard]] virtual Share share_of(std::uint64_t number) const { return {0, number}; }
-
-    /// Collective. The first process's number.
-    [[nodiscard]] virtual std::uint64_t of_first(std::uint64_t number) const { return number; }
-
-    /// Collective. Runs `work` on the first process; what it throws there is thrown on all.
-    virtual void on_first(const std::function<void()>& work) const { work(); }
-
-    /// Collective. Throws a SystemError on all if one of them has met a failure, "" being none.
-    virtual void agree(const std::string& failure) const {
-        if (!failure.empty()) throw SystemError(failure);
-    }
-
-    /// For files that one process writes on its own.
-    [[nodiscard]] static const WriterGroup& alone() {
-        static const WriterGroup group;
-        return group;
-    }
-};
 
 /// A stretch of the canonical order of a kind of entity, cut into slices of equal length, one for
 /// each process of a group, by rank. At the end of the order slices are shorter, or empty.
@@ -114,7 +72,7 @@ public:
     MeshSource& operator=(MeshSource&&) = delete;
 
     [[nodiscard]] virtual const MeshFacts& facts() const = 0;
-    [[nodiscard]] virtual const WriterGroup& group() const { return WriterGroup::alone(); }
+    [[nodiscard]] virtual const ProcessGroup& group() const { return ProcessGroup::alone(); }
 
     [[nodiscard]] virtual std::span<const Point> points(const Window& window) = 0;
     [[nodiscard]] virtual std::span<const CellVertices> cells(const Window& window) = 0;

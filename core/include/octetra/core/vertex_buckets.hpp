@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <numeric>
+#include <utility>
 #include <vector>
 
 #include <octetra/core/index.hpp>
@@ -28,7 +29,7 @@ public:
         for (std::size_t bucket = 0; bucket < vertex_count; ++bucket) {
             std::ranges::sort(members_.begin() + bucket_begin_[bucket],
                               members_.begin() + bucket_begin_[bucket + 1], {},
-                              [&](I i) { return sorted(list[i]); });
+                              [&](I i) { return std::pair(sorted(list[i]), i); });
         }
     }
 
@@ -42,6 +43,19 @@ public:
         auto member = std::ranges::lower_bound(begin, end, wanted, {},
                                                [&](I i) { return sorted((*list_)[i]); });
         for (; member != end && sorted((*list_)[*member]) == wanted; ++member) found(*member);
+    }
+
+    /// Calls repeated(first, i) for each entity i of the list that has the vertices of an earlier
+    /// one, of which `first` is the first.
+    void for_each_repeated(auto&& repeated) const {
+        for (std::size_t begin = 0, k = 1; k < members_.size(); ++k) {
+            const I first = members_[begin];
+            if (sorted((*list_)[first]) == sorted((*list_)[members_[k]])) {
+                repeated(first, members_[k]);
+            } else {
+                begin = k;
+            }
+        }
     }
 
 private:

@@ -9,6 +9,8 @@
 #include <utility>
 #include <vector>
 
+#include <octetra/core/process_group.hpp>
+
 /// What the distributed engine needs of MPI, in terms of vectors. Nothing here includes mpi.h.
 namespace octetra::distributed {
 
@@ -16,25 +18,35 @@ class Profile;  // see octetra/distributed/profile.hpp
 
 /// A group of processes that work on one mesh. Copies speak for the same group.
 ///
-/// Collective functions are called by every process of the group, in the same order. A group of one
-/// process never calls MPI, so that a program runs without mpirun and without MPI's start-up.
-class Communicator {
+/// Collective functions are called by every process of the group, in the same order; those of
+/// ProcessGroup are. A group of one process never calls MPI, so that a program runs without mpirun
+/// and without MPI's start-up.
+class Communicator final : public ProcessGroup {
 public:
     /// This process alone.
     Communicator();
 
-    [[nodiscard]] int rank() const;
-    [[nodiscard]] int size() const;
-    [[nodiscard]] bool is_first() const { return rank() == 0; }
+    [[nodiscard]] int rank() const override;
+    [[nodiscard]] int size() const override;
 
     /// What measures this process's phases and messages, or null; copies share it.
     [[nodiscard]] Profile* profile() const { return profile_.get(); }
     [[nodiscard]] Communicator with_profile(std::shared_ptr<Profile> profile) const;
 
-    /// Collective. Sum, maximum and sum over lower ranks of one number from each process.
-    [[nodiscard]] std::uint64_t sum(std::uint64_t number) const;
+    // As ProcessGroup says, without sending to all what only a sum is wanted of.
+    [[nodiscard]] std::vector<Bytes> exchange(std::vector<Bytes> to_each) const override {
+        return all_to_all(to_each);
+    }
+    [[nodiscard]] std::uint64_t sum(std::uint64_t number) const override;
+    [[nodiscard]] std::uint64_t sum_before(std::uint64_t number) const override;
+    using ProcessGroup::of_first;
+    [[nodiscard]] Bytes of_first(Bytes bytes) const override {
+        broadcast(bytes);
+        return bytes;
+    }
+
+    /// Collective. The maximum of one number from each process.
     [[nodiscard]] std::uint64_t max(std::uint64_t number) const;
-    [[nodiscard]] std::uint64_t sum_before(std::uint64_t number) const;
 
     /// Collective. Every process gets the first one's values.
     template <class T>
@@ -133,12 +145,18 @@ public:
     /// All processes that mpirun started, or this one alone.
     [[nodiscard]] const Communicator& world() const { return world_; }
 
+    /// For a failure that this process alone has met, before it calls abort(): may it say so? Of
+    /// those on one machine that fail at the same time, the first one may; the others come back
+    /// from here when that one has ended, if they live that long.
+    [[nodiscard]] bool is_first_to_fail() const;
+
     /// Ends all processes at once with this exit status: for a failure that this one alone has met,
     /// while the others may be waiting for it.
     [[noreturn]] static void abort(int status);
 
 private:
     Communicator world_;
+    int lock_ = -1;
 };
 
 }  // namespace octetra::distributed

@@ -17,7 +17,7 @@ enum class GlobalVertex : std::uint64_t {};
 /// Where entities of a level come from: the descendants of an entity of the input, its root, stand
 /// together, in the order of bisection, and roots in the order of the input. So what a root has
 /// (its number, its region tag or marker) need not be kept for each descendant.
-struct Lineage {
+struct AncestorMap {
     /// Numbers in the input of this process's roots, ascending.
     std::vector<std::uint64_t> roots;
     /// The descendants of root number r of this process are first[r] .. first[r+1]-1.
@@ -52,7 +52,7 @@ struct DeleteAdjacency {
 ///
 /// Vertices are numbered locally, in ascending canonical order: first those of the input, then the
 /// midpoints of each level. Cells and what is listed are in canonical order as well, as far as this
-/// process has them, unless the mesh is `loose`: see put_in_order().
+/// process has them, unless the mesh is `loose`: see restore_canonical_order().
 struct DistributedMesh {
     Communicator processes;
 
@@ -73,24 +73,15 @@ struct DistributedMesh {
     std::vector<MidpointMarker> midpoint_markers;
 
     IndexVector<CellIndex, CellVertices> cells;
-    Lineage cell_lineage;  ///< markers: region tags
+    AncestorMap cell_ancestors;  ///< markers: region tags
     IndexVector<FacetIndex, FacetVertices> facets;
-    Lineage facet_lineage;
+    AncestorMap facet_ancestors;
     IndexVector<EdgeIndex, EdgeVertices> edges;  ///< listed edges
-    Lineage edge_lineage;
+    AncestorMap edge_ancestors;
 
     std::vector<Interface>
         interfaces;  ///< one for each process that shares an edge; rank ascending
 
-    /// Where the cells chosen at a level have less than this share of the vertices of this process,
-    /// it takes the way whose work is in proportion to what changes; else the one that goes through
-    /// its whole part, and has less work with each cell. 0: always the latter. The result is the
-    /// same, whatever each process says here.
-    double sparse_below = 0.0625;
-    /// The way that goes through the whole part numbers the edges of all cells, unless the cells
-    /// near the chosen ones are less than this share of all; or less than 1.5 times this share,
-    /// when paths led further. 0: always all. The result is the same here, too.
-    double near_below = 0.5;
     /// The engine's own. While there is one, the mesh is loose.
     std::unique_ptr<Adjacency, DeleteAdjacency> adjacency;
 
@@ -112,7 +103,7 @@ struct DistributedMesh {
 /// in no order, and lineages are not to be looked at. Takes time and memory in proportion to the
 /// process's part, and what refinement has kept is lost. Whatever collects or writes a mesh does
 /// this. Not collective.
-void put_in_order(DistributedMesh& mesh);
+void restore_canonical_order(DistributedMesh& mesh);
 
 /// What collect() puts together again.
 struct Collected {

@@ -11,9 +11,9 @@ namespace octetra::distributed {
 /// to weigh them by, lest the process that has the refined place has nearly all of the result.
 /// Empty where all become equally many, or nothing tells which become more. Not collective.
 ///
-/// A chosen cell becomes 8, 4 or 2 in each level, by the scheme, and 1e9 at most. Of a sphere or
-/// box it counts how much of a cell is inside, as closure leads there what is not chosen itself; a
-/// share by lot is as large everywhere. What closure does around the chosen cells is left out: it
+/// A marked cell becomes 8, 4 or 2 in each level, by the scheme, and 1e9 at most. Of a sphere or
+/// box it counts how much of a cell is inside, as closure leads there what is not marked itself; a
+/// share by lot is as large everywhere. What closure does around the marked cells is left out: it
 /// is little beside them.
 [[nodiscard]] std::vector<float> predicted_cells(const Mesh& mesh, const Selection& selection,
                                                  Scheme scheme, int levels);

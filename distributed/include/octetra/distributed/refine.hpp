@@ -11,7 +11,7 @@
 /// Environments", Figure 3.
 namespace octetra::distributed {
 
-/// How processes tell each other which shared edges they have selected.
+/// How processes tell each other which shared edges they have marked.
 enum class Synchronisation {
     neighbour,  ///< processes that share an edge tell each other
     gateway,    ///< the first process collects all, drops what is known, informs those concerned

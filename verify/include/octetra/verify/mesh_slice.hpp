@@ -6,7 +6,7 @@
 #include <octetra/core/files.hpp>
 #include <octetra/core/mesh.hpp>
 #include <octetra/core/mesh_source.hpp>
-#include <octetra/verify/group.hpp>
+#include <octetra/core/process_group.hpp>
 
 namespace octetra::verify {
 
@@ -37,13 +37,13 @@ struct MeshSlice {
 
 /// Collective. The slices of a mesh that the first process has; it must pass the first line of the
 /// invariants of struct Mesh, but for indices out of range. What the others pass is not looked at.
-[[nodiscard]] MeshSlice share_out(const Mesh& mesh, const Group& group);
+[[nodiscard]] MeshSlice share_out(const Mesh& mesh, const ProcessGroup& group);
 
 /// Collective. The slices of a mesh file, which the first process reads and hands on as it goes.
 /// Of the options only `note` is looked at, as by stream_mesh(). Throws, on all processes, as that
 /// does.
 [[nodiscard]] MeshSlice read_slice(const std::filesystem::path& path, const ReadOptions& options,
-                                   const Group& group);
+                                   const ProcessGroup& group);
 
 /// Collective in the mesh's group, whose processes are those of the verifier's. The slices of a
 /// mesh in several memories.

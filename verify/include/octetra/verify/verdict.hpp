@@ -91,6 +91,7 @@ struct Verdict {
     std::vector<TagSum> volumes;
     std::vector<TagSum> areas;
     Arithmetic arithmetic;
+    std::uint64_t looked_at = 0;  ///< by searches in space, pairs and boxes: their effort
 
     [[nodiscard]] std::uint64_t count(Code code) const {
         return counts[static_cast<std::size_t>(code)];

@@ -1,14 +1,16 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <limits>
 #include <optional>
 #include <string>
+#include <string_view>
 
 #include <octetra/core/maps.hpp>
 #include <octetra/core/mesh.hpp>
+#include <octetra/core/process_group.hpp>
 #include <octetra/core/selection.hpp>
-#include <octetra/verify/group.hpp>
 #include <octetra/verify/mesh_slice.hpp>
 #include <octetra/verify/verdict.hpp>
 
@@ -24,6 +26,8 @@ struct Request {
     int levels = 1;
 };
 
+using Progress = std::function<void(std::string_view check, double share)>;
+
 struct VerifyOptions {
     /// Only what takes filtered predicates and no search in space: well-formed, orientation, faces;
     /// of refinements also descent, cover and tags.
@@ -36,6 +40,9 @@ struct VerifyOptions {
     /// Why a fine mesh without attributes could not have any (its file's format, say). Empty: it
     /// could, and it is a fault if the coarse mesh has some.
     std::string attributes_lost;
+    /// Hears, now and then, which check is running and what share of it is done, from 0 to 1: of
+    /// what this process does.
+    Progress progress;
     /// So many violations of each code are described; all are counted.
     std::size_t kept_per_code = std::numeric_limits<std::size_t>::max();
 };
@@ -50,7 +57,7 @@ struct VerifyOptions {
 /// lies in a part of space. The verdict is the same but for `seconds` and `arithmetic`, as what
 /// lies between two parts is looked at by both; whole on the first process, without violations on
 /// the others. Takes the memory of about a part and what surrounds it, in every process.
-[[nodiscard]] Verdict verify_mesh(MeshSlice mesh, const Group& group,
+[[nodiscard]] Verdict verify_mesh(MeshSlice mesh, const ProcessGroup& group,
                                   const VerifyOptions& options = {});
 
 /// Judges `fine` as a refinement of `coarse` by midpoints: the cells of each coarse cell come of
@@ -66,7 +73,7 @@ struct VerifyOptions {
 /// Every process has the maps, if there are any, whole. Each judges the coarse cells of a part of
 /// space with their descendants, and sees those around them: where coarse cells are few and large,
 /// parts overlap, and memory does not fall.
-[[nodiscard]] Verdict verify_refinement(MeshSlice coarse, MeshSlice fine, const Group& group,
+[[nodiscard]] Verdict verify_refinement(MeshSlice coarse, MeshSlice fine, const ProcessGroup& group,
                                         const VerifyOptions& options = {});
 
 }  // namespace octetra::verify

@@ -1,0 +1,14 @@
+#pragma once
+
+#include <string>
+
+#include <octetra/core/mesh.hpp>
+#include <octetra/distributed/communicator.hpp>
+
+namespace octetra::cli {
+
+/// Collective. All processes judge the mesh, which the first one has read from `path`, as
+/// `octetra verify` does. If it is not valid, says why on stdout, and throws InputError on all.
+void check_input(const Mesh& mesh, const std::string& path, const distributed::Communicator& world);
+
+}  // namespace octetra::cli

@@ -1,0 +1,64 @@
+#include "terminal.hpp"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstdlib>
+#include <iostream>
+
+#include "program.hpp"
+
+namespace octetra::cli {
+namespace {
+
+bool is_closed(int stream) { return ::fcntl(stream, F_GETFD) < 0 && errno == EBADF; }
+
+void print_to(std::FILE* stream, std::string_view text) {
+    // What fails here is remembered by the stream.
+    (void)std::fwrite(text.data(), 1, text.size(), stream);
+}
+
+}  // namespace
+
+void hold_closed_streams() {
+    for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
+        if (!is_closed(stream)) continue;
+        // Open the wrong way round: whoever reads or writes fails, as with a closed stream. The
+        // lowest free number is given out, which is this one.
+        const int wrong_way = stream == STDIN_FILENO ? O_WRONLY : O_RDONLY;
+        if (::open("/dev/null", wrong_way) != stream) {
+            std::_Exit(static_cast<int>(Status::system_failed));
+        }
+    }
+}
+
+void print_text(std::string_view text) { print_to(stdout, text); }
+
+bool stdout_was_written() {
+    std::cout.flush();  // CLI11 prints help and version there
+    std::fflush(stdout);
+    return std::ferror(stdout) == 0 && std::cout.good();
+}
+
+void print_error_text(std::string_view text) {
+    print_to(stderr, text);
+    std::fflush(stderr);
+}
+
+void print_error_line(std::string_view message) {
+    fmt::memory_buffer line;
+    fmt::format_to(std::back_inserter(line), "octetra: ");
+    for (const char c : message) {
+        const auto byte = static_cast<unsigned char>(c);
+        if (byte < 0x20 || byte == 0x7f) {
+            fmt::format_to(std::back_inserter(line), "\\x{:02x}", byte);
+        } else {
+            line.push_back(c);
+        }
+    }
+    line.push_back('\n');
+    print_error_text({line.data(), line.size()});
+}
+
+}  // namespace octetra::cli

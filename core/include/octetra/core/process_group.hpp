@@ -1,0 +1,59 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace octetra {
+
+/// The processes that work on something together: this class is one process alone, a derived one
+/// speaks for more. How they talk to each other is nothing that core or the verifier need know.
+///
+/// All functions but rank(), size() and is_first() are collective: every process of the group calls
+/// them, in the same order. A derived class has to say who there is and to exchange(); the sums and
+/// of_first() are made of that, and are there to be overridden by who does it better.
+class ProcessGroup {
+public:
+    using Bytes = std::vector<std::byte>;
+
+    ProcessGroup() = default;
+    virtual ~ProcessGroup() = default;
+
+    [[nodiscard]] virtual int rank() const { return 0; }
+    [[nodiscard]] virtual int size() const { return 1; }
+    [[nodiscard]] bool is_first() const { return rank() == 0; }
+
+    /// to_each[r], of which there are size(), goes to process r; the result's [r] came from there.
+    [[nodiscard]] virtual std::vector<Bytes> exchange(std::vector<Bytes> to_each) const {
+        return to_each;
+    }
+
+    /// The sum over all processes, and over those of lower rank.
+    [[nodiscard]] virtual std::uint64_t sum(std::uint64_t number) const;
+    [[nodiscard]] virtual std::uint64_t sum_before(std::uint64_t number) const;
+
+    /// What the first process has.
+    [[nodiscard]] virtual Bytes of_first(Bytes bytes) const;
+    [[nodiscard]] std::uint64_t of_first(std::uint64_t number) const;
+
+    /// Runs `work` on the first process, while the others wait. What it throws there is thrown on
+    /// all: an InputError as such, all else as SystemError.
+    void on_first(const std::function<void()>& work) const;
+
+    /// Throws a SystemError on all processes if one of them has met a failure, "" being none: that
+    /// of the lowest rank which has.
+    void agree(const std::string& failure) const;
+
+    /// For what one process does on its own.
+    [[nodiscard]] static const ProcessGroup& alone();
+
+protected:  // copies are made by derived classes, for those that are values
+    ProcessGroup(const ProcessGroup&) = default;
+    ProcessGroup& operator=(const ProcessGroup&) = default;
+    ProcessGroup(ProcessGroup&&) = default;
+    ProcessGroup& operator=(ProcessGroup&&) = default;
+};
+
+}  // namespace octetra

@@ -1,0 +1,69 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include <octetra/core/mesh.hpp>
+
+namespace octetra {
+
+/// A cell of a file, and an earlier one that cannot be in the mesh with it.
+struct CellPair {
+    CellIndex cell = CellIndex::none();  ///< none: there is no such pair
+    CellIndex earlier = CellIndex::none();
+};
+
+/// Finds a cell that has the vertices of an earlier one. While cells come, it keeps a few bits of
+/// each, and suspects those whose bits were all there already: whatever is repeated, and two or
+/// three of a thousand others. Only these are compared, in the end. Memory: 2 bytes per cell.
+class RepeatedCells {
+public:
+    explicit RepeatedCells(std::uint64_t cell_count);
+
+    /// The next cell of the file.
+    void add(const CellVertices& cell) {
+        Waiting& place = waiting_[count_ % ahead];
+        if (count_ >= ahead) look_up(place, count_ - ahead);
+        place = of(cell);
+        __builtin_prefetch(&seen_[place.word]);
+        ++count_;
+    }
+
+    /// All cells have come, and this is their mesh: the first that has the vertices of an earlier
+    /// one, and the first of these. Numbers of vertices must be in range.
+    [[nodiscard]] CellPair find(const Mesh& mesh);
+
+private:
+    static constexpr std::uint32_t ahead = 8;
+
+    /// What is kept of a cell: three bits of a word. They are looked up some cells later, when the
+    /// word has come from memory.
+    struct Waiting {
+        std::uint32_t word = 0;
+        std::uint64_t bits = 0;
+    };
+
+    [[nodiscard]] Waiting of(const CellVertices& cell) const {
+        // The order of the factors does not matter; all of them are odd, so that none is lost.
+        constexpr std::uint64_t odd = 0x9e3779b97f4a7c15;
+        std::uint64_t product = 1;
+        for (const VertexIndex v : cell) product *= odd + 2 * std::uint64_t{v.value()};
+        const auto bit = [=](int shift) { return std::uint64_t{1} << (product >> shift & 63U); };
+        const std::uint64_t word = (product >> 32U) * seen_.size() >> 32U;
+        return {static_cast<std::uint32_t>(word), bit(20) | bit(26) | bit(32)};
+    }
+
+    void look_up(const Waiting& waiting, std::uint32_t number) {
+        std::uint64_t& word = seen_[waiting.word];
+        if ((word & waiting.bits) == waiting.bits) suspects_.push_back(CellIndex{number});
+        word |= waiting.bits;
+    }
+
+    std::uint32_t count_ = 0;
+    std::array<Waiting, ahead> waiting_;
+    std::vector<std::uint64_t> seen_;
+    std::vector<CellIndex> suspects_;
+};
+
+}  // namespace octetra

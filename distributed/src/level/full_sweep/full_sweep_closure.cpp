@@ -1,0 +1,171 @@
+#include "level/full_sweep/full_sweep_closure.hpp"
+
+#include <algorithm>
+#include <numeric>
+#include <utility>
+
+namespace octetra::distributed {
+
+FullSweepClosure::FullSweepClosure(LocalEdgeSet& edges, CellOrders& orders,
+                                   const std::vector<Interface>& interfaces)
+    : edges_(&edges), orders_(&orders), interfaces_(&interfaces), outboxes_(interfaces.size()) {
+    make_marks();
+}
+
+/// For the edges as they are numbered; none is marked.
+void FullSweepClosure::make_marks() {
+    const std::size_t edge_count = numbering_->end_index().value();
+    marked_.assign(edge_count, 0);
+    marked_count_ = 0;
+    shared_.assign(interfaces_->empty() ? 0 : edge_count, 0);
+    shared_edges_.clear();
+    interface_edges_.assign(interfaces_->size(), {});
+    for (std::size_t i = 0; i < interfaces_->size(); ++i) {
+        for (const auto& [a, b] : (*interfaces_)[i].edges) {
+            const EdgeIndex edge = numbering_->find(a, b);
+            shared_edges_.push_back({edge, static_cast<std::uint32_t>(i),
+                                     static_cast<std::uint32_t>(interface_edges_[i].size())});
+            interface_edges_[i].push_back(edge);
+            shared_[edge] = 1;
+        }
+    }
+    std::ranges::sort(shared_edges_, {}, &SharedEdge::edge);
+}
+
+void FullSweepClosure::mark_all() {
+    for (EdgeIndex edge{0}; edge < marked_.end_index(); ++edge) marked_[edge] = 1;
+    marked_count_ = marked_.size();
+}
+
+void FullSweepClosure::mark(EdgeIndex edge) {
+    if (marked_[edge] != 0) return;
+    set_mark(edge);
+    tell_sharers(edge);
+}
+
+// Who told has told all that share the edge.
+void FullSweepClosure::mark_from(std::size_t interface, std::uint32_t position) {
+    const EdgeIndex edge = interface_edges_[interface][position];
+    if (marked_[edge] == 0) set_mark(edge);
+}
+
+void FullSweepClosure::set_mark(EdgeIndex edge) {
+    marked_[edge] = 1;
+    ++marked_count_;
+    // Before the first sweep every cell is yet to be looked at.
+    if (sweep_count_ > 0) queue_.push_back(edge);
+}
+
+void FullSweepClosure::tell_sharers(EdgeIndex edge) {
+    if (shared_.empty() || shared_[edge] == 0) return;
+    auto shared = std::ranges::lower_bound(shared_edges_, edge, {}, &SharedEdge::edge);
+    for (; shared != shared_edges_.end() && shared->edge == edge; ++shared) {
+        outboxes_[shared->interface].push_back(shared->position);
+    }
+}
+
+EdgeMask FullSweepClosure::marked_of(CellIndex cell) const {
+    const auto& edges = numbering_->edges_of(cell);
+    unsigned mask = 0;
+    for (std::size_t e = 0; e < 6; ++e) mask |= static_cast<unsigned>(marked_[edges[e]]) << e;
+    return static_cast<EdgeMask>(mask);
+}
+
+void FullSweepClosure::close(CellIndex cell) {
+    const EdgeMask mask = marked_of(cell);
+    if (is_all_or_none(mask)) return;
+    const auto missing =
+        static_cast<EdgeMask>(table_->closure(orders_->of(cell), mask) & ~unsigned{mask});
+    for (std::size_t e = 0; missing >> e != 0; ++e) {
+        if ((missing >> e & 1U) == 0) continue;
+        mark(numbering_->edges_of(cell)[e]);
+        leads_beyond_ = leads_beyond_ || !edges_->is_surrounded(cell, e);
+    }
+}
+
+void FullSweepClosure::drain() {
+    drain_near();
+    while (leads_beyond_) {
+        widen();
+        drain_near();
+    }
+}
+
+/// Begins anew with more edges; what was marked stays marked, and was told to those who share
+/// it.
+void FullSweepClosure::widen() {
+    const std::vector<EdgeVertices> marked = ends_of_marked();
+    // All that goes by the old numbers goes before the new ones need memory.
+    marked_ = {};
+    shared_ = {};
+    cells_begin_ = {};
+    cells_ = {};
+    queue_.clear();
+    edges_->widen();
+    make_marks();
+    leads_beyond_ = false;
+    sweep_count_ = 0;
+    for (const auto& [a, b] : marked) set_mark(numbering_->find(a, b));
+}
+
+std::vector<EdgeVertices> FullSweepClosure::ends_of_marked() const {
+    std::vector<EdgeVertices> ends;
+    ends.reserve(marked_count_);
+    for (VertexIndex low{0}; low < numbering_->vertex_end(); ++low) {
+        for (EdgeIndex e = numbering_->begin_of(low); e < numbering_->end_of(low); ++e) {
+            if (is_marked(e)) ends.push_back({low, numbering_->high_end(e)});
+        }
+    }
+    return ends;
+}
+
+// To know the cells at each edge takes as long as several sweeps. Most often they are enough, as
+// every other one goes backwards; but a path may turn round as often as it likes.
+void FullSweepClosure::drain_near() {
+    constexpr int most_sweeps = 8;
+    if (sweep_count_ == 0 && marked_count_ < marked_.size()) sweep();
+    while (!queue_.empty() && sweep_count_ < most_sweeps && !leads_beyond_) sweep();
+    if (queue_.empty() || leads_beyond_) return;
+    if (cells_begin_.empty()) index_cells_at_edges();
+    while (!queue_.empty() && !leads_beyond_) {
+        const EdgeIndex edge = queue_.back();
+        queue_.pop_back();
+        for (auto k = cells_begin_[edge.value()]; k < cells_begin_[edge.value() + 1]; ++k) {
+            close(cells_[k]);
+        }
+    }
+}
+
+/// Closes every cell that has edges; what is marked meanwhile may concern cells that were passed
+/// already.
+void FullSweepClosure::sweep() {
+    queue_.clear();
+    const bool backwards = sweep_count_++ % 2 != 0;
+    const std::size_t count = numbering_->cell_count();
+    for (std::size_t k = 0; k < count; ++k)
+        close(numbering_->cell_at(backwards ? count - 1 - k : k));
+}
+
+void FullSweepClosure::index_cells_at_edges() {
+    cells_begin_.assign(std::size_t{numbering_->end_index().value()} + 1, 0);
+    for (std::size_t k = 0; k < numbering_->cell_count(); ++k) {
+        for (const EdgeIndex e : numbering_->edges_of(numbering_->cell_at(k)))
+            ++cells_begin_[e.value()];
+    }
+    std::exclusive_scan(cells_begin_.begin(), cells_begin_.end(), cells_begin_.begin(), 0U);
+    cells_.resize(cells_begin_.back());
+    // Filling moves each beginning to its end, which is the next one's beginning ...
+    for (std::size_t k = 0; k < numbering_->cell_count(); ++k) {
+        const CellIndex c = numbering_->cell_at(k);
+        for (const EdgeIndex e : numbering_->edges_of(c)) cells_[cells_begin_[e.value()]++] = c;
+    }
+    // ... so all of them move on by one place.
+    std::shift_right(cells_begin_.begin(), cells_begin_.end(), 1);
+    cells_begin_.front() = 0;
+}
+
+std::vector<std::vector<std::uint32_t>> FullSweepClosure::take_outboxes() {
+    return std::exchange(outboxes_, std::vector<std::vector<std::uint32_t>>(outboxes_.size()));
+}
+
+}  // namespace octetra::distributed

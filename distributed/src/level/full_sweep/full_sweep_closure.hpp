@@ -1,0 +1,75 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include <octetra/distributed/distributed_mesh.hpp>
+
+#include "level/closure.hpp"
+#include "level/full_sweep/local_edge_set.hpp"
+#include "pattern/cell_orders.hpp"
+#include "pattern/patterns.hpp"
+
+namespace octetra::distributed {
+
+/// With a mark for every edge that has a number; goes through all cells, as often as there is
+/// something to find, and then from edge to edge. Where a path leads further, widens what is
+/// numbered.
+class FullSweepClosure final : public Closure {
+public:
+    /// Keeps pointers to all of them.
+    FullSweepClosure(LocalEdgeSet& edges, CellOrders& orders,
+                     const std::vector<Interface>& interfaces);
+
+    /// Every edge, all of which have numbers, as all processes do then: nobody is told.
+    void mark_all();
+
+    /// Marks an edge of this process's own will, without following its path. All that share the
+    /// edge will be told.
+    void mark(EdgeIndex edge);
+    void mark_from(std::size_t interface, std::uint32_t position) override;
+    void drain() override;
+
+    [[nodiscard]] bool is_marked(EdgeIndex edge) const { return marked_[edge] != 0; }
+    [[nodiscard]] bool all_marked() const { return marked_count_ == marked_.size(); }
+    [[nodiscard]] EdgeMask marked_of(CellIndex cell) const;
+    [[nodiscard]] std::size_t marked_count() const override { return marked_count_; }
+    [[nodiscard]] std::vector<std::vector<std::uint32_t>> take_outboxes() override;
+
+private:
+    struct SharedEdge {
+        EdgeIndex edge;
+        std::uint32_t interface = 0;
+        std::uint32_t position = 0;
+    };
+
+    void make_marks();
+    void set_mark(EdgeIndex edge);
+    void tell_sharers(EdgeIndex edge);
+    void close(CellIndex cell);
+    void drain_near();
+    void widen();
+    [[nodiscard]] std::vector<EdgeVertices> ends_of_marked() const;
+    void sweep();
+    void index_cells_at_edges();
+
+    LocalEdgeSet* edges_;
+    const EdgeNumbering* numbering_ = &edges_->numbering();
+    CellOrders* orders_;
+    const std::vector<Interface>* interfaces_;
+    const PatternTable* table_ = &PatternTable::get();
+    IndexVector<EdgeIndex, std::uint8_t> marked_;
+    IndexVector<EdgeIndex, std::uint8_t> shared_;  // empty if no edge is
+    std::vector<SharedEdge> shared_edges_;         // ascending by edge
+    std::vector<std::vector<EdgeIndex>> interface_edges_;
+    std::vector<std::vector<std::uint32_t>> outboxes_;
+    std::vector<EdgeIndex> queue_;
+    std::size_t marked_count_ = 0;
+    int sweep_count_ = 0;
+    bool leads_beyond_ = false;  ///< an edge is marked around which not all cells have edges
+    // The cells at edge e are cells_[cells_begin_[e]] .. cells_[cells_begin_[e + 1] - 1].
+    std::vector<std::uint32_t> cells_begin_;
+    std::vector<CellIndex> cells_;
+};
+
+}  // namespace octetra::distributed

@@ -1,0 +1,228 @@
+#include "level/full_sweep/full_sweep_level.hpp"
+
+#include <algorithm>
+#include <iterator>
+#include <span>
+#include <utility>
+
+#include <octetra/distributed/profile.hpp>
+
+#include "level/full_sweep/bisect_edges.hpp"
+#include "level/full_sweep/bisect_interfaces.hpp"
+#include "level/huge_pages.hpp"
+#include "level/rounding_margin.hpp"
+#include "pattern/triangle.hpp"
+
+namespace octetra::distributed {
+namespace {
+
+constexpr std::size_t most_children = 8;
+
+class CellBisection {
+public:
+    CellBisection(DistributedMesh& mesh, const EdgeNumbering& numbering, CellOrders& orders,
+                  const IndexVector<CellIndex, EdgeMask>& marked,
+                  const IndexVector<EdgeIndex, VertexIndex>& midpoints)
+        : mesh_(&mesh),
+          numbering_(&numbering),
+          orders_(&orders),
+          marked_(&marked),
+          midpoints_(&midpoints) {}
+
+    /// Replaces the cells by their children, so many in all.
+    [[nodiscard]] RoundingFailure run(std::size_t child_count) {
+        reserve_in_huge_pages(children_, child_count);
+        AncestorMap& ancestors = mesh_->cell_ancestors;
+        for (std::size_t r = 0; r < ancestors.roots.size(); ++r) {
+            const CellIndex end{ancestors.first[r + 1]};
+            CellIndex c{ancestors.first[r]};
+            ancestors.first[r] = static_cast<std::uint32_t>(children_.size() + written_);
+            for (; c < end; ++c) {
+                if (c == block_end_) begin_block();
+                bisect(c, ancestors.roots[r]);
+            }
+        }
+        append_written();
+        ancestors.first.back() = children_.end_index().value();
+        mesh_->cells = std::move(children_);
+        return failure_;
+    }
+
+private:
+    static constexpr std::size_t block_size = 64;
+
+    /// Of the next 64 cells all patterns, and then all rounding margins: a processor works on
+    /// several cells at once as long as it does the same with them.
+    void begin_block() {
+        append_written();
+        std::array<CellIndex, block_size> touched;
+        std::size_t touched_count = 0;
+        const std::size_t end = std::min(mesh_->cells.size(), block_end_.value() + block_size);
+        for (; block_end_ < CellIndex{end}; ++block_end_) {
+            touched[touched_count] = block_end_;
+            touched_count += (*marked_)[block_end_] != 0 ? 1U : 0U;
+        }
+        const auto all_touched = std::span(touched).first(touched_count);
+        for (const CellIndex c : all_touched) {
+            patterns_[place_of(c)] = &table_->pattern(orders_->of(c), (*marked_)[c]);
+        }
+        for (const CellIndex c : all_touched) {
+            is_safe_[place_of(c)] = has_rounding_margin(mesh_->points, mesh_->cells[c]);
+        }
+    }
+    static std::size_t place_of(CellIndex cell) { return cell.value() % block_size; }
+
+    void append_written() {
+        children_.insert(children_.end(), block_.begin(),
+                         block_.begin() + static_cast<std::ptrdiff_t>(written_));
+        written_ = 0;
+    }
+
+    void bisect(CellIndex c, std::uint64_t root) {
+        const CellVertices& cell = mesh_->cells[c];
+        if ((*marked_)[c] == 0) {
+            block_[written_++] = cell;
+            return;
+        }
+        const Pattern& pattern = *patterns_[place_of(c)];
+        std::array<VertexIndex, 10> vertices;  // by place
+        std::ranges::copy(cell, vertices.begin());
+        const auto& edges = numbering_->edges_of(c);
+        for (std::size_t e = 0; e < 6; ++e) vertices[4 + e] = (*midpoints_)[edges[e]];
+        // Always eight, as to write what is not needed takes less time than to foresee their
+        // number.
+        CellVertices* const children = block_.data() + written_;
+        for (std::size_t k = 0; k < most_children; ++k) {
+            children[k] = child_of(vertices, pattern.children[k]);
+        }
+        const std::size_t count = pattern.child_count;
+        if (!is_safe_[place_of(c)]) check({children, count}, root);
+        written_ += count;
+    }
+
+    void check(std::span<const CellVertices> children, std::uint64_t root) {
+        for (const CellVertices& child : children) {
+            if (failure_.found()) return;
+            const int sign = sign_of(child, mesh_->points);
+            if (sign <= 0) failure_.note(root, sign);
+        }
+    }
+
+    DistributedMesh* mesh_;
+    const EdgeNumbering* numbering_;
+    CellOrders* orders_;
+    const IndexVector<CellIndex, EdgeMask>* marked_;
+    const IndexVector<EdgeIndex, VertexIndex>* midpoints_;
+    const PatternTable* table_ = &PatternTable::get();
+    IndexVector<CellIndex, CellVertices> children_;
+    RoundingFailure failure_;
+
+    CellIndex block_end_{0};  ///< blocks begin at multiples of their size
+    std::array<const Pattern*, block_size> patterns_{};
+    std::array<bool, block_size> is_safe_{};
+    /// Children yet to be appended: to copy at once what was just written takes longer.
+    std::array<CellVertices, block_size * most_children> block_;
+    std::size_t written_ = 0;
+};
+
+/// Replaces the entities of a list by their pieces: append_pieces(entity, pieces) for each, in
+/// order.
+template <class I, class Vertices>
+void replace_by_pieces(IndexVector<I, Vertices>& list, AncestorMap& ancestors,
+                       auto&& append_pieces) {
+    IndexVector<I, Vertices> pieces;
+    for (std::size_t r = 0; r < ancestors.roots.size(); ++r) {
+        const I end{ancestors.first[r + 1]};
+        I i{ancestors.first[r]};
+        ancestors.first[r] = pieces.end_index().value();
+        for (; i < end; ++i) append_pieces(list[i], pieces);
+    }
+    ancestors.first.back() = pieces.end_index().value();
+    list = std::move(pieces);
+}
+
+}  // namespace
+
+FullSweepLevel::FullSweepLevel(DistributedMesh& mesh, const MarkedCells& marked, double local_below)
+    : mesh_(&mesh),
+      edges_(in_phase(mesh.processes, "number edges",
+                      [&] { return LocalEdgeSet(mesh, marked, local_below); })),
+      orders_(mesh),
+      closure_(edges_, orders_, mesh.interfaces) {}
+
+void FullSweepLevel::mark(const MarkedCells& marked, Scheme scheme) {
+    if (marked.all && scheme == Scheme::eight) {
+        closure_.mark_all();
+    } else if (marked.all) {
+        for (CellIndex c{0}; c < mesh_->cells.end_index(); ++c) mark(c, scheme);
+    } else {
+        for (const CellIndex c : marked.cells) mark(c, scheme);
+    }
+}
+
+void FullSweepLevel::mark(CellIndex cell, Scheme scheme) {
+    const EdgeMask mask = marks_of(scheme, orders_.of(cell));
+    const auto edges = numbering_->edges_of(cell);
+    for (std::size_t e = 0; e < 6; ++e) {
+        if ((mask >> e & 1U) != 0) closure_.mark(edges[e]);
+    }
+}
+
+void FullSweepLevel::bisect_edges() {
+    midpoints_ = distributed::bisect_edges(*mesh_, *numbering_, closure_);
+}
+
+std::size_t FullSweepLevel::cell_count_afterwards() {
+    const std::size_t cell_count = mesh_->cells.size();
+    if (closure_.all_marked()) {
+        marked_.assign(cell_count, all_edges);
+        return most_children * cell_count;
+    }
+    marked_.assign(cell_count, 0);
+    // None of the other cells' edges is marked.
+    std::size_t count = cell_count - numbering_->cell_count();
+    for (std::size_t k = 0; k < numbering_->cell_count(); ++k) {
+        const CellIndex c = numbering_->cell_at(k);
+        const EdgeMask marked = closure_.marked_of(c);
+        marked_[c] = marked;
+        // These need no order.
+        if (marked == 0) {
+            ++count;
+        } else if (marked == all_edges) {
+            count += most_children;
+        } else {
+            count += PatternTable::get().pattern(orders_.of(c), marked).child_count;
+        }
+    }
+    return count;
+}
+
+RoundingFailure FullSweepLevel::bisect_cells(std::size_t cell_count) {
+    return CellBisection(*mesh_, *numbering_, orders_, marked_, midpoints_).run(cell_count);
+}
+
+void FullSweepLevel::bisect_listed() {
+    DistributedMesh& mesh = *mesh_;
+    replace_by_pieces(
+        mesh.facets, mesh.facet_ancestors, [&](const FacetVertices& facet, auto& all) {
+            const BisectedTriangle bisected =
+                bisect_triangle(facet, midpoints_of(facet, *numbering_, midpoints_), mesh.points);
+            std::copy_n(bisected.pieces.begin(), bisected.piece_count, std::back_inserter(all));
+        });
+    replace_by_pieces(mesh.edges, mesh.edge_ancestors, [&](const EdgeVertices& edge, auto& all) {
+        // Which half comes first is a matter of the end points' positions in the list.
+        const VertexIndex midpoint = midpoints_[numbering_->find(edge[0], edge[1])];
+        if (midpoint.is_none()) {
+            all.append(edge);
+        } else {
+            all.append({edge[0], midpoint});
+            all.append({midpoint, edge[1]});
+        }
+    });
+}
+
+void FullSweepLevel::bisect_interfaces() {
+    distributed::bisect_interfaces(mesh_->interfaces, mesh_->points, *numbering_, midpoints_);
+}
+
+}  // namespace octetra::distributed

@@ -1,0 +1,41 @@
+#pragma once
+
+#include "level/full_sweep/full_sweep_closure.hpp"
+#include "level/full_sweep/local_edge_set.hpp"
+#include "level/level.hpp"
+#include "mark/marked_cells.hpp"
+#include "pattern/cell_orders.hpp"
+
+namespace octetra::distributed {
+
+/// The way for many marked cells: numbers edges, and makes all lists anew. Takes time in proportion
+/// to the process's part, and least for each cell that it bisects.
+class FullSweepLevel final : public Level {
+public:
+    /// The mesh must be in order.
+    FullSweepLevel(DistributedMesh& mesh, const MarkedCells& marked, double local_below);
+
+    /// Marks edges of the marked cells, the same as before.
+    void mark(const MarkedCells& marked, Scheme scheme);
+
+    [[nodiscard]] Closure& closure() override { return closure_; }
+    void bisect_edges() override;
+    [[nodiscard]] std::size_t cell_count_afterwards() override;
+    [[nodiscard]] RoundingFailure bisect_cells(std::size_t cell_count) override;
+    void bisect_listed() override;
+    void bisect_interfaces() override;
+    [[nodiscard]] std::size_t cells_touched() const override { return orders_.end_index().value(); }
+
+private:
+    void mark(CellIndex cell, Scheme scheme);
+
+    DistributedMesh* mesh_;
+    LocalEdgeSet edges_;
+    const EdgeNumbering* numbering_ = &edges_.numbering();
+    CellOrders orders_;
+    FullSweepClosure closure_;
+    IndexVector<CellIndex, EdgeMask> marked_;        ///< of each cell, once they are counted
+    IndexVector<EdgeIndex, VertexIndex> midpoints_;  ///< of each edge, or none()
+};
+
+}  // namespace octetra::distributed

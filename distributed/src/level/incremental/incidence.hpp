@@ -1,0 +1,109 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include <octetra/core/mesh.hpp>
+
+#include "level/huge_pages.hpp"
+
+namespace octetra::distributed {
+
+/// The entities (cells, facets, edges; N vertices each) at every vertex, in linked lists: an entity
+/// comes to a vertex or leaves it in constant time, however many are there. Which vertices an
+/// entity has is the caller's to know. Places count in 32 bits: N times as many as entities.
+///
+/// Memory: 8 bytes per vertex, unless there is no entity, and 8 N per entity.
+template <class I, std::size_t N>
+class Incidence {
+public:
+    using Vertices = std::array<VertexIndex, N>;
+
+    Incidence(std::size_t vertex_count, const IndexVector<I, Vertices>& entities) {
+        if (entities.empty()) return;  // and none will come, as they come of others
+        reserve_with_room(heads_, vertex_count);
+        heads_.resize(vertex_count);
+        reserve_with_room(links_, N * entities.size());
+        links_.resize(N * entities.size());
+        // From behind, so that every list ascends.
+        for (std::size_t i = entities.size(); i-- > 0;) link_all(i, entities[I{i}]);
+    }
+
+    void add_vertices(std::size_t count) {
+        if (!heads_.empty()) heads_.resize(heads_.size() + count);
+    }
+    void append(const Vertices& vertices) {
+        const std::size_t i = links_.size() / N;
+        links_.resize(links_.size() + N);
+        link_all(i, vertices);
+    }
+    void replace(I i, const Vertices& before, const Vertices& after) {
+        for (std::size_t k = 0; k < N; ++k) {
+            if (before[k] == after[k]) continue;
+            const auto place = static_cast<std::uint32_t>(N * i.value() + k);
+            unlink(place, before[k]);
+            link(place, after[k]);
+        }
+    }
+
+    /// Calls found(i, e) for each entity i that has the edge, as the e-th of its edges in the order
+    /// of cell_edges or triangle_edges. `vertices_of(i)` are its vertices.
+    void for_each_with(const EdgeVertices& edge, auto&& vertices_of, auto&& found) const {
+        if (heads_.empty()) return;
+        auto [few, many] = edge;
+        if (heads_[few].count > heads_[many].count) std::swap(few, many);  // it may be a hub
+        for (std::uint32_t at = heads_[few].first; at != none; at = links_[at].next) {
+            const I i{at / N};
+            const Vertices& vertices = vertices_of(i);
+            const auto other = std::ranges::find(vertices, many);
+            if (other == vertices.end()) continue;
+            found(i, edge_between(at % N, static_cast<std::size_t>(other - vertices.begin())));
+        }
+    }
+
+private:
+    static constexpr std::uint32_t none = VertexIndex::none_value;
+
+    struct Head {
+        std::uint32_t first = none;
+        std::uint32_t count = 0;
+    };
+    /// Position k of entity i is place N i + k.
+    struct Link {
+        std::uint32_t previous = none;
+        std::uint32_t next = none;
+    };
+
+    /// Edges are in lexicographic order of their positions.
+    static std::size_t edge_between(std::size_t i, std::size_t j) {
+        if (i > j) std::swap(i, j);
+        return i * (2 * N - i - 1) / 2 + (j - i - 1);
+    }
+    void link_all(std::size_t i, const Vertices& vertices) {
+        for (std::size_t k = 0; k < N; ++k) {
+            link(static_cast<std::uint32_t>(N * i + k), vertices[k]);
+        }
+    }
+    void link(std::uint32_t place, VertexIndex v) {
+        Head& head = heads_[v];
+        links_[place] = {none, head.first};
+        if (head.first != none) links_[head.first].previous = place;
+        head.first = place;
+        ++head.count;
+    }
+    void unlink(std::uint32_t place, VertexIndex v) {
+        const Link link = links_[place];
+        Head& head = heads_[v];
+        (link.previous == none ? head.first : links_[link.previous].next) = link.next;
+        if (link.next != none) links_[link.next].previous = link.previous;
+        --head.count;
+    }
+
+    IndexVector<VertexIndex, Head> heads_;
+    std::vector<Link> links_;
+};
+
+}  // namespace octetra::distributed

@@ -1,0 +1,59 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include <octetra/distributed/distributed_mesh.hpp>
+
+#include "level/closure.hpp"
+#include "level/incremental/adjacency.hpp"
+#include "pattern/patterns.hpp"
+
+namespace octetra::distributed {
+
+/// Numbers no edges but those that are marked. Whoever marks one notes it at every cell that
+/// has it, which is found at the edge's ends; so what a cell's note says is always complete.
+class IncrementalClosure final : public Closure {
+public:
+    /// What is known of a cell that has been looked at.
+    struct Note {
+        CellIndex cell;
+        LengthOrder order = 0;
+        EdgeMask marked = 0;
+        bool queued = false;
+        std::array<EdgeIndex, 6> edges{};  ///< numbers of the marked ones, else none()
+    };
+
+    IncrementalClosure(const DistributedMesh& mesh, Adjacency& adjacency);
+
+    /// Marks edges of a cell (a set of them), of this process's own will, without following their
+    /// paths. All that share them will be told.
+    void mark(CellIndex cell, EdgeMask edges);
+    [[nodiscard]] LengthOrder order_of(CellIndex cell) { return notes_[note_of(cell)].order; }
+
+    void mark_from(std::size_t interface, std::uint32_t position) override;
+    void drain() override;
+    [[nodiscard]] std::size_t marked_count() const override { return edges_.size(); }
+    [[nodiscard]] std::vector<std::vector<std::uint32_t>> take_outboxes() override;
+
+    /// The ends of the marked edges, lower first, in the order of selection.
+    [[nodiscard]] const IndexVector<EdgeIndex, EdgeVertices>& edges() const { return edges_; }
+    [[nodiscard]] const std::vector<Note>& notes() const { return notes_; }
+
+private:
+    std::uint32_t note_of(CellIndex cell);
+    [[nodiscard]] bool is_marked(const EdgeVertices& edge) const;
+    void set_mark(const EdgeVertices& edge);
+    void tell_sharers(const EdgeVertices& edge);
+
+    const DistributedMesh* mesh_;
+    Adjacency* adjacency_;
+    const PatternTable* table_ = &PatternTable::get();
+    IndexVector<EdgeIndex, EdgeVertices> edges_;
+    std::vector<Note> notes_;
+    std::vector<std::uint32_t> queue_;  // of notes
+    std::vector<std::vector<std::uint32_t>> outboxes_;
+};
+
+}  // namespace octetra::distributed

@@ -1,0 +1,99 @@
+#pragma once
+
+#include <compare>
+#include <cstdint>
+#include <vector>
+
+#include <octetra/distributed/distributed_mesh.hpp>
+
+#include "level/incremental/incidence.hpp"
+
+namespace octetra::distributed {
+
+/// Where an edge or a face that is shared stands: a position in the list of an interface.
+struct SharedPlace {
+    std::uint32_t interface = 0;
+    std::uint32_t position = 0;
+
+    friend auto operator<=>(const SharedPlace&, const SharedPlace&) = default;
+};
+
+/// A place of all interfaces' edges, or of all their faces, in no order.
+using SharedIndex = Index<struct SharedRole>;
+
+/// Finds the shared edges (N = 2) or faces (N = 3) by their vertices. An edge has an entry for each
+/// process that it is shared with.
+template <std::size_t N>
+class SharedEntities {
+public:
+    using Vertices = std::array<VertexIndex, N>;
+
+    SharedEntities(std::size_t vertex_count, const std::vector<Interface>& interfaces)
+        : SharedEntities(vertex_count, interfaces, all_of(interfaces)) {}
+
+    void add_vertices(std::size_t count) { incidence_.add_vertices(count); }
+
+    struct Found {
+        SharedIndex index;
+        SharedPlace place;
+        std::size_t edge = 0;  ///< the e-th of the entity
+    };
+
+    /// Calls found(Found) for each entity that has the edge.
+    void for_each_with(const EdgeVertices& edge, const std::vector<Interface>& interfaces,
+                       auto&& found) const {
+        const auto vertices_of = [&](SharedIndex i) -> const Vertices& {
+            return list_of(interfaces[places_[i].interface])[places_[i].position];
+        };
+        incidence_.for_each_with(edge, vertices_of, [&](SharedIndex i, std::size_t e) {
+            found(Found{i, places_[i], e});
+        });
+    }
+
+    void replace(SharedIndex i, const Vertices& vertices, std::vector<Interface>& interfaces) {
+        Vertices& old = list_of(interfaces[places_[i].interface])[places_[i].position];
+        incidence_.replace(i, old, vertices);
+        old = vertices;
+    }
+    void append(std::uint32_t interface, const Vertices& vertices,
+                std::vector<Interface>& interfaces) {
+        auto& list = list_of(interfaces[interface]);
+        places_.push_back({interface, static_cast<std::uint32_t>(list.size())});
+        incidence_.append(vertices);
+        list.push_back(vertices);
+    }
+
+private:
+    using All = IndexVector<SharedIndex, Vertices>;
+
+    SharedEntities(std::size_t vertex_count, const std::vector<Interface>& interfaces,
+                   const All& all)
+        : incidence_(vertex_count, all) {
+        places_.reserve(all.size());
+        for (std::size_t i = 0; i < interfaces.size(); ++i) {
+            for (std::size_t k = 0; k < list_of(interfaces[i]).size(); ++k) {
+                places_.push_back({static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(k)});
+            }
+        }
+    }
+
+    static All all_of(const std::vector<Interface>& interfaces) {
+        All all;
+        for (const Interface& interface : interfaces) {
+            all.insert(all.end(), list_of(interface).begin(), list_of(interface).end());
+        }
+        return all;
+    }
+    static auto& list_of(auto& interface) {
+        if constexpr (N == 2) {
+            return interface.edges;
+        } else {
+            return interface.faces;
+        }
+    }
+
+    Incidence<SharedIndex, N> incidence_;
+    IndexVector<SharedIndex, SharedPlace> places_;
+};
+
+}  // namespace octetra::distributed

@@ -1,0 +1,60 @@
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+
+#include <octetra/distributed/refine.hpp>
+
+#include "level/closure.hpp"
+#include "level/rounding_failure.hpp"
+#include "pattern/patterns.hpp"
+
+namespace octetra::distributed {
+
+/// What one process does at one level, step by step; see refine_level(). There are two ways, and
+/// each process takes the one that suits its own part: nothing of them shows outside. No step is
+/// collective.
+class Level {
+public:
+    Level() = default;
+    virtual ~Level() = default;
+    Level(const Level&) = delete;
+    Level& operator=(const Level&) = delete;
+    Level(Level&&) = delete;
+    Level& operator=(Level&&) = delete;
+
+    /// The marked edges, of marked cells as yet, to be closed together with the other processes.
+    [[nodiscard]] virtual Closure& closure() = 0;
+
+    virtual void bisect_edges() = 0;
+    [[nodiscard]] virtual std::size_t cell_count_afterwards() = 0;
+    /// Into so many. Where a failure is found, the mesh is not usable any more.
+    [[nodiscard]] virtual RoundingFailure bisect_cells(std::size_t cell_count) = 0;
+    virtual void bisect_listed() = 0;
+    virtual void bisect_interfaces() = 0;
+
+    /// How many cells were looked at beyond judging them.
+    [[nodiscard]] virtual std::size_t cells_touched() const = 0;
+};
+
+/// The edges that a marked cell marks.
+[[nodiscard]] inline EdgeMask marks_of(Scheme scheme, LengthOrder order) {
+    const PatternTable& table = PatternTable::get();
+    switch (scheme) {
+        case Scheme::eight: return all_edges;
+        case Scheme::four: return table.face_longest_edges(order);
+        case Scheme::two: return static_cast<EdgeMask>(1U << table.longest_edge(order));
+    }
+    return 0;
+}
+
+/// The child that a pattern describes, of a cell whose corners and midpoints are `vertices`, by
+/// place.
+[[nodiscard]] inline CellVertices child_of(const std::array<VertexIndex, 10>& vertices,
+                                           const std::array<Place, 4>& places) {
+    CellVertices child;
+    for (std::size_t i = 0; i < 4; ++i) child[i] = vertices[places[i]];
+    return child;
+}
+
+}  // namespace octetra::distributed

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include <octetra/distributed/distributed_mesh.hpp>
+
+#include "mark/selection_bounds.hpp"
+
+namespace octetra::distributed {
+
+/// Cells that stand together in a list, and a box that they are in: a selection by place need not
+/// look into most of these blocks. Block b has cells b * size .. (b + 1) * size - 1. What comes in
+/// the place of a cell must lie within it.
+class CellBlocks {
+public:
+    static constexpr std::size_t size = 32;
+
+    explicit CellBlocks(const DistributedMesh& mesh) { append(mesh, CellIndex{0}); }
+
+    /// Takes in the mesh's cells from this one on.
+    void append(const DistributedMesh& mesh, CellIndex begin);
+
+    [[nodiscard]] const std::vector<Box>& boxes() const { return boxes_; }
+
+private:
+    std::vector<Box> boxes_;
+};
+
+}  // namespace octetra::distributed

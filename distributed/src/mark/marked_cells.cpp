@@ -1,0 +1,108 @@
+#include "mark/marked_cells.hpp"
+
+#include <algorithm>
+
+#include "level/incremental/adjacency.hpp"
+
+namespace octetra::distributed {
+namespace {
+
+class Choice {
+public:
+    Choice(const DistributedMesh& mesh, const Selection& selection)
+        : mesh_(&mesh),
+          selection_(&selection),
+          by_place_only_(selection.cells.empty() && selection.regions.empty() &&
+                         !selection.random && !selection.max_volume) {}
+
+    void judge_all() {
+        const auto beyond = sides_beyond();
+        const AncestorMap& ancestors = mesh_->cell_ancestors;
+        for (std::size_t r = 0; r < ancestors.roots.size(); ++r) {
+            for (CellIndex c{ancestors.first[r]}; c < CellIndex{ancestors.first[r + 1]}; ++c) {
+                const auto& [v0, v1, v2, v3] = mesh_->cells[c];
+                if (!by_place_only_ || (beyond[v0] & beyond[v1] & beyond[v2] & beyond[v3]) == 0) {
+                    judge(c, r, corners_of(c));
+                }
+            }
+        }
+        chosen_.judged = mesh_->cells.size();
+    }
+
+    void judge_new(const Adjacency& adjacency) {
+        for (const CellIndex c : adjacency.new_cells) {
+            judge_if_near(c, adjacency.cells.root_of(c, mesh_->cell_ancestors));
+        }
+    }
+
+    void judge_blocks(const Adjacency& adjacency) {
+        const auto& boxes = adjacency.blocks.boxes();
+        for (std::size_t b = 0; b < boxes.size(); ++b) {
+            if (by_place_only_ && !may_be_marked(*selection_, boxes[b])) continue;
+            const std::size_t begin = b * CellBlocks::size;
+            const std::size_t end = std::min(begin + CellBlocks::size, mesh_->cells.size());
+            adjacency.cells.for_each_root(
+                CellIndex{begin}, CellIndex{end}, mesh_->cell_ancestors,
+                [&](CellIndex c, std::size_t root) { judge_if_near(c, root); });
+        }
+    }
+
+    [[nodiscard]] MarkedCells take() && {
+        chosen_.count = chosen_.cells.size();
+        return std::move(chosen_);
+    }
+
+private:
+    [[nodiscard]] Corners corners_of(CellIndex c) const {
+        Corners corners;
+        for (std::size_t k = 0; k < 4; ++k) corners[k] = mesh_->points[mesh_->cells[c][k]];
+        return corners;
+    }
+
+    /// Of all vertices, if only places matter.
+    [[nodiscard]] IndexVector<VertexIndex, std::uint8_t> sides_beyond() const {
+        IndexVector<VertexIndex, std::uint8_t> sides;
+        if (!by_place_only_) return sides;
+        const SelectionBounds reach(*selection_);
+        sides.reserve(mesh_->points.size());
+        for (const Point& p : mesh_->points) sides.push_back(reach.sides_beyond(p));
+        return sides;
+    }
+
+    void judge_if_near(CellIndex c, std::size_t root) {
+        ++chosen_.judged;
+        const Corners corners = corners_of(c);
+        if (by_place_only_ && !may_be_marked(*selection_, box_of(corners))) return;
+        judge(c, root, corners);
+    }
+
+    void judge(CellIndex c, std::size_t root, const Corners& corners) {
+        const AncestorMap& ancestors = mesh_->cell_ancestors;
+        const Marker region = ancestors.markers.empty() ? 0 : ancestors.markers[root];
+        if (chooses(*selection_, corners, region, GlobalCell{ancestors.roots[root]})) {
+            chosen_.cells.push_back(c);
+        }
+    }
+
+    const DistributedMesh* mesh_;
+    const Selection* selection_;
+    bool by_place_only_;
+    MarkedCells chosen_;
+};
+
+}  // namespace
+
+MarkedCells mark_cells(const DistributedMesh& mesh, const Selection& selection, bool only_new) {
+    if (selection.all) return {.all = true, .count = mesh.cells.size(), .judged = 0};
+    Choice choice(mesh, selection);
+    if (mesh.adjacency == nullptr) {
+        choice.judge_all();
+    } else if (only_new) {
+        choice.judge_new(*mesh.adjacency);
+    } else {
+        choice.judge_blocks(*mesh.adjacency);
+    }
+    return std::move(choice).take();
+}
+
+}  // namespace octetra::distributed

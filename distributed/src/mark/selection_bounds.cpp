@@ -1,0 +1,103 @@
+#include "mark/selection_bounds.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace octetra::distributed {
+namespace {
+
+/// What centroid() makes of four numbers, none of which is less than `bound`, is not less than
+/// this: its sums are rounded, but monotone, and where they overflow it computes more exactly.
+double least_mean(double bound) {
+    const double mean = (((bound + bound) + bound) + bound) / 4;
+    return std::isfinite(mean) ? std::min(mean, bound) : bound;
+}
+double greatest_mean(double bound) { return -least_mean(-bound); }
+
+template <class Float>
+Float squared_distance(const Point& a, const Point& b) {
+    const Float dx = Float{a.x} - b.x;
+    const Float dy = Float{a.y} - b.y;
+    const Float dz = Float{a.z} - b.z;
+    return (dx * dx + dy * dy) + dz * dz;
+}
+
+bool may_hold(const Sphere& sphere, const Box& centroids) {
+    const Point& c = sphere.centre;
+    const Point nearest{std::clamp(c.x, centroids.low.x, centroids.high.x),
+                        std::clamp(c.y, centroids.low.y, centroids.high.y),
+                        std::clamp(c.z, centroids.low.z, centroids.high.z)};
+    const double distance = squared_distance<double>(nearest, c);
+    const double radius = sphere.radius * sphere.radius;
+    if (distance < radius) return true;
+    // chooses() computes in long double where something over- or underflows. That makes a
+    // difference for a point on the sphere's surface, or for a very small sphere or a very large
+    // one.
+    constexpr double a_little = 1 + 0x1p-40;
+    constexpr double small = 0x1p-900;
+    if (radius > small && distance > radius * a_little) return false;
+    return squared_distance<long double>(nearest, c) <
+           static_cast<long double>(sphere.radius) * sphere.radius;
+}
+
+bool may_hold(const Box& box, const Box& centroids) {
+    const Point& low = centroids.low;
+    const Point& high = centroids.high;
+    return low.x <= box.high.x && box.low.x <= high.x && low.y <= box.high.y &&
+           box.low.y <= high.y && low.z <= box.high.z && box.low.z <= high.z;
+}
+
+/// The cube that holds every point which chooses() takes to be inside of the sphere: what it
+/// computes of a distance is less by a few roundings at most.
+Box box_round(const Sphere& sphere) {
+    const double radius = std::abs(sphere.radius) * (1 + 0x1p-50);
+    const auto below = [&](double c) { return std::nextafter(c - radius, -infinity); };
+    const auto above = [&](double c) { return std::nextafter(c + radius, infinity); };
+    const Point& c = sphere.centre;
+    return {{below(c.x), below(c.y), below(c.z)}, {above(c.x), above(c.y), above(c.z)}};
+}
+
+}  // namespace
+
+void extend(Box& box, const Point& p) {
+    box.low = {std::min(box.low.x, p.x), std::min(box.low.y, p.y), std::min(box.low.z, p.z)};
+    box.high = {std::max(box.high.x, p.x), std::max(box.high.y, p.y), std::max(box.high.z, p.z)};
+}
+
+Box box_of(const Corners& corners) {
+    Box box = empty_box;
+    for (const Point& p : corners) extend(box, p);
+    return box;
+}
+
+bool may_be_marked(const Selection& selection, const Box& corners) {
+    // What chooses() computes of a centroid farther out, in the same way, is no smaller: rounding
+    // is monotone.
+    const auto& [low, high] = corners;
+    const Box centroids{{least_mean(low.x), least_mean(low.y), least_mean(low.z)},
+                        {greatest_mean(high.x), greatest_mean(high.y), greatest_mean(high.z)}};
+    const auto may_hold_one = [&](const auto& body) { return may_hold(body, centroids); };
+    return std::ranges::any_of(selection.spheres, may_hold_one) ||
+           std::ranges::any_of(selection.boxes, may_hold_one);
+}
+
+SelectionBounds::SelectionBounds(const Selection& selection) {
+    const auto include = [this](const Box& box) {
+        extend(centroids_, box.low);
+        extend(centroids_, box.high);
+    };
+    for (const Sphere& sphere : selection.spheres) include(box_round(sphere));
+    for (const Box& box : selection.boxes) include(box);
+}
+
+std::uint8_t SelectionBounds::sides_beyond(const Point& p) const {
+    const auto& [low, high] = centroids_;
+    const auto sides = [](double coordinate, double low_bound, double high_bound) {
+        return static_cast<unsigned>(greatest_mean(coordinate) < low_bound) |
+               static_cast<unsigned>(least_mean(coordinate) > high_bound) << 1U;
+    };
+    return static_cast<std::uint8_t>(sides(p.x, low.x, high.x) | sides(p.y, low.y, high.y) << 2U |
+                                     sides(p.z, low.z, high.z) << 4U);
+}
+
+}  // namespace octetra::distributed

@@ -1,0 +1,53 @@
+#include <octetra/distributed/canonical_mesh.hpp>
+
+#include <octetra/core/files.hpp>
+#include <octetra/distributed/profile.hpp>
+
+#include "output/canonical_slices.hpp"
+#include "output/own_piece.hpp"
+
+namespace octetra::distributed {
+
+/// One process has the whole mesh in canonical order; several exchange slices.
+struct CanonicalMesh::Parts {
+    DistributedMesh mesh;
+    std::unique_ptr<CanonicalSlices> slices;
+    Collected collected;
+    std::unique_ptr<WholeMesh> whole;
+
+    explicit Parts(DistributedMesh parts) {
+        const Phase phase(parts.processes, "number vertices");
+        if (parts.processes.size() == 1) {
+            collected = collect(std::move(parts));
+            whole = std::make_unique<WholeMesh>(collected.mesh, &collected.maps);
+        } else {
+            mesh = std::move(parts);
+            restore_canonical_order(mesh);
+            slices = std::make_unique<CanonicalSlices>(mesh);
+        }
+    }
+};
+
+CanonicalMesh::CanonicalMesh(DistributedMesh mesh)
+    : parts_(std::make_unique<Parts>(std::move(mesh))) {}
+CanonicalMesh::~CanonicalMesh() = default;
+CanonicalMesh::CanonicalMesh(CanonicalMesh&&) noexcept = default;
+CanonicalMesh& CanonicalMesh::operator=(CanonicalMesh&&) noexcept = default;
+
+const MeshFacts& CanonicalMesh::facts() const {
+    return parts_->whole ? parts_->whole->facts() : parts_->slices->facts();
+}
+
+MeshSource& CanonicalMesh::whole() {
+    if (parts_->whole) return *parts_->whole;
+    return *parts_->slices;
+}
+
+std::string write_mesh(CanonicalMesh& mesh, const std::filesystem::path& path) {
+    const CanonicalSlices* slices = mesh.parts_->slices.get();
+    if (slices == nullptr || !is_in_pieces(path)) return octetra::write_mesh(mesh.whole(), path);
+    OwnPiece piece(mesh.parts_->mesh, slices->numbers(), slices->facts());
+    return write_pieces(piece, slices->group(), path);
+}
+
+}  // namespace octetra::distributed

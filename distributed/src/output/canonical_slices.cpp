@@ -1,0 +1,200 @@
+#include "output/canonical_slices.hpp"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include <octetra/core/error.hpp>
+
+#include "level/known_marker.hpp"
+#include "output/slices.hpp"
+
+namespace octetra::distributed {
+namespace {
+
+void check_countable(const MeshFacts& facts) {
+    const std::uint64_t most = std::max({facts.vertices, facts.cells, facts.facets, facts.edges});
+    if (most < VertexIndex::limit) return;
+    throw InputError(
+        fmt::format("the refined mesh is too large to be numbered: {} entities of a kind, and at "
+                    "most {} are possible",
+                    most, VertexIndex::limit));
+}
+
+}  // namespace
+
+CanonicalSlices::CanonicalSlices(const DistributedMesh& mesh)
+    : mesh_(&mesh),
+      numbers_(canonical_numbers(mesh)),
+      cell_runs_(canonical_runs(mesh.processes, mesh.cell_ancestors)),
+      facet_runs_(canonical_runs(mesh.processes, mesh.facet_ancestors)),
+      edge_runs_(canonical_runs(mesh.processes, mesh.edge_ancestors)),
+      facts_(find_facts()) {
+    check_countable(facts_);
+}
+
+MeshFacts CanonicalSlices::find_facts() const {
+    // A process without cells does not know whether the others' have tags.
+    const auto any_has = [&](const std::vector<Marker>& markers) {
+        return mesh_->processes.max(markers.empty() ? 0 : 1) == 1;
+    };
+    return {.vertices = numbers_.vertex_count,
+            .cells = cell_runs_.count,
+            .facets = facet_runs_.count,
+            .edges = edge_runs_.count,
+            .attributes_per_point = mesh_->attributes_per_point,
+            .first_number = mesh_->first_number,
+            .first_midpoint = mesh_->input_vertex_count,
+            .has_point_markers = any_has(mesh_->input_vertex_markers),
+            .has_regions = any_has(mesh_->cell_ancestors.markers),
+            .has_facet_markers = any_has(mesh_->facet_ancestors.markers),
+            .has_edge_markers = any_has(mesh_->edge_ancestors.markers),
+            .has_parents = true};
+}
+
+/// Calls emit(number, local vertex) for this process's vertices numbered begin .. end-1.
+void CanonicalSlices::for_each_vertex(std::uint64_t begin, std::uint64_t end, auto&& emit) const {
+    const auto& numbers = numbers_.of_vertex;
+    const auto from = std::ranges::lower_bound(numbers, GlobalVertex{begin});
+    for (VertexIndex v{static_cast<std::size_t>(from - numbers.begin())};
+         v < numbers.end_index() && numbers[v] < GlobalVertex{end}; ++v) {
+        emit(static_cast<std::uint64_t>(numbers[v]), v);
+    }
+}
+
+std::span<const Point> CanonicalSlices::points(const Window& window) {
+    bring_to_slices<Point>(
+        mesh_->processes, window,
+        [&](std::uint64_t begin, std::uint64_t end, auto&& emit) {
+            for_each_vertex(begin, end, [&](std::uint64_t number, VertexIndex v) {
+                emit(number, mesh_->points[v]);
+            });
+        },
+        points_);
+    return points_;
+}
+
+std::span<const Marker> CanonicalSlices::point_markers(const Window& window) {
+    const int rank = mesh_->processes.rank();
+    std::vector<MidpointMarker> told(window.end_of(rank) - window.begin_of(rank));
+    std::vector<bool> met(told.size(), false);
+    bring_to_slices<MidpointMarker>(
+        mesh_->processes, window,
+        [&](std::uint64_t begin, std::uint64_t end, auto&& emit) {
+            for_each_vertex(begin, end, [&](std::uint64_t number, VertexIndex v) {
+                emit(number, known_marker(*mesh_, v));
+            });
+        },
+        [&](std::uint32_t position, const MidpointMarker& marker) {
+            if (!met[position] || tells_more(marker, told[position])) told[position] = marker;
+            met[position] = true;
+        });
+    point_markers_.clear();
+    for (const MidpointMarker& marker : told) point_markers_.push_back(marker.marker);
+    return point_markers_;
+}
+
+std::span<const double> CanonicalSlices::point_attributes(const Window& window) {
+    const std::size_t count = mesh_->attributes_per_point;
+    const int rank = mesh_->processes.rank();
+    point_attributes_.resize((window.end_of(rank) - window.begin_of(rank)) * count);
+    for (std::size_t k = 0; k < count; ++k) {
+        bring_to_slices<double>(
+            mesh_->processes, window,
+            [&](std::uint64_t begin, std::uint64_t end, auto&& emit) {
+                for_each_vertex(begin, end, [&](std::uint64_t number, VertexIndex v) {
+                    emit(number, mesh_->point_attributes[v.value() * count + k]);
+                });
+            },
+            [&](std::uint32_t position, double value) {
+                point_attributes_[position * count + k] = value;
+            });
+    }
+    return point_attributes_;
+}
+
+std::span<const EdgeVertices> CanonicalSlices::midpoint_ends(const Window& window) {
+    const std::uint64_t first = mesh_->input_vertex_count;
+    bring_to_slices<EdgeVertices>(
+        mesh_->processes, window,
+        [&](std::uint64_t begin, std::uint64_t end, auto&& emit) {
+            for_each_vertex(first + begin, first + end, [&](std::uint64_t number, VertexIndex v) {
+                const std::size_t m = v.value() - mesh_->input_vertices.size();
+                emit(number - first, numbered(mesh_->midpoint_to_edge[m]));
+            });
+        },
+        midpoint_ends_);
+    return midpoint_ends_;
+}
+
+template <class I, std::size_t N>
+std::span<const std::array<VertexIndex, N>> CanonicalSlices::bring(
+    const Window& window, const IndexVector<I, std::array<VertexIndex, N>>& entities,
+    const AncestorMap& ancestors, const CanonicalRuns& runs,
+    std::vector<std::array<VertexIndex, N>>& slice) const {
+    bring_to_slices<std::array<VertexIndex, N>>(
+        mesh_->processes, window,
+        [&](std::uint64_t begin, std::uint64_t end, auto&& emit) {
+            for_each_between(runs, ancestors, begin, end,
+                             [&](std::uint64_t number, std::size_t local, std::size_t) {
+                                 emit(number, numbered(entities[I{local}]));
+                             });
+        },
+        slice);
+    return slice;
+}
+
+std::span<const Marker> CanonicalSlices::bring_markers(const Window& window,
+                                                       const AncestorMap& ancestors,
+                                                       const CanonicalRuns& runs,
+                                                       std::vector<Marker>& slice) const {
+    bring_to_slices<Marker>(
+        mesh_->processes, window,
+        [&](std::uint64_t begin, std::uint64_t end, auto&& emit) {
+            for_each_between(runs, ancestors, begin, end,
+                             [&](std::uint64_t number, std::size_t, std::size_t root) {
+                                 emit(number, ancestors.markers[root]);
+                             });
+        },
+        slice);
+    return slice;
+}
+
+std::span<const CellVertices> CanonicalSlices::cells(const Window& window) {
+    return bring(window, mesh_->cells, mesh_->cell_ancestors, cell_runs_, cells_);
+}
+
+std::span<const Marker> CanonicalSlices::regions(const Window& window) {
+    return bring_markers(window, mesh_->cell_ancestors, cell_runs_, regions_);
+}
+
+std::span<const CellIndex> CanonicalSlices::parents(const Window& window) {
+    bring_to_slices<CellIndex>(
+        mesh_->processes, window,
+        [&](std::uint64_t begin, std::uint64_t end, auto&& emit) {
+            for_each_between(cell_runs_, mesh_->cell_ancestors, begin, end,
+                             [&](std::uint64_t number, std::size_t, std::size_t root) {
+                                 emit(number, CellIndex{mesh_->cell_ancestors.roots[root]});
+                             });
+        },
+        parents_);
+    return parents_;
+}
+
+std::span<const FacetVertices> CanonicalSlices::facets(const Window& window) {
+    return bring(window, mesh_->facets, mesh_->facet_ancestors, facet_runs_, facets_);
+}
+
+std::span<const Marker> CanonicalSlices::facet_markers(const Window& window) {
+    return bring_markers(window, mesh_->facet_ancestors, facet_runs_, facet_markers_);
+}
+
+std::span<const EdgeVertices> CanonicalSlices::edges(const Window& window) {
+    return bring(window, mesh_->edges, mesh_->edge_ancestors, edge_runs_, edges_);
+}
+
+std::span<const Marker> CanonicalSlices::edge_markers(const Window& window) {
+    return bring_markers(window, mesh_->edge_ancestors, edge_runs_, edge_markers_);
+}
+
+}  // namespace octetra::distributed

@@ -1,0 +1,77 @@
+#pragma once
+
+#include <vector>
+
+#include <octetra/core/mesh_source.hpp>
+#include <octetra/distributed/distributed_mesh.hpp>
+
+#include "numbering/canonical_numbers.hpp"
+#include "numbering/canonical_runs.hpp"
+
+namespace octetra::distributed {
+
+/// A mesh in its canonical order, from the processes that hold its parts. See MeshSource.
+class CanonicalSlices final : public MeshSource {
+public:
+    /// Collective. Throws InputError on all processes where 32 bits cannot number the mesh. Refers
+    /// to the mesh.
+    explicit CanonicalSlices(const DistributedMesh& mesh);
+
+    [[nodiscard]] const MeshFacts& facts() const override { return facts_; }
+    [[nodiscard]] const ProcessGroup& group() const override { return mesh_->processes; }
+    [[nodiscard]] const CanonicalNumbers& numbers() const { return numbers_; }
+
+    [[nodiscard]] std::span<const Point> points(const Window& window) override;
+    [[nodiscard]] std::span<const Marker> point_markers(const Window& window) override;
+    [[nodiscard]] std::span<const double> point_attributes(const Window& window) override;
+    [[nodiscard]] std::span<const EdgeVertices> midpoint_ends(const Window& window) override;
+    [[nodiscard]] std::span<const CellVertices> cells(const Window& window) override;
+    [[nodiscard]] std::span<const Marker> regions(const Window& window) override;
+    [[nodiscard]] std::span<const CellIndex> parents(const Window& window) override;
+    [[nodiscard]] std::span<const FacetVertices> facets(const Window& window) override;
+    [[nodiscard]] std::span<const Marker> facet_markers(const Window& window) override;
+    [[nodiscard]] std::span<const EdgeVertices> edges(const Window& window) override;
+    [[nodiscard]] std::span<const Marker> edge_markers(const Window& window) override;
+
+private:
+    [[nodiscard]] MeshFacts find_facts() const;
+    [[nodiscard]] VertexIndex number_of(VertexIndex local) const {
+        return VertexIndex{static_cast<std::uint64_t>(numbers_.of_vertex[local])};
+    }
+    template <std::size_t N>
+    [[nodiscard]] std::array<VertexIndex, N> numbered(std::array<VertexIndex, N> vertices) const {
+        for (VertexIndex& v : vertices) v = number_of(v);
+        return vertices;
+    }
+    void for_each_vertex(std::uint64_t begin, std::uint64_t end, auto&& emit) const;
+    template <class I, std::size_t N>
+    std::span<const std::array<VertexIndex, N>> bring(
+        const Window& window, const IndexVector<I, std::array<VertexIndex, N>>& entities,
+        const AncestorMap& ancestors, const CanonicalRuns& runs,
+        std::vector<std::array<VertexIndex, N>>& slice) const;
+    std::span<const Marker> bring_markers(const Window& window, const AncestorMap& ancestors,
+                                          const CanonicalRuns& runs,
+                                          std::vector<Marker>& slice) const;
+
+    const DistributedMesh* mesh_;
+    CanonicalNumbers numbers_;
+    CanonicalRuns cell_runs_;
+    CanonicalRuns facet_runs_;
+    CanonicalRuns edge_runs_;
+    MeshFacts facts_;
+
+    // What was asked for last.
+    std::vector<Point> points_;
+    std::vector<Marker> point_markers_;
+    std::vector<double> point_attributes_;
+    std::vector<EdgeVertices> midpoint_ends_;
+    std::vector<CellVertices> cells_;
+    std::vector<Marker> regions_;
+    std::vector<CellIndex> parents_;
+    std::vector<FacetVertices> facets_;
+    std::vector<Marker> facet_markers_;
+    std::vector<EdgeVertices> edges_;
+    std::vector<Marker> edge_markers_;
+};
+
+}  // namespace octetra::distributed

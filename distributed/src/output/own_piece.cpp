@@ -1,0 +1,110 @@
+#include "output/own_piece.hpp"
+
+#include <algorithm>
+
+#include "level/known_marker.hpp"
+
+namespace octetra::distributed {
+namespace {
+
+/// Collective. The markers of this process's vertices, as they are in the whole mesh: all that is
+/// known of a vertex meets at a process that its number decides.
+std::vector<Marker> agreed_markers(const DistributedMesh& mesh, const CanonicalNumbers& numbers) {
+    const auto process_count = static_cast<std::size_t>(mesh.processes.size());
+    const std::uint64_t block = numbers.vertex_count / process_count + 1;
+    struct Known {
+        std::uint64_t number;
+        MidpointMarker marker;
+    };
+    std::vector<std::vector<Known>> outboxes(process_count);
+    for (VertexIndex v{0}; v < mesh.points.end_index(); ++v) {
+        const auto number = static_cast<std::uint64_t>(numbers.of_vertex[v]);
+        outboxes[number / block].push_back({number, known_marker(mesh, v)});
+    }
+    const auto inboxes = mesh.processes.all_to_all(outboxes);
+    const std::uint64_t first = block * static_cast<std::uint64_t>(mesh.processes.rank());
+    std::vector<MidpointMarker> told(block);
+    std::vector<bool> met(block, false);
+    for (const auto& inbox : inboxes) {
+        for (const auto& [number, marker] : inbox) {
+            const std::uint64_t i = number - first;
+            if (!met[i] || tells_more(marker, told[i])) told[i] = marker;
+            met[i] = true;
+        }
+    }
+    std::vector<std::vector<Marker>> replies(process_count);
+    for (std::size_t r = 0; r < process_count; ++r) {
+        for (const Known& known : inboxes[r]) {
+            replies[r].push_back(told[known.number - first].marker);
+        }
+    }
+    // Vertices are in canonical order, so the answers come in theirs.
+    std::vector<Marker> markers;
+    for (const auto& answers : mesh.processes.all_to_all(replies)) {
+        markers.insert(markers.end(), answers.begin(), answers.end());
+    }
+    return markers;
+}
+
+/// Calls emit(root) for each cell of the window.
+void for_each_root(const AncestorMap& ancestors, const Window& window, auto&& emit) {
+    const std::uint64_t begin = window.begin_of(0);
+    const auto after = std::ranges::upper_bound(ancestors.first, begin);
+    auto root = static_cast<std::size_t>(after - ancestors.first.begin()) - 1;
+    for (std::uint64_t c = begin; c < window.end_of(0); ++c) {
+        while (ancestors.first[root + 1] <= c) ++root;
+        emit(root);
+    }
+}
+
+}  // namespace
+
+OwnPiece::OwnPiece(const DistributedMesh& mesh, const CanonicalNumbers& numbers,
+                   const MeshFacts& whole)
+    : mesh_(&mesh), numbers_(&numbers), facts_(whole) {
+    facts_.vertices = mesh.points.size();
+    facts_.cells = mesh.cells.size();
+    facts_.facets = mesh.facets.size();
+    facts_.edges = mesh.edges.size();
+    facts_.first_midpoint = facts_.vertices;
+    facts_.has_vertex_numbers = true;
+    if (whole.has_point_markers) point_markers_ = agreed_markers(mesh, numbers);
+}
+
+std::span<const Point> OwnPiece::points(const Window& w) { return slice(mesh_->points, w); }
+
+std::span<const Marker> OwnPiece::point_markers(const Window& w) {
+    return slice(point_markers_, w);
+}
+
+std::span<const double> OwnPiece::point_attributes(const Window& w) {
+    return slice(mesh_->point_attributes, w, mesh_->attributes_per_point);
+}
+
+std::span<const std::uint64_t> OwnPiece::vertex_numbers(const Window& w) {
+    vertex_numbers_.clear();
+    for (std::uint64_t v = w.begin_of(0); v < w.end_of(0); ++v) {
+        vertex_numbers_.push_back(static_cast<std::uint64_t>(numbers_->of_vertex[VertexIndex{v}]));
+    }
+    return vertex_numbers_;
+}
+
+std::span<const CellVertices> OwnPiece::cells(const Window& w) { return slice(mesh_->cells, w); }
+
+std::span<const Marker> OwnPiece::regions(const Window& w) {
+    regions_.clear();
+    for_each_root(mesh_->cell_ancestors, w, [&](std::size_t root) {
+        regions_.push_back(mesh_->cell_ancestors.markers[root]);
+    });
+    return regions_;
+}
+
+std::span<const CellIndex> OwnPiece::parents(const Window& w) {
+    parents_.clear();
+    for_each_root(mesh_->cell_ancestors, w, [&](std::size_t root) {
+        parents_.push_back(CellIndex{mesh_->cell_ancestors.roots[root]});
+    });
+    return parents_;
+}
+
+}  // namespace octetra::distributed

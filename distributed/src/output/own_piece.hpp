@@ -1,0 +1,39 @@
+#pragma once
+
+#include <vector>
+
+#include <octetra/core/mesh_source.hpp>
+#include <octetra/distributed/distributed_mesh.hpp>
+
+#include "numbering/canonical_numbers.hpp"
+
+namespace octetra::distributed {
+
+/// What this process has of a mesh, in its own order and with its own numbers; see MeshSource.
+/// The listed facets and edges are only counted.
+class OwnPiece final : public MeshSource {
+public:
+    /// Collective. `whole` tells of the whole mesh. Refers to the mesh and the numbers.
+    OwnPiece(const DistributedMesh& mesh, const CanonicalNumbers& numbers, const MeshFacts& whole);
+
+    // Not collective:
+    [[nodiscard]] const MeshFacts& facts() const override { return facts_; }
+    [[nodiscard]] std::span<const Point> points(const Window& window) override;
+    [[nodiscard]] std::span<const Marker> point_markers(const Window& window) override;
+    [[nodiscard]] std::span<const double> point_attributes(const Window& window) override;
+    [[nodiscard]] std::span<const std::uint64_t> vertex_numbers(const Window& window) override;
+    [[nodiscard]] std::span<const CellVertices> cells(const Window& window) override;
+    [[nodiscard]] std::span<const Marker> regions(const Window& window) override;
+    [[nodiscard]] std::span<const CellIndex> parents(const Window& window) override;
+
+private:
+    const DistributedMesh* mesh_;
+    const CanonicalNumbers* numbers_;
+    MeshFacts facts_;
+    std::vector<Marker> point_markers_;  ///< of all vertices of the piece
+    std::vector<std::uint64_t> vertex_numbers_;
+    std::vector<Marker> regions_;
+    std::vector<CellIndex> parents_;
+};
+
+}  // namespace octetra::distributed

@@ -1,0 +1,43 @@
+#include "partition/cell_weights.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace octetra::distributed {
+namespace {
+
+/// What a part comes to weigh if no cell weighs more than that.
+double most_of_a_part(const std::vector<float>& weights, int parts) {
+    double most = std::accumulate(weights.begin(), weights.end(), 0.0) / parts;
+    for (std::ptrdiff_t heavy_before = 0;;) {
+        std::ptrdiff_t heavy = 0;
+        double others = 0;
+        for (const float weight : weights) {
+            if (weight > most) {
+                ++heavy;
+            } else {
+                others += weight;
+            }
+        }
+        if (heavy == heavy_before) return most;
+        // Each of the heavy ones is a part; there are fewer of them than parts, by their weight.
+        most = others / static_cast<double>(parts - heavy);
+        heavy_before = heavy;
+    }
+}
+
+}  // namespace
+
+CellWeights::CellWeights(const std::vector<float>& weights, int parts) : of_cell_(weights.size()) {
+    const double most = most_of_a_part(weights, parts);
+    const auto limited = [&](float weight) { return std::min(double{weight}, most); };
+    double sum = 0;
+    for (const float weight : weights) sum += limited(weight);
+    // Less than a third of 2^31; what comes to less than 1 adds 1 for each cell.
+    const double scale = (7e8 - static_cast<double>(weights.size())) / sum;
+    std::ranges::transform(weights, of_cell_.begin(), [&](float weight) {
+        return std::max(1, static_cast<std::int32_t>(std::lround(limited(weight) * scale)));
+    });
+}
+
+}  // namespace octetra::distributed

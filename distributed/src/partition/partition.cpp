@@ -1,0 +1,165 @@
+#include <octetra/distributed/partition.hpp>
+
+#include <metis.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <charconv>
+#include <cmath>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <random>
+
+#include <fmt/format.h>
+
+#include <octetra/core/error.hpp>
+
+#include "partition/cell_graph.hpp"
+
+namespace octetra::distributed {
+namespace {
+
+/// METIS does not take more parts than it has vertices to give to each, and there is nothing to
+/// gain.
+bool is_worth_a_cut(const Mesh& mesh, int parts) {
+    constexpr std::size_t cells_per_part = 8;
+    return mesh.cells.size() >= cells_per_part * static_cast<std::size_t>(parts);
+}
+
+/// How much the cells with the same longest edge may weigh as one node of the graph: so little that
+/// METIS can still balance the parts.
+std::int64_t most_of_a_node(std::int64_t all, int parts) {
+    constexpr std::int64_t nodes_per_part = 20;
+    return all / (nodes_per_part * parts);
+}
+
+std::vector<int> partition_graph(CellGraph graph, int parts) {
+    static_assert(sizeof(idx_t) == sizeof(std::int32_t));
+    auto node_count = static_cast<idx_t>(graph.node_weights.size());
+    std::vector<int> node_to_part(graph.node_weights.size());
+    idx_t constraints = 1;
+    idx_t part_count = parts;
+    idx_t cut = 0;
+    std::array<idx_t, METIS_NOPTIONS> options{};
+    METIS_SetDefaultOptions(options.data());
+    options[METIS_OPTION_SEED] = 1;
+    const int status =
+        METIS_PartGraphKway(&node_count, &constraints, graph.begin.data(), graph.neighbours.data(),
+                            graph.node_weights.data(), nullptr, graph.weights.data(), &part_count,
+                            nullptr, nullptr, options.data(), &cut, node_to_part.data());
+    if (status != METIS_OK) throw SystemError("METIS could not partition the mesh");
+    std::vector<int> cell_to_part(graph.cell_to_node.size());
+    for (std::size_t c = 0; c < cell_to_part.size(); ++c) {
+        cell_to_part[c] = node_to_part[static_cast<std::size_t>(graph.cell_to_node[c])];
+    }
+    return cell_to_part;
+}
+
+std::vector<int> equal_blocks(std::size_t cells, int parts) {
+    std::vector<int> part(cells);
+    for (std::size_t c = 0; c < cells; ++c) {
+        part[c] = static_cast<int>(c * static_cast<std::size_t>(parts) / cells);
+    }
+    return part;
+}
+
+/// Throws InputError unless there is one for each cell, positive and finite, or none.
+CellWeights weights_of(std::size_t cells, const std::vector<float>& weights, int parts) {
+    if (weights.empty()) return {};
+    const auto is_weight = [](float weight) { return weight > 0 && std::isfinite(weight); };
+    if (weights.size() != cells || !std::ranges::all_of(weights, is_weight)) {
+        throw InputError("a partition takes one weight for each cell, positive and finite");
+    }
+    return {weights, parts};
+}
+
+/// By METIS.
+std::vector<int> by_graph(const Mesh& mesh, int parts, PartitionMethod method,
+                          const std::vector<float>& weights) {
+    const std::size_t cells = mesh.cells.size();
+    if (parts == 1 || !is_worth_a_cut(mesh, parts)) return equal_blocks(cells, parts);
+    check_graph_size(cells);
+    const CellWeights of_cells = weights_of(cells, weights, parts);
+    if (method == PartitionMethod::dual) {
+        return partition_graph(face_dual_graph(mesh, of_cells), parts);
+    }
+    const std::int64_t most = most_of_a_node(of_cells.sum(cells), parts);
+    return partition_graph(lepp_graph(mesh, of_cells, most), parts);
+}
+
+std::vector<int> by_lot(std::size_t cells, int parts, std::uint64_t seed) {
+    std::mt19937_64 random(seed);
+    std::vector<int> part(cells);
+    for (int& p : part) p = static_cast<int>(random() % static_cast<std::uint64_t>(parts));
+    return part;
+}
+
+std::vector<int> from_file(const std::filesystem::path& path, std::size_t cells, int parts) {
+    std::error_code ignored;
+    const auto there = std::filesystem::status(path, ignored);
+    if (std::filesystem::exists(there) && !std::filesystem::is_regular_file(there)) {
+        // Opening a pipe would wait for someone to write.
+        throw InputError(fmt::format("{}: is not a file", path.native()));
+    }
+    std::ifstream in(path);
+    if (!in) {
+        throw InputError(
+            fmt::format("{}: cannot be opened: {}", path.native(), std::strerror(errno)));
+    }
+    std::vector<int> part;
+    std::size_t line_number = 0;
+    for (std::string line; std::getline(in, line);) {
+        ++line_number;
+        if (line_number == 1 && line.starts_with("\xef\xbb\xbf")) line.erase(0, 3);  // of UTF-8
+        if (line.ends_with('\r')) line.pop_back();
+        if (line.empty() || line.front() == '#') continue;
+        unsigned number = 0;
+        const char* const end = line.data() + line.size();
+        const auto [stop, error] = std::from_chars(line.data(), end, number);
+        if (error != std::errc{} || stop != end || number >= static_cast<unsigned>(parts)) {
+            throw InputError(fmt::format("{}:{}: a part number from 0 to {} expected",
+                                         path.native(), line_number, parts - 1));
+        }
+        part.push_back(static_cast<int>(number));
+    }
+    if (part.size() != cells) {
+        throw InputError(fmt::format("{}: {} part numbers found for a mesh of {} cells",
+                                     path.native(), part.size(), cells));
+    }
+    return part;
+}
+
+}  // namespace
+
+Partition parse_partition(const std::string& text) {
+    if (text == "lepp") return {.method = PartitionMethod::lepp};
+    if (text == "dual") return {.method = PartitionMethod::dual};
+    if (text == "block") return {.method = PartitionMethod::block};
+    if (text.starts_with("file:") && text.size() > 5) {
+        return {.method = PartitionMethod::file, .path = text.substr(5)};
+    }
+    if (text.starts_with("random:")) {
+        Partition partition{.method = PartitionMethod::random};
+        const char* const end = text.data() + text.size();
+        const auto [stop, error] = std::from_chars(text.data() + 7, end, partition.seed);
+        if (error == std::errc{} && stop == end) return partition;
+    }
+    throw InputError(fmt::format(
+        "--partition takes lepp, dual, block, random:SEED or file:PATH, not '{}'", text));
+}
+
+std::vector<int> partition_cells(const Mesh& mesh, int parts, const Partition& partition,
+                                 const std::vector<float>& weights) {
+    const std::size_t cells = mesh.cells.size();
+    switch (partition.method) {
+        case PartitionMethod::lepp:
+        case PartitionMethod::dual: return by_graph(mesh, parts, partition.method, weights);
+        case PartitionMethod::block: return equal_blocks(cells, parts);
+        case PartitionMethod::random: return by_lot(cells, parts, partition.seed);
+        case PartitionMethod::file: return from_file(partition.path, cells, parts);
+    }
+    return {};
+}
+
+}  // namespace octetra::distributed

@@ -1,0 +1,180 @@
+#include "pattern/patterns.hpp"
+
+#include <algorithm>
+#include <map>
+
+#include <octetra/core/mesh.hpp>
+
+namespace octetra::distributed {
+namespace {
+
+using LongestFirst = std::array<std::uint8_t, 6>;
+
+constexpr std::array<EdgeMask, 4> edges_of_face{0b111000, 0b100110, 0b010101, 0b001011};
+
+constexpr EdgeMask bit(std::size_t edge) { return static_cast<EdgeMask>(1U << edge); }
+
+Comparisons comparisons_of(const LongestFirst& longest_first) {
+    std::array<std::size_t, 6> rank{};
+    for (std::size_t r = 0; r < 6; ++r) rank[longest_first[r]] = r;
+    unsigned comparisons = 0;
+    unsigned pair = 0;
+    for (std::size_t i = 0; i < 6; ++i) {
+        for (std::size_t j = i + 1; j < 6; ++j, ++pair) {
+            if (rank[i] < rank[j]) comparisons |= 1U << pair;
+        }
+    }
+    return static_cast<Comparisons>(comparisons);
+}
+
+/// The longest edge of a non-empty set.
+std::uint8_t longest_in(EdgeMask set, const LongestFirst& longest_first) {
+    for (const std::uint8_t e : longest_first) {
+        if ((set & bit(e)) != 0) return e;
+    }
+    return 6;
+}
+
+/// Of one edge alone. What a face asks for, its longest edge, any marked edge of it asks for
+/// alone; so the closure of a set is the union of its edges' closures.
+EdgeMask closure_of(std::size_t edge, const LongestFirst& longest_first) {
+    EdgeMask closed = bit(edge);
+    while (true) {
+        EdgeMask next = closed;
+        for (const EdgeMask face : edges_of_face) {
+            if ((next & face) != 0) next |= bit(longest_in(face, longest_first));
+        }
+        if (next == closed) return closed;
+        closed = next;
+    }
+}
+
+/// A list of at most 8 that asks for no memory: there are two thousand to make.
+class Pieces {
+public:
+    using Piece = std::array<Place, 4>;
+    void push_back(const Piece& piece) { pieces_[count_++] = piece; }
+    [[nodiscard]] Piece& back() { return pieces_[count_ - 1]; }
+    [[nodiscard]] std::size_t size() const { return count_; }
+    [[nodiscard]] const Piece* begin() const { return pieces_.data(); }
+    [[nodiscard]] const Piece* end() const { return pieces_.data() + count_; }
+
+private:
+    std::array<Piece, 8> pieces_{};
+    std::size_t count_ = 0;
+};
+
+Pieces whole_cell() {
+    Pieces pieces;
+    pieces.push_back({0, 1, 2, 3});
+    return pieces;
+}
+
+/// The pieces, each cut in two if it has the edge. An original corner never leaves its position but
+/// for a midpoint.
+Pieces bisected(const Pieces& pieces, std::uint8_t edge) {
+    const auto& [low, high] = cell_edges[edge];
+    const auto midpoint = static_cast<Place>(4 + edge);
+    Pieces halves;
+    for (const Pieces::Piece& piece : pieces) {
+        halves.push_back(piece);
+        if (piece[low] != low || piece[high] != high) continue;
+        halves.back()[high] = midpoint;
+        halves.push_back(piece);
+        halves.back()[low] = midpoint;
+    }
+    return halves;
+}
+
+/// A pattern as two numbers, for comparison: four bits for each place.
+using Code = std::array<std::uint64_t, 2>;
+
+Code code_of(const Pattern& pattern) {
+    Code code{};
+    for (std::size_t k = 0; k < 8; ++k) {
+        for (const Place place : pattern.children[k]) code[k / 4] = code[k / 4] << 4U | place;
+    }
+    return code;
+}
+
+/// A cell bisected by edges from longest to shortest, for every sequence that was asked for: what
+/// begins alike is cut but once. A piece's own longest marked edge is met first, so this is the
+/// recursion of the rule, breadth first; and as each cut puts its two halves where the piece stood,
+/// in the order of the recursion.
+class Bisections {
+public:
+    using Number = std::uint16_t;
+
+    /// The pattern's number among `patterns`, to which it is added if it is new.
+    Number pattern_of(EdgeMask marked, const LongestFirst& longest_first,
+                      std::vector<Pattern>& patterns) {
+        std::size_t at = 0;
+        for (const std::uint8_t edge : longest_first) {
+            if ((marked & bit(edge)) != 0) at = after(at, edge);
+        }
+        if (nodes_[at].pattern == none) nodes_[at].pattern = number_of(nodes_[at].pieces, patterns);
+        return nodes_[at].pattern;
+    }
+
+private:
+    static constexpr Number none = 0xffff;
+    struct Node {
+        Pieces pieces;
+        std::array<Number, 6> after{};  ///< by the next edge; 0: not yet known
+        Number pattern = none;
+    };
+
+    std::size_t after(std::size_t node, std::uint8_t edge) {
+        if (nodes_[node].after[edge] == 0) {
+            nodes_[node].after[edge] = static_cast<Number>(nodes_.size());
+            nodes_.push_back({bisected(nodes_[node].pieces, edge)});
+        }
+        return nodes_[node].after[edge];
+    }
+
+    Number number_of(const Pieces& pieces, std::vector<Pattern>& patterns) {
+        Pattern pattern;
+        pattern.child_count = static_cast<std::uint8_t>(pieces.size());
+        std::ranges::copy(pieces, pattern.children.begin());
+        const auto [place, fresh] =
+            numbers_.try_emplace(code_of(pattern), static_cast<Number>(patterns.size()));
+        if (fresh) patterns.push_back(pattern);
+        return place->second;
+    }
+
+    std::vector<Node> nodes_ = {{whole_cell()}};
+    std::map<Code, Number> numbers_;
+};
+
+}  // namespace
+
+PatternTable::PatternTable()
+    : order_by_comparisons_(std::size_t{1} << 15U, 0),
+      closure_(order_count * mask_count),
+      pattern_number_(order_count * mask_count, 0) {
+    LongestFirst longest_first{0, 1, 2, 3, 4, 5};
+    Bisections bisections;
+    for (LengthOrder order = 0; order < order_count; ++order) {
+        order_by_comparisons_[comparisons_of(longest_first)] = order;
+        longest_edge_[order] = longest_first.front();
+        for (const EdgeMask face : edges_of_face) {
+            face_longest_edges_[order] |= bit(longest_in(face, longest_first));
+        }
+        for (std::size_t e = 0; e < 6; ++e) {
+            const EdgeMask of_edge = closure_of(e, longest_first);
+            for (std::size_t others = 0; others < bit(e); ++others) {
+                closure_[order * mask_count + bit(e) + others] =
+                    of_edge | closure_[order * mask_count + others];
+            }
+        }
+        for (unsigned mask = 0; mask < mask_count; ++mask) {
+            const std::size_t entry = order * mask_count + mask;
+            if (closure_[entry] != mask) continue;
+            pattern_number_[entry] =
+                bisections.pattern_of(static_cast<EdgeMask>(mask), longest_first, patterns_);
+        }
+        std::ranges::next_permutation(longest_first);
+    }
+}
+
+}  // namespace octetra::distributed

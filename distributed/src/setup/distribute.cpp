@@ -1,0 +1,267 @@
+#include <algorithm>
+#include <array>
+#include <numeric>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include <octetra/core/vertex_buckets.hpp>
+#include <octetra/distributed/distributed_mesh.hpp>
+#include <octetra/distributed/profile.hpp>
+
+#include "setup/find_interfaces.hpp"
+
+namespace octetra::distributed {
+namespace {
+
+/// Facts about the whole mesh that every process needs.
+struct Facts {
+    std::uint64_t vertices = 0;
+    std::uint64_t cells = 0;
+    std::uint64_t attributes_per_point = 0;
+    std::uint32_t first_number = 0;
+};
+
+Facts facts_of(const Mesh& mesh) {
+    return {mesh.points.size(), mesh.cells.size(), mesh.attributes_per_point, mesh.first_number};
+}
+
+/// Entities of one kind that go to one process.
+template <std::size_t N>
+struct ListShare {
+    std::vector<std::uint64_t> numbers;                ///< in the input, ascending
+    std::vector<std::array<VertexIndex, N>> vertices;  ///< numbered locally
+    std::vector<Marker> markers;                       ///< or empty
+};
+
+/// All that goes to one process.
+struct Share {
+    std::vector<GlobalVertex> vertices;  ///< ascending
+    std::vector<Point> points;
+    std::vector<Marker> point_markers;
+    std::vector<double> point_attributes;
+    ListShare<4> cells;
+    ListShare<3> facets;
+    ListShare<2> edges;
+
+    /// Calls f on each array, on all processes in the same order.
+    void for_each_array(auto&& f) {
+        f(vertices), f(points), f(point_markers), f(point_attributes);
+        const auto list = [&](auto& l) { f(l.numbers), f(l.vertices), f(l.markers); };
+        list(cells), list(facets), list(edges);
+    }
+};
+
+/// The numbers of a list's entities, by the ranks that they go to.
+class ByRank {
+public:
+    ByRank() = default;
+    ByRank(const std::vector<int>& ranks, int rank_count)
+        : begin_(static_cast<std::size_t>(rank_count) + 1, 0), numbers_(ranks.size()) {
+        for (const int rank : ranks) ++begin_[static_cast<std::size_t>(rank) + 1];
+        std::partial_sum(begin_.begin(), begin_.end(), begin_.begin());
+        auto next = begin_;
+        for (std::uint32_t i = 0; i < ranks.size(); ++i) {
+            numbers_[next[static_cast<std::size_t>(ranks[i])]++] = i;
+        }
+    }
+    [[nodiscard]] std::span<const std::uint32_t> of(int rank) const {
+        const auto r = static_cast<std::size_t>(rank);
+        return std::span(numbers_).subspan(begin_[r], begin_[r + 1] - begin_[r]);
+    }
+
+private:
+    std::vector<std::size_t> begin_;
+    std::vector<std::uint32_t> numbers_;
+};
+
+/// The rank of each entity of a list: that of the first cell that has it among its `sides`.
+template <class I, std::size_t N, std::size_t Sides>
+std::vector<int> ranks_of(const Mesh& mesh, const std::vector<int>& cell_to_rank,
+                          const IndexVector<I, std::array<VertexIndex, N>>& list,
+                          const std::array<std::array<std::uint8_t, N>, Sides>& sides) {
+    std::vector<int> ranks(list.size(), 0);
+    if (list.empty()) return ranks;
+    const VertexBuckets<I, N> buckets(list, mesh.points.size());
+    for (CellIndex c{mesh.cells.size()}; c > CellIndex{0};) {  // the first one comes last
+        c = CellIndex{c.value() - 1U};
+        for (const auto& side : sides) {
+            std::array<VertexIndex, N> vertices;
+            for (std::size_t k = 0; k < N; ++k) vertices[k] = mesh.cells[c][side[k]];
+            buckets.find(vertices, [&](I i) { ranks[i.value()] = cell_to_rank[c.value()]; });
+        }
+    }
+    return ranks;
+}
+
+/// Takes a mesh apart, one process's share at a time. The first process's comes last: vertices that
+/// no cell has are in it, so that they are not lost.
+class Cutter {
+public:
+    Cutter(const Mesh& mesh, const std::vector<int>& cell_to_rank, int rank_count)
+        : mesh_(&mesh),
+          cells_(cell_to_rank, rank_count),
+          facets_(ranks_of(mesh, cell_to_rank, mesh.facets, cell_faces), rank_count),
+          edges_(ranks_of(mesh, cell_to_rank, mesh.edges, cell_edges), rank_count),
+          seen_by_(mesh.points.size(), nobody),
+          local_(mesh.points.size()) {}
+
+    [[nodiscard]] Share share_of(int rank) {
+        Share share;
+        share.vertices = vertices_of(rank);
+        share.points.reserve(share.vertices.size());
+        for (std::size_t i = 0; i < share.vertices.size(); ++i) {
+            const VertexIndex v{static_cast<std::uint64_t>(share.vertices[i])};
+            local_[v] = VertexIndex{i};
+            share.points.push_back(mesh_->points[v]);
+            if (!mesh_->point_markers.empty()) {
+                share.point_markers.push_back(mesh_->point_markers[v]);
+            }
+            const std::size_t count = mesh_->attributes_per_point;
+            const auto begin =
+                mesh_->point_attributes.begin() + static_cast<std::ptrdiff_t>(v.value() * count);
+            share.point_attributes.insert(share.point_attributes.end(), begin,
+                                          begin + static_cast<std::ptrdiff_t>(count));
+        }
+        share.cells = list_share(cells_.of(rank), mesh_->cells, mesh_->regions);
+        share.facets = list_share(facets_.of(rank), mesh_->facets, mesh_->facet_markers);
+        share.edges = list_share(edges_.of(rank), mesh_->edges, mesh_->edge_markers);
+        return share;
+    }
+
+private:
+    static constexpr int nobody = -1;
+
+    std::vector<GlobalVertex> vertices_of(int rank) {
+        std::vector<GlobalVertex> vertices;
+        for (const std::uint32_t c : cells_.of(rank)) {
+            for (const VertexIndex v : mesh_->cells[CellIndex{c}]) {
+                if (seen_by_[v] == rank) continue;
+                seen_by_[v] = rank;
+                vertices.push_back(GlobalVertex{v.value()});
+            }
+        }
+        if (rank == 0) {
+            for (VertexIndex v{0}; v < mesh_->points.end_index(); ++v) {
+                if (seen_by_[v] == nobody) vertices.push_back(GlobalVertex{v.value()});
+            }
+        }
+        std::ranges::sort(vertices);
+        return vertices;
+    }
+
+    template <class I, std::size_t N>
+    [[nodiscard]] ListShare<N> list_share(std::span<const std::uint32_t> numbers,
+                                          const IndexVector<I, std::array<VertexIndex, N>>& list,
+                                          const IndexVector<I, Marker>& markers) const {
+        ListShare<N> share;
+        share.numbers.assign(numbers.begin(), numbers.end());
+        share.vertices.reserve(numbers.size());
+        for (const std::uint32_t i : numbers) {
+            auto vertices = list[I{i}];
+            for (VertexIndex& v : vertices) v = local_[v];
+            share.vertices.push_back(vertices);
+            if (!markers.empty()) share.markers.push_back(markers[I{i}]);
+        }
+        return share;
+    }
+
+    const Mesh* mesh_;
+    ByRank cells_;
+    ByRank facets_;
+    ByRank edges_;
+    IndexVector<VertexIndex, int> seen_by_;        ///< the last rank that a vertex went to
+    IndexVector<VertexIndex, VertexIndex> local_;  ///< its number there
+};
+
+/// Collective. The first process sends each other one its share, and keeps its own; it holds no
+/// more than one share at a time beside the mesh.
+Share share_out(const Communicator& processes, const Mesh& mesh,
+                const std::vector<int>& cell_to_rank) {
+    Share share;
+    if (!processes.is_first()) {
+        share.for_each_array(
+            [&]<class T>(std::vector<T>& values) { values = processes.receive<T>(0); });
+        return share;
+    }
+    Cutter cutter(mesh, cell_to_rank, processes.size());
+    for (int rank = 1; rank < processes.size(); ++rank) {
+        share = cutter.share_of(rank);
+        share.for_each_array([&](const auto& values) { processes.send(values, rank); });
+    }
+    return cutter.share_of(0);
+}
+
+AncestorMap lineage_of(std::vector<std::uint64_t> roots, std::vector<Marker> markers) {
+    AncestorMap ancestors{.roots = std::move(roots), .first = {}, .markers = std::move(markers)};
+    ancestors.first.resize(ancestors.roots.size() + 1);
+    std::iota(ancestors.first.begin(), ancestors.first.end(), 0U);
+    return ancestors;
+}
+
+template <class I, std::size_t N>
+void take_list(ListShare<N> share, IndexVector<I, std::array<VertexIndex, N>>& entities,
+               AncestorMap& ancestors) {
+    entities.assign(share.vertices.begin(), share.vertices.end());
+    ancestors = lineage_of(std::move(share.numbers), std::move(share.markers));
+}
+
+void take_share(Share share, DistributedMesh& part) {
+    part.input_vertices = std::move(share.vertices);
+    part.points.assign(share.points.begin(), share.points.end());
+    part.input_vertex_markers = std::move(share.point_markers);
+    part.point_attributes = std::move(share.point_attributes);
+    take_list(std::move(share.cells), part.cells, part.cell_ancestors);
+    take_list(std::move(share.facets), part.facets, part.facet_ancestors);
+    take_list(std::move(share.edges), part.edges, part.edge_ancestors);
+}
+
+/// The whole mesh on one process: nothing to send, and nothing to copy.
+void take_over(Mesh mesh, DistributedMesh& part) {
+    const auto all = [](std::size_t count) {
+        std::vector<std::uint64_t> numbers(count);
+        std::iota(numbers.begin(), numbers.end(), std::uint64_t{0});
+        return numbers;
+    };
+    part.point_attributes = std::move(mesh.point_attributes);
+    part.input_vertices.reserve(mesh.points.size());
+    for (VertexIndex v{0}; v < mesh.points.end_index(); ++v) {
+        part.input_vertices.push_back(GlobalVertex{v.value()});
+    }
+    part.input_vertex_markers = std::move(mesh.point_markers);
+    part.cell_ancestors = lineage_of(all(mesh.cells.size()), std::move(mesh.regions));
+    part.facet_ancestors = lineage_of(all(mesh.facets.size()), std::move(mesh.facet_markers));
+    part.edge_ancestors = lineage_of(all(mesh.edges.size()), std::move(mesh.edge_markers));
+    part.points = std::move(mesh.points);
+    part.cells = std::move(mesh.cells);
+    part.facets = std::move(mesh.facets);
+    part.edges = std::move(mesh.edges);
+}
+
+}  // namespace
+
+DistributedMesh distribute(const Communicator& processes, Mesh mesh,
+                           const std::vector<int>& cell_to_rank) {
+    const Phase phase(processes, "distribute");
+    std::vector<Facts> shared{facts_of(mesh)};
+    processes.broadcast(shared);
+    const Facts facts = shared.front();
+
+    DistributedMesh part;
+    part.processes = processes;
+    part.attributes_per_point = facts.attributes_per_point;
+    part.input_vertex_count = facts.vertices;
+    part.input_cell_count = facts.cells;
+    part.first_number = facts.first_number;
+    if (processes.size() == 1) {
+        take_over(std::move(mesh), part);
+        return part;
+    }
+    take_share(share_out(processes, mesh, cell_to_rank), part);
+    mesh = {};  // no longer needed, and large
+    const Phase finding(processes, "interfaces");
+    part.interfaces = find_interfaces(part);
+    return part;
+}
+
+}  // namespace octetra::distributed

@@ -1,0 +1,103 @@
+#include "setup/find_interfaces.hpp"
+
+#include <algorithm>
+#include <map>
+
+#include "setup/sharers.hpp"
+
+namespace octetra::distributed {
+namespace {
+
+/// The processes that share each vertex, ascending, as pieces of one array.
+class VertexSharers {
+public:
+    explicit VertexSharers(const DistributedMesh& mesh) : begin_(mesh.points.size() + 1, 0) {
+        std::vector<std::array<std::uint64_t, 1>> keys;
+        for (const GlobalVertex v : mesh.input_vertices) {
+            keys.push_back({static_cast<std::uint64_t>(v)});
+        }
+        sharers_ = find_sharers(mesh.processes, keys);
+        for (const Sharer& s : sharers_) ++begin_[s.key + 1];
+        for (std::size_t v = 1; v < begin_.size(); ++v) begin_[v] += begin_[v - 1];
+    }
+
+    /// Does another process have this vertex?
+    [[nodiscard]] bool has(VertexIndex v) const { return !of(v).empty(); }
+
+    /// Is there another process that has all of these vertices?
+    template <std::size_t N>
+    [[nodiscard]] bool may_be_shared(const std::array<VertexIndex, N>& vertices) const {
+        return std::ranges::any_of(of(vertices.front()), [&](const Sharer& first) {
+            return std::ranges::all_of(vertices, [&](VertexIndex v) {
+                return std::ranges::binary_search(of(v), first.rank, {}, &Sharer::rank);
+            });
+        });
+    }
+
+private:
+    [[nodiscard]] std::span<const Sharer> of(VertexIndex v) const {
+        return std::span(sharers_).subspan(begin_[v.value()],
+                                           begin_[v.value() + 1U] - begin_[v.value()]);
+    }
+    std::vector<Sharer> sharers_;
+    std::vector<std::size_t> begin_;
+};
+
+template <std::size_t N>
+using VertexLists = std::vector<std::array<VertexIndex, N>>;
+
+/// The sides (edges or faces) of the cells, each as often as cells have it, that another process
+/// may have, too; their vertices ascending.
+template <std::size_t N, std::size_t Sides>
+VertexLists<N> candidates(const DistributedMesh& mesh, const VertexSharers& sharers,
+                          const std::array<std::array<std::uint8_t, N>, Sides>& sides) {
+    VertexLists<N> found;
+    const auto is_shared = [&](VertexIndex v) { return sharers.has(v); };
+    for (const CellVertices& cell : mesh.cells) {
+        if (std::ranges::count_if(cell, is_shared) < 2) continue;
+        for (const auto& side : sides) {
+            std::array<VertexIndex, N> vertices;
+            for (std::size_t k = 0; k < N; ++k) vertices[k] = cell[side[k]];
+            if (!sharers.may_be_shared(vertices)) continue;
+            std::ranges::sort(vertices);
+            found.push_back(vertices);
+        }
+    }
+    return found;
+}
+
+/// Calls share(rank, vertices) for each of the candidates that other processes really have, in
+/// ascending order of the vertices, which is the order of their global numbers.
+template <std::size_t N>
+void find_shared(const DistributedMesh& mesh, VertexLists<N> candidates, auto&& share) {
+    std::ranges::sort(candidates);
+    candidates.erase(std::unique(candidates.begin(), candidates.end()), candidates.end());
+    std::vector<std::array<std::uint64_t, N>> keys;
+    for (const auto& vertices : candidates) {
+        auto& key = keys.emplace_back();
+        std::ranges::transform(vertices, key.begin(), [&](VertexIndex v) {
+            return static_cast<std::uint64_t>(mesh.input_vertices[v.value()]);
+        });
+    }
+    for (const Sharer& s : find_sharers(mesh.processes, keys)) share(s.rank, candidates[s.key]);
+}
+
+}  // namespace
+
+std::vector<Interface> find_interfaces(const DistributedMesh& mesh) {
+    if (mesh.processes.size() == 1) return {};
+    const VertexSharers sharers(mesh);
+    std::map<int, Interface> by_rank;
+    find_shared(mesh, candidates(mesh, sharers, cell_edges),
+                [&](int rank, const EdgeVertices& edge) { by_rank[rank].edges.push_back(edge); });
+    find_shared(mesh, candidates(mesh, sharers, cell_faces),
+                [&](int rank, const FacetVertices& face) { by_rank[rank].faces.push_back(face); });
+    std::vector<Interface> interfaces;
+    for (auto& [rank, interface] : by_rank) {
+        interface.rank = rank;
+        interfaces.push_back(std::move(interface));
+    }
+    return interfaces;
+}
+
+}  // namespace octetra::distributed

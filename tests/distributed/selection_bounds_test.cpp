@@ -1,0 +1,73 @@
+#include "mark/selection_bounds.hpp"
+
+#include <cmath>
+#include <random>
+
+#include <gtest/gtest.h>
+
+namespace octetra::distributed {
+namespace {
+
+/// Those on which all corners are beyond reach.
+int sides_in_common(const SelectionBounds& reach, const Corners& corners) {
+    int sides = 0b111111;
+    for (const Point& corner : corners) sides &= reach.sides_beyond(corner);
+    return sides;
+}
+
+/// Random cells of a size, and spheres whose border goes through their centroids, or nearly.
+void expect_chosen_only_where_it_may_be(double size, double offset) {
+    SCOPED_TRACE(testing::Message() << "size " << size << ", offset " << offset);
+    std::mt19937_64 random(1);
+    std::uniform_real_distribution<double> place(-size, size);
+    const auto point = [&] {
+        return Point{place(random) + offset, place(random) + offset, place(random) + offset};
+    };
+    int chosen = 0;
+    for (int i = 0; i < 20000; ++i) {
+        Corners corners{point(), point(), point(), point()};
+        if (i % 3 == 0) corners = {corners[0], corners[0], corners[0], corners[0]};
+        const Point centre = centroid(corners);
+        const Point c = point();
+        const double radius = std::hypot(centre.x - c.x, centre.y - c.y, centre.z - c.z);
+        const Selection sphere{.spheres = {{c, radius * (1 + (i % 7 - 3) * 2e-16)}}};
+        const Selection box{.boxes = {{centre, centre}}};
+        for (const Selection& selection : {sphere, box}) {
+            if (!chooses(selection, corners, 0, GlobalCell{0})) continue;
+            ++chosen;
+            ASSERT_TRUE(may_be_marked(selection, box_of(corners))) << "case " << i;
+            ASSERT_EQ(sides_in_common(SelectionBounds(selection), corners), 0) << "case " << i;
+        }
+    }
+    EXPECT_GT(chosen, 20000);
+}
+
+TEST(SelectionBounds, NeverPassOverACellThatIsChosen) {
+    for (const double size : {1.0, 1e-9, 1e-165, 3e-320, 1e153, 1e170, 8e307}) {
+        expect_chosen_only_where_it_may_be(size, 0);
+    }
+    expect_chosen_only_where_it_may_be(1e-12, 1);
+    expect_chosen_only_where_it_may_be(1e300, 1e307);
+}
+
+TEST(SelectionBounds, PassOverWhatIsFarAway) {
+    const Box corners{{0, 0, 0}, {1, 1, 1}};
+    EXPECT_FALSE(may_be_marked({.spheres = {{{2, 0.5, 0.5}, 0.999}}}, corners));
+    EXPECT_TRUE(may_be_marked({.spheres = {{{2, 0.5, 0.5}, 1.001}}}, corners));
+    EXPECT_FALSE(may_be_marked({.boxes = {{{0, 0, 1.001}, {1, 1, 2}}}}, corners));
+    EXPECT_TRUE(may_be_marked({.boxes = {{{0, 0, 0.999}, {1, 1, 2}}}}, corners));
+}
+
+TEST(SelectionBounds, EndsWhereSpheresAndBoxesEnd) {
+    const SelectionBounds reach({.spheres = {{{0, 0, 0}, 1}}, .boxes = {{{2, 2, 2}, {3, 3, 3}}}});
+    EXPECT_EQ(reach.sides_beyond({-0.999, 0, 2.999}), 0);
+    EXPECT_EQ(reach.sides_beyond({-1.001, 0, 3.001}), 0b100001);
+    EXPECT_EQ(reach.sides_beyond({3.001, -1.001, 0}), 0b000110);
+    // Beyond it each, but not on the same side.
+    const Corners around{{{-5, 0, 0}, {5, 0, 0}, {0, 5, 0}, {0, -5, 1}}};
+    EXPECT_EQ(sides_in_common(reach, around), 0);
+    EXPECT_EQ(SelectionBounds({.spheres = {{{0, 0, 0}, infinity}}}).sides_beyond({1e308, 0, 0}), 0);
+}
+
+}  // namespace
+}  // namespace octetra::distributed

@@ -1,0 +1,167 @@
+#include <cmath>
+#include <limits>
+#include <random>
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <octetra/reference/refine.hpp>
+#include <octetra/verify/verify.hpp>
+
+#include "subject.hpp"
+#include "support/meshes.hpp"
+#include "verify/hub_meshes.hpp"
+#include "verify/together.hpp"
+#include "verify/verdicts.hpp"
+
+/// Many cells around one edge or at one vertex: all pairs of these have boxes that meet.
+namespace octetra::verify {
+namespace {
+
+using test::codes_of;
+using test::Hub;
+
+class HubTest : public testing::TestWithParam<Hub> {};
+
+/// Twice as many cells take a little more than twice as much looking, and not four times as much.
+TEST_P(HubTest, IsSearchedInProportionToItsCellsAndTheirLogarithm) {
+    const Mesh small = GetParam().make(2000);
+    const Mesh large = GetParam().make(16000);
+    const Verdict of_small = verify_mesh(small);
+    const Verdict of_large = verify_mesh(large);
+    EXPECT_EQ(codes_of(of_small), "");
+    EXPECT_EQ(codes_of(of_large), "");
+    const auto effort = [](const Verdict& verdict) {
+        return static_cast<double>(verdict.looked_at + verdict.arithmetic.filtered +
+                                   verdict.arithmetic.exact);
+    };
+    const auto n_log_n = [](const Mesh& mesh) {
+        const auto n = static_cast<double>(mesh.cells.size());
+        return n * std::log2(n);
+    };
+    EXPECT_LT(effort(of_large) / effort(of_small), 1.5 * n_log_n(large) / n_log_n(small))
+        << effort(of_small) << " " << effort(of_large);
+    EXPECT_LT(effort(of_large), 100 * n_log_n(large));
+}
+
+TEST_P(HubTest, AndItsRefinementAreJudgedValidByAnyNumberOfProcesses) {
+    const Mesh coarse = GetParam().make(400);
+    EXPECT_EQ(codes_of(test::judged_by_all(coarse)), "");
+    const Mesh fine = reference::refine(coarse, {.all = true}, Scheme::eight, 1).mesh;
+    EXPECT_EQ(codes_of(test::judged_by_all(coarse, fine)), "");
+    EXPECT_EQ(codes_of(test::judged_by_all(fine)), "");
+}
+
+/// What is found in space where a vertex of so many edges is a hub. (Of a mesh that need not be
+/// right in itself: what hangs and what crosses is well-defined all the same.)
+std::vector<Violation> found_in_space(const Mesh& mesh, std::uint32_t many) {
+    Findings findings(std::numeric_limits<std::size_t>::max());
+    Subject subject = whole_subject(mesh, Which::fine);
+    subject.many = many;
+    (void)check_well_formed(subject, findings);
+    (void)check_orientation(subject, findings);
+    (void)check_hanging(subject, findings);
+    (void)check_boundary_crossings(subject, findings);
+    return findings.finish().violations;
+}
+
+void expect_same_with_hubs(const Mesh& mesh, std::string_view what) {
+    const auto without = found_in_space(mesh, std::numeric_limits<std::uint32_t>::max());
+    for (const std::uint32_t many : {0U, 4U, 7U}) {
+        const auto with = found_in_space(mesh, many);
+        ASSERT_EQ(with.size(), without.size()) << what << ", hubs of more than " << many;
+        for (std::size_t i = 0; i < with.size(); ++i) {
+            EXPECT_EQ(with[i].code, without[i].code) << what;
+            EXPECT_EQ(with[i].entities, without[i].entities) << what;
+            EXPECT_EQ(with[i].found, without[i].found) << what;
+        }
+    }
+}
+
+/// Moves a vertex: a little, far, to another vertex, to the middle of two or three others, or along
+/// a line through two.
+void move_by_lot(Mesh& mesh, std::mt19937_64& random) {
+    const auto any = [&] { return VertexIndex{random() % mesh.points.size()}; };
+    const auto number = [&](double size) {
+        return (static_cast<double>(random() % 4097) - 2048) / 2048 * size;
+    };
+    Point& p = mesh.points[any()];
+    const Point q = mesh.points[any()];
+    const Point r = mesh.points[any()];
+    const Point s = mesh.points[any()];
+    switch (random() % 6) {
+        case 0: p = {p.x + number(0.25), p.y + number(0.25), p.z + number(0.25)}; break;
+        case 1: p = {number(2), number(2), number(2)}; break;
+        case 2: p = q; break;
+        case 3: p = midpoint(q, r); break;
+        case 4: p = midpoint(midpoint(q, r), s); break;
+        default: p = {2 * q.x - r.x, 2 * q.y - r.y, 2 * q.z - r.z}; break;
+    }
+}
+
+TEST(Hubs, ChangeNothingOfWhatIsFound) {
+    std::mt19937_64 random(815);
+    int broken = 0;
+    for (std::size_t round = 0; round < 2000; ++round) {
+        const Hub& hub = test::hubs[round % test::hubs.size()];
+        Mesh mesh = round % 3 == 0 ? test::kuhn(2, 1, 1) : hub.make(8 + random() % 24);
+        for (std::size_t moves = random() % 4; moves > 0; --moves) move_by_lot(mesh, random);
+        ASSERT_NO_FATAL_FAILURE(expect_same_with_hubs(mesh, fmt::format("round {}", round)));
+        if (!verify_mesh(mesh).valid()) ++broken;
+    }
+    EXPECT_GT(broken, 1000);
+}
+
+/// Cells anywhere, large and small, that share nothing or much: what they have in common with a hub
+/// is seen from it in all directions.
+TEST(Hubs, ChangeNothingOfWhatIsFoundAmongCellsAnywhere) {
+    std::mt19937_64 random(4711);
+    std::size_t found = 0;
+    for (int round = 0; round < 3000; ++round) {
+        std::vector<Point> points;
+        const auto coordinate = [&] { return static_cast<double>(random() % 9) - 4; };
+        for (int k = 0; k < 10; ++k) {
+            const double x = coordinate();
+            const double y = coordinate();
+            points.push_back({x, y, coordinate()});
+        }
+        std::vector<std::array<std::size_t, 4>> cells;
+        for (int k = 0; k < 6; ++k) {
+            std::array<std::size_t, 4> cell{};
+            for (std::size_t& v : cell) v = random() % points.size();
+            if (random() % 2 == 0) cell[0] = 0;
+            if (random() % 2 == 0) cell[1] = 1;
+            cells.push_back(cell);
+        }
+        const Mesh mesh = test::mesh_of(points, cells);
+        ASSERT_NO_FATAL_FAILURE(expect_same_with_hubs(mesh, fmt::format("round {}", round)));
+        found += found_in_space(mesh, 0).size();
+    }
+    EXPECT_GT(found, 30'000U);
+}
+
+TEST(Hubs, ChangeNothingOfWhatIsFoundAtAnyScale) {
+    std::mt19937_64 random(99);
+    for (std::size_t round = 0; round < 200; ++round) {
+        Mesh mesh = test::hubs[round % test::hubs.size()].make(24);
+        move_by_lot(mesh, random);
+        const auto expected = found_in_space(mesh, 4);
+        for (const int exponent : {-1040, -540, 600, 1020}) {
+            Mesh scaled = mesh;
+            for (Point& p : scaled.points) {
+                p = {std::ldexp(p.x, exponent), std::ldexp(p.y, exponent),
+                     std::ldexp(p.z, exponent)};
+            }
+            ASSERT_NO_FATAL_FAILURE(expect_same_with_hubs(scaled, fmt::format("round {}", round)));
+            if (exponent > -1040) {  // there bits are lost
+                EXPECT_EQ(found_in_space(scaled, 4).size(), expected.size());
+            }
+        }
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Hubs, HubTest, testing::ValuesIn(test::hubs),
+                         [](const auto& hub) { return hub.param.name; });
+
+}  // namespace
+}  // namespace octetra::verify

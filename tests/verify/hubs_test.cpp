@@ -8,6 +8,7 @@
 #include <octetra/reference/refine.hpp>
 #include <octetra/verify/verify.hpp>
 
+#include "exact/predicates.hpp"
 #include "subject.hpp"
 #include "support/meshes.hpp"
 #include "verify/hub_meshes.hpp"
@@ -52,6 +53,21 @@ TEST_P(HubTest, AndItsRefinementAreJudgedValidByAnyNumberOfProcesses) {
     EXPECT_EQ(codes_of(test::judged_by_all(fine)), "");
 }
 
+/// A face of a cell without volume may be a line, which has nothing to cross. (CGAL's predicates
+/// assert that.)
+void drop_flat_cells(Mesh& mesh) {
+    std::vector<CellVertices> kept;
+    Arithmetic arithmetic;
+    for (const auto& [a, b, c, d] : mesh.cells) {
+        const auto& p = mesh.points;
+        if (exact::orientation(p[a], p[b], p[c], p[d], arithmetic) != 0) {
+            kept.push_back({a, b, c, d});
+        }
+    }
+    mesh.cells = {};
+    for (const CellVertices& cell : kept) mesh.cells.push_back(cell);
+}
+
 /// What is found in space where a vertex of so many edges is a hub. (Of a mesh that need not be
 /// right in itself: what hangs and what crosses is well-defined all the same.)
 std::vector<Violation> found_in_space(const Mesh& mesh, std::uint32_t many) {
@@ -80,7 +96,7 @@ void expect_same_with_hubs(const Mesh& mesh, std::string_view what) {
 
 /// Moves a vertex: a little, far, to another vertex, to the middle of two or three others, or along
 /// a line through two.
-void move_by_lot(Mesh& mesh, std::mt19937_64& random) {
+void move_at_random(Mesh& mesh, std::mt19937_64& random) {
     const auto any = [&] { return VertexIndex{random() % mesh.points.size()}; };
     const auto number = [&](double size) {
         return (static_cast<double>(random() % 4097) - 2048) / 2048 * size;
@@ -105,7 +121,8 @@ TEST(Hubs, ChangeNothingOfWhatIsFound) {
     for (std::size_t round = 0; round < 2000; ++round) {
         const Hub& hub = test::hubs[round % test::hubs.size()];
         Mesh mesh = round % 3 == 0 ? test::kuhn(2, 1, 1) : hub.make(8 + random() % 24);
-        for (std::size_t moves = random() % 4; moves > 0; --moves) move_by_lot(mesh, random);
+        for (std::size_t moves = random() % 4; moves > 0; --moves) move_at_random(mesh, random);
+        drop_flat_cells(mesh);
         ASSERT_NO_FATAL_FAILURE(expect_same_with_hubs(mesh, fmt::format("round {}", round)));
         if (!verify_mesh(mesh).valid()) ++broken;
     }
@@ -133,18 +150,20 @@ TEST(Hubs, ChangeNothingOfWhatIsFoundAmongCellsAnywhere) {
             if (random() % 2 == 0) cell[1] = 1;
             cells.push_back(cell);
         }
-        const Mesh mesh = test::mesh_of(points, cells);
+        Mesh mesh = test::mesh_of(points, cells);
+        drop_flat_cells(mesh);
         ASSERT_NO_FATAL_FAILURE(expect_same_with_hubs(mesh, fmt::format("round {}", round)));
         found += found_in_space(mesh, 0).size();
     }
-    EXPECT_GT(found, 30'000U);
+    EXPECT_GT(found, 20'000U);
 }
 
 TEST(Hubs, ChangeNothingOfWhatIsFoundAtAnyScale) {
     std::mt19937_64 random(99);
     for (std::size_t round = 0; round < 200; ++round) {
         Mesh mesh = test::hubs[round % test::hubs.size()].make(24);
-        move_by_lot(mesh, random);
+        move_at_random(mesh, random);
+        drop_flat_cells(mesh);
         const auto expected = found_in_space(mesh, 4);
         for (const int exponent : {-1040, -540, 600, 1020}) {
             Mesh scaled = mesh;

@@ -25,11 +25,15 @@ TEST_P(BadUsage, EndsInStatus2AndOneMessage) {
 INSTANTIATE_TEST_SUITE_P(
     CommandLines, BadUsage,
     testing::Values("frobnicate", "build --fast", "build relaese", "test --slow", "test A B",
-                    "fuzz --minutes", "fuzz --minutes 0", "fuzz --minutes 00", "fuzz --minutes x",
-                    "fuzz 5", "worlds --minutes 0", "worlds --from 0", "worlds --from 262",
-                    "shrink", "shrink a.ele", "shrink no-such-file.json", "shrink a.json b.json",
-                    "shrink a.json --minutes 0", "shrink a.json --ranks 0", "shrink a.json --ranks",
-                    "shrink --slow 1 a.json", "fuzz-files --minutes 0", "format --slow"));
+                    "campaign frobnicate", "campaign --minutes 9", "campaign fuzz --minutes",
+                    "campaign fuzz --minutes 0", "campaign fuzz --minutes 00",
+                    "campaign fuzz --minutes x", "campaign fuzz 5", "campaign worlds --minutes 0",
+                    "campaign worlds --from 0", "campaign worlds --from 262", "campaign shrink",
+                    "campaign shrink a.ele", "campaign shrink no-such-file.json",
+                    "campaign shrink a.json b.json", "campaign shrink a.json --minutes 0",
+                    "campaign shrink a.json --ranks 0", "campaign shrink a.json --ranks",
+                    "campaign shrink --slow 1 a.json", "campaign files --minutes 0",
+                    "format --slow", "docs now", "clean all"));
 
 /// Without installing anything: that comes before the list of mutants is read.
 TEST(Mutants, TakeNoTimeThatIsOverAtOnce) {

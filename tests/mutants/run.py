@@ -8,7 +8,7 @@ The faults stand in the .toml files beside this one, each a [[mutant]] with
   new    (a line end at the beginning of either is left out)
   tests  the test programs that may catch it, cheapest first: NAME runs test_NAME, NAME@3 on 3 ranks.
 
-./dev mutants puts one after the other into a copy of the checkout, build/mutants/tree, builds what
+./dev campaign mutants puts one after the other into a copy of the checkout, build/mutants/tree, builds what
 has changed and runs these programs. A program catches a mutant when it fails, or does not end in
 three times as long as without any fault, and two minutes. A mutant that none of them catches has
 survived: a test is missing.
@@ -207,7 +207,7 @@ def run(mutants, minutes, jobs):
     for done, mutant in enumerate(mutants):
         if time.monotonic() > end:
             print(f"\ntime is up after {done} of {len(mutants)} mutants; to go on: "
-                  f"./dev mutants --from {mutant['name']}")
+                  f"./dev campaign mutants --from {mutant['name']}")
             break
         begin = time.monotonic()
         fate, how = fate_of(mutant, seconds_of, jobs)
@@ -224,7 +224,7 @@ def positive(text):
 
 
 def main():
-    parser = argparse.ArgumentParser(prog="./dev mutants")
+    parser = argparse.ArgumentParser(prog="./dev campaign mutants")
     parser.add_argument("--check", action="store_true", help="only see whether they fit the sources")
     parser.add_argument("--minutes", type=positive, default=30, help="begin no other after so long")
     parser.add_argument("--from", dest="first", metavar="NAME", help="go on with this one")

@@ -147,7 +147,7 @@ TEST(GluedCells, OfTwoCellsUpToExchangeAreEachOnce) {
 }
 
 /// In ./dev test one complex of six, two cells at a face and one apart. Where
-/// OCTETRA_COUNT_ALL_WORLDS is set, as in part 206 of ./dev worlds, all.
+/// OCTETRA_COUNT_ALL_WORLDS is set, as in part 206 of ./dev campaign worlds, all.
 TEST(GluedCells, OfThreeCellsUpToExchangeAreEachOnce) {
     lead([] {
         constexpr std::size_t ways = 720 * 720 * 720;

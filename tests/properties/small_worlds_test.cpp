@@ -68,8 +68,8 @@ TEST(SmallWorlds, OfTwoCellsAtAFaceInEveryPairOfOrders) {
 }
 
 /// Worlds whose first cell has 180 orders in turn: every so-manieth; or, where OCTETRA_FIRST_CELL
-/// is a number from 1 to 180, all those of the order with that number. ./dev worlds goes through
-/// them.
+/// is a number from 1 to 180, all those of the order with that number. ./dev campaign worlds goes
+/// through them.
 std::vector<Mesh> worlds_by_first_cell(const WorldKind& kind, std::size_t step) {
     const char* const number = std::getenv("OCTETRA_FIRST_CELL");
     if (number == nullptr) return every(step * stride, kind);
@@ -135,7 +135,7 @@ std::vector<Mesh> some_worlds(const WorldKind& kind) {
 }
 
 /// Some of each kind; or, where OCTETRA_PART_UP_TO_EXCHANGE is a number from 1, all those of the
-/// part with that number. ./dev worlds goes through them.
+/// part with that number. ./dev campaign worlds goes through them.
 TEST(SmallWorlds, OfEightMoreComplexesInEveryOrderOfTheirEdges) {
     const char* const number = std::getenv("OCTETRA_PART_UP_TO_EXCHANGE");
     lead([&] {
@@ -151,7 +151,7 @@ TEST(SmallWorlds, OfEightMoreComplexesInEveryOrderOfTheirEdges) {
     });
 }
 
-/// Which ./dev worlds calls 206 to 261.
+/// Which ./dev campaign worlds calls 206 to 261.
 TEST(SmallWorlds, UpToExchangeAreFiftySixParts) { EXPECT_EQ(parts_up_to_exchange().size(), 56U); }
 
 /// Six cells round an edge, once for each way to cut them between as many ranks.

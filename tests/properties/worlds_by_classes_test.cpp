@@ -96,7 +96,8 @@ TEST(SmallWorlds, OfTheOtherComplexesInAllCombinationsOfClasses) {
 }
 
 /// Each order of each cell among each combination of classes of the others, for the complex whose
-/// number, from 1, is in OCTETRA_COMPLEX, else for a small one. ./dev worlds goes through them.
+/// number, from 1, is in OCTETRA_COMPLEX, else for a small one. ./dev campaign worlds goes through
+/// them.
 TEST(SmallWorlds, OfOneComplexInAllCombinationsOfOrdersAndClasses) {
     const char* const number = std::getenv("OCTETRA_COMPLEX");
     lead([&] {

@@ -1,0 +1,23 @@
+# ./dev bench [--quick] [--peers] [--only CASE...] [--repetitions N] [--list]
+# shellcheck shell=bash
+source "$root/tools/dev/common.sh"
+
+# A full run goes into bench/, to be committed; a quick one says nothing about speed.
+sections=(build bench) peers='' output=bench
+# A mistake is told before minutes of building.
+if command -v python3 >/dev/null; then python3 bench/run --list "$@" >/dev/null || exit 2; fi
+for argument in "$@"; do
+    if [[ $argument == --list ]]; then exec python3 bench/run "$@"; fi
+done
+for argument in "$@"; do
+    case $argument in
+        --peers) sections+=(peers) peers=ON ;;
+        --quick) output=build/bench ;;
+    esac
+done
+need "${sections[@]}"
+configure release release "-DOCTETRA_TESTS=$(on_if_installed test)" -DOCTETRA_BENCH=ON \
+    "-DOCTETRA_PEERS=${peers:-$(on_if_installed peers)}"
+step "build the benchmarks" cmake --build build/release --parallel "$jobs" --target benchmarks
+step "bench" python3 bench/run --build build/release -o "$output" "$@"
+say "The tables: $root/$output/RESULTS.md"

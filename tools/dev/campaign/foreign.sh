@@ -1,0 +1,38 @@
+# ./dev campaign foreign
+# shellcheck shell=bash
+source "$root/tools/dev/common.sh"
+
+# What DOLFINx refines is valid; so is what `tetgen -r` makes, but its new vertices are no midpoints, and it
+# is no refinement by bisection.
+foreign_commands() {
+    local shape levels
+    export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1
+    for shape in "kuhn 3" "fichera" "two-material" "random 500"; do
+        # shellcheck disable=SC2086  # the shape's parameters
+        run octetra generate $shape -o made.mesh
+        # DOLFINx keeps no markers: through its hands the coarse mesh loses them, too.
+        run "$root/tools/refine_with_dolfinx.py" made.mesh dolfinx.mesh 0
+        run octetra convert dolfinx.mesh coarse.mesh --fix-orientation
+        for levels in 1 2; do
+            run "$root/tools/refine_with_dolfinx.py" coarse.mesh dolfinx.mesh "$levels"
+            run octetra convert dolfinx.mesh fine.mesh --fix-orientation
+            run octetra verify coarse.mesh fine.mesh
+        done
+    done
+    run octetra generate gear -o gear.1.ele
+    run tetgen -Qrqa0.0001 gear.1.ele
+    run octetra verify gear.2.ele
+    say "${bold}\$ octetra verify gear.1.ele gear.2.ele$plain"
+    if octetra verify gear.1.ele gear.2.ele; then die "this was to be refused"; fi
+    say "Valid is what is valid, and refused what is not."
+}
+
+if (($# > 0)); then bad_usage "foreign takes no arguments"; fi
+need build foreign
+configure demo release -DOCTETRA_TESTS=OFF -DOCTETRA_BENCH=OFF
+build demo
+PATH=$root/build/demo/cli:$PATH
+hash -r
+mkdir -p build/foreign
+cd build/foreign
+step "foreign meshes" foreign_commands

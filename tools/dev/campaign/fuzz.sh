@@ -1,0 +1,29 @@
+# ./dev campaign fuzz [--minutes M] [--seed S]
+# shellcheck shell=bash
+source "$root/tools/dev/common.sh"
+source "$root/tools/dev/laws.sh"
+
+# fuzz_for MINUTES SEED: rounds of random cases, each with the next seed, on 1 to 4 ranks in turn and now and
+# then on 7, until the time is over or a law is broken.
+fuzz_for() {
+    local end=$((SECONDS + 60 * $1)) seed=$2 round=0 ranks
+    local -r ranks_in_turn=(1 2 3 4 2 3 4 7)
+    try_laws
+    while ((SECONDS < end)); do
+        ranks=${ranks_in_turn[round % 8]}
+        say "${bold}round $((round + 1)): seed $seed, $ranks ranks$plain"
+        RC_PARAMS="seed=$seed max_success=60" tests/support/mpirun.sh "$ranks" \
+            build/release/tests/properties/test_properties --gtest_brief=1 --gtest_filter='*Laws.*' || {
+            shrink_what_died
+            say "A law was broken. What broke it is in corpus/regression/; ./dev test replays it."
+            return 1
+        }
+        ((++round, ++seed))
+    done
+    say "$round rounds, and no law was broken"
+}
+
+minutes=5 seed=$((RANDOM * 32768 + RANDOM + 1))
+take_numbers fuzz "minutes seed" "$@"
+build_laws
+step "fuzz for $minutes minutes" fuzz_for "$minutes" "$seed"

@@ -1,0 +1,93 @@
+# ./dev demo
+# shellcheck shell=bash
+source "$root/tools/dev/common.sh"
+
+# The demo, command by command.
+demo_commands() {
+    run octetra generate gear -o demo/gear.1.ele
+    run octetra convert demo/gear.1.ele demo/gear.vtu
+    run octetra refine demo/gear.1.ele --sphere 1,0,0.15,0.4 --levels 2 -o demo/fine.vtu
+    run octetra refine demo/gear.1.ele --sphere 1,0,0.15,0.4 --levels 2 -o demo/fine.1.ele
+    run octetra info demo/fine.1.ele
+    run octetra verify demo/gear.1.ele demo/fine.1.ele --sphere 1,0,0.15,0.4 --levels 2
+    demo_of_ranks
+    draw_demo
+    report_demo
+    say
+    say "before: $(in_short demo/gear.1.ele)"
+    say "after:  $(in_short demo/fine.1.ele)"
+    say "The files written on 1, 2, 3 and 4 ranks and by the reference have the same bytes."
+    say "For ParaView: $root/demo/gear.vtu and $root/demo/fine.vtu"
+    if [[ -e demo/picture.png ]]; then say "The picture:  $root/demo/picture.png"; fi
+    if [[ -e demo/report/index.html ]]; then say "The report:   $root/demo/report/index.html"; fi
+}
+
+# in_short MESH: what `octetra info` says of it, in one line.
+in_short() {
+    octetra info "$1" | awk '
+        /^  vertices / { vertices = $2 }
+        /^  cells +[0-9]/ { cells = $2 }
+        /^  total volume / { volume = $3 }
+        /^  dihedral angle, / { low = $4; high = $5 }
+        /^  eta / { eta = $6 }
+        END { printf "%s vertices, %s cells, volume %s, dihedral angles %s to %s degrees, mean eta %s\n",
+                     vertices, cells, volume, low, high, eta }'
+}
+
+# The same refinement on 1 to 4 ranks and by the serial reference, compared byte by byte.
+demo_of_ranks() {
+    local ranks extension
+    # What mpirun asks for where it is root, and where there are fewer cores than ranks; and in many
+    # containers the kernel does not let one process copy from another's memory.
+    export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1
+    export OMPI_MCA_rmaps_base_oversubscribe=1 OMPI_MCA_btl_vader_single_copy_mechanism=none
+    run octetra refine demo/gear.1.ele --sphere 1,0,0.15,0.4 --levels 2 --engine reference \
+        -o demo/reference.1.ele
+    for ranks in 1 2 3 4; do
+        run mpirun -n "$ranks" octetra refine demo/gear.1.ele --sphere 1,0,0.15,0.4 --levels 2 \
+            -o "demo/ranks-$ranks.1.ele"
+    done
+    for extension in node ele face edge; do
+        for ranks in 1 2 3 4; do
+            run cmp "demo/ranks-$ranks.1.$extension" "demo/reference.1.$extension"
+        done
+        run cmp "demo/fine.1.$extension" "demo/reference.1.$extension"
+    done
+    say "the same bytes"
+}
+
+# A picture needs VTK and an X server. The demo is good without one.
+draw_demo() {
+    local picture=(tools/render.py demo/gear.vtu demo/fine.vtu -o demo/picture.png --view "1,-0.25,1.2")
+    rm -f demo/picture.png
+    if /usr/bin/python3 -c 'import vtkmodules.vtkRenderingOpenGL2' 2>/dev/null &&
+        { [[ -n ${DISPLAY:-} ]] || command -v Xvfb >/dev/null; }; then
+        say "${bold}\$ ${picture[*]}$plain"
+        if "${picture[@]}"; then return; fi
+        say "There is no picture, for the reason above; the meshes are complete."
+    else
+        say
+        say "For a picture of both meshes as well, install $(packages_of picture | xargs | sed 's/ / and /'),"
+        say "then ./dev demo again."
+    fi
+}
+
+# The report of ./dev equivalence, of a few small meshes.
+report_demo() {
+    rm -rf demo/report
+    if [[ -x /usr/bin/python3 ]]; then
+        run /usr/bin/python3 tools/equivalence --quick -o demo/report
+    else
+        say "For a report as well, install python3, then ./dev demo again."
+    fi
+}
+
+if (($# > 0)); then bad_usage "demo takes no arguments"; fi
+need build
+configure demo release -DOCTETRA_TESTS=OFF -DOCTETRA_BENCH=OFF
+build demo
+check_writable demo
+mkdir -p demo
+PATH=$root/build/demo/cli:$PATH
+hash -r
+step "demo" demo_commands

@@ -11,7 +11,8 @@
 #include "distributed/world.hpp"
 #include "support/manifest.hpp"
 
-/// Every mesh of the corpus, by every scheme, partition and synchronisation, against the reference.
+/// Every mesh of the corpus, by every scheme and partition, against the reference; the
+/// synchronisations take turns.
 namespace octetra::distributed {
 namespace {
 
@@ -50,29 +51,31 @@ Outcome outcome_of(auto&& refine) {
     }
 }
 
-TEST_P(CorpusEquality, ByEverySchemePartitionAndSynchronisation) {
+TEST_P(CorpusEquality, ByEverySchemeAndPartition) {
     const Communicator& world = test::world();
     const std::vector<Selection> selections{{.random = RandomShare{0.15, 4}},
                                             {.cells = {GlobalCell{0}}}};
+    std::vector<std::string> methods{"lepp", "dual", "block", "random:1", "random:2"};
+    if (world.size() == 1) methods.resize(1);  // one rank has all cells, whatever the partition
+    std::size_t turn = 0;
     for (const Selection& selection : selections) {
         for (const Scheme scheme : {Scheme::eight, Scheme::four, Scheme::two}) {
             const Outcome expected =
                 world.is_first()
                     ? outcome_of([&] { return reference::refine(mesh, selection, scheme, levels); })
                     : Outcome{};
-            for (const std::string method : {"lepp", "dual", "block", "random:1", "random:2"}) {
-                const auto parts = partition_cells(mesh, world.size(), parse_partition(method));
-                for (const auto synchronisation :
-                     {Synchronisation::neighbour, Synchronisation::gateway}) {
-                    const Outcome found = outcome_of([&] {
-                        DistributedMesh part = distribute(world, mesh, parts);
-                        refine(part, selection, {scheme, levels, synchronisation});
-                        return collect(std::move(part));
-                    });
-                    if (!world.is_first()) continue;
-                    ASSERT_EQ(found.error, expected.error) << method;
-                    ASSERT_TRUE(found == expected) << method;
-                }
+            for (const std::string& method : methods) {
+                const auto synchronisation =
+                    turn++ % 2 == 0 ? Synchronisation::neighbour : Synchronisation::gateway;
+                const Outcome found = outcome_of([&] {
+                    DistributedMesh part = distribute(
+                        world, mesh, partition_cells(mesh, world.size(), parse_partition(method)));
+                    refine(part, selection, {scheme, levels, synchronisation});
+                    return collect(std::move(part));
+                });
+                if (!world.is_first()) continue;
+                ASSERT_EQ(found.error, expected.error) << method;
+                ASSERT_TRUE(found == expected) << method;
             }
         }
     }

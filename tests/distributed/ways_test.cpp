@@ -49,6 +49,11 @@ const std::vector<Partition> partitions{
     {.method = PartitionMethod::random, .seed = 1},
 };
 
+/// One rank has all cells, whatever the partition.
+std::vector<Partition> partitions_that_differ() {
+    return test::world().size() == 1 ? std::vector{partitions.front()} : partitions;
+}
+
 class LevelKinds : public testing::TestWithParam<std::tuple<Scheme, Synchronisation, Kinds>> {
 protected:
     const Scheme scheme = std::get<0>(GetParam());
@@ -56,13 +61,14 @@ protected:
     const Kinds kinds = std::get<2>(GetParam());
 
     void expect_equal(const Mesh& mesh, const std::vector<Selection>& selections) const {
-        for (const Partition& partition : partitions) {
-            for (const Selection& selection : selections) {
+        for (const Selection& selection : selections) {
+            const auto expected = test::world().is_first()
+                                      ? reference::refine(mesh, selection, scheme, 3)
+                                      : reference::Refinement{};
+            for (const Partition& partition : partitions_that_differ()) {
                 DistributedMesh part = shared_out(mesh, partition);
                 (void)refine(part, selection, {scheme, 3, synchronisation}, tuning_of(kinds, 0));
                 const Collected whole = collect(std::move(part));
-                if (!test::world().is_first()) continue;
-                const auto expected = reference::refine(mesh, selection, scheme, 3);
                 EXPECT_TRUE(whole.mesh == expected.mesh);
                 EXPECT_TRUE(whole.maps == expected.maps);
             }
@@ -130,7 +136,7 @@ TEST_P(LevelKinds, RefuseRoundingInTheSameWords) {
     const Selection selection{.random = RandomShare{0.5, 2}};
     const std::string expected =
         test::thrown_by<InputError>([&] { (void)reference::refine(mesh, selection, scheme, 6); });
-    for (const Partition& partition : partitions) {
+    for (const Partition& partition : partitions_that_differ()) {
         DistributedMesh part = shared_out(mesh, partition);
         EXPECT_EQ(
             test::thrown_by<InputError>([&] {

@@ -128,8 +128,9 @@ TEST_P(Markdown, TestsExist) {
 
 std::vector<std::string> all_pages() {
     std::vector<std::string> names = user_pages();
-    names.insert(names.end(), {"ARCHITECTURE.md", "TESTING.md", "CONTRIBUTING.md", "CHANGELOG.md",
-                               "corpus/README.md", "bench/README.md"});
+    names.insert(names.end(),
+                 {"ARCHITECTURE.md", "TESTING.md", "CONTRIBUTING.md", "CHANGELOG.md",
+                  "corpus/README.md", "bench/README.md", "tests/properties/README.md"});
     return names;
 }
 

@@ -83,8 +83,7 @@ def of_what(made):
     words = ("Small meshes, to see that all runs; targets are for large ones. " if made["quick"]
              else "")
     return (f"{words}{runs}; seconds by the wall clock unless it says "
-            "processor. What each group means: [README.md](README.md); every raw time: "
-            "`results.json`.")
+            "processor. What each group means: [README.md](README.md).")
 
 
 def results(made):

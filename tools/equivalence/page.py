@@ -175,9 +175,8 @@ def balance_section(cases):
     if not shown:
         return ""
     blocks = [balance_figures(case) for case in shown]
-    return ("<h2>Cells of each rank</h2><p>The partition shares the cells out evenly before; what "
-            "is refined stays with the rank that had it, so where refinement is local, one rank "
-            "gets most of the work.</p>"
+    return ("<h2>Cells of each rank</h2><p>Parts are cut before refinement, so that ranks are about "
+            "even in what their cells are expected to become; no cell moves later.</p>"
             + legend([("before", "before"), ("after", "after")])
             + "".join(blocks[:1]) + (details(f"{plural(len(blocks) - 1, 'more case')}",
                                              "".join(blocks[1:])) if len(blocks) > 1 else ""))

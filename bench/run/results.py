@@ -1,6 +1,6 @@
 """RESULTS.md: the figures as tables."""
 
-from words import plural, size
+from machine import is_busy, known
 
 
 def number(value):
@@ -59,17 +59,11 @@ def busy(load):
 
 
 def where(machine):
-    memory = size(machine["memory_bytes"]) + " of memory" if machine["memory_bytes"] else None
-    known = [machine["date"], f"commit {machine['commit']}" if machine["commit"] else None,
-             plural(machine["cores"], "core") + " of " + machine["processor"], memory,
-             machine["system"], machine["compiler"],
-             machine["build"] and machine["build"] + " build", machine["mpi"],
-             busy(machine['load']) + " when it began"]
-    return ", ".join(word for word in known if word) + "."
+    return ", ".join([*known(machine), busy(machine["load"]) + " when it began"]) + "."
 
 
 def loud(machine):
-    if machine["load"] < 0.5 * machine["cores"]:
+    if not is_busy(machine):
         return []
     return ["**Other programs ran at the same time**, so seconds are no measure.", ""]
 

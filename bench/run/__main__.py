@@ -1,6 +1,6 @@
 #!/usr/bin/python3
-"""Runs the benchmarks and writes what they measured: results.json, with every raw time, and
-RESULTS.md, one table for each group, with targets and whether they are met.
+"""Runs the benchmarks and writes what they measured: RESULTS.md, one table for each group, with
+targets and whether they are met, and results.json, the same for programs.
 
     python3 bench/run --build build/release -o bench
 
@@ -101,7 +101,7 @@ def make_results(options):
     old = kept.load(os.path.join(options.output, "results.json"))
     with tempfile.TemporaryDirectory(prefix="bench-") as folder:
         for measured in measured_groups(options, Place(os.path.abspath(options.build), folder)):
-            made = {"format": "octetra bench", "version": 1, "quick": options.quick,
+            made = {"format": "octetra bench", "version": 2, "quick": options.quick,
                     "machine": machine, "seconds": time.monotonic() - begin, "groups": measured}
             made = kept.with_old(made, old, groups.NAMES)
             write(options.output, "results.json", json.dumps(made, indent=1) + "\n")

@@ -129,13 +129,14 @@ def driver(name, program, arguments, ranks=1, mesh=None, patience=None):
 
 
 def measure(case, place, repetitions):
-    """The case with every raw line, and the figures that follow from them."""
+    """The case: how it was run how often, and the figures that follow. What the runs printed is not
+    kept: the figures have its medians, least and most."""
     lines = {run.name: [] for run in case.runs}
     for _ in range(case.multiple * repetitions):
         for one in case.runs:
             lines[one.name].append(one.line(place))
     return {"name": case.name,
-            "runs": [{"name": one.name, "command": one.command, "lines": lines[one.name]}
+            "runs": [{"name": one.name, "command": one.command, "times": len(lines[one.name])}
                      for one in case.runs],
             "figures": [figure.as_dict() for figure in case.figures(lines)],
             "points": case.points(lines), "wrong": case.wrong(lines)}

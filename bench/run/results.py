@@ -1,6 +1,6 @@
 """RESULTS.md: the figures as tables."""
 
-from words import plural, size
+from machine import is_busy, known
 
 
 def number(value):
@@ -59,17 +59,11 @@ def busy(load):
 
 
 def where(machine):
-    memory = size(machine["memory_bytes"]) + " of memory" if machine["memory_bytes"] else None
-    known = [machine["date"], f"commit {machine['commit']}" if machine["commit"] else None,
-             plural(machine["cores"], "core") + " of " + machine["processor"], memory,
-             machine["system"], machine["compiler"],
-             machine["build"] and machine["build"] + " build", machine["mpi"],
-             busy(machine['load']) + " when it began"]
-    return ", ".join(word for word in known if word) + "."
+    return ", ".join([*known(machine), busy(machine["load"]) + " when it began"]) + "."
 
 
 def loud(machine):
-    if machine["load"] < 0.5 * machine["cores"]:
+    if not is_busy(machine):
         return []
     return ["**Other programs ran at the same time**, so seconds are no measure.", ""]
 
@@ -83,8 +77,7 @@ def of_what(made):
     words = ("Small meshes, to see that all runs; targets are for large ones. " if made["quick"]
              else "")
     return (f"{words}{runs}; seconds by the wall clock unless it says "
-            "processor. What each group means: [README.md](README.md); every raw time: "
-            "`results.json`.")
+            "processor. What each group means: [README.md](README.md).")
 
 
 def results(made):

@@ -88,7 +88,7 @@ class Figures(unittest.TestCase):
         made = measure(case, None, 3)
         self.assertEqual(order, ["a", "b"] * 3)
         self.assertEqual([figure["value"] for figure in made["figures"]], [3, 2])
-        self.assertEqual([len(run["lines"]) for run in made["runs"]], [3, 3])
+        self.assertEqual([run["times"] for run in made["runs"]], [3, 3])
 
     def test_of_one_against_another_compare_what_ran_in_the_same_turn(self):
         # Twice as fast throughout, while the machine was slow for the one in its second turn, and
@@ -100,7 +100,7 @@ class Figures(unittest.TestCase):
 
     def test_of_short_runs_come_from_more_of_them(self):
         case = Case("short", [Run("a", lambda _: {})], lambda lines: [], multiple=3)
-        self.assertEqual(len(measure(case, None, 5)["runs"][0]["lines"]), 15)
+        self.assertEqual(measure(case, None, 5)["runs"][0]["times"], 15)
 
     def test_say_how_far_runs_lie_apart(self):
         lines = [{"s": value} for value in (3, 1, 8)]
@@ -145,7 +145,7 @@ def made(commit="abc", quick=False, date="now", names=("growth",), value=1.0):
     case = {"name": "a case", "runs": [], "figures": [figure], "points": [], "wrong": []}
     machine = {key: "x" for key in WHAT_COUNTS} | {"commit": commit, "date": date, "load": 0.1,
                                                  "cores": 2, "memory_bytes": 8e9}
-    return {"format": "octetra bench", "version": 1, "quick": quick, "machine": machine,
+    return {"format": "octetra bench", "version": 2, "quick": quick, "machine": machine,
             "groups": [{"name": name, "about": "", "repetitions": 5, "cases": [case]}
                        for name in names]}
 

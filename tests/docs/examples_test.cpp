@@ -9,12 +9,12 @@
 #include "docs/pages.hpp"
 #include "support/run_program.hpp"
 
-/// The examples of README.md work when pasted, and print what the page says they print.
+/// The examples of README.md and docs/ work when pasted, and print what the page says they print.
 ///
 /// A block ```console holds commands behind "$ " and below each what it prints, where a line "..."
 /// stands for any lines left out. A block ```sh whose first line begins with "octetra " holds
-/// commands alone. All run in one folder, in the order of the page; `mpirun -n N` as
-/// tests/support/mpirun.sh runs it.
+/// commands alone. Those of a page run in a folder of its own, in the order of the page;
+/// `mpirun -n N` as tests/support/mpirun.sh runs it.
 namespace octetra::test {
 namespace {
 
@@ -88,22 +88,33 @@ void expect_printed(const Example& example, const std::string& output) {
         << "lines after the last one shown: " << *next;
 }
 
-TEST(Readme, ExamplesWorkAndPrintWhatThePageSays) {
+class Examples : public testing::TestWithParam<std::string> {};
+
+TEST_P(Examples, WorkAndPrintWhatThePageSays) {
     if (!generator::has_tetgen()) GTEST_SKIP() << "the examples begin with a mesh by TetGen";
     const TemporaryFolder folder;
     const std::string path =
         "PATH=" + std::filesystem::path(OCTETRA_PROGRAM).parent_path().string() + ":$PATH\n";
-    const auto examples = examples_of("README.md");
-    EXPECT_GE(examples.size(), 8U) << "the examples were not found";
-    for (const Example& example : examples) {
-        SCOPED_TRACE("README.md, block on line " + std::to_string(example.line) + ": " +
+    for (const Example& example : examples_of(GetParam())) {
+        SCOPED_TRACE(GetParam() + ", block on line " + std::to_string(example.line) + ": " +
                      example.command);
         const Outcome run = run_program(
-            {"/bin/sh", "-ec", path + runnable(example.command) + " 2>&1"}, folder.path());
+            {"/bin/sh", "-ec", "exec 2>&1\n" + path + runnable(example.command)}, folder.path());
         ASSERT_EQ(run.status, 0) << run.out;
         if (!example.printed.empty()) expect_printed(example, run.out);
     }
 }
+
+std::vector<std::string> pages_with_examples() {
+    std::vector<std::string> names = user_pages();
+    std::erase_if(names, [](const std::string& name) { return examples_of(name).empty(); });
+    return names;
+}
+
+INSTANTIATE_TEST_SUITE_P(, Examples, testing::ValuesIn(pages_with_examples()),
+                         [](const auto& test_case) { return name_of_test(test_case.param); });
+
+TEST(Readme, HasAtLeastFiveExamples) { EXPECT_GE(examples_of("README.md").size(), 5U); }
 
 }  // namespace
 }  // namespace octetra::test

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <algorithm>
+#include <cctype>
 #include <filesystem>
 #include <sstream>
 #include <string>
@@ -40,6 +42,25 @@ inline Page page(const std::string& name) {
         }
     }
     return result;
+}
+
+/// README.md and what stands in docs/: the pages whose examples are run.
+inline std::vector<std::string> user_pages() {
+    std::vector<std::string> names{"README.md"};
+    for (const auto& entry : std::filesystem::directory_iterator(repository / "docs")) {
+        if (entry.path().extension() == ".md") {
+            names.push_back("docs/" + entry.path().filename().string());
+        }
+    }
+    std::ranges::sort(names);
+    return names;
+}
+
+/// A page's name as that of a test: letters, digits and underlines.
+inline std::string name_of_test(std::string page_name) {
+    std::ranges::replace_if(
+        page_name, [](unsigned char c) { return std::isalnum(c) == 0; }, '_');
+    return page_name;
 }
 
 }  // namespace octetra::test

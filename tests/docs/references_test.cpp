@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cctype>
 #include <regex>
 
 #include <gmock/gmock.h>
@@ -39,6 +40,44 @@ TEST_P(Markdown, LinksLeadSomewhere) {
         for (const std::string& target : matches(line, R"(\]\(([^)#\s]+)[^)]*\))")) {
             if (target.starts_with("http")) continue;
             EXPECT_TRUE(std::filesystem::exists(repository / folder / target))
+                << GetParam() << " links to " << target;
+        }
+    }
+}
+
+/// What GitHub makes of a heading: lower case, blanks to hyphens, no other marks.
+std::string anchor_of(const std::string& heading) {
+    std::string anchor;
+    for (const char c : heading) {
+        if (std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '-' || c == '_') {
+            anchor += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+        } else if (c == ' ') {
+            anchor += '-';
+        }
+    }
+    return anchor;
+}
+
+std::vector<std::string> anchors_of(const std::string& page_name) {
+    std::vector<std::string> anchors;
+    for (const std::string& line : page(page_name).prose) {
+        const auto text = line.find_first_not_of('#');
+        if (line.starts_with('#') && text != std::string::npos) {
+            anchors.push_back(anchor_of(line.substr(text + 1)));
+        }
+    }
+    return anchors;
+}
+
+TEST_P(Markdown, LinksIntoPagesLeadToTheirHeadings) {
+    const std::filesystem::path folder = std::filesystem::path(GetParam()).parent_path();
+    for (const std::string& line : page(GetParam()).prose) {
+        for (const std::string& target : matches(line, R"(\]\(((?!http)[^)\s]*#[^)\s]+)\))")) {
+            const auto hash = target.find('#');
+            const std::string other = target.substr(0, hash);
+            const std::string linked =
+                other.empty() ? GetParam() : (folder / other).lexically_normal().string();
+            EXPECT_THAT(anchors_of(linked), testing::Contains(target.substr(hash + 1)))
                 << GetParam() << " links to " << target;
         }
     }
@@ -87,15 +126,16 @@ TEST_P(Markdown, TestsExist) {
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(, Markdown,
-                         testing::Values("README.md", "ARCHITECTURE.md", "TESTING.md",
-                                         "corpus/README.md", "bench/README.md"),
-                         [](const auto& test_case) {
-                             std::string name = test_case.param;
-                             std::ranges::replace_if(
-                                 name, [](unsigned char c) { return std::isalnum(c) == 0; }, '_');
-                             return name;
-                         });
+std::vector<std::string> all_pages() {
+    std::vector<std::string> names = user_pages();
+    names.insert(names.end(),
+                 {"ARCHITECTURE.md", "TESTING.md", "CONTRIBUTING.md", "CHANGELOG.md",
+                  "corpus/README.md", "bench/README.md", "tests/properties/README.md"});
+    return names;
+}
+
+INSTANTIATE_TEST_SUITE_P(, Markdown, testing::ValuesIn(all_pages()),
+                         [](const auto& test_case) { return name_of_test(test_case.param); });
 
 }  // namespace
 }  // namespace octetra::test

@@ -5,8 +5,7 @@ import os
 from html import escape
 
 import bench_plots as plots
-from machine import ROOT
-from words import plural
+from machine import ROOT, is_busy, known
 
 RESULTS = os.path.join(ROOT, "bench", "results.json")
 
@@ -52,26 +51,14 @@ def figures(results):
                    "</figure>")
 
 
-def where(results):
-    machine = results["machine"]
-    known = [machine["date"], f"commit {machine['commit']}" if machine["commit"] else None,
-             plural(machine["cores"], "core") + " of " + machine["processor"], machine["compiler"],
-             machine["mpi"]]
-    return " · ".join(word for word in known if word)
-
-
-def loud(machine):
-    if machine["load"] < 0.5 * machine["cores"]:
-        return ""
-    return " Other programs ran at the same time, so seconds are no measure."
-
-
 def section(results):
     """HTML; nothing where nothing was measured."""
     drawn = "".join(figures(results)) if results else ""
     if not drawn:
         return ""
+    machine = results["machine"]
+    loud = " Other programs ran at the same time, so seconds are no measure."
     return ("<h2>How cost grows</h2><p>Not measured with this report, but by "
-            f"<code>./dev bench</code>: {escape(where(results))}."
-            f"{loud(results['machine'])}</p>"
+            f"<code>./dev bench</code>: {escape(' · '.join(known(machine)))}."
+            f"{loud if is_busy(machine) else ''}</p>"
             f'<div class="plots">{drawn}</div>')

@@ -7,6 +7,8 @@ import re
 import subprocess
 import time
 
+from words import plural, size
+
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 
 
@@ -65,3 +67,18 @@ def describe(octetra):
         "date": datetime.datetime.now(datetime.timezone.utc).strftime("%Y-%m-%d %H:%M UTC"),
         "load": busy_cores(),
     }
+
+
+def known(machine):
+    """What is known of it, in words: when, which commit, where, built by what."""
+    told = [machine["date"], f"commit {machine['commit']}" if machine["commit"] else None,
+            plural(machine["cores"], "core") + " of " + machine["processor"],
+            size(machine["memory_bytes"]) + " of memory" if machine.get("memory_bytes") else None,
+            machine.get("system"), machine.get("compiler"),
+            f"{machine['build']} build" if machine.get("build") else None, machine["mpi"]]
+    return [words for words in told if words]
+
+
+def is_busy(machine):
+    """Did other programs keep so many cores busy that seconds are no measure?"""
+    return machine["load"] >= 0.5 * machine["cores"]

@@ -1,5 +1,6 @@
 """The report's tables as Markdown."""
 
+from machine import known
 from page import answer
 from summary import paper_rows, totals
 from tables import growth, own_counts, counts, time_of
@@ -39,8 +40,8 @@ def paper_line(case, before, after):
 def markdown(report):
     machine, cases = report["machine"], report["cases"]
     lines = ["# Equivalence report", "", answer(totals(cases))[1], "",
-             f"{machine['date']}, commit {machine['commit']}, {machine['cores']} cores of "
-             f"{machine['processor']}, {machine['load']:.1f} cores busy with other work when it began.", "",
+             ", ".join(known(machine)) + f", {machine['load']:.1f} cores busy with other work "
+             "when it began.", "",
              "| case | cells before | after | same bytes | exact verification "
              "| rounds / messages, neighbour, 4 ranks | gateway | reference | 1 rank | 2 ranks |",
              "|---|---:|---:|---:|---|---:|---:|---:|---:|---:|",

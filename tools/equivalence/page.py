@@ -8,6 +8,7 @@ from html import escape
 import bench_section
 import plots
 from charts import legend
+from machine import is_busy, known
 from summary import paper_rows, run_of, totals
 from tables import (cases_table, checks_table, files_table, paper_table, runs_table,
                     where_run)
@@ -53,18 +54,13 @@ def verdict(total):
 
 
 def where(report):
-    machine = report["machine"]
-    cores = plural(machine["cores"], "core") + " of " + machine["processor"]
-    memory = size(machine["memory_bytes"]) + " of memory" if machine["memory_bytes"] else None
-    commit = f"commit {machine['commit']}" if machine["commit"] else None
-    known = [machine["date"], machine["octetra"], commit, cores, memory, machine["system"],
-             machine["mpi"]]
-    return f'<p class="faint">{escape(" · ".join(word for word in known if word))}</p>'
+    told = [*known(report["machine"]), report["machine"]["octetra"]]
+    return f'<p class="faint">{escape(" · ".join(word for word in told if word))}</p>'
 
 
 def load_notice(machine):
     """Times that were taken beside other work mislead, so they are not shown without a word."""
-    if machine["load"] < 0.5 * machine["cores"]:
+    if not is_busy(machine):
         return ""
     return (f'<p class="notice"><b>Times on this page are no measure.</b> When the report began, '
             f"other programs kept {machine['load']:.1f} of {plural(machine['cores'], 'core')} busy. "
@@ -175,9 +171,8 @@ def balance_section(cases):
     if not shown:
         return ""
     blocks = [balance_figures(case) for case in shown]
-    return ("<h2>Cells of each rank</h2><p>The partition shares the cells out evenly before; what "
-            "is refined stays with the rank that had it, so where refinement is local, one rank "
-            "gets most of the work.</p>"
+    return ("<h2>Cells of each rank</h2><p>Parts are cut before refinement, so that ranks are about "
+            "even in what their cells are expected to become; no cell moves later.</p>"
             + legend([("before", "before"), ("after", "after")])
             + "".join(blocks[:1]) + (details(f"{plural(len(blocks) - 1, 'more case')}",
                                              "".join(blocks[1:])) if len(blocks) > 1 else ""))

@@ -18,7 +18,7 @@ struct Judged {
 /// A summary on stdout: checks, what is wrong (the first few of each kind), facts, the answer.
 void print_verdict(const verify::Verdict& verdict, const Judged& judged);
 
-/// The whole as JSON, in the schema that README.md describes.
+/// The whole as JSON, in the schema that docs/verify.md describes.
 [[nodiscard]] std::string format_json(const verify::Verdict& verdict, const Judged& judged);
 
 /// The first differences and the answer, on stdout.

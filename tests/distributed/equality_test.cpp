@@ -51,6 +51,10 @@ void expect_equal(const Mesh& mesh, const Selection& selection, const RefineOpti
                               : reference::Refinement{};
     for (const Partition& partition : by) {
         const Collected whole = refined(mesh, selection, options, partition);
+        if (!test::world().is_first()) {
+            EXPECT_EQ(whole.mesh.points.size(), 0U);
+            continue;
+        }
         EXPECT_TRUE(whole.mesh == expected.mesh);
         EXPECT_TRUE(whole.maps == expected.maps);
     }

@@ -69,6 +69,7 @@ protected:
                 DistributedMesh part = shared_out(mesh, partition);
                 (void)refine(part, selection, {scheme, 3, synchronisation}, tuning_of(kinds, 0));
                 const Collected whole = collect(std::move(part));
+                if (!test::world().is_first()) continue;
                 EXPECT_TRUE(whole.mesh == expected.mesh);
                 EXPECT_TRUE(whole.maps == expected.maps);
             }

@@ -10,7 +10,7 @@
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
-#include <octetra/core/files.hpp>
+#include <octetra/core/files/mesh_files.hpp>
 #include <octetra/distributed/partition.hpp>
 #include <octetra/distributed/profile.hpp>
 #include <octetra/distributed/refine.hpp>

@@ -8,9 +8,9 @@
 #include <gtest/gtest.h>
 
 #include <octetra/core/error.hpp>
-#include <octetra/core/files.hpp>
+#include <octetra/core/files/mesh_files.hpp>
 
-#include "files/repeated_cells.hpp"
+#include "files/checks/repeated_cells.hpp"
 #include "support/meshes.hpp"
 #include "support/temporary_folder.hpp"
 #include "support/thrown.hpp"

@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <octetra/core/error.hpp>
-#include <octetra/core/files.hpp>
+#include <octetra/core/files/maps_files.hpp>
 #include <octetra/core/maps.hpp>
 
 #include "support/temporary_folder.hpp"

@@ -4,7 +4,8 @@
 
 #include <gtest/gtest.h>
 
-#include <octetra/core/files.hpp>
+#include <octetra/core/files/maps_files.hpp>
+#include <octetra/core/files/mesh_files.hpp>
 #include <octetra/core/maps.hpp>
 
 #include "support/bits.hpp"

@@ -12,7 +12,8 @@
 #include <gtest/gtest.h>
 
 #include <octetra/core/error.hpp>
-#include <octetra/core/files.hpp>
+#include <octetra/core/files/lists.hpp>
+#include <octetra/core/files/mesh_files.hpp>
 
 #include "support/temporary_folder.hpp"
 #include "support/thrown.hpp"

@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include <octetra/core/error.hpp>
-#include <octetra/core/files.hpp>
+#include <octetra/core/files/mesh_files.hpp>
 #include <octetra/core/orientation.hpp>
 #include <octetra/reference/refine.hpp>
 #include <octetra/verify/verify.hpp>

@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
-#include <octetra/core/files.hpp>
+#include <octetra/core/files/maps_files.hpp>
+#include <octetra/core/files/mesh_files.hpp>
 #include <octetra/distributed/canonical_mesh.hpp>
 #include <octetra/distributed/partition.hpp>
 #include <octetra/distributed/refine.hpp>

@@ -5,7 +5,8 @@
 #include <fmt/format.h>
 
 #include <octetra/core/error.hpp>
-#include <octetra/core/files.hpp>
+#include <octetra/core/files/lists.hpp>
+#include <octetra/core/files/maps_files.hpp>
 #include <octetra/core/maps.hpp>
 #include <octetra/distributed/partition.hpp>
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include <octetra/core/error.hpp>
-#include <octetra/core/files.hpp>
+#include <octetra/core/files/mesh_files.hpp>
 
 #include "fuzz/check_readers.hpp"
 #include "support/bits.hpp"

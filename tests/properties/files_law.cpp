@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <array>
 
-#include <octetra/core/files.hpp>
+#include <octetra/core/files/mesh_files.hpp>
 
 #include "properties/draw.hpp"
 #include "properties/laws.hpp"

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include <octetra/core/files.hpp>
+#include <octetra/core/files/mesh_files.hpp>
 #include <octetra/reference/refine.hpp>
 
 #include "support/conformity.hpp"

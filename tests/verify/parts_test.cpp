@@ -5,7 +5,8 @@
 #include <gtest/gtest.h>
 
 #include <octetra/core/error.hpp>
-#include <octetra/core/files.hpp>
+#include <octetra/core/files/lists.hpp>
+#include <octetra/core/files/mesh_files.hpp>
 #include <octetra/reference/refine.hpp>
 
 #include "parts/cut_space.hpp"

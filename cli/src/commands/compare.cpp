@@ -3,7 +3,7 @@
 
 #include <CLI/CLI.hpp>
 
-#include <octetra/core/files.hpp>
+#include <octetra/core/files/mesh_files.hpp>
 #include <octetra/distributed/communicator.hpp>
 #include <octetra/verify/compare.hpp>
 

@@ -7,7 +7,7 @@
 #include <CLI/CLI.hpp>
 
 #include <octetra/core/error.hpp>
-#include <octetra/core/files.hpp>
+#include <octetra/core/files/lists.hpp>
 #include <octetra/distributed/communicator.hpp>
 #include <octetra/distributed/partition.hpp>
 #include <octetra/distributed/predicted_cells.hpp>

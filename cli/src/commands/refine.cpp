@@ -15,7 +15,9 @@
 #include <CLI/CLI.hpp>
 
 #include <octetra/core/error.hpp>
-#include <octetra/core/files.hpp>
+#include <octetra/core/files/maps_files.hpp>
+#include <octetra/core/files/mesh_files.hpp>
+#include <octetra/core/files/places.hpp>
 #include <octetra/core/mesh_source.hpp>
 #include <octetra/distributed/canonical_mesh.hpp>
 #include <octetra/distributed/communicator.hpp>

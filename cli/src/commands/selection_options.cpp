@@ -6,7 +6,7 @@
 #include <CLI/CLI.hpp>
 
 #include <octetra/core/error.hpp>
-#include <octetra/core/files.hpp>
+#include <octetra/core/files/lists.hpp>
 
 #include "commands/mesh_options.hpp"
 #include "commands/number_options.hpp"

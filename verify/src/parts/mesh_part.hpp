@@ -6,7 +6,7 @@
 #include <octetra/core/process_group.hpp>
 #include <octetra/verify/mesh_slice.hpp>
 
-#include "box_tree.hpp"
+#include "lookup/box_tree.hpp"
 #include "parts/domain.hpp"
 #include "parts/numbers.hpp"
 

@@ -4,8 +4,8 @@
 #include <string>
 
 #include <octetra/core/error.hpp>
-#include <octetra/core/files.hpp>
-#include <octetra/core/mesh_sink.hpp>
+#include <octetra/core/files/mesh_files.hpp>
+#include <octetra/core/files/mesh_sink.hpp>
 #include <octetra/verify/mesh_slice.hpp>
 
 #include "parts/exchange.hpp"

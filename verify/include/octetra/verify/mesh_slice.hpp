@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <filesystem>
 
-#include <octetra/core/files.hpp>
+#include <octetra/core/files/mesh_files.hpp>
 #include <octetra/core/mesh.hpp>
 #include <octetra/core/mesh_source.hpp>
 #include <octetra/core/process_group.hpp>

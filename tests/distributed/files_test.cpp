@@ -139,7 +139,7 @@ TEST_P(FilesOfAllRanks, AreTheReferencesOfAMeshWithEverythingMarked) {
                        {.random = RandomShare{0.1, 3}}, 2);
 }
 
-TEST_P(FilesOfAllRanks, AreTheReferencesWhereNothingWasChosen) {
+TEST_P(FilesOfAllRanks, AreTheReferencesWhereNothingWasMarked) {
     expect_equal_files(test::kuhn(1, 1, 1), {.regions = {7}}, 1);
 }
 

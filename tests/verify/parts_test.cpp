@@ -184,7 +184,7 @@ TEST(Slices, OfAFileAreThoseOfItsMesh) {
             test::run_together(size, [&](const ProcessGroup& group) {
                 const MeshSlice read = verify::read_slice(path, {}, group);
                 MeshSlice expected = verify::share_out(mesh, group);
-                expected.lists.first_number = read.lists.first_number;
+                expected.lists.index_base = read.lists.index_base;
                 EXPECT_EQ(read.lists, expected.lists) << name;
                 EXPECT_EQ(read.totals.cells, mesh.cells.size());
             });

@@ -14,7 +14,8 @@
 
 #include "exact/measures.hpp"
 #include "measures/sums.hpp"
-#include "refinement/descent.hpp"
+#include "mesh/checks.hpp"
+#include "refinement/checks.hpp"
 #include "support/manifest.hpp"
 #include "support/meshes.hpp"
 #include "verify/mutations.hpp"

@@ -12,7 +12,7 @@ namespace {
 void judge(JudgedMesh& judged, const VerifyOptions& options, Findings& findings) {
     judged.keeps_cells = false;
     findings.run("well-formed", [&] { return check_well_formed(judged, findings); });
-    findings.run("markers", [&] { return check_listed_markers(judged, findings); });
+    findings.run("markers", [&] { return check_tagged_markers(judged, findings); });
     const bool no_coincidence =
         findings.run("vertices", [&] { return check_vertices(judged, {}, findings); });
     const bool oriented =

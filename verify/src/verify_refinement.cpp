@@ -133,7 +133,7 @@ private:
     bool judge_coarse() {
         return findings_.run("coarse mesh", [&] {
             (void)check_well_formed(coarse_, findings_);
-            (void)check_listed_markers(coarse_, findings_);
+            (void)check_tagged_markers(coarse_, findings_);
             (void)check_orientation(coarse_, findings_);
             (void)check_faces(coarse_, findings_);
             const Facts none;

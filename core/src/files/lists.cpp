@@ -10,18 +10,18 @@
 
 namespace octetra {
 
-std::vector<GlobalCell> read_cell_list(const std::filesystem::path& path,
-                                       std::uint32_t first_number, std::size_t cell_count) {
+std::vector<GlobalCell> read_cell_list(const std::filesystem::path& path, std::uint32_t index_base,
+                                       std::size_t cell_count) {
     LineReader reader(path);
     std::vector<GlobalCell> cells;
     while (reader.next()) {
         Fields fields(reader);
         while (!fields.at_end()) {
             const std::uint64_t number = fields.unsigned_integer("a cell number");
-            const std::uint64_t index = number - first_number;  // wraps round below first_number
+            const std::uint64_t index = number - index_base;  // wraps round below index_base
             if (index >= cell_count) {
                 reader.fail(fmt::format("there is no cell {}: the {} cells are numbered from {}",
-                                        number, cell_count, first_number));
+                                        number, cell_count, index_base));
             }
             cells.push_back(GlobalCell{index});
         }

@@ -150,7 +150,7 @@ void Findings::call_as_in_whole(Entity& entity) const {
         case Entity::Kind::vertex: entity.number = called.vertices.of(entity.number); break;
         case Entity::Kind::cell: entity.number = called.cells.of(entity.number); break;
         case Entity::Kind::facet: entity.number = called.facets.of(entity.number); break;
-        case Entity::Kind::listed_edge: entity.number = called.edges.of(entity.number); break;
+        case Entity::Kind::tagged_edge: entity.number = called.edges.of(entity.number); break;
         default: break;  // named by their vertices
     }
 }

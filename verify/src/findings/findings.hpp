@@ -112,13 +112,13 @@ public:
     Steps(const Findings& findings, std::uint64_t total) : findings_(&findings), total_(total) {}
 
     void operator()() {
-        if (++done_ % told != 0) return;
+        if (++done_ % steps_per_report != 0) return;
         findings_->tell_progress(
             done_ < total_ ? static_cast<double>(done_) / static_cast<double>(total_) : 1);
     }
 
 private:
-    static constexpr std::uint64_t told = 1024;  ///< one of so many
+    static constexpr std::uint64_t steps_per_report = 1024;
 
     const Findings* findings_;
     std::uint64_t total_;
@@ -141,7 +141,7 @@ private:
     return entity(Entity::Kind::facet, f.value(), mesh);
 }
 [[nodiscard]] inline Entity entity(EdgeIndex e, Which mesh = Which::fine) {
-    return entity(Entity::Kind::listed_edge, e.value(), mesh);
+    return entity(Entity::Kind::tagged_edge, e.value(), mesh);
 }
 [[nodiscard]] inline Entity entity(const FacetVertices& face, Which mesh = Which::fine) {
     return {Entity::Kind::face, mesh, 0, {face.begin(), face.end()}};

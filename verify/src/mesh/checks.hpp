@@ -21,11 +21,11 @@ std::string check_slice_ranges(const MeshSlice& slice, Which which, Findings& fi
 std::string check_ranges(const Mesh& mesh, std::uint64_t vertex_count, Which which,
                          Findings& findings);
 
-/// Repeated vertices and cells; listed facets and edges of no cell. Fills all but `sign`.
+/// Repeated vertices and cells; tagged facets and edges of no cell. Fills all but `sign`.
 std::string check_well_formed(JudgedMesh& judged, Findings& findings);
 
 /// No facet or edge listed twice with different markers.
-std::string check_listed_markers(const JudgedMesh& judged, Findings& findings);
+std::string check_tagged_markers(const JudgedMesh& judged, Findings& findings);
 
 /// Unused and coincident vertices, except those of which tolerated(v) holds.
 std::string check_vertices(const JudgedMesh& judged, const std::vector<char>& tolerated,

@@ -43,9 +43,9 @@ void check_length(std::string_view what, std::size_t length, std::size_t expecte
     });
 }
 
-/// Listed facets or edges: different vertices, of some cell.
+/// Tagged facets or edges: different vertices, of some cell.
 template <class I, std::size_t N, class OfCells>
-void check_listed(const IndexVector<I, std::array<VertexIndex, N>>& list, const OfCells& of_cells,
+void check_tagged(const IndexVector<I, std::array<VertexIndex, N>>& list, const OfCells& of_cells,
                   Code stray, const JudgedMesh& judged, Findings& findings) {
     const Which which = judged.which;
     for (I i{0}; i < list.end_index(); ++i) {
@@ -178,12 +178,12 @@ std::string check_well_formed(JudgedMesh& judged, Findings& findings) {
             for (const auto& [i, j] : cell_edges) visit(EdgeVertices{cell[i], cell[j]});
         });
     });
-    check_listed(mesh.facets, judged.faces, Code::stray_facet, judged, findings);
-    check_listed(mesh.edges, judged.edges, Code::stray_edge, judged, findings);
+    check_tagged(mesh.facets, judged.faces, Code::stray_facet, judged, findings);
+    check_tagged(mesh.edges, judged.edges, Code::stray_edge, judged, findings);
     return judged.totals.cells == 0 ? "there are no cells: nothing can be wrong with them" : "";
 }
 
-std::string check_listed_markers(const JudgedMesh& judged, Findings& findings) {
+std::string check_tagged_markers(const JudgedMesh& judged, Findings& findings) {
     check_markers(judged.mesh.facets, judged.mesh.facet_markers, judged, findings);
     check_markers(judged.mesh.edges, judged.mesh.edge_markers, judged, findings);
     return {};

@@ -18,7 +18,7 @@ struct Cell {
 
 /// Repeats what was asked for, level by level, with the vertices of the fine mesh: where it asks
 /// for a midpoint, the fine mesh must have one. What comes out must be the fine cells. Processes
-/// tell each other which edges of cells that both see they have selected.
+/// tell each other which edges of cells that both see they have marked.
 class Replay {
 public:
     Replay(const Request& request, const JudgedMesh& coarse, const JudgedMesh& fine, Lines& lines,
@@ -75,7 +75,7 @@ private:
             edge_ends_.push_back(ends);
         });
         edge_begin_.push_back(edge_to_cells_.size());
-        selected_.assign(edge_ends_.size(), 0);
+        marked_.assign(edge_ends_.size(), 0);
     }
 
     using EdgeNumber = std::uint32_t;
@@ -97,13 +97,13 @@ private:
         return {{{e[3], e[4], e[5]}, {e[1], e[2], e[5]}, {e[0], e[2], e[4]}, {e[0], e[1], e[3]}}};
     }
 
-    void select(EdgeNumber e) {
-        if (selected_[e] != 0) return;
-        selected_[e] = 1;
+    void mark(EdgeNumber e) {
+        if (marked_[e] != 0) return;
+        marked_[e] = 1;
         queue_.push_back(e);
     }
 
-    void select_chosen() {
+    void mark_edges() {
         for (std::size_t c = 0; c < cells_.size(); ++c) {
             Corners corners;
             for (std::size_t k = 0; k < 4; ++k) {
@@ -112,15 +112,15 @@ private:
             const CellIndex root = cells_[c].root;
             const Marker region = coarse_.regions.empty() ? 0 : coarse_.regions[root];
             const GlobalCell number{findings_.numbers(Which::coarse).of(root).value()};
-            if (!chooses(request_.selection, corners, region, number)) continue;
+            if (!marks(request_.selection, corners, region, number)) continue;
             switch (request_.scheme) {
                 case Scheme::eight:
-                    for (const EdgeNumber e : cell_to_edges_[c]) select(e);
+                    for (const EdgeNumber e : cell_to_edges_[c]) mark(e);
                     break;
                 case Scheme::four:
-                    for (const auto& face : faces_of(c)) select(longest(face));
+                    for (const auto& face : faces_of(c)) mark(longest(face));
                     break;
-                case Scheme::two: select(longest(cell_to_edges_[c])); break;
+                case Scheme::two: mark(longest(cell_to_edges_[c])); break;
             }
         }
     }
@@ -128,62 +128,62 @@ private:
     void close() {
         do {
             close_here();
-        } while (any(findings_.group(), take_selected_elsewhere()));
+        } while (any(findings_.group(), take_marked_elsewhere()));
     }
 
     void close_here() {
         while (!queue_.empty()) {
             const EdgeNumber e = queue_.back();
             queue_.pop_back();
-            if (findings_.group().size() > 1) untold_.push_back(e);
+            if (findings_.group().size() > 1) unsent_.push_back(e);
             for (std::size_t i = edge_begin_[e]; i < edge_begin_[e + 1]; ++i) {
                 for (const auto& face : faces_of(edge_to_cells_[i])) {
-                    if (std::find(face.begin(), face.end(), e) != face.end()) select(longest(face));
+                    if (std::find(face.begin(), face.end(), e) != face.end()) mark(longest(face));
                 }
             }
         }
     }
 
-    /// Collective. Tells who may see them of the edges selected since the last time; returns
-    /// whether the others have told of any that were not selected here.
-    bool take_selected_elsewhere() {
+    /// Collective. Sends to those that may see them the edges marked since the last time; returns
+    /// whether the others have sent any that were not marked here.
+    bool take_marked_elsewhere() {
         const ProcessGroup& group = findings_.group();
         if (group.size() == 1) return false;
         const Numbers& numbers = findings_.numbers(Which::fine);
         std::vector<std::vector<EdgeVertices>> to_each(static_cast<std::size_t>(group.size()));
-        for (const EdgeNumber e : untold_) {
+        for (const EdgeNumber e : unsent_) {
             const auto& [a, b] = edge_ends_[e];
             const Bounds box = bounds_of(std::array{fine_.mesh.points[a], fine_.mesh.points[b]});
             views_.for_each_meeting(box, [&, ends = edge_ends_[e]](std::size_t r) {
                 to_each[r].push_back({numbers.of(ends[0]), numbers.of(ends[1])});
             });
         }
-        untold_.clear();
+        unsent_.clear();
         to_each[static_cast<std::size_t>(group.rank())].clear();
-        for (const auto& told : exchange(group, std::move(to_each))) {
-            for (const EdgeVertices& edge : told) select_if_seen(edge);
+        for (const auto& received : exchange(group, std::move(to_each))) {
+            for (const EdgeVertices& edge : received) mark_if_seen(edge);
         }
         return !queue_.empty();
     }
 
     /// An edge by its numbers in the whole mesh.
-    void select_if_seen(const EdgeVertices& edge) {
+    void mark_if_seen(const EdgeVertices& edge) {
         const NumberList& vertices = findings_.numbers(Which::fine).vertices;
         const EdgeVertices ends{vertices.find(edge[0].value()), vertices.find(edge[1].value())};
         const auto found = std::lower_bound(edge_ends_.begin(), edge_ends_.end(), ends);
         if (found == edge_ends_.end() || *found != ends) return;
-        select(static_cast<EdgeNumber>(found - edge_ends_.begin()));
+        mark(static_cast<EdgeNumber>(found - edge_ends_.begin()));
     }
 
-    /// False if nothing was selected.
+    /// False if nothing was marked.
     bool refine_once() {
         number_edges();
-        select_chosen();
+        mark_edges();
         if (!any(findings_.group(), !queue_.empty())) return false;
         close();
         midpoints_.assign(edge_ends_.size(), VertexIndex::none());
         for (EdgeNumber e = 0; e < edge_ends_.size(); ++e) {
-            if (selected_[e] == 0) continue;
+            if (marked_[e] == 0) continue;
             midpoints_[e] = lines_.midpoint(edge_ends_[e][0], edge_ends_[e][1]);
             if (midpoints_[e].is_none()) report_missing(edge_ends_[e]);
         }
@@ -211,7 +211,7 @@ private:
     void bisect(const Cell& cell, const std::array<EdgeNumber, 6>& longest_first,
                 std::vector<Cell>& children) const {
         for (const EdgeNumber e : longest_first) {
-            if (selected_[e] == 0) continue;
+            if (marked_[e] == 0) continue;
             const auto position = [&](VertexIndex v) {
                 return static_cast<std::size_t>(
                     std::find(cell.vertices.begin(), cell.vertices.end(), v) -
@@ -234,7 +234,7 @@ private:
         failed_ = true;
         if (!fine_.owns(edge)) return;
         findings_.add(Code::missing_bisection, [&]() -> Findings::Description {
-            return {{entity(edge)}, "not bisected", "bisected: the closure has selected it"};
+            return {{entity(edge)}, "not bisected", "bisected: the closure has marked it"};
         });
     }
 
@@ -254,7 +254,7 @@ private:
                 if (!fine_.owns(edge)) continue;
                 findings_.add(Code::needless_bisection, [&]() -> Findings::Description {
                     return {
-                        {entity(edge)}, "bisected", "left whole: the closure has not selected it"};
+                        {entity(edge)}, "bisected", "left whole: the closure has not marked it"};
                 });
             }
             if (explained || !judged_coarse_.owns(coarse_.cells[cell.root])) continue;
@@ -279,9 +279,9 @@ private:
     std::vector<std::array<EdgeNumber, 6>> cell_to_edges_;
     std::vector<std::size_t> edge_begin_;  ///< of each edge, into edge_to_cells_
     std::vector<std::uint32_t> edge_to_cells_;
-    std::vector<char> selected_;
+    std::vector<char> marked_;
     std::vector<EdgeNumber> queue_;
-    std::vector<EdgeNumber> untold_;  ///< selected, and the other processes do not know
+    std::vector<EdgeNumber> unsent_;  ///< marked, and the other processes do not know
     std::vector<VertexIndex> midpoints_;
     bool failed_ = false;
 };

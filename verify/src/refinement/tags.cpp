@@ -15,7 +15,7 @@ public:
              std::string_view attributes_lost, Findings& findings)
         : coarse_(coarse.mesh),
           fine_(fine.mesh),
-          fine_subject_(fine),
+          judged_fine_(fine),
           lines_(lines),
           descent_(descent),
           attributes_lost_(attributes_lost),
@@ -61,7 +61,7 @@ private:
 
     void regions() {
         for (CellIndex c{0}; c < fine_.cells.end_index(); ++c) {
-            if (!fine_subject_.owns(fine_.cells[c])) continue;
+            if (!judged_fine_.owns(fine_.cells[c])) continue;
             const Marker found = tag_at(fine_.regions, c);
             const Marker expected = coarse_.regions[descent_.parent[c]];
             if (found == expected) continue;
@@ -97,7 +97,7 @@ private:
     }
 
     static std::string shown(const std::vector<Marker>& markers) {
-        return markers.empty() ? "not listed" : fmt::format("marker {}", fmt::join(markers, ", "));
+        return markers.empty() ? "not tagged" : fmt::format("marker {}", fmt::join(markers, ", "));
     }
 
     template <std::size_t N>
@@ -115,8 +115,8 @@ private:
     void facets() {
         const auto coarse = buckets_of(coarse_.facets, coarse_.points.size());
         const auto fine = buckets_of(fine_.facets, fine_.points.size());
-        fine_subject_.faces.for_each_group([&](const FacetVertices& face, auto entries) {
-            if (!fine_subject_.owns(face)) return;
+        judged_fine_.faces.for_each_group([&](const FacetVertices& face, auto entries) {
+            if (!judged_fine_.owns(face)) return;
             const CellFace f = cell_face(entries.front().tag);
             std::vector<Marker> expected;
             if (const auto on = descent_.coarse_face(f)) {
@@ -141,8 +141,8 @@ private:
         const IndexVector<EdgeIndex, Marker> piece_markers(markers.begin(), markers.end());
         const auto expected = buckets_of(pieces, fine_.points.size());
         const auto found = buckets_of(fine_.edges, fine_.points.size());
-        fine_subject_.edges.for_each([&](const EdgeVertices& edge) {
-            if (!fine_subject_.owns(edge)) return;
+        judged_fine_.edges.for_each([&](const EdgeVertices& edge) {
+            if (!judged_fine_.owns(edge)) return;
             compare(edge, markers_of(found.find(edge), fine_.edge_markers),
                     markers_of(expected.find(edge), piece_markers), Code::missing_edge,
                     Code::extra_edge, Code::wrong_edge_marker);
@@ -159,7 +159,7 @@ private:
         append_pieces(m, b, pieces);
     }
 
-    /// A midpoint of a listed edge has its marker; else the smallest of the listed facets that its
+    /// A midpoint of a tagged edge has its marker; else the smallest of the tagged facets that its
     /// edge lies on; else 0.
     void vertex_markers() {
         IndexVector<VertexIndex, Marker> expected(fine_.points.size(), 0);
@@ -178,7 +178,7 @@ private:
         }
         for (VertexIndex v{0}; v < fine_.points.end_index(); ++v) {
             const Marker found = tag_at(fine_.point_markers, v);
-            if (found == expected[v] || !fine_subject_.owns(v)) continue;
+            if (found == expected[v] || !judged_fine_.owns(v)) continue;
             findings_.add(Code::wrong_vertex_marker, [&]() -> Findings::Description {
                 return {{entity(v)},
                         fmt::format("marker {}", found),
@@ -190,13 +190,13 @@ private:
     /// A new vertex in the inside of a coarse face, or on its border, halves an edge of it.
     void take_markers_of_facets(auto&& take) {
         if (coarse_.facet_markers.empty()) return;
-        const auto listed = buckets_of(coarse_.facets, coarse_.points.size());
-        fine_subject_.faces.for_each_group([&](const FacetVertices& face, auto entries) {
+        const auto tagged = buckets_of(coarse_.facets, coarse_.points.size());
+        judged_fine_.faces.for_each_group([&](const FacetVertices& face, auto entries) {
             const CellFace f = cell_face(entries.front().tag);
             const auto on = descent_.coarse_face(f);
             if (!on) return;
             const FacetVertices whole = outward_face(coarse_.cells[on->cell], on->face);
-            for (const auto& entry : listed.find(whole)) {
+            for (const auto& entry : tagged.find(whole)) {
                 const Marker marker = coarse_.facet_markers[FacetIndex{entry.tag}];
                 for (const VertexIndex v : face) take(v, marker);
             }
@@ -237,14 +237,14 @@ private:
         };
         for (VertexIndex v{0}; v < coarse_.points.end_index(); ++v) {
             const VertexIndex w = descent_.coarse_to_fine[v];
-            if (w.is_none() || !fine_subject_.owns(w)) continue;
+            if (w.is_none() || !judged_fine_.owns(w)) continue;
             for (std::size_t k = 0; k < count; ++k) {
                 judge(w, k, coarse_.point_attributes[v.value() * count + k]);
             }
         }
         for (VertexIndex v{0}; v < fine_.points.end_index(); ++v) {
             const auto& [a, b] = descent_.halves[v];
-            if (a.is_none() || !fine_subject_.owns(v)) continue;
+            if (a.is_none() || !judged_fine_.owns(v)) continue;
             for (std::size_t k = 0; k < count; ++k) {
                 judge(v, k, mean(value(a, k), value(b, k)));
             }
@@ -253,7 +253,7 @@ private:
 
     const Mesh& coarse_;
     const Mesh& fine_;
-    const JudgedMesh& fine_subject_;
+    const JudgedMesh& judged_fine_;
     Lines& lines_;
     const Descent& descent_;
     std::string_view attributes_lost_;

@@ -7,7 +7,7 @@ namespace {
 
 template <class I>
 std::uint64_t number(I entry, const Mesh& mesh) {
-    return std::uint64_t{entry.value()} + mesh.first_number;
+    return std::uint64_t{entry.value()} + mesh.index_base;
 }
 
 /// "cell 2 (line 3)"

@@ -23,7 +23,7 @@ WrongEntry<I> find_wrong(const Mesh& mesh, const IndexVector<I, std::array<Verte
     }
     std::vector<bool> of_cells(list.size(), false);
     for (CellIndex c{0}; c < mesh.cells.end_index(); ++c) {
-        // Most cells have too few such corners where only the boundary is listed.
+        // Most cells have too few such corners where only the boundary is tagged.
         const auto corners = std::ranges::count_if(
             mesh.cells[c], [&](VertexIndex v) { return is_corner[v.value()]; });
         if (corners < std::ptrdiff_t{N}) continue;
@@ -86,7 +86,7 @@ WrongFacets find_wrong_facets(const Mesh& mesh) {
         }
         has_cell[side] = true;
     };
-    wrong.listed = find_wrong(mesh, mesh.facets, mesh.facet_markers, cell_faces, met);
+    wrong.tagged = find_wrong(mesh, mesh.facets, mesh.facet_markers, cell_faces, met);
     if (!wrong.overlap.cell.is_none()) {
         wrong.overlap.earlier = first_on_side(mesh, mesh.facets[wrong.common], even);
     }

@@ -14,17 +14,17 @@ struct WrongEntry {
 };
 
 struct WrongFacets {
-    WrongEntry<FacetIndex> listed;
-    /// Two cells that lie on the same side of a listed facet, the first such in the order of cells.
+    WrongEntry<FacetIndex> tagged;
+    /// Two cells that lie on the same side of a tagged facet, the first such in the order of cells.
     CellPair overlap;
     FacetIndex common = FacetIndex::none();  ///< the facet
 };
 
-/// Judges the listed facets. Vertex numbers must be in range, and cells positive.
+/// Judges the tagged facets. Vertex numbers must be in range, and cells positive.
 /// Takes 8 bytes per vertex and 4 per facet meanwhile.
 [[nodiscard]] WrongFacets find_wrong_facets(const Mesh& mesh);
 
-/// Judges the listed edges, likewise.
+/// Judges the tagged edges, likewise.
 [[nodiscard]] WrongEntry<EdgeIndex> find_wrong_edge(const Mesh& mesh);
 
 }  // namespace octetra

@@ -10,9 +10,9 @@
 
 namespace octetra {
 
-/// A kind of listed entity: where a mesh has it, and how a sink is told of it.
+/// A kind of entity, cells or what is tagged: where a mesh has it, and how a sink takes it.
 template <class I, std::size_t N>
-struct ListedKind {
+struct EntityKind {
     IndexVector<I, std::array<VertexIndex, N>> Mesh::*list;
     IndexVector<I, Marker> Mesh::*markers;
     std::uint64_t MeshFacts::*count;
@@ -21,35 +21,35 @@ struct ListedKind {
     void (MeshSink::*take)(std::span<const std::array<VertexIndex, N>>, std::span<const Marker>);
 };
 
-inline constexpr ListedKind<CellIndex, 4> cell_kind{&Mesh::cells,
+inline constexpr EntityKind<CellIndex, 4> cell_kind{&Mesh::cells,
                                                     &Mesh::regions,
                                                     &MeshFacts::cells,
                                                     &MeshFacts::has_regions,
                                                     &MeshSink::expect_cells,
                                                     &MeshSink::take_cells};
-inline constexpr ListedKind<FacetIndex, 3> facet_kind{&Mesh::facets,
+inline constexpr EntityKind<FacetIndex, 3> facet_kind{&Mesh::facets,
                                                       &Mesh::facet_markers,
                                                       &MeshFacts::facets,
                                                       &MeshFacts::has_facet_markers,
                                                       &MeshSink::expect_facets,
                                                       &MeshSink::take_facets};
-inline constexpr ListedKind<EdgeIndex, 2> edge_kind{&Mesh::edges,
+inline constexpr EntityKind<EdgeIndex, 2> edge_kind{&Mesh::edges,
                                                     &Mesh::edge_markers,
                                                     &MeshFacts::edges,
                                                     &MeshFacts::has_edge_markers,
                                                     &MeshSink::expect_edges,
                                                     &MeshSink::take_edges};
 
-/// Which entities are told to the sink. The others are counted, and forgotten.
-enum class Told { everything, points, all_but_points, nothing };
+/// Which entities go to the sink. The others are counted, and dropped.
+enum class Streamed { everything, points, all_but_points, nothing };
 
 /// What a parser fills, entity by entity: a whole mesh or, where there is a sink, one stretch of it
-/// after the other, each told to the sink as soon as it is full, and then forgotten.
+/// after the other, each handed to the sink as soon as it is full, and then dropped.
 class GrowingMesh {
 public:
     /// `zeros_are_none`: markers that are all 0 say that the file has none.
-    GrowingMesh(MeshSink* sink, bool zeros_are_none, Told told = Told::everything)
-        : sink_(sink), zeros_are_none_(zeros_are_none), told_(told) {}
+    GrowingMesh(MeshSink* sink, bool zeros_are_none, Streamed streamed = Streamed::everything)
+        : sink_(sink), zeros_are_none_(zeros_are_none), streamed_(streamed) {}
 
     /// The parser appends here; calls of ..._complete() tell that it has done so.
     Mesh mesh;
@@ -62,20 +62,20 @@ public:
     void points_complete() { tell_points(); }
 
     template <class I, std::size_t N>
-    void expect(const ListedKind<I, N>& kind, std::uint64_t count, bool has_markers);
+    void expect(const EntityKind<I, N>& kind, std::uint64_t count, bool has_markers);
     template <class I, std::size_t N>
-    void entity_complete(const ListedKind<I, N>& kind) {
-        if ((mesh.*kind.list).size() == listed_stretch_) tell(kind);
+    void entity_complete(const EntityKind<I, N>& kind) {
+        if ((mesh.*kind.list).size() == entity_stretch_) tell(kind);
     }
     /// No more of this kind.
     template <class I, std::size_t N>
-    void all_complete(const ListedKind<I, N>& kind) {
+    void all_complete(const EntityKind<I, N>& kind) {
         tell(kind);
     }
 
-    /// What the sink is told from now on.
-    void tell_only(Told told) { told_ = told; }
-    [[nodiscard]] Told told() const { return told_; }
+    /// What goes to the sink from now on.
+    void stream_only(Streamed streamed) { streamed_ = streamed; }
+    [[nodiscard]] Streamed streamed() const { return streamed_; }
 
     /// The file is good: drops markers that are none, or tells the sink of the end.
     void finish();
@@ -88,23 +88,23 @@ public:
 private:
     static constexpr std::size_t no_end = std::numeric_limits<std::size_t>::max();
 
-    [[nodiscard]] bool tells_points() const {
-        return told_ == Told::everything || told_ == Told::points;
+    [[nodiscard]] bool streams_points() const {
+        return streamed_ == Streamed::everything || streamed_ == Streamed::points;
     }
-    [[nodiscard]] bool tells_others() const {
-        return told_ == Told::everything || told_ == Told::all_but_points;
+    [[nodiscard]] bool streams_others() const {
+        return streamed_ == Streamed::everything || streamed_ == Streamed::all_but_points;
     }
     /// Whether the file has markers, after all that came.
     [[nodiscard]] bool means_something(const std::vector<Marker>& markers) const;
     void tell_points();
     template <class I, std::size_t N>
-    void tell(const ListedKind<I, N>& kind);
+    void tell(const EntityKind<I, N>& kind);
 
     MeshSink* sink_;
     bool zeros_are_none_;
-    Told told_;
+    Streamed streamed_;
     std::size_t points_stretch_ = no_end;
-    std::size_t listed_stretch_ = no_end;
+    std::size_t entity_stretch_ = no_end;
     MeshFacts facts_;
 };
 

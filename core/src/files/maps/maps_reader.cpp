@@ -23,20 +23,20 @@ std::uint64_t read_heading(LineReader& reader, std::string_view word,
     return count;
 }
 
-/// Reads an index that the file counts from `first_number`.
+/// Reads an index that the file counts from `index_base`.
 template <class I>
-I read_index(Fields& fields, LineReader& reader, std::uint32_t first_number) {
+I read_index(Fields& fields, LineReader& reader, std::uint32_t index_base) {
     const std::uint64_t number = fields.unsigned_integer("a number");
-    const std::uint64_t index = number - first_number;  // wraps round below first_number
+    const std::uint64_t index = number - index_base;  // wraps round below index_base
     if (index >= I::limit) {
-        reader.fail(fmt::format("a number from {} expected, {} found", first_number, number));
+        reader.fail(fmt::format("a number from {} expected, {} found", index_base, number));
     }
     return I{index};
 }
 
 }  // namespace
 
-RefinementMaps read_maps(const std::filesystem::path& path, std::uint32_t first_number) {
+RefinementMaps read_maps(const std::filesystem::path& path, std::uint32_t index_base) {
     LineReader reader(path);
     RefinementMaps maps;
     const auto next_entry = [&](std::uint64_t i, std::uint64_t count) {
@@ -49,23 +49,23 @@ RefinementMaps read_maps(const std::filesystem::path& path, std::uint32_t first_
     maps.cell_to_parent.reserve(cells);
     for (std::uint64_t i = 0; i < cells; ++i) {
         Fields fields = next_entry(i, cells);
-        if (read_index<CellIndex>(fields, reader, first_number) != CellIndex{i}) {
-            reader.fail(fmt::format("cell number {} expected", i + first_number));
+        if (read_index<CellIndex>(fields, reader, index_base) != CellIndex{i}) {
+            reader.fail(fmt::format("cell number {} expected", i + index_base));
         }
-        maps.cell_to_parent.push_back(read_index<CellIndex>(fields, reader, first_number));
+        maps.cell_to_parent.push_back(read_index<CellIndex>(fields, reader, index_base));
         fields.expect_end(2);
     }
     const std::uint64_t midpoints = read_heading(reader, "midpoints", 3);
     maps.midpoint_to_edge.reserve(midpoints);
     for (std::uint64_t i = 0; i < midpoints; ++i) {
         Fields fields = next_entry(i, midpoints);
-        const auto vertex = read_index<VertexIndex>(fields, reader, first_number);
+        const auto vertex = read_index<VertexIndex>(fields, reader, index_base);
         if (i == 0) maps.first_midpoint = vertex;
         if (vertex.value() != maps.first_midpoint.value() + i) {
             reader.fail("the midpoints' numbers do not follow one another");
         }
-        const auto a = read_index<VertexIndex>(fields, reader, first_number);
-        const auto b = read_index<VertexIndex>(fields, reader, first_number);
+        const auto a = read_index<VertexIndex>(fields, reader, index_base);
+        const auto b = read_index<VertexIndex>(fields, reader, index_base);
         fields.expect_end(3);
         maps.midpoint_to_edge.push_back({a, b});
     }

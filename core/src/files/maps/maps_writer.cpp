@@ -19,7 +19,7 @@ void put_heading(OutputFile& out, const ProcessGroup& group, std::string_view wh
 void write_maps(MeshSource& mesh, const std::filesystem::path& path) {
     const MeshFacts& facts = mesh.facts();
     const ProcessGroup& group = mesh.group();
-    const auto put_number = [first = facts.first_number](OutputFile& out, std::uint64_t number) {
+    const auto put_number = [first = facts.index_base](OutputFile& out, std::uint64_t number) {
         out.put(number + first);
     };
     OutputFile out(path, group);

@@ -41,9 +41,9 @@ class MeditReader {
 public:
     /// Without a sink, reads the mesh into memory.
     MeditReader(const std::filesystem::path& path, const ReadOptions& options, MeshSink* sink,
-                Told told = Told::everything)
-        : reader_(path), tokens_(reader_), options_(&options), growing_(sink, true, told) {
-        mesh_.first_number = 1;
+                Streamed streamed = Streamed::everything)
+        : reader_(path), tokens_(reader_), options_(&options), growing_(sink, true, streamed) {
+        mesh_.index_base = 1;
     }
 
     /// Returns the mesh, if it is not streamed.
@@ -73,17 +73,17 @@ public:
 
 private:
     void check_mesh() {
-        check_listed(mesh_.cells, tetrahedra_, "cell");
+        check_entities(mesh_.cells, tetrahedra_, "cell");
         check_cells();
-        check_listed(mesh_.facets, triangles_, "triangle");
-        check_listed(mesh_.edges, edges_, "edge");
+        check_entities(mesh_.facets, triangles_, "triangle");
+        check_entities(mesh_.edges, edges_, "edge");
         if (options_->only_syntax) return;
         const WrongFacets wrong = find_wrong_facets(mesh_);
         if (const CellIndex cell = wrong.overlap.cell; !cell.is_none()) {
             fail_entry(tetrahedra_, cell, "cell",
                        describe_overlap(wrong, mesh_, lines_of(tetrahedra_)));
         }
-        refuse_if_wrong(wrong.listed, triangles_, "triangle", mesh_.facet_markers);
+        refuse_if_wrong(wrong.tagged, triangles_, "triangle", mesh_.facet_markers);
         refuse_if_wrong(find_wrong_edge(mesh_), edges_, "edge", mesh_.edge_markers);
     }
 
@@ -120,11 +120,11 @@ private:
         } else if (keyword == "Vertices") {
             read_vertices();
         } else if (keyword == "Tetrahedra") {
-            read_listed(cell_kind, tetrahedra_, "tetrahedra");
+            read_entities(cell_kind, tetrahedra_, "tetrahedra");
         } else if (keyword == "Triangles") {
-            read_listed(facet_kind, triangles_, "triangles");
+            read_entities(facet_kind, triangles_, "triangles");
         } else if (keyword == "Edges") {
-            read_listed(edge_kind, edges_, "edges");
+            read_entities(edge_kind, edges_, "edges");
         } else {
             read_other(keyword);
         }
@@ -201,7 +201,7 @@ private:
     }
 
     template <class I, std::size_t N>
-    void read_listed(const ListedKind<I, N>& kind, Section& section, std::string_view name) {
+    void read_entities(const EntityKind<I, N>& kind, Section& section, std::string_view name) {
         std::optional<OutOfRange> out_of_range;
         std::uint64_t entry = 0;
         section = read_entries(
@@ -237,19 +237,19 @@ private:
         for (const VertexIndex vertex : vertices) {
             if (vertex < streamed_vertices_ || first) continue;
             first = {entry, vertex};
-            growing_.tell_only(Told::nothing);
+            growing_.stream_only(Streamed::nothing);
         }
     }
 
     /// A sink hears of points before what refers to them: where they stand behind it, the file is
     /// read to its end for them first.
     void stream_points_first() {
-        if (vertices_.keyword_line != 0 || growing_.told() != Told::everything) return;
+        if (vertices_.keyword_line != 0 || growing_.streamed() != Streamed::everything) return;
         const ReadOptions quiet{.only_syntax = true};
-        MeditReader ahead(reader_.path(), quiet, growing_.sink(), Told::points);
+        MeditReader ahead(reader_.path(), quiet, growing_.sink(), Streamed::points);
         vertices_ahead_ = ahead.read_points();
         streamed_vertices_ = VertexIndex{*vertices_ahead_};
-        growing_.tell_only(Told::all_but_points);
+        growing_.stream_only(Streamed::all_but_points);
     }
 
     // The checks come last because the format lets Vertices stand behind what refers to them. What
@@ -278,8 +278,8 @@ private:
     }
 
     template <class I, std::size_t N>
-    void check_listed(const IndexVector<I, std::array<VertexIndex, N>>& list,
-                      const Section& section, std::string_view name) {
+    void check_entities(const IndexVector<I, std::array<VertexIndex, N>>& list,
+                        const Section& section, std::string_view name) {
         for (I i{0}; i < list.end_index(); ++i) {
             for (std::size_t k = 0; k < N; ++k) {
                 if (list[i][k] >= mesh_.points.end_index()) {

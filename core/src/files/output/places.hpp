@@ -8,7 +8,7 @@
 /// Where files are put, and what may stand in the way.
 namespace octetra {
 
-/// Why no file can be put at `path`, be it by what its links lead to; or nothing.
+/// Why no file can be put at `path`, or where its links lead; or nothing.
 [[nodiscard]] std::string in_the_way(const std::filesystem::path& path);
 
 /// Throws InputError unless every file that a mesh written at `path` is can be put in its place,

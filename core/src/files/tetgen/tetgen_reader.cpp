@@ -41,20 +41,19 @@ std::array<std::uint64_t, N> read_header(LineReader& reader,
 /// takes, `field_count` fields in all; complete() follows each. Returns the first entry's number: 0
 /// or 1.
 std::uint32_t read_entries(LineReader& reader, std::uint64_t count, std::size_t field_count,
-                           std::optional<std::uint32_t> first_number, auto&& read_entry,
+                           std::optional<std::uint32_t> index_base, auto&& read_entry,
                            auto&& complete) {
-    std::uint32_t first = first_number.value_or(0);
+    std::uint32_t first = index_base.value_or(0);
     for (std::uint64_t i = 0; i < count; ++i) {
         if (!reader.next()) {
             reader.fail(fmt::format("the file ends after {} of {} entries", i, count));
         }
         Fields fields(reader);
         const std::uint64_t number = fields.unsigned_integer("the entry's number");
-        if (i == 0 && !first_number && number == 1) first = 1;
+        if (i == 0 && !index_base && number == 1) first = 1;
         if (number != i + first) {
-            reader.fail(
-                fmt::format("entry number {} expected, {} found{}", i + first, number,
-                            i == 0 && !first_number ? "; numbering begins with 0 or 1" : ""));
+            reader.fail(fmt::format("entry number {} expected, {} found{}", i + first, number,
+                                    i == 0 && !index_base ? "; numbering begins with 0 or 1" : ""));
         }
         read_entry(fields);
         fields.expect_end(field_count);
@@ -86,7 +85,7 @@ struct VertexNumbers {
 };
 
 VertexNumbers vertex_numbers(const GrowingMesh& growing) {
-    return {growing.mesh.first_number, growing.facts().vertices};
+    return {growing.mesh.index_base, growing.facts().vertices};
 }
 
 [[noreturn]] void refuse_vertex(std::uint64_t number, const LineReader& reader,
@@ -134,8 +133,8 @@ void read_node(const fs::path& path, GrowingMesh& growing) {
         }
         if (markers == 1) mesh.point_markers.push_back(fields.marker("the vertex's marker"));
     };
-    mesh.first_number = read_entries(reader, count, field_count, std::nullopt, read_point,
-                                     [&] { growing.point_complete(); });
+    mesh.index_base = read_entries(reader, count, field_count, std::nullopt, read_point,
+                                   [&] { growing.point_complete(); });
     growing.points_complete();
 }
 
@@ -175,7 +174,7 @@ void read_ele(const fs::path& path, const ReadOptions& options, GrowingMesh& gro
         if (!options.only_syntax) repeated.add(cell);
         if (attributes == 1) mesh.regions.push_back(fields.marker("the region tag"));
     };
-    read_entries(reader, count, field_count, mesh.first_number, read_cell,
+    read_entries(reader, count, field_count, mesh.index_base, read_cell,
                  [&] { growing.entity_complete(cell_kind); });
     growing.all_complete(cell_kind);
     if (check.fixed_count() > 0) {
@@ -189,8 +188,8 @@ void read_ele(const fs::path& path, const ReadOptions& options, GrowingMesh& gro
 
 /// Reads a `.face` or `.edge` file: entities of N vertices each.
 template <class I, std::size_t N>
-void read_listed(const fs::path& path, std::string_view name, const ListedKind<I, N>& kind,
-                 const ReadOptions& options, GrowingMesh& growing) {
+void read_entities(const fs::path& path, std::string_view name, const EntityKind<I, N>& kind,
+                   const ReadOptions& options, GrowingMesh& growing) {
     LineReader reader(path);
     const auto header =
         read_header<2>(reader, {"the number of entries", "the markers flag"}, {0, 0});
@@ -223,7 +222,7 @@ void read_listed(const fs::path& path, std::string_view name, const ListedKind<I
             (void)fields.marker("an adjacent cell");
         }
     };
-    read_entries(reader, count, field_count, mesh.first_number, read_entity,
+    read_entries(reader, count, field_count, mesh.index_base, read_entity,
                  [&] { growing.entity_complete(kind); });
     growing.all_complete(kind);
     if (has_adjacent_cells == true) {
@@ -246,7 +245,7 @@ void check_facets(const Mesh& mesh, const fs::path& face, const fs::path& ele) {
     if (const CellIndex cell = wrong.overlap.cell; !cell.is_none()) {
         fail_entry(ele, cell.value(), describe_overlap(wrong, mesh, lines_of(ele)));
     }
-    refuse_if_wrong(wrong.listed, "face", mesh.facet_markers, mesh, face);
+    refuse_if_wrong(wrong.tagged, "face", mesh.facet_markers, mesh, face);
 }
 
 fs::path companion(fs::path path, std::string_view extension) {
@@ -277,11 +276,11 @@ void read_files(const fs::path& path, const ReadOptions& options, GrowingMesh& g
     read_node(node, growing);
     read_ele(ele, options, growing);
     if (const fs::path face = companion(path, ".face"); is_there(face)) {
-        read_listed(face, "face", facet_kind, options, growing);
+        read_entities(face, "face", facet_kind, options, growing);
         if (!options.only_syntax) check_facets(growing.mesh, face, ele);
     }
     if (const fs::path edge = companion(path, ".edge"); is_there(edge)) {
-        read_listed(edge, "edge", edge_kind, options, growing);
+        read_entities(edge, "edge", edge_kind, options, growing);
         const Mesh& mesh = growing.mesh;
         const auto wrong = options.only_syntax ? WrongEntry<EdgeIndex>{} : find_wrong_edge(mesh);
         refuse_if_wrong(wrong, "edge", mesh.edge_markers, mesh, edge);

@@ -41,7 +41,7 @@ void write_node(OutputFile& out, MeshSource& mesh) {
         if (facts.has_point_markers) markers = mesh.point_markers(window);
         for (std::size_t v = 0; v < points.size(); ++v, ++number) {
             const Point& p = points[v];
-            put_fields(out, facts.first_number + number, p.x, p.y, p.z);
+            put_fields(out, facts.index_base + number, p.x, p.y, p.z);
             for (std::size_t k = 0; k < attributes; ++k) {
                 out.put(' ');
                 out.put(values[v * attributes + k]);
@@ -67,16 +67,16 @@ struct List {
 /// Writes the entities of a list, their vertices and, where there are any, their markers.
 template <std::size_t N>
 void write_list(OutputFile& out, MeshSource& mesh, const List<N>& list) {
-    const std::uint32_t first_number = mesh.facts().first_number;
+    const std::uint32_t index_base = mesh.facts().index_base;
     put_list(out, list.count, mesh.group(), [&](const Window& window, std::uint64_t number) {
         const auto entities = (mesh.*list.vertices)(window);
         std::span<const Marker> markers;
         if (list.has_markers) markers = (mesh.*list.markers)(window);
         for (std::size_t i = 0; i < entities.size(); ++i, ++number) {
-            out.put(first_number + number);
+            out.put(index_base + number);
             for (const VertexIndex vertex : entities[i]) {
                 out.put(' ');
-                out.put(first_number + vertex.value());
+                out.put(index_base + vertex.value());
             }
             if (!markers.empty()) {
                 out.put(' ');

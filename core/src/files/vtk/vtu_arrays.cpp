@@ -78,7 +78,7 @@ auto numbers_of(const ProcessGroup& group) {
 
 VtuArray vertex_numbers(MeshSource& piece) {
     const MeshFacts& facts = piece.facts();
-    const auto first = std::int64_t{facts.first_number};
+    const auto first = std::int64_t{facts.index_base};
     if (!facts.has_vertex_numbers) {
         return array<std::int64_t>("vertex", 1, facts.vertices, numbers_of(piece.group()),
                                    [first](const Numbers& numbers, std::size_t i) {
@@ -155,7 +155,7 @@ VtuData vtu_data(MeshSource& mesh) {
         data.of_cells.push_back(array<std::int64_t>(
             "parent", 1, facts.cells,
             [&mesh](const Window& window) { return mesh.parents(window); },
-            [first = facts.first_number](std::span<const CellIndex> parents, std::size_t i) {
+            [first = facts.index_base](std::span<const CellIndex> parents, std::size_t i) {
                 return std::int64_t{parents[i].value()} + first;
             }));
     }

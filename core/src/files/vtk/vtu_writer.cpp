@@ -157,9 +157,9 @@ std::string lists_left_out(const std::filesystem::path& path, std::uint64_t face
                            std::uint64_t edges) {
     if (facets == 0 && edges == 0) return {};
     const std::string what =
-        edges == 0    ? fmt::format("{} listed faces", facets)
-        : facets == 0 ? fmt::format("{} listed edges", edges)
-                      : fmt::format("{} listed faces and {} listed edges", facets, edges);
+        edges == 0    ? fmt::format("{} tagged facets", facets)
+        : facets == 0 ? fmt::format("{} tagged edges", edges)
+                      : fmt::format("{} tagged facets and {} tagged edges", facets, edges);
     return fmt::format(
         "the {} file holds cells only, not the {} with their markers; .mesh and .ele "
         "hold them",

@@ -15,7 +15,7 @@ struct Totals {
     std::uint64_t vertices = 0;
     std::uint64_t cells = 0;
     std::uint64_t facets = 0;
-    std::uint64_t edges = 0;  ///< listed ones
+    std::uint64_t edges = 0;  ///< tagged ones
 };
 
 /// What one process has of a mesh that is in several memories: of each list a stretch, process

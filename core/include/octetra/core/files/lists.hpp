@@ -12,10 +12,10 @@
 namespace octetra {
 
 /// Reads a list of cell numbers, separated by blanks or line ends, `#` starting a comment, that
-/// count from `first_number` and are less than `cell_count` + `first_number`.
+/// count from `index_base` and are less than `cell_count` + `index_base`.
 /// Returns them ascending, each once, counted from 0. Throws InputError or SystemError.
 [[nodiscard]] std::vector<GlobalCell> read_cell_list(const std::filesystem::path& path,
-                                                     std::uint32_t first_number,
+                                                     std::uint32_t index_base,
                                                      std::size_t cell_count);
 
 /// Writes numbers as text, a line each. Throws SystemError.

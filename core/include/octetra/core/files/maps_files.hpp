@@ -14,10 +14,9 @@ namespace octetra {
 /// `midpoints M`, then M lines "vertex end end". Throws SystemError.
 void write_maps(MeshSource& mesh, const std::filesystem::path& path);
 
-/// Reads what write_maps has written, of a mesh whose files count from `first_number`. Only the
+/// Reads what write_maps has written, of a mesh whose files count from `index_base`. Only the
 /// form is checked: numbers may be of cells and vertices that there are not. Where there are no
 /// midpoints, first_midpoint stays 0. Throws InputError or SystemError.
-[[nodiscard]] RefinementMaps read_maps(const std::filesystem::path& path,
-                                       std::uint32_t first_number);
+[[nodiscard]] RefinementMaps read_maps(const std::filesystem::path& path, std::uint32_t index_base);
 
 }  // namespace octetra

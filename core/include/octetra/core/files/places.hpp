@@ -6,7 +6,7 @@
 /// Which files a mesh is, where a file stands in the end, and whether it can be put there.
 namespace octetra {
 
-/// The files that a mesh of this name is, be they there or not: `.node`, `.ele`, `.face` and
+/// The files that a mesh of this name is, whether they exist or not: `.node`, `.ele`, `.face` and
 /// `.edge` for TetGen, else `path` itself.
 [[nodiscard]] std::vector<std::filesystem::path> files_of_mesh(const std::filesystem::path& path);
 

@@ -90,7 +90,7 @@ void compare_synchronisations(const distributed::Communicator& world, std::size_
         fmt::print("{} ranks, {} cells, one level\n", ranks, 6 * n * n * n);
         fmt::print("{:27}{:>15}{:>14}{:>18}{:>9}\n", "", "neighbours", "messages", "bytes",
                    "bytes an");
-        fmt::print("{:<11}{:<9} {:>6} {:>9} {:>4} {:>8} {:>4} {:>9} {:>7} {:>8}\n", "chosen",
+        fmt::print("{:<11}{:<9} {:>6} {:>9} {:>4} {:>8} {:>4} {:>9} {:>7} {:>8}\n", "marked",
                    "sync", "rounds", "mean", "most", "mean", "most", "all", "most", "edge");
     }
     for (const Scheme scheme : {Scheme::eight, Scheme::two}) {
@@ -107,7 +107,7 @@ void compare_synchronisations(const distributed::Communicator& world, std::size_
 void grow_the_mesh(const distributed::Communicator& world, std::size_t n) {
     constexpr std::array<double, 3> shares{0.001, 0.01, 0.1};
     if (world.is_first()) {
-        fmt::print("\nrounds as the mesh grows, by what is chosen\n   cells");
+        fmt::print("\nrounds as the mesh grows, by what is marked\n   cells");
         for (const Scheme scheme : {Scheme::eight, Scheme::two}) {
             for (const double share : shares)
                 fmt::print("  {} {:4.1f} %", name_of(scheme), 100 * share);

@@ -6,7 +6,7 @@
 
 #include <benchmark/benchmark.h>
 
-#include <octetra/core/files.hpp>
+#include <octetra/core/files/mesh_files.hpp>
 
 #include "support/meshes.hpp"
 #include "support/temporary_folder.hpp"

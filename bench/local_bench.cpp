@@ -28,7 +28,7 @@ using nlohmann::ordered_json;
 struct Options {
     std::size_t cubes = 88;
     int levels = 10;
-    double chosen = 1000;
+    double marked = 1000;
     bool json = false;
 };
 
@@ -105,7 +105,7 @@ void measure(const Communicator& world, const Options& options) {
     DistributedMesh mesh = cube_of(world, options.cubes);
     constexpr double pi = 3.14159265358979323846;
     double radius =
-        std::cbrt(options.chosen / (6 * 4.0 / 3 * pi)) / static_cast<double>(options.cubes);
+        std::cbrt(options.marked / (6 * 4.0 / 3 * pi)) / static_cast<double>(options.cubes);
     for (int level = 1; level <= options.levels; ++level, radius /= 2) {
         line["levels"].push_back(local_level(mesh, radius));
         if (speaks) print_level(level, line["levels"].back(), uniform);
@@ -119,7 +119,7 @@ int run(const Communicator& world, int argc, char** argv) {
     Options options;
     app.add_option("cubes", options.cubes, "N: N^3 cubes of six cells");
     app.add_option("levels", options.levels);
-    app.add_option("chosen", options.chosen, "about how many cells are chosen at each level");
+    app.add_option("marked", options.marked, "about how many cells are marked at each level");
     app.add_flag("--json", options.json, "print a line of JSON instead of words");
     CLI11_PARSE(app, argc, argv);
     measure(world, options);

@@ -10,7 +10,7 @@
 
 #include <fmt/format.h>
 
-#include <octetra/core/files.hpp>
+#include <octetra/core/files/mesh_files.hpp>
 
 #include "support/meshes.hpp"
 #include "support/temporary_folder.hpp"

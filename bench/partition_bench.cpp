@@ -13,7 +13,7 @@
 
 #include <fmt/format.h>
 
-#include <octetra/core/files.hpp>
+#include <octetra/core/files/mesh_files.hpp>
 #include <octetra/distributed/partition.hpp>
 
 #include "support/meshes.hpp"

@@ -10,7 +10,7 @@
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
-#include <octetra/core/files.hpp>
+#include <octetra/core/files/mesh_files.hpp>
 #include <octetra/distributed/partition.hpp>
 #include <octetra/distributed/profile.hpp>
 #include <octetra/distributed/refine.hpp>
@@ -32,7 +32,7 @@ struct Options {
     std::string mesh = "55";  ///< a file, or how many cubes a side
     int levels = 1;
     double radius = 0;  ///< 0: all cells
-    double random = 0;  ///< this share of the cells, by lot
+    double random = 0;  ///< this share of the cells, at random
     std::string partition = "block";
     bool apart = false;
     bool warm = false;
@@ -178,7 +178,7 @@ int run(const Communicator& world, int argc, char** argv) {
     app.add_option("mesh", options.mesh, "a mesh file, or N: N^3 cubes of six cells");
     app.add_option("levels", options.levels);
     app.add_option("radius", options.radius, "only cells nearer to (1/2, 1/2, 1/2); 0: all");
-    app.add_option("--random", options.random, "this share of the cells, by lot");
+    app.add_option("--random", options.random, "this share of the cells, at random");
     app.add_option("--partition", options.partition, "as of octetra refine");
     app.add_flag("--apart", options.apart,
                  "each rank has a mesh of its own, and nothing to do with the others");

@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-#include <octetra/core/files.hpp>
+#include <octetra/core/files/mesh_files.hpp>
 #include <octetra/distributed/partition.hpp>
 #include <octetra/distributed/refine.hpp>
 
@@ -34,7 +34,7 @@ void count(const distributed::Communicator& world, const Mesh& input, double sha
     const auto edges = world.sum(counts.edges);
     const auto cells = world.sum(mesh.cells.size());
     if (!world.is_first()) return;
-    fmt::print("{}  {:4.0f} % chosen  {:<5} {:>9} cells, {} rounds, {:>4} messages, {:>6} edges\n",
+    fmt::print("{}  {:4.0f} % marked  {:<5} {:>9} cells, {} rounds, {:>4} messages, {:>6} edges\n",
                name_of(scheme), 100 * share, method, cells, counts.rounds, messages, edges);
 }
 

@@ -26,7 +26,7 @@
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
-#include <octetra/core/files.hpp>
+#include <octetra/core/files/mesh_files.hpp>
 #include <octetra/core/selection.hpp>
 
 #include "measuring.hpp"
@@ -120,11 +120,11 @@ void write(const dm::Mesh& mesh, const std::string& path) {
 
 // ---- a level
 
-/// As octetra chooses them.
+/// As octetra marks them.
 std::vector<std::int32_t> cells_in(const dm::Mesh& mesh, const Selection& sphere) {
     const auto x = mesh.geometry().x();
     const auto& dofmap = mesh.geometry().dofmap();
-    std::vector<std::int32_t> chosen;
+    std::vector<std::int32_t> marked;
     for (std::int32_t cell = 0; cell < cells_of_rank(mesh); ++cell) {
         Corners corners{};
         const auto vertices = dofmap.links(cell);
@@ -132,9 +132,9 @@ std::vector<std::int32_t> cells_in(const dm::Mesh& mesh, const Selection& sphere
             const auto at = 3 * static_cast<std::size_t>(vertices[c]);
             corners[c] = {x[at], x[at + 1], x[at + 2]};
         }
-        if (chooses(sphere, corners, 0, GlobalCell{0})) chosen.push_back(cell);
+        if (marks(sphere, corners, 0, GlobalCell{0})) marked.push_back(cell);
     }
-    return chosen;
+    return marked;
 }
 
 /// Seconds of this rank since `start`, which is now the present.
@@ -155,7 +155,7 @@ std::int64_t sum(std::int64_t value) {
     return result;
 }
 
-/// Of the chosen cells.
+/// Of the marked cells.
 std::vector<std::int32_t> edges_in(dm::Mesh& mesh, const Selection& sphere) {
     mesh.topology_mutable().create_connectivity(3, 1);
     return dm::compute_incident_entities(mesh, cells_in(mesh, sphere), 3, 1);

@@ -13,7 +13,7 @@ ABOUT = {
     "growth": "With cells: uniform refinement on one rank, without what a program does but once; "
               "in memory that the process has yet to get, which takes as long as the system "
               "takes to hand it out, and in memory that it has written to before. "
-              "With ranks: one mesh, a tenth of its cells chosen by lot; more ranks than cores "
+              "With ranks: one mesh, a tenth of its cells marked at random; more ranks than cores "
               "take turns, so seconds are those of the processor, waiting included.",
     "files": "Files in the page cache, and `octetra refine` from its start to its end.",
     "peers": "DOLFINx as Debian has it, the same mesh and the same cells chosen. Timed from "

@@ -1,4 +1,4 @@
-"""The engine by itself: where everything is refined, some of it, little of it, and by lot."""
+"""The engine by itself: where everything is refined, some of it, little of it, and cells at random."""
 
 import statistics
 
@@ -152,7 +152,7 @@ def around_a_point(cubes, levels, chosen):
                 point_figures, point_curve)
 
 
-# --- by lot
+# --- cells at random
 
 
 def lot_figures(lines):

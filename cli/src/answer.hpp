@@ -2,7 +2,7 @@
 
 namespace octetra::cli {
 
-/// Thrown, on all processes alike, by a subcommand that has done its work and whose answer is no:
+/// Thrown, on all processes, by a subcommand that has done its work and whose answer is no:
 /// the program ends with status 1.
 struct AnswerIsNo {};
 

@@ -10,7 +10,7 @@
 #include <CLI/CLI.hpp>
 
 #include <octetra/core/error.hpp>
-#include <octetra/core/files.hpp>
+#include <octetra/core/files/unfinished_files.hpp>
 #include <octetra/distributed/communicator.hpp>
 
 #include "answer.hpp"

@@ -16,7 +16,7 @@ using boost::multiprecision::cpp_int;
 template <class Number>
 using Rows = std::array<std::array<Number, 3>, 3>;
 
-/// Expanded along the third column; for filter and exact evaluation alike.
+/// Expanded along the third column; for both the filter and the exact evaluation.
 template <class Number>
 Number determinant(const Rows<Number>& m) {
     return m[0][2] * (m[1][0] * m[2][1] - m[1][1] * m[2][0]) +

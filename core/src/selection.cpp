@@ -81,7 +81,7 @@ std::uint64_t scramble(std::uint64_t x) {
 
 std::uint64_t hash(const Point& p) {
     std::uint64_t h = 0;
-    // Adding +0.0 turns -0.0 into +0.0, which compares equal to it and so must hash alike.
+    // Adding +0.0 turns -0.0 into +0.0, which compares equal to it and so must hash the same.
     for (const double c : {p.x, p.y, p.z}) h = scramble(h ^ std::bit_cast<std::uint64_t>(c + 0.0));
     return h;
 }
@@ -134,7 +134,7 @@ double volume(const Corners& corners) {
     return narrow ? *narrow / 6 : static_cast<double>(*six_volumes<Wide>(sorted) / 6);
 }
 
-bool chooses(const Selection& selection, const Corners& corners, Marker region, GlobalCell root) {
+bool marks(const Selection& selection, const Corners& corners, Marker region, GlobalCell root) {
     if (selection.all) return true;
     if (std::ranges::find(selection.regions, region) != selection.regions.end()) return true;
     if (std::ranges::binary_search(selection.cells, root)) return true;

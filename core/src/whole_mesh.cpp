@@ -9,7 +9,7 @@ WholeMesh::WholeMesh(const Mesh& mesh, const RefinementMaps* maps)
              .facets = mesh.facets.size(),
              .edges = mesh.edges.size(),
              .attributes_per_point = mesh.attributes_per_point,
-             .first_number = mesh.first_number,
+             .index_base = mesh.index_base,
              .first_midpoint = maps == nullptr ? mesh.points.size() : maps->first_midpoint.value(),
              .has_point_markers = !mesh.point_markers.empty(),
              .has_regions = !mesh.regions.empty(),

@@ -195,8 +195,8 @@ MeshStatistics measure(const Mesh& mesh) {
     Adjacency adjacency;
     out.counts.vertices = mesh.points.size();
     out.counts.cells = mesh.cells.size();
-    out.counts.listed_facets = mesh.facets.size();
-    out.counts.listed_edges = mesh.edges.size();
+    out.counts.tagged_facets = mesh.facets.size();
+    out.counts.tagged_edges = mesh.edges.size();
     measure_vertices(mesh, out, adjacency);
     measure_edges(mesh, out, adjacency);
     measure_faces(mesh, out);

@@ -8,16 +8,16 @@
 
 namespace octetra::reference {
 
-/// For each edge of the table its midpoint's vertex number, or none() if it is not selected.
+/// For each edge of the table its midpoint's vertex number, or none() if it is not marked.
 using EdgeToMidpoint = IndexVector<EdgeIndex, VertexIndex>;
 
-/// A selected edge and its midpoint.
+/// A marked edge and its midpoint.
 struct BisectedEdge {
     EdgeVertices ends;
     VertexIndex midpoint;
 };
 
-/// The selected ones among the edges of a cell, facet or edge with these vertices, longest first.
+/// The marked ones among the edges of a cell, facet or edge with these vertices, longest first.
 [[nodiscard]] std::vector<BisectedEdge> bisected_edges(const Mesh& mesh, const EdgeTable& table,
                                                        const EdgeToMidpoint& midpoints,
                                                        const std::vector<VertexIndex>& vertices);

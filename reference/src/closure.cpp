@@ -6,23 +6,23 @@
 
 namespace octetra::reference {
 
-EdgeSet close(EdgeSet selected, const Mesh& mesh, const EdgeTable& table) {
-    const auto is_selected = [&](EdgeIndex e) { return selected[e] != 0; };
+EdgeSet close(EdgeSet marked, const Mesh& mesh, const EdgeTable& table) {
+    const auto is_marked = [&](EdgeIndex e) { return marked[e] != 0; };
     bool changed = true;
     while (changed) {
         changed = false;
         for (const auto& cell : table.cell_to_edges) {
             for (std::size_t face = 0; face < 4; ++face) {
                 const auto edges = face_edges(cell, face);
-                if (std::ranges::none_of(edges, is_selected)) continue;
+                if (std::ranges::none_of(edges, is_marked)) continue;
                 const EdgeIndex longest_edge = longest(mesh, table, edges);
-                if (is_selected(longest_edge)) continue;
-                selected[longest_edge] = true;
+                if (is_marked(longest_edge)) continue;
+                marked[longest_edge] = true;
                 changed = true;
             }
         }
     }
-    return selected;
+    return marked;
 }
 
 }  // namespace octetra::reference

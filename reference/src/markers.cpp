@@ -16,11 +16,11 @@ IndexVector<EdgeIndex, Marker> midpoint_markers(const Mesh& mesh, const EdgeTabl
             take(find_edge(table, mesh.facets[f][i], mesh.facets[f][j]), mesh.facet_markers[f]);
         }
     }
-    // A listed edge overrules the facets; listed twice, it has the smaller of its markers.
+    // A tagged edge overrules the facets; listed twice, it has the smaller of its markers.
     met.assign(met.size(), false);
-    for (EdgeIndex listed{0}; listed < mesh.edge_markers.end_index(); ++listed) {
-        take(find_edge(table, mesh.edges[listed][0], mesh.edges[listed][1]),
-             mesh.edge_markers[listed]);
+    for (EdgeIndex tagged{0}; tagged < mesh.edge_markers.end_index(); ++tagged) {
+        take(find_edge(table, mesh.edges[tagged][0], mesh.edges[tagged][1]),
+             mesh.edge_markers[tagged]);
     }
     return markers;
 }

@@ -8,8 +8,8 @@
 #include "bisect.hpp"
 #include "closure.hpp"
 #include "edges.hpp"
+#include "mark_edges.hpp"
 #include "markers.hpp"
-#include "select.hpp"
 
 namespace octetra::reference {
 namespace {
@@ -21,8 +21,8 @@ void check_countable(std::size_t count, std::string_view what) {
     }
 }
 
-/// The vertices of `mesh` and the midpoints of the selected edges.
-EdgeToMidpoint bisect_edges(const Mesh& mesh, const EdgeTable& table, const EdgeSet& selected,
+/// The vertices of `mesh` and the midpoints of the marked edges.
+EdgeToMidpoint bisect_edges(const Mesh& mesh, const EdgeTable& table, const EdgeSet& marked,
                             Refinement& fine) {
     const auto markers = midpoint_markers(mesh, table);
     const std::size_t attributes = mesh.attributes_per_point;
@@ -33,7 +33,7 @@ EdgeToMidpoint bisect_edges(const Mesh& mesh, const EdgeTable& table, const Edge
 
     EdgeToMidpoint midpoints(table.edges.size(), VertexIndex::none());
     for (EdgeIndex e{0}; e < table.edges.end_index(); ++e) {
-        if (selected[e] == 0) continue;
+        if (marked[e] == 0) continue;
         const auto& [a, b] = table.edges[e];
         check_countable(fine.mesh.points.size() + 1, "vertices");
         midpoints[e] = fine.mesh.points.append(midpoint(mesh.points[a], mesh.points[b]));
@@ -50,7 +50,7 @@ EdgeToMidpoint bisect_edges(const Mesh& mesh, const EdgeTable& table, const Edge
 
 /// Rounded midpoints may leave the edge that they bisect, and a thin enough child then turns over.
 void check_child(const CellVertices& child, const Mesh& fine, CellIndex parent, int level,
-                 std::uint32_t first_number) {
+                 std::uint32_t index_base) {
     const auto& p = fine.points;
     const bool finite = is_finite(p[child[0]]) && is_finite(p[child[1]]) &&
                         is_finite(p[child[2]]) && is_finite(p[child[3]]);
@@ -60,7 +60,7 @@ void check_child(const CellVertices& child, const Mesh& fine, CellIndex parent, 
         "cell {}, level {}: bisection would make a child that is {}, because its midpoints cannot "
         "be rounded to double precision well enough; the cell is too small for its coordinates, "
         "or these are too large to be added",
-        parent.value() + first_number, level, sign < 0 ? "inverted" : "flat"));
+        parent.value() + index_base, level, sign < 0 ? "inverted" : "flat"));
 }
 
 /// Before anything is made of it.
@@ -86,7 +86,7 @@ void bisect_cells(const Mesh& mesh, const EdgeTable& table, const EdgeToMidpoint
         check_countable(fine.mesh.cells.size() + children.size(), "cells");
         for (const CellVertices& child : children) {
             if (children.size() > 1) {
-                check_child(child, fine.mesh, cell_to_parent[c], level, mesh.first_number);
+                check_child(child, fine.mesh, cell_to_parent[c], level, mesh.index_base);
             }
             fine.mesh.cells.append(child);
             fine.maps.cell_to_parent.append(cell_to_parent[c]);
@@ -95,16 +95,16 @@ void bisect_cells(const Mesh& mesh, const EdgeTable& table, const EdgeToMidpoint
     }
 }
 
-/// Facets and listed edges go the way of the cells that they belong to.
+/// Facets and tagged edges go the way of the cells that they belong to.
 template <class I, std::size_t N>
-void bisect_listed(const IndexVector<I, std::array<VertexIndex, N>>& list,
+void bisect_tagged(const IndexVector<I, std::array<VertexIndex, N>>& list,
                    const IndexVector<I, Marker>& markers, const Mesh& mesh, const EdgeTable& table,
                    const EdgeToMidpoint& midpoints,
                    IndexVector<I, std::array<VertexIndex, N>>& fine_list,
                    IndexVector<I, Marker>& fine_markers) {
     for (I i{0}; i < list.end_index(); ++i) {
         for (const auto& piece : pieces_of(list[i], mesh, table, midpoints)) {
-            check_countable(fine_list.size() + 1, "listed facets or edges");
+            check_countable(fine_list.size() + 1, "tagged facets or edges");
             fine_list.append(piece);
             if (!markers.empty()) fine_markers.append(markers[i]);
         }
@@ -115,19 +115,19 @@ Refinement refine_once(const Refinement& coarse, const Selection& selection, Sch
                        int level, std::size_t max_cells) {
     const Mesh& mesh = coarse.mesh;
     const EdgeTable table = number_edges(mesh);
-    const EdgeSet selected = close(
-        select_edges(mesh, table, selection, scheme, coarse.maps.cell_to_parent), mesh, table);
+    const EdgeSet marked =
+        close(mark_edges(mesh, table, selection, scheme, coarse.maps.cell_to_parent), mesh, table);
 
     Refinement fine;
-    fine.mesh.first_number = mesh.first_number;
+    fine.mesh.index_base = mesh.index_base;
     fine.maps.first_midpoint = coarse.maps.first_midpoint;
     fine.maps.midpoint_to_edge = coarse.maps.midpoint_to_edge;
-    const EdgeToMidpoint midpoints = bisect_edges(mesh, table, selected, fine);
+    const EdgeToMidpoint midpoints = bisect_edges(mesh, table, marked, fine);
     check_allowed(mesh, table, midpoints, max_cells, level);
     bisect_cells(mesh, table, midpoints, coarse.maps.cell_to_parent, level, fine);
-    bisect_listed(mesh.facets, mesh.facet_markers, mesh, table, midpoints, fine.mesh.facets,
+    bisect_tagged(mesh.facets, mesh.facet_markers, mesh, table, midpoints, fine.mesh.facets,
                   fine.mesh.facet_markers);
-    bisect_listed(mesh.edges, mesh.edge_markers, mesh, table, midpoints, fine.mesh.edges,
+    bisect_tagged(mesh.edges, mesh.edge_markers, mesh, table, midpoints, fine.mesh.edges,
                   fine.mesh.edge_markers);
     return fine;
 }

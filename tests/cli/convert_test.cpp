@@ -1,6 +1,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <octetra/core/files/mesh_files.hpp>
+
 #include "cli/octetra_program.hpp"
 
 namespace octetra {
@@ -17,8 +19,8 @@ TEST(Convert, ThereAndBackGivesTheSameBytes) {
     ASSERT_EQ(test::octetra("convert back.ele again.mesh", folder).status, 0);
     EXPECT_EQ(test::content_of(folder / "gear.mesh"), test::content_of(folder / "again.mesh"));
     Mesh back = read_mesh(folder / "back.ele");
-    EXPECT_EQ(back.first_number, 1U) << "Medit counts from 1, and so does what came from it";
-    back.first_number = 0;
+    EXPECT_EQ(back.index_base, 1U) << "Medit counts from 1, and so does what came from it";
+    back.index_base = 0;
     EXPECT_EQ(back, read_mesh(folder / "gear.1.ele"));
 }
 

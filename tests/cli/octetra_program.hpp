@@ -2,8 +2,6 @@
 
 #include <string>
 
-#include <octetra/core/files.hpp>
-
 #include "support/run_program.hpp"
 
 namespace octetra::test {

@@ -4,6 +4,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <octetra/core/files/mesh_files.hpp>
+
 #include "cli/octetra_program.hpp"
 #include "support/meshes.hpp"
 
@@ -117,7 +119,7 @@ TEST_F(Parallel, ReportsRoundingAsOneProcessDoes) {
     EXPECT_THAT(parallel.err, HasSubstr(serial.err));
 }
 
-/// No rank may write a file longer than 50 KiB: whichever meets the limit, all end alike.
+/// No rank may write a file longer than 50 KiB: whichever meets the limit, all end the same way.
 TEST_F(Parallel, EndsInOneMessageWhereARankCannotWriteAndLeavesNothing) {
     for (const std::string output : {"p.ele", "p.mesh", "p.vtu", "p.pvtu"}) {
         const auto run =

@@ -2,6 +2,8 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include <octetra/core/files/mesh_files.hpp>
+
 #include "cli/octetra_program.hpp"
 #include "support/meshes.hpp"
 
@@ -31,7 +33,7 @@ TEST_F(RefineCube, BySphereGivesThePublishedCounts) {
     EXPECT_EQ(cells_after(folder, "--sphere .5,.5,.5,.25 --levels 3 --engine reference"), 143016U);
 }
 
-TEST_F(RefineCube, ByEverySelectorChoosesSomething) {
+TEST_F(RefineCube, ByEverySelectorMarksSomething) {
     (void)folder.write("cells.txt", "0 17 # two cells\n3071\n");
     for (const std::string option :
          {"--cells cells.txt", "--sphere 0,0,0,.2", "--sphere -1,0,0,1.1", "--box 0,0,0,.2,.2,.2",
@@ -77,10 +79,10 @@ TEST_F(RefineCube, RefusesCellsThatThereAreNot) {
     EXPECT_THAT(run.err, HasSubstr("octetra: cells.txt:2: there is no cell 3072"));
 }
 
-TEST_F(RefineCube, NotesWhenNothingWasChosen) {
+TEST_F(RefineCube, NotesWhenNothingWasMarked) {
     const test::Outcome run = test::octetra("refine cube.ele --sphere 9,9,9,1 -o f.ele", folder);
     EXPECT_EQ(run.status, 0);
-    EXPECT_THAT(run.err, HasSubstr("no cell was chosen"));
+    EXPECT_THAT(run.err, HasSubstr("no cell was marked"));
 }
 
 TEST_F(RefineCube, QuietlyPrintsNothing) {

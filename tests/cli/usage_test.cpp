@@ -4,6 +4,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <octetra/core/files/mesh_files.hpp>
+
 #include "cli/octetra_program.hpp"
 
 /// What options take, and what is said of anything else: one line, with the option, what was given

@@ -5,6 +5,8 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include <octetra/core/files/mesh_files.hpp>
+
 #include "cli/octetra_program.hpp"
 #include "support/meshes.hpp"
 
@@ -73,7 +75,7 @@ TEST(Vtu, HoldsEveryBitOfTheCoordinatesAndEveryCell) {
 TEST(Vtu, InPiecesIsTheWholeMeshForVtk) {
     const TemporaryFolder folder;
     Mesh mesh = test::shaken_kuhn(4, 0.2, 1);
-    mesh.first_number = 1;
+    mesh.index_base = 1;
     test::list_boundary(mesh);
     for (std::size_t v = 0; v < mesh.points.size(); ++v) {
         mesh.point_markers.append(static_cast<Marker>(v % 5));
@@ -127,7 +129,7 @@ TEST(Vtu, OfFewerPiecesRemovesThoseOfTheOneThatItReplaces) {
 TEST(Vtu, NumbersParentsAsTheInputDoes) {
     const TemporaryFolder folder;
     Mesh mesh = test::kuhn(1, 1, 1);
-    mesh.first_number = 1;
+    mesh.index_base = 1;
     (void)write_mesh(mesh, folder / "a.ele");
     ASSERT_EQ(test::octetra("refine a.ele --all -o a.vtu", folder).status, 0);
     const json found = json::parse(read_by_vtk("a.vtu", folder).out);

@@ -8,15 +8,15 @@
 #include <gtest/gtest.h>
 
 #include <octetra/core/error.hpp>
-#include <octetra/core/files.hpp>
+#include <octetra/core/files/mesh_files.hpp>
 
-#include "files/repeated_cells.hpp"
+#include "files/checks/repeated_cells.hpp"
 #include "support/meshes.hpp"
 #include "support/temporary_folder.hpp"
 #include "support/thrown.hpp"
 
 /// Entries of a file that contradict an earlier one: cells with the same vertices, cells on the
-/// same side of a listed facet, one marker here and another there.
+/// same side of a tagged facet, one marker here and another there.
 namespace octetra {
 namespace {
 
@@ -64,7 +64,7 @@ bool is_read(const Mesh& mesh) {
     return read_mesh(folder / "a.ele") == mesh && read_mesh(folder / "a.mesh").cells == mesh.cells;
 }
 
-/// Two cells, one on either side of a face, and that face listed.
+/// Two cells, one on either side of a face, and that face tagged.
 Mesh two_cells_and_their_face() {
     Mesh mesh = test::mesh_of({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {0, 0, -1}},
                               {{0, 1, 2, 3}, {0, 1, 2, 4}});
@@ -140,7 +140,7 @@ TEST(RepeatedCell, IsNamedByItsNumberWhereLinesDoNotTell) {
                 HasSubstr("a.mesh:2: cell 2 of this section: cell 2 has the vertices of cell 1: "));
 }
 
-TEST(ListedFacet, MayBeListedAgainWithTheSameMarkerAndNoOther) {
+TEST(TaggedFacet, MayBeListedAgainWithTheSameMarkerAndNoOther) {
     Mesh mesh = two_cells_and_their_face();
     mesh.facets.append({VertexIndex{1}, VertexIndex{2}, VertexIndex{0}});
     mesh.facet_markers.append(5);
@@ -151,7 +151,7 @@ TEST(ListedFacet, MayBeListedAgainWithTheSameMarkerAndNoOther) {
     EXPECT_TRUE(is_read(mesh));
 }
 
-TEST(ListedEdge, MayBeListedAgainWithTheSameMarkerAndNoOther) {
+TEST(TaggedEdge, MayBeListedAgainWithTheSameMarkerAndNoOther) {
     Mesh mesh = two_cells_and_their_face();
     for (const std::size_t other : {1U, 2U, 1U}) {
         mesh.edges.append({VertexIndex{0}, VertexIndex{other}});
@@ -164,7 +164,7 @@ TEST(ListedEdge, MayBeListedAgainWithTheSameMarkerAndNoOther) {
     EXPECT_TRUE(is_read(mesh));
 }
 
-TEST(ListedFacet, ThatComesFirstIsTheOneThatIsNamed) {
+TEST(TaggedFacet, ThatComesFirstIsTheOneThatIsNamed) {
     const FacetVertices stray{VertexIndex{2}, VertexIndex{3}, VertexIndex{4}};
     Mesh mesh = two_cells_and_their_face();
     const FacetVertices twice = mesh.facets.front();
@@ -179,10 +179,10 @@ TEST(ListedFacet, ThatComesFirstIsTheOneThatIsNamed) {
     EXPECT_THAT(refusal(mesh, "a.ele"), HasSubstr("a.face:3: face 1 belongs to no cell"));
 }
 
-TEST(ListedFacet, HasNoTwoCellsOnOneSideHoweverItIsNumbered) {
+TEST(TaggedFacet, HasNoTwoCellsOnOneSideHoweverItIsNumbered) {
     std::vector<std::size_t> numbers{0, 1, 2};
     do {
-        for (const bool listed : {true, false}) {
+        for (const bool tagged : {true, false}) {
             Mesh mesh = two_cells_and_their_face();
             mesh.points.append({0.25, 0.25, 0.5});
             const auto [a, b, c] = mesh.facets.front();
@@ -191,7 +191,7 @@ TEST(ListedFacet, HasNoTwoCellsOnOneSideHoweverItIsNumbered) {
                                        {{numbers[0], numbers[1], numbers[2], 5}});
             mesh.cells.insert(mesh.cells.begin(), third.cells.front());
             mesh.facets.front() = {corners[numbers[0]], corners[numbers[1]], corners[numbers[2]]};
-            if (!listed) {
+            if (!tagged) {
                 mesh.facets.clear();
                 mesh.facet_markers.clear();
                 EXPECT_TRUE(is_read(mesh)) << "octetra verify and refine --check look at all faces";

@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <octetra/core/error.hpp>
-#include <octetra/core/files.hpp>
+#include <octetra/core/files/maps_files.hpp>
 #include <octetra/core/maps.hpp>
 
 #include "support/temporary_folder.hpp"
@@ -23,14 +23,14 @@ RefinementMaps some_maps() {
 
 TEST(Maps, ReadBackWhatWasWritten) {
     const test::TemporaryFolder folder;
-    for (const std::uint32_t first_number : {0U, 1U}) {
+    for (const std::uint32_t index_base : {0U, 1U}) {
         const RefinementMaps maps = some_maps();
-        Mesh mesh{.first_number = first_number};
+        Mesh mesh{.index_base = index_base};
         mesh.cells.resize(maps.cell_to_parent.size());
         mesh.points.resize(maps.first_midpoint.value() + maps.midpoint_to_edge.size());
         WholeMesh source(mesh, &maps);
         write_maps(source, folder / "maps");
-        EXPECT_EQ(read_maps(folder / "maps", first_number), maps);
+        EXPECT_EQ(read_maps(folder / "maps", index_base), maps);
     }
 }
 

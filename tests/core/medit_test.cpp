@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 
 #include <octetra/core/error.hpp>
-#include <octetra/core/files.hpp>
+#include <octetra/core/files/mesh_files.hpp>
 
 #include "support/temporary_folder.hpp"
 #include "support/thrown.hpp"
@@ -103,7 +103,7 @@ TEST(MeditReader, KeepsTagsAndDropsReferencesThatAreAllZero) {
     const Mesh mesh = read(good);
     EXPECT_EQ(mesh.regions.front(), 5);
     EXPECT_TRUE(mesh.point_markers.empty());
-    EXPECT_EQ(mesh.first_number, 1U);
+    EXPECT_EQ(mesh.index_base, 1U);
 }
 
 TEST(MeditReader, TakesTokensAcrossLinesInAnyOrderWithComments) {

@@ -8,7 +8,7 @@
 #include <gtest/gtest.h>
 
 #include <octetra/core/error.hpp>
-#include <octetra/core/files.hpp>
+#include <octetra/core/files/mesh_files.hpp>
 
 #include "support/bits.hpp"
 #include "support/meshes.hpp"
@@ -76,7 +76,7 @@ public:
         keep_if(facts.has_regions, mesh.regions);
         keep_if(facts.has_facet_markers, mesh.facet_markers);
         keep_if(facts.has_edge_markers, mesh.edge_markers);
-        mesh.first_number = facts.first_number;
+        mesh.index_base = facts.index_base;
         EXPECT_EQ(facts.vertices, mesh.points.size());
         EXPECT_EQ(facts.first_midpoint, mesh.points.size());
         EXPECT_EQ(facts.cells, mesh.cells.size());
@@ -194,11 +194,11 @@ TEST(StreamedMesh, EndsInTheErrorOfReadingForEveryBadFileOfTheCorpus) {
 
 Marker random_marker(std::mt19937_64& random) { return static_cast<Marker>(random() % 7) - 3; }
 
-/// Listed entities of each kind, any vertices at all, and every column or not.
+/// Entities of each kind, any vertices at all, and every column or not.
 Mesh random_mesh(std::uint64_t seed, std::size_t size) {
     std::mt19937_64 random(seed);
     Mesh mesh;
-    mesh.first_number = 1;
+    mesh.index_base = 1;
     const auto number = [&](std::size_t most) { return random() % (most + 1); };
     const std::size_t vertices = 1 + number(size);
     for (std::size_t v = 0; v < vertices; ++v) {

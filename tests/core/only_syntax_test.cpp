@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <octetra/core/error.hpp>
-#include <octetra/core/files.hpp>
+#include <octetra/core/files/mesh_files.hpp>
 
 #include "support/temporary_folder.hpp"
 

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "files/output_file.hpp"
+#include "files/output/output_file.hpp"
 #include "support/temporary_folder.hpp"
 
 /// The bytes below the mesh writers, in amounts that only meshes of many gigabytes have.

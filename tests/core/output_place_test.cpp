@@ -12,7 +12,9 @@
 #include <gtest/gtest.h>
 
 #include <octetra/core/error.hpp>
-#include <octetra/core/files.hpp>
+#include <octetra/core/files/lists.hpp>
+#include <octetra/core/files/maps_files.hpp>
+#include <octetra/core/files/mesh_files.hpp>
 #include <octetra/core/maps.hpp>
 
 #include "support/meshes.hpp"

@@ -4,7 +4,8 @@
 
 #include <gtest/gtest.h>
 
-#include <octetra/core/files.hpp>
+#include <octetra/core/files/maps_files.hpp>
+#include <octetra/core/files/mesh_files.hpp>
 #include <octetra/core/maps.hpp>
 
 #include "support/bits.hpp"
@@ -57,8 +58,8 @@ TEST(RoundTrip, TetgenKeepsEverything) {
     for (std::size_t i = 0; i < 2 * mesh.points.size(); ++i) {
         mesh.point_attributes.push_back(std::sqrt(static_cast<double>(i)));
     }
-    for (const std::uint32_t first_number : {0U, 1U}) {
-        mesh.first_number = first_number;
+    for (const std::uint32_t index_base : {0U, 1U}) {
+        mesh.index_base = index_base;
         EXPECT_EQ(through_file(mesh, "rich.1.ele"), mesh);
         EXPECT_EQ(through_file(mesh, "rich.node"), mesh);
     }
@@ -66,7 +67,7 @@ TEST(RoundTrip, TetgenKeepsEverything) {
 
 TEST(RoundTrip, MeditKeepsEverythingButAttributes) {
     Mesh mesh = rich_mesh();
-    mesh.first_number = 1;
+    mesh.index_base = 1;
     EXPECT_EQ(through_file(mesh, "rich.mesh"), mesh);
 
     mesh.attributes_per_point = 1;
@@ -119,7 +120,7 @@ TEST(RoundTrip, LongFilesKeepTheirLinesAcrossBuffers) {
     const Mesh mesh = test::kuhn(40, 40, 40, 1.0 / 3);  // 384,000 cells, 9 MB of .ele
     EXPECT_TRUE(through_file(mesh, "a.ele") == mesh);
     Mesh from_medit = through_file(mesh, "a.mesh");
-    from_medit.first_number = 0;
+    from_medit.index_base = 0;
     EXPECT_TRUE(from_medit == mesh);
 }
 
@@ -132,8 +133,8 @@ TEST(WriteMaps, NumbersEverythingAsTheMeshFilesDo) {
     maps.cell_to_parent = {CellIndex{0}, CellIndex{0}, CellIndex{1}};
     maps.first_midpoint = VertexIndex{5};
     maps.midpoint_to_edge = {{VertexIndex{0}, VertexIndex{3}}, {VertexIndex{1}, VertexIndex{5}}};
-    const auto written = [&](std::uint32_t first_number) {
-        mesh.first_number = first_number;
+    const auto written = [&](std::uint32_t index_base) {
+        mesh.index_base = index_base;
         WholeMesh source(mesh, &maps);
         write_maps(source, folder / "maps");
         return test::content_of(folder / "maps");

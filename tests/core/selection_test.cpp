@@ -15,69 +15,69 @@ namespace {
 constexpr GlobalCell any_cell{0};
 const Corners unit{{{0, 0, 0}, {4, 0, 0}, {0, 4, 0}, {0, 0, 4}}};  // centroid (1, 1, 1)
 
-TEST(Selection, ChoosesNothingUnlessTold) { EXPECT_FALSE(chooses({}, unit, 0, any_cell)); }
+TEST(Selection, MarksNothingUnlessTold) { EXPECT_FALSE(marks({}, unit, 0, any_cell)); }
 
-TEST(Selection, OfAllChoosesEveryCell) { EXPECT_TRUE(chooses({.all = true}, unit, 0, any_cell)); }
+TEST(Selection, OfAllMarksEveryCell) { EXPECT_TRUE(marks({.all = true}, unit, 0, any_cell)); }
 
 TEST(Selection, OfASphereNeedsTheCentroidStrictlyNearerThanTheRadius) {
-    EXPECT_FALSE(chooses({.spheres = {{{1, 1, 0}, 1}}}, unit, 0, any_cell));
-    EXPECT_TRUE(chooses({.spheres = {{{1, 1, 0}, 1.0000001}}}, unit, 0, any_cell));
-    EXPECT_FALSE(chooses({.spheres = {{{0, 0, 0}, 1.7}}}, unit, 0, any_cell));
+    EXPECT_FALSE(marks({.spheres = {{{1, 1, 0}, 1}}}, unit, 0, any_cell));
+    EXPECT_TRUE(marks({.spheres = {{{1, 1, 0}, 1.0000001}}}, unit, 0, any_cell));
+    EXPECT_FALSE(marks({.spheres = {{{0, 0, 0}, 1.7}}}, unit, 0, any_cell));
 }
 
 TEST(Selection, OfABoxTakesItsBorderIn) {
-    EXPECT_TRUE(chooses({.boxes = {{{1, 1, 1}, {1, 1, 1}}}}, unit, 0, any_cell));
-    EXPECT_FALSE(chooses({.boxes = {{{1.1, 0, 0}, {9, 9, 9}}}}, unit, 0, any_cell));
-    EXPECT_FALSE(chooses({.boxes = {{{0, 0, 0}, {9, 9, 0.9}}}}, unit, 0, any_cell));
+    EXPECT_TRUE(marks({.boxes = {{{1, 1, 1}, {1, 1, 1}}}}, unit, 0, any_cell));
+    EXPECT_FALSE(marks({.boxes = {{{1.1, 0, 0}, {9, 9, 9}}}}, unit, 0, any_cell));
+    EXPECT_FALSE(marks({.boxes = {{{0, 0, 0}, {9, 9, 0.9}}}}, unit, 0, any_cell));
 }
 
 TEST(Selection, OfABoxBoundsEveryCoordinateFromBothSides) {
     const Box around{{0.5, 0.5, 0.5}, {1.5, 1.5, 1.5}};
-    EXPECT_TRUE(chooses({.boxes = {around}}, unit, 0, any_cell));
+    EXPECT_TRUE(marks({.boxes = {around}}, unit, 0, any_cell));
     for (double Point::*coordinate : {&Point::x, &Point::y, &Point::z}) {
         Box beyond = around;
         beyond.low.*coordinate = 1.25;
-        EXPECT_FALSE(chooses({.boxes = {beyond}}, unit, 0, any_cell));
+        EXPECT_FALSE(marks({.boxes = {beyond}}, unit, 0, any_cell));
         Box before = around;
         before.high.*coordinate = 0.75;
-        EXPECT_FALSE(chooses({.boxes = {before}}, unit, 0, any_cell));
+        EXPECT_FALSE(marks({.boxes = {before}}, unit, 0, any_cell));
     }
 }
 
 TEST(Selection, OfARegionGoesByTheTag) {
-    EXPECT_TRUE(chooses({.regions = {3, -7}}, unit, -7, any_cell));
-    EXPECT_FALSE(chooses({.regions = {3, -7}}, unit, 7, any_cell));
+    EXPECT_TRUE(marks({.regions = {3, -7}}, unit, -7, any_cell));
+    EXPECT_FALSE(marks({.regions = {3, -7}}, unit, 7, any_cell));
 }
 
 TEST(Selection, OfListedCellsGoesByTheCellOfTheInput) {
     const Selection listed{.cells = {GlobalCell{2}, GlobalCell{5}}};
-    EXPECT_TRUE(chooses(listed, unit, 0, GlobalCell{5}));
-    EXPECT_FALSE(chooses(listed, unit, 0, GlobalCell{3}));
+    EXPECT_TRUE(marks(listed, unit, 0, GlobalCell{5}));
+    EXPECT_FALSE(marks(listed, unit, 0, GlobalCell{3}));
 }
 
-TEST(Selection, ByVolumeChoosesWhatIsLarger) {
-    EXPECT_FALSE(chooses({.max_volume = 64.0 / 6}, unit, 0, any_cell));
-    EXPECT_TRUE(chooses({.max_volume = 10.6}, unit, 0, any_cell));
+TEST(Selection, ByVolumeMarksWhatIsLarger) {
+    EXPECT_FALSE(marks({.max_volume = 64.0 / 6}, unit, 0, any_cell));
+    EXPECT_TRUE(marks({.max_volume = 10.6}, unit, 0, any_cell));
 }
 
 TEST(Selection, CriteriaAddUp) {
     const Selection both{.spheres = {{{9, 9, 9}, 1}}, .regions = {4}};
-    EXPECT_TRUE(chooses(both, unit, 4, any_cell));
-    EXPECT_FALSE(chooses(both, unit, 5, any_cell));
+    EXPECT_TRUE(marks(both, unit, 4, any_cell));
+    EXPECT_FALSE(marks(both, unit, 5, any_cell));
 }
 
 TEST(Selection, AtRandomTakesAboutItsShare) {
     const Mesh mesh = test::shaken_kuhn(10, 0.1, 5);
     for (const double share : {0.0, 0.01, 0.3, 0.9, 1.0}) {
         const Selection selection{.random = RandomShare{share, 17}};
-        const auto chosen = std::ranges::count_if(mesh.cells, [&](const CellVertices& cell) {
+        const auto marked = std::ranges::count_if(mesh.cells, [&](const CellVertices& cell) {
             const Corners corners{mesh.points[cell[0]], mesh.points[cell[1]], mesh.points[cell[2]],
                                   mesh.points[cell[3]]};
-            return chooses(selection, corners, 0, any_cell);
+            return marks(selection, corners, 0, any_cell);
         });
         const auto count = static_cast<double>(mesh.cells.size());
         const double deviation = std::sqrt(count * share * (1 - share));
-        EXPECT_NEAR(static_cast<double>(chosen), share * count, 4 * deviation) << share;
+        EXPECT_NEAR(static_cast<double>(marked), share * count, 4 * deviation) << share;
     }
 }
 
@@ -87,8 +87,8 @@ TEST(Selection, AtRandomDrawsOtherCellsForAnotherSeed) {
     for (const CellVertices& cell : mesh.cells) {
         const Corners corners{mesh.points[cell[0]], mesh.points[cell[1]], mesh.points[cell[2]],
                               mesh.points[cell[3]]};
-        const bool first = chooses({.random = RandomShare{0.5, 1}}, corners, 0, any_cell);
-        const bool second = chooses({.random = RandomShare{0.5, 2}}, corners, 0, any_cell);
+        const bool first = marks({.random = RandomShare{0.5, 1}}, corners, 0, any_cell);
+        const bool second = marks({.random = RandomShare{0.5, 2}}, corners, 0, any_cell);
         if (first != second) ++different;
     }
     EXPECT_GT(different, mesh.cells.size() / 3);
@@ -102,7 +102,7 @@ TEST(Selection, AtRandomTakesMinusZeroForZero) {
     }
     for (std::uint64_t seed = 0; seed < 64; ++seed) {
         const Selection drawn{.random = RandomShare{0.5, seed}};
-        EXPECT_EQ(chooses(drawn, negative, 0, any_cell), chooses(drawn, unit, 0, any_cell));
+        EXPECT_EQ(marks(drawn, negative, 0, any_cell), marks(drawn, unit, 0, any_cell));
     }
 }
 
@@ -117,35 +117,35 @@ TEST(Selection, ComparesDistancesThatHaveNoSquares) {
         const Point centre = centroid(cell);
         EXPECT_EQ(centre.x, centre.y);
         EXPECT_NEAR(centre.x / factor, 1, 0.01);
-        const auto chosen = [&](double radius) {
-            return chooses({.spheres = {{{}, radius * factor}}}, cell, 0, any_cell);
+        const auto marked = [&](double radius) {
+            return marks({.spheres = {{{}, radius * factor}}}, cell, 0, any_cell);
         };
-        EXPECT_TRUE(chosen(1.8)) << factor;
-        EXPECT_FALSE(chosen(1.7)) << factor;
+        EXPECT_TRUE(marked(1.8)) << factor;
+        EXPECT_FALSE(marked(1.7)) << factor;
     }
     // Corners of which two have a sum that is no number.
     const Corners huge{{{1.5e308, 0, 0}, {1.6e308, 1, 0}, {1.7e308, 0, 1}, {1.6e308, 1, 1}}};
     EXPECT_EQ(centroid(huge).x, 1.6e308);
-    EXPECT_TRUE(chooses({.spheres = {{{-1e308, 0, 0}, 1.79e308}, {{0, 0, 0}, 1.7e308}}}, huge, 0,
-                        any_cell));
-    EXPECT_FALSE(chooses({.spheres = {{{-1e308, 0, 0}, 1.79e308}}}, huge, 0, any_cell));
+    EXPECT_TRUE(
+        marks({.spheres = {{{-1e308, 0, 0}, 1.79e308}, {{0, 0, 0}, 1.7e308}}}, huge, 0, any_cell));
+    EXPECT_FALSE(marks({.spheres = {{{-1e308, 0, 0}, 1.79e308}}}, huge, 0, any_cell));
 }
 
 TEST(Selection, ComparesVolumesThatNoDoubleHolds) {
-    const auto chosen = [&](const Corners& cell, double limit) {
-        return chooses({.max_volume = limit}, cell, 0, any_cell);
+    const auto marked = [&](const Corners& cell, double limit) {
+        return marks({.max_volume = limit}, cell, 0, any_cell);
     };
     const double largest = std::numeric_limits<double>::max();
-    EXPECT_TRUE(chosen(scaled(unit, 1e160), largest));
-    EXPECT_TRUE(chosen(scaled(unit, 1e-170), 0));
-    EXPECT_FALSE(chosen(scaled(unit, 1e-170), std::numeric_limits<double>::denorm_min()));
+    EXPECT_TRUE(marked(scaled(unit, 1e160), largest));
+    EXPECT_TRUE(marked(scaled(unit, 1e-170), 0));
+    EXPECT_FALSE(marked(scaled(unit, 1e-170), std::numeric_limits<double>::denorm_min()));
     // Though a product of two lengths is less, or more, than any number.
     const Corners needle{{{0, 0, 0}, {4e250, 0, 0}, {0, 4e-170, 0}, {0, 0, 4e-170}}};
-    EXPECT_TRUE(chosen(needle, 1.06e-89));
-    EXPECT_FALSE(chosen(needle, 1.07e-89));
+    EXPECT_TRUE(marked(needle, 1.06e-89));
+    EXPECT_FALSE(marked(needle, 1.07e-89));
     const Corners wafer{{{0, 0, 0}, {4e-250, 0, 0}, {0, 4e170, 0}, {0, 0, 4e170}}};
-    EXPECT_TRUE(chosen(wafer, 1.06e91));
-    EXPECT_FALSE(chosen(wafer, 1.07e91));
+    EXPECT_TRUE(marked(wafer, 1.06e91));
+    EXPECT_FALSE(marked(wafer, 1.07e91));
 }
 
 TEST(Selection, DoesNotDependOnTheOrderOfTheCorners) {
@@ -158,11 +158,11 @@ TEST(Selection, DoesNotDependOnTheOrderOfTheCorners) {
         const Point centre = centroid(corners);
         const double size = volume(corners);
         const Selection drawn{.random = RandomShare{0.5, 3}};
-        const bool chosen = chooses(drawn, corners, 0, any_cell);
+        const bool marked = marks(drawn, corners, 0, any_cell);
         while (std::next_permutation(corners.begin(), corners.end())) {
             ASSERT_EQ(centroid(corners), centre);
             ASSERT_EQ(volume(corners), size);
-            ASSERT_EQ(chooses(drawn, corners, 0, any_cell), chosen);
+            ASSERT_EQ(marks(drawn, corners, 0, any_cell), marked);
         }
     }
 }
@@ -170,8 +170,8 @@ TEST(Selection, DoesNotDependOnTheOrderOfTheCorners) {
 TEST(Selection, OfASphereWithoutEndIsEverything) {
     const Corners corners{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
     const double infinity = std::numeric_limits<double>::infinity();
-    EXPECT_TRUE(chooses({.spheres = {{{5, 5, 5}, infinity}}}, corners, 0, GlobalCell{0}));
-    EXPECT_FALSE(chooses({.spheres = {{{5, 5, 5}, std::nan("")}}}, corners, 0, GlobalCell{0}));
+    EXPECT_TRUE(marks({.spheres = {{{5, 5, 5}, infinity}}}, corners, 0, GlobalCell{0}));
+    EXPECT_FALSE(marks({.spheres = {{{5, 5, 5}, std::nan("")}}}, corners, 0, GlobalCell{0}));
 }
 
 }  // namespace

@@ -12,7 +12,8 @@
 #include <gtest/gtest.h>
 
 #include <octetra/core/error.hpp>
-#include <octetra/core/files.hpp>
+#include <octetra/core/files/lists.hpp>
+#include <octetra/core/files/mesh_files.hpp>
 
 #include "support/temporary_folder.hpp"
 #include "support/thrown.hpp"
@@ -181,7 +182,7 @@ TEST(TetgenReader, TakesHeadersThatLeaveTheDefaultsOut) {
 TEST(TetgenReader, KeepsTheNumberingFromOne) {
     const Mesh mesh = read(
         {.node = "4 3 0 0\n1 0 0 0\n2 1 0 0\n3 0 1 0\n4 0 0 1\n", .ele = "1 4 0\n1 1 2 3 4\n"});
-    EXPECT_EQ(mesh.first_number, 1U);
+    EXPECT_EQ(mesh.index_base, 1U);
     EXPECT_EQ(mesh.cells.front()[0], VertexIndex{0});
 }
 
@@ -247,7 +248,7 @@ TEST(TetgenReader, ReportsWhatIsThereAndCannotBeOpened) {
     }
 }
 
-/// `count` cells round one edge of two hubs, their faces at that edge's lower end listed.
+/// `count` cells round one edge of two hubs, their faces at that edge's lower end tagged.
 Files fan(int count) {
     Files files{.node = fmt::format("{} 3\n0 0 0 -1\n1 0 0 1\n", count + 2),
                 .ele = fmt::format("{} 4\n", count),

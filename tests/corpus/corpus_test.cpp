@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include <octetra/core/error.hpp>
-#include <octetra/core/files.hpp>
+#include <octetra/core/files/mesh_files.hpp>
 #include <octetra/core/orientation.hpp>
 #include <octetra/reference/refine.hpp>
 #include <octetra/verify/verify.hpp>
@@ -83,15 +83,15 @@ void expect_conforming(const Mesh& fine) {
 }
 
 TEST_P(CorpusMesh, IsRefinedByEverySchemeOrRefusedForRounding) {
-    Mesh listed = mesh;
-    listed.facets.clear();
-    listed.facet_markers.clear();
-    test::list_boundary(listed);
+    Mesh tagged = mesh;
+    tagged.facets.clear();
+    tagged.facet_markers.clear();
+    test::list_boundary(tagged);
     const std::vector<Selection> selections{{.all = true}, {.random = RandomShare{0.1, 1}}};
     for (const Selection& selection : selections) {
         for (const Scheme scheme : {Scheme::eight, Scheme::four, Scheme::two}) {
             try {
-                const Mesh fine = reference::refine(listed, selection, scheme, 2).mesh;
+                const Mesh fine = reference::refine(tagged, selection, scheme, 2).mesh;
                 expect_conforming(fine);
                 if (selection.all && scheme == Scheme::eight) {
                     EXPECT_EQ(fine.cells.size(), 64 * mesh.cells.size());

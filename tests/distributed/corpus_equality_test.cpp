@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <octetra/core/error.hpp>
-#include <octetra/core/files.hpp>
+#include <octetra/core/files/mesh_files.hpp>
 #include <octetra/distributed/partition.hpp>
 #include <octetra/distributed/refine.hpp>
 #include <octetra/reference/refine.hpp>

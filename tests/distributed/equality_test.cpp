@@ -196,7 +196,7 @@ TEST(MostCells, AreCountedBeforeALevelIsMadeAndRefusedInTheWordsOfTheReference) 
     }
 }
 
-TEST(MostCells, AreNoMatterWhereNothingIsChosen) {
+TEST(MostCells, AreNoMatterWhereNothingIsMarked) {
     const Mesh mesh = test::kuhn(1, 1, 1);
     const Selection none{.cells = {}};
     EXPECT_EQ(reference::refine(mesh, none, Scheme::eight, 2, 1).mesh.cells.size(), 6U);

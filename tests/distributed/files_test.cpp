@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
-#include <octetra/core/files.hpp>
+#include <octetra/core/files/maps_files.hpp>
+#include <octetra/core/files/mesh_files.hpp>
 #include <octetra/distributed/canonical_mesh.hpp>
 #include <octetra/distributed/partition.hpp>
 #include <octetra/distributed/refine.hpp>
@@ -138,7 +139,7 @@ TEST_P(FilesOfAllRanks, AreTheReferencesOfAMeshWithEverythingMarked) {
                        {.random = RandomShare{0.1, 3}}, 2);
 }
 
-TEST_P(FilesOfAllRanks, AreTheReferencesWhereNothingWasChosen) {
+TEST_P(FilesOfAllRanks, AreTheReferencesWhereNothingWasMarked) {
     expect_equal_files(test::kuhn(1, 1, 1), {.regions = {7}}, 1);
 }
 

@@ -28,7 +28,7 @@ inline Mesh marked(Mesh mesh, std::uint64_t seed) {
         mesh.point_attributes.push_back(static_cast<double>(random()) * 0x1p-60);
         mesh.point_attributes.push_back(static_cast<double>(v));
     }
-    mesh.first_number = static_cast<std::uint32_t>(seed % 2);
+    mesh.index_base = static_cast<std::uint32_t>(seed % 2);
     return mesh;
 }
 

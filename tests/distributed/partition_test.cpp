@@ -144,7 +144,7 @@ Mesh wheel(std::size_t count) {
     return test::mesh_of(points, cells);
 }
 
-/// Numbered by lot, as those of mesh generators often are.
+/// Numbered at random, as those of mesh generators often are.
 Mesh shuffled(Mesh mesh) {
     std::shuffle(mesh.cells.begin(), mesh.cells.end(), std::mt19937_64(1));
     return mesh;

@@ -42,8 +42,8 @@ TEST(PatternTable, BisectsAsTheReferenceDoesForEveryOrderAndClosedSelection) {
     std::size_t compared = 0;
     for_each_order([&](const LongestFirst& longest_first, LengthOrder order) {
         for (unsigned mask = 0; mask < 64; ++mask) {
-            const auto selected = static_cast<EdgeMask>(mask);
-            if (table.closure(order, selected) != selected) continue;
+            const auto marked = static_cast<EdgeMask>(mask);
+            if (table.closure(order, marked) != marked) continue;
             std::vector<reference::BisectedEdge> edges;
             for (const std::size_t e : longest_first) {
                 if ((mask >> e & 1U) == 0) continue;
@@ -53,7 +53,7 @@ TEST(PatternTable, BisectsAsTheReferenceDoesForEveryOrderAndClosedSelection) {
             std::vector<CellVertices> expected;
             reference::bisect<4>({VertexIndex{0}, VertexIndex{1}, VertexIndex{2}, VertexIndex{3}},
                                  edges, expected);
-            const Pattern& pattern = table.pattern(order, selected);
+            const Pattern& pattern = table.pattern(order, marked);
             ASSERT_EQ(pattern.child_count, expected.size());
             for (std::size_t k = 0; k < expected.size(); ++k) {
                 for (std::size_t i = 0; i < 4; ++i) {

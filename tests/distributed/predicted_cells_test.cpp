@@ -50,8 +50,8 @@ TEST(PredictedCells, AreNoneWhereNothingTellsWhichBecomeMore) {
     };
     EXPECT_THAT(predicted({.all = true}, 3), IsEmpty());
     EXPECT_THAT(predicted(ball({1, 1, 1}, 1), 0), IsEmpty());
-    EXPECT_THAT(predicted(ball({9, 9, 9}, 1), 3), IsEmpty()) << "it chooses nothing";
-    EXPECT_THAT(predicted({.boxes = {{{0, 0, 0}, {3, 3, 3}}}}, 3), IsEmpty()) << "it chooses all";
+    EXPECT_THAT(predicted(ball({9, 9, 9}, 1), 3), IsEmpty()) << "it marks nothing";
+    EXPECT_THAT(predicted({.boxes = {{{0, 0, 0}, {3, 3, 3}}}}, 3), IsEmpty()) << "it marks all";
     EXPECT_THAT(predicted({.random = RandomShare{0.3, 1}}, 3), IsEmpty());
     EXPECT_THAT(predicted_cells(Mesh{}, ball({0, 0, 0}, 1), Scheme::eight, 3), IsEmpty());
 }
@@ -68,8 +68,8 @@ TEST(PredictedCells, OfTagsAndNumbersAreAsManyAsTheSchemeMakes) {
         const auto predicted = predicted_cells(mesh, selection, scheme, 3);
         ASSERT_EQ(predicted.size(), mesh.cells.size());
         for (std::size_t c = 0; c < predicted.size(); ++c) {
-            const bool is_chosen = c == 4 || c % 3 == 0;
-            EXPECT_EQ(predicted[c], is_chosen ? of_one * of_one * of_one : 1) << c;
+            const bool is_marked = c == 4 || c % 3 == 0;
+            EXPECT_EQ(predicted[c], is_marked ? of_one * of_one * of_one : 1) << c;
         }
     }
 }

@@ -16,14 +16,14 @@ int sides_in_common(const SelectionBounds& reach, const Corners& corners) {
 }
 
 /// Random cells of a size, and spheres whose border goes through their centroids, or nearly.
-void expect_chosen_only_where_it_may_be(double size, double offset) {
+void expect_marked_only_where_it_may_be(double size, double offset) {
     SCOPED_TRACE(testing::Message() << "size " << size << ", offset " << offset);
     std::mt19937_64 random(1);
     std::uniform_real_distribution<double> place(-size, size);
     const auto point = [&] {
         return Point{place(random) + offset, place(random) + offset, place(random) + offset};
     };
-    int chosen = 0;
+    int marked = 0;
     for (int i = 0; i < 20000; ++i) {
         Corners corners{point(), point(), point(), point()};
         if (i % 3 == 0) corners = {corners[0], corners[0], corners[0], corners[0]};
@@ -33,21 +33,21 @@ void expect_chosen_only_where_it_may_be(double size, double offset) {
         const Selection sphere{.spheres = {{c, radius * (1 + (i % 7 - 3) * 2e-16)}}};
         const Selection box{.boxes = {{centre, centre}}};
         for (const Selection& selection : {sphere, box}) {
-            if (!chooses(selection, corners, 0, GlobalCell{0})) continue;
-            ++chosen;
+            if (!marks(selection, corners, 0, GlobalCell{0})) continue;
+            ++marked;
             ASSERT_TRUE(may_be_marked(selection, box_of(corners))) << "case " << i;
             ASSERT_EQ(sides_in_common(SelectionBounds(selection), corners), 0) << "case " << i;
         }
     }
-    EXPECT_GT(chosen, 20000);
+    EXPECT_GT(marked, 20000);
 }
 
-TEST(SelectionBounds, NeverPassOverACellThatIsChosen) {
+TEST(SelectionBounds, NeverPassOverACellThatIsMarked) {
     for (const double size : {1.0, 1e-9, 1e-165, 3e-320, 1e153, 1e170, 8e307}) {
-        expect_chosen_only_where_it_may_be(size, 0);
+        expect_marked_only_where_it_may_be(size, 0);
     }
-    expect_chosen_only_where_it_may_be(1e-12, 1);
-    expect_chosen_only_where_it_may_be(1e300, 1e307);
+    expect_marked_only_where_it_may_be(1e-12, 1);
+    expect_marked_only_where_it_may_be(1e300, 1e307);
 }
 
 TEST(SelectionBounds, PassOverWhatIsFarAway) {

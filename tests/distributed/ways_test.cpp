@@ -18,14 +18,14 @@
 #include "support/thrown.hpp"
 
 /// Each rank goes about a level in one of two kinds, the dense or the sparse one, and in the dense
-/// one it numbers all edges or those near the chosen cells: whichever it is, the result is the
+/// one it numbers all edges or those near the marked cells: whichever it is, the result is the
 /// reference's, and the work of the sparse one is in proportion to what changes.
 namespace octetra::distributed {
 namespace {
 
 constexpr double always = 10;
 
-/// Which rank takes which way; `near` is the dense one with edges numbered near the chosen cells.
+/// Which rank takes which way; `near` is the dense one with edges numbered near the marked cells.
 enum class Kinds { full_sweep, local_sweep, incremental, alternating, alternating_otherwise };
 
 Tuning tuning_of(Kinds kinds, int level) {
@@ -199,7 +199,7 @@ TEST(IncrementalLevel, OfALaterLevelDoesNotSeeHowLargeTheMeshIs) {
     EXPECT_EQ(touched[0], touched[1]);
 }
 
-TEST(IncrementalLevel, IsTakenWhereFewCellsAreChosenByAnotherSelectionEachTime) {
+TEST(IncrementalLevel, IsTakenWhereFewCellsAreMarkedByAnotherSelectionEachTime) {
     const std::size_t n = 24;
     DistributedMesh mesh = shared_out(test::kuhn(n, n, n), partitions[1]);
     for (int level = 1; level <= 6; ++level) {
@@ -213,14 +213,14 @@ TEST(IncrementalLevel, IsTakenWhereFewCellsAreChosenByAnotherSelectionEachTime) 
     }
 }
 
-TEST(IncrementalLevel, IsNotTakenWhereManyCellsAreChosenOrFewEverywhere) {
+TEST(IncrementalLevel, IsNotTakenWhereManyCellsAreMarkedOrFewEverywhere) {
     for (const Selection& selection : {Selection{.all = true}, around_the_middle(8, 4),
                                        Selection{.random = RandomShare{0.05, 3}}}) {
         DistributedMesh mesh = shared_out(test::kuhn(8, 8, 8), partitions[1]);
         const std::uint64_t cells = test::world().sum(mesh.cells.size());
         const auto work = work_of(mesh, selection, 2);
         if (!test::world().is_first()) continue;
-        // Every cell was judged, unless all are chosen, and then went the dense way.
+        // Every cell was judged, unless all are marked, and then went the dense way.
         const std::uint64_t times = selection.all ? 1 : 2;
         EXPECT_EQ(work[1].touched, times * cells);
         EXPECT_EQ(work[2].touched, times * work[1].cells);

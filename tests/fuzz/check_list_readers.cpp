@@ -5,7 +5,8 @@
 #include <fmt/format.h>
 
 #include <octetra/core/error.hpp>
-#include <octetra/core/files.hpp>
+#include <octetra/core/files/lists.hpp>
+#include <octetra/core/files/maps_files.hpp>
 #include <octetra/core/maps.hpp>
 #include <octetra/distributed/partition.hpp>
 
@@ -33,7 +34,7 @@ void check_unless_refused(const fs::path& folder, auto&& read, auto&& check) {
     check(result);
 }
 
-void check_written_maps(const RefinementMaps& maps, std::uint32_t first_number,
+void check_written_maps(const RefinementMaps& maps, std::uint32_t index_base,
                         const fs::path& path) {
     constexpr std::size_t most_vertices = 100'000;  // which a mesh is made of below
     const std::size_t vertices = maps.first_midpoint.value() + maps.midpoint_to_edge.size();
@@ -41,23 +42,23 @@ void check_written_maps(const RefinementMaps& maps, std::uint32_t first_number,
     Mesh mesh;
     mesh.points.resize(vertices);
     mesh.cells.resize(maps.cell_to_parent.size());
-    mesh.first_number = first_number;
+    mesh.index_base = index_base;
     WholeMesh source(mesh, &maps);
     write_maps(source, path);
-    expect(read_maps(path, first_number) == maps, "maps written and read are the same");
+    expect(read_maps(path, index_base) == maps, "maps written and read are the same");
 }
 
-void check_cells(const std::vector<GlobalCell>& cells, std::uint32_t first_number,
+void check_cells(const std::vector<GlobalCell>& cells, std::uint32_t index_base,
                  std::size_t cell_count, const fs::path& path) {
     expect(std::ranges::is_sorted(cells, std::ranges::less_equal{}), "cells ascend, each once");
     std::string text = "# the same cells\n";
     for (const GlobalCell cell : cells) {
         const auto number = static_cast<std::uint64_t>(cell);
         expect(number < cell_count, "there is such a cell");
-        text += fmt::format("{}\n", number + first_number);
+        text += fmt::format("{}\n", number + index_base);
     }
     write_file(path, text);
-    expect(read_cell_list(path, first_number, cell_count) == cells,
+    expect(read_cell_list(path, index_base, cell_count) == cells,
            "cells written and read are the same");
 }
 
@@ -90,21 +91,21 @@ void check_parts(const std::vector<int>& parts, int part_count,
 
 void check_maps(std::string_view input, const fs::path& folder) {
     write_file(folder / "in", input);
-    for (const std::uint32_t first_number : {0U, 1U}) {
+    for (const std::uint32_t index_base : {0U, 1U}) {
         check_unless_refused(
-            folder, [&] { return read_maps(folder / "in", first_number); },
-            [&](const auto& maps) { check_written_maps(maps, first_number, folder / "out"); });
+            folder, [&] { return read_maps(folder / "in", index_base); },
+            [&](const auto& maps) { check_written_maps(maps, index_base, folder / "out"); });
     }
 }
 
 void check_cell_list(std::string_view input, const fs::path& folder) {
     write_file(folder / "in", input);
-    for (const std::uint32_t first_number : {0U, 1U}) {
+    for (const std::uint32_t index_base : {0U, 1U}) {
         for (const std::size_t cell_count : {0U, 100U, CellIndex::limit}) {
             check_unless_refused(
-                folder, [&] { return read_cell_list(folder / "in", first_number, cell_count); },
+                folder, [&] { return read_cell_list(folder / "in", index_base, cell_count); },
                 [&](const auto& cells) {
-                    check_cells(cells, first_number, cell_count, folder / "out");
+                    check_cells(cells, index_base, cell_count, folder / "out");
                 });
         }
     }

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include <octetra/core/error.hpp>
-#include <octetra/core/files.hpp>
+#include <octetra/core/files/mesh_files.hpp>
 
 #include "fuzz/check_readers.hpp"
 #include "support/bits.hpp"
@@ -49,7 +49,7 @@ void drop_if_all_zero(IndexVector<I, Marker>& markers) {
 
 /// What of a mesh Medit's format can hold.
 Mesh as_in_medit(Mesh mesh) {
-    mesh.first_number = mesh.points.empty() ? 0 : 1;
+    mesh.index_base = mesh.points.empty() ? 0 : 1;
     mesh.attributes_per_point = 0;
     mesh.point_attributes.clear();
     drop_if_all_zero(mesh.point_markers);

@@ -77,7 +77,7 @@ bool has_two_markers(const IndexVector<I, std::array<VertexIndex, N>>& list,
     return false;
 }
 
-/// Has a listed facet more than one cell on either side?
+/// Has a tagged facet more than one cell on either side?
 bool has_overlap_at_facet(const Mesh& mesh) {
     std::map<FacetVertices, std::array<int, 2>> cells_at_sides;
     for (const FacetVertices& facet : mesh.facets) cells_at_sides[sorted(facet)] = {};
@@ -112,7 +112,7 @@ constexpr std::array<NamedCheck, 5> all_checks{{{"tetgen", check_tetgen},
 std::span<const NamedCheck> reader_checks() { return all_checks; }
 
 std::string broken_invariant(const Mesh& mesh, bool only_syntax) {
-    if (mesh.first_number > 1) return "the first number is neither 0 nor 1";
+    if (mesh.index_base > 1) return "the index base is neither 0 nor 1";
     if (!is_none_or_one_each(mesh.point_markers.size(), mesh.points.size()) ||
         !is_none_or_one_each(mesh.regions.size(), mesh.cells.size()) ||
         !is_none_or_one_each(mesh.facet_markers.size(), mesh.facets.size()) ||

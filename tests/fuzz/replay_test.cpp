@@ -84,7 +84,7 @@ TEST(BrokenInvariant, IsSeen) {
         mesh.edges.append({vertex(0), vertex(4)});
     };
     const auto leave_range = [&](Mesh& mesh) { mesh.cells[cell][3] = vertex(4); };
-    EXPECT_THAT(broken([](Mesh& mesh) { mesh.first_number = 2; }), HasSubstr("first number"));
+    EXPECT_THAT(broken([](Mesh& mesh) { mesh.index_base = 2; }), HasSubstr("index base"));
     EXPECT_THAT(broken([](Mesh& mesh) { mesh.regions.resize(2); }), HasSubstr("length"));
     EXPECT_THAT(broken([](Mesh& mesh) { mesh.attributes_per_point = 1; }), HasSubstr("length"));
     EXPECT_THAT(broken([&](Mesh& mesh) { mesh.points[vertex(0)].y = HUGE_VAL; }),
@@ -119,7 +119,7 @@ TEST(BrokenInvariant, IsSeen) {
         mesh.points.append({0.25, 0.25, 0.5});
         mesh.cells.append({vertex(0), vertex(1), vertex(2), vertex(4)});
     };
-    EXPECT_EQ(broken(overlap), "");  // of a face that is not listed
+    EXPECT_EQ(broken(overlap), "");  // of a face that is not tagged
     EXPECT_THAT(broken([&](Mesh& mesh) { overlap(mesh), list_face(mesh, 1); }),
                 HasSubstr("same side"));
 }

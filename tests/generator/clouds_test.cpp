@@ -20,21 +20,21 @@ protected:
     }
 };
 
-void expect_hull_listed(const Mesh& mesh) {
-    EXPECT_EQ(listed_facets(mesh), boundary_of(mesh));
+void expect_hull_tagged(const Mesh& mesh) {
+    EXPECT_EQ(tagged_facets(mesh), boundary_of(mesh));
     EXPECT_EQ(mesh.facets.size(), boundary_of(mesh).size());
     const std::map<Marker, std::size_t> expected{{1, mesh.facets.size()}};
     EXPECT_EQ(facets_by_marker(mesh), expected);
 }
 
-TEST_F(Clouds, RandomMeshIsABallOfOrientedCellsWithItsHullListed) {
+TEST_F(Clouds, RandomMeshIsABallOfOrientedCellsWithItsHullTagged) {
     for (const std::uint64_t seed : {1U, 2U, 3U}) {
         const Mesh mesh = random(200, seed);
         EXPECT_EQ(mesh.points.size(), 200U);
-        EXPECT_EQ(mesh.first_number, 0U);
+        EXPECT_EQ(mesh.index_base, 0U);
         EXPECT_TRUE(all_positively_oriented(mesh));
         EXPECT_EQ(euler_characteristic(mesh), 1);
-        expect_hull_listed(mesh);
+        expect_hull_tagged(mesh);
         EXPECT_TRUE(mesh.regions.empty() && mesh.edges.empty() && mesh.point_markers.empty());
     }
 }
@@ -74,7 +74,7 @@ TEST_F(Clouds, SliversAboundAndNoneIsFlat) {
     EXPECT_EQ(mesh.points.size(), 216U);
     EXPECT_TRUE(all_positively_oriented(mesh));
     EXPECT_EQ(euler_characteristic(mesh), 1);
-    expect_hull_listed(mesh);
+    expect_hull_tagged(mesh);
     // A cell of the lattice itself has six volumes of one or two cubes of the spacing.
     const double cube = 1.0 / (5 * 5 * 5);
     std::size_t nearly_flat = 0;

@@ -25,8 +25,8 @@ void expect_facets_in_their_sides(const Mesh& mesh, const Point& high) {
     }
 }
 
-void expect_boundary_listed_once(const Mesh& mesh) {
-    EXPECT_EQ(listed_facets(mesh), boundary_of(mesh));
+void expect_boundary_tagged_once(const Mesh& mesh) {
+    EXPECT_EQ(tagged_facets(mesh), boundary_of(mesh));
     EXPECT_EQ(mesh.facets.size(), boundary_of(mesh).size());
     EXPECT_EQ(mesh.facet_markers.size(), mesh.facets.size());
     EXPECT_TRUE(facets_face_outwards(mesh));
@@ -72,7 +72,7 @@ TEST(Kuhn, VerticesAreNumberedXFastestAndPlacedByOneProductAndOneQuotient) {
             }
         }
     }
-    EXPECT_EQ(mesh.first_number, 0U);
+    EXPECT_EQ(mesh.index_base, 0U);
 }
 
 TEST(Kuhn, EveryBrickHasItsSixCellsRoundTheLowToHighDiagonal) {
@@ -88,10 +88,10 @@ TEST(Kuhn, EveryBrickHasItsSixCellsRoundTheLowToHighDiagonal) {
     }
 }
 
-TEST(Kuhn, BoundaryIsListedOnceWithTheMarkersOfItsSides) {
+TEST(Kuhn, BoundaryIsTaggedOnceWithTheMarkersOfItsSides) {
     // (n * 0.1) / n is not 0.1 for every n; the sides must be found nevertheless.
     const Mesh mesh = kuhn(3, 6, 7, {0.1, 0.1, 0.1});
-    expect_boundary_listed_once(mesh);
+    expect_boundary_tagged_once(mesh);
     expect_facets_in_their_sides(mesh, mesh.points.back());
     const std::map<Marker, std::size_t> expected{{1, 84}, {2, 84}, {3, 42},
                                                  {4, 42}, {5, 36}, {6, 36}};
@@ -153,9 +153,9 @@ TEST(Bcc, InnerCellsHaveSommervillesShapeAndBoundaryCellsAreTheirHalves) {
     EXPECT_EQ(half, 24 * n * n);
 }
 
-TEST(Bcc, BoundaryIsListedOnceWithTheMarkersOfItsSides) {
+TEST(Bcc, BoundaryIsTaggedOnceWithTheMarkersOfItsSides) {
     const Mesh mesh = bcc(3, 0.1);
-    expect_boundary_listed_once(mesh);
+    expect_boundary_tagged_once(mesh);
     const double high = mesh.points[VertexIndex{4 * 4 * 4 - 1}].x;
     expect_facets_in_their_sides(mesh, {high, high, high});
     for (const auto& [marker, count] : facets_by_marker(mesh)) EXPECT_EQ(count, 36U) << marker;
@@ -178,7 +178,7 @@ TEST(Regular, HasSixEqualEdgesAndFourMarkedFacets) {
     for (const auto& [i, j] : cell_edges) {
         EXPECT_EQ(squared_length({corners.at(i), corners.at(j)}), 2);
     }
-    expect_boundary_listed_once(mesh);
+    expect_boundary_tagged_once(mesh);
     for (FacetIndex f{0}; f < mesh.facets.end_index(); ++f) {
         EXPECT_EQ(std::ranges::count(mesh.facets[f], VertexIndex{f.value()}), 0);
         EXPECT_EQ(mesh.facet_markers[f], static_cast<Marker>(f.value()) + 1);

@@ -48,11 +48,11 @@ inline std::set<FacetVertices> boundary_of(const Mesh& mesh) {
     return boundary;
 }
 
-/// The listed facets, by their ascending corners.
-inline std::set<FacetVertices> listed_facets(const Mesh& mesh) {
-    std::set<FacetVertices> listed;
-    for (const FacetVertices& facet : mesh.facets) listed.insert(sorted(facet));
-    return listed;
+/// The tagged facets, by their ascending corners.
+inline std::set<FacetVertices> tagged_facets(const Mesh& mesh) {
+    std::set<FacetVertices> tagged;
+    for (const FacetVertices& facet : mesh.facets) tagged.insert(sorted(facet));
+    return tagged;
 }
 
 struct Counts {

@@ -30,11 +30,11 @@ double distance_from_axis(const Point& p) { return std::hypot(p.x, p.y); }
 /// What every solid without an interface promises.
 void expect_sound(const Mesh& mesh, int characteristic) {
     EXPECT_TRUE(all_positively_oriented(mesh));
-    EXPECT_EQ(listed_facets(mesh), boundary_of(mesh));
+    EXPECT_EQ(tagged_facets(mesh), boundary_of(mesh));
     EXPECT_EQ(mesh.facets.size(), boundary_of(mesh).size());
     EXPECT_EQ(mesh.facet_markers.size(), mesh.facets.size());
     EXPECT_EQ(euler_characteristic(mesh), characteristic);
-    EXPECT_EQ(mesh.first_number, 0U);
+    EXPECT_EQ(mesh.index_base, 0U);
     EXPECT_EQ(mesh.edge_markers.size(), mesh.edges.size());
     const auto edges = edges_of(mesh);
     for (const auto& [a, b] : mesh.edges) {
@@ -157,7 +157,7 @@ TEST_F(Solids, GearsOfFewAndManyTeethCanBeMade) {
         0);
 }
 
-TEST_F(Solids, TwoMaterialInterfaceIsListedAndSeparatesTheRegions) {
+TEST_F(Solids, TwoMaterialInterfaceIsTaggedAndSeparatesTheRegions) {
     const Mesh mesh = two_material();
     EXPECT_TRUE(all_positively_oriented(mesh));
     EXPECT_EQ(euler_characteristic(mesh), 1);
@@ -172,13 +172,13 @@ TEST_F(Solids, TwoMaterialInterfaceIsListedAndSeparatesTheRegions) {
             expected_interface.insert(face);
         }
     }
-    std::map<Marker, std::set<FacetVertices>> listed;
+    std::map<Marker, std::set<FacetVertices>> tagged;
     for (FacetIndex f{0}; f < mesh.facets.end_index(); ++f) {
-        EXPECT_TRUE(listed[mesh.facet_markers[f]].insert(sorted(mesh.facets[f])).second);
+        EXPECT_TRUE(tagged[mesh.facet_markers[f]].insert(sorted(mesh.facets[f])).second);
     }
-    EXPECT_EQ(listed.size(), 2U);
-    EXPECT_EQ(listed[1], expected_outer);
-    EXPECT_EQ(listed[2], expected_interface);
+    EXPECT_EQ(tagged.size(), 2U);
+    EXPECT_EQ(tagged[1], expected_outer);
+    EXPECT_EQ(tagged[2], expected_interface);
 }
 
 TEST_F(Solids, TwoMaterialRegionsAreTaggedOutsideAndInside) {

@@ -5,7 +5,8 @@
 #include <cstdlib>
 #include <stdexcept>
 
-#include <octetra/core/files.hpp>
+#include <octetra/core/files/lists.hpp>
+#include <octetra/core/files/mesh_files.hpp>
 
 #include "properties/case_json.hpp"
 #include "support/temporary_folder.hpp"

@@ -10,7 +10,7 @@ json json_of(const Point& p) { return json::array({p.x, p.y, p.z}); }
 
 Point point_of(const json& j) { return {j.at(0), j.at(1), j.at(2)}; }
 
-/// Criteria that choose nothing are left out.
+/// Criteria that mark nothing are left out.
 json json_of(const Selection& selection) {
     json j = json::object();
     if (selection.all) j["all"] = true;

@@ -81,7 +81,7 @@ TEST(Cases, ComeBackFromFilesBitByBit) {
         EXPECT_EQ(back.refinement.mesh, c.mesh);
         EXPECT_EQ(back.refinement.cell_to_rank, c.cell_to_rank);
         for (CellIndex i{0}; i < c.mesh.cells.end_index(); ++i) {
-            EXPECT_EQ(is_chosen(back.refinement, i), is_chosen(c, i));
+            EXPECT_EQ(is_marked(back.refinement, i), is_marked(c, i));
         }
         remove_finding(folder.path(), "one");
     }

@@ -13,8 +13,8 @@ Edges bisected(const Outcome& outcome) {
     return {outcome.maps.midpoint_to_edge.begin(), outcome.maps.midpoint_to_edge.end()};
 }
 
-/// The same with another cell chosen, or a few.
-Case with_more_chosen(Case c, Draw& draw) {
+/// The same with another cell marked, or a few.
+Case with_more_marked(Case c, Draw& draw) {
     for (int i = draw.between(1, 3); i > 0; --i) {
         c.selection.cells.push_back(GlobalCell{draw.below(c.mesh.cells.size())});
     }
@@ -47,7 +47,7 @@ std::string fault_of_closure(const Case& any_levels) {
 
     Edges direct;
     for (CellIndex i{0}; i < c.mesh.cells.end_index(); ++i) {
-        if (is_chosen(c, i)) direct.merge(selected_by(c, i));
+        if (is_marked(c, i)) direct.merge(marked_by(c, i));
     }
     const Edges expected = closure_of(c.mesh, std::move(direct));
     if (!std::ranges::includes(found, expected)) return "an edge is missing in the closure";
@@ -55,9 +55,9 @@ std::string fault_of_closure(const Case& any_levels) {
     if (closed_by_the_reference(c.mesh, found) != found) return "closing again adds edges";
 
     Draw draw(c.seed);
-    const Outcome more = refined_by_all(with_more_chosen(c, draw));
+    const Outcome more = refined_by_all(with_more_marked(c, draw));
     if (!more.error.empty()) return {};
-    if (!std::ranges::includes(bisected(more), found)) return "more chosen cells, but fewer edges";
+    if (!std::ranges::includes(bisected(more), found)) return "more marked cells, but fewer edges";
     return {};
 }
 

@@ -11,20 +11,20 @@ using DescendingEdges = std::vector<Edge>;
 
 /// Of the classes of a cell, those that put its shared edges in one order: how many they are, and
 /// of how many orders.
-struct Alike {
+struct OrderCount {
     std::size_t classes = 0;
     std::size_t orders = 0;
 };
 
-std::map<DescendingEdges, Alike> by_shared_edges(const std::array<std::size_t, 4>& cell,
-                                                 const OrderClasses& classes) {
-    std::map<DescendingEdges, Alike> result;
+std::map<DescendingEdges, OrderCount> by_shared_edges(const std::array<std::size_t, 4>& cell,
+                                                      const OrderClasses& classes) {
+    std::map<DescendingEdges, OrderCount> result;
     for (const OrderClass& one : classes.classes) {
         DescendingEdges edges;
         for (const std::size_t e : one.shared) edges.push_back(edge_of(cell, e));
-        Alike& alike = result[edges];
-        ++alike.classes;
-        alike.orders += one.size;
+        OrderCount& count = result[edges];
+        ++count.classes;
+        count.orders += one.size;
     }
     return result;
 }
@@ -49,39 +49,39 @@ bool can_be_merged(std::vector<DescendingEdges> lists) {
 
 /// Adds the combinations in which the first cells put their edges as `lists` has them.
 void add_combinations(CombinationCounts& counts,
-                      const std::vector<std::map<DescendingEdges, Alike>>& cells,
-                      std::vector<DescendingEdges>& lists, std::vector<Alike>& chosen) {
-    if (chosen.size() == cells.size()) {
+                      const std::vector<std::map<DescendingEdges, OrderCount>>& cells,
+                      std::vector<DescendingEdges>& lists, std::vector<OrderCount>& taken) {
+    if (taken.size() == cells.size()) {
         if (!can_be_merged(lists)) return;
         std::size_t all = 1;
-        for (const Alike& alike : chosen) all *= alike.classes;
+        for (const OrderCount& count : taken) all *= count.classes;
         counts[1] += all;
-        for (const Alike& alike : chosen) {
-            counts[2] += all / alike.classes * alike.orders;
+        for (const OrderCount& count : taken) {
+            counts[2] += all / count.classes * count.orders;
         }
         return;
     }
-    for (const auto& [edges, alike] : cells[chosen.size()]) {
+    for (const auto& [edges, count] : cells[taken.size()]) {
         lists.push_back(edges);
-        chosen.push_back(alike);
-        add_combinations(counts, cells, lists, chosen);
+        taken.push_back(count);
+        add_combinations(counts, cells, lists, taken);
         lists.pop_back();
-        chosen.pop_back();
+        taken.pop_back();
     }
 }
 
 }  // namespace
 
 CombinationCounts count_combinations(const Complex& complex) {
-    std::vector<std::map<DescendingEdges, Alike>> cells;
+    std::vector<std::map<DescendingEdges, OrderCount>> cells;
     const std::vector<OrderClasses> classes = classes_of_cells(complex);
     for (std::size_t cell = 0; cell < complex.size(); ++cell) {
         cells.push_back(by_shared_edges(complex[cell], classes[cell]));
     }
     CombinationCounts counts{order_count * complex.size(), 0, 0};
     std::vector<DescendingEdges> lists;
-    std::vector<Alike> chosen;
-    add_combinations(counts, cells, lists, chosen);
+    std::vector<OrderCount> taken;
+    add_combinations(counts, cells, lists, taken);
     return counts;
 }
 

@@ -13,8 +13,8 @@ namespace octetra::properties {
 /// other.
 using CombinationCounts = std::array<std::size_t, 3>;
 
-/// How many there are by comparisons alone: two cells compare the edges of a common face alike, and
-/// no edges are longer than one another in a circle. Not all need have a geometry.
+/// How many there are by comparisons alone: two cells compare the edges of a common face the same
+/// way, and no edges are longer than one another in a circle. Not all need have a geometry.
 [[nodiscard]] CombinationCounts count_combinations(const Complex& complex);
 
 }  // namespace octetra::properties

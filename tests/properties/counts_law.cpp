@@ -61,8 +61,8 @@ std::string fault_of_one_level(const Case& c, const Outcome& outcome) {
     for (CellIndex i{0}; i < c.mesh.cells.end_index(); ++i) {
         const std::size_t expected = children_of(c.mesh, c.mesh.cells[i], bisected);
         if (children[i.value()] != expected) return "a cell has not as many children as it should";
-        if (is_chosen(c, i) && !std::ranges::includes(bisected, selected_by(c, i))) {
-            return "a chosen cell is not bisected as the scheme says";
+        if (is_marked(c, i) && !std::ranges::includes(bisected, marked_by(c, i))) {
+            return "a marked cell is not bisected as the scheme says";
         }
     }
     if (outcome.mesh.points.size() != c.mesh.points.size() + bisected.size()) {

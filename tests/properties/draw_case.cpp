@@ -72,7 +72,7 @@ void add_criterion(Selection& selection, const Mesh& mesh, Draw& draw) {
     }
 }
 
-/// By lot more often than not: then the border is everywhere.
+/// At random more often than not: then the border is everywhere.
 std::vector<int> some_partition(const Mesh& mesh, int ranks, Draw& draw) {
     const int parts = draw.chance(0.5) ? ranks : draw.between(1, ranks);
     const auto by = [&](PartitionMethod method) {

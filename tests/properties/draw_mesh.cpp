@@ -143,7 +143,7 @@ Mesh with_marks(Mesh mesh, Draw& draw) {
         return mesh;
     }
     if (draw.chance(0.3) && mesh.facets.empty()) test::list_boundary(mesh);
-    mesh.first_number = static_cast<std::uint32_t>(draw.below(2));
+    mesh.index_base = static_cast<std::uint32_t>(draw.below(2));
     return mesh;
 }
 

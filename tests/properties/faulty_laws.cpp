@@ -8,16 +8,16 @@
 #include "properties/one_level.hpp"
 
 /// Stand in the places of the laws where it is tried how cases become smaller: each has a fault of
-/// its own where more than three cells are chosen and a rank other than the first one has a cell,
+/// its own where more than three cells are marked and a rank other than the first one has a cell,
 /// so on two ranks at least.
 namespace octetra::properties {
 namespace {
 
 bool is_faulty(const Case& c) {
-    std::size_t chosen = 0;
-    for (CellIndex i{0}; i < c.mesh.cells.end_index(); ++i) chosen += is_chosen(c, i) ? 1U : 0U;
+    std::size_t marked = 0;
+    for (CellIndex i{0}; i < c.mesh.cells.end_index(); ++i) marked += is_marked(c, i) ? 1U : 0U;
     const int ranks = test::world().size();
-    return chosen > 3 && std::ranges::any_of(c.cell_to_rank, [&](int r) { return r % ranks > 0; });
+    return marked > 3 && std::ranges::any_of(c.cell_to_rank, [&](int r) { return r % ranks > 0; });
 }
 
 }  // namespace

@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <array>
 
-#include <octetra/core/files.hpp>
+#include <octetra/core/files/mesh_files.hpp>
 
 #include "properties/draw.hpp"
 #include "properties/laws.hpp"
@@ -29,7 +29,7 @@ void drop_if_all_zero(auto& markers) {
 }
 
 /// Medit has no attributes, and takes markers that are all 0 for none. Midpoints have none where
-/// vertices have none; and a listed edge without one leaves its midpoint that of a facet.
+/// vertices have none; and a tagged edge without one leaves its midpoint that of a facet.
 void fit_medit(Mesh& mesh) {
     mesh.attributes_per_point = 0;
     mesh.point_attributes.clear();
@@ -38,8 +38,8 @@ void fit_medit(Mesh& mesh) {
     drop_if_all_zero(mesh.edge_markers);
 }
 
-/// Cells have other numbers in the file between, so none can be chosen by number.
-void choose_by_place(Selection& selection) {
+/// Cells have other numbers in the file between, so none can be marked by number.
+void mark_by_place(Selection& selection) {
     if (selection.cells.empty()) return;
     selection.cells.clear();
     if (!selection.random) selection.random = RandomShare{0.3, 1};
@@ -51,7 +51,7 @@ std::string fault_of_files(const Case& drawn) {
     Draw draw(drawn.seed);
     const std::string extension = draw.chance(0.5) ? ".mesh" : ".ele";
     Case c = drawn;
-    choose_by_place(c.selection);
+    mark_by_place(c.selection);
     if (extension == ".mesh") fit_medit(c.mesh);
 
     const test::TemporaryFolder folder;

@@ -20,12 +20,12 @@ namespace {
 
 using Map = std::function<Point(const Point&)>;
 
-/// The selection as a list of the cells that it chooses at first.
+/// The selection as a list of the cells that it marks at first.
 Selection by_number(const Case& c) {
     Selection selection;
     for (CellIndex i{0}; i < c.mesh.cells.end_index(); ++i) {
         const Marker region = c.mesh.regions.empty() ? 0 : c.mesh.regions[i];
-        if (chooses(c.selection, test::corners_of(c.mesh, i), region, GlobalCell{i.value()})) {
+        if (marks(c.selection, test::corners_of(c.mesh, i), region, GlobalCell{i.value()})) {
             selection.cells.push_back(GlobalCell{i.value()});
         }
     }
@@ -84,7 +84,7 @@ std::pair<int, int> exact_scales(const Mesh& mesh) {
     return scales;
 }
 
-/// To where squared lengths overflow or lose digits; chosen by number, as radii and volumes may
+/// To where squared lengths overflow or lose digits; marked by number, as radii and volumes may
 /// have no place there.
 std::string fault_of_extreme_scaling(const Case& c, Draw& draw) {
     Case plain = c;

@@ -14,7 +14,7 @@
 /// world. Corners are named so that no two worlds are the same but for that.
 namespace octetra::properties {
 
-/// Cells that have orders out of one list, whichever for each of them, and are so much alike that
+/// Cells that have orders out of one list, whichever for each of them, and are so similar that
 /// it does not matter which cell has which.
 struct AlikeCells {
     std::vector<Order> orders;

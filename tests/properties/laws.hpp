@@ -21,8 +21,8 @@ namespace octetra::properties {
 /// Mirrored, where no two edges of a cell tie: the same, mirrored. For cases drawn `exact`.
 [[nodiscard]] std::string fault_of_geometry(const Case& c);
 
-/// The edges that are bisected are those that the chosen cells select and those that follow from
-/// them: none too few, none that could be left out; closing them again adds nothing; more chosen
+/// The edges that are bisected are those that the marked cells mark and those that follow from
+/// them: none too few, none that could be left out; closing them again adds nothing; more marked
 /// cells never bisect fewer edges.
 [[nodiscard]] std::string fault_of_closure(const Case& c);
 
@@ -31,7 +31,7 @@ namespace octetra::properties {
 [[nodiscard]] std::string fault_of_files(const Case& c);
 
 /// Counts of cells and vertices follow from the bisected edges, the Euler characteristic stays, and
-/// every chosen cell is bisected as its scheme says.
+/// every marked cell is bisected as its scheme says.
 [[nodiscard]] std::string fault_of_counts(const Case& c);
 
 struct Law {

@@ -42,12 +42,12 @@ std::array<EdgeVertices, 4> longest_of_faces(const Mesh& mesh, const CellVertice
     return result;
 }
 
-bool is_chosen(const Case& c, CellIndex cell) {
+bool is_marked(const Case& c, CellIndex cell) {
     const Marker region = c.mesh.regions.empty() ? 0 : c.mesh.regions[cell];
-    return chooses(c.selection, test::corners_of(c.mesh, cell), region, GlobalCell{cell.value()});
+    return marks(c.selection, test::corners_of(c.mesh, cell), region, GlobalCell{cell.value()});
 }
 
-Edges selected_by(const Case& c, CellIndex cell) {
+Edges marked_by(const Case& c, CellIndex cell) {
     const CellVertices& vertices = c.mesh.cells[cell];
     const auto all = edges_of(vertices);
     if (c.scheme == Scheme::eight) return {all.begin(), all.end()};

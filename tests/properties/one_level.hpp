@@ -24,11 +24,11 @@ using Edges = std::set<EdgeVertices>;
 [[nodiscard]] std::array<EdgeVertices, 4> longest_of_faces(const Mesh& mesh,
                                                            const CellVertices& cell);
 
-/// Is the cell chosen at the first level?
-[[nodiscard]] bool is_chosen(const Case& c, CellIndex cell);
+/// Is the cell marked at the first level?
+[[nodiscard]] bool is_marked(const Case& c, CellIndex cell);
 
-/// What a chosen cell selects.
-[[nodiscard]] Edges selected_by(const Case& c, CellIndex cell);
+/// The edges that a marked cell marks.
+[[nodiscard]] Edges marked_by(const Case& c, CellIndex cell);
 
 /// All that follows from these edges, by the rule of faces.
 [[nodiscard]] Edges closure_of(const Mesh& mesh, Edges edges);

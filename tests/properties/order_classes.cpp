@@ -27,17 +27,17 @@ EdgeBits longest_of(const Order& order, EdgeBits edges) {
     return 0;
 }
 
-/// What a cell selects by itself: nothing, or what either scheme does that leaves edges out.
-std::array<EdgeBits, 3> selected_inside(const Order& order) {
+/// What a cell marks by itself: nothing, or what either scheme does that leaves edges out.
+std::array<EdgeBits, 3> marked_inside(const Order& order) {
     EdgeBits of_faces = 0;
     for (const EdgeBits face : edges_of_faces()) of_faces |= longest_of(order, face);
     return {0, of_faces, 1U << order.front()};
 }
 
-/// For each selection inside and outside, the shared edges that are selected in the end.
+/// For each set of marked edges inside and outside, the shared edges that are marked in the end.
 std::vector<EdgeBits> response(const Order& order, EdgeBits shared) {
     std::vector<EdgeBits> result;
-    for (const EdgeBits inside : selected_inside(order)) {
+    for (const EdgeBits inside : marked_inside(order)) {
         for (EdgeBits outside = 0; outside < 1U << 6U; ++outside) {
             if ((outside & ~shared) != 0) continue;
             result.push_back(closed_in_cell(order, inside | outside) & shared);
@@ -58,14 +58,14 @@ std::size_t number_of(const Order& order) {
     return number;
 }
 
-EdgeBits closed_in_cell(const Order& order, EdgeBits selected) {
+EdgeBits closed_in_cell(const Order& order, EdgeBits marked) {
     while (true) {
-        EdgeBits more = selected;
+        EdgeBits more = marked;
         for (const EdgeBits face : edges_of_faces()) {
             if ((more & face) != 0) more |= longest_of(order, face);
         }
-        if (more == selected) return selected;
-        selected = more;
+        if (more == marked) return marked;
+        marked = more;
     }
 }
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 /// What other cells can notice of the order of a cell's edges by length. A cell tells the others
-/// nothing but which of its edges are selected, and they hear of those only that are theirs, too.
+/// nothing but which of its edges are marked, and they hear of those only that are theirs, too.
 namespace octetra::properties {
 
 /// The six edges of a cell (0 to 5, as in cell_edges), longest first.
@@ -20,11 +20,11 @@ inline constexpr std::size_t order_count = 720;
 using EdgeBits = unsigned;
 
 /// The least set with these edges in which every face that has an edge has its longest one.
-[[nodiscard]] EdgeBits closed_in_cell(const Order& order, EdgeBits selected);
+[[nodiscard]] EdgeBits closed_in_cell(const Order& order, EdgeBits marked);
 
-/// Orders are of one class if they put the shared edges in the same order and if, chosen by any
-/// scheme or not at all, and whichever shared edges are selected from outside, the same shared
-/// edges are selected in the end.
+/// Orders are of one class if they put the shared edges in the same order and if, marked by any
+/// scheme or not at all, and whichever shared edges are marked from outside, the same shared
+/// edges are marked in the end.
 struct OrderClass {
     std::vector<std::size_t> shared;  ///< the shared edges, longest first
     std::size_t size = 0;             ///< how many orders are of this class

@@ -32,14 +32,14 @@ TEST(OrderClasses, CloseACellAsAMeshOfOneCellIsClosed) {
             }
             return set;
         };
-        for (EdgeBits selected = 0; selected < 1U << 6U; ++selected) {
-            ASSERT_EQ(set_of(closed_in_cell(order, selected)), closure_of(mesh, set_of(selected)));
+        for (EdgeBits marked = 0; marked < 1U << 6U; ++marked) {
+            ASSERT_EQ(set_of(closed_in_cell(order, marked)), closure_of(mesh, set_of(marked)));
         }
     }
 }
 
 /// A cell without neighbours has one. Of one shared edge, 01, all that is noticed is whether it is
-/// selected by scheme 2t (the longest), by 4t (the longest of a face), or by neither.
+/// marked by scheme 2t (the longest), by 4t (the longest of a face), or by neither.
 TEST(OrderClasses, AreAsManyAsWasCountedByHand) {
     const auto class_sizes = [](EdgeBits shared) {
         std::vector<std::size_t> sizes;

@@ -16,7 +16,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// 24 cells, many of them chosen, marked; that rank has some.
+/// 24 cells, many of them marked; that rank has some.
 Case some_case(int rank = 1) {
     Case c{.kind = "a lattice", .mesh = generator::kuhn(1, 2, 2, {1, 1, 1}), .levels = 2};
     c.mesh.regions.assign(c.mesh.cells.size(), Marker{5});
@@ -57,9 +57,9 @@ private:
 
 /// As faulty_laws.cpp has it on two ranks.
 bool is_faulty(const Case& c) {
-    std::size_t chosen = 0;
-    for (CellIndex i{0}; i < c.mesh.cells.end_index(); ++i) chosen += is_chosen(c, i) ? 1U : 0U;
-    return chosen > 3 && std::ranges::max(c.cell_to_rank) > 0;
+    std::size_t marked = 0;
+    for (CellIndex i{0}; i < c.mesh.cells.end_index(); ++i) marked += is_marked(c, i) ? 1U : 0U;
+    return marked > 3 && std::ranges::max(c.cell_to_rank) > 0;
 }
 
 void expect_smallest(const Case& c) {

@@ -71,10 +71,10 @@ void add_fewer_criteria(Simplifications& all, const Shared& c) {
         });
         return;
     }
-    add(all, c, [](Case& r) {  // the cells that are chosen at first
+    add(all, c, [](Case& r) {  // the cells that are marked at first
         Selection by_number;
         for (CellIndex i{0}; i < r.mesh.cells.end_index(); ++i) {
-            if (is_chosen(r, i)) by_number.cells.push_back(GlobalCell{i.value()});
+            if (is_marked(r, i)) by_number.cells.push_back(GlobalCell{i.value()});
         }
         r.selection = std::move(by_number);
     });
@@ -118,7 +118,7 @@ void add_fewer_marks(Simplifications& all, const Shared& c) {
             r.mesh.edge_markers.clear();
         });
     }
-    if (mesh.first_number != 0) add(all, c, [](Case& r) { r.mesh.first_number = 0; });
+    if (mesh.index_base != 0) add(all, c, [](Case& r) { r.mesh.index_base = 0; });
 }
 
 bool is_valid(const Mesh& mesh) {

@@ -58,7 +58,7 @@ TEST(SmallWorlds, OfOneCellInEveryOrderOfItsEdges) {
     });
 }
 
-/// The second cell chosen alone is the first one chosen alone of the pair the other way round.
+/// The second cell marked alone is the first one marked alone of the pair the other way round.
 TEST(SmallWorlds, OfTwoCellsAtAFaceInEveryPairOfOrders) {
     lead([] {
         const auto all = every(stride, two_cells_at_a_face());
@@ -169,14 +169,14 @@ Case rings(const Mesh& ring, std::size_t ranks) {
 
 class Rings : public testing::TestWithParam<double> {};
 
-/// Between as many ranks as there are, up to three, for each one of the six cells chosen.
+/// Between as many ranks as there are, up to three, for each one of the six cells marked.
 TEST_P(Rings, OfSixCellsCutInAllWaysYieldTheSame) {
     lead([] {
         const auto ranks = static_cast<std::size_t>(std::min(3, test::world().size()));
         Case c = rings(test::shaken_kuhn(1, GetParam(), 3), ranks);
-        for (std::size_t chosen = 0; chosen < 6; ++chosen) {
+        for (std::size_t marked = 0; marked < 6; ++marked) {
             c.selection.cells.clear();
-            for (std::size_t i = chosen; i < c.mesh.cells.size(); i += 6) {
+            for (std::size_t i = marked; i < c.mesh.cells.size(); i += 6) {
                 c.selection.cells.push_back(GlobalCell{i});
             }
             for (const auto& [scheme, levels] : {std::pair(Scheme::eight, 1), {Scheme::two, 3}}) {

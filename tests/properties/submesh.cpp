@@ -22,7 +22,7 @@ std::set<std::array<VertexIndex, N>> sides(const Mesh& mesh, const Positions& po
 }
 
 template <class I, std::size_t N>
-void keep_listed(IndexVector<I, std::array<VertexIndex, N>>& list, IndexVector<I, Marker>& markers,
+void keep_tagged(IndexVector<I, std::array<VertexIndex, N>>& list, IndexVector<I, Marker>& markers,
                  const std::set<std::array<VertexIndex, N>>& wanted) {
     I kept{0};
     for (I i{0}; i < list.end_index(); ++i) {
@@ -81,9 +81,9 @@ Mesh submesh(const Mesh& mesh, const std::vector<char>& keep) {
         if (!mesh.regions.empty()) part.regions.append(mesh.regions[c]);
     }
     if (!part.facets.empty()) {
-        keep_listed(part.facets, part.facet_markers, sides<3>(part, cell_faces));
+        keep_tagged(part.facets, part.facet_markers, sides<3>(part, cell_faces));
     }
-    if (!part.edges.empty()) keep_listed(part.edges, part.edge_markers, sides<2>(part, cell_edges));
+    if (!part.edges.empty()) keep_tagged(part.edges, part.edge_markers, sides<2>(part, cell_edges));
     drop_unused_vertices(part);
     return part;
 }

@@ -6,7 +6,7 @@
 
 namespace octetra::properties {
 
-/// The cells that are marked in `keep`, with the vertices, listed facets and edges that they have.
+/// The cells that are marked in `keep`, with the vertices, tagged facets and edges that they have.
 /// All keep their order.
 [[nodiscard]] Mesh submesh(const Mesh& mesh, const std::vector<char>& keep);
 

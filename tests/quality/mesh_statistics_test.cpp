@@ -404,12 +404,12 @@ TEST(Measure, RegionsHaveTheirCellsAndVolumesAscendingByTag) {
     expect_total(s.regions[2], 5, 20, 20.0 / 48);
 }
 
-TEST(Measure, FacetMarkersHaveTheirListedFacetsAndAreas) {
+TEST(Measure, FacetMarkersHaveTheirTaggedFacetsAndAreas) {
     Mesh mesh = mesh_of(cube_corner);
     mesh.facets = {facet(0, 1, 2), facet(1, 2, 3), facet(0, 2, 3)};
     mesh.facet_markers = {2, 1, 2};
     const MeshStatistics s = measure(mesh);
-    EXPECT_EQ(s.counts.listed_facets, 3);
+    EXPECT_EQ(s.counts.tagged_facets, 3);
     ASSERT_EQ(s.facet_markers.size(), 2);
     expect_total(s.facet_markers[0], 1, 1, std::sqrt(3.0) / 2);
     expect_total(s.facet_markers[1], 2, 2, 1);
@@ -420,8 +420,8 @@ TEST(Measure, WithoutTagsAndMarkersThereAreNoTotals) {
     mesh.facets = {facet(0, 1, 2)};
     mesh.edges = {{VertexIndex{0}, VertexIndex{1}}, {VertexIndex{1}, VertexIndex{3}}};
     const MeshStatistics s = measure(mesh);
-    EXPECT_EQ(s.counts.listed_facets, 1);
-    EXPECT_EQ(s.counts.listed_edges, 2);
+    EXPECT_EQ(s.counts.tagged_facets, 1);
+    EXPECT_EQ(s.counts.tagged_edges, 2);
     EXPECT_THAT(s.regions, IsEmpty());
     EXPECT_THAT(s.facet_markers, IsEmpty());
 }

@@ -14,7 +14,7 @@
 namespace octetra::reference {
 namespace {
 
-/// The pieces of a cell whose edges `chosen` (pairs of corner positions in `corners`) are selected.
+/// The pieces of a cell whose edges `marked` (pairs of corner positions in `corners`) are marked.
 Mesh bisected(const std::array<Point, 4>& corners, std::array<std::size_t, 4> order,
               unsigned selection) {
     Mesh mesh;
@@ -22,16 +22,16 @@ Mesh bisected(const std::array<Point, 4>& corners, std::array<std::size_t, 4> or
     mesh.cells.append({VertexIndex{order[0]}, VertexIndex{order[1]}, VertexIndex{order[2]},
                        VertexIndex{order[3]}});
     const EdgeTable table = number_edges(mesh);
-    EdgeSet selected(6, false);
-    for (EdgeIndex e{0}; e < selected.end_index(); ++e) {
-        selected[e] = static_cast<char>(selection >> e.value() & 1U);
+    EdgeSet marked(6, false);
+    for (EdgeIndex e{0}; e < marked.end_index(); ++e) {
+        marked[e] = static_cast<char>(selection >> e.value() & 1U);
     }
-    selected = close(selected, mesh, table);
+    marked = close(marked, mesh, table);
     EdgeToMidpoint midpoints(6, VertexIndex::none());
     Mesh fine;
     fine.points = mesh.points;
-    for (EdgeIndex e{0}; e < selected.end_index(); ++e) {
-        if (selected[e] == 0) continue;
+    for (EdgeIndex e{0}; e < marked.end_index(); ++e) {
+        if (marked[e] == 0) continue;
         const auto& [a, b] = table.edges[e];
         midpoints[e] = fine.points.append(midpoint(mesh.points[a], mesh.points[b]));
     }

@@ -4,7 +4,7 @@
 
 #include "closure.hpp"
 #include "longest.hpp"
-#include "select.hpp"
+#include "mark_edges.hpp"
 #include "support/meshes.hpp"
 
 namespace octetra::reference {
@@ -13,7 +13,7 @@ namespace {
 EdgeSet random_edges(const EdgeTable& table, double share, std::uint64_t seed) {
     std::mt19937_64 random(seed);
     EdgeSet set(table.edges.size(), false);
-    for (char& selected : set) selected = static_cast<double>(random()) * 0x1p-64 < share ? 1 : 0;
+    for (char& marked : set) marked = static_cast<double>(random()) * 0x1p-64 < share ? 1 : 0;
     return set;
 }
 
@@ -56,7 +56,7 @@ TEST_P(Closure, IsMonotone) {
 
 TEST_P(Closure, IsMinimal) {
     // Any closed set that contains the selection contains the closure: so taking one edge out of it
-    // that was not selected must leave a set that is not closed, or else the closure was not least.
+    // that was not marked must leave a set that is not closed, or else the closure was not least.
     for (EdgeIndex e{0}; e < closed.end_index(); ++e) {
         if (closed[e] == 0 || few[e] != 0) continue;
         EdgeSet without = closed;
@@ -79,14 +79,14 @@ TEST(Selection, SchemesSelectAllTheFacesLongestOrTheLongestEdge) {
     const Mesh mesh = test::one_cell(test::tie_free_corners);
     const EdgeTable table = number_edges(mesh);
     const IndexVector<CellIndex, CellIndex> roots{CellIndex{0}};
-    const auto selected = [&](Scheme scheme) {
-        return select_edges(mesh, table, {.all = true}, scheme, roots);
+    const auto marked = [&](Scheme scheme) {
+        return mark_edges(mesh, table, {.all = true}, scheme, roots);
     };
     // Squared lengths: 01 49, 02 29, 03 41, 12 50, 13 76, 23 46.
-    EXPECT_EQ(selected(Scheme::eight), (EdgeSet{1, 1, 1, 1, 1, 1}));
+    EXPECT_EQ(marked(Scheme::eight), (EdgeSet{1, 1, 1, 1, 1, 1}));
     // Faces: 123 has 13, 023 has 23, 013 has 13, 012 has 12.
-    EXPECT_EQ(selected(Scheme::four), (EdgeSet{0, 0, 0, 1, 1, 1}));
-    EXPECT_EQ(selected(Scheme::two), (EdgeSet{0, 0, 0, 0, 1, 0}));
+    EXPECT_EQ(marked(Scheme::four), (EdgeSet{0, 0, 0, 1, 1, 1}));
+    EXPECT_EQ(marked(Scheme::two), (EdgeSet{0, 0, 0, 0, 1, 0}));
 }
 
 }  // namespace

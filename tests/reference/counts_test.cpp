@@ -123,12 +123,12 @@ TEST(Counts, ApproachTheLimitsOfUniformRefinement) {
 
 TEST(Numbering, GoesOnFromWhereTheInputBegins) {
     Mesh mesh = test::one_cell(test::tie_free_corners);
-    mesh.first_number = 1;
+    mesh.index_base = 1;
     const Refinement fine = refine(mesh, everything, Scheme::eight, 2);
-    EXPECT_EQ(fine.mesh.first_number, 1U);
+    EXPECT_EQ(fine.mesh.index_base, 1U);
 }
 
-TEST(Counts, StayAsTheyAreWhereNothingIsChosen) {
+TEST(Counts, StayAsTheyAreWhereNothingIsMarked) {
     const Mesh mesh = test::shaken_kuhn(2, 0.2, 1);
     EXPECT_EQ(refine(mesh, {}, Scheme::eight, 3).mesh, mesh);
     EXPECT_EQ(refine(mesh, everything, Scheme::eight, 0).mesh, mesh);

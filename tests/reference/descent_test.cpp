@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include <octetra/core/files.hpp>
+#include <octetra/core/files/mesh_files.hpp>
 #include <octetra/reference/refine.hpp>
 
 #include "support/conformity.hpp"
@@ -45,7 +45,7 @@ TEST(Levels, ThroughFilesOfEveryFormatAreTheSameAsInMemory) {
     Mesh mesh = test::shaken_kuhn(2, 0.3, 2);
     for (Point& p : mesh.points) p = {p.x / 3, p.y / 7, p.z / 11};
     test::list_boundary(mesh);
-    mesh.first_number = 1;
+    mesh.index_base = 1;
     const Selection some{.random = RandomShare{0.3, 5}};
     const Mesh at_once = refine(mesh, some, Scheme::eight, 2).mesh;
     for (const std::string name : {"a.1.ele", "a.mesh"}) {

@@ -75,7 +75,7 @@ TEST(Rounding, NamesTheCellAsTheFileNumbersIt) {
     const Mesh tiny = cell_of_side(1);
     mesh.points.insert(mesh.points.end(), tiny.points.begin(), tiny.points.end());
     mesh.cells.append({VertexIndex{4}, VertexIndex{5}, VertexIndex{6}, VertexIndex{7}});
-    mesh.first_number = 1;
+    mesh.index_base = 1;
     EXPECT_THAT(
         test::thrown_by<InputError>([&] { (void)refine(mesh, {.all = true}, Scheme::eight, 1); }),
         HasSubstr("cell 2, level 1"));

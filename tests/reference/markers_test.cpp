@@ -44,12 +44,12 @@ TEST(Facets, AreTiledByTheBoundaryFacesOfTheRefinedMesh) {
     expected.facets.clear();
     expected.facet_markers.clear();
     test::list_boundary(expected);
-    std::set<std::set<VertexIndex>> listed;
+    std::set<std::set<VertexIndex>> tagged;
     std::set<std::set<VertexIndex>> boundary;
-    for (const auto& f : fine.facets) listed.insert({f.begin(), f.end()});
+    for (const auto& f : fine.facets) tagged.insert({f.begin(), f.end()});
     for (const auto& f : expected.facets) boundary.insert({f.begin(), f.end()});
-    EXPECT_EQ(listed.size(), fine.facets.size()) << "no facet twice";
-    EXPECT_EQ(listed, boundary);
+    EXPECT_EQ(tagged.size(), fine.facets.size()) << "no facet twice";
+    EXPECT_EQ(tagged, boundary);
 
     for (Marker marker = 1; marker <= 5; ++marker) {
         double before = 0;

@@ -32,7 +32,7 @@ constexpr std::array<std::array<std::size_t, 3>, 4> edges_of_face{
     {{3, 4, 5}, {1, 2, 5}, {0, 2, 4}, {0, 1, 3}}};
 
 struct Case {
-    EdgeSubset selected;
+    EdgeSubset marked;
     std::array<std::size_t, 4> face_longest;
     LengthOrder order;
     std::vector<Tetrahedron> children;  // as the recursion orders them and their vertices
@@ -46,10 +46,10 @@ std::size_t longest_of(std::span<const std::size_t> edges, const LengthOrder& or
     return 6;
 }
 
-std::vector<BisectedEdge> longest_first(EdgeSubset selected, const LengthOrder& order) {
+std::vector<BisectedEdge> longest_first(EdgeSubset marked, const LengthOrder& order) {
     std::vector<BisectedEdge> edges;
     for (const std::size_t e : order) {
-        if (!selected[e]) continue;
+        if (!marked[e]) continue;
         const auto& [i, j] = cell_edges[e];
         edges.push_back({{VertexIndex{i}, VertexIndex{j}}, VertexIndex{4 + e}});
     }
@@ -57,13 +57,13 @@ std::vector<BisectedEdge> longest_first(EdgeSubset selected, const LengthOrder& 
 }
 
 template <std::size_t N>
-std::vector<std::array<int, N>> bisected(const std::array<int, N>& vertices, EdgeSubset selected,
+std::vector<std::array<int, N>> bisected(const std::array<int, N>& vertices, EdgeSubset marked,
                                          const LengthOrder& order) {
     std::array<VertexIndex, N> piece;
     std::ranges::transform(vertices, piece.begin(),
                            [](int v) { return VertexIndex{static_cast<std::size_t>(v)}; });
     std::vector<std::array<VertexIndex, N>> pieces;
-    bisect(piece, longest_first(selected, order), pieces);
+    bisect(piece, longest_first(marked, order), pieces);
     std::vector<std::array<int, N>> result;
     for (const auto& p : pieces) {
         std::array<int, N>& q = result.emplace_back();
@@ -78,7 +78,7 @@ Triangulation as_set(std::vector<Tetrahedron> children) {
     return {children.begin(), children.end()};
 }
 
-/// All cases, one for each distinct (selection, longest edges of the faces) and longest selected
+/// All cases, one for each distinct (marked edges, longest edges of the faces) and longest marked
 /// edge: the closed selections under every length order.
 const std::vector<Case>& all_cases() {
     static const std::vector<Case> cases = [] {
@@ -90,16 +90,16 @@ const std::vector<Case>& all_cases() {
                 face_longest[f] = longest_of(edges_of_face[f], order);
             }
             for (unsigned long mask = 0; mask < 64; ++mask) {
-                const EdgeSubset selected(mask);
+                const EdgeSubset marked(mask);
                 bool closed = true;
                 for (std::size_t f = 0; f < 4; ++f) {
                     const bool touched = std::ranges::any_of(
-                        edges_of_face[f], [&](std::size_t e) { return selected[e]; });
-                    closed = closed && (!touched || selected[face_longest[f]]);
+                        edges_of_face[f], [&](std::size_t e) { return marked[e]; });
+                    closed = closed && (!touched || marked[face_longest[f]]);
                 }
                 if (!closed) continue;
-                const auto children = bisected<4>({0, 1, 2, 3}, selected, order);
-                found.push_back({selected, face_longest, order, children, as_set(children)});
+                const auto children = bisected<4>({0, 1, 2, 3}, marked, order);
+                found.push_back({marked, face_longest, order, children, as_set(children)});
             }
         } while (std::ranges::next_permutation(order).found);
         return found;
@@ -144,7 +144,7 @@ std::vector<std::array<int, 4>> symmetries(bool with_reflections) {
     return result;
 }
 
-/// How many classes there are among the refined cases for each number of selected edges 1..6, where
+/// How many classes there are among the refined cases for each number of marked edges 1..6, where
 /// the symmetries take a (triangulation, remark) to equal ones.
 std::array<int, 6> classes(bool with_reflections, auto&& remark_of, auto&& moved_remark) {
     using Remarked = std::pair<Triangulation, int>;
@@ -152,7 +152,7 @@ std::array<int, 6> classes(bool with_reflections, auto&& remark_of, auto&& moved
     const auto group = symmetries(with_reflections);
     std::set<Remarked> seen;
     for (const Case& c : all_cases()) {
-        if (c.selected.none()) continue;
+        if (c.marked.none()) continue;
         const Remarked remarked{c.triangulation, remark_of(c)};
         if (!seen.insert(remarked).second) continue;
         Remarked least = remarked;
@@ -160,7 +160,7 @@ std::array<int, 6> classes(bool with_reflections, auto&& remark_of, auto&& moved
             least = std::min(least, Remarked{moved(remarked.first, corners),
                                              moved_remark(remarked.second, corners)});
         }
-        representatives[c.selected.count() - 1].insert(least);
+        representatives[c.marked.count() - 1].insert(least);
     }
     std::array<int, 6> counts{};
     std::ranges::transform(representatives, counts.begin(),
@@ -178,9 +178,9 @@ TEST(Patterns, ThereAre684CasesBySelectionLongestEdgesOfTheFacesAndLongestEdge) 
     std::set<std::pair<unsigned long, std::array<std::size_t, 4>>> by_faces;
     std::set<std::tuple<unsigned long, std::array<std::size_t, 4>, std::size_t>> cases;
     for (const Case& c : all_cases()) {
-        if (c.selected.none()) continue;
-        by_faces.insert({c.selected.to_ulong(), c.face_longest});
-        cases.insert({c.selected.to_ulong(), c.face_longest, c.order.front()});
+        if (c.marked.none()) continue;
+        by_faces.insert({c.marked.to_ulong(), c.face_longest});
+        cases.insert({c.marked.to_ulong(), c.face_longest, c.order.front()});
     }
     EXPECT_EQ(cases.size(), 684U);
     EXPECT_EQ(by_faces.size(), 630U);
@@ -190,7 +190,7 @@ TEST(Patterns, DependOnTheSelectionAndTheLongestEdgesOfTheFacesAlone) {
     std::map<std::pair<unsigned long, std::array<std::size_t, 4>>, Triangulation> known;
     for (const Case& c : all_cases()) {
         const auto [place, fresh] =
-            known.try_emplace({c.selected.to_ulong(), c.face_longest}, c.triangulation);
+            known.try_emplace({c.marked.to_ulong(), c.face_longest}, c.triangulation);
         ASSERT_EQ(place->second, c.triangulation);
     }
 }
@@ -209,20 +209,20 @@ TEST(Patterns, AreTwentyNineUpToAllSymmetries) {
     EXPECT_THAT(classes(true, no_remark, same_remark), ElementsAre(1, 2, 5, 9, 8, 4));
 }
 
-TEST(Patterns, WithTheirLongestSelectedEdgeAreFiftyOneUpToRotation) {
-    const auto longest_selected = [](const Case& c) {
-        const auto e = std::ranges::find_if(c.order, [&](std::size_t k) { return c.selected[k]; });
+TEST(Patterns, WithTheirLongestMarkedEdgeAreFiftyOneUpToRotation) {
+    const auto longest_marked = [](const Case& c) {
+        const auto e = std::ranges::find_if(c.order, [&](std::size_t k) { return c.marked[k]; });
         return 4 + static_cast<int>(*e);
     };
     const auto moved_vertex = [](int v, const auto& corners) { return moved(v, corners); };
-    EXPECT_THAT(classes(false, longest_selected, moved_vertex), ElementsAre(1, 3, 9, 17, 15, 6));
+    EXPECT_THAT(classes(false, longest_marked, moved_vertex), ElementsAre(1, 3, 9, 17, 15, 6));
 }
 
 TEST(Patterns, HaveOneChildMoreThanEdgesAndAnotherIfLongestAndOppositeAreSelected) {
     for (const Case& c : all_cases()) {
         const std::size_t longest = c.order.front();
-        const bool both = c.selected[longest] && c.selected[5 - longest];  // 5 - e is opposite e
-        ASSERT_EQ(c.children.size(), c.selected.count() + 1 + (both ? 1 : 0));
+        const bool both = c.marked[longest] && c.marked[5 - longest];  // 5 - e is opposite e
+        ASSERT_EQ(c.children.size(), c.marked.count() + 1 + (both ? 1 : 0));
     }
 }
 
@@ -256,11 +256,11 @@ TEST(Patterns, KeepTheOrientationAndFillTheParentWithHalvesOfHalves) {
             sum += volume;
         }
         ASSERT_EQ(sum, 8);
-        if (c.selected.all()) {
+        if (c.marked.all()) {
             ASSERT_EQ(c.children.size(), 8U);
             for (const Tetrahedron& child : c.children) ASSERT_EQ(doubled_volume(child), 1);
         }
-        if (c.selected.count() == 1) {
+        if (c.marked.count() == 1) {
             for (const Tetrahedron& child : c.children) ASSERT_EQ(doubled_volume(child), 4);
         }
     }
@@ -270,7 +270,7 @@ TEST(Patterns, OfAllEdgesDoNotAlwaysFanAroundTheMiddleOfLongestAndOpposite) {
     bool some_fan = false;
     bool some_do_not = false;
     for (const Case& c : all_cases()) {
-        if (!c.selected.all()) continue;
+        if (!c.marked.all()) continue;
         const int m = 4 + static_cast<int>(c.order.front());
         const int n = 4 + static_cast<int>(5 - c.order.front());
         const bool fans = std::ranges::all_of(c.triangulation, [&](const Tetrahedron& t) {
@@ -301,9 +301,9 @@ std::set<Triangle> trace(const Triangulation& triangulation, std::size_t f) {
 }
 
 TEST(Patterns, OfTwoCellsThatAgreeOnAFaceMeetThereWhateverTheRest) {
-    // Two cells that share a face agree on its selected edges and on its longest. If the trace on a
+    // Two cells that share a face agree on its marked edges and on its longest. If the trace on a
     // face is a function of these, then all pairs of patterns conform. It is the function that
-    // bisects the triangle by itself, which is how listed facets are refined.
+    // bisects the triangle by itself, which is how tagged facets are refined.
     std::size_t compared = 0;
     for (const Case& c : all_cases()) {
         for (std::size_t f = 0; f < 4; ++f) {
@@ -313,7 +313,7 @@ TEST(Patterns, OfTwoCellsThatAgreeOnAFaceMeetThereWhateverTheRest) {
                 if (v != static_cast<int>(f)) face[count++] = v;
             }
             EdgeSubset in_face;
-            for (const std::size_t e : edges_of_face[f]) in_face[e] = c.selected[e];
+            for (const std::size_t e : edges_of_face[f]) in_face[e] = c.marked[e];
             std::set<Triangle> alone;
             for (Triangle piece : bisected<3>(face, in_face, c.order)) {
                 std::ranges::sort(piece);
@@ -330,7 +330,7 @@ TEST(Patterns, OfATriangleDependOnItsLongestEdgeAndSelectionAlone) {
     std::map<std::tuple<std::size_t, unsigned long>, std::set<Triangle>> known;
     for (const Case& c : all_cases()) {
         EdgeSubset in_face;
-        for (const std::size_t e : edges_of_face[3]) in_face[e] = c.selected[e];
+        for (const std::size_t e : edges_of_face[3]) in_face[e] = c.marked[e];
         const auto [place, fresh] =
             known.try_emplace({c.face_longest[3], in_face.to_ulong()}, trace(c.triangulation, 3));
         ASSERT_EQ(place->second, trace(c.triangulation, 3));

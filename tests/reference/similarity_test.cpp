@@ -12,7 +12,8 @@
 #include "support/meshes.hpp"
 #include "support/refinement.hpp"
 
-/// How many shapes uniform 8T-LE makes: similarity classes by exact integers, mirror images alike.
+/// How many shapes uniform 8T-LE makes: similarity classes by exact integers, mirror images counted
+/// as one.
 namespace octetra::reference {
 namespace {
 

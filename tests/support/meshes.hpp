@@ -75,7 +75,7 @@ inline Mesh shaken_kuhn(std::size_t n, double amount, std::uint64_t seed) {
 }
 
 /// Cells that grow as they wind round an axis like the chambers of a shell, each with a face of the
-/// next, in no order: what selects an edge of the smallest selects edges of all, one after the
+/// next, in no order: what marks an edge of the smallest marks edges of all, one after the
 /// other.
 inline Mesh shell(std::size_t cell_count, std::uint64_t seed) {
     std::vector<Point> points;

@@ -45,7 +45,7 @@ inline std::vector<std::pair<Corners, Marker>> geometry(const Mesh& mesh) {
     return cells;
 }
 
-/// Listed facets or edges with their markers, likewise.
+/// Tagged facets or edges with their markers, likewise.
 template <class I, std::size_t N>
 std::vector<std::pair<std::array<Point, N>, Marker>> geometry(
     const Mesh& mesh, const IndexVector<I, std::array<VertexIndex, N>>& list,

@@ -177,7 +177,7 @@ void append_random_cell(Mesh& mesh, std::mt19937_64& random) {
     mesh.cells.push_back(cell);
 }
 
-/// Breaks a mesh in a way drawn by lot, or leaves it as it is. Coordinates stay
+/// Breaks a mesh in a way drawn at random, or leaves it as it is. Coordinates stay
 /// small integers or, by one bisection after the other, eighths.
 void mutate(Mesh& mesh, std::mt19937_64& random) {
     const auto below = [&](std::size_t n) { return static_cast<std::size_t>(random() % n); };

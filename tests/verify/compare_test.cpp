@@ -52,13 +52,13 @@ TEST(Compare, FindsAMeshIdenticalToItself) {
 TEST(Compare, SaysWhereOnlyTheFirstNumberDiffers) {
     const Mesh mesh = test::kuhn(1, 1, 1);
     Mesh other = mesh;
-    other.first_number = 1;
+    other.index_base = 1;
     EXPECT_EQ(compare(mesh, other).likeness, Likeness::up_to_numbering);
-    EXPECT_TRUE(compare(mesh, other).only_first_number_differs);
-    EXPECT_FALSE(compare(mesh, mesh).only_first_number_differs);
+    EXPECT_TRUE(compare(mesh, other).only_index_base_differs);
+    EXPECT_FALSE(compare(mesh, mesh).only_index_base_differs);
     std::swap(other.cells[CellIndex{0}], other.cells[CellIndex{1}]);
     EXPECT_EQ(compare(mesh, other).likeness, Likeness::up_to_numbering);
-    EXPECT_FALSE(compare(mesh, other).only_first_number_differs);
+    EXPECT_FALSE(compare(mesh, other).only_index_base_differs);
 }
 
 TEST(Compare, SeesThroughAnotherNumbering) {
@@ -66,7 +66,7 @@ TEST(Compare, SeesThroughAnotherNumbering) {
     EXPECT_EQ(comparison.likeness, Likeness::up_to_numbering);
     EXPECT_EQ(comparison.difference_count, 0U);
     Mesh from_one = tagged();
-    from_one.first_number = 1;
+    from_one.index_base = 1;
     EXPECT_EQ(compare(tagged(), from_one).likeness, Likeness::up_to_numbering);
 }
 

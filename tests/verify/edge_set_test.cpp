@@ -1,4 +1,4 @@
-#include "edge_set.hpp"
+#include "lookup/edge_set.hpp"
 
 #include <set>
 #include <vector>

@@ -9,7 +9,7 @@
 #include <octetra/verify/verify.hpp>
 
 #include "exact/predicates.hpp"
-#include "subject.hpp"
+#include "mesh/checks.hpp"
 #include "support/meshes.hpp"
 #include "verify/hub_meshes.hpp"
 #include "verify/together.hpp"
@@ -72,12 +72,12 @@ void drop_flat_cells(Mesh& mesh) {
 /// right in itself: what hangs and what crosses is well-defined all the same.)
 std::vector<Violation> found_in_space(const Mesh& mesh, std::uint32_t many) {
     Findings findings(std::numeric_limits<std::size_t>::max());
-    Subject subject = whole_subject(mesh, Which::fine);
-    subject.many = many;
-    (void)check_well_formed(subject, findings);
-    (void)check_orientation(subject, findings);
-    (void)check_hanging(subject, findings);
-    (void)check_boundary_crossings(subject, findings);
+    JudgedMesh judged = judged_whole(mesh, Which::fine);
+    judged.many = many;
+    (void)check_well_formed(judged, findings);
+    (void)check_orientation(judged, findings);
+    (void)check_hanging(judged, findings);
+    (void)check_boundary_crossings(judged, findings);
     return findings.finish().violations;
 }
 

@@ -5,7 +5,8 @@
 #include <gtest/gtest.h>
 
 #include <octetra/core/error.hpp>
-#include <octetra/core/files.hpp>
+#include <octetra/core/files/lists.hpp>
+#include <octetra/core/files/mesh_files.hpp>
 #include <octetra/reference/refine.hpp>
 
 #include "parts/cut_space.hpp"
@@ -183,7 +184,7 @@ TEST(Slices, OfAFileAreThoseOfItsMesh) {
             test::run_together(size, [&](const ProcessGroup& group) {
                 const MeshSlice read = verify::read_slice(path, {}, group);
                 MeshSlice expected = verify::share_out(mesh, group);
-                expected.lists.first_number = read.lists.first_number;
+                expected.lists.index_base = read.lists.index_base;
                 EXPECT_EQ(read.lists, expected.lists) << name;
                 EXPECT_EQ(read.totals.cells, mesh.cells.size());
             });

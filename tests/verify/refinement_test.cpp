@@ -8,13 +8,14 @@
 #include <gtest/gtest.h>
 
 #include <octetra/core/error.hpp>
-#include <octetra/core/files.hpp>
+#include <octetra/core/files/mesh_files.hpp>
 #include <octetra/reference/refine.hpp>
 #include <octetra/verify/verify.hpp>
 
-#include "descent.hpp"
 #include "exact/measures.hpp"
-#include "sums.hpp"
+#include "measures/sums.hpp"
+#include "mesh/checks.hpp"
+#include "refinement/checks.hpp"
 #include "support/manifest.hpp"
 #include "support/meshes.hpp"
 #include "verify/mutations.hpp"
@@ -335,8 +336,8 @@ struct Descended {
     Mesh coarse_mesh;
     Mesh fine_mesh;
     Findings findings{100};
-    Subject coarse{.mesh = coarse_mesh, .which = Which::coarse};
-    Subject fine{.mesh = fine_mesh};
+    JudgedMesh coarse{.mesh = coarse_mesh, .which = Which::coarse};
+    JudgedMesh fine{.mesh = fine_mesh};
     Descent descent;
 };
 

@@ -69,7 +69,7 @@ def in_short(measured):
     if not measured["identical"]:
         return "NOT IDENTICAL"
     if measured["verdict"] is None:
-        return "refused by all alike"
+        return "refused by all"
     return "identical, valid" if measured["valid"] else "identical, NOT VALID"
 
 

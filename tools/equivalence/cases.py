@@ -53,7 +53,7 @@ PAPER_SMALL = [
          "--random 0.28 --seed 1", after="paper, small, 1st", repeats=3),
 ]
 PAPER_LARGE = [
-    Case("paper, large, 1st", "cells by lot, all over a mesh", "paper",
+    Case("paper, large, 1st", "cells at random, all over a mesh", "paper",
          "--random 0.054 --seed 1", generate=LARGE_GEAR, repeats=3, view=["--view", "1,-0.25,1.2"]),
     Case("paper, large, 2nd", "the result refined again", "paper",
          "--random 0.021 --seed 1", after="paper, large, 1st", repeats=3),
@@ -73,7 +73,7 @@ PAPER_COUNTS = [
 
 
 def seeds():
-    """Delaunay meshes of random points, cells by lot, every scheme."""
+    """Delaunay meshes of random points, cells at random, every scheme."""
     schemes = ["8t", "4t", "2t"]
     return [Case(f"seed {seed}", f"800 random points, a twentieth of the cells, scheme {scheme}",
                  "seeds", f"--random 0.05 --seed {seed} --scheme {scheme} --levels 2",

@@ -44,7 +44,7 @@ def verdict(total):
     kind, sentence = answer(total)
     valid = total["refined"] - len(total["invalid"])
     refused = (f"; {plural(total['refused'], 'mesh/meshes')} refused, for midpoints that rounding "
-               "would spoil, by all alike" if total["refused"] else "")
+               "would spoil, by all" if total["refused"] else "")
     return (f'<div class="verdict {kind}"><b>{escape(sentence)}</b>'
             f"{size(total['bytes'])} of files compared on 1 to 4 ranks, by both synchronisations, "
             f"up to {count(total['most_cells'])} cells. {count(valid)} of "
@@ -100,7 +100,7 @@ def cases_section(cases):
         right = sum(case["identical"] and case["valid"] for case in corpus)
         html += details(f"<b>The corpus</b>: {plural(len(corpus), 'mesh/meshes')}, made for "
                         f"trouble (ties, slivers, odd files); {right} of them "
-                        "identical, and valid or refused by all alike",
+                        "identical, and valid or refused by all",
                         cases_table(corpus))
     return html
 
@@ -129,7 +129,7 @@ def paper_section(cases):
     return ("<h2>Beside the paper</h2><p>M. Balman, <i>Tetrahedral Mesh Refinement in Distributed "
             "Environments</i>, refines meshes of these sizes. <b>Its meshes are not these</b>, and "
             "were not to be had: ours are gears of nearly as many vertices and cells, and as many "
-            "cells are chosen, by lot, as make them grow about as much. So the counts of cells "
+            "cells are marked, at random, as make them grow about as much. So the counts of cells "
             "are near because they were made so; times cannot be compared, as the paper "
             "tabulates none.</p>" + paper_table(cases) +
             '<p class="faint">The paper\'s vertex count for 235,941 cells is a misprint, and for '

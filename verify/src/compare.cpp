@@ -197,10 +197,10 @@ private:
 Comparison compare(const Mesh& a, const Mesh& b, std::size_t kept) {
     Comparison result;
     if (a == b) return result;
-    if (a.first_number != b.first_number) {
+    if (a.index_base != b.index_base) {
         Mesh otherwise_counted = b;
-        otherwise_counted.first_number = a.first_number;
-        result.only_first_number_differs = a == otherwise_counted;
+        otherwise_counted.index_base = a.index_base;
+        result.only_index_base_differs = a == otherwise_counted;
     }
     const bool coincident = has_coincident_vertices(a) || has_coincident_vertices(b);
     const Colours of_a = colours_of(a, coincident);

@@ -1,24 +1,24 @@
 #include <octetra/verify/verify.hpp>
 
-#include "angles.hpp"
+#include "measures/angles.hpp"
+#include "measures/sums.hpp"
+#include "mesh/checks.hpp"
 #include "parts/mesh_part.hpp"
-#include "subject.hpp"
-#include "sums.hpp"
 
 namespace octetra::verify {
 namespace {
 
 /// A mesh, or a part of one, that is in range.
-void judge(Subject& subject, const VerifyOptions& options, Findings& findings) {
-    subject.keeps_cells = false;
-    findings.run("well-formed", [&] { return check_well_formed(subject, findings); });
-    findings.run("markers", [&] { return check_listed_markers(subject, findings); });
+void judge(JudgedMesh& judged, const VerifyOptions& options, Findings& findings) {
+    judged.keeps_cells = false;
+    findings.run("well-formed", [&] { return check_well_formed(judged, findings); });
+    findings.run("markers", [&] { return check_tagged_markers(judged, findings); });
     const bool no_coincidence =
-        findings.run("vertices", [&] { return check_vertices(subject, {}, findings); });
+        findings.run("vertices", [&] { return check_vertices(judged, {}, findings); });
     const bool oriented =
-        findings.run("orientation", [&] { return check_orientation(subject, findings); });
-    const bool faced = findings.run("faces", [&] { return check_faces(subject, findings); });
-    count_singular(subject, findings.facts());
+        findings.run("orientation", [&] { return check_orientation(judged, findings); });
+    const bool faced = findings.run("faces", [&] { return check_faces(judged, findings); });
+    count_singular(judged, findings.facts());
     if (options.fast) {
         findings.skip("hanging vertices", not_fast);
         findings.skip("boundary crossings", not_fast);
@@ -28,22 +28,22 @@ void judge(Subject& subject, const VerifyOptions& options, Findings& findings) {
     bool none_hangs = false;
     if (oriented && faced) {
         none_hangs =
-            findings.run("hanging vertices", [&] { return check_hanging(subject, findings); });
+            findings.run("hanging vertices", [&] { return check_hanging(judged, findings); });
     } else {
         findings.skip("hanging vertices", "cells are wrong in themselves");
     }
     if (no_coincidence && none_hangs) {
         findings.run("boundary crossings",
-                     [&] { return check_boundary_crossings(subject, findings); });
+                     [&] { return check_boundary_crossings(judged, findings); });
     } else {
         findings.skip("boundary crossings", oriented && faced ? "vertices lie where they must not"
                                                               : "cells are wrong in themselves");
     }
-    findings.verdict().angles = measure_angles(subject);
-    measure_sums(subject, findings);
+    findings.verdict().angles = measure_angles(judged);
+    measure_sums(judged, findings);
     if (options.min_dihedral) {
         findings.run("dihedral angles", [&] {
-            return check_dihedral_angles(subject, *options.min_dihedral, findings);
+            return check_dihedral_angles(judged, *options.min_dihedral, findings);
         });
     }
 }
@@ -52,11 +52,11 @@ void judge(Subject& subject, const VerifyOptions& options, Findings& findings) {
 
 Verdict verify_mesh(const Mesh& mesh, const VerifyOptions& options) {
     Findings findings(options.kept_per_code, ProcessGroup::alone(), options.progress);
-    Subject subject = whole_subject(mesh, Which::fine);
+    JudgedMesh judged = judged_whole(mesh, Which::fine);
     if (findings.run("numbers in range", [&] {
             return check_ranges(mesh, mesh.points.size(), Which::fine, findings);
         })) {
-        judge(subject, options, findings);
+        judge(judged, options, findings);
     }
     return findings.finish();
 }
@@ -70,8 +70,8 @@ Verdict verify_mesh(MeshSlice mesh, const ProcessGroup& group, const VerifyOptio
     const Totals totals = mesh.totals;
     const Parts parts = part_of(std::move(mesh), group);
     findings.translate(Which::fine, &parts.fine.numbers);
-    Subject subject{.mesh = parts.fine.mesh, .domain = parts.domain, .totals = totals};
-    judge(subject, options, findings);
+    JudgedMesh judged{.mesh = parts.fine.mesh, .domain = parts.domain, .totals = totals};
+    judge(judged, options, findings);
     return findings.finish();
 }
 

@@ -4,10 +4,11 @@
 #include <optional>
 #include <utility>
 
-#include "angles.hpp"
-#include "descent.hpp"
+#include "measures/angles.hpp"
+#include "measures/sums.hpp"
+#include "mesh/checks.hpp"
 #include "parts/mesh_part.hpp"
-#include "sums.hpp"
+#include "refinement/checks.hpp"
 
 namespace octetra::verify {
 namespace {
@@ -86,10 +87,10 @@ std::vector<char> inherited_freedom(const Mesh& coarse, const Mesh& fine, const 
     return tolerated;
 }
 
-bool has_coincident_vertices(const Subject& subject) {
+bool has_coincident_vertices(const JudgedMesh& judged) {
     std::vector<Point> points;
-    for (const Point& p : subject.mesh.points) {
-        if (subject.domain.owns(p)) points.push_back(p);
+    for (const Point& p : judged.mesh.points) {
+        if (judged.domain.owns(p)) points.push_back(p);
     }
     std::sort(points.begin(), points.end());
     return std::adjacent_find(points.begin(), points.end()) != points.end();
@@ -103,7 +104,8 @@ std::string_view name_of_range_check(Which which) {
 /// passed.
 class RefinementCheck {
 public:
-    RefinementCheck(Subject coarse, Subject fine, const VerifyOptions& options, Findings& findings)
+    RefinementCheck(JudgedMesh coarse, JudgedMesh fine, const VerifyOptions& options,
+                    Findings& findings)
         : options_(options),
           findings_(findings),
           coarse_(std::move(coarse)),
@@ -131,7 +133,7 @@ private:
     bool judge_coarse() {
         return findings_.run("coarse mesh", [&] {
             (void)check_well_formed(coarse_, findings_);
-            (void)check_listed_markers(coarse_, findings_);
+            (void)check_tagged_markers(coarse_, findings_);
             (void)check_orientation(coarse_, findings_);
             (void)check_faces(coarse_, findings_);
             const Facts none;
@@ -226,8 +228,8 @@ private:
 
     const VerifyOptions& options_;
     Findings& findings_;
-    Subject coarse_;
-    Subject fine_;
+    JudgedMesh coarse_;
+    JudgedMesh fine_;
 };
 
 }  // namespace
@@ -240,7 +242,7 @@ Verdict verify_refinement(const Mesh& coarse, const Mesh& fine, const VerifyOpti
         });
     };
     if (in_range(coarse, Which::coarse) && in_range(fine, Which::fine)) {
-        RefinementCheck(whole_subject(coarse, Which::coarse), whole_subject(fine, Which::fine),
+        RefinementCheck(judged_whole(coarse, Which::coarse), judged_whole(fine, Which::fine),
                         options, findings)
             .judge();
     }

@@ -3,7 +3,7 @@
 
 #include <CLI/CLI.hpp>
 
-#include <octetra/core/files.hpp>
+#include <octetra/core/files/mesh_files.hpp>
 #include <octetra/distributed/communicator.hpp>
 #include <octetra/verify/compare.hpp>
 
@@ -36,7 +36,7 @@ void add_compare(CLI::App& program, const distributed::Communicator& world) {
     auto options = std::make_shared<CompareOptions>();
     CLI::App* command = program.add_subcommand(
         "compare",
-        "Are two meshes the same, be it with other numbers?\n"
+        "Are two meshes the same, up to their numbering?\n"
         "Ends with status 0 if they are, 1 if not, 2 if one cannot be read.");
     command->add_option("A", options->a, "a mesh")
         ->type_name("")

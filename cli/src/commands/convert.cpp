@@ -3,7 +3,7 @@
 
 #include <CLI/CLI.hpp>
 
-#include <octetra/core/files.hpp>
+#include <octetra/core/files/places.hpp>
 #include <octetra/distributed/communicator.hpp>
 
 #include "commands/commands.hpp"

@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 
 #include <octetra/core/error.hpp>
-#include <octetra/core/files.hpp>
+#include <octetra/core/files/places.hpp>
 
 namespace octetra::cli {
 namespace {

@@ -23,7 +23,7 @@ struct NamedFiles {
 [[nodiscard]] NamedFiles mesh_to_write(std::string_view argument, const std::filesystem::path& path,
                                        int pieces = 1);
 
-/// Throws InputError if a file to write is one to read, be it by another name or a link; or if two
+/// Throws InputError if a file to write is one to read, even by another name or a link; or if two
 /// arguments name one file to write.
 void check_files_apart(const std::vector<NamedFiles>& read, const std::vector<NamedFiles>& written);
 

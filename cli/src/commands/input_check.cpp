@@ -20,7 +20,7 @@ void check_input(const Mesh& mesh, const std::string& path,
                           : verify::verify_mesh(verify::share_out(mesh, world), world);
     if (verdict.valid()) return;
     if (world.is_first()) {
-        print_verdict(verdict, {.fine = path, .fine_first_number = mesh.first_number});
+        print_verdict(verdict, {.fine = path, .fine_index_base = mesh.index_base});
         std::fflush(stdout);
     }
     throw InputError(

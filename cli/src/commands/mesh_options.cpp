@@ -7,6 +7,8 @@
 
 #include <CLI/CLI.hpp>
 #include <octetra/core/error.hpp>
+#include <octetra/core/files/mesh_files.hpp>
+#include <octetra/core/files/places.hpp>
 
 #include "grouped.hpp"
 #include "terminal.hpp"

@@ -6,7 +6,6 @@
 
 #include <CLI/CLI.hpp>
 
-#include <octetra/core/files.hpp>
 #include <octetra/core/mesh.hpp>
 
 /// What every subcommand that reads or writes a mesh has in common.

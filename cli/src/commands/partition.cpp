@@ -7,7 +7,7 @@
 #include <CLI/CLI.hpp>
 
 #include <octetra/core/error.hpp>
-#include <octetra/core/files.hpp>
+#include <octetra/core/files/lists.hpp>
 #include <octetra/distributed/communicator.hpp>
 #include <octetra/distributed/partition.hpp>
 #include <octetra/distributed/predicted_cells.hpp>
@@ -29,7 +29,7 @@ struct PartitionOptions {
     std::string method = "lepp";
     std::string output;
     RefinementOptions refinement;
-    bool says_how_refined = false;  ///< be it by options that say what is taken for granted
+    bool says_how_refined = false;  ///< even by options that give the default
 };
 
 void print_counts(std::string_view what, const std::vector<std::uint64_t>& counts) {
@@ -64,16 +64,16 @@ void note_empty_parts(const std::vector<std::uint64_t>& cells_of_part) {
 
 /// What `octetra refine` with the same criteria weighs the cells of the mesh by; empty without.
 std::vector<float> weights_of(const Mesh& mesh, const PartitionOptions& options) {
-    const SelectionOptions& chosen = options.refinement.selection;
-    if (!has_criterion(chosen)) {
+    const SelectionOptions& typed = options.refinement.selection;
+    if (!has_criterion(typed)) {
         if (!options.says_how_refined) return {};
         throw InputError(
             "partition: --levels, --scheme and --seed say how a selection is to be refined; give "
             "it, too, as in --sphere X,Y,Z,R --levels 2");
     }
-    Selection selection = parse_selection(chosen);
-    complete_selection(selection, chosen,
-                       {!mesh.regions.empty(), mesh.first_number, mesh.cells.size()});
+    Selection selection = parse_selection(typed);
+    complete_selection(selection, typed,
+                       {!mesh.regions.empty(), mesh.index_base, mesh.cells.size()});
     return distributed::predicted_cells(mesh, selection, parse_scheme(options.refinement),
                                         options.refinement.levels);
 }

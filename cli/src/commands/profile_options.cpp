@@ -2,7 +2,7 @@
 
 #include <CLI/CLI.hpp>
 
-#include <octetra/core/files.hpp>
+#include <octetra/core/files/lists.hpp>
 #include <octetra/distributed/communicator.hpp>
 #include <octetra/distributed/profile.hpp>
 

@@ -1,11 +1,7 @@
-#include <unistd.h>
 #include <algorithm>
 #include <array>
-
 #include <cstdint>
-#include <cstdio>
 #include <filesystem>
-#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
@@ -15,7 +11,9 @@
 #include <CLI/CLI.hpp>
 
 #include <octetra/core/error.hpp>
-#include <octetra/core/files.hpp>
+#include <octetra/core/files/maps_files.hpp>
+#include <octetra/core/files/mesh_files.hpp>
+#include <octetra/core/files/places.hpp>
 #include <octetra/core/mesh_source.hpp>
 #include <octetra/distributed/canonical_mesh.hpp>
 #include <octetra/distributed/communicator.hpp>
@@ -34,54 +32,21 @@
 #include "commands/mesh_options.hpp"
 #include "commands/number_options.hpp"
 #include "commands/profile_options.hpp"
+#include "commands/refine/judge.hpp"
+#include "commands/refine/options.hpp"
+#include "commands/refine/report.hpp"
 #include "commands/refinement_options.hpp"
-#include "grouped.hpp"
 #include "stopwatch.hpp"
 #include "terminal.hpp"
-#include "verdict/print_verdict.hpp"
 
 namespace octetra::cli {
 namespace {
-
-enum class Engine { distributed, reference };
 
 constexpr std::array<Word<Engine>, 2> engines{
     {{"distributed", Engine::distributed}, {"reference", Engine::reference}}};
 constexpr std::array<Word<distributed::Synchronisation>, 2> synchronisations{
     {{"neighbour", distributed::Synchronisation::neighbour},
      {"gateway", distributed::Synchronisation::gateway}}};
-
-/// What the options mean, once they are known to mean something.
-struct Plan {
-    Selection selection;
-    Scheme scheme = Scheme::eight;
-    Engine engine = Engine::distributed;
-    distributed::Partition partition;
-    distributed::Synchronisation synchronisation = distributed::Synchronisation::neighbour;
-};
-
-struct RefineOptions {
-    InputOptions input;
-    std::string output;
-    std::string maps;
-    RefinementOptions refinement;
-    std::string engine = "distributed";
-    std::optional<std::string> partition;
-    std::optional<std::string> synchronisation;
-    ProfileOptions profile;
-    std::uint64_t max_cells = std::numeric_limits<std::uint64_t>::max();
-    bool check = false;
-    bool verify = false;
-    bool quiet = false;
-};
-
-void report(const RefineOptions& options, std::string_view doing, std::uint64_t vertices,
-            std::uint64_t cells, double seconds) {
-    if (options.quiet) return;
-    print("{:<30} {:>13} vertices {:>13} cells {:>8.2f} s\n", doing, grouped(vertices),
-          grouped(cells), seconds);
-    std::fflush(stdout);
-}
 
 Plan plan_of(const RefineOptions& options) {
     const Engine engine = parse_choice("--engine", options.engine, engines);
@@ -97,11 +62,6 @@ Plan plan_of(const RefineOptions& options) {
                                             synchronisations)};
 }
 
-std::string refined_line(int levels, int ranks) {
-    const std::string line = fmt::format("refined, {} level{}", levels, levels == 1 ? "" : "s");
-    return ranks == 1 ? line : fmt::format("{}, {} ranks", line, ranks);
-}
-
 /// Runs an engine; what it finds wrong with the mesh gets the mesh's name in front.
 auto naming_the_mesh(const RefineOptions& options, auto&& engine) {
     try {
@@ -109,23 +69,6 @@ auto naming_the_mesh(const RefineOptions& options, auto&& engine) {
     } catch (const InputError& error) {
         throw InputError(fmt::format("{}: {}", options.input.path, error.what()));
     }
-}
-
-/// Where people watch, a line that each level writes over.
-std::function<void(int, std::uint64_t)> level_progress(const RefineOptions& options) {
-    if (options.quiet || ::isatty(STDERR_FILENO) == 0) return {};
-    return [levels = options.refinement.levels](int level, std::uint64_t cells) {
-        print_error_text(fmt::format("\rlevel {} of {}: {} cells ", level, levels, grouped(cells)));
-    };
-}
-
-/// Says so where there was less to do than was asked for, or more is left than there may seem.
-void note_idle_levels(const RefineOptions& options, int levels) {
-    if (options.refinement.levels == 0) return note("--levels 0: the mesh stays as it is");
-    if (levels == options.refinement.levels) return;
-    note(levels == 0 ? std::string("no cell was chosen: the mesh stays as it is")
-                     : fmt::format("no cell was chosen any more after level {} of {}", levels,
-                                   options.refinement.levels));
 }
 
 /// How many cells have more volume than the selection wants; none, if it says nothing of it.
@@ -136,98 +79,9 @@ std::uint64_t too_large_cells(const IndexVector<VertexIndex, Point>& points,
     const Selection too_large{.max_volume = selection.max_volume};
     return static_cast<std::uint64_t>(std::ranges::count_if(cells, [&](const CellVertices& cell) {
         const auto& [a, b, c, d] = cell;
-        return chooses(too_large, {points[a], points[b], points[c], points[d]}, Marker{0},
-                       GlobalCell{0});
+        return marks(too_large, {points[a], points[b], points[c], points[d]}, Marker{0},
+                     GlobalCell{0});
     }));
-}
-
-/// What the engine has made, in numbers.
-struct Made {
-    int levels = 0;
-    int ranks = 1;
-    MeshFacts facts;
-    std::uint64_t too_large = 0;  ///< cells
-};
-
-void report_refined(const RefineOptions& options, const Made& made, double seconds) {
-    report(options, refined_line(made.levels, made.ranks), made.facts.vertices, made.facts.cells,
-           seconds);
-    note_idle_levels(options, made.levels);
-    if (made.too_large == 0) return;
-    note(fmt::format("{} cell{} larger than --max-volume after {} level{}: more --levels may help",
-                     grouped(made.too_large), made.too_large == 1 ? " is" : "s are", made.levels,
-                     made.levels == 1 ? "" : "s"));
-}
-
-void report_written(const RefineOptions& options, const std::string& lost, const MeshFacts& facts,
-                    double seconds) {
-    if (!lost.empty()) note(lost);
-    report(options, fmt::format("wrote {}", options.output), facts.vertices, facts.cells, seconds);
-}
-
-verify::VerifyOptions verify_options(const Plan& plan, const RefineOptions& options,
-                                     const RefinementMaps* maps) {
-    constexpr std::size_t described_of_each_code = 100;
-    return {.request = verify::Request{plan.selection, plan.scheme, options.refinement.levels},
-            .maps = maps,
-            .kept_per_code = described_of_each_code};
-}
-
-void note_unchecked(const RefineOptions& options) {
-    if (options.check) return;
-    note(
-        fmt::format("of {} itself, orientation and faces were checked, not whether cells overlap: "
-                    "octetra verify {} does",
-                    options.input.path, options.input.path));
-}
-
-void print_refusal(const verify::Verdict& verdict, const RefineOptions& options,
-                   std::uint32_t first_number) {
-    print_verdict(verdict, {options.output, options.input.path, first_number, first_number});
-    print("nothing was written\n");
-}
-
-/// Judges what an engine has made. If it is not valid, says why.
-bool is_valid(const Mesh& coarse, const Mesh& fine, const RefinementMaps& maps, const Plan& plan,
-              const RefineOptions& options) {
-    const auto verdict =
-        verify::verify_refinement(coarse, fine, verify_options(plan, options, &maps));
-    if (verdict.valid()) {
-        note_unchecked(options);
-    } else {
-        print_refusal(verdict, options, fine.first_number);
-    }
-    return verdict.valid();
-}
-
-/// Collective. Every process gets the whole of the maps. (Only who asks for --maps needs them.)
-RefinementMaps maps_of_all(MeshSource& fine, const distributed::Communicator& world) {
-    const MeshFacts& facts = fine.facts();
-    RefinementMaps maps;
-    const auto share = [&](auto& list, auto span) {
-        list.assign(span.begin(), span.end());
-        world.broadcast(list);
-    };
-    share(maps.cell_to_parent, fine.parents(whole_window(facts.cells)));
-    share(maps.midpoint_to_edge,
-          fine.midpoint_ends(whole_window(facts.vertices - facts.first_midpoint)));
-    maps.first_midpoint = VertexIndex{facts.first_midpoint};
-    return maps;
-}
-
-/// Collective. The same of a mesh in several memories; no process has all of it.
-bool is_valid_together(verify::MeshSlice coarse, distributed::CanonicalMesh& fine, const Plan& plan,
-                       const RefineOptions& options, const distributed::Communicator& world) {
-    RefinementMaps maps;
-    if (!options.maps.empty()) maps = maps_of_all(fine.whole(), world);
-    const auto verdict = verify::verify_refinement(
-        std::move(coarse), verify::slice_of(fine.whole()), world,
-        verify_options(plan, options, options.maps.empty() ? nullptr : &maps));
-    if (world.is_first() && verdict.valid()) note_unchecked(options);
-    if (world.is_first() && !verdict.valid()) {
-        print_refusal(verdict, options, fine.facts().first_number);
-    }
-    return verdict.valid();
 }
 
 /// Collective. What the first process has all of is judged there, if it is to be, and written.
@@ -373,7 +227,7 @@ void refine(const RefineOptions& options, const distributed::Communicator& all) 
             check_outputs(options, plan, world.size());
             mesh = read_input(options.input);
             complete_selection(plan.selection, options.refinement.selection,
-                               {!mesh.regions.empty(), mesh.first_number, mesh.cells.size()});
+                               {!mesh.regions.empty(), mesh.index_base, mesh.cells.size()});
             report(options, fmt::format("read {}", options.input.path), mesh.points.size(),
                    mesh.cells.size(), watch.lap());
         });
@@ -419,7 +273,7 @@ void add_refine(CLI::App& program, const distributed::Communicator& world) {
     auto options = std::make_shared<RefineOptions>();
     CLI::App* refine_command =
         program.add_subcommand("refine",
-                               "Refine a mesh where you choose, and as far around as "
+                               "Refine a mesh where cells are marked, and as far around as "
                                "conformity asks");
     add_input_options(*refine_command, options->input);
     add_output_option(*refine_command, options->output);

@@ -14,11 +14,11 @@ void add_refinement_options(CLI::App& subcommand, RefinementOptions& options,
     add_selection_options(subcommand, options.selection, group);
     add_number<std::uint64_t>(
         subcommand, "--levels", options.levels, {0, 50, "0 to 50"},
-        "how often to choose and bisect; what is chosen is judged afresh each time [1]")
+        "how often to mark and bisect; what is marked is judged afresh each time [1]")
         ->type_name("L");
     subcommand
         .add_option("--scheme", options.scheme,
-                    "a chosen cell selects all its edges, its faces' longest, or its longest [8t]")
+                    "a marked cell marks all its edges, its faces' longest, or its longest [8t]")
         ->type_name("8t|4t|2t");
 }
 

@@ -19,7 +19,7 @@ struct RefinementOptions {
 void add_refinement_options(CLI::App& subcommand, RefinementOptions& options,
                             const std::string& group);
 
-/// Was --levels, --scheme or --seed typed, be it with what is taken for granted? Without a
+/// Was --levels, --scheme or --seed typed, even with the default value? Without a
 /// criterion they mean nothing.
 [[nodiscard]] bool says_how_refined(const CLI::App& subcommand);
 

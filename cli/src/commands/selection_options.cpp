@@ -6,7 +6,7 @@
 #include <CLI/CLI.hpp>
 
 #include <octetra/core/error.hpp>
-#include <octetra/core/files.hpp>
+#include <octetra/core/files/lists.hpp>
 
 #include "commands/mesh_options.hpp"
 #include "commands/number_options.hpp"
@@ -115,7 +115,7 @@ void complete_selection(Selection& selection, const SelectionOptions& options,
         throw InputError("--region: the cells of this mesh have no region tags");
     }
     if (!options.cells_file.empty()) {
-        selection.cells = read_cell_list(options.cells_file, mesh.first_number, mesh.cells);
+        selection.cells = read_cell_list(options.cells_file, mesh.index_base, mesh.cells);
     }
 }
 

@@ -14,7 +14,7 @@ class App;
 
 namespace octetra::cli {
 
-/// The options of a subcommand that choose cells, as they were typed.
+/// The options of a subcommand that mark cells, as they were typed.
 struct SelectionOptions {
     bool all = false;
     std::string cells_file;
@@ -39,7 +39,7 @@ void add_selection_options(CLI::App& subcommand, SelectionOptions& options,
 /// What a selection asks of a mesh.
 struct SelectableMesh {
     bool has_regions = false;
-    std::uint32_t first_number = 0;
+    std::uint32_t index_base = 0;
     std::uint64_t cells = 0;
 };
 

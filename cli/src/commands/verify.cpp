@@ -5,7 +5,9 @@
 #include <CLI/CLI.hpp>
 
 #include <octetra/core/error.hpp>
-#include <octetra/core/files.hpp>
+#include <octetra/core/files/lists.hpp>
+#include <octetra/core/files/maps_files.hpp>
+#include <octetra/core/files/mesh_files.hpp>
 #include <octetra/distributed/communicator.hpp>
 #include <octetra/verify/verify.hpp>
 
@@ -29,7 +31,7 @@ struct VerifyCommandOptions {
     std::string report;
     std::string maps;
     RefinementOptions refinement;
-    bool says_how_refined = false;  ///< be it by options that say what is taken for granted
+    bool says_how_refined = false;  ///< even by options that give the default
 };
 
 /// A report of a million faults helps nobody; they are counted all the same.
@@ -66,22 +68,22 @@ verify::VerifyOptions options_of(const VerifyCommandOptions& given) {
 }
 
 verify::Verdict judge(const VerifyCommandOptions& given, verify::VerifyOptions options,
-                      Judged& judged) {
+                      JudgedFiles& judged) {
     const ReadOptions as_it_stands{.only_syntax = true, .note = note};
     const Mesh first = read_mesh(given.first, as_it_stands);
     if (given.second.empty()) {
-        judged = {.fine = given.first, .fine_first_number = first.first_number};
+        judged = {.fine = given.first, .fine_index_base = first.index_base};
         return verify_mesh(first, options);
     }
     const Mesh second = read_mesh(given.second, as_it_stands);
-    judged = {given.second, given.first, second.first_number, first.first_number};
+    judged = {given.second, given.first, second.index_base, first.index_base};
     if (options.request) {
         complete_selection(options.request->selection, given.refinement.selection,
-                           {!first.regions.empty(), first.first_number, first.cells.size()});
+                           {!first.regions.empty(), first.index_base, first.cells.size()});
     }
     std::optional<RefinementMaps> maps;
     if (!given.maps.empty()) {
-        maps = read_maps(given.maps, first.first_number);  // as refine numbers them
+        maps = read_maps(given.maps, first.index_base);  // as refine numbers them
         options.maps = &*maps;
     }
     return verify_refinement(first, second, options);
@@ -98,27 +100,27 @@ void share_maps(RefinementMaps& maps, const distributed::Communicator& world) {
 
 /// Collective. Every process judges a part; none has a mesh as a whole.
 verify::Verdict judge_together(const VerifyCommandOptions& given, verify::VerifyOptions options,
-                               Judged& judged, const distributed::Communicator& world) {
+                               JudgedFiles& judged, const distributed::Communicator& world) {
     const ReadOptions as_it_stands{.only_syntax = true, .note = note};
     verify::MeshSlice first = verify::read_slice(given.first, as_it_stands, world);
-    const std::uint32_t first_number = first.lists.first_number;
+    const std::uint32_t index_base = first.lists.index_base;
     if (given.second.empty()) {
-        judged = {.fine = given.first, .fine_first_number = first_number};
+        judged = {.fine = given.first, .fine_index_base = index_base};
         return verify_mesh(std::move(first), world, options);
     }
     verify::MeshSlice second = verify::read_slice(given.second, as_it_stands, world);
-    judged = {given.second, given.first, second.lists.first_number, first_number};
+    judged = {given.second, given.first, second.lists.index_base, index_base};
     if (options.request) {
         Selection& selection = options.request->selection;
         world.on_first([&] {
             complete_selection(selection, given.refinement.selection,
-                               {!first.lists.regions.empty(), first_number, first.totals.cells});
+                               {!first.lists.regions.empty(), index_base, first.totals.cells});
         });
         world.broadcast(selection.cells);
     }
     RefinementMaps maps;
     if (!given.maps.empty()) {
-        world.on_first([&] { maps = read_maps(given.maps, first_number); });
+        world.on_first([&] { maps = read_maps(given.maps, index_base); });
         share_maps(maps, world);
         options.maps = &maps;
     }
@@ -138,7 +140,7 @@ bool run(const VerifyCommandOptions& given, const distributed::Communicator& wor
     });
     CheckProgress progress;
     if (world.is_first()) options.progress = progress.listener();
-    Judged judged;
+    JudgedFiles judged;
     const verify::Verdict verdict = world.size() == 1
                                         ? judge(given, options, judged)
                                         : judge_together(given, options, judged, world);

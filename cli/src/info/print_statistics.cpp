@@ -92,8 +92,8 @@ void add_counts(Table& table, const quality::EntityCounts& counts) {
     table.row("faces", shown(counts.faces));
     table.row("cells", shown(counts.cells));
     table.row("boundary faces", shown(counts.boundary_faces));
-    table.row("listed facets", shown(counts.listed_facets));
-    table.row("listed edges", shown(counts.listed_edges));
+    table.row("tagged facets", shown(counts.tagged_facets));
+    table.row("tagged edges", shown(counts.tagged_edges));
     table.row("unused vertices", shown(counts.unused_vertices));
     table.row("faces of more than two cells", shown(counts.nonmanifold_faces));
     table.row("connected components", shown(counts.components));

@@ -17,7 +17,7 @@
 ///     volume               of all cells
 ///     boundary_area        of all faces of exactly one cell
 ///     regions              [{tag, cells, volume}, ...] ascending by tag; [] without tags
-///     facet_markers        [{marker, facets, area}, ...] ascending by marker, of listed facets
+///     facet_markers        [{marker, facets, area}, ...] ascending by marker, of tagged facets
 ///     edge_length          {min, max}, or null
 ///     cell_volume          {min, max}, or null
 ///     face_angle           {min, max} in degrees, or null

@@ -41,8 +41,8 @@ Json json(const quality::EntityCounts& counts) {
             {"cells", counts.cells},
             {"boundary_faces", counts.boundary_faces},
             {"nonmanifold_faces", counts.nonmanifold_faces},
-            {"listed_facets", counts.listed_facets},
-            {"listed_edges", counts.listed_edges},
+            {"listed_facets", counts.tagged_facets},
+            {"listed_edges", counts.tagged_edges},
             {"unused_vertices", counts.unused_vertices},
             {"components", counts.components},
             {"euler_characteristic", counts.euler_characteristic}};

@@ -17,13 +17,13 @@ std::string_view word_of(verify::Status status) {
     return words[static_cast<std::size_t>(status)];
 }
 
-std::string describe(const verify::Entity& entity, const Judged& judged) {
+std::string describe(const verify::Entity& entity, const JudgedFiles& judged) {
     const bool coarse = entity.mesh == verify::Which::coarse;
-    const std::uint64_t first = coarse ? judged.coarse_first_number : judged.fine_first_number;
+    const std::uint64_t first = coarse ? judged.coarse_index_base : judged.fine_index_base;
     std::string text;
     if (entity.vertices.empty()) {
         text = fmt::format("{} {}", kind_of(entity), entity.number + first);
-        if (entity.kind == verify::Entity::Kind::listed_edge) text = text.substr(7);
+        if (entity.kind == verify::Entity::Kind::tagged_edge) text = text.substr(7);
     } else {
         for (const VertexIndex v : entity.vertices) {
             text += fmt::format("{}{}", text.empty() ? "" : " ", v.value() + first);

@@ -7,7 +7,7 @@
 namespace octetra::cli {
 
 /// "cell 17 of the coarse mesh", "face (3, 5, 9)" ..., by the numbers of the files.
-[[nodiscard]] std::string describe(const verify::Entity& entity, const Judged& judged);
+[[nodiscard]] std::string describe(const verify::Entity& entity, const JudgedFiles& judged);
 
 /// The word for its kind, as it stands in reports.
 [[nodiscard]] std::string_view kind_of(const verify::Entity& entity);

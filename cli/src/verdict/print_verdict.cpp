@@ -29,7 +29,7 @@ void print_checks(const Verdict& verdict) {
     }
 }
 
-void print_violation(const Violation& violation, const Judged& judged) {
+void print_violation(const Violation& violation, const JudgedFiles& judged) {
     std::string entities;
     for (const verify::Entity& entity : violation.entities) {
         entities += (entities.empty() ? "" : ", ") + describe(entity, judged);
@@ -38,7 +38,7 @@ void print_violation(const Violation& violation, const Judged& judged) {
           violation.expected);
 }
 
-void print_violations(const Verdict& verdict, const Judged& judged) {
+void print_violations(const Verdict& verdict, const JudgedFiles& judged) {
     for (std::size_t code = 0; code < verify::code_count; ++code) {
         const std::uint64_t count = verdict.counts[code];
         if (count == 0) continue;
@@ -56,13 +56,13 @@ void print_violations(const Verdict& verdict, const Judged& judged) {
 }
 
 /// Whose numbers they are, where that makes a difference.
-void print_whose_numbers(const Verdict& verdict, const Judged& judged) {
+void print_whose_numbers(const Verdict& verdict, const JudgedFiles& judged) {
     if (verdict.valid() || judged.coarse.empty()) return;
-    if (judged.fine_first_number == judged.coarse_first_number) return;
+    if (judged.fine_index_base == judged.coarse_index_base) return;
     print(
         "\nNumbers are those of {}, which counts from {}; of what is called coarse, those of {}, "
         "from {}.\n",
-        judged.fine, judged.fine_first_number, judged.coarse, judged.coarse_first_number);
+        judged.fine, judged.fine_index_base, judged.coarse, judged.coarse_index_base);
 }
 
 void print_fact(std::string_view what, const std::string& value) {
@@ -114,7 +114,7 @@ void print_facts(const Verdict& verdict, bool of_refinement) {
 
 }  // namespace
 
-void print_verdict(const Verdict& verdict, const Judged& judged) {
+void print_verdict(const Verdict& verdict, const JudgedFiles& judged) {
     print_checks(verdict);
     print_violations(verdict, judged);
     print_whose_numbers(verdict, judged);
@@ -146,7 +146,7 @@ void print_comparison(const verify::Comparison& comparison, const std::string& a
     constexpr std::array<std::string_view, 3> answers{"identical", "the same up to numbering",
                                                       "different"};
     print("{}, {}: {}{}\n", a, b, answers[static_cast<std::size_t>(comparison.likeness)],
-          comparison.only_first_number_differs
+          comparison.only_index_base_differs
               ? ": one counts from 0, the other from 1, and nothing else differs"
               : "");
 }

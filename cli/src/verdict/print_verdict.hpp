@@ -8,18 +8,18 @@
 namespace octetra::cli {
 
 /// What was judged: names for people, and how files number the entities.
-struct Judged {
+struct JudgedFiles {
     std::string fine;    ///< path
     std::string coarse;  ///< path; empty if a mesh was judged by itself
-    std::uint32_t fine_first_number = 0;
-    std::uint32_t coarse_first_number = 0;
+    std::uint32_t fine_index_base = 0;
+    std::uint32_t coarse_index_base = 0;
 };
 
 /// A summary on stdout: checks, what is wrong (the first few of each kind), facts, the answer.
-void print_verdict(const verify::Verdict& verdict, const Judged& judged);
+void print_verdict(const verify::Verdict& verdict, const JudgedFiles& judged);
 
 /// The whole as JSON, in the schema that docs/verify.md describes.
-[[nodiscard]] std::string format_json(const verify::Verdict& verdict, const Judged& judged);
+[[nodiscard]] std::string format_json(const verify::Verdict& verdict, const JudgedFiles& judged);
 
 /// The first differences and the answer, on stdout.
 void print_comparison(const verify::Comparison& comparison, const std::string& a,

@@ -8,9 +8,9 @@ namespace {
 using Json = nlohmann::ordered_json;
 using verify::Code;
 
-Json json(const verify::Entity& entity, const Judged& judged) {
+Json json(const verify::Entity& entity, const JudgedFiles& judged) {
     const bool coarse = entity.mesh == verify::Which::coarse;
-    const std::uint64_t first = coarse ? judged.coarse_first_number : judged.fine_first_number;
+    const std::uint64_t first = coarse ? judged.coarse_index_base : judged.fine_index_base;
     Json out{{"kind", kind_of(entity)}, {"mesh", coarse ? "coarse" : "fine"}};
     if (entity.vertices.empty()) {
         out["number"] = entity.number + first;
@@ -20,7 +20,7 @@ Json json(const verify::Entity& entity, const Judged& judged) {
     return out;
 }
 
-Json json(const verify::Violation& violation, const Judged& judged) {
+Json json(const verify::Violation& violation, const JudgedFiles& judged) {
     Json out{{"code", name(violation.code)},
              {"entities", Json::array()},
              {"found", violation.found},
@@ -47,10 +47,10 @@ Json json(const verify::Facts& facts, bool of_refinement) {
     return out;
 }
 
-Json json(const std::optional<verify::AngleFigures>& angles, std::uint32_t first_number) {
+Json json(const std::optional<verify::AngleFigures>& angles, std::uint32_t index_base) {
     if (!angles || angles->min_dihedral_at.is_none()) return nullptr;
     return {{"min_dihedral", angles->min_dihedral},
-            {"min_dihedral_cell", angles->min_dihedral_at.value() + std::uint64_t{first_number}},
+            {"min_dihedral_cell", angles->min_dihedral_at.value() + std::uint64_t{index_base}},
             {"max_dihedral", angles->max_dihedral},
             {"min_solid", angles->min_solid},
             {"min_eta", angles->min_eta}};
@@ -73,7 +73,7 @@ Json json(const std::vector<verify::TagSum>& sums, const std::string& tag,
 
 }  // namespace
 
-std::string format_json(const verify::Verdict& verdict, const Judged& judged) {
+std::string format_json(const verify::Verdict& verdict, const JudgedFiles& judged) {
     const bool of_refinement = !judged.coarse.empty();
     Json out{{"schema", "octetra-verdict-1"}, {"valid", verdict.valid()}, {"mesh", judged.fine}};
     out["coarse_mesh"] = of_refinement ? Json(judged.coarse) : Json(nullptr);
@@ -96,8 +96,8 @@ std::string format_json(const verify::Verdict& verdict, const Judged& judged) {
     out["facts"] = json(verdict.facts, of_refinement);
     out["volumes"] = json(verdict.volumes, "region", "volume", of_refinement);
     out["areas"] = json(verdict.areas, "marker", "area", of_refinement);
-    out["angles"] = json(verdict.angles, judged.fine_first_number);
-    out["coarse_angles"] = json(verdict.coarse_angles, judged.coarse_first_number);
+    out["angles"] = json(verdict.angles, judged.fine_index_base);
+    out["coarse_angles"] = json(verdict.coarse_angles, judged.coarse_index_base);
     out["angles_by_depth"] = Json::array();
     for (const verify::DepthFigures& figures : verdict.by_depth) {
         out["angles_by_depth"].push_back({{"depth", figures.depth},

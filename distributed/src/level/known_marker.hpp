@@ -11,7 +11,7 @@ namespace octetra::distributed {
     return {MidpointMarker::Source::nothing, mesh.input_vertex_markers[vertex.value()]};
 }
 
-/// Processes that share an edge may know of different facets around it. A listed edge tells more
+/// Processes that share an edge may know of different facets around it. A tagged edge tells more
 /// than a facet, a facet more than nothing; among equals the smallest marker counts.
 [[nodiscard]] inline bool tells_more(const MidpointMarker& a, const MidpointMarker& b) {
     if (a.source != b.source) return a.source > b.source;

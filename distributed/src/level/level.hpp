@@ -30,7 +30,7 @@ public:
     [[nodiscard]] virtual std::size_t cell_count_afterwards() = 0;
     /// Into so many. Where a failure is found, the mesh is not usable any more.
     [[nodiscard]] virtual RoundingFailure bisect_cells(std::size_t cell_count) = 0;
-    virtual void bisect_listed() = 0;
+    virtual void bisect_tagged() = 0;
     virtual void bisect_interfaces() = 0;
 
     /// How many cells were looked at beyond judging them.

@@ -8,7 +8,7 @@ namespace octetra::distributed {
 /// lists; not its marker.
 void append_midpoint(DistributedMesh& mesh, VertexIndex low, VertexIndex high);
 
-/// Learns that the edge of a midpoint is listed, or in a listed facet, with this marker: an edge
+/// Learns that the edge of a midpoint is tagged, or in a tagged facet, with this marker: an edge
 /// tells more than a facet, a facet more than nothing; among equals the smallest marker counts.
 void take_marker(MidpointMarker& known, MidpointMarker::Source source, Marker marker);
 

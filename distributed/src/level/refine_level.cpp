@@ -38,7 +38,7 @@ void check_allowed(const DistributedMesh& mesh, std::size_t count, const RefineO
                     level, cells, options.max_cells));
 }
 
-/// Would little change, be it that few cells are marked or that they are all in one place? Edges
+/// Would little change, because few cells are marked or they are all in one place? Edges
 /// that marked cells mark concern five or six cells for each of their vertices.
 bool suits_incremental_level(const DistributedMesh& mesh, const MarkedCells& marked,
                              const Tuning& tuning) {
@@ -103,7 +103,7 @@ LevelOutcome refine_level(DistributedMesh& mesh, const Selection& selection,
         check_countable(mesh, cell_count, "cells");
         check_allowed(mesh, cell_count, options, level);
         way->bisect_cells(cell_count).agree(mesh, level);
-        way->bisect_listed();
+        way->bisect_tagged();
     }
     in_phase(processes, "interfaces", [&] { way->bisect_interfaces(); });
     return {.counts = counts, .changed = true, .cells_touched = judged + way->cells_touched()};

@@ -14,7 +14,7 @@ void RoundingFailure::agree(const DistributedMesh& mesh, int level) const {
         "cell {}, level {}: bisection would make a child that is {}, because its midpoints "
         "cannot be rounded to double precision well enough; the cell is too small for its "
         "coordinates, or these are too large to be added",
-        first / 2 + mesh.first_number, level, first % 2 == 1 ? "inverted" : "flat"));
+        first / 2 + mesh.index_base, level, first % 2 == 1 ? "inverted" : "flat"));
 }
 
 }  // namespace octetra::distributed

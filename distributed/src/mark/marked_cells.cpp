@@ -7,9 +7,9 @@
 namespace octetra::distributed {
 namespace {
 
-class Choice {
+class Marking {
 public:
-    Choice(const DistributedMesh& mesh, const Selection& selection)
+    Marking(const DistributedMesh& mesh, const Selection& selection)
         : mesh_(&mesh),
           selection_(&selection),
           by_place_only_(selection.cells.empty() && selection.regions.empty() &&
@@ -26,7 +26,7 @@ public:
                 }
             }
         }
-        chosen_.judged = mesh_->cells.size();
+        marked_.judged = mesh_->cells.size();
     }
 
     void judge_new(const Adjacency& adjacency) {
@@ -48,8 +48,8 @@ public:
     }
 
     [[nodiscard]] MarkedCells take() && {
-        chosen_.count = chosen_.cells.size();
-        return std::move(chosen_);
+        marked_.count = marked_.cells.size();
+        return std::move(marked_);
     }
 
 private:
@@ -70,7 +70,7 @@ private:
     }
 
     void judge_if_near(CellIndex c, std::size_t root) {
-        ++chosen_.judged;
+        ++marked_.judged;
         const Corners corners = corners_of(c);
         if (by_place_only_ && !may_be_marked(*selection_, box_of(corners))) return;
         judge(c, root, corners);
@@ -79,30 +79,30 @@ private:
     void judge(CellIndex c, std::size_t root, const Corners& corners) {
         const AncestorMap& ancestors = mesh_->cell_ancestors;
         const Marker region = ancestors.markers.empty() ? 0 : ancestors.markers[root];
-        if (chooses(*selection_, corners, region, GlobalCell{ancestors.roots[root]})) {
-            chosen_.cells.push_back(c);
+        if (marks(*selection_, corners, region, GlobalCell{ancestors.roots[root]})) {
+            marked_.cells.push_back(c);
         }
     }
 
     const DistributedMesh* mesh_;
     const Selection* selection_;
     bool by_place_only_;
-    MarkedCells chosen_;
+    MarkedCells marked_;
 };
 
 }  // namespace
 
 MarkedCells mark_cells(const DistributedMesh& mesh, const Selection& selection, bool only_new) {
     if (selection.all) return {.all = true, .count = mesh.cells.size(), .judged = 0};
-    Choice choice(mesh, selection);
+    Marking marking(mesh, selection);
     if (mesh.adjacency == nullptr) {
-        choice.judge_all();
+        marking.judge_all();
     } else if (only_new) {
-        choice.judge_new(*mesh.adjacency);
+        marking.judge_new(*mesh.adjacency);
     } else {
-        choice.judge_blocks(*mesh.adjacency);
+        marking.judge_blocks(*mesh.adjacency);
     }
-    return std::move(choice).take();
+    return std::move(marking).take();
 }
 
 }  // namespace octetra::distributed

@@ -7,7 +7,7 @@
 
 namespace octetra::distributed {
 
-/// This process's cells that a selection chooses.
+/// This process's cells that a selection marks.
 struct MarkedCells {
     bool all = false;  ///< the selection asks for nothing less: they are not listed
     std::vector<CellIndex> cells;

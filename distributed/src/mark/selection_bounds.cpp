@@ -30,7 +30,7 @@ bool may_hold(const Sphere& sphere, const Box& centroids) {
     const double distance = squared_distance<double>(nearest, c);
     const double radius = sphere.radius * sphere.radius;
     if (distance < radius) return true;
-    // chooses() computes in long double where something over- or underflows. That makes a
+    // marks() computes in long double where something over- or underflows. That makes a
     // difference for a point on the sphere's surface, or for a very small sphere or a very large
     // one.
     constexpr double a_little = 1 + 0x1p-40;
@@ -47,7 +47,7 @@ bool may_hold(const Box& box, const Box& centroids) {
            box.low.y <= high.y && low.z <= box.high.z && box.low.z <= high.z;
 }
 
-/// The cube that holds every point which chooses() takes to be inside of the sphere: what it
+/// The cube that holds every point which marks() takes to be inside of the sphere: what it
 /// computes of a distance is less by a few roundings at most.
 Box box_round(const Sphere& sphere) {
     const double radius = std::abs(sphere.radius) * (1 + 0x1p-50);
@@ -71,7 +71,7 @@ Box box_of(const Corners& corners) {
 }
 
 bool may_be_marked(const Selection& selection, const Box& corners) {
-    // What chooses() computes of a centroid farther out, in the same way, is no smaller: rounding
+    // What marks() computes of a centroid farther out, in the same way, is no smaller: rounding
     // is monotone.
     const auto& [low, high] = corners;
     const Box centroids{{least_mean(low.x), least_mean(low.y), least_mean(low.z)},

@@ -15,7 +15,7 @@ inline constexpr Box empty_box{{infinity, infinity, infinity}, {-infinity, -infi
 void extend(Box& box, const Point& p);
 
 /// Could a cell whose corners are in the box be marked for its place, by a sphere or a box? Exact
-/// in that it never denies what rounding would make core's chooses() say.
+/// in that it never denies what rounding would make core's marks() say.
 [[nodiscard]] bool may_be_marked(const Selection& selection, const Box& corners);
 
 /// The smallest box with these corners in it.

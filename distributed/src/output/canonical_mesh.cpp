@@ -1,6 +1,6 @@
 #include <octetra/distributed/canonical_mesh.hpp>
 
-#include <octetra/core/files.hpp>
+#include <octetra/core/files/mesh_files.hpp>
 #include <octetra/distributed/profile.hpp>
 
 #include "output/canonical_slices.hpp"

@@ -43,7 +43,7 @@ MeshFacts CanonicalSlices::find_facts() const {
             .facets = facet_runs_.count,
             .edges = edge_runs_.count,
             .attributes_per_point = mesh_->attributes_per_point,
-            .first_number = mesh_->first_number,
+            .index_base = mesh_->index_base,
             .first_midpoint = mesh_->input_vertex_count,
             .has_point_markers = any_has(mesh_->input_vertex_markers),
             .has_regions = any_has(mesh_->cell_ancestors.markers),

@@ -79,10 +79,10 @@ Collected collect(DistributedMesh mesh) {
     const Communicator processes = mesh.processes;  // the mesh may be gone before the phase ends
     const Phase phase(processes, "collect");
     restore_canonical_order(mesh);
-    const std::uint32_t first_number = mesh.first_number;
+    const std::uint32_t index_base = mesh.index_base;
     const VertexIndex first_midpoint{mesh.input_vertex_count};
     Collected whole = mesh.processes.size() == 1 ? hand_over(std::move(mesh)) : gather(mesh);
-    whole.mesh.first_number = first_number;
+    whole.mesh.index_base = index_base;
     whole.maps.first_midpoint = first_midpoint;
     return whole;
 }

@@ -10,7 +10,7 @@
 namespace octetra::distributed {
 
 /// What this process has of a mesh, in its own order and with its own numbers; see MeshSource.
-/// The listed facets and edges are only counted.
+/// The tagged facets and edges are only counted.
 class OwnPiece final : public MeshSource {
 public:
     /// Collective. `whole` tells of the whole mesh. Refers to the mesh and the numbers.

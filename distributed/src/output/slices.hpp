@@ -41,7 +41,7 @@ void bring_to_slices(const Communicator& processes, const Window& window, auto&&
     }
 }
 
-/// The same, for values that are alike wherever they come from.
+/// The same, for values that are the same wherever they come from.
 template <class T>
 void bring_to_slices(const Communicator& processes, const Window& window, auto&& between,
                      std::vector<T>& slice) {

@@ -55,7 +55,7 @@ public:
     }
     [[nodiscard]] bool empty() const { return bodies_.spheres.empty() && bodies_.boxes.empty(); }
     [[nodiscard]] bool have(const Corners& corners) const {
-        return chooses(bodies_, corners, 0, GlobalCell{0});
+        return marks(bodies_, corners, 0, GlobalCell{0});
     }
     /// How much of a cell they have, by 8^depth samples.
     [[nodiscard]] double share_of(const Corners& corners, int depth) const {
@@ -115,7 +115,7 @@ public:
         by_tag.regions = selection.regions;
         for (CellIndex c{0}; c < mesh_->cells.end_index(); ++c) {
             const Marker region = mesh_->regions.empty() ? 0 : mesh_->regions[c];
-            if (chooses(by_tag, {}, region, GlobalCell{c.value()})) expect(c, full_);
+            if (marks(by_tag, {}, region, GlobalCell{c.value()})) expect(c, full_);
         }
     }
 

@@ -98,9 +98,9 @@ Code code_of(const Pattern& pattern) {
 }
 
 /// A cell bisected by edges from longest to shortest, for every sequence that was asked for: what
-/// begins alike is cut but once. A piece's own longest marked edge is met first, so this is the
-/// recursion of the rule, breadth first; and as each cut puts its two halves where the piece stood,
-/// in the order of the recursion.
+/// begins the same way is cut but once. A piece's own longest marked edge is met first, so this is
+/// the recursion of the rule, breadth first; and as each cut puts its two halves where the piece
+/// stood, in the order of the recursion.
 class Bisections {
 public:
     using Number = std::uint16_t;

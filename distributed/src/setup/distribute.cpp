@@ -19,11 +19,11 @@ struct Facts {
     std::uint64_t vertices = 0;
     std::uint64_t cells = 0;
     std::uint64_t attributes_per_point = 0;
-    std::uint32_t first_number = 0;
+    std::uint32_t index_base = 0;
 };
 
 Facts facts_of(const Mesh& mesh) {
-    return {mesh.points.size(), mesh.cells.size(), mesh.attributes_per_point, mesh.first_number};
+    return {mesh.points.size(), mesh.cells.size(), mesh.attributes_per_point, mesh.index_base};
 }
 
 /// Entities of one kind that go to one process.
@@ -252,7 +252,7 @@ DistributedMesh distribute(const Communicator& processes, Mesh mesh,
     part.attributes_per_point = facts.attributes_per_point;
     part.input_vertex_count = facts.vertices;
     part.input_cell_count = facts.cells;
-    part.first_number = facts.first_number;
+    part.index_base = facts.index_base;
     if (processes.size() == 1) {
         take_over(std::move(mesh), part);
         return part;

@@ -34,7 +34,7 @@ template <std::size_t N>
         std::uint32_t position;
     };
     const auto process_count = static_cast<std::size_t>(processes.size());
-    const auto meeting_place = [&](const Key& key) {
+    const auto rendezvous_of = [&](const Key& key) {
         std::uint64_t h = 0;
         for (const std::uint64_t k : key) h = (h ^ k) * 0x9e3779b97f4a7c15U;
         return (h >> 32U) % process_count;
@@ -43,7 +43,7 @@ template <std::size_t N>
     std::vector<std::vector<Key>> outboxes(process_count);
     std::vector<std::vector<std::uint32_t>> numbers(process_count);
     for (std::size_t i = 0; i < keys.size(); ++i) {
-        const std::size_t place = meeting_place(keys[i]);
+        const std::size_t place = rendezvous_of(keys[i]);
         outboxes[place].push_back(keys[i]);
         numbers[place].push_back(static_cast<std::uint32_t>(i));
     }

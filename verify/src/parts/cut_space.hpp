@@ -4,7 +4,7 @@
 
 #include <octetra/core/process_group.hpp>
 
-#include "box_tree.hpp"
+#include "lookup/box_tree.hpp"
 #include "parts/domain.hpp"
 
 namespace octetra::verify {

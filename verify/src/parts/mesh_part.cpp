@@ -170,7 +170,7 @@ MeshPart see(const LocatedSlice& from, const Views& views, const ProcessGroup& g
 
     MeshPart part;
     Mesh& mesh = part.mesh;
-    mesh.first_number = lists.first_number;
+    mesh.index_base = lists.index_base;
     fetch_vertices(vertices.numbers(), from.slice(), group, mesh);
     part.numbers.vertices.numbers = vertices.numbers();
     const bool regions = any(group, !lists.regions.empty());

@@ -6,13 +6,13 @@
 #include <octetra/core/process_group.hpp>
 #include <octetra/verify/mesh_slice.hpp>
 
-#include "box_tree.hpp"
+#include "lookup/box_tree.hpp"
 #include "parts/domain.hpp"
 #include "parts/numbers.hpp"
 
 namespace octetra::verify {
 
-/// What one process sees of a mesh in order to judge what lies in its domain: every cell, listed
+/// What one process sees of a mesh in order to judge what lies in its domain: every cell, tagged
 /// facet and edge that meets its view, a box, and the vertices of these and in its view.
 struct MeshPart {
     Mesh mesh;        ///< numbered on its own, in the order of the whole mesh

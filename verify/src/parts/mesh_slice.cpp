@@ -28,19 +28,19 @@ MeshSlice share_out(const Mesh& mesh, const ProcessGroup& group) {
     struct Head {
         Totals totals;
         std::uint64_t attributes_per_point;
-        std::uint32_t first_number;
+        std::uint32_t index_base;
     };
     const Head head =
         share_with_all(group, std::vector<Head>{{{mesh.points.size(), mesh.cells.size(),
                                                   mesh.facets.size(), mesh.edges.size()},
                                                  mesh.attributes_per_point,
-                                                 mesh.first_number}})
+                                                 mesh.index_base}})
             .front()
             .front();
     MeshSlice slice{{}, head.totals};
     Mesh& lists = slice.lists;
     lists.attributes_per_point = head.attributes_per_point;
-    lists.first_number = head.first_number;
+    lists.index_base = head.index_base;
     const Totals& totals = head.totals;
     share_out_list(mesh.points, totals.vertices, 1, lists.points, group);
     share_out_list(mesh.point_markers, totals.vertices, 1, lists.point_markers, group);
@@ -60,7 +60,7 @@ MeshSlice slice_of(MeshSource& mesh) {
     MeshSlice slice{{}, {facts.vertices, facts.cells, facts.facets, facts.edges}};
     Mesh& lists = slice.lists;
     lists.attributes_per_point = facts.attributes_per_point;
-    lists.first_number = facts.first_number;
+    lists.index_base = facts.index_base;
     const int size = mesh.group().size();
     const auto take = [](auto& list, auto span) { list.assign(span.begin(), span.end()); };
     const Window vertices = slices_of(facts.vertices, size);

@@ -4,8 +4,8 @@
 #include <string>
 
 #include <octetra/core/error.hpp>
-#include <octetra/core/files.hpp>
-#include <octetra/core/mesh_sink.hpp>
+#include <octetra/core/files/mesh_files.hpp>
+#include <octetra/core/files/mesh_sink.hpp>
 #include <octetra/verify/mesh_slice.hpp>
 
 #include "parts/exchange.hpp"
@@ -32,7 +32,7 @@ enum class Item : std::uint8_t {
 struct Ending {
     Totals totals;
     std::uint64_t attributes_per_point;
-    std::uint32_t first_number;
+    std::uint32_t index_base;
     bool has_point_markers, has_regions, has_facet_markers, has_edge_markers;
 };
 
@@ -64,7 +64,7 @@ public:
 
     [[nodiscard]] MeshSlice slice() {
         lists_.attributes_per_point = ending_.attributes_per_point;
-        lists_.first_number = ending_.first_number;
+        lists_.index_base = ending_.index_base;
         if (!ending_.has_point_markers) lists_.point_markers = {};
         if (!ending_.has_regions) lists_.regions = {};
         if (!ending_.has_facet_markers) lists_.facet_markers = {};
@@ -137,7 +137,7 @@ public:
     }
 
     void finish(const MeshFacts& facts) override {
-        ending_.first_number = facts.first_number;
+        ending_.index_base = facts.index_base;
         ending_.has_point_markers = facts.has_point_markers;
         ending_.has_regions = facts.has_regions;
         ending_.has_facet_markers = facts.has_facet_markers;

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "box_tree.hpp"
+#include "lookup/box_tree.hpp"
 
 namespace octetra::verify {
 

@@ -31,7 +31,7 @@ struct Segment {
 
 /// A squared length that is not less than this, and finite, is what it would be if exponents had no
 /// limits: a square that is denormal, and so has lost digits, is less than 2^-108 of it, and adding
-/// what is less than 2^-54 of a number to it changes nothing, be it once or twice.
+/// what is less than 2^-54 of a number to it changes nothing, neither once nor twice.
 inline constexpr double least_sure_square = 0x1p-900;
 
 [[nodiscard]] constexpr bool is_sure_square(double square) {

@@ -44,7 +44,7 @@ private:
 
 using VertexIndex = Index<struct VertexRole>;
 using EdgeIndex = Index<struct EdgeRole>;    ///< of an edge in whatever list of edges is meant
-using FacetIndex = Index<struct FacetRole>;  ///< of a listed (boundary or interface) triangle
+using FacetIndex = Index<struct FacetRole>;  ///< of a tagged (boundary or interface) triangle
 using CellIndex = Index<struct CellRole>;
 
 /// A number that holds across all processes, counted from 0 in the order of the input file.

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <cstdint>
-#include <filesystem>
 #include <vector>
 
 #include <octetra/core/index.hpp>
@@ -21,11 +19,5 @@ struct RefinementMaps {
 
     friend bool operator==(const RefinementMaps&, const RefinementMaps&) = default;
 };
-
-/// Reads what write_maps has written, of a mesh whose files count from `first_number`. Only the
-/// form is checked: numbers may be of cells and vertices that there are not. Where there are no
-/// midpoints, first_midpoint stays 0. Throws InputError or SystemError.
-[[nodiscard]] RefinementMaps read_maps(const std::filesystem::path& path,
-                                       std::uint32_t first_number);
 
 }  // namespace octetra

@@ -29,9 +29,9 @@ inline constexpr std::array<std::array<std::uint8_t, 2>, 3> triangle_edges{
 ///  cell's, facet's, edge's are different;
 ///  - every cell is positively oriented, exactly;
 ///  - every facet is a face of some cell, every edge an edge of some cell;
-///  - no two cells have the same vertices, and no two lie on the same side of a listed facet;
+///  - no two cells have the same vertices, and no two lie on the same side of a tagged facet;
 ///  - a facet or edge that is listed again has the same marker again.
-/// Not promised: that cells do not overlap elsewhere, be it at a face that is not listed, nor that
+/// Not promised: that cells do not overlap elsewhere, even at a face that is not tagged, nor that
 /// vertices are different points, and of cells. verify_mesh() of octetra_verify judges that.
 /// A list with the remark "or empty" is empty where the file had no such column.
 struct Mesh {
@@ -43,13 +43,13 @@ struct Mesh {
     IndexVector<CellIndex, CellVertices> cells;
     IndexVector<CellIndex, Marker> regions;  ///< region tag of each cell, or empty
 
-    IndexVector<FacetIndex, FacetVertices> facets;  ///< listed triangles: boundaries, interfaces
+    IndexVector<FacetIndex, FacetVertices> facets;  ///< tagged triangles: boundaries, interfaces
     IndexVector<FacetIndex, Marker> facet_markers;  ///< one per facet, or empty
 
-    IndexVector<EdgeIndex, EdgeVertices> edges;   ///< listed edges: ridges, wires
+    IndexVector<EdgeIndex, EdgeVertices> edges;   ///< tagged edges: ridges, wires
     IndexVector<EdgeIndex, Marker> edge_markers;  ///< one per edge, or empty
 
-    std::uint32_t first_number = 0;  ///< what files call the first vertex, cell ...: 0 or 1
+    std::uint32_t index_base = 0;  ///< what files call the first vertex, cell ...: 0 or 1
 
     friend bool operator==(const Mesh&, const Mesh&) = default;
 };

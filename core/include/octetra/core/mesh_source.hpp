@@ -45,9 +45,9 @@ struct MeshFacts {
     std::uint64_t vertices = 0;
     std::uint64_t cells = 0;
     std::uint64_t facets = 0;
-    std::uint64_t edges = 0;  ///< listed ones
+    std::uint64_t edges = 0;  ///< tagged ones
     std::size_t attributes_per_point = 0;
-    std::uint32_t first_number = 0;
+    std::uint32_t index_base = 0;
     /// Vertices from here on are midpoints; the number of vertices where that is not known.
     std::uint64_t first_midpoint = 0;
     bool has_point_markers = false;

@@ -12,7 +12,7 @@
 /// Which cells to refine, and how thoroughly.
 namespace octetra {
 
-/// Which edges a chosen cell selects.
+/// Which edges a marked cell marks.
 enum class Scheme {
     eight,  ///< `8t`: all six
     four,   ///< `4t`: the longest edge of each of its four faces
@@ -34,11 +34,11 @@ struct RandomShare {
     std::uint64_t seed = 0;
 };
 
-/// A cell is chosen when any of these criteria chooses it.
+/// A cell is marked when any of these criteria marks it.
 ///
 /// Every criterion judges a cell by its own corners and tags, never by its number or the order of
-/// its corners, so a renumbered or distributed mesh has the same cells chosen. The exception is
-/// `cells`, which names cells of the input; at later levels it chooses their descendants.
+/// its corners, so a renumbered or distributed mesh has the same cells marked. The exception is
+/// `cells`, which names cells of the input; at later levels it marks their descendants.
 struct Selection {
     bool all = false;
     std::vector<GlobalCell> cells;      ///< cells of the input, ascending
@@ -59,9 +59,9 @@ using Corners = std::array<Point, 4>;
 /// The volume of a cell, in binary64; its bits do not depend on the order of the corners.
 [[nodiscard]] double volume(const Corners& corners);
 
-/// Does the selection choose the cell with these corners and region tag (0 where the mesh has
+/// Does the selection mark the cell with these corners and region tag (0 where the mesh has
 /// none) that descends from cell `root` of the input?
-[[nodiscard]] bool chooses(const Selection& selection, const Corners& corners, Marker region,
-                           GlobalCell root);
+[[nodiscard]] bool marks(const Selection& selection, const Corners& corners, Marker region,
+                         GlobalCell root);
 
 }  // namespace octetra

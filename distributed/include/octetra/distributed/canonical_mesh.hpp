@@ -9,7 +9,7 @@
 
 namespace octetra::distributed {
 
-/// A distributed mesh whose vertices, cells, facets and listed edges are numbered in the canonical
+/// A distributed mesh whose vertices, cells, facets and tagged edges are numbered in the canonical
 /// order: what is written to files. Every process still holds only its part.
 class CanonicalMesh {
 public:

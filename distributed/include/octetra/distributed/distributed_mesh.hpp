@@ -51,7 +51,7 @@ struct DeleteAdjacency {
 /// A mesh of which each process of a group holds some cells, and what belongs to them.
 ///
 /// Vertices are numbered locally, in ascending canonical order: first those of the input, then the
-/// midpoints of each level. Cells and what is listed are in canonical order as well, as far as this
+/// midpoints of each level. Cells and what is tagged are in canonical order as well, as far as this
 /// process has them, unless the mesh is `loose`: see restore_canonical_order().
 struct DistributedMesh {
     Communicator processes;
@@ -76,7 +76,7 @@ struct DistributedMesh {
     AncestorMap cell_ancestors;  ///< markers: region tags
     IndexVector<FacetIndex, FacetVertices> facets;
     AncestorMap facet_ancestors;
-    IndexVector<EdgeIndex, EdgeVertices> edges;  ///< listed edges
+    IndexVector<EdgeIndex, EdgeVertices> edges;  ///< tagged edges
     AncestorMap edge_ancestors;
 
     std::vector<Interface>
@@ -88,17 +88,17 @@ struct DistributedMesh {
     // The same on all processes:
     std::uint64_t input_vertex_count = 0;
     std::uint64_t input_cell_count = 0;
-    std::uint32_t first_number = 0;
+    std::uint32_t index_base = 0;
 };
 
 /// Collective. Gives each cell of a mesh that the first process has to the process that
-/// `cell_to_rank` names; listed facets and edges go to the process of the first cell that has them.
+/// `cell_to_rank` names; tagged facets and edges go to the process of the first cell that has them.
 /// The other processes' mesh and cell_to_rank are not looked at. A group of one process takes the
 /// mesh over as it is.
 [[nodiscard]] DistributedMesh distribute(const Communicator& processes, Mesh mesh,
                                          const std::vector<int>& cell_to_rank);
 
-/// Brings cells and listed facets and edges into canonical order, and their lineages up to date.
+/// Brings cells and tagged facets and edges into canonical order, and their lineages up to date.
 /// Refinement leaves a process's mesh loose where few of its cells were bisected: these stand there
 /// in no order, and lineages are not to be looked at. Takes time and memory in proportion to the
 /// process's part, and what refinement has kept is lost. Whatever collects or writes a mesh does

@@ -15,7 +15,7 @@ enum class PartitionMethod {
     lepp,    ///< METIS on the graph that joins cells through their longest edges (the paper's)
     dual,    ///< METIS on the graph that joins cells through faces
     block,   ///< equal shares in the order of the input
-    random,  ///< by lot
+    random,  ///< at random
     file,    ///< as a file says
 };
 

@@ -39,7 +39,7 @@ struct SynchronisationCounts {
 
 /// Collective. Refines in place; the mesh stays distributed. What is in which order afterwards, and
 /// what it is, does not depend on the number of processes, the partition or the synchronisation.
-/// Throws InputError on all processes alike where a rounded midpoint would flatten or invert a
+/// Throws InputError on all processes where a rounded midpoint would flatten or invert a
 /// cell, or where there would be more cells than allowed; the mesh is then not usable any more.
 SynchronisationCounts refine(DistributedMesh& mesh, const Selection& selection,
                              const RefineOptions& options);

@@ -201,7 +201,7 @@ RoundingFailure FullSweepLevel::bisect_cells(std::size_t cell_count) {
     return CellBisection(*mesh_, *numbering_, orders_, marked_, midpoints_).run(cell_count);
 }
 
-void FullSweepLevel::bisect_listed() {
+void FullSweepLevel::bisect_tagged() {
     DistributedMesh& mesh = *mesh_;
     replace_by_pieces(
         mesh.facets, mesh.facet_ancestors, [&](const FacetVertices& facet, auto& all) {

@@ -22,7 +22,7 @@ public:
     void bisect_edges() override;
     [[nodiscard]] std::size_t cell_count_afterwards() override;
     [[nodiscard]] RoundingFailure bisect_cells(std::size_t cell_count) override;
-    void bisect_listed() override;
+    void bisect_tagged() override;
     void bisect_interfaces() override;
     [[nodiscard]] std::size_t cells_touched() const override { return orders_.end_index().value(); }
 

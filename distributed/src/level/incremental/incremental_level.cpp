@@ -150,7 +150,7 @@ RoundingFailure IncrementalLevel::first_of(std::vector<BadChild> bad) const {
     return failure;
 }
 
-void IncrementalLevel::bisect_listed() {
+void IncrementalLevel::bisect_tagged() {
     std::vector<Cut<FacetIndex>> facet_cuts;
     std::vector<std::pair<EdgeIndex, VertexIndex>> edge_cuts;
     for (EdgeIndex e{0}; e < closure_.edges().end_index(); ++e) {
@@ -159,8 +159,8 @@ void IncrementalLevel::bisect_listed() {
         adjacency_->facets.for_each_with(edge, mesh_->facets, [&](FacetIndex f, std::size_t k) {
             facet_cuts.push_back({f, k, midpoint});
         });
-        adjacency_->edges.for_each_with(edge, mesh_->edges, [&](EdgeIndex listed, std::size_t) {
-            edge_cuts.emplace_back(listed, midpoint);
+        adjacency_->edges.for_each_with(edge, mesh_->edges, [&](EdgeIndex tagged, std::size_t) {
+            edge_cuts.emplace_back(tagged, midpoint);
         });
     }
     for_each_triangle(std::move(facet_cuts), [&](FacetIndex f, const auto& midpoints) {
@@ -169,10 +169,10 @@ void IncrementalLevel::bisect_listed() {
         adjacency_->facets.replace(f, std::span(bisected.pieces).first(bisected.piece_count),
                                    mesh_->facets, mesh_->facet_ancestors);
     });
-    for (const auto& [listed, midpoint] : edge_cuts) {
-        const auto [a, b] = mesh_->edges[listed];
+    for (const auto& [tagged, midpoint] : edge_cuts) {
+        const auto [a, b] = mesh_->edges[tagged];
         const std::array<EdgeVertices, 2> halves{{{a, midpoint}, {midpoint, b}}};
-        adjacency_->edges.replace(listed, halves, mesh_->edges, mesh_->edge_ancestors);
+        adjacency_->edges.replace(tagged, halves, mesh_->edges, mesh_->edge_ancestors);
     }
 }
 

@@ -21,8 +21,8 @@ struct EntityCounts {
     std::size_t cells = 0;
     std::size_t boundary_faces = 0;     ///< faces of exactly one cell
     std::size_t nonmanifold_faces = 0;  ///< faces of more than two cells
-    std::size_t listed_facets = 0;
-    std::size_t listed_edges = 0;
+    std::size_t tagged_facets = 0;
+    std::size_t tagged_edges = 0;
     std::size_t unused_vertices = 0;  ///< vertices of no cell
     /// Sets of cells that hang together; sharing one vertex is enough.
     std::size_t components = 0;
@@ -32,7 +32,7 @@ struct EntityCounts {
     friend bool operator==(const EntityCounts&, const EntityCounts&) = default;
 };
 
-/// The cells of one region tag and their volume, or the listed facets of one marker and their area.
+/// The cells of one region tag and their volume, or the tagged facets of one marker and their area.
 struct TagTotal {
     Marker tag = 0;
     std::size_t count = 0;
@@ -71,8 +71,8 @@ struct MeshStatistics {
 
     double volume = 0;                    ///< of all cells, the sum of absolute values
     std::vector<TagTotal> regions;        ///< ascending by tag; empty where the mesh has no tags
-    double boundary_area = 0;             ///< of the boundary faces, listed or not
-    std::vector<TagTotal> facet_markers;  ///< likewise; of the listed facets only
+    double boundary_area = 0;             ///< of the boundary faces, tagged or not
+    std::vector<TagTotal> facet_markers;  ///< likewise; of the tagged facets only
 
     std::optional<Range> edge_length;
     std::optional<Range> cell_volume;

@@ -18,15 +18,15 @@ struct Refinement {
     RefinementMaps maps;
 };
 
-/// Repeats `levels` times: choose cells, select their edges by `scheme`, close the selection,
-/// bisect the selected edges, bisect the cells by them.
+/// Repeats `levels` times: mark cells, mark their edges by `scheme`, close the set of edges,
+/// bisect the marked edges, bisect the cells by them.
 ///
 /// Cells of the result stand in the order of their parents, children in the order of bisection;
 /// the input's vertices keep their numbers, the midpoints of a level follow in the order of their
 /// edges' (smaller, larger) end point numbers.
 /// Region tags go to the children, facets and their markers to the triangles that tile them, edges
 /// and theirs to the halves. A midpoint has the mean of its ends' attributes. Its marker is the
-/// edge's, where that is listed; else the smallest of the listed facets around the edge; else 0.
+/// edge's, where that is tagged; else the smallest of the tagged facets around the edge; else 0.
 ///
 /// The mesh must satisfy the invariants of struct Mesh. Throws InputError where a midpoint, rounded
 /// to binary64, would flatten or invert a cell, where the result has more entities than can be

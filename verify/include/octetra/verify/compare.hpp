@@ -27,7 +27,7 @@ struct Difference {
 struct Comparison {
     Likeness likeness = Likeness::identical;
     /// They would be identical if both counted from the same number.
-    bool only_first_number_differs = false;
+    bool only_index_base_differs = false;
     std::uint64_t difference_count = 0;
     std::vector<Difference> differences;  ///< the first of each kind, in order of coordinates
 };

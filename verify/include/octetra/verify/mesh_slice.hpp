@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <filesystem>
 
-#include <octetra/core/files.hpp>
+#include <octetra/core/files/mesh_files.hpp>
 #include <octetra/core/mesh.hpp>
 #include <octetra/core/mesh_source.hpp>
 #include <octetra/core/process_group.hpp>
@@ -15,7 +15,7 @@ struct Totals {
     std::uint64_t vertices = 0;
     std::uint64_t cells = 0;
     std::uint64_t facets = 0;
-    std::uint64_t edges = 0;  ///< listed ones
+    std::uint64_t edges = 0;  ///< tagged ones
 };
 
 /// What one process has of a mesh that is in several memories: of each list a stretch, process

@@ -68,7 +68,7 @@ struct DepthFigures {
     double min_eta = 0;
 };
 
-/// The volume of all cells with a region tag, or the area of all listed facets with a marker; with
+/// The volume of all cells with a region tag, or the area of all tagged facets with a marker; with
 /// tag 0 where the mesh has no tags or markers. Of single facets areas are rounded; all else is
 /// exact until it is rounded to the figures here.
 struct TagSum {

@@ -20,8 +20,8 @@ enum class Code : std::uint8_t {
     repeated_cell,        ///< two cells have the same vertices
     unused_vertex,        ///< a vertex of no cell
     coincident_vertices,  ///< two vertices at one place
-    stray_facet,          ///< a listed facet is a face of no cell
-    stray_edge,           ///< a listed edge is an edge of no cell
+    stray_facet,          ///< a tagged facet is a face of no cell
+    stray_edge,           ///< a tagged edge is an edge of no cell
     conflicting_markers,  ///< a facet or edge is listed twice, with different markers
     inverted_cell,        ///< a cell of negative volume
     flat_cell,            ///< a cell of no volume
@@ -43,18 +43,18 @@ enum class Code : std::uint8_t {
     wrong_midpoint_edge,   ///< the parent map names another edge for a new vertex
     wrong_region,          ///< another region tag than the parent's
     wrong_facet_marker,    ///< another marker than the coarse facet's
-    missing_facet,         ///< a piece of a listed coarse facet is not listed
-    extra_facet,           ///< a listed facet is no piece of a listed coarse facet
+    missing_facet,         ///< a piece of a tagged coarse facet is not tagged
+    extra_facet,           ///< a tagged facet is no piece of a tagged coarse facet
     wrong_edge_marker,     ///< another marker than the coarse edge's
-    missing_edge,          ///< a piece of a listed coarse edge is not listed
-    extra_edge,            ///< a listed edge is no piece of a listed coarse edge
+    missing_edge,          ///< a piece of a tagged coarse edge is not tagged
+    extra_edge,            ///< a tagged edge is no piece of a tagged coarse edge
     wrong_vertex_marker,   ///< a vertex has not the marker that it inherits
     wrong_attribute,       ///< a vertex has not the attributes that it inherits
     face_angle_too_small,  ///< less than half of the smallest angle of the coarse face
     dihedral_too_small,    ///< less than the least dihedral angle that was asked for
     // of 8T-LE
-    needless_bisection,  ///< an edge is bisected that the closure does not select
-    missing_bisection,   ///< an edge is not bisected that the closure selects
+    needless_bisection,  ///< an edge is bisected that the closure does not mark
+    missing_bisection,   ///< an edge is not bisected that the closure marks
     wrong_pattern,       ///< the right edges are bisected, but in a wrong order
 };
 inline constexpr std::size_t code_count = static_cast<std::size_t>(Code::wrong_pattern) + 1;
@@ -64,13 +64,13 @@ inline constexpr std::size_t code_count = static_cast<std::size_t>(Code::wrong_p
 
 enum class Which : std::uint8_t { fine, coarse };  ///< a mesh judged alone counts as fine
 
-/// Something in a mesh: a listed entity by its number, or a face, edge or piece of a cell by its
-/// vertices. Numbers count from 0.
+/// Something in a mesh: a tagged entity, vertex or cell by its number, or a face, edge or piece of
+/// a cell by its vertices. Numbers count from 0.
 struct Entity {
-    enum class Kind : std::uint8_t { vertex, cell, facet, listed_edge, face, edge, piece };
+    enum class Kind : std::uint8_t { vertex, cell, facet, tagged_edge, face, edge, piece };
     Kind kind = Kind::vertex;
     Which mesh = Which::fine;
-    std::uint32_t number = 0;           ///< of a vertex, cell, facet or listed edge
+    std::uint32_t number = 0;           ///< of a vertex, cell, facet or tagged edge
     std::vector<VertexIndex> vertices;  ///< of a face, an edge or a piece
 
     friend bool operator==(const Entity&, const Entity&) = default;

@@ -30,7 +30,7 @@ namespace octetra::generator {
 /// The cube [-1, 1]^3 without the octant where x, y and z are positive (Fichera's corner), whose
 /// solutions are singular at the re-entrant corner, the origin. Volume 7.
 /// Facet markers: 1 outer faces, 2 the three re-entrant ones.
-/// Listed edges: the ridges, marker 1, and the three re-entrant ones that end at the origin, 2.
+/// Tagged edges: the ridges, marker 1, and the three re-entrant ones that end at the origin, 2.
 [[nodiscard]] Mesh fichera(double edge_length = 0.5);
 
 /// A gear about the z axis, from z = 0 to `thickness`.
@@ -46,13 +46,13 @@ struct Gear {
 /// takes a quarter, the base three fifths. The bore is an inscribed polygon of
 /// max(8, ceil(2 pi bore_radius / edge_length)) sides.
 /// Facet markers: 1 top and bottom, 2 the teeth's flanks and the rim, 3 the bore.
-/// Listed edges: 1 the outline at top and bottom, 2 the upright edges of teeth, 3 the bore's rims.
+/// Tagged edges: 1 the outline at top and bottom, 2 the upright edges of teeth, 3 the bore's rims.
 [[nodiscard]] Mesh gear(const Gear& gear = {});
 
 /// The unit cube with a ball of another material about its centre. The ball's surface starts as
 /// that of sphere(); TetGen may put further vertices on its triangles.
 /// Region tags: 1 outside, 2 in the ball. Facet markers: 1 the cube's surface, 2 the interface.
-/// Listed edges: the cube's, marker 1. The inclusion's radius should be less than 0.5.
+/// Tagged edges: the cube's, marker 1. The inclusion's radius should be less than 0.5.
 [[nodiscard]] Mesh two_material(double inclusion_radius = 0.3, double edge_length = 0.2);
 
 }  // namespace octetra::generator

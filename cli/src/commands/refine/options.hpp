@@ -1,0 +1,45 @@
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <string>
+
+#include <octetra/core/selection.hpp>
+#include <octetra/distributed/partition.hpp>
+#include <octetra/distributed/refine.hpp>
+
+#include "commands/mesh_options.hpp"
+#include "commands/profile_options.hpp"
+#include "commands/refinement_options.hpp"
+
+namespace octetra::cli {
+
+enum class Engine { distributed, reference };
+
+/// What the options mean, once they are known to mean something.
+struct Plan {
+    Selection selection;
+    Scheme scheme = Scheme::eight;
+    Engine engine = Engine::distributed;
+    distributed::Partition partition;
+    distributed::Synchronisation synchronisation = distributed::Synchronisation::neighbour;
+};
+
+/// The options of octetra refine, as they were typed.
+struct RefineOptions {
+    InputOptions input;
+    std::string output;
+    std::string maps;
+    RefinementOptions refinement;
+    std::string engine = "distributed";
+    std::optional<std::string> partition;
+    std::optional<std::string> synchronisation;
+    ProfileOptions profile;
+    std::uint64_t max_cells = std::numeric_limits<std::uint64_t>::max();
+    bool check = false;
+    bool verify = false;
+    bool quiet = false;
+};
+
+}  // namespace octetra::cli

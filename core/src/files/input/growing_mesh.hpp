@@ -1,0 +1,111 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <span>
+
+#include <octetra/core/files/mesh_sink.hpp>
+#include <octetra/core/mesh.hpp>
+
+namespace octetra {
+
+/// A kind of entity, cells or what is tagged: where a mesh has it, and how a sink takes it.
+template <class I, std::size_t N>
+struct EntityKind {
+    IndexVector<I, std::array<VertexIndex, N>> Mesh::*list;
+    IndexVector<I, Marker> Mesh::*markers;
+    std::uint64_t MeshFacts::*count;
+    bool MeshFacts::*has_markers;
+    void (MeshSink::*expect)(std::uint64_t, bool);
+    void (MeshSink::*take)(std::span<const std::array<VertexIndex, N>>, std::span<const Marker>);
+};
+
+inline constexpr EntityKind<CellIndex, 4> cell_kind{&Mesh::cells,
+                                                    &Mesh::regions,
+                                                    &MeshFacts::cells,
+                                                    &MeshFacts::has_regions,
+                                                    &MeshSink::expect_cells,
+                                                    &MeshSink::take_cells};
+inline constexpr EntityKind<FacetIndex, 3> facet_kind{&Mesh::facets,
+                                                      &Mesh::facet_markers,
+                                                      &MeshFacts::facets,
+                                                      &MeshFacts::has_facet_markers,
+                                                      &MeshSink::expect_facets,
+                                                      &MeshSink::take_facets};
+inline constexpr EntityKind<EdgeIndex, 2> edge_kind{&Mesh::edges,
+                                                    &Mesh::edge_markers,
+                                                    &MeshFacts::edges,
+                                                    &MeshFacts::has_edge_markers,
+                                                    &MeshSink::expect_edges,
+                                                    &MeshSink::take_edges};
+
+/// Which entities go to the sink. The others are counted, and dropped.
+enum class Streamed { everything, points, all_but_points, nothing };
+
+/// What a parser fills, entity by entity: a whole mesh or, where there is a sink, one stretch of it
+/// after the other, each handed to the sink as soon as it is full, and then dropped.
+class GrowingMesh {
+public:
+    /// `zeros_are_none`: markers that are all 0 say that the file has none.
+    GrowingMesh(MeshSink* sink, bool zeros_are_none, Streamed streamed = Streamed::everything)
+        : sink_(sink), zeros_are_none_(zeros_are_none), streamed_(streamed) {}
+
+    /// The parser appends here; calls of ..._complete() tell that it has done so.
+    Mesh mesh;
+
+    void expect_points(std::uint64_t count, std::size_t attributes, bool has_markers);
+    void point_complete() {
+        if (mesh.points.size() == points_stretch_) tell_points();
+    }
+    /// No more points.
+    void points_complete() { tell_points(); }
+
+    template <class I, std::size_t N>
+    void expect(const EntityKind<I, N>& kind, std::uint64_t count, bool has_markers);
+    template <class I, std::size_t N>
+    void entity_complete(const EntityKind<I, N>& kind) {
+        if ((mesh.*kind.list).size() == entity_stretch_) tell(kind);
+    }
+    /// No more of this kind.
+    template <class I, std::size_t N>
+    void all_complete(const EntityKind<I, N>& kind) {
+        tell(kind);
+    }
+
+    /// What goes to the sink from now on.
+    void stream_only(Streamed streamed) { streamed_ = streamed; }
+    [[nodiscard]] Streamed streamed() const { return streamed_; }
+
+    /// The file is good: drops markers that are none, or tells the sink of the end.
+    void finish();
+
+    [[nodiscard]] MeshSink* sink() const { return sink_; }
+    [[nodiscard]] bool is_streaming() const { return sink_ != nullptr; }
+    /// What was announced up to now.
+    [[nodiscard]] const MeshFacts& facts() const { return facts_; }
+
+private:
+    static constexpr std::size_t no_end = std::numeric_limits<std::size_t>::max();
+
+    [[nodiscard]] bool streams_points() const {
+        return streamed_ == Streamed::everything || streamed_ == Streamed::points;
+    }
+    [[nodiscard]] bool streams_others() const {
+        return streamed_ == Streamed::everything || streamed_ == Streamed::all_but_points;
+    }
+    /// Whether the file has markers, after all that came.
+    [[nodiscard]] bool means_something(const std::vector<Marker>& markers) const;
+    void tell_points();
+    template <class I, std::size_t N>
+    void tell(const EntityKind<I, N>& kind);
+
+    MeshSink* sink_;
+    bool zeros_are_none_;
+    Streamed streamed_;
+    std::size_t points_stretch_ = no_end;
+    std::size_t entity_stretch_ = no_end;
+    MeshFacts facts_;
+};
+
+}  // namespace octetra

@@ -1,0 +1,131 @@
+#include "files/input/line_reader.hpp"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include <octetra/core/error.hpp>
+#include <octetra/core/index.hpp>
+
+namespace octetra {
+namespace {
+
+/// What some editors put in front of UTF-8.
+constexpr std::string_view byte_order_mark = "\xef\xbb\xbf";
+constexpr std::size_t longest_line = std::size_t{1} << 20U;
+
+std::string_view without_comment_and_line_end(std::string_view raw) {
+    if (const void* hash = std::memchr(raw.data(), '#', raw.size())) {
+        raw = raw.substr(0, static_cast<std::size_t>(static_cast<const char*>(hash) - raw.data()));
+    }
+    while (!raw.empty() && (raw.back() == '\r' || raw.back() == ' ' || raw.back() == '\t')) {
+        raw.remove_suffix(1);
+    }
+    while (!raw.empty() && (raw.front() == ' ' || raw.front() == '\t')) raw.remove_prefix(1);
+    return raw;
+}
+
+}  // namespace
+
+LineReader::LineReader(std::filesystem::path path) : path_(std::move(path)) {
+    // O_NONBLOCK: a named pipe must be refused, not waited for.
+    file_ = ::open(path_.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
+    if (file_ < 0) {
+        throw InputError(
+            fmt::format("{}: cannot be opened: {}", path_.native(), std::strerror(errno)));
+    }
+    struct stat status {};
+    if (::fstat(file_, &status) != 0 || !S_ISREG(status.st_mode)) {
+        ::close(file_);
+        throw InputError(fmt::format("{}: is not a file", path_.native()));
+    }
+    file_size_ = static_cast<std::uint64_t>(status.st_size);
+    if (file_size_ == 0) {
+        ::close(file_);
+        throw InputError(fmt::format("{}:1: the file is empty", path_.native()));
+    }
+    buffer_.resize(std::min<std::uint64_t>(longest_line, file_size_ + 1));
+}
+
+LineReader::~LineReader() { ::close(file_); }
+
+bool LineReader::next() {
+    std::string_view raw;
+    while (next_raw_line(raw)) {
+        if (line_number_ == 0 && raw.starts_with(byte_order_mark)) {
+            raw.remove_prefix(byte_order_mark.size());
+        }
+        ++line_number_;
+        line_ = without_comment_and_line_end(raw);
+        if (!line_.empty()) return true;
+    }
+    line_ = {};
+    return false;
+}
+
+bool LineReader::next_raw_line(std::string_view& raw) {
+    std::size_t searched = begin_;
+    while (true) {
+        const char* start = buffer_.data() + searched;
+        if (const void* newline = std::memchr(start, '\n', end_ - searched)) {
+            const char* first = buffer_.data() + begin_;
+            raw = {first, static_cast<std::size_t>(static_cast<const char*>(newline) - first)};
+            begin_ += raw.size() + 1;
+            return true;
+        }
+        if (at_end_of_file_) {
+            raw = {buffer_.data() + begin_, end_ - begin_};
+            begin_ = end_;
+            return !raw.empty();
+        }
+        const std::size_t pending = end_ - begin_;
+        fill();
+        searched = begin_ + pending;
+    }
+}
+
+void LineReader::fill() {
+    const std::size_t pending = end_ - begin_;
+    if (pending == longest_line) {
+        fail("this line is longer than 1 MiB: not a text file?", line_number_ + 1);
+    }
+    if (pending == buffer_.size()) buffer_.resize(longest_line);  // the file has grown meanwhile
+    std::memmove(buffer_.data(), buffer_.data() + begin_, pending);
+    begin_ = 0;
+    end_ = pending;
+    const ssize_t got = ::read(file_, buffer_.data() + end_, buffer_.size() - end_);
+    if (got < 0 && errno == EINTR) return;
+    if (got < 0) {
+        throw SystemError(
+            fmt::format("{}: reading failed: {}", path_.native(), std::strerror(errno)));
+    }
+    at_end_of_file_ = got == 0;
+    end_ += static_cast<std::size_t>(got);
+}
+
+void LineReader::fail(std::string_view what, std::uint64_t line_number) const {
+    throw InputError(fmt::format("{}:{}: {}", path_.native(), line_number, what));
+}
+
+void LineReader::check_count(std::uint64_t count, std::size_t fields, std::string_view what) const {
+    // Each number takes a digit and a separator; the last separator of a file may be missing.
+    const std::uint64_t most = (file_size_ + 1) / (2 * fields);
+    if (count > most) {
+        fail(
+            fmt::format("{} {} announced, but a file of {} bytes holds at most {}; was it cut off?",
+                        count, what, file_size_, most));
+    }
+    if (count >= VertexIndex::limit) {
+        fail(fmt::format("{} {} announced; at most {} are supported", count, what,
+                         VertexIndex::limit - 1));
+    }
+}
+
+}  // namespace octetra

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <filesystem>
+
+#include <octetra/core/files/mesh_files.hpp>
+#include <octetra/core/files/mesh_sink.hpp>
+#include <octetra/core/mesh.hpp>
+#include <octetra/core/mesh_source.hpp>
+
+/// Medit's text format `.mesh`: free-form tokens; a keyword, a count, that many entries, each
+/// ending in a reference number (our markers and region tags). Entities are numbered from 1.
+namespace octetra {
+
+[[nodiscard]] Mesh read_medit(const std::filesystem::path& path, const ReadOptions& options);
+
+/// Takes everything as it stands; `options` must have only_syntax.
+void stream_medit(const std::filesystem::path& path, MeshSink& sink, const ReadOptions& options);
+
+/// Collective. Returns what of the mesh the format cannot hold, in a sentence, or nothing.
+[[nodiscard]] std::string write_medit(MeshSource& mesh, const std::filesystem::path& path);
+
+}  // namespace octetra

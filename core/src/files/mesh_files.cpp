@@ -1,0 +1,94 @@
+#include <octetra/core/files/mesh_files.hpp>
+
+#include <fmt/format.h>
+
+#include <octetra/core/error.hpp>
+#include <octetra/core/files/places.hpp>
+
+#include "files/medit/medit.hpp"
+#include "files/output/places.hpp"
+#include "files/tetgen/tetgen.hpp"
+#include "files/vtk/vtu.hpp"
+
+namespace octetra {
+namespace {
+
+namespace fs = std::filesystem;
+
+enum class Format { tetgen, medit, vtu, pvtu, unknown };
+
+Format format_of(const fs::path& path) {
+    const fs::path extension = path.extension();
+    if (extension == ".ele" || extension == ".node") return Format::tetgen;
+    if (extension == ".mesh") return Format::medit;
+    if (extension == ".vtu") return Format::vtu;
+    if (extension == ".pvtu") return Format::pvtu;
+    return Format::unknown;
+}
+
+/// Why a mesh cannot be read from this file, if its format is neither TetGen's nor Medit's.
+[[noreturn]] void refuse_to_read(const fs::path& path) {
+    if (format_of(path) != Format::unknown) {
+        throw InputError(fmt::format("{}: {} files are written, not read; read .ele/.node or .mesh",
+                                     path.native(), path.extension().native()));
+    }
+    throw InputError(fmt::format(
+        "{}: a mesh to read is named by its extension: .ele or .node (TetGen), .mesh (Medit; "
+        "Gmsh writes it, too: gmsh FILE.msh -save -format mesh)",
+        path.native()));
+}
+
+}  // namespace
+
+Mesh read_mesh(const fs::path& path, const ReadOptions& options) {
+    const Format format = format_of(path);
+    if (format == Format::tetgen) return read_tetgen(path, options);
+    if (format == Format::medit) return read_medit(path, options);
+    refuse_to_read(path);
+}
+
+void stream_mesh(const fs::path& path, MeshSink& sink, const ReadOptions& options) {
+    const ReadOptions as_it_stands{.only_syntax = true, .note = options.note};
+    const Format format = format_of(path);
+    if (format == Format::tetgen) return stream_tetgen(path, sink, as_it_stands);
+    if (format == Format::medit) return stream_medit(path, sink, as_it_stands);
+    refuse_to_read(path);
+}
+
+std::string write_mesh(MeshSource& mesh, const fs::path& path) {
+    mesh.group().on_first([&] { check_writable(path); });
+    switch (format_of(path)) {
+        case Format::tetgen: write_tetgen(mesh, path); return {};
+        case Format::medit: return write_medit(mesh, path);
+        case Format::vtu: return write_vtu(mesh, path);
+        case Format::pvtu: return write_pieces(mesh, ProcessGroup::alone(), path);
+        case Format::unknown: break;
+    }
+    return {};
+}
+
+std::string write_mesh(const Mesh& mesh, const fs::path& path) {
+    WholeMesh source(mesh);
+    return write_mesh(source, path);
+}
+
+bool can_hold_attributes(const fs::path& path) { return format_of(path) != Format::medit; }
+
+bool is_in_pieces(const fs::path& path) { return format_of(path) == Format::pvtu; }
+
+std::string write_pieces(MeshSource& piece, const ProcessGroup& group, const fs::path& path) {
+    group.on_first([&] { check_writable(path, group.size()); });
+    return write_pvtu(piece, group, path);
+}
+
+void check_writable(const fs::path& path, int pieces) {
+    if (format_of(path) == Format::unknown) {
+        throw InputError(
+            fmt::format("{}: a mesh to write is named by its extension: .ele or .node "
+                        "(TetGen), .mesh (Medit), .vtu or .pvtu (VTK)",
+                        path.native()));
+    }
+    check_places(path, pieces);
+}
+
+}  // namespace octetra

@@ -1,0 +1,164 @@
+#include "files/output/output_file.hpp"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include <octetra/core/error.hpp>
+#include <octetra/core/files/places.hpp>
+
+#include "files/output/places.hpp"
+
+namespace octetra {
+namespace {
+
+constexpr std::size_t buffer_size = std::size_t{1} << 20U;
+
+/// A name that no other run uses at the same time, and that all processes of this one know.
+std::filesystem::path temporary_beside(const std::filesystem::path& place,
+                                       const ProcessGroup& group) {
+    const auto number = group.of_first(static_cast<std::uint64_t>(::getpid()));
+    return fmt::format("{}.{}.tmp", place.native(), number);
+}
+
+/// Owner and group as far as the system allows. Where the group is another, it gets no more than
+/// everybody had.
+void pass_on_permissions(const struct stat& old, int file) {
+    mode_t mode = old.st_mode & 0777U;
+    constexpr auto same_owner = static_cast<uid_t>(-1);
+    if (::fchown(file, old.st_uid, old.st_gid) != 0 &&
+        ::fchown(file, same_owner, old.st_gid) != 0) {
+        mode = (mode & 0707U) | ((mode & 0007U) << 3U);
+    }
+    // Where this fails, as on file systems without permissions, there is nothing to pass on.
+    (void)::fchmod(file, mode);
+}
+
+}  // namespace
+
+OutputFile::OutputFile(std::filesystem::path path, const ProcessGroup& group)
+    : group_(&group),
+      path_(std::move(path)),
+      place_(place_of(path_)),
+      temporary_(temporary_beside(place_, group)),
+      unfinished_(temporary_),
+      buffer_(buffer_size) {
+    try {
+        if (const std::string what = in_the_way(path_); !what.empty()) {
+            failure_ = fmt::format("{}: {}", path_.native(), what);
+        }
+        agree();
+        if (group_->is_first()) open();
+        agree();
+        if (!group_->is_first()) open();
+        agree();
+    } catch (const SystemError&) {
+        if (file_ >= 0) ::close(file_);
+        if (group_->is_first() && file_ >= 0) ::unlink(temporary_.c_str());
+        throw;
+    }
+}
+
+OutputFile::~OutputFile() {
+    if (file_ >= 0) ::close(file_);
+    if (!committed_) ::unlink(temporary_.c_str());
+}
+
+void OutputFile::put(std::string_view text) { put_bytes(text.data(), text.size()); }
+
+void OutputFile::put_bytes(const void* data, std::size_t size) {
+    if (is_alone() && size > buffer_.size()) {
+        end_turn();
+        write_at(flushed_, data, size);
+        flushed_ += size;
+        return;
+    }
+    if (size == 0) return;
+    if (buffer_.size() - used_ < size) make_room(size);
+    std::memcpy(buffer_.data() + used_, data, size);
+    used_ += size;
+}
+
+void OutputFile::overwrite(std::uint64_t position, const void* data, std::size_t size) {
+    if (is_alone()) end_turn();
+    write_at(position, data, size);
+}
+
+void OutputFile::end_turn() {
+    const std::uint64_t before = group_->sum_before(used_);
+    const std::uint64_t total = group_->sum(used_);
+    write_at(flushed_ + before, buffer_.data(), used_);
+    flushed_ += total;
+    used_ = 0;
+}
+
+void OutputFile::close() {
+    end_turn();
+    if (struct stat old{}; group_->is_first() && ::stat(place_.c_str(), &old) == 0) {
+        pass_on_permissions(old, file_);
+    }
+    const int file = std::exchange(file_, -1);
+    if (::close(file) != 0) fail("writing failed");
+    agree();
+}
+
+void OutputFile::commit() {
+    if (file_ >= 0) close();
+    if (group_->is_first() && ::rename(temporary_.c_str(), place_.c_str()) != 0) {
+        fail("cannot be put in place");
+    }
+    agree();
+    committed_ = true;
+}
+
+/// One process alone writes what it has; one of a group keeps it until its turn.
+void OutputFile::make_room(std::size_t size) {
+    if (is_alone()) {
+        end_turn();
+    } else {
+        buffer_.resize(std::max(2 * buffer_.size(), used_ + size));
+    }
+}
+
+void OutputFile::open() {
+    // What others may not read they may not read before it is complete, either.
+    const bool replaces = ::access(place_.c_str(), F_OK) == 0;
+    const mode_t mode = replaces ? 0600 : 0666;  // less what the umask takes away
+    const int create = group_->is_first() ? O_CREAT | O_TRUNC : 0;
+    file_ = ::open(temporary_.c_str(), O_WRONLY | O_CLOEXEC | create, mode);
+    if (file_ >= 0) return;
+    fail(group_->is_first() ? "cannot be written"
+                            : "cannot be written by all ranks; do they share this folder?");
+}
+
+void OutputFile::write_at(std::uint64_t position, const void* data, std::size_t size) {
+    if (!failure_.empty()) return;  // all will hear of it at the end
+    const char* bytes = static_cast<const char*>(data);
+    while (size > 0) {
+        const ssize_t written = ::pwrite(file_, bytes, size, static_cast<off_t>(position));
+        if (written < 0 && errno == EINTR) continue;
+        if (written < 0) return fail("writing failed");
+        bytes += written;
+        position += static_cast<std::uint64_t>(written);
+        size -= static_cast<std::size_t>(written);
+    }
+}
+
+void OutputFile::fail(std::string_view doing) {
+    if (failure_.empty()) {
+        failure_ = fmt::format("{}: {}: {}", path_.native(), doing, std::strerror(errno));
+    }
+    // The others of a group may be waiting for this process's turn.
+    if (is_alone()) throw SystemError(failure_);
+}
+
+void OutputFile::agree() { group_->agree(failure_); }
+
+}  // namespace octetra

@@ -1,0 +1,86 @@
+#pragma once
+
+#include <charconv>
+#include <concepts>
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <octetra/core/mesh_source.hpp>
+
+#include "files/output/unfinished_files.hpp"
+
+namespace octetra {
+
+/// A file that is written under a temporary name beside its final place and takes that place only
+/// on commit(). Destroyed before, it leaves no trace. Every failure throws SystemError.
+/// A link is followed: the place is where it leads. A file that is there already passes its
+/// permissions on and, as far as the system allows, its owner and group.
+///
+/// A group of processes writes one file by taking turns: what each has put since the last turn
+/// follows what the lower ranks have put. Constructing, end_turn(), close() and commit() are
+/// collective, and failures are thrown there, on all processes. One process alone needs no turns.
+class OutputFile {
+public:
+    explicit OutputFile(std::filesystem::path path,
+                        const ProcessGroup& group = ProcessGroup::alone());
+    ~OutputFile();
+    OutputFile(const OutputFile&) = delete;
+    OutputFile& operator=(const OutputFile&) = delete;
+    OutputFile(OutputFile&&) = delete;
+    OutputFile& operator=(OutputFile&&) = delete;
+
+    void put(char c) {
+        if (used_ == buffer_.size()) make_room(1);
+        buffer_[used_++] = c;
+    }
+    void put(std::string_view text);
+    /// In the fewest decimal digits that read back to the same bits.
+    void put(double number) { put_number(number); }
+    void put(std::integral auto number) { put_number(number); }
+    void put_bytes(const void* data, std::size_t size);
+
+    /// Brings what has been put to the file.
+    void end_turn();
+
+    /// How many bytes have been put so far: where the next one will stand. For a group: at the end
+    /// of a turn, and the same on all processes.
+    [[nodiscard]] std::uint64_t position() const { return flushed_ + used_; }
+    /// Replaces bytes that were put before (in earlier turns, by whichever process).
+    void overwrite(std::uint64_t position, const void* data, std::size_t size);
+
+    /// Brings everything to the file and closes it. Call it on all files of a set, then commit().
+    void close();
+    void commit();
+
+private:
+    void put_number(auto number) {
+        constexpr std::size_t longest_number = 32;
+        if (buffer_.size() - used_ < longest_number) make_room(longest_number);
+        char* first = buffer_.data() + used_;
+        const auto result = std::to_chars(first, buffer_.data() + buffer_.size(), number);
+        used_ += static_cast<std::size_t>(result.ptr - first);
+    }
+    [[nodiscard]] bool is_alone() const { return group_->size() == 1; }
+    void make_room(std::size_t size);
+    void open();
+    void write_at(std::uint64_t position, const void* data, std::size_t size);
+    void fail(std::string_view doing);
+    void agree();
+
+    const ProcessGroup* group_;
+    std::filesystem::path path_;   ///< as it was named
+    std::filesystem::path place_;  ///< where its links lead
+    std::filesystem::path temporary_;
+    UnfinishedFile unfinished_;
+    int file_ = -1;
+    std::vector<char> buffer_;
+    std::size_t used_ = 0;
+    std::uint64_t flushed_ = 0;
+    bool committed_ = false;
+    std::string failure_;  ///< the first one, until it is thrown
+};
+
+}  // namespace octetra

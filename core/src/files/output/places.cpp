@@ -1,0 +1,145 @@
+#include "files/output/places.hpp"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <optional>
+#include <system_error>
+
+#include <fmt/format.h>
+
+#include <octetra/core/error.hpp>
+#include <octetra/core/files/mesh_files.hpp>
+#include <octetra/core/files/places.hpp>
+
+namespace octetra {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Where the links end that `path` names; nothing if they lead in a circle.
+std::optional<fs::path> end_of_links(fs::path path) {
+    constexpr int most_links = 40;  // as many as the system itself follows
+    for (int followed = 0; followed <= most_links; ++followed) {
+        std::error_code not_a_link;
+        const fs::path next = fs::read_symlink(path, not_a_link);
+        if (not_a_link) return path;
+        path = path.parent_path() / next;  // which is `next` if that is absolute
+    }
+    return {};
+}
+
+fs::path folder_of(const fs::path& path) {
+    return path.has_parent_path() ? path.parent_path() : fs::path(".");
+}
+
+bool is_tetgen(const fs::path& path) {
+    return path.extension() == ".ele" || path.extension() == ".node";
+}
+
+void add(std::vector<fs::path>& paths, const fs::path& path) {
+    if (std::ranges::find(paths, path) == paths.end()) paths.push_back(path);
+}
+
+/// Files of one mesh that are one by their links would take each other's place.
+void refuse_one_place_for_two(const std::vector<fs::path>& paths) {
+    for (std::size_t i = 0; i < paths.size(); ++i) {
+        for (std::size_t j = 0; j < i; ++j) {
+            if (!are_one_place(paths[i], paths[j])) continue;
+            throw InputError(fmt::format("{} and {} lead to the same file; choose another name",
+                                         paths[j].native(), paths[i].native()));
+        }
+    }
+}
+
+std::vector<fs::path> pieces_to_write(const fs::path& path, int pieces) {
+    std::vector<fs::path> files{path};
+    for (int rank = 0; rank < pieces || fs::exists(piece_path(path, rank)); ++rank) {
+        files.push_back(piece_path(path, rank));
+    }
+    return files;
+}
+
+}  // namespace
+
+fs::path place_of(const fs::path& path) {
+    const fs::path end = end_of_links(path).value_or(path);
+    std::error_code no_folder;
+    const fs::path folder = fs::weakly_canonical(folder_of(end), no_folder);
+    return no_folder ? end : folder / end.filename();
+}
+
+bool are_one_place(const fs::path& a, const fs::path& b) { return place_of(a) == place_of(b); }
+
+std::string in_the_way(const fs::path& path) {
+    if (!end_of_links(path)) return "is a link that leads in a circle";
+    std::error_code ignored;
+    const fs::file_status there = fs::status(path, ignored);
+    if (fs::is_directory(there)) return "is a directory, not a file";
+    // Taking the name of a device would put an end to the device: think of /dev/null.
+    if (fs::exists(there) && !fs::is_regular_file(there)) {
+        return "is a device or the like, not a file";
+    }
+    if (fs::exists(there) && ::access(path.c_str(), W_OK) != 0) {
+        return "may not be written over; change its permissions or choose another name";
+    }
+    return {};
+}
+
+void check_place(const fs::path& path) {
+    if (const std::string what = in_the_way(path); !what.empty()) {
+        throw InputError(fmt::format("{}: {}", path.native(), what));
+    }
+    const fs::path folder = folder_of(*end_of_links(path));
+    if (std::error_code ignored; !fs::is_directory(folder, ignored)) {
+        throw InputError(fmt::format("{}: there is no folder {}; make it first", path.native(),
+                                     folder.native()));
+    }
+    if (::access(folder.c_str(), W_OK) != 0) {
+        throw InputError(
+            fmt::format("{}: the folder {} is not writable", path.native(), folder.native()));
+    }
+}
+
+fs::path piece_path(const fs::path& path, int rank) {
+    return path.parent_path() / fmt::format("{}_{}.vtu", path.stem().native(), rank);
+}
+
+std::vector<fs::path> lists_read_with(const fs::path& path, std::string_view extension) {
+    std::vector<fs::path> lists{fs::path(path).replace_extension(extension)};
+    for (const char* const of_mesh : {".node", ".ele"}) {
+        const fs::path name = fs::path(path).replace_extension(of_mesh);
+        if (!fs::is_symlink(name)) continue;
+        const fs::path beside = place_of(name).replace_extension(extension);
+        if (std::ranges::find(lists, beside) == lists.end()) lists.push_back(beside);
+    }
+    return lists;
+}
+
+std::vector<fs::path> files_of_mesh(const fs::path& path) {
+    if (!is_tetgen(path)) return {path};
+    std::vector<fs::path> files;
+    for (const char* const extension : {".node", ".ele", ".face", ".edge"}) {
+        files.push_back(fs::path(path).replace_extension(extension));
+    }
+    return files;
+}
+
+std::vector<fs::path> files_to_write(const fs::path& path, int pieces) {
+    if (is_in_pieces(path)) return pieces_to_write(path, pieces);
+    std::vector<fs::path> files = files_of_mesh(path);
+    if (!is_tetgen(path)) return files;
+    for (const char* const extension : {".face", ".edge"}) {
+        for (const fs::path& list : lists_read_with(path, extension)) add(files, list);
+    }
+    return files;
+}
+
+void check_places(const fs::path& path, int pieces) {
+    check_place(path);  // first, as it was named
+    for (const fs::path& file : files_to_write(path, pieces)) check_place(file);
+    refuse_one_place_for_two(is_in_pieces(path) ? pieces_to_write(path, pieces)
+                                                : files_of_mesh(path));
+}
+
+}  // namespace octetra

@@ -1,0 +1,141 @@
+#include <memory>
+#include <span>
+#include <vector>
+
+#include <octetra/core/files/places.hpp>
+
+#include "files/output/output_file.hpp"
+#include "files/output/places.hpp"
+#include "files/output/text_slices.hpp"
+#include "files/tetgen/tetgen.hpp"
+
+namespace octetra {
+namespace {
+
+namespace fs = std::filesystem;
+
+void put_fields(OutputFile& out, auto... numbers) {
+    const char* separator = "";
+    ((out.put(std::string_view{separator}), out.put(numbers), separator = " "), ...);
+}
+
+void put_line(OutputFile& out, auto... numbers) {
+    put_fields(out, numbers...);
+    out.put('\n');
+}
+
+/// Collective. The first process's part of a turn of its own.
+void put_header(OutputFile& out, const ProcessGroup& group, auto... numbers) {
+    if (group.is_first()) put_line(out, numbers...);
+}
+
+void write_node(OutputFile& out, MeshSource& mesh) {
+    const MeshFacts& facts = mesh.facts();
+    const std::size_t attributes = facts.attributes_per_point;
+    put_header(out, mesh.group(), facts.vertices, 3, attributes, facts.has_point_markers ? 1 : 0);
+    put_list(out, facts.vertices, mesh.group(), [&](const Window& window, std::uint64_t number) {
+        const std::span<const Point> points = mesh.points(window);
+        std::span<const double> values;
+        std::span<const Marker> markers;
+        if (attributes > 0) values = mesh.point_attributes(window);
+        if (facts.has_point_markers) markers = mesh.point_markers(window);
+        for (std::size_t v = 0; v < points.size(); ++v, ++number) {
+            const Point& p = points[v];
+            put_fields(out, facts.index_base + number, p.x, p.y, p.z);
+            for (std::size_t k = 0; k < attributes; ++k) {
+                out.put(' ');
+                out.put(values[v * attributes + k]);
+            }
+            if (!markers.empty()) {
+                out.put(' ');
+                out.put(markers[v]);
+            }
+            out.put('\n');
+        }
+    });
+}
+
+/// Where the entities of a list come from, and their markers.
+template <std::size_t N>
+struct List {
+    std::uint64_t count;
+    std::span<const std::array<VertexIndex, N>> (MeshSource::*vertices)(const Window&);
+    bool has_markers;
+    std::span<const Marker> (MeshSource::*markers)(const Window&);
+};
+
+/// Writes the entities of a list, their vertices and, where there are any, their markers.
+template <std::size_t N>
+void write_list(OutputFile& out, MeshSource& mesh, const List<N>& list) {
+    const std::uint32_t index_base = mesh.facts().index_base;
+    put_list(out, list.count, mesh.group(), [&](const Window& window, std::uint64_t number) {
+        const auto entities = (mesh.*list.vertices)(window);
+        std::span<const Marker> markers;
+        if (list.has_markers) markers = (mesh.*list.markers)(window);
+        for (std::size_t i = 0; i < entities.size(); ++i, ++number) {
+            out.put(index_base + number);
+            for (const VertexIndex vertex : entities[i]) {
+                out.put(' ');
+                out.put(index_base + vertex.value());
+            }
+            if (!markers.empty()) {
+                out.put(' ');
+                out.put(markers[i]);
+            }
+            out.put('\n');
+        }
+    });
+}
+
+/// Removes what is left from another mesh and would be read as lists of this one. Of a link goes
+/// the link alone: what it leads to is a file of something else, or removed under its own name.
+void remove_stale_lists(const fs::path& path, const char* extension, bool was_written) {
+    const fs::path written = fs::path(path).replace_extension(extension);
+    for (const fs::path& list : lists_read_with(path, extension)) {
+        if (!was_written || !are_one_place(list, written)) fs::remove(list);
+    }
+}
+
+}  // namespace
+
+void write_tetgen(MeshSource& mesh, const fs::path& path) {
+    const MeshFacts& facts = mesh.facts();
+    const ProcessGroup& group = mesh.group();
+    std::vector<std::unique_ptr<OutputFile>> files;
+    const auto companion = [&](const char* extension) {
+        return fs::path(path).replace_extension(extension);
+    };
+    const auto create = [&](const char* extension) -> OutputFile& {
+        return *files.emplace_back(std::make_unique<OutputFile>(companion(extension), group));
+    };
+
+    write_node(create(".node"), mesh);
+    OutputFile& ele = create(".ele");
+    put_header(ele, group, facts.cells, 4, facts.has_regions ? 1 : 0);
+    write_list<4>(ele, mesh,
+                  {facts.cells, &MeshSource::cells, facts.has_regions, &MeshSource::regions});
+
+    if (facts.facets > 0) {
+        OutputFile& face = create(".face");
+        put_header(face, group, facts.facets, facts.has_facet_markers ? 1 : 0);
+        write_list<3>(face, mesh,
+                      {facts.facets, &MeshSource::facets, facts.has_facet_markers,
+                       &MeshSource::facet_markers});
+    }
+    if (facts.edges > 0) {
+        OutputFile& edge = create(".edge");
+        put_header(edge, group, facts.edges, facts.has_edge_markers ? 1 : 0);
+        write_list<2>(
+            edge, mesh,
+            {facts.edges, &MeshSource::edges, facts.has_edge_markers, &MeshSource::edge_markers});
+    }
+
+    for (const auto& file : files) file->close();
+    for (const auto& file : files) file->commit();
+    group.on_first([&] {
+        remove_stale_lists(path, ".face", facts.facets > 0);
+        remove_stale_lists(path, ".edge", facts.edges > 0);
+    });
+}
+
+}  // namespace octetra

@@ -1,0 +1,178 @@
+#include "files/vtk/vtu_arrays.hpp"
+
+#include <cstring>
+#include <functional>
+#include <span>
+#include <utility>
+
+#include <fmt/format.h>
+
+namespace octetra {
+namespace {
+
+template <class T>
+constexpr const char* vtk_type = "UInt8";
+template <>
+constexpr const char* vtk_type<double> = "Float64";
+template <>
+constexpr const char* vtk_type<std::int64_t> = "Int64";
+template <>
+constexpr const char* vtk_type<std::int32_t> = "Int32";
+
+using BytesOfSlice = std::function<void(const Window&, std::vector<char>&)>;
+
+template <class T>
+VtuArray described(std::string name, std::size_t components, std::uint64_t entities,
+                   BytesOfSlice bytes_of_slice) {
+    return {.name = std::move(name),
+            .type = vtk_type<T>,
+            .value_size = sizeof(T),
+            .components = components,
+            .values_per_entity = components,
+            .entities = entities,
+            .bytes_of_slice = std::move(bytes_of_slice)};
+}
+
+/// An array whose values, for a slice of entities, are value(entities, i) for each i.
+template <class T>
+VtuArray array(std::string name, std::size_t components, std::uint64_t entities, auto get_slice,
+               auto value) {
+    return described<T>(std::move(name), components, entities,
+                        [=](const Window& window, std::vector<char>& out) {
+                            const auto slice = get_slice(window);
+                            const std::size_t count = slice.size();
+                            out.resize(count * sizeof(T));
+                            for (std::size_t i = 0; i < count; ++i) {
+                                const T v = value(slice, i);
+                                std::memcpy(out.data() + i * sizeof(T), &v, sizeof(T));
+                            }
+                        });
+}
+
+/// The values just as the mesh has them.
+template <class T>
+VtuArray plain_array(std::string name, std::size_t components, std::uint64_t entities,
+                     auto get_slice) {
+    return described<T>(std::move(name), components, entities,
+                        [=](const Window& window, std::vector<char>& out) {
+                            const auto bytes = std::as_bytes(get_slice(window));
+                            out.resize(bytes.size());
+                            if (!bytes.empty()) {
+                                std::memcpy(out.data(), bytes.data(), bytes.size());
+                            }
+                        });
+}
+
+/// The numbers of the entities of a slice, for what follows from the number.
+struct Numbers {
+    std::uint64_t first = 0;
+    std::uint64_t end = 0;
+    [[nodiscard]] std::size_t size() const { return end - first; }
+};
+
+auto numbers_of(const ProcessGroup& group) {
+    return [rank = group.rank()](const Window& window) {
+        return Numbers{window.begin_of(rank), window.end_of(rank)};
+    };
+}
+
+VtuArray vertex_numbers(MeshSource& piece) {
+    const MeshFacts& facts = piece.facts();
+    const auto first = std::int64_t{facts.index_base};
+    if (!facts.has_vertex_numbers) {
+        return array<std::int64_t>("vertex", 1, facts.vertices, numbers_of(piece.group()),
+                                   [first](const Numbers& numbers, std::size_t i) {
+                                       return static_cast<std::int64_t>(numbers.first + i) + first;
+                                   });
+    }
+    return array<std::int64_t>(
+        "vertex", 1, facts.vertices,
+        [&piece](const Window& window) { return piece.vertex_numbers(window); },
+        [first](std::span<const std::uint64_t> numbers, std::size_t i) {
+            return static_cast<std::int64_t>(numbers[i]) + first;
+        });
+}
+
+VtuArray rank_of_cells(MeshSource& piece, int rank) {
+    return array<std::int32_t>("rank", 1, piece.facts().cells, numbers_of(piece.group()),
+                               [rank](const Numbers&, std::size_t) { return rank; });
+}
+
+}  // namespace
+
+VtuArray vtu_coordinates(MeshSource& mesh) {
+    static_assert(sizeof(Point) == 3 * sizeof(double));
+    return plain_array<double>("Points", 3, mesh.facts().vertices,
+                               [&mesh](const Window& window) { return mesh.points(window); });
+}
+
+std::vector<VtuArray> vtu_cells(MeshSource& mesh) {
+    constexpr std::uint8_t vtk_tetra = 10;
+    const std::uint64_t count = mesh.facts().cells;
+    const auto vertices = [&mesh](const Window& window, std::vector<char>& out) {
+        const auto cells = mesh.cells(window);
+        out.resize(cells.size() * 4 * sizeof(std::int64_t));
+        char* place = out.data();
+        for (const CellVertices& cell : cells) {
+            for (const VertexIndex vertex : cell) {
+                const auto number = std::int64_t{vertex.value()};
+                std::memcpy(place, &number, sizeof number);
+                place += sizeof number;
+            }
+        }
+    };
+    // A flat list: four values of one component for each cell.
+    VtuArray connectivity = described<std::int64_t>("connectivity", 1, count, vertices);
+    connectivity.values_per_entity = 4;
+    return {std::move(connectivity),
+            array<std::int64_t>("offsets", 1, count, numbers_of(mesh.group()),
+                                [](const Numbers& numbers, std::size_t i) {
+                                    return static_cast<std::int64_t>(4 * (numbers.first + i + 1));
+                                }),
+            array<std::uint8_t>("types", 1, count, numbers_of(mesh.group()),
+                                [](const Numbers&, std::size_t) { return vtk_tetra; })};
+}
+
+VtuData vtu_data(MeshSource& mesh) {
+    const MeshFacts& facts = mesh.facts();
+    VtuData data;
+    if (facts.has_point_markers) {
+        data.of_points.push_back(plain_array<Marker>(
+            "marker", 1, facts.vertices,
+            [&mesh](const Window& window) { return mesh.point_markers(window); }));
+    }
+    if (facts.attributes_per_point > 0) {
+        data.of_points.push_back(plain_array<double>(
+            "attributes", facts.attributes_per_point, facts.vertices,
+            [&mesh](const Window& window) { return mesh.point_attributes(window); }));
+    }
+    if (facts.has_regions) {
+        data.of_cells.push_back(
+            plain_array<Marker>("region", 1, facts.cells,
+                                [&mesh](const Window& window) { return mesh.regions(window); }));
+    }
+    if (facts.has_parents) {
+        data.of_cells.push_back(array<std::int64_t>(
+            "parent", 1, facts.cells,
+            [&mesh](const Window& window) { return mesh.parents(window); },
+            [first = facts.index_base](std::span<const CellIndex> parents, std::size_t i) {
+                return std::int64_t{parents[i].value()} + first;
+            }));
+    }
+    return data;
+}
+
+VtuData vtu_data_of_piece(MeshSource& piece, int rank) {
+    VtuData data = vtu_data(piece);
+    data.of_points.push_back(vertex_numbers(piece));
+    data.point_attributes = " GlobalIds=\"vertex\"";
+    data.of_cells.push_back(rank_of_cells(piece, rank));
+    return data;
+}
+
+std::string vtu_attributes(const VtuArray& array) {
+    return fmt::format(R"(type="{}" Name="{}" NumberOfComponents="{}")", array.type, array.name,
+                       array.components);
+}
+
+}  // namespace octetra

@@ -1,0 +1,5 @@
+"""How the parts of render.py end it."""
+
+
+class Failure(Exception):
+    """What the user is told before the program ends."""

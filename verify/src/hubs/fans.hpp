@@ -1,0 +1,134 @@
+#pragma once
+
+#include <algorithm>
+#include <utility>
+#include <vector>
+
+#include "hubs/directions.hpp"
+#include "hubs/hubs.hpp"
+#include "lookup/box_tree.hpp"
+
+namespace octetra::verify {
+
+/// Edges, faces or cells at hubs, findable by what they may meet elsewhere. Their boxes would tell
+/// nothing, as all have the hub; their directions from there do, as what does not cross lies side
+/// by side. So each hub has a tree of boxes around directions. Keeps a pointer to the points.
+template <std::size_t N>
+class Fans {
+public:
+    using Vertices = std::array<VertexIndex, N>;
+    struct Entity {
+        Apex apex;  ///< which hub it is sorted under
+        Vertices vertices;
+        std::uint32_t number = 0;  ///< whatever the caller calls it
+        friend constexpr auto operator<=>(const Entity&, const Entity&) = default;
+    };
+
+    Fans(const IndexVector<VertexIndex, Point>& points, std::vector<Entity> entities)
+        : points_(&points), fans_(fans_of(std::move(entities))), boxes_(boxes_of_fans()) {}
+
+    [[nodiscard]] bool empty() const { return fans_.empty(); }
+
+    /// Calls visit(entity) for each that may have a point in common with a vertex, edge or face; of
+    /// those at a hub that this has itself none. Adds to `looked_at` how many boxes it has seen.
+    template <std::size_t M>
+    void for_each_near(const std::array<VertexIndex, M>& vertices, std::uint64_t& looked_at,
+                       auto&& visit) const {
+        static_assert(M <= 3);
+        const Bounds box = bounds_of_vertices(vertices);
+        boxes_.for_each_meeting(box, [&](std::uint32_t number) {
+            ++looked_at;
+            const Fan& fan = fans_[number];
+            const auto is_of_apex = [&](VertexIndex v) { return fan.apex.has(v); };
+            if (std::any_of(vertices.begin(), vertices.end(), is_of_apex)) return;
+            fan.directions.for_each_meeting(
+                CountingCone{Cone(directions_of(fan, vertices)), &looked_at}, [&](std::uint32_t i) {
+                    if (bounds_of_vertices(fan.entities[i].vertices).meets(box)) {
+                        visit(fan.entities[i]);
+                    }
+                });
+        });
+    }
+
+private:
+    struct CountingCone {
+        Cone cone;
+        std::uint64_t* looked_at;
+        [[nodiscard]] bool meets(const Bounds& directions) const {
+            ++*looked_at;
+            return !cone.misses(directions);
+        }
+    };
+
+    struct Fan {
+        Apex apex;
+        Viewpoint viewpoint;
+        std::vector<Entity> entities;
+        BoxTree directions;
+    };
+
+    [[nodiscard]] Viewpoint viewpoint_of(const Apex& apex) const {
+        const Point& a = (*points_)[apex.a];
+        return apex.is_edge() ? Viewpoint(a, (*points_)[apex.b]) : Viewpoint(a);
+    }
+
+    template <std::size_t M>
+    [[nodiscard]] Bounds bounds_of_vertices(const std::array<VertexIndex, M>& vertices) const {
+        Bounds bounds;
+        for (const VertexIndex v : vertices) bounds.take((*points_)[v]);
+        return bounds;
+    }
+
+    /// Of an entity's vertices but those of the apex.
+    [[nodiscard]] Bounds directions_box(const Entity& entity, const Viewpoint& from) const {
+        std::array<Direction, N> directions;
+        std::size_t count = 0;
+        for (const VertexIndex v : entity.vertices) {
+            if (!entity.apex.has(v)) directions[count++] = from.towards((*points_)[v]);
+        }
+        return bounds_of_directions({directions.data(), count});
+    }
+
+    template <std::size_t M>
+    [[nodiscard]] std::array<Direction, M> directions_of(
+        const Fan& fan, const std::array<VertexIndex, M>& vertices) const {
+        std::array<Direction, M> directions;
+        for (std::size_t k = 0; k < M; ++k) {
+            directions[k] = fan.viewpoint.towards((*points_)[vertices[k]]);
+        }
+        return directions;
+    }
+
+    [[nodiscard]] std::vector<Fan> fans_of(std::vector<Entity> entities) const {
+        std::sort(entities.begin(), entities.end());
+        std::vector<Fan> fans;
+        for (auto next = entities.begin(); next != entities.end();) {
+            const Apex apex = next->apex;
+            const Viewpoint viewpoint = viewpoint_of(apex);
+            std::vector<Entity> members;
+            std::vector<Bounds> directions;
+            for (; next != entities.end() && next->apex == apex; ++next) {
+                members.push_back(*next);
+                directions.push_back(directions_box(*next, viewpoint));
+            }
+            fans.push_back({apex, viewpoint, std::move(members),
+                            BoxTree(std::move(directions), BoxTree::Cut::most_room)});
+        }
+        return fans;
+    }
+
+    [[nodiscard]] BoxTree boxes_of_fans() const {
+        std::vector<Bounds> boxes;
+        for (const Fan& fan : fans_) {
+            Bounds& box = boxes.emplace_back();
+            for (const Entity& entity : fan.entities) box.take(bounds_of_vertices(entity.vertices));
+        }
+        return BoxTree(std::move(boxes));
+    }
+
+    const IndexVector<VertexIndex, Point>* points_;
+    std::vector<Fan> fans_;
+    BoxTree boxes_;
+};
+
+}  // namespace octetra::verify

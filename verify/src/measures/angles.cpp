@@ -1,0 +1,222 @@
+#include "measures/angles.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include <fmt/format.h>
+
+#include "exact/angles.hpp"
+
+namespace octetra::verify {
+namespace {
+
+constexpr double degrees_per_radian = 180 / std::numbers::pi;
+
+Point difference(const Point& a, const Point& b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
+double dot(const Point& u, const Point& v) { return u.x * v.x + u.y * v.y + u.z * v.z; }
+Point cross(const Point& u, const Point& v) {
+    return {u.y * v.z - u.z * v.y, u.z * v.x - u.x * v.z, u.x * v.y - u.y * v.x};
+}
+double length(const Point& u) { return std::sqrt(dot(u, u)); }
+double angle(const Point& u, const Point& v) { return std::atan2(length(cross(u, v)), dot(u, v)); }
+
+struct CellAngles {
+    double min_dihedral = 0;  ///< radians
+    double max_dihedral = 0;
+    double min_solid = 0;
+    double eta = 0;
+};
+
+template <std::size_t N>
+struct Normalised {
+    std::array<Point, N> corners;
+    double scale = 1;  ///< by which lengths were multiplied
+};
+
+/// The same shape about as large as 1, at the origin, so that no product over- or underflows.
+template <std::size_t N>
+Normalised<N> normalised(std::array<Point, N> p) {
+    const auto multiply_by = [&p](double factor) {
+        for (Point& q : p) q = {q.x * factor, q.y * factor, q.z * factor};
+    };
+    const auto largest = [&p] {
+        double size = 0;
+        for (const Point& q : p)
+            size = std::max({size, std::abs(q.x), std::abs(q.y), std::abs(q.z)});
+        return size;
+    };
+    // A difference of the largest numbers is none.
+    const double beforehand = largest() > 0x1p1000 ? 0x1p-4 : 1;
+    if (beforehand != 1) multiply_by(beforehand);
+    const Point origin = p[0];
+    for (Point& q : p) q = difference(q, origin);
+    constexpr int least_exponent = -1000;
+    const double factor = std::ldexp(1.0, -std::max(std::ilogb(largest()), least_exponent));
+    multiply_by(factor);
+    return {p, beforehand * factor};
+}
+
+CellAngles angles_of(const std::array<Point, 4>& corners) {
+    const std::array<Point, 4> p = normalised(corners).corners;
+    std::array<Point, 4> normal;  // of the face opposite to each corner, outward
+    for (std::size_t k = 0; k < 4; ++k) {
+        constexpr std::array<std::array<std::size_t, 3>, 4> outward{
+            {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}}};
+        const auto& [a, b, c] = outward[k];
+        normal[k] = cross(difference(p[b], p[a]), difference(p[c], p[a]));
+    }
+    CellAngles result{.min_dihedral = std::numbers::pi, .max_dihedral = 0};
+    std::array<double, 4> around{};  // sums of the dihedral angles at the edges of each corner
+    double squares = 0;
+    for (std::size_t k = 0; k < 6; ++k) {
+        const auto [i, j] = cell_edges[k];
+        const auto [c, d] = cell_edges[5 - k];  // edge ij lies in the faces opposite to c and d
+        const double dihedral = std::numbers::pi - angle(normal[c], normal[d]);
+        result.min_dihedral = std::min(result.min_dihedral, dihedral);
+        result.max_dihedral = std::max(result.max_dihedral, dihedral);
+        around[i] += dihedral;
+        around[j] += dihedral;
+        const Point edge = difference(p[i], p[j]);
+        squares += dot(edge, edge);
+    }
+    result.min_solid = *std::min_element(around.begin(), around.end()) - std::numbers::pi;
+    const double volume6 = dot(difference(p[3], p[0]), normal[3]) * -1;
+    result.eta = std::cbrt(432 * volume6 * volume6 / (squares * squares * squares));
+    return result;
+}
+
+void for_each_positive(const JudgedMesh& judged, auto&& visit) {
+    for (CellIndex c{0}; c < judged.mesh.cells.end_index(); ++c) {
+        if (judged.sign[c.value()] <= 0 || !judged.owns(judged.mesh.cells[c])) continue;
+        visit(c, angles_of(judged.corners(c)));
+    }
+}
+
+std::array<Point, 3> triangle(const FacetVertices& v, const Mesh& mesh) {
+    return {mesh.points[v[0]], mesh.points[v[1]], mesh.points[v[2]]};
+}
+
+double smallest_angle(const std::array<Point, 3>& triangle) {
+    const std::array<Point, 3> t = normalised(triangle).corners;
+    double smallest = std::numbers::pi;
+    for (std::size_t k = 0; k < 3; ++k) {
+        smallest = std::min(
+            smallest, angle(difference(t[(k + 1) % 3], t[k]), difference(t[(k + 2) % 3], t[k])));
+    }
+    return smallest;
+}
+
+/// By how much rounding may make an angle of the piece less: each of its edges turns by at most
+/// asin(2 eta / its length) <= pi eta / its length. Rounded lengths may also let the second longest
+/// edge of a face be halved; they are off by some 2^-52, and this lets the angles be by more.
+double angle_slack(const std::array<Point, 3>& piece, double rounding) {
+    const auto [p, scale] = normalised(piece);
+    const double eta = std::sqrt(3.0) * rounding * scale;
+    double shortest = length(difference(p[0], p[1]));
+    for (std::size_t k = 1; k < 3; ++k) {
+        shortest = std::min(shortest, length(difference(p[k], p[(k + 1) % 3])));
+    }
+    constexpr double of_lengths = 1e-12;
+    return of_lengths + 2 * std::numbers::pi * eta / shortest;
+}
+
+}  // namespace
+
+AngleFigures measure_angles(const JudgedMesh& judged) {
+    AngleFigures figures{
+        .min_dihedral = 180, .max_dihedral = 0, .min_solid = 4 * std::numbers::pi, .min_eta = 1};
+    for_each_positive(judged, [&](CellIndex c, const CellAngles& angles) {
+        const double least = angles.min_dihedral * degrees_per_radian;
+        if (least < figures.min_dihedral) {
+            figures.min_dihedral = least;
+            figures.min_dihedral_at = c;
+        }
+        figures.max_dihedral =
+            std::max(figures.max_dihedral, angles.max_dihedral * degrees_per_radian);
+        figures.min_solid = std::min(figures.min_solid, angles.min_solid);
+        figures.min_eta = std::min(figures.min_eta, angles.eta);
+    });
+    return figures;
+}
+
+std::vector<DepthFigures> measure_by_depth(const JudgedMesh& fine, const Descent& descent) {
+    std::vector<DepthFigures> by_depth(256);
+    for_each_positive(fine, [&](CellIndex c, const CellAngles& angles) {
+        DepthFigures& figures = by_depth[descent.depth[c]];
+        const double least = angles.min_dihedral * degrees_per_radian;
+        if (figures.cells++ == 0) {
+            figures.min_dihedral = least;
+            figures.min_eta = angles.eta;
+        }
+        figures.min_dihedral = std::min(figures.min_dihedral, least);
+        figures.min_eta = std::min(figures.min_eta, angles.eta);
+    });
+    for (std::size_t depth = 0; depth < by_depth.size(); ++depth) {
+        by_depth[depth].depth = static_cast<int>(depth);
+    }
+    std::erase_if(by_depth, [](const DepthFigures& figures) { return figures.cells == 0; });
+    return by_depth;
+}
+
+std::string check_dihedral_angles(const JudgedMesh& judged, double degrees, Findings& findings) {
+    const exact::AngleLimit limit(degrees);
+    Steps step(findings, judged.mesh.cells.size());
+    for (CellIndex c{0}; c < judged.mesh.cells.end_index(); ++c) {
+        step();
+        if (judged.sign[c.value()] <= 0 || !judged.owns(judged.mesh.cells[c])) continue;
+        const auto p = judged.corners(c);
+        bool less = false;
+        for (std::size_t k = 0; k < 6 && !less; ++k) {
+            const auto [i, j] = cell_edges[k];
+            const auto [m, n] = cell_edges[5 - k];
+            less = limit.exceeds_dihedral(p[i], p[j], p[m], p[n], findings.arithmetic());
+        }
+        if (!less) continue;
+        findings.add(Code::dihedral_too_small, [&]() -> Findings::Description {
+            const double found = angles_of(p).min_dihedral * degrees_per_radian;
+            const bool shows = found <= degrees * (1 - 1e-5);
+            return {{entity(c, judged.which)},
+                    shows ? fmt::format("{:.6g} degrees", found)
+                          : fmt::format("less, by not so much as {:.1g} degrees", degrees * 1e-5),
+                    fmt::format("at least {} degrees", degrees)};
+        });
+    }
+    return fmt::format("none under {} degrees, exactly", degrees);
+}
+
+std::string check_face_angles(const JudgedMesh& coarse, const JudgedMesh& fine,
+                              const Descent& descent, Findings& findings) {
+    std::uint64_t by_slack = 0;
+    Steps step(findings, 2 * fine.mesh.cells.size());  // a face has mostly two cells
+    fine.faces.for_each_group([&](const FacetVertices& face, auto entries) {
+        step();
+        const CellFace f = cell_face(entries.front().tag);
+        const auto on = descent.coarse_face(f);
+        if (!on || !fine.owns(face)) return;
+        const FacetVertices parent = outward_face(coarse.mesh.cells[on->cell], on->face);
+        const auto piece = triangle(face, fine.mesh);
+        const auto whole = triangle(parent, coarse.mesh);
+        if (exact::keeps_half_of_smallest_angle(piece, whole, findings.arithmetic())) return;
+
+        double rounding = 0;
+        for (const VertexIndex v : face) rounding = std::max(rounding, descent.rounding[v]);
+        const double found = smallest_angle(piece);
+        const double expected = smallest_angle(whole) / 2;
+        if (found >= expected - angle_slack(piece, rounding)) {
+            ++by_slack;
+            return;
+        }
+        findings.add(Code::face_angle_too_small, [&]() -> Findings::Description {
+            return {{entity(face), entity(parent, Which::coarse)},
+                    fmt::format("{:.9g} degrees", found * degrees_per_radian),
+                    fmt::format("at least {:.9g}, half of the coarse face's smallest",
+                                expected * degrees_per_radian)};
+        });
+    });
+    by_slack = sum(findings.group(), by_slack);
+    if (by_slack == 0) return "exactly";
+    return fmt::format("{} of them only up to rounding", by_slack);
+}
+
+}  // namespace octetra::verify

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <random>
 #include <string>
 #include <vector>
 
@@ -31,6 +32,21 @@ inline Mesh cells_around_edge(std::size_t n, double turns, std::size_t every) {
         cells.push_back({0, 1, 2 + i, 2 + (i + 1) % ring});
     }
     return mesh_of(points, cells);
+}
+
+/// Cells around that edge whose other corners are at random distances and heights.
+inline Mesh rough_cells_around_edge(std::size_t n) {
+    Mesh mesh = cells_around_edge(n, 1, 0);
+    std::mt19937_64 random(31);
+    const auto between = [&](double low, double high) {
+        return low + (high - low) * static_cast<double>(random() % 1024) / 1024;
+    };
+    for (VertexIndex v{2}; v < mesh.points.end_index(); ++v) {
+        Point& p = mesh.points[v];
+        const double radius = between(0.5, 1);
+        p = on_grid(p.x * radius, p.y * radius, between(-0.5, 0.5));
+    }
+    return mesh;
 }
 
 /// A sphere of triangles joined with a point within; those below `lowest`, and each every-th, are

@@ -24,25 +24,53 @@ using test::Hub;
 
 class HubTest : public testing::TestWithParam<Hub> {};
 
-/// Twice as many cells take a little more than twice as much looking, and not four times as much.
+double n_log_n(const Mesh& mesh) {
+    const auto n = static_cast<double>(mesh.cells.size());
+    return n * std::log2(n);
+}
+
+/// How much of the mesh, in sum, the verifier looks at to find it valid.
+double effort_of_validity(const Mesh& mesh) {
+    const Verdict verdict = verify_mesh(mesh);
+    EXPECT_EQ(codes_of(verdict), "");
+    return static_cast<double>(verdict.looked_at + verdict.arithmetic.filtered +
+                               verdict.arithmetic.exact);
+}
+
+/// Eight times as many cells take a little more than eight times as much looking, and not 64 times
+/// as much.
 TEST_P(HubTest, IsSearchedInProportionToItsCellsAndTheirLogarithm) {
     const Mesh small = GetParam().make(2000);
     const Mesh large = GetParam().make(16000);
-    const Verdict of_small = verify_mesh(small);
-    const Verdict of_large = verify_mesh(large);
-    EXPECT_EQ(codes_of(of_small), "");
-    EXPECT_EQ(codes_of(of_large), "");
-    const auto effort = [](const Verdict& verdict) {
-        return static_cast<double>(verdict.looked_at + verdict.arithmetic.filtered +
-                                   verdict.arithmetic.exact);
+    const double effort = effort_of_validity(large);
+    EXPECT_LT(effort / effort_of_validity(small), 1.5 * n_log_n(large) / n_log_n(small));
+    EXPECT_LT(effort, 100 * n_log_n(large));
+}
+
+/// Where things are slender in all directions and of all lengths, more of them are side by side:
+/// with eight times as many, less than 8^1.5 = 22.6 times as much looking.
+void expect_far_less_than_the_square(const Mesh& small, const Mesh& large) {
+    const double effort = effort_of_validity(large);
+    EXPECT_LT(effort / effort_of_validity(small), 22.6);
+    EXPECT_LT(effort, 200 * n_log_n(large));
+}
+
+/// Then most cells are not at the hub, and many are slender as seen from there.
+TEST_P(HubTest, RefinedIsSearchedInFarLessThanTheSquareOfItsCells) {
+    const auto refined = [&](std::size_t cells) {
+        return reference::refine(GetParam().make(cells), {.all = true}, Scheme::eight, 1).mesh;
     };
-    const auto n_log_n = [](const Mesh& mesh) {
-        const auto n = static_cast<double>(mesh.cells.size());
-        return n * std::log2(n);
+    expect_far_less_than_the_square(refined(500), refined(4000));
+}
+
+TEST(RoughHub, IsSearchedInFarLessThanTheSquareOfItsCells) {
+    using test::rough_cells_around_edge;
+    expect_far_less_than_the_square(rough_cells_around_edge(2000), rough_cells_around_edge(16000));
+    const auto refined = [](std::size_t cells) {
+        return reference::refine(rough_cells_around_edge(cells), {.all = true}, Scheme::eight, 1)
+            .mesh;
     };
-    EXPECT_LT(effort(of_large) / effort(of_small), 1.5 * n_log_n(large) / n_log_n(small))
-        << effort(of_small) << " " << effort(of_large);
-    EXPECT_LT(effort(of_large), 100 * n_log_n(large));
+    expect_far_less_than_the_square(refined(500), refined(4000));
 }
 
 TEST_P(HubTest, AndItsRefinementAreJudgedValidByAnyNumberOfProcesses) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -10,18 +11,24 @@
 
 namespace octetra::verify {
 
-/// Edges, faces or cells at hubs, findable by what they may meet elsewhere. Their boxes would tell
-/// nothing, as all have the hub; their directions from there do, as what does not cross lies side
-/// by side. So each hub has a tree of boxes around directions. Keeps a pointer to the points.
+/// Edges, faces or cells at hubs or near them, findable by what they may meet elsewhere. Their
+/// boxes would tell little; their directions from there do, as what does not cross lies side by
+/// side. So for each hub there is a tree of boxes around directions. Keeps a pointer to the points.
 template <std::size_t N>
 class Fans {
 public:
     using Vertices = std::array<VertexIndex, N>;
     struct Entity {
-        Apex apex;  ///< which hub it is sorted under
+        Apex apex;  ///< from where it is looked at
         Vertices vertices;
         std::uint32_t number = 0;  ///< whatever the caller calls it
-        friend constexpr auto operator<=>(const Entity&, const Entity&) = default;
+
+        /// Has it all of the apex? (What is seen from nearby has none of it, or one end.)
+        [[nodiscard]] bool is_at_apex() const {
+            return std::count_if(vertices.begin(), vertices.end(), [this](VertexIndex v) {
+                       return apex.has(v);
+                   }) == (apex.is_edge() ? 2 : 1);
+        }
     };
 
     Fans(const IndexVector<VertexIndex, Point>& points, std::vector<Entity> entities)
@@ -29,8 +36,8 @@ public:
 
     [[nodiscard]] bool empty() const { return fans_.empty(); }
 
-    /// Calls visit(entity) for each that may have a point in common with a vertex, edge or face; of
-    /// those at a hub that this has itself none. Adds to `looked_at` how many boxes it has seen.
+    /// Calls visit(entity) for each that may have a point in common with a vertex, edge or face,
+    /// but for those at a hub that this has itself. Adds to `looked_at` how many boxes it has seen.
     template <std::size_t M>
     void for_each_near(const std::array<VertexIndex, M>& vertices, std::uint64_t& looked_at,
                        auto&& visit) const {
@@ -40,13 +47,14 @@ public:
             ++looked_at;
             const Fan& fan = fans_[number];
             const auto is_of_apex = [&](VertexIndex v) { return fan.apex.has(v); };
-            if (std::any_of(vertices.begin(), vertices.end(), is_of_apex)) return;
-            fan.directions.for_each_meeting(
-                CountingCone{Cone(directions_of(fan, vertices)), &looked_at}, [&](std::uint32_t i) {
-                    if (bounds_of_vertices(fan.entities[i].vertices).meets(box)) {
-                        visit(fan.entities[i]);
-                    }
-                });
+            if (fan.at_apex && std::any_of(vertices.begin(), vertices.end(), is_of_apex)) return;
+            std::array<Direction, M> rays;
+            const Cone cone({rays.data(), directions_of(fan, vertices, rays)});
+            fan.directions.for_each_meeting(CountingCone{cone, &looked_at}, [&](std::uint32_t i) {
+                if (bounds_of_vertices(fan.entities[i].vertices).meets(box)) {
+                    visit(fan.entities[i]);
+                }
+            });
         });
     }
 
@@ -62,15 +70,11 @@ private:
 
     struct Fan {
         Apex apex;
+        bool at_apex = false;  ///< all entities, or none
         Viewpoint viewpoint;
         std::vector<Entity> entities;
         BoxTree directions;
     };
-
-    [[nodiscard]] Viewpoint viewpoint_of(const Apex& apex) const {
-        const Point& a = (*points_)[apex.a];
-        return apex.is_edge() ? Viewpoint(a, (*points_)[apex.b]) : Viewpoint(a);
-    }
 
     template <std::size_t M>
     [[nodiscard]] Bounds bounds_of_vertices(const std::array<VertexIndex, M>& vertices) const {
@@ -79,7 +83,8 @@ private:
         return bounds;
     }
 
-    /// Of an entity's vertices but those of the apex.
+    /// Of an entity's vertices but those of the apex: what lies between these and the others has
+    /// directions between those of the others.
     [[nodiscard]] Bounds directions_box(const Entity& entity, const Viewpoint& from) const {
         std::array<Direction, N> directions;
         std::size_t count = 0;
@@ -89,29 +94,36 @@ private:
         return bounds_of_directions({directions.data(), count});
     }
 
+    /// The same of other vertices; returns how many there are.
     template <std::size_t M>
-    [[nodiscard]] std::array<Direction, M> directions_of(
-        const Fan& fan, const std::array<VertexIndex, M>& vertices) const {
-        std::array<Direction, M> directions;
-        for (std::size_t k = 0; k < M; ++k) {
-            directions[k] = fan.viewpoint.towards((*points_)[vertices[k]]);
+    std::size_t directions_of(const Fan& fan, const std::array<VertexIndex, M>& vertices,
+                              std::array<Direction, M>& directions) const {
+        std::size_t count = 0;
+        for (const VertexIndex v : vertices) {
+            if (!fan.apex.has(v)) directions[count++] = fan.viewpoint.towards((*points_)[v]);
         }
-        return directions;
+        return count;
     }
 
     [[nodiscard]] std::vector<Fan> fans_of(std::vector<Entity> entities) const {
-        std::sort(entities.begin(), entities.end());
+        const auto key = [](const Entity& e) {
+            return std::tuple(e.apex, e.is_at_apex(), e.vertices, e.number);
+        };
+        std::sort(entities.begin(), entities.end(),
+                  [&](const Entity& s, const Entity& t) { return key(s) < key(t); });
         std::vector<Fan> fans;
         for (auto next = entities.begin(); next != entities.end();) {
             const Apex apex = next->apex;
-            const Viewpoint viewpoint = viewpoint_of(apex);
+            const bool at_apex = next->is_at_apex();
+            const Viewpoint viewpoint = viewpoint_of(apex, *points_);
             std::vector<Entity> members;
             std::vector<Bounds> directions;
-            for (; next != entities.end() && next->apex == apex; ++next) {
+            for (; next != entities.end() && next->apex == apex && next->is_at_apex() == at_apex;
+                 ++next) {
                 members.push_back(*next);
                 directions.push_back(directions_box(*next, viewpoint));
             }
-            fans.push_back({apex, viewpoint, std::move(members),
+            fans.push_back({apex, at_apex, viewpoint, std::move(members),
                             BoxTree(std::move(directions), BoxTree::Cut::most_room)});
         }
         return fans;

@@ -1,26 +1,182 @@
 #include "hubs/hubs.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "lookup/edge_table.hpp"
 
 namespace octetra::verify {
+namespace {
+
+/// An entity as it is seen from an apex, by what it has besides.
+struct View {
+    double room = 0;   ///< about which share of all directions its box of directions takes
+    double width = 0;  ///< about how wide it is, across the line of sight
+};
+
+double longest_side(const Bounds& box) {
+    double longest = 0;
+    for (std::size_t k = 0; k < 3; ++k) longest = std::max(longest, box.high[k] - box.low[k]);
+    return longest;
+}
+
+double largest_difference(const Point& p, const Point& q) {
+    return std::max({std::abs(p.x - q.x), std::abs(p.y - q.y), std::abs(p.z - q.z)});
+}
+
+View view_from(const Apex& apex, std::span<const VertexIndex> entity,
+               const IndexVector<VertexIndex, Point>& points) {
+    const Viewpoint viewpoint = viewpoint_of(apex, points);
+    std::array<Direction, 4> directions;
+    std::size_t count = 0;
+    double distance = 0;
+    for (const VertexIndex v : entity) {
+        if (apex.has(v)) continue;
+        directions[count++] = viewpoint.towards(points[v]);
+        distance = std::max(distance, largest_difference(points[v], points[apex.a]));
+    }
+    const Bounds box = bounds_of_directions({directions.data(), count});
+    std::array<double, 3> sides{};
+    for (std::size_t k = 0; k < 3; ++k) sides[k] = box.high[k] - box.low[k];
+    std::sort(sides.begin(), sides.end());
+    // Of the circumference 2 pi, or of the sphere's area 4 pi.
+    return {apex.is_edge() ? 2 * sides[2] : sides[1] * sides[2], sides[2] * distance};
+}
+
+/// How much longer than wide what has no hub must be to be looked at from one.
+constexpr double slender = 8;
+
+/// How far from a hub, in edges, what is slender is looked for: such cells come to be where cells
+/// at a hub are refined, and every level doubles the distance.
+constexpr int reach = 8;
+
+}  // namespace
+
+Viewpoint viewpoint_of(const Apex& apex, const IndexVector<VertexIndex, Point>& points) {
+    return apex.is_edge() ? Viewpoint(points[apex.a], points[apex.b]) : Viewpoint(points[apex.a]);
+}
 
 Hubs::Hubs(const JudgedMesh& judged)
-    : many_(judged.many), degree_(judged.mesh.points.size(), 0), cells_around_(16) {
+    : points_(&judged.mesh.points), many_(judged.many), degree_(judged.mesh.points.size(), 0) {
     judged.edges.for_each([&](const EdgeVertices& edge) {
         for (const VertexIndex v : edge) ++degree_[v.value()];
     });
     hubs_ = static_cast<std::size_t>(std::count_if(degree_.begin(), degree_.end(),
                                                    [this](std::uint32_t n) { return n > many_; }));
-    if (hubs_ < 2) return;
+    if (none()) return;
+    find_axes(judged);
+    find_near_hubs(judged);
+}
+
+void Hubs::find_axes(const JudgedMesh& judged) {
+    EdgeTable cells_around(16);
     for (CellIndex c{0}; c < judged.mesh.cells.end_index(); ++c) {
         if (!judged.is_sound(c)) continue;
         const CellVertices& cell = judged.mesh.cells[c];
         for (const auto& [i, k] : cell_edges) {
             if (!is_hub(cell[i]) || !is_hub(cell[k])) continue;
-            std::uint32_t& cells = cells_around_.at(cell[i], cell[k]);
+            std::uint32_t& cells = cells_around.at(cell[i], cell[k]);
             cells = cells == EdgeTable::absent ? 1 : cells + 1;
+            if (cells != many_ + 1) continue;
+            const Apex edge{std::min(cell[i], cell[k]), std::max(cell[i], cell[k])};
+            axes_.push_back({edge.a, edge});
+            axes_.push_back({edge.b, edge});
         }
     }
+    std::sort(axes_.begin(), axes_.end(), [](const Axis& s, const Axis& t) {
+        return s.hub != t.hub ? s.hub < t.hub : s.edge < t.edge;
+    });
+}
+
+/// From neighbour to neighbour, so that the nearer ones come first.
+void Hubs::find_near_hubs(const JudgedMesh& judged) {
+    NearHubs nothing;
+    nothing.fill(VertexIndex::none());
+    near_.assign(degree_.size(), nothing);
+    for (VertexIndex v{0}; v < judged.mesh.points.end_index(); ++v) {
+        if (is_hub(v)) near_[v.value()][0] = v;
+    }
+    for (int distance = 1; distance <= reach; ++distance) {
+        const std::vector<NearHubs> before = near_;
+        bool changed = false;
+        const auto tell = [&](VertexIndex from, VertexIndex to) {
+            for (const VertexIndex hub : before[from.value()]) {
+                if (hub.is_none()) return;
+                NearHubs& known = near_[to.value()];
+                const auto place = std::find_if(known.begin(), known.end(), [&](VertexIndex h) {
+                    return h.is_none() || h == hub;
+                });
+                if (place == known.end() || *place == hub) continue;
+                *place = hub;
+                changed = true;
+            }
+        };
+        judged.edges.for_each([&](const EdgeVertices& edge) {
+            tell(edge[0], edge[1]);
+            tell(edge[1], edge[0]);
+        });
+        if (!changed) return;
+    }
+}
+
+/// Calls visit(apex) for a hub, and for the edges there that are hubs.
+void Hubs::for_each_view(VertexIndex hub, bool from_edges, auto&& visit) const {
+    visit(Apex{hub, VertexIndex::none()});
+    if (!from_edges) return;
+    auto axis = std::lower_bound(axes_.begin(), axes_.end(), hub,
+                                 [](const Axis& s, VertexIndex v) { return s.hub < v; });
+    for (; axis != axes_.end() && axis->hub == hub; ++axis) visit(axis->edge);
+}
+
+Apex Hubs::apex_of(std::span<const VertexIndex> entity) const {
+    if (none()) return {};
+    const Apex apex = apex_at(entity);
+    return apex.is_none() ? apex_near(entity) : apex;
+}
+
+/// Of the hubs that it has, and of the edges there, the one from which it takes least room. Of an
+/// edge, which is a point from both of its ends, the one with the most edges.
+Apex Hubs::apex_at(std::span<const VertexIndex> entity) const {
+    Apex best;
+    double least = std::numeric_limits<double>::infinity();
+    std::uint32_t most = 0;
+    for (const VertexIndex v : entity) {
+        if (!is_hub(v)) continue;
+        if (entity.size() == 2) {
+            if (degree_[v.value()] > most) best = {v, VertexIndex::none()};
+            most = std::max(most, degree_[v.value()]);
+            continue;
+        }
+        for_each_view(v, true, [&](const Apex& apex) {
+            const double room = view_from(apex, entity, *points_).room;
+            if (room < least || best.is_none()) best = apex;
+            least = std::min(least, room);
+        });
+    }
+    return best;
+}
+
+/// Of the hubs nearby, and of the edges there, the one from which it takes least room, if it is
+/// slender from there.
+Apex Hubs::apex_near(std::span<const VertexIndex> entity) const {
+    Apex best;
+    double least = std::numeric_limits<double>::infinity();
+    Bounds box;
+    for (const VertexIndex v : entity) box.take((*points_)[v]);
+    const double length = longest_side(box);
+    for (const VertexIndex v : entity) {
+        for (const VertexIndex hub : near_[v.value()]) {
+            if (hub.is_none()) break;
+            for_each_view(hub, entity.size() > 2, [&](const Apex& apex) {
+                const View view = view_from(apex, entity, *points_);
+                if (!(slender * view.width < length) || view.room >= least) return;
+                best = apex;
+                least = view.room;
+            });
+        }
+    }
+    return best;
 }
 
 }  // namespace octetra::verify

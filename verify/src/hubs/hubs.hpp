@@ -1,13 +1,16 @@
 #pragma once
 
+#include <array>
+#include <optional>
+#include <span>
 #include <vector>
 
-#include "lookup/edge_table.hpp"
+#include "hubs/directions.hpp"
 #include "mesh/judged_mesh.hpp"
 
 namespace octetra::verify {
 
-/// What a fan of entities has in common: a vertex, or an edge.
+/// From where a fan of entities is seen: a vertex, or an edge.
 struct Apex {
     VertexIndex a = VertexIndex::none();
     VertexIndex b = VertexIndex::none();  ///< none() of a vertex
@@ -18,52 +21,44 @@ struct Apex {
     friend constexpr auto operator<=>(const Apex&, const Apex&) = default;
 };
 
-/// Vertices and edges with so many cells that not all pairs of these can be looked at.
+[[nodiscard]] Viewpoint viewpoint_of(const Apex& apex,
+                                     const IndexVector<VertexIndex, Point>& points);
+
+/// Vertices and edges with so many cells that not all pairs of these can be looked at. What is at a
+/// hub, or near one and much longer than wide as seen from there, has a box that tells little, and
+/// a direction that tells much.
 class Hubs {
 public:
     explicit Hubs(const JudgedMesh& judged);
 
     [[nodiscard]] bool none() const { return hubs_ == 0; }
 
-    /// What an edge, face or cell is sorted under: the hub that it has, none if it has none. Of
-    /// several, edges go before vertices, as what they have in common is more, and then the one
-    /// with the most entities.
-    template <std::size_t N>
-    [[nodiscard]] Apex apex_of(const std::array<VertexIndex, N>& entity) const {
-        if (none()) return {};
-        Apex best;
-        std::uint32_t most = 0;
-        for (const VertexIndex v : entity) {
-            if (is_hub(v) && degree_[v.value()] > most) {
-                best = {v, VertexIndex::none()};
-                most = degree_[v.value()];
-            }
-        }
-        if (N == 2 || best.is_none()) return best;
-        most = 0;
-        for (std::size_t i = 0; i < N; ++i) {
-            for (std::size_t k = 0; k < i; ++k) {
-                const std::uint32_t cells = cells_around(entity[i], entity[k]);
-                if (cells <= many_ || cells <= most) continue;
-                best = {std::min(entity[i], entity[k]), std::max(entity[i], entity[k])};
-                most = cells;
-            }
-        }
-        return best;
-    }
+    /// From where an edge, face or cell is looked at by its directions; none: it is found by its
+    /// box. Edges are looked at from vertices only.
+    [[nodiscard]] Apex apex_of(std::span<const VertexIndex> entity) const;
 
 private:
-    [[nodiscard]] bool is_hub(VertexIndex v) const { return degree_[v.value()] > many_; }
-    [[nodiscard]] std::uint32_t cells_around(VertexIndex v, VertexIndex w) const {
-        if (!is_hub(v) || !is_hub(w)) return 0;
-        const std::uint32_t cells = cells_around_.find(v, w);
-        return cells == EdgeTable::absent ? 0 : cells;
-    }
+    /// Some of the hubs that are nearest to a vertex, counted in edges.
+    using NearHubs = std::array<VertexIndex, 4>;
+    struct Axis {
+        VertexIndex hub;
+        Apex edge;  ///< which has the hub, and is one itself
+    };
 
+    void find_axes(const JudgedMesh& judged);
+    void find_near_hubs(const JudgedMesh& judged);
+
+    [[nodiscard]] bool is_hub(VertexIndex v) const { return degree_[v.value()] > many_; }
+    [[nodiscard]] Apex apex_at(std::span<const VertexIndex> entity) const;
+    [[nodiscard]] Apex apex_near(std::span<const VertexIndex> entity) const;
+    void for_each_view(VertexIndex hub, bool from_edges, auto&& visit) const;
+
+    const IndexVector<VertexIndex, Point>* points_;
     std::uint32_t many_;
     std::vector<std::uint32_t> degree_;  ///< of each vertex: how many edges it has
     std::size_t hubs_ = 0;
-    EdgeTable cells_around_;  ///< edges that join hubs
+    std::vector<Axis> axes_;      ///< ascending by hub
+    std::vector<NearHubs> near_;  ///< of each vertex; empty where there is no hub
 };
 
 }  // namespace octetra::verify

@@ -12,7 +12,7 @@ namespace octetra::verify {
 namespace {
 
 /// Vertices against cells. Cells look for the vertices in their boxes; but vertices look for the
-/// cells at hubs, as boxes of these may have each a share of all vertices.
+/// cells at hubs and near them, as boxes of these may have each a share of all vertices.
 class HangingCheck {
 public:
     HangingCheck(const JudgedMesh& judged, Findings& findings)

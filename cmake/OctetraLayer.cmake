@@ -8,22 +8,36 @@ function(octetra_compile_options target)
   target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic -Wshadow -Wconversion
                                            -Wsign-conversion -Wold-style-cast
                                            # {.radius = 1} leaves the rest at their defaults
-                                           -Wno-missing-field-initializers)
+                                           -Wno-missing-field-initializers
+                                           # A fused multiply-add would round squared lengths, and the
+                                           # order of edges, otherwise in one place than in another.
+                                           -ffp-contract=off)
   if(OCTETRA_WARNINGS_AS_ERRORS)
     target_compile_options(${target} PRIVATE -Werror)
   endif()
 endfunction()
 
-# octetra_layer(<name> SOURCES <file>... HEADERS <file>... [LINKS <target>...] [USES <target>...])
-# LINKS are part of the layer's interface, USES are not.
+# octetra_layer(<name> SOURCES <file>... HEADERS <file>... [LAYER_HEADERS <file>...]
+#               [LINKS <target>...] [USES <target>...])
+# LAYER_HEADERS, under layers/, are for other layers and not for users; they ask for the options of
+# octetra_compile_options. LINKS are part of the layer's interface, USES are not. BUILD_SHARED_LIBS
+# decides what kind of library it is; a static one can be linked into a shared one, too.
 function(octetra_layer name)
-  cmake_parse_arguments(PARSE_ARGV 1 layer "" "" "SOURCES;HEADERS;LINKS;USES")
-  add_library(octetra_${name} STATIC ${layer_SOURCES})
+  cmake_parse_arguments(PARSE_ARGV 1 layer "" "" "SOURCES;HEADERS;LAYER_HEADERS;LINKS;USES")
+  add_library(octetra_${name} ${layer_SOURCES})
   add_library(Octetra::${name} ALIAS octetra_${name})
   set_target_properties(octetra_${name} PROPERTIES EXPORT_NAME ${name}
+                                                   POSITION_INDEPENDENT_CODE ON
                                                    VERIFY_INTERFACE_HEADER_SETS ON)
   target_sources(octetra_${name} PUBLIC FILE_SET HEADERS BASE_DIRS include FILES ${layer_HEADERS})
+  if(layer_LAYER_HEADERS)
+    target_sources(octetra_${name} PUBLIC FILE_SET layer_headers TYPE HEADERS BASE_DIRS layers
+                                          FILES ${layer_LAYER_HEADERS})
+  endif()
   target_include_directories(octetra_${name} PRIVATE src)
   target_link_libraries(octetra_${name} PUBLIC ${layer_LINKS} PRIVATE ${layer_USES})
   octetra_compile_options(octetra_${name})
+  # Nobody replaces our functions by others of their name, so they may be inlined in a shared library.
+  target_compile_options(octetra_${name} PRIVATE
+                         $<$<CXX_COMPILER_ID:GNU>:-fno-semantic-interposition>)
 endfunction()

@@ -12,8 +12,9 @@
 ///    number: only on coordinates. Every process finds the same longest edge;
 ///  - nor on the scale: multiplying all coordinates by a power of two changes no answer, as long as
 ///    it is exact.
-/// Compile users with -ffp-contract=off (the CMake target passes it on): a fused multiply-add
-/// would round the squared length otherwise in one place than in another.
+/// For layers only, and not installed: a fused multiply-add would round a squared length otherwise
+/// in one place than in another, so what includes this is compiled with -ffp-contract=off. Users of
+/// the libraries need no such option.
 namespace octetra {
 
 /// An edge by the positions of its end points.

@@ -26,7 +26,7 @@ namespace octetra::cli {
 namespace {
 
 extern "C" void remove_files_and_end(int signal) {
-    remove_unfinished_files();
+    if (!remove_unfinished_files(signal)) return;  // it will come again
     std::signal(signal, SIG_DFL);
     std::raise(signal);
 }

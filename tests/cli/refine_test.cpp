@@ -1,3 +1,5 @@
+#include <csignal>
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -288,6 +290,35 @@ TEST(Refine, EndedByASignalWhileItWritesLeavesNothingBehind) {
         EXPECT_GT(run.status, 128) << "it should have been ended by the signal";
         for (const auto& entry : std::filesystem::directory_iterator(folder.path())) {
             EXPECT_THAT(entry.path().filename().string(), testing::StartsWith("cube."));
+        }
+    }
+}
+
+/// See tests/support/rename_interrupter.cpp.
+TEST(Refine, EndedByASignalBetweenRenamesPutsAllFilesOfTheMeshInPlace) {
+    const TemporaryFolder folder;
+    ASSERT_EQ(test::octetra("generate kuhn 2 -o cube.ele --quiet", folder).status, 0);
+    const std::string refine = OCTETRA_PROGRAM " refine cube.ele --all --quiet -o ";
+    ASSERT_EQ(test::run_program(test::words(refine + "whole.ele"), folder.path()).status, 0);
+    const std::string preload = OCTETRA_RENAME_INTERRUPTER " -x OCTETRA_RENAMES=3 ";
+    const std::string alone =
+        "env ASAN_OPTIONS=verify_asan_link_order=0 OCTETRA_RENAMES=3 LD_PRELOAD=";
+    const std::string on_two = OCTETRA_SOURCE_DIR "/tests/support/mpirun.sh 2 -x LD_PRELOAD=";
+    for (const std::string& run : {alone + OCTETRA_RENAME_INTERRUPTER " ", on_two + preload}) {
+        for (const std::string extension : {".node", ".ele", ".face", ".edge"}) {
+            (void)folder.write("fine" + extension, "of an older mesh\n");
+        }
+        const auto outcome =
+            test::run_program(test::words(run + refine + "fine.ele"), folder.path());
+        EXPECT_EQ(outcome.status, 128 + SIGTERM) << run << outcome.err;
+        for (const std::string extension : {".node", ".ele", ".face"}) {
+            EXPECT_TRUE(test::content_of(folder / ("fine" + extension)) ==
+                        test::content_of(folder / ("whole" + extension)))
+                << run << extension;
+        }
+        EXPECT_FALSE(std::filesystem::exists(folder / "fine.edge")) << run;
+        for (const auto& entry : std::filesystem::directory_iterator(folder.path())) {
+            EXPECT_NE(entry.path().extension(), ".tmp") << entry.path();
         }
     }
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <csignal>
 #include <map>
 #include <numbers>
 #include <random>
@@ -41,6 +42,23 @@ TEST(Partition, OfEveryMethodGivesEachCellAPart) {
         }
     }
     EXPECT_TRUE(partition_cells(Mesh{}, 3, parse_partition("lepp")).empty());
+}
+
+extern "C" void ignore_signal(int /*signal*/) {}
+
+/// METIS has some of its own while it works.
+TEST(Partition, LeavesSignalHandlersAsTheyWere) {
+    struct sigaction mine {};
+    mine.sa_handler = ignore_signal;
+    mine.sa_flags = SA_RESTART;
+    struct sigaction before {};
+    ASSERT_EQ(::sigaction(SIGTERM, &mine, &before), 0);
+    (void)partition_cells(test::shaken_kuhn(4, 0.2, 1), 5, parse_partition("lepp"));
+    struct sigaction after {};
+    EXPECT_EQ(::sigaction(SIGTERM, &before, &after), 0);
+    EXPECT_EQ(after.sa_handler, ignore_signal);
+    EXPECT_TRUE((after.sa_flags & SA_RESTART) != 0);
+    EXPECT_FALSE((after.sa_flags & static_cast<int>(SA_RESETHAND)) != 0) << "it works but once";
 }
 
 TEST(Partition, FilesAreReadAndChecked) {

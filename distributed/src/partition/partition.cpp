@@ -6,6 +6,7 @@
 #include <cerrno>
 #include <charconv>
 #include <cmath>
+#include <csignal>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
@@ -34,20 +35,49 @@ std::int64_t most_of_a_node(std::int64_t all, int parts) {
     return all / (nodes_per_part * parts);
 }
 
-std::vector<int> partition_graph(CellGraph graph, int parts) {
-    static_assert(sizeof(idx_t) == sizeof(std::int32_t));
+/// While METIS works it takes SIGABRT and SIGTERM for news of itself, and afterwards it leaves
+/// handlers that work but once. This puts back what was there before.
+class KeptSignalHandlers {
+public:
+    KeptSignalHandlers() {
+        for (Kept& kept : kept_) ::sigaction(kept.signal, nullptr, &kept.action);
+    }
+    ~KeptSignalHandlers() {
+        for (const Kept& kept : kept_) ::sigaction(kept.signal, &kept.action, nullptr);
+    }
+    KeptSignalHandlers(const KeptSignalHandlers&) = delete;
+    KeptSignalHandlers& operator=(const KeptSignalHandlers&) = delete;
+    KeptSignalHandlers(KeptSignalHandlers&&) = delete;
+    KeptSignalHandlers& operator=(KeptSignalHandlers&&) = delete;
+
+private:
+    struct Kept {
+        int signal;
+        struct sigaction action {};
+    };
+    std::array<Kept, 2> kept_{{{SIGABRT}, {SIGTERM}}};
+};
+
+int run_metis(CellGraph& graph, idx_t parts, std::vector<int>& node_to_part) {
+    const KeptSignalHandlers kept;
     auto node_count = static_cast<idx_t>(graph.node_weights.size());
-    std::vector<int> node_to_part(graph.node_weights.size());
     idx_t constraints = 1;
-    idx_t part_count = parts;
     idx_t cut = 0;
     std::array<idx_t, METIS_NOPTIONS> options{};
     METIS_SetDefaultOptions(options.data());
     options[METIS_OPTION_SEED] = 1;
-    const int status =
-        METIS_PartGraphKway(&node_count, &constraints, graph.begin.data(), graph.neighbours.data(),
-                            graph.node_weights.data(), nullptr, graph.weights.data(), &part_count,
-                            nullptr, nullptr, options.data(), &cut, node_to_part.data());
+    return METIS_PartGraphKway(&node_count, &constraints, graph.begin.data(),
+                               graph.neighbours.data(), graph.node_weights.data(), nullptr,
+                               graph.weights.data(), &parts, nullptr, nullptr, options.data(), &cut,
+                               node_to_part.data());
+}
+
+std::vector<int> partition_graph(CellGraph graph, int parts) {
+    static_assert(sizeof(idx_t) == sizeof(std::int32_t));
+    std::vector<int> node_to_part(graph.node_weights.size());
+    const int status = run_metis(graph, parts, node_to_part);
+    // Neither wrong input nor a want of memory, which have their own: METIS has met a SIGTERM.
+    if (status == METIS_ERROR) std::raise(SIGTERM);
     if (status != METIS_OK) throw SystemError("METIS could not partition the mesh");
     std::vector<int> cell_to_part(graph.cell_to_node.size());
     for (std::size_t c = 0; c < cell_to_part.size(); ++c) {

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
+#include <optional>
 #include <utility>
 
 #include <fmt/format.h>
@@ -111,11 +112,33 @@ void OutputFile::close() {
 
 void OutputFile::commit() {
     if (file_ >= 0) close();
-    if (group_->is_first() && ::rename(temporary_.c_str(), place_.c_str()) != 0) {
-        fail("cannot be put in place");
-    }
+    if (group_->is_first()) rename();
     agree();
     committed_ = true;
+}
+
+void OutputFile::commit_all(const std::vector<std::unique_ptr<OutputFile>>& files,
+                            const ProcessGroup& group, const std::function<void()>& rest) {
+    for (const auto& file : files) file->close();
+    // Ended by a signal, every process removes the temporary files. So none may begin to rename
+    // before all defer such an end. The first begins last, to be ended as ever where another is not
+    // there any more.
+    std::optional<DeferredEnd> deferred;
+    if (!group.is_first()) deferred.emplace();
+    group.agree({});
+    if (group.is_first()) deferred.emplace();
+    group.on_first([&] {
+        for (const auto& file : files) {
+            file->rename();
+            if (!file->failure_.empty()) throw SystemError(file->failure_);
+        }
+        rest();
+    });
+    for (const auto& file : files) file->committed_ = true;
+}
+
+void OutputFile::rename() {
+    if (::rename(temporary_.c_str(), place_.c_str()) != 0) fail("cannot be put in place");
 }
 
 /// One process alone writes what it has; one of a group keeps it until its turn.

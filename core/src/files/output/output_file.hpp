@@ -4,6 +4,8 @@
 #include <concepts>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
+#include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -51,9 +53,13 @@ public:
     /// Replaces bytes that were put before (in earlier turns, by whichever process).
     void overwrite(std::uint64_t position, const void* data, std::size_t size);
 
-    /// Brings everything to the file and closes it. Call it on all files of a set, then commit().
+    /// Brings everything to the file and closes it.
     void close();
     void commit();
+    /// Commits files that belong together, when all are complete, and then does `rest` on the first
+    /// process. A signal that would end the program in between waits until all is done.
+    static void commit_all(const std::vector<std::unique_ptr<OutputFile>>& files,
+                           const ProcessGroup& group, const std::function<void()>& rest);
 
 private:
     void put_number(auto number) {
@@ -66,6 +72,7 @@ private:
     [[nodiscard]] bool is_alone() const { return group_->size() == 1; }
     void make_room(std::size_t size);
     void open();
+    void rename();
     void write_at(std::uint64_t position, const void* data, std::size_t size);
     void fail(std::string_view doing);
     void agree();

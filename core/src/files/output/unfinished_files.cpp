@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
+#include <csignal>
 
 #include <octetra/core/files/unfinished_files.hpp>
 
@@ -22,6 +23,13 @@ struct Slot {
 constexpr std::size_t slot_count = 8;
 std::array<Slot, slot_count> slots;
 static_assert(std::atomic<bool>::is_always_lock_free);
+
+/// A set of files is put in place, or temporary files are removed; never both. The handler may run
+/// in another thread than the one that writes: MPI has some of its own.
+enum class Doing { neither, putting_in_place, removing };
+std::atomic<Doing> doing = Doing::neither;
+std::atomic<int> deferred_signal = 0;
+static_assert(std::atomic<Doing>::is_always_lock_free && std::atomic<int>::is_always_lock_free);
 
 }  // namespace
 
@@ -45,10 +53,27 @@ UnfinishedFile::~UnfinishedFile() {
     slots[slot_].taken = false;
 }
 
-void remove_unfinished_files() noexcept {
+DeferredEnd::DeferredEnd() {
+    Doing now = Doing::neither;
+    if (doing.compare_exchange_strong(now, Doing::putting_in_place)) return;
+    while (true) ::pause();  // the handler, in another thread, is about to end the program
+}
+
+DeferredEnd::~DeferredEnd() {
+    doing = Doing::neither;
+    if (const int signal = deferred_signal.exchange(0); signal != 0) std::raise(signal);
+}
+
+bool remove_unfinished_files(int signal) noexcept {
+    deferred_signal = signal;  // before the look at `doing`, or it could come too late to be seen
+    Doing now = Doing::neither;
+    if (!doing.compare_exchange_strong(now, Doing::removing) && now == Doing::putting_in_place) {
+        return false;
+    }
     for (const Slot& slot : slots) {
         if (slot.used) ::unlink(slot.path.data());
     }
+    return true;
 }
 
 }  // namespace octetra

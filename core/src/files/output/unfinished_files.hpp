@@ -19,4 +19,16 @@ private:
     std::size_t slot_;
 };
 
+/// While one of these lives, a signal that would end the program waits, as far as
+/// remove_unfinished_files() is its handler's way to ask. One at a time.
+class DeferredEnd {
+public:
+    DeferredEnd();
+    ~DeferredEnd();
+    DeferredEnd(const DeferredEnd&) = delete;
+    DeferredEnd& operator=(const DeferredEnd&) = delete;
+    DeferredEnd(DeferredEnd&&) = delete;
+    DeferredEnd& operator=(DeferredEnd&&) = delete;
+};
+
 }  // namespace octetra

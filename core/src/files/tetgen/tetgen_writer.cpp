@@ -130,9 +130,7 @@ void write_tetgen(MeshSource& mesh, const fs::path& path) {
             {facts.edges, &MeshSource::edges, facts.has_edge_markers, &MeshSource::edge_markers});
     }
 
-    for (const auto& file : files) file->close();
-    for (const auto& file : files) file->commit();
-    group.on_first([&] {
+    OutputFile::commit_all(files, group, [&] {
         remove_stale_lists(path, ".face", facts.facets > 0);
         remove_stale_lists(path, ".edge", facts.edges > 0);
     });

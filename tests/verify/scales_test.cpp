@@ -1,4 +1,5 @@
 #include <cmath>
+#include <limits>
 
 #include <gtest/gtest.h>
 
@@ -85,6 +86,26 @@ TEST(Scales, MayBeThoseOfTheSmallestAndTheLargestNumbers) {
 }
 
 /// A difference of two of these coordinates is more than the largest number.
+/// Half way between the ends of an edge of one unit another vertex may lie, by rounding, which is
+/// no midpoint; the verifier must not lose itself in looking for what such midpoints would have
+/// cut.
+TEST(Scales, OfEdgesThatNoNumberHalvesAreJudgedToo) {
+    const Mesh mesh =
+        test::mesh_of({{-1, -1, -1}, {1, -1, -1}, {-1, 1, -1}, {-1, -1, 1}, {1, 1, 1}},
+                      {{0, 1, 2, 3}, {1, 2, 3, 4}});
+    Mesh tiny = mesh;
+    Mesh huge = mesh;
+    constexpr double smallest = std::numeric_limits<double>::denorm_min();
+    for (Point& p : tiny.points) p = {2 * smallest * p.x, 2 * smallest * p.y, 2 * smallest * p.z};
+    for (Point& p : huge.points) p = {0x1p53 + 4 * p.x, 0x1p53 + 4 * p.y, 0x1p53 + 4 * p.z};
+    for (const Mesh& coarse : {tiny, huge}) {
+        for (const int levels : {1, 2}) {
+            const Mesh fine = reference::refine(coarse, {.all = true}, Scheme::eight, levels).mesh;
+            EXPECT_EQ(codes_of(verify_refinement(coarse, fine)), "") << levels;
+        }
+    }
+}
+
 TEST(Scales, OfShapesAreNoHindranceWhereDifferencesOverflow) {
     std::array<Point, 4> corners = test::regular_corners;
     for (Point& p : corners) p = times(p, 1023);

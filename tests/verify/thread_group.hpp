@@ -1,7 +1,9 @@
 #pragma once
 
-#include <barrier>
+#include <condition_variable>
+#include <cstdint>
 #include <functional>
+#include <mutex>
 #include <thread>
 #include <vector>
 
@@ -9,12 +11,38 @@
 
 namespace octetra::test {
 
+/// Where so many threads wait for each other, again and again. (std::barrier of libstdc++ 12 now
+/// and then wakes nobody.)
+class Barrier {
+public:
+    explicit Barrier(int size) : size_(size) {}
+
+    void wait() {
+        std::unique_lock lock(mutex_);
+        const std::uint64_t turn = turn_;
+        if (++arrived_ == size_) {
+            arrived_ = 0;
+            ++turn_;
+            all_are_here_.notify_all();
+            return;
+        }
+        all_are_here_.wait(lock, [&] { return turn_ != turn; });
+    }
+
+private:
+    std::mutex mutex_;
+    std::condition_variable all_are_here_;
+    int size_;
+    int arrived_ = 0;
+    std::uint64_t turn_ = 0;
+};
+
 /// Threads in place of processes, for what knows of others by ProcessGroup alone.
 class ThreadGroup final : public ProcessGroup {
 public:
     struct Board {
-        explicit Board(int size) : meeting(size), outboxes(static_cast<std::size_t>(size)) {}
-        std::barrier<> meeting;
+        explicit Board(int size) : barrier(size), outboxes(static_cast<std::size_t>(size)) {}
+        Barrier barrier;
         std::vector<std::vector<Bytes>> outboxes;  ///< of each thread, to each
     };
 
@@ -26,10 +54,10 @@ public:
     [[nodiscard]] std::vector<Bytes> exchange(std::vector<Bytes> to_each) const override {
         const auto own = static_cast<std::size_t>(rank_);
         board_->outboxes[own] = std::move(to_each);
-        board_->meeting.arrive_and_wait();
+        board_->barrier.wait();
         std::vector<Bytes> received;
         for (auto& outboxes : board_->outboxes) received.push_back(std::move(outboxes.at(own)));
-        board_->meeting.arrive_and_wait();
+        board_->barrier.wait();
         return received;
     }
 

@@ -103,8 +103,11 @@ bool CellDivider::divide(const Piece& piece) {
         leaves_.push_back({CellIndex{found.front().tag}, piece});
         return true;
     }
-    if (piece.depth < most_depth && budget_-- > 0) {
+    CellVertices ascending = piece.vertices;
+    std::sort(ascending.begin(), ascending.end());
+    if (piece.depth < most_depth && budget_-- > 0 && hopeless_.count(ascending) == 0) {
         if (bisect(piece) || cut_into_eight(piece)) return true;
+        hopeless_.insert(ascending);
     }
     if (stuck_leaves_ == 0 || leaves_.size() + 1 > stuck_leaves_) {
         stuck_ = piece.vertices;

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <set>
 #include <vector>
 
 #include <octetra/core/mesh.hpp>
@@ -67,6 +68,9 @@ private:
     Lines* lines_;
     std::vector<Leaf> leaves_;
     std::vector<Split> splits_;
+    /// Pieces that cannot be divided, their vertices ascending. A mesh that is right has few: only
+    /// where edges are so short that midpoints are rounded to other vertices.
+    std::set<CellVertices> hopeless_;
     std::int64_t budget_ = 0;  ///< how many more pieces may be divided: a wrong mesh has many ways
     CellVertices stuck_;
     std::size_t stuck_leaves_ = 0;

@@ -17,15 +17,16 @@
 #include "support/meshes.hpp"
 #include "support/thrown.hpp"
 
-/// Each rank goes about a level in one of two kinds, the dense or the sparse one, and in the dense
-/// one it numbers all edges or those near the marked cells: whichever it is, the result is the
-/// reference's, and the work of the sparse one is in proportion to what changes.
+/// Each rank goes about a level in one of two kinds, a full sweep or an incremental one, and in a
+/// full one it numbers all edges or those near the marked cells: whichever it is, the result is the
+/// reference's, and the work of an incremental level is in proportion to what changes.
 namespace octetra::distributed {
 namespace {
 
 constexpr double always = 10;
 
-/// Which rank takes which way; `near` is the dense one with edges numbered near the marked cells.
+/// Which rank takes which way; `local_sweep` is a full sweep with edges numbered near the marked
+/// cells.
 enum class Kinds { full_sweep, local_sweep, incremental, alternating, alternating_otherwise };
 
 Tuning tuning_of(Kinds kinds, int level) {
@@ -220,7 +221,7 @@ TEST(IncrementalLevel, IsNotTakenWhereManyCellsAreMarkedOrFewEverywhere) {
         const std::uint64_t cells = test::world().sum(mesh.cells.size());
         const auto work = work_of(mesh, selection, 2);
         if (!test::world().is_first()) continue;
-        // Every cell was judged, unless all are marked, and then went the dense way.
+        // Every cell was judged, unless all are marked, and then went the way of a full sweep.
         const std::uint64_t times = selection.all ? 1 : 2;
         EXPECT_EQ(work[1].touched, times * cells);
         EXPECT_EQ(work[2].touched, times * work[1].cells);

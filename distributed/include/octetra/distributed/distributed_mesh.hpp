@@ -52,7 +52,7 @@ struct DeleteAdjacency {
 ///
 /// Vertices are numbered locally, in ascending canonical order: first those of the input, then the
 /// midpoints of each level. Cells and what is tagged are in canonical order as well, as far as this
-/// process has them, unless the mesh is `loose`: see restore_canonical_order().
+/// process has them, unless the mesh is unordered: see restore_canonical_order().
 struct DistributedMesh {
     Communicator processes;
 
@@ -82,7 +82,7 @@ struct DistributedMesh {
     std::vector<Interface>
         interfaces;  ///< one for each process that shares an edge; rank ascending
 
-    /// The engine's own. While there is one, the mesh is loose.
+    /// The engine's own. While there is one, the mesh is unordered.
     std::unique_ptr<Adjacency, DeleteAdjacency> adjacency;
 
     // The same on all processes:
@@ -99,10 +99,10 @@ struct DistributedMesh {
                                          const std::vector<int>& cell_to_rank);
 
 /// Brings cells and tagged facets and edges into canonical order, and their lineages up to date.
-/// Refinement leaves a process's mesh loose where few of its cells were bisected: these stand there
-/// in no order, and lineages are not to be looked at. Takes time and memory in proportion to the
-/// process's part, and what refinement has kept is lost. Whatever collects or writes a mesh does
-/// this. Not collective.
+/// Refinement leaves a process's mesh unordered where few of its cells were bisected: these stand
+/// there in no order, and lineages are not to be looked at. Takes time and memory in proportion to
+/// the process's part, and what refinement has kept is lost. Whatever collects or writes a mesh
+/// does this. Not collective.
 void restore_canonical_order(DistributedMesh& mesh);
 
 /// What collect() puts together again.

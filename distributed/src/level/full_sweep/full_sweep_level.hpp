@@ -12,7 +12,7 @@ namespace octetra::distributed {
 /// to the process's part, and least for each cell that it bisects.
 class FullSweepLevel final : public Level {
 public:
-    /// The mesh must be in order.
+    /// The mesh must be in canonical order.
     FullSweepLevel(DistributedMesh& mesh, const MarkedCells& marked, double local_below);
 
     /// Marks edges of the marked cells, the same as before.

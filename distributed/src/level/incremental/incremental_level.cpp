@@ -72,11 +72,11 @@ void IncrementalLevel::bisect_edges() {
 
 MidpointMarker IncrementalLevel::marker_of(const EdgeVertices& edge) const {
     MidpointMarker known;
-    const auto learn = [&](const auto& loose, const auto& list, const AncestorMap& ancestors,
+    const auto learn = [&](const auto& unordered, const auto& list, const AncestorMap& ancestors,
                            MidpointMarker::Source source) {
         if (ancestors.markers.empty()) return;
-        loose.for_each_with(edge, list, [&](auto i, std::size_t) {
-            take_marker(known, source, ancestors.markers[loose.root_of(i, ancestors)]);
+        unordered.for_each_with(edge, list, [&](auto i, std::size_t) {
+            take_marker(known, source, ancestors.markers[unordered.root_of(i, ancestors)]);
         });
     };
     learn(adjacency_->facets, mesh_->facets, mesh_->facet_ancestors, MidpointMarker::Source::facet);

@@ -11,7 +11,7 @@
 namespace octetra::distributed {
 
 /// The way for few marked cells: takes time in proportion to the cells that are bisected and those
-/// around them, once the mesh has its Adjacency; leaves the mesh loose.
+/// around them, once the mesh has its Adjacency; leaves the mesh unordered.
 class IncrementalLevel final : public Level {
 public:
     explicit IncrementalLevel(DistributedMesh& mesh);

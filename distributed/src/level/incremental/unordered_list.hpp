@@ -17,7 +17,8 @@ namespace octetra::distributed {
 /// A list of the mesh (cells, tagged facets or edges) while it changes in a few places only: the
 /// first piece of what is bisected takes its place, the others go to the end, and a linked list
 /// remembers the canonical order. The list and its ancestors are the mesh's, and handed in. As long
-/// as the list is loose, `ancestors.first` names the first descendant of every root, not ranges.
+/// as the list is unordered, `ancestors.first` names the first descendant of every root, not
+/// ranges.
 ///
 /// Memory: 4 bytes per entity beside those of Incidence, 8 for those that are added.
 template <class I, std::size_t N>

@@ -27,4 +27,11 @@ void reserve_with_room(Vector& list, std::size_t count) {
     reserve_in_huge_pages(list, count + count / 4);
 }
 
+/// Room for so many entries, if there is not: from then on no failure keeps the list from having
+/// them. May make room for more, so that a list that grows is not moved each time.
+template <class Vector>
+void make_room(Vector& list, std::size_t count) {
+    if (count > list.capacity()) reserve_with_room(list, count);
+}
+
 }  // namespace octetra::distributed

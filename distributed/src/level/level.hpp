@@ -14,6 +14,9 @@ namespace octetra::distributed {
 /// What one process does at one level, step by step; see refine_level(). There are two ways, and
 /// each process takes the one that suits its own part: nothing of them shows outside. No step is
 /// collective.
+///
+/// Until commit() the mesh is as it was, but for the midpoints behind its vertices. Whoever
+/// destroys a level that was not committed has the mesh as it was before: a step may throw.
 class Level {
 public:
     Level() = default;
@@ -26,12 +29,16 @@ public:
     /// The marked edges, of marked cells as yet, to be closed together with the other processes.
     [[nodiscard]] virtual Closure& closure() = 0;
 
+    /// Appends midpoints to the mesh's vertices.
     virtual void bisect_edges() = 0;
     [[nodiscard]] virtual std::size_t cell_count_afterwards() = 0;
-    /// Into so many. Where a failure is found, the mesh is not usable any more.
+    /// Into so many. Where a failure is found, the level must not be committed.
     [[nodiscard]] virtual RoundingFailure bisect_cells(std::size_t cell_count) = 0;
     virtual void bisect_tagged() = 0;
     virtual void bisect_interfaces() = 0;
+
+    /// Once all steps are done: from now on the mesh is the level's result.
+    virtual void commit() noexcept = 0;
 
     /// How many cells were looked at beyond judging them.
     [[nodiscard]] virtual std::size_t cells_touched() const = 0;

@@ -1,7 +1,7 @@
 #include <octetra/distributed/profile.hpp>
 #include <octetra/distributed/refine.hpp>
 
-#include "level/refine_level.hpp"
+#include "level/planned_level.hpp"
 #include "level/tuning.hpp"
 
 namespace octetra::distributed {
@@ -12,13 +12,12 @@ SynchronisationCounts refine(DistributedMesh& mesh, const Selection& selection,
     note_cells(mesh.processes, 0, mesh.cells.size(), 0);
     for (int level = 1; level <= options.levels; ++level) {
         const Phase phase(mesh.processes, "level", level);
-        const auto [counts, changed, touched] =
-            refine_level(mesh, selection, options, tuning, level);
-        if (!changed) break;  // and so it would be at all further levels
-        total.rounds += counts.rounds;
-        total.messages += counts.messages;
-        total.bytes += counts.bytes;
-        total.edges += counts.edges;
+        const auto mark = [&] { return mark_cells(mesh, selection, level > 1); };
+        PlannedLevel plan = plan_level(mesh, mark, options, tuning, level);
+        if (!plan.changes_anything()) break;  // and so it would be at all further levels
+        total += plan.counts;
+        const std::size_t touched = plan.judged + plan.level->cells_touched();
+        plan.commit();
         note_cells(mesh.processes, level, mesh.cells.size(), touched);
         const std::uint64_t cells = mesh.processes.sum(mesh.cells.size());
         if (options.on_level && mesh.processes.is_first()) options.on_level(level, cells);

@@ -79,51 +79,76 @@ std::vector<BorderSelection> addressed(const Outboxes& outboxes, const Distribut
 
 }  // namespace
 
-SynchronisationCounts synchronise_by_neighbours(Closure& closure, const DistributedMesh& mesh) {
-    const std::vector<int> neighbours = neighbours_of(mesh);
+std::optional<SynchronisationCounts> synchronise_by_neighbours(Closure* closure,
+                                                               const DistributedMesh& mesh,
+                                                               LocalFailure& failure) {
+    const Communicator& processes = mesh.processes;
+    std::vector<int> neighbours;
+    failure.attempt([&] { neighbours = neighbours_of(mesh); });
     SynchronisationCounts counts;
     while (true) {
-        close_locally(closure, mesh);
-        const Outboxes outboxes = closure.take_outboxes();
-        if (mesh.processes.sum(count(outboxes)) == 0) return counts;
-        note_round(mesh.processes);
+        Outboxes outboxes;
+        failure.attempt([&] {
+            close_locally(*closure, mesh);
+            outboxes = closure->take_outboxes();
+        });
+        const std::uint64_t most = failure.max_unless_failed(processes, count(outboxes));
+        if (most == LocalFailure::somewhere) return {};
+        if (most == 0) return counts;
+        note_round(processes);
         ++counts.rounds;
         counts.messages += neighbours.size();
         counts.edges += count(outboxes);
         counts.bytes += count(outboxes) * sizeof outboxes[0][0];
-        const auto inboxes = mesh.processes.exchange_with(neighbours, outboxes);
-        for (std::size_t i = 0; i < inboxes.size(); ++i) {
-            for (const std::uint32_t position : inboxes[i]) closure.mark_from(i, position);
-        }
+        failure.attempt([&] {
+            const auto inboxes = processes.exchange_with(neighbours, outboxes);
+            for (std::size_t i = 0; i < inboxes.size(); ++i) {
+                for (const std::uint32_t position : inboxes[i]) closure->mark_from(i, position);
+            }
+        });
     }
 }
 
-SynchronisationCounts synchronise_by_gateway(Closure& closure, const DistributedMesh& mesh) {
+std::optional<SynchronisationCounts> synchronise_by_gateway(Closure* closure,
+                                                            const DistributedMesh& mesh,
+                                                            LocalFailure& failure) {
     const Communicator& processes = mesh.processes;
-    const std::vector<int> neighbours = neighbours_of(mesh);
+    std::vector<int> neighbours;
+    failure.attempt([&] { neighbours = neighbours_of(mesh); });
     Gateway gateway;
     SynchronisationCounts counts;
     while (true) {
-        close_locally(closure, mesh);
-        const auto selections = addressed(closure.take_outboxes(), mesh);
-        if (processes.sum(selections.size()) == 0) return counts;
+        std::vector<BorderSelection> selections;
+        failure.attempt([&] {
+            close_locally(*closure, mesh);
+            selections = addressed(closure->take_outboxes(), mesh);
+        });
+        const std::uint64_t most = failure.max_unless_failed(processes, selections.size());
+        if (most == LocalFailure::somewhere) return {};
+        if (most == 0) return counts;
         note_round(processes);
         ++counts.rounds;
-        const auto from_each = processes.gather(selections);
         std::vector<std::vector<BorderSelection>> to_each;
         std::uint64_t edges = selections.size();
-        if (processes.is_first()) {  // what it says to itself, and hears from itself, is no message
+        failure.attempt([&] {
+            const auto from_each = processes.gather(selections);
+            if (!processes.is_first()) return;
+            // What it says to itself, and hears from itself, is no message.
             to_each = gateway.route(from_each);
             edges = count(to_each) - to_each.front().size();
-        }
+        });
+        if (failure.max_unless_failed(processes, 0) == LocalFailure::somewhere) return {};
         counts.messages +=
             processes.is_first() ? static_cast<std::uint64_t>(processes.size()) - 1 : 1;
         counts.edges += edges;
         counts.bytes += edges * sizeof(BorderSelection);
-        for (const BorderSelection& s : processes.scatter(to_each)) {
-            const auto sender = std::ranges::lower_bound(neighbours, s.from);
-            closure.mark_from(static_cast<std::size_t>(sender - neighbours.begin()), s.position);
-        }
+        failure.attempt([&] {
+            for (const BorderSelection& s : processes.scatter(to_each)) {
+                const auto sender = std::ranges::lower_bound(neighbours, s.from);
+                closure->mark_from(static_cast<std::size_t>(sender - neighbours.begin()),
+                                   s.position);
+            }
+        });
     }
 }
 

@@ -5,6 +5,7 @@
 
 #include <octetra/distributed/distributed_mesh.hpp>
 
+#include "level/huge_pages.hpp"
 #include "mark/selection_bounds.hpp"
 
 namespace octetra::distributed {
@@ -17,6 +18,11 @@ public:
     static constexpr std::size_t size = 32;
 
     explicit CellBlocks(const DistributedMesh& mesh) { append(mesh, CellIndex{0}); }
+
+    /// After this, append() does not fail for a mesh of so many cells.
+    void make_room(std::size_t cell_count) {
+        octetra::distributed::make_room(boxes_, (cell_count + size - 1) / size);
+    }
 
     /// Takes in the mesh's cells from this one on.
     void append(const DistributedMesh& mesh, CellIndex begin);

@@ -52,7 +52,10 @@ EdgeMask closure_of(std::size_t edge, const LongestFirst& longest_first) {
 /// A list of at most 8 that asks for no memory: there are two thousand to make.
 class Pieces {
 public:
-    using Piece = std::array<Place, 4>;
+    struct Piece {
+        std::array<Place, 4> places{};
+        std::uint8_t halvings = 0;
+    };
     void push_back(const Piece& piece) { pieces_[count_++] = piece; }
     [[nodiscard]] Piece& back() { return pieces_[count_ - 1]; }
     [[nodiscard]] std::size_t size() const { return count_; }
@@ -66,7 +69,7 @@ private:
 
 Pieces whole_cell() {
     Pieces pieces;
-    pieces.push_back({0, 1, 2, 3});
+    pieces.push_back({.places = {0, 1, 2, 3}});
     return pieces;
 }
 
@@ -78,10 +81,13 @@ Pieces bisected(const Pieces& pieces, std::uint8_t edge) {
     Pieces halves;
     for (const Pieces::Piece& piece : pieces) {
         halves.push_back(piece);
-        if (piece[low] != low || piece[high] != high) continue;
-        halves.back()[high] = midpoint;
-        halves.push_back(piece);
-        halves.back()[low] = midpoint;
+        if (piece.places[low] != low || piece.places[high] != high) continue;
+        Pieces::Piece half{piece.places, static_cast<std::uint8_t>(piece.halvings + 1)};
+        half.places[high] = midpoint;
+        halves.back() = half;
+        half.places = piece.places;
+        half.places[low] = midpoint;
+        halves.push_back(half);
     }
     return halves;
 }
@@ -107,12 +113,14 @@ public:
 
     /// The pattern's number among `patterns`, to which it is added if it is new.
     Number pattern_of(EdgeMask marked, const LongestFirst& longest_first,
-                      std::vector<Pattern>& patterns) {
+                      std::vector<Pattern>& patterns, std::vector<Division>& divisions) {
         std::size_t at = 0;
         for (const std::uint8_t edge : longest_first) {
             if ((marked & bit(edge)) != 0) at = after(at, edge);
         }
-        if (nodes_[at].pattern == none) nodes_[at].pattern = number_of(nodes_[at].pieces, patterns);
+        if (nodes_[at].pattern == none) {
+            nodes_[at].pattern = number_of(nodes_[at].pieces, patterns, divisions);
+        }
         return nodes_[at].pattern;
     }
 
@@ -132,14 +140,27 @@ private:
         return nodes_[node].after[edge];
     }
 
-    Number number_of(const Pieces& pieces, std::vector<Pattern>& patterns) {
+    Number number_of(const Pieces& pieces, std::vector<Pattern>& patterns,
+                     std::vector<Division>& divisions) {
         Pattern pattern;
         pattern.child_count = static_cast<std::uint8_t>(pieces.size());
-        std::ranges::copy(pieces, pattern.children.begin());
+        std::ranges::transform(pieces, pattern.children.begin(), &Pieces::Piece::places);
         const auto [place, fresh] =
             numbers_.try_emplace(code_of(pattern), static_cast<Number>(patterns.size()));
-        if (fresh) patterns.push_back(pattern);
+        if (fresh) {
+            pattern.division = division_of(pieces, divisions);
+            patterns.push_back(pattern);
+        }
         return place->second;
+    }
+
+    static DivisionNumber division_of(const Pieces& pieces, std::vector<Division>& divisions) {
+        Division division{.child_count = static_cast<std::uint8_t>(pieces.size())};
+        std::ranges::transform(pieces, division.halvings.begin(), &Pieces::Piece::halvings);
+        const auto found = std::ranges::find(divisions, division);
+        const auto number = static_cast<DivisionNumber>(found - divisions.begin());
+        if (found == divisions.end()) divisions.push_back(division);
+        return number;
     }
 
     std::vector<Node> nodes_ = {{whole_cell()}};
@@ -151,7 +172,8 @@ private:
 PatternTable::PatternTable()
     : order_by_comparisons_(std::size_t{1} << 15U, 0),
       closure_(order_count * mask_count),
-      pattern_number_(order_count * mask_count, 0) {
+      pattern_number_(order_count * mask_count, 0),
+      divisions_{{Division{}}} {
     LongestFirst longest_first{0, 1, 2, 3, 4, 5};
     Bisections bisections;
     for (LengthOrder order = 0; order < order_count; ++order) {
@@ -170,8 +192,8 @@ PatternTable::PatternTable()
         for (unsigned mask = 0; mask < mask_count; ++mask) {
             const std::size_t entry = order * mask_count + mask;
             if (closure_[entry] != mask) continue;
-            pattern_number_[entry] =
-                bisections.pattern_of(static_cast<EdgeMask>(mask), longest_first, patterns_);
+            pattern_number_[entry] = bisections.pattern_of(static_cast<EdgeMask>(mask),
+                                                           longest_first, patterns_, divisions_);
         }
         std::ranges::next_permutation(longest_first);
     }

@@ -20,9 +20,22 @@ inline constexpr EdgeMask all_edges = 0b111111;  ///< of a cell
 /// A corner (0..3) or the midpoint of edge k (4 + k).
 using Place = std::uint8_t;
 
+/// How many children a cell has, and how often it was halved for each of them: the share of child k
+/// in the cell's volume is 2^-halvings[k].
+struct Division {
+    std::uint8_t child_count = 1;
+    std::array<std::uint8_t, 8> halvings{};
+
+    friend auto operator<=>(const Division&, const Division&) = default;
+};
+
+/// The number of a division in PatternTable::divisions(); 0 is that of a cell which stays whole.
+using DivisionNumber = std::uint8_t;
+
 /// The children of a cell in canonical order.
 struct Pattern {
     std::uint8_t child_count = 0;
+    DivisionNumber division = 0;
     std::array<std::array<Place, 4>, 8> children{};
 };
 
@@ -58,6 +71,7 @@ public:
     [[nodiscard]] const Pattern& pattern(LengthOrder order, EdgeMask marked) const {
         return patterns_[pattern_number_[order * mask_count + marked]];
     }
+    [[nodiscard]] const std::vector<Division>& divisions() const { return divisions_; }
 
 private:
     static constexpr std::size_t mask_count = 64;
@@ -70,6 +84,7 @@ private:
     std::vector<EdgeMask> closure_;
     std::vector<std::uint16_t> pattern_number_;
     std::vector<Pattern> patterns_;
+    std::vector<Division> divisions_;
 };
 
 }  // namespace octetra::distributed

@@ -21,6 +21,10 @@ class Profile;  // see octetra/distributed/profile.hpp
 /// Collective functions are called by every process of the group, in the same order; those of
 /// ProcessGroup are. A group of one process never calls MPI, so that a program runs without mpirun
 /// and without MPI's start-up.
+///
+/// A process that has no memory for a message takes its part in the exchange all the same, and only
+/// then throws std::bad_alloc: no other waits for it. All others must be told by whoever called;
+/// see LocalFailure in src/comm.
 class Communicator final : public ProcessGroup {
 public:
     /// This process alone.
@@ -53,46 +57,52 @@ public:
     void broadcast(std::vector<T>& values) const {
         static_assert(std::is_trivially_copyable_v<T>);
         values.resize(broadcast_size(values.size()));
-        broadcast_bytes(values.data(), values.size() * sizeof(T));
+        broadcast_bytes(values.data(), values.size() * sizeof(T), 0);
+    }
+
+    /// Collective. The value that process `rank` has. Needs no memory.
+    template <class T>
+    [[nodiscard]] T of_rank(int rank, T value) const {
+        static_assert(std::is_trivially_copyable_v<T>);
+        broadcast_bytes(&value, sizeof value, rank);
+        return value;
     }
 
     /// Collective. to_each[r] goes to rank r; the result's [r] came from rank r.
     template <class T>
     [[nodiscard]] std::vector<std::vector<T>> all_to_all(
         const std::vector<std::vector<T>>& to_each) const {
-        return exchange_with<T>(every_rank(), to_each);
+        return send_and_receive<T>(every_rank(), to_each, every_rank());
     }
 
     /// Collective among neighbours. outboxes[i] goes to rank neighbours[i]; the result's [i] came
     /// from there. Who is whose neighbour must be mutual. One message to each, empty or not.
     template <class T>
     [[nodiscard]] std::vector<std::vector<T>> exchange_with(
-        const std::vector<int>& neighbours, const std::vector<std::vector<T>>& outboxes) const {
+        std::span<const int> neighbours, const std::vector<std::vector<T>>& outboxes) const {
         return send_and_receive<T>(neighbours, outboxes, neighbours);
     }
 
     /// Between two processes: one sends to the other, which receives. Both wait until it is done.
     template <class T>
     void send(const std::vector<T>& values, int receiver) const {
-        (void)send_and_receive<T>({receiver}, std::span(&values, 1), {});
+        (void)send_and_receive<T>(std::span(&receiver, 1), std::span(&values, 1), {});
     }
     template <class T>
     [[nodiscard]] std::vector<T> receive(int sender) const {
-        return std::move(send_and_receive<T>({}, {}, {sender}).front());
+        return std::move(send_and_receive<T>({}, {}, std::span(&sender, 1)).front());
     }
 
     /// Collective. The first process gets what each one has, by rank; the others get nothing.
     template <class T>
     [[nodiscard]] std::vector<std::vector<T>> gather(const std::vector<T>& values) const {
-        const std::vector<int> senders = is_first() ? every_rank() : std::vector<int>{};
-        return send_and_receive<T>({0}, std::span(&values, 1), senders);
+        return send_and_receive<T>(every_rank().first(1), std::span(&values, 1), if_first());
     }
 
     /// Collective. Rank r gets to_each[r] of the first process.
     template <class T>
     [[nodiscard]] std::vector<T> scatter(const std::vector<std::vector<T>>& to_each) const {
-        const std::vector<int> receivers = is_first() ? every_rank() : std::vector<int>{};
-        return std::move(send_and_receive<T>(receivers, to_each, {0}).front());
+        return std::move(send_and_receive<T>(if_first(), to_each, every_rank().first(1)).front());
     }
 
     struct Mpi;  // wraps an MPI communicator; see octetra/distributed/mpi.hpp
@@ -101,20 +111,30 @@ public:
 private:
     using Allocate = std::byte* (*)(void* context, std::size_t i, std::size_t size);
 
-    [[nodiscard]] std::vector<int> every_rank() const;
+    [[nodiscard]] std::span<const int> every_rank() const;
+    [[nodiscard]] std::span<const int> if_first() const {
+        return is_first() ? every_rank() : std::span<const int>{};
+    }
     [[nodiscard]] std::size_t broadcast_size(std::size_t size) const;
-    void broadcast_bytes(void* data, std::size_t size) const;
+    void broadcast_bytes(void* data, std::size_t size, int root) const;
     /// outboxes[i] goes to rank receivers[i]; the result's [i] came from senders[i].
     template <class T>
     [[nodiscard]] std::vector<std::vector<T>> send_and_receive(
-        const std::vector<int>& receivers, std::span<const std::vector<T>> outboxes,
-        const std::vector<int>& senders) const {
+        std::span<const int> receivers, std::span<const std::vector<T>> outboxes,
+        std::span<const int> senders) const {
         static_assert(std::is_trivially_copyable_v<T>);
         std::vector<std::span<const std::byte>> bytes;
-        for (std::size_t i = 0; i < receivers.size(); ++i) {
-            bytes.push_back(std::as_bytes(std::span(outboxes[i])));
+        std::vector<std::vector<T>> inboxes;
+        try {
+            bytes.reserve(receivers.size());
+            for (std::size_t i = 0; i < receivers.size(); ++i) {
+                bytes.push_back(std::as_bytes(std::span(outboxes[i])));
+            }
+            inboxes.resize(senders.size());
+        } catch (...) {
+            send_and_receive_nothing(receivers, senders);
+            throw;
         }
-        std::vector<std::vector<T>> inboxes(senders.size());
         const auto allocate = [](void* context, std::size_t i, std::size_t size) {
             std::vector<T>& inbox = (*static_cast<std::vector<std::vector<T>>*>(context))[i];
             inbox.resize(size / sizeof(T));
@@ -123,10 +143,14 @@ private:
         send_and_receive_bytes(receivers, bytes, senders, allocate, &inboxes);
         return inboxes;
     }
-    void send_and_receive_bytes(const std::vector<int>& receivers,
-                                const std::vector<std::span<const std::byte>>& outboxes,
-                                const std::vector<int>& senders, Allocate allocate,
+    /// Throws what allocate() throws, but only when all is sent and received.
+    void send_and_receive_bytes(std::span<const int> receivers,
+                                std::span<const std::span<const std::byte>> outboxes,
+                                std::span<const int> senders, Allocate allocate,
                                 void* context) const;
+    /// For a process that cannot do better: needs no memory.
+    void send_and_receive_nothing(std::span<const int> receivers,
+                                  std::span<const int> senders) const noexcept;
 
     std::shared_ptr<const Mpi> mpi_;  // none: this process alone
     std::shared_ptr<Profile> profile_;

@@ -29,18 +29,27 @@ struct RefineOptions {
 };
 
 /// What synchronisation took, on this process, summed over the levels. Beside its messages every
-/// round, and once more every level, takes a sum over all processes.
+/// round, and once more every level, takes a maximum over all processes.
 struct SynchronisationCounts {
     std::uint64_t rounds = 0;    ///< the same on all processes
     std::uint64_t messages = 0;  ///< sent by this process; by the gateway, also those passed on
     std::uint64_t bytes = 0;     ///< in these messages
     std::uint64_t edges = 0;     ///< selections in these messages
+
+    SynchronisationCounts& operator+=(const SynchronisationCounts& more) {
+        rounds += more.rounds;
+        messages += more.messages;
+        bytes += more.bytes;
+        edges += more.edges;
+        return *this;
+    }
 };
 
 /// Collective. Refines in place; the mesh stays distributed. What is in which order afterwards, and
 /// what it is, does not depend on the number of processes, the partition or the synchronisation.
-/// Throws InputError on all processes where a rounded midpoint would flatten or invert a
-/// cell, or where there would be more cells than allowed; the mesh is then not usable any more.
+/// Throws InputError on all processes where a rounded midpoint would flatten or invert a cell, or
+/// where there would be more cells than allowed, and std::bad_alloc on all where one has no memory;
+/// the mesh is then as it was before the level that failed.
 SynchronisationCounts refine(DistributedMesh& mesh, const Selection& selection,
                              const RefineOptions& options);
 

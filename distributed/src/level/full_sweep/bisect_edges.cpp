@@ -44,7 +44,6 @@ IndexVector<EdgeIndex, VertexIndex> bisect_edges(DistributedMesh& mesh,
     reserve_in_huge_pages(midpoints, numbering.end_index().value());
     midpoints.assign(numbering.end_index().value(), VertexIndex::none());
     const VertexIndex old_end = mesh.points.end_index();
-    mesh.level_begin.push_back(old_end);
 
     const std::size_t count = closure.marked_count();
     reserve_in_huge_pages(mesh.points, mesh.points.size() + count);

@@ -20,7 +20,7 @@ constexpr std::size_t most_children = 8;
 
 class CellBisection {
 public:
-    CellBisection(DistributedMesh& mesh, const EdgeNumbering& numbering, CellOrders& orders,
+    CellBisection(const DistributedMesh& mesh, const EdgeNumbering& numbering, CellOrders& orders,
                   const IndexVector<CellIndex, EdgeMask>& marked,
                   const IndexVector<EdgeIndex, VertexIndex>& midpoints)
         : mesh_(&mesh),
@@ -29,22 +29,24 @@ public:
           marked_(&marked),
           midpoints_(&midpoints) {}
 
-    /// Replaces the cells by their children, so many in all.
-    [[nodiscard]] RoundingFailure run(std::size_t child_count) {
+    /// The children of all cells, so many, and where those of each root begin.
+    [[nodiscard]] RoundingFailure run(std::size_t child_count,
+                                      IndexVector<CellIndex, CellVertices>& children,
+                                      std::vector<std::uint32_t>& first) {
         reserve_in_huge_pages(children_, child_count);
-        AncestorMap& ancestors = mesh_->cell_ancestors;
+        const AncestorMap& ancestors = mesh_->cell_ancestors;
+        reserve_in_huge_pages(first, ancestors.first.size());
         for (std::size_t r = 0; r < ancestors.roots.size(); ++r) {
             const CellIndex end{ancestors.first[r + 1]};
-            CellIndex c{ancestors.first[r]};
-            ancestors.first[r] = static_cast<std::uint32_t>(children_.size() + written_);
-            for (; c < end; ++c) {
+            first.push_back(static_cast<std::uint32_t>(children_.size() + written_));
+            for (CellIndex c{ancestors.first[r]}; c < end; ++c) {
                 if (c == block_end_) begin_block();
                 bisect(c, ancestors.roots[r]);
             }
         }
         append_written();
-        ancestors.first.back() = children_.end_index().value();
-        mesh_->cells = std::move(children_);
+        first.push_back(children_.end_index().value());
+        children = std::move(children_);
         return failure_;
     }
 
@@ -108,7 +110,7 @@ private:
         }
     }
 
-    DistributedMesh* mesh_;
+    const DistributedMesh* mesh_;
     const EdgeNumbering* numbering_;
     CellOrders* orders_;
     const IndexVector<CellIndex, EdgeMask>* marked_;
@@ -125,23 +127,23 @@ private:
     std::size_t written_ = 0;
 };
 
-/// Replaces the entities of a list by their pieces: append_pieces(entity, pieces) for each, in
-/// order.
-template <class I, class Vertices>
-void replace_by_pieces(IndexVector<I, Vertices>& list, AncestorMap& ancestors,
-                       auto&& append_pieces) {
-    IndexVector<I, Vertices> pieces;
-    for (std::size_t r = 0; r < ancestors.roots.size(); ++r) {
-        const I end{ancestors.first[r + 1]};
-        I i{ancestors.first[r]};
-        ancestors.first[r] = pieces.end_index().value();
-        for (; i < end; ++i) append_pieces(list[i], pieces);
-    }
-    ancestors.first.back() = pieces.end_index().value();
-    list = std::move(pieces);
-}
-
 }  // namespace
+
+/// A list with all entities replaced by their pieces: append_pieces(entity, pieces) for each, in
+/// order.
+template <class List>
+FullSweepLevel::NewList<List> FullSweepLevel::in_pieces(const List& list,
+                                                        const AncestorMap& ancestors,
+                                                        auto&& append_pieces) {
+    NewList<List> pieces;
+    pieces.first.reserve(ancestors.first.size());
+    auto entity = list.begin();
+    for (const std::uint32_t begin : ancestors.first) {
+        for (; entity < list.begin() + begin; ++entity) append_pieces(*entity, pieces.entities);
+        pieces.first.push_back(pieces.entities.end_index().value());
+    }
+    return pieces;
+}
 
 FullSweepLevel::FullSweepLevel(DistributedMesh& mesh, const MarkedCells& marked, double local_below)
     : mesh_(&mesh),
@@ -169,6 +171,7 @@ void FullSweepLevel::mark(CellIndex cell, Scheme scheme) {
 }
 
 void FullSweepLevel::bisect_edges() {
+    appended_.emplace(*mesh_);
     midpoints_ = distributed::bisect_edges(*mesh_, *numbering_, closure_);
 }
 
@@ -198,31 +201,42 @@ std::size_t FullSweepLevel::cell_count_afterwards() {
 }
 
 RoundingFailure FullSweepLevel::bisect_cells(std::size_t cell_count) {
-    return CellBisection(*mesh_, *numbering_, orders_, marked_, midpoints_).run(cell_count);
+    return CellBisection(*mesh_, *numbering_, orders_, marked_, midpoints_)
+        .run(cell_count, cells_.entities, cells_.first);
 }
 
 void FullSweepLevel::bisect_tagged() {
-    DistributedMesh& mesh = *mesh_;
-    replace_by_pieces(
-        mesh.facets, mesh.facet_ancestors, [&](const FacetVertices& facet, auto& all) {
+    const DistributedMesh& mesh = *mesh_;
+    facets_ =
+        in_pieces(mesh.facets, mesh.facet_ancestors, [&](const FacetVertices& facet, auto& all) {
             const BisectedTriangle bisected =
                 bisect_triangle(facet, midpoints_of(facet, *numbering_, midpoints_), mesh.points);
             std::copy_n(bisected.pieces.begin(), bisected.piece_count, std::back_inserter(all));
         });
-    replace_by_pieces(mesh.edges, mesh.edge_ancestors, [&](const EdgeVertices& edge, auto& all) {
-        // Which half comes first is a matter of the end points' positions in the list.
-        const VertexIndex midpoint = midpoints_[numbering_->find(edge[0], edge[1])];
-        if (midpoint.is_none()) {
-            all.append(edge);
-        } else {
-            all.append({edge[0], midpoint});
-            all.append({midpoint, edge[1]});
-        }
-    });
+    tagged_edges_ =
+        in_pieces(mesh.edges, mesh.edge_ancestors, [&](const EdgeVertices& edge, auto& all) {
+            // Which half comes first is a matter of the end points' positions in the list.
+            const VertexIndex midpoint = midpoints_[numbering_->find(edge[0], edge[1])];
+            if (midpoint.is_none()) {
+                all.append(edge);
+            } else {
+                all.append({edge[0], midpoint});
+                all.append({midpoint, edge[1]});
+            }
+        });
 }
 
 void FullSweepLevel::bisect_interfaces() {
-    distributed::bisect_interfaces(mesh_->interfaces, mesh_->points, *numbering_, midpoints_);
+    interfaces_ = mesh_->interfaces;
+    distributed::bisect_interfaces(interfaces_, mesh_->points, *numbering_, midpoints_);
+}
+
+void FullSweepLevel::commit() noexcept {
+    cells_.commit(mesh_->cells, mesh_->cell_ancestors);
+    facets_.commit(mesh_->facets, mesh_->facet_ancestors);
+    tagged_edges_.commit(mesh_->edges, mesh_->edge_ancestors);
+    mesh_->interfaces = std::move(interfaces_);
+    appended_->keep();
 }
 
 }  // namespace octetra::distributed

@@ -1,8 +1,14 @@
 #pragma once
 
+#include <cstdint>
+#include <optional>
+#include <utility>
+#include <vector>
+
 #include "level/full_sweep/full_sweep_closure.hpp"
 #include "level/full_sweep/local_edge_set.hpp"
 #include "level/level.hpp"
+#include "level/midpoints.hpp"
 #include "mark/marked_cells.hpp"
 #include "pattern/cell_orders.hpp"
 
@@ -24,9 +30,25 @@ public:
     [[nodiscard]] RoundingFailure bisect_cells(std::size_t cell_count) override;
     void bisect_tagged() override;
     void bisect_interfaces() override;
+    void commit() noexcept override;
     [[nodiscard]] std::size_t cells_touched() const override { return orders_.end_index().value(); }
 
 private:
+    /// A list of the mesh as the level makes it.
+    template <class List>
+    struct NewList {
+        List entities;
+        std::vector<std::uint32_t> first;  ///< as in AncestorMap
+
+        void commit(List& list, AncestorMap& ancestors) {
+            list = std::move(entities);
+            ancestors.first = std::move(first);
+        }
+    };
+    template <class List>
+    static NewList<List> in_pieces(const List& list, const AncestorMap& ancestors,
+                                   auto&& append_pieces);
+
     void mark(CellIndex cell, Scheme scheme);
 
     DistributedMesh* mesh_;
@@ -36,6 +58,12 @@ private:
     FullSweepClosure closure_;
     IndexVector<CellIndex, EdgeMask> marked_;        ///< of each cell, once they are counted
     IndexVector<EdgeIndex, VertexIndex> midpoints_;  ///< of each edge, or none()
+    std::optional<AppendedMidpoints> appended_;      ///< once they are
+
+    NewList<IndexVector<CellIndex, CellVertices>> cells_;
+    NewList<IndexVector<FacetIndex, FacetVertices>> facets_;
+    NewList<IndexVector<EdgeIndex, EdgeVertices>> tagged_edges_;
+    std::vector<Interface> interfaces_;
 };
 
 }  // namespace octetra::distributed

@@ -30,23 +30,84 @@ bool Adjacency::can_hold(const DistributedMesh& mesh) {
     return std::max({mesh.cells.size(), mesh.facets.size(), mesh.edges.size(), shared}) <= most;
 }
 
-void Adjacency::add_vertices(std::size_t count) {
-    cells.add_vertices(count);
-    facets.add_vertices(count);
-    edges.add_vertices(count);
-    shared_edges.add_vertices(count);
-    shared_faces.add_vertices(count);
+void Adjacency::set_vertex_count(std::size_t count) {
+    cells.set_vertex_count(count);
+    facets.set_vertex_count(count);
+    edges.set_vertex_count(count);
+    shared_edges.set_vertex_count(count);
+    shared_faces.set_vertex_count(count);
 }
 
 void DeleteAdjacency::operator()(Adjacency* adjacency) const { delete adjacency; }
 
-void restore_canonical_order(DistributedMesh& mesh) {
-    if (mesh.adjacency == nullptr) return;
-    Adjacency& adjacency = *mesh.adjacency;
-    std::move(adjacency.cells).restore_canonical_order(mesh.cells, mesh.cell_ancestors);
-    std::move(adjacency.facets).restore_canonical_order(mesh.facets, mesh.facet_ancestors);
-    std::move(adjacency.edges).restore_canonical_order(mesh.edges, mesh.edge_ancestors);
-    mesh.adjacency.reset();
+void Adjacency::drop_index() noexcept {
+    cells.drop_index();
+    facets.drop_index();
+    edges.drop_index();
+    shared_edges = {};
+    shared_faces = {};
+    has_index = false;
 }
+
+void Adjacency::make_index(const DistributedMesh& mesh) {
+    if (has_index) return;
+    const std::size_t vertex_count = mesh.points.size();
+    cells.make_index(vertex_count, mesh.cells);
+    facets.make_index(vertex_count, mesh.facets);
+    edges.make_index(vertex_count, mesh.edges);
+    shared_edges = SharedEntities<2>(vertex_count, mesh.interfaces);
+    shared_faces = SharedEntities<3>(vertex_count, mesh.interfaces);
+    has_index = true;
+}
+
+namespace {
+
+template <class Unordered, class List>
+typename Unordered::Ordered ordered(const Unordered& unordered, const List& list,
+                                    const AncestorMap& ancestors) {
+    if (unordered.is_ordered(list)) return {};
+    return unordered.ordered(list, ancestors);
+}
+
+/// Nothing to swap where the list is in order as it is.
+template <class Ordered>
+void swap_list(Ordered& other, auto& list, AncestorMap& ancestors) noexcept {
+    if (other.before.empty()) return;
+    list.swap(other.list);
+    ancestors.first.swap(other.first);
+}
+
+}  // namespace
+
+CanonicalOrder::CanonicalOrder(DistributedMesh& mesh) : mesh_(&mesh) {
+    if (mesh.adjacency == nullptr) return;
+    mesh.adjacency->drop_index();  // before the lists are there twice
+    cells_ = ordered(mesh.adjacency->cells, mesh.cells, mesh.cell_ancestors);
+    facets_ = ordered(mesh.adjacency->facets, mesh.facets, mesh.facet_ancestors);
+    edges_ = ordered(mesh.adjacency->edges, mesh.edges, mesh.edge_ancestors);
+    swap_lists();
+    adjacency_ = std::move(mesh.adjacency);
+}
+
+CanonicalOrder::~CanonicalOrder() {
+    if (adjacency_ == nullptr) return;
+    swap_lists();
+    mesh_->adjacency = std::move(adjacency_);
+}
+
+void CanonicalOrder::keep() noexcept {
+    adjacency_.reset();
+    cells_.list = {};
+    facets_.list = {};
+    edges_.list = {};
+}
+
+void CanonicalOrder::swap_lists() noexcept {
+    swap_list(cells_, mesh_->cells, mesh_->cell_ancestors);
+    swap_list(facets_, mesh_->facets, mesh_->facet_ancestors);
+    swap_list(edges_, mesh_->edges, mesh_->edge_ancestors);
+}
+
+void restore_canonical_order(DistributedMesh& mesh) { CanonicalOrder(mesh).keep(); }
 
 }  // namespace octetra::distributed

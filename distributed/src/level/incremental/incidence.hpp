@@ -22,6 +22,8 @@ class Incidence {
 public:
     using Vertices = std::array<VertexIndex, N>;
 
+    /// Finds nothing.
+    Incidence() = default;
     Incidence(std::size_t vertex_count, const IndexVector<I, Vertices>& entities) {
         if (entities.empty()) return;  // and none will come, as they come of others
         reserve_with_room(heads_, vertex_count);
@@ -32,8 +34,13 @@ public:
         for (std::size_t i = entities.size(); i-- > 0;) link_all(i, entities[I{i}]);
     }
 
-    void add_vertices(std::size_t count) {
-        if (!heads_.empty()) heads_.resize(heads_.size() + count);
+    /// Those that come have no entities; those that go must have none.
+    void set_vertex_count(std::size_t count) {
+        if (!heads_.empty()) heads_.resize(count);
+    }
+    /// After this, so many more entities can be appended without a failure.
+    void make_room(std::size_t added) {
+        octetra::distributed::make_room(links_, links_.size() + N * added);
     }
     void append(const Vertices& vertices) {
         const std::size_t i = links_.size() / N;

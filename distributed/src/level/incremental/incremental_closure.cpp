@@ -10,6 +10,10 @@ namespace octetra::distributed {
 IncrementalClosure::IncrementalClosure(const DistributedMesh& mesh, Adjacency& adjacency)
     : mesh_(&mesh), adjacency_(&adjacency), outboxes_(mesh.interfaces.size()) {}
 
+IncrementalClosure::~IncrementalClosure() {
+    for (const Note& note : notes_) adjacency_->cell_to_note[note.cell] = CellIndex::none_value;
+}
+
 void IncrementalClosure::mark(CellIndex cell, EdgeMask edges) {
     const std::uint32_t note = note_of(cell);
     const auto missing = static_cast<EdgeMask>(edges & ~unsigned{notes_[note].marked});
@@ -40,8 +44,8 @@ void IncrementalClosure::drain() {
 std::uint32_t IncrementalClosure::note_of(CellIndex cell) {
     std::uint32_t& number = adjacency_->cell_to_note[cell];
     if (number == CellIndex::none_value) {
-        number = static_cast<std::uint32_t>(notes_.size());
         notes_.push_back({.cell = cell, .order = length_order(mesh_->points, mesh_->cells[cell])});
+        number = static_cast<std::uint32_t>(notes_.size() - 1);
     }
     return number;
 }

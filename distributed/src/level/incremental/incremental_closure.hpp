@@ -26,6 +26,11 @@ public:
     };
 
     IncrementalClosure(const DistributedMesh& mesh, Adjacency& adjacency);
+    ~IncrementalClosure() override;
+    IncrementalClosure(const IncrementalClosure&) = delete;
+    IncrementalClosure& operator=(const IncrementalClosure&) = delete;
+    IncrementalClosure(IncrementalClosure&&) = delete;
+    IncrementalClosure& operator=(IncrementalClosure&&) = delete;
 
     /// Marks edges of a cell (a set of them), of this process's own will, without following their
     /// paths. All that share them will be told.

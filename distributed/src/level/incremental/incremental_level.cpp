@@ -7,7 +7,7 @@
 
 #include <octetra/distributed/profile.hpp>
 
-#include "level/midpoints.hpp"
+#include "level/huge_pages.hpp"
 #include "level/rounding_margin.hpp"
 #include "pattern/triangle.hpp"
 
@@ -16,29 +16,38 @@ namespace {
 
 Adjacency& adjacency_of(DistributedMesh& mesh) {
     const Phase phase(mesh.processes, "adjacency");
-    if (mesh.adjacency == nullptr) mesh.adjacency.reset(new Adjacency(mesh));
+    if (mesh.adjacency == nullptr) {
+        mesh.adjacency.reset(new Adjacency(mesh));
+    } else {
+        mesh.adjacency->make_index(mesh);
+    }
     return *mesh.adjacency;
 }
 
-/// An entity, by a key, one of whose edges is bisected.
+/// Triangles with one of their edges cut each, as triangle_edges numbers them, to triangles with
+/// all of their cuts, ascending by key.
+template <class CutTriangle, class OneCut>
+std::vector<CutTriangle> gathered(std::vector<OneCut> cuts) {
+    std::ranges::sort(cuts, {}, &OneCut::key);
+    std::vector<CutTriangle> triangles;
+    for (const auto& [key, edge, midpoint] : cuts) {
+        if (triangles.empty() || triangles.back().key != key) triangles.push_back({key});
+        triangles.back().midpoints[edge] = midpoint;
+    }
+    return triangles;
+}
+
 template <class Key>
-struct Cut {
+struct OneCut {
     Key key;
-    std::size_t edge = 0;  ///< as triangle_edges numbers them
+    std::size_t edge = 0;
     VertexIndex midpoint;
 };
 
-/// Calls bisect(key, midpoints of all three edges) for each triangle that has a cut, in ascending
-/// order.
-template <class Key>
-void for_each_triangle(std::vector<Cut<Key>> cuts, auto&& bisect) {
-    std::ranges::sort(cuts, {}, &Cut<Key>::key);
-    for (auto cut = cuts.begin(); cut != cuts.end();) {
-        const Key key = cut->key;
-        std::array<VertexIndex, 3> midpoints{};  // none
-        for (; cut != cuts.end() && cut->key == key; ++cut) midpoints[cut->edge] = cut->midpoint;
-        bisect(key, midpoints);
-    }
+/// Of a triangle: pieces beyond the first, and edges between the pieces.
+std::size_t count_of_cuts(const auto& triangle) {
+    return static_cast<std::size_t>(
+        std::ranges::count_if(triangle.midpoints, [](VertexIndex v) { return !v.is_none(); }));
 }
 
 }  // namespace
@@ -52,13 +61,19 @@ void IncrementalLevel::mark(const MarkedCells& marked, Scheme scheme) {
     }
 }
 
+IncrementalLevel::~IncrementalLevel() {
+    if (!appended_) return;
+    appended_.reset();
+    adjacency_->set_vertex_count(mesh_->points.size());
+}
+
 void IncrementalLevel::bisect_edges() {
     const auto& edges = closure_.edges();
     std::vector<EdgeIndex> in_order;
     for (EdgeIndex e{0}; e < edges.end_index(); ++e) in_order.push_back(e);
     std::ranges::sort(in_order, {}, [&](EdgeIndex e) { return edges[e]; });
 
-    mesh_->level_begin.push_back(mesh_->points.end_index());
+    appended_.emplace(*mesh_);
     midpoints_.resize(edges.size());
     const bool has_markers = !mesh_->input_vertex_markers.empty();
     for (const EdgeIndex e : in_order) {
@@ -67,7 +82,7 @@ void IncrementalLevel::bisect_edges() {
         append_midpoint(*mesh_, low, high);
         if (has_markers) mesh_->midpoint_markers.push_back(marker_of(edges[e]));
     }
-    adjacency_->add_vertices(edges.size());
+    adjacency_->set_vertex_count(mesh_->points.size());
 }
 
 MidpointMarker IncrementalLevel::marker_of(const EdgeVertices& edge) const {
@@ -95,22 +110,27 @@ std::size_t IncrementalLevel::cell_count_afterwards() {
 }
 
 RoundingFailure IncrementalLevel::bisect_cells(std::size_t cell_count) {
-    const CellIndex first_added = mesh_->cells.end_index();
-    std::vector<BadChild> bad;
-    adjacency_->new_cells.clear();
-    for (const auto& note : closure_.notes()) bisect(note, bad);
-    for (CellIndex c = first_added; c < CellIndex{cell_count}; ++c) {
-        adjacency_->new_cells.push_back(c);
+    std::vector<BadParent> bad;
+    new_cells_.reserve(closure_.notes().size() + cell_count - mesh_->cells.size());
+    for (const auto& note : closure_.notes()) {
+        new_cells_.push_back(note.cell);
+        if (has_rounding_margin(mesh_->points, mesh_->cells[note.cell])) continue;
+        const int sign = sign_of_first_bad_child(note);
+        if (sign > 0) continue;
+        bad.push_back(
+            {note.cell, adjacency_->cells.root_of(note.cell, mesh_->cell_ancestors), sign});
     }
-    adjacency_->blocks.append(*mesh_, first_added);
-    adjacency_->cell_to_note.resize(cell_count, CellIndex::none_value);
+    for (CellIndex c = mesh_->cells.end_index(); c < CellIndex{cell_count}; ++c) {
+        new_cells_.push_back(c);
+    }
+    adjacency_->cells.make_room(cell_count - mesh_->cells.size(), mesh_->cells);
+    adjacency_->blocks.make_room(cell_count);
+    make_room(adjacency_->cell_to_note, cell_count);
     return first_of(std::move(bad));
 }
 
-void IncrementalLevel::bisect(const IncrementalClosure::Note& note, std::vector<BadChild>& bad) {
-    adjacency_->cell_to_note[note.cell] = CellIndex::none_value;
-    adjacency_->new_cells.push_back(note.cell);
-
+std::array<CellVertices, 8> IncrementalLevel::children_of(
+    const IncrementalClosure::Note& note) const {
     std::array<VertexIndex, 10> vertices;  // by place
     std::ranges::copy(mesh_->cells[note.cell], vertices.begin());
     for (std::size_t e = 0; e < 6; ++e) {
@@ -121,29 +141,28 @@ void IncrementalLevel::bisect(const IncrementalClosure::Note& note, std::vector<
     for (std::size_t k = 0; k < pattern.child_count; ++k) {
         children[k] = child_of(vertices, pattern.children[k]);
     }
-    const bool is_safe = has_rounding_margin(mesh_->points, mesh_->cells[note.cell]);
-    const CellIndex first_added = mesh_->cells.end_index();
-    adjacency_->cells.replace(note.cell, std::span(children).first(pattern.child_count),
-                              mesh_->cells, mesh_->cell_ancestors);
-    if (is_safe) return;
-    for (std::size_t k = 0; k < pattern.child_count; ++k) {
-        const int sign = sign_of(children[k], mesh_->points);
-        if (sign > 0) continue;
-        const CellIndex cell =
-            k == 0 ? note.cell : CellIndex{std::size_t{first_added.value()} + k - 1};
-        bad.push_back({cell, adjacency_->cells.root_of(cell, mesh_->cell_ancestors), sign});
-    }
+    return children;
 }
 
-RoundingFailure IncrementalLevel::first_of(std::vector<BadChild> bad) const {
+/// Or 1, if there is none.
+int IncrementalLevel::sign_of_first_bad_child(const IncrementalClosure::Note& note) const {
+    const auto children = children_of(note);
+    for (std::size_t k = 0; k < pattern_of(note).child_count; ++k) {
+        const int sign = sign_of(children[k], mesh_->points);
+        if (sign <= 0) return sign;
+    }
+    return 1;
+}
+
+RoundingFailure IncrementalLevel::first_of(std::vector<BadParent> bad) const {
     RoundingFailure failure;
     if (bad.empty()) return failure;
-    std::ranges::sort(bad, {}, &BadChild::cell);
-    const std::uint32_t root = std::ranges::min_element(bad, {}, &BadChild::root)->root;
+    std::ranges::sort(bad, {}, &BadParent::cell);
+    const std::uint32_t root = std::ranges::min_element(bad, {}, &BadParent::root)->root;
     // The root's descendants in order, of which one is bad.
     for (CellIndex c{mesh_->cell_ancestors.first[root]}; !failure.found();
          c = adjacency_->cells.next(c)) {
-        const auto found = std::ranges::lower_bound(bad, c, {}, &BadChild::cell);
+        const auto found = std::ranges::lower_bound(bad, c, {}, &BadParent::cell);
         if (found == bad.end() || found->cell != c) continue;
         failure.note(mesh_->cell_ancestors.roots[root], found->sign);
     }
@@ -151,8 +170,7 @@ RoundingFailure IncrementalLevel::first_of(std::vector<BadChild> bad) const {
 }
 
 void IncrementalLevel::bisect_tagged() {
-    std::vector<Cut<FacetIndex>> facet_cuts;
-    std::vector<std::pair<EdgeIndex, VertexIndex>> edge_cuts;
+    std::vector<OneCut<FacetIndex>> facet_cuts;
     for (EdgeIndex e{0}; e < closure_.edges().end_index(); ++e) {
         const EdgeVertices& edge = closure_.edges()[e];
         const VertexIndex midpoint = midpoints_[e];
@@ -160,73 +178,106 @@ void IncrementalLevel::bisect_tagged() {
             facet_cuts.push_back({f, k, midpoint});
         });
         adjacency_->edges.for_each_with(edge, mesh_->edges, [&](EdgeIndex tagged, std::size_t) {
-            edge_cuts.emplace_back(tagged, midpoint);
+            cut_tagged_edges_.push_back({tagged, midpoint});
         });
     }
-    for_each_triangle(std::move(facet_cuts), [&](FacetIndex f, const auto& midpoints) {
+    adjacency_->facets.make_room(facet_cuts.size(), mesh_->facets);
+    adjacency_->edges.make_room(cut_tagged_edges_.size(), mesh_->edges);
+    cut_facets_ = gathered<CutTriangle<FacetIndex>>(std::move(facet_cuts));
+}
+
+// The other side may go through all of its list: the order is that of bisect_interfaces.hpp.
+void IncrementalLevel::bisect_interfaces() {
+    if (mesh_->interfaces.empty()) return;
+    find_shared_cuts();
+    make_room_in_interfaces();
+}
+
+void IncrementalLevel::find_shared_cuts() {
+    std::vector<OneCut<SharedFace>> face_cuts;
+    for (EdgeIndex e{0}; e < closure_.edges().end_index(); ++e) {
+        const EdgeVertices& edge = closure_.edges()[e];
+        adjacency_->shared_edges.for_each_with(edge, mesh_->interfaces, [&](const auto& found) {
+            cut_shared_edges_.push_back({found.place, found.index, midpoints_[e]});
+        });
+        adjacency_->shared_faces.for_each_with(edge, mesh_->interfaces, [&](const auto& found) {
+            face_cuts.push_back({{found.place, found.index}, found.edge, midpoints_[e]});
+        });
+    }
+    std::ranges::sort(cut_shared_edges_, {}, &CutSharedEdge::place);
+    cut_shared_faces_ = gathered<CutTriangle<SharedFace>>(std::move(face_cuts));
+}
+
+void IncrementalLevel::make_room_in_interfaces() {
+    std::vector<std::size_t> edges(mesh_->interfaces.size(), 0);
+    std::vector<std::size_t> faces(mesh_->interfaces.size(), 0);
+    for (const auto& cut : cut_shared_edges_) ++edges[cut.place.interface];
+    for (const auto& face : cut_shared_faces_) {
+        edges[face.key.place.interface] += count_of_cuts(face);
+        faces[face.key.place.interface] += count_of_cuts(face);
+    }
+    adjacency_->shared_edges.make_room(edges, mesh_->interfaces);
+    adjacency_->shared_faces.make_room(faces, mesh_->interfaces);
+}
+
+void IncrementalLevel::commit() noexcept {
+    commit_cells();
+    commit_tagged();
+    commit_shared_edges();
+    commit_shared_faces();
+    appended_->keep();
+    appended_.reset();
+}
+
+void IncrementalLevel::commit_cells() {
+    const CellIndex first_added = mesh_->cells.end_index();
+    for (const auto& note : closure_.notes()) {
+        const auto children = children_of(note);
+        adjacency_->cells.replace(note.cell,
+                                  std::span(children).first(pattern_of(note).child_count),
+                                  mesh_->cells, mesh_->cell_ancestors);
+    }
+    adjacency_->new_cells = std::move(new_cells_);
+    adjacency_->blocks.append(*mesh_, first_added);
+    adjacency_->cell_to_note.resize(mesh_->cells.size(), CellIndex::none_value);
+}
+
+void IncrementalLevel::commit_tagged() {
+    for (const auto& [facet, midpoints] : cut_facets_) {
         const BisectedTriangle bisected =
-            bisect_triangle(mesh_->facets[f], midpoints, mesh_->points);
-        adjacency_->facets.replace(f, std::span(bisected.pieces).first(bisected.piece_count),
+            bisect_triangle(mesh_->facets[facet], midpoints, mesh_->points);
+        adjacency_->facets.replace(facet, std::span(bisected.pieces).first(bisected.piece_count),
                                    mesh_->facets, mesh_->facet_ancestors);
-    });
-    for (const auto& [tagged, midpoint] : edge_cuts) {
+    }
+    for (const auto& [tagged, midpoint] : cut_tagged_edges_) {
         const auto [a, b] = mesh_->edges[tagged];
         const std::array<EdgeVertices, 2> halves{{{a, midpoint}, {midpoint, b}}};
         adjacency_->edges.replace(tagged, halves, mesh_->edges, mesh_->edge_ancestors);
     }
 }
 
-// The other side may go through all of its list: the order is that of bisect_interfaces.hpp.
-void IncrementalLevel::bisect_interfaces() {
-    if (mesh_->interfaces.empty()) return;
-    bisect_shared_edges();
-    bisect_shared_faces();
-}
-
-void IncrementalLevel::bisect_shared_edges() {
-    struct SharedCut {
-        SharedEntities<2>::Found edge;
-        VertexIndex midpoint;
-    };
-    std::vector<SharedCut> cuts;
-    for (EdgeIndex e{0}; e < closure_.edges().end_index(); ++e) {
-        adjacency_->shared_edges.for_each_with(closure_.edges()[e], mesh_->interfaces,
-                                               [&](const auto& found) {
-                                                   cuts.push_back({found, midpoints_[e]});
-                                               });
-    }
-    std::ranges::sort(cuts, {}, [](const SharedCut& cut) { return cut.edge.place; });
-    for (const auto& [edge, midpoint] : cuts) {
-        const auto [interface, position] = edge.place;
-        const auto [a, b] = mesh_->interfaces[interface].edges[position];
-        adjacency_->shared_edges.replace(edge.index, {a, midpoint}, mesh_->interfaces);
-        adjacency_->shared_edges.append(interface, {midpoint, b}, mesh_->interfaces);
+void IncrementalLevel::commit_shared_edges() {
+    for (const auto& [place, index, midpoint] : cut_shared_edges_) {
+        const auto [a, b] = mesh_->interfaces[place.interface].edges[place.position];
+        adjacency_->shared_edges.replace(index, {a, midpoint}, mesh_->interfaces);
+        adjacency_->shared_edges.append(place.interface, {midpoint, b}, mesh_->interfaces);
     }
 }
 
-void IncrementalLevel::bisect_shared_faces() {
-    using Face = std::pair<SharedPlace, SharedIndex>;
-    std::vector<Cut<Face>> cuts;
-    for (EdgeIndex e{0}; e < closure_.edges().end_index(); ++e) {
-        adjacency_->shared_faces.for_each_with(
-            closure_.edges()[e], mesh_->interfaces, [&](const auto& face) {
-                cuts.push_back({{face.place, face.index}, face.edge, midpoints_[e]});
-            });
-    }
+void IncrementalLevel::commit_shared_faces() {
     auto& interfaces = mesh_->interfaces;
-    for_each_triangle(std::move(cuts), [&](const Face& face, const auto& midpoints) {
-        const auto& [place, index] = face;
-        const std::uint32_t interface = place.interface;
-        const BisectedTriangle bisected =
-            bisect_triangle(interfaces[interface].faces[place.position], midpoints, mesh_->points);
-        adjacency_->shared_faces.replace(index, bisected.pieces[0], interfaces);
+    for (const auto& [face, midpoints] : cut_shared_faces_) {
+        const std::uint32_t interface = face.place.interface;
+        const BisectedTriangle bisected = bisect_triangle(
+            interfaces[interface].faces[face.place.position], midpoints, mesh_->points);
+        adjacency_->shared_faces.replace(face.index, bisected.pieces[0], interfaces);
         for (std::size_t k = 1; k < bisected.piece_count; ++k) {
             adjacency_->shared_faces.append(interface, bisected.pieces[k], interfaces);
         }
         for (std::size_t k = 0; k < bisected.inner_edge_count; ++k) {
             adjacency_->shared_edges.append(interface, bisected.inner_edges[k], interfaces);
         }
-    });
+    }
 }
 
 }  // namespace octetra::distributed

@@ -1,11 +1,15 @@
 #pragma once
 
+#include <array>
+#include <compare>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "level/incremental/adjacency.hpp"
 #include "level/incremental/incremental_closure.hpp"
 #include "level/level.hpp"
+#include "level/midpoints.hpp"
 #include "mark/marked_cells.hpp"
 
 namespace octetra::distributed {
@@ -15,6 +19,11 @@ namespace octetra::distributed {
 class IncrementalLevel final : public Level {
 public:
     explicit IncrementalLevel(DistributedMesh& mesh);
+    ~IncrementalLevel() override;
+    IncrementalLevel(const IncrementalLevel&) = delete;
+    IncrementalLevel& operator=(const IncrementalLevel&) = delete;
+    IncrementalLevel(IncrementalLevel&&) = delete;
+    IncrementalLevel& operator=(IncrementalLevel&&) = delete;
 
     /// Marks edges of the marked cells.
     void mark(const MarkedCells& marked, Scheme scheme);
@@ -25,26 +34,63 @@ public:
     [[nodiscard]] RoundingFailure bisect_cells(std::size_t cell_count) override;
     void bisect_tagged() override;
     void bisect_interfaces() override;
+    void commit() noexcept override;
     [[nodiscard]] std::size_t cells_touched() const override { return closure_.notes().size(); }
 
 private:
-    struct BadChild {
+    /// A cell with a child that is flat or inverted.
+    struct BadParent {
         CellIndex cell;
         std::uint32_t root = 0;
-        int sign = 0;
+        int sign = 0;  ///< of the first such child
+    };
+    /// A triangle, found by a key, with the midpoints of its edges that are bisected.
+    template <class Key>
+    struct CutTriangle {
+        Key key;
+        std::array<VertexIndex, 3> midpoints{};
+    };
+    struct CutEdge {
+        EdgeIndex edge;
+        VertexIndex midpoint;
+    };
+    struct SharedFace {
+        SharedPlace place;
+        SharedIndex index;
+
+        friend auto operator<=>(const SharedFace&, const SharedFace&) = default;
+    };
+    struct CutSharedEdge {
+        SharedPlace place;
+        SharedIndex index;
+        VertexIndex midpoint;
     };
 
     [[nodiscard]] const Pattern& pattern_of(const IncrementalClosure::Note& note) const;
     [[nodiscard]] MidpointMarker marker_of(const EdgeVertices& edge) const;
-    void bisect(const IncrementalClosure::Note& note, std::vector<BadChild>& bad);
-    [[nodiscard]] RoundingFailure first_of(std::vector<BadChild> bad) const;
-    void bisect_shared_edges();
-    void bisect_shared_faces();
+    [[nodiscard]] std::array<CellVertices, 8> children_of(
+        const IncrementalClosure::Note& note) const;
+    [[nodiscard]] int sign_of_first_bad_child(const IncrementalClosure::Note& note) const;
+    [[nodiscard]] RoundingFailure first_of(std::vector<BadParent> bad) const;
+    void find_shared_cuts();
+    void make_room_in_interfaces();
+    void commit_cells();
+    void commit_tagged();
+    void commit_shared_edges();
+    void commit_shared_faces();
 
     DistributedMesh* mesh_;
     Adjacency* adjacency_;
     IncrementalClosure closure_;
     IndexVector<EdgeIndex, VertexIndex> midpoints_;  ///< of each marked edge
+    std::optional<AppendedMidpoints> appended_;      ///< once they are
+
+    // What commit() does. Each list is ascending in what is cut.
+    std::vector<CellIndex> new_cells_;
+    std::vector<CutTriangle<FacetIndex>> cut_facets_;
+    std::vector<CutEdge> cut_tagged_edges_;
+    std::vector<CutSharedEdge> cut_shared_edges_;
+    std::vector<CutTriangle<SharedFace>> cut_shared_faces_;
 };
 
 }  // namespace octetra::distributed

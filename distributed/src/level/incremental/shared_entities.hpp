@@ -28,10 +28,23 @@ class SharedEntities {
 public:
     using Vertices = std::array<VertexIndex, N>;
 
+    /// Finds nothing.
+    SharedEntities() = default;
     SharedEntities(std::size_t vertex_count, const std::vector<Interface>& interfaces)
         : SharedEntities(vertex_count, interfaces, all_of(interfaces)) {}
 
-    void add_vertices(std::size_t count) { incidence_.add_vertices(count); }
+    void set_vertex_count(std::size_t count) { incidence_.set_vertex_count(count); }
+    /// After this, append() does not fail for so many; added[i] of them in interface i.
+    void make_room(const std::vector<std::size_t>& added, std::vector<Interface>& interfaces) {
+        std::size_t total = 0;
+        for (std::size_t i = 0; i < interfaces.size(); ++i) {
+            auto& list = list_of(interfaces[i]);
+            octetra::distributed::make_room(list, list.size() + added[i]);
+            total += added[i];
+        }
+        octetra::distributed::make_room(places_, places_.size() + total);
+        incidence_.make_room(total);
+    }
 
     struct Found {
         SharedIndex index;

@@ -27,6 +27,7 @@ public:
     using Vertices = std::array<VertexIndex, N>;
     using List = IndexVector<I, Vertices>;
 
+    /// The list is in canonical order.
     UnorderedList(std::size_t vertex_count, const List& list)
         : incidence_(vertex_count, list), first_added_(list.size()) {
         reserve_with_room(next_, list.size());
@@ -40,7 +41,20 @@ public:
         incidence_.for_each_with(
             edge, [&](I i) -> const Vertices& { return list[i]; }, found);
     }
-    void add_vertices(std::size_t count) { incidence_.add_vertices(count); }
+    /// To find entities by edges, and to replace them, takes an index: memory that can be given
+    /// back for a while.
+    void drop_index() noexcept { incidence_ = {}; }
+    void make_index(std::size_t vertex_count, const List& list) {
+        incidence_ = Incidence<I, N>(vertex_count, list);
+    }
+    void set_vertex_count(std::size_t count) { incidence_.set_vertex_count(count); }
+    /// After this, replace() does not fail for so many pieces beyond the first ones.
+    void make_room(std::size_t added, List& list) {
+        octetra::distributed::make_room(list, list.size() + added);
+        octetra::distributed::make_room(next_, list.size() + added);
+        octetra::distributed::make_room(root_of_added_, root_of_added_.size() + added);
+        incidence_.make_room(added);
+    }
 
     /// What follows in canonical order, or none().
     [[nodiscard]] I next(I i) const { return next_[i]; }
@@ -80,24 +94,37 @@ public:
         }
     }
 
-    /// Brings the list into canonical order, and its ancestors to ranges. The end of this object.
-    void restore_canonical_order(List& list, AncestorMap& ancestors) && {
-        incidence_ = Incidence<I, N>(0, {});  // before the list is there twice
-        if (list.end_index() == first_added_) return;
-        List ordered;
-        ordered.reserve(list.size());
-        std::size_t root = 0;
-        for (I i{0}; !i.is_none(); i = next_[i]) {
+    /// Is the list in canonical order as it stands?
+    [[nodiscard]] bool is_ordered(const List& list) const {
+        return list.end_index() == first_added_;
+    }
+
+    /// What the list is in canonical order.
+    struct Ordered {
+        List list;
+        std::vector<std::uint32_t> first;  ///< as in AncestorMap
+        std::vector<I> before;  ///< the number that each entity has in the unordered list
+    };
+    [[nodiscard]] Ordered ordered(const List& list, const AncestorMap& ancestors) const {
+        Ordered ordered;
+        ordered.list.reserve(list.size());
+        ordered.before.reserve(list.size());
+        ordered.first.reserve(ancestors.first.size());
+        for (I i = first_of(list); !i.is_none(); i = next_[i]) {
+            const std::size_t root = ordered.first.size();
             if (root < ancestors.roots.size() && ancestors.first[root] == i.value()) {
-                ancestors.first[root++] = ordered.end_index().value();
+                ordered.first.push_back(ordered.list.end_index().value());
             }
-            ordered.push_back(list[i]);
+            ordered.list.push_back(list[i]);
+            ordered.before.push_back(i);
         }
-        ancestors.first.back() = ordered.end_index().value();
-        list = std::move(ordered);
+        ordered.first.push_back(ordered.list.end_index().value());
+        return ordered;
     }
 
 private:
+    static I first_of(const List& list) { return list.empty() ? I::none() : I{0}; }
+
     Incidence<I, N> incidence_;
     IndexVector<I, I> next_;
     I first_added_;

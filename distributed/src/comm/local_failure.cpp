@@ -1,0 +1,56 @@
+#include "comm/local_failure.hpp"
+
+#include <array>
+#include <cstring>
+#include <new>
+
+#include <octetra/core/error.hpp>
+
+namespace octetra::distributed {
+namespace {
+
+enum class Kind : std::uint8_t { out_of_memory, bad_input, system_failed };
+
+/// A failure that can be sent, by a process that may have no memory.
+struct Words {
+    Kind kind = Kind::out_of_memory;
+    std::array<char, 4096> what{};  ///< ends with a zero
+
+    void take(Kind of, const char* text) {
+        kind = of;
+        std::strncpy(what.data(), text, what.size() - 1);
+    }
+};
+
+Words words_of(const std::exception_ptr& failure) {
+    Words words;
+    if (!failure) return words;
+    try {
+        std::rethrow_exception(failure);
+    } catch (const std::bad_alloc&) {
+    } catch (const InputError& error) {
+        words.take(Kind::bad_input, error.what());
+    } catch (const std::exception& error) {
+        words.take(Kind::system_failed, error.what());
+    } catch (...) {
+        words.take(Kind::system_failed, "something unknown has failed");
+    }
+    return words;
+}
+
+}  // namespace
+
+void LocalFailure::agree(const Communicator& processes) const {
+    const auto size = static_cast<std::uint64_t>(processes.size());
+    const auto rank = static_cast<std::uint64_t>(processes.rank());
+    const std::uint64_t lowest = size - processes.max(found() ? size - rank : 0);
+    if (lowest == size) return;
+    const Words words = processes.of_rank(static_cast<int>(lowest), words_of(failure_));
+    switch (words.kind) {
+        case Kind::out_of_memory: throw std::bad_alloc();
+        case Kind::bad_input: throw InputError(words.what.data());
+        case Kind::system_failed: throw SystemError(words.what.data());
+    }
+}
+
+}  // namespace octetra::distributed

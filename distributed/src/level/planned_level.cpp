@@ -1,0 +1,158 @@
+#include "level/planned_level.hpp"
+
+#include <limits>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include <octetra/core/error.hpp>
+#include <octetra/distributed/profile.hpp>
+
+#include "comm/local_failure.hpp"
+#include "level/full_sweep/full_sweep_level.hpp"
+#include "level/incremental/incremental_level.hpp"
+#include "level/synchronise.hpp"
+
+namespace octetra::distributed {
+namespace {
+
+/// Throws if this process would have more entities than 32 bits number.
+void check_countable(std::size_t count, const char* what) {
+    if (count < VertexIndex::limit) return;
+    throw InputError(fmt::format("the refined mesh would have more than {} {} on one process",
+                                 VertexIndex::limit, what));
+}
+
+/// Collective. Notes a failure on all processes if the whole mesh would have more cells than
+/// allowed.
+void check_allowed(const DistributedMesh& mesh, std::size_t count, const RefineOptions& options,
+                   int level, LocalFailure& failure) {
+    if (options.max_cells == std::numeric_limits<std::uint64_t>::max()) return;
+    const std::uint64_t cells = mesh.processes.sum(count);
+    if (cells <= options.max_cells) return;
+    failure.attempt([&] {
+        throw InputError(fmt::format(
+            "level {} would make {} cells, more than the {} allowed: mark fewer cells or "
+            "levels, or allow more",
+            level, cells, options.max_cells));
+    });
+}
+
+/// Would little change, because few cells are marked or they are all in one place? Edges
+/// that marked cells mark concern five or six cells for each of their vertices.
+bool suits_incremental_level(const DistributedMesh& mesh, const MarkedCells& marked,
+                             const Tuning& tuning) {
+    if (marked.all || !Adjacency::can_hold(mesh)) return false;
+    const auto most = tuning.incremental_below * static_cast<double>(mesh.points.size());
+    std::vector<bool> is_met(mesh.points.size(), false);
+    std::size_t met = 0;
+    for (const CellIndex c : marked.cells) {
+        for (const VertexIndex v : mesh.cells[c]) {
+            if (is_met[v.value()]) continue;
+            is_met[v.value()] = true;
+            if (static_cast<double>(++met) >= most) return false;
+        }
+    }
+    return most > 0;
+}
+
+/// The marked cells by the numbers that they have in another order, where `before` are those that
+/// they had.
+void renumber(MarkedCells& marked, const std::vector<CellIndex>& before) {
+    if (marked.all || before.empty()) return;
+    std::vector<bool> is_marked(before.size(), false);
+    for (const CellIndex c : marked.cells) is_marked[c.value()] = true;
+    marked.cells.clear();
+    for (std::size_t c = 0; c < before.size(); ++c) {
+        if (is_marked[before[c].value()]) marked.cells.push_back(CellIndex{c});
+    }
+}
+
+/// The level with edges of the marked cells marked.
+void begin_level(DistributedMesh& mesh, const RefineOptions& options, const Tuning& tuning,
+                 MarkedCells marked, PlannedLevel& plan) {
+    if (suits_incremental_level(mesh, marked, tuning)) {
+        auto level = std::make_unique<IncrementalLevel>(mesh);
+        const Phase phase(mesh.processes, "select");
+        level->mark(marked, options.scheme);
+        plan.level = std::move(level);
+        return;
+    }
+    if (mesh.adjacency != nullptr) {
+        const Phase phase(mesh.processes, "select");
+        plan.order = std::make_unique<CanonicalOrder>(mesh);
+        renumber(marked, plan.order->cells_before());
+    }
+    auto level = std::make_unique<FullSweepLevel>(mesh, marked, tuning.local_below);
+    const Phase phase(mesh.processes, "select");
+    level->mark(marked, options.scheme);
+    plan.level = std::move(level);
+}
+
+/// Collective. Closes the marked edges; throws on all processes where one has failed.
+SynchronisationCounts close(Level* level, const DistributedMesh& mesh, const RefineOptions& options,
+                            LocalFailure& failure) {
+    const Phase phase(mesh.processes, "synchronise");
+    Closure* const closure = level == nullptr ? nullptr : &level->closure();
+    const auto counts = options.synchronisation == Synchronisation::neighbour
+                            ? synchronise_by_neighbours(closure, mesh, failure)
+                            : synchronise_by_gateway(closure, mesh, failure);
+    if (!counts) failure.agree(mesh.processes);
+    return counts.value();
+}
+
+/// Collective. All steps of a closed level but the last.
+void bisect(Level& way, const DistributedMesh& mesh, const RefineOptions& options, int level) {
+    LocalFailure failure;
+    failure.attempt([&] {
+        const Phase phase(mesh.processes, "bisect edges");
+        check_countable(mesh.points.size() + way.closure().marked_count(), "vertices");
+        way.bisect_edges();
+    });
+    RoundingFailure rounding;
+    {
+        const Phase phase(mesh.processes, "bisect tetrahedra");
+        std::size_t cell_count = 0;
+        failure.attempt([&] {
+            cell_count = way.cell_count_afterwards();
+            check_countable(cell_count, "cells");
+        });
+        check_allowed(mesh, cell_count, options, level, failure);
+        failure.attempt([&] {
+            rounding = way.bisect_cells(cell_count);
+            if (!rounding.found()) way.bisect_tagged();
+        });
+    }
+    const Phase phase(mesh.processes, "interfaces");
+    failure.attempt([&] {
+        if (!rounding.found()) way.bisect_interfaces();
+    });
+    failure.agree(mesh.processes);
+    rounding.agree(mesh, level);
+}
+
+}  // namespace
+
+PlannedLevel plan_level(DistributedMesh& mesh, const std::function<MarkedCells()>& mark_cells,
+                        const RefineOptions& options, const Tuning& tuning, int level) {
+    const Communicator& processes = mesh.processes;
+    PlannedLevel plan;
+    LocalFailure failure;
+    MarkedCells marked;
+    failure.attempt([&] {
+        const Phase phase(processes, "select");
+        marked = mark_cells();
+        plan.judged = marked.judged;
+    });
+    const std::uint64_t most = failure.max_unless_failed(processes, marked.count);
+    if (most == LocalFailure::somewhere) failure.agree(processes);
+    if (most == 0) return plan;
+
+    failure.attempt([&] { begin_level(mesh, options, tuning, std::move(marked), plan); });
+    plan.counts = close(plan.level.get(), mesh, options, failure);
+    bisect(*plan.level, mesh, options, level);
+    return plan;
+}
+
+}  // namespace octetra::distributed

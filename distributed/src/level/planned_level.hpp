@@ -1,0 +1,37 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+
+#include "level/incremental/adjacency.hpp"
+#include "level/level.hpp"
+#include "level/tuning.hpp"
+#include "mark/marked_cells.hpp"
+
+namespace octetra::distributed {
+
+/// A level that all processes can commit. Until it is committed the mesh is as it was, but for the
+/// order that it may be in and the midpoints behind its vertices; destroyed before, it leaves the
+/// mesh as it was in these, too.
+struct PlannedLevel {
+    std::unique_ptr<CanonicalOrder> order;  ///< that the level needed, or null
+    std::unique_ptr<Level> level;           ///< null: nothing is marked on any process
+    SynchronisationCounts counts;
+    std::size_t judged = 0;  ///< cells of this process that the selection looked at
+
+    [[nodiscard]] bool changes_anything() const { return level != nullptr; }
+    void commit() noexcept {
+        level->commit();
+        if (order != nullptr) order->keep();
+    }
+};
+
+/// Collective. Plans level number `level`, counted from 1, for messages, of the cells that
+/// `mark_cells` marks on this process. Throws as refine() does; a failure of one process, that of
+/// an allocation among them, is thrown on all, and leaves the mesh as it was.
+[[nodiscard]] PlannedLevel plan_level(DistributedMesh& mesh,
+                                      const std::function<MarkedCells()>& mark_cells,
+                                      const RefineOptions& options, const Tuning& tuning,
+                                      int level);
+
+}  // namespace octetra::distributed

@@ -2,14 +2,23 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <vector>
 
 #include <octetra/distributed/refine.hpp>
+#include <octetra/distributed/succession.hpp>
 
 #include "level/closure.hpp"
 #include "level/rounding_failure.hpp"
 #include "pattern/patterns.hpp"
 
 namespace octetra::distributed {
+
+/// What becomes of a process's lists.
+struct ListChanges {
+    Succession cells;
+    Succession facets;
+    Succession edges;  ///< tagged ones
+};
 
 /// What one process does at one level, step by step; see refine_level(). There are two ways, and
 /// each process takes the one that suits its own part: nothing of them shows outside. No step is
@@ -36,6 +45,12 @@ public:
     [[nodiscard]] virtual RoundingFailure bisect_cells(std::size_t cell_count) = 0;
     virtual void bisect_tagged() = 0;
     virtual void bisect_interfaces() = 0;
+
+    /// Of the level that is ready to be committed: the midpoints of the shared edges that it
+    /// bisects, by interface, in the order of the edges in its list, which both sides know.
+    [[nodiscard]] virtual std::vector<std::vector<VertexIndex>> shared_midpoints() const = 0;
+    /// And how the process's lists change.
+    [[nodiscard]] virtual ListChanges changes() = 0;
 
     /// Once all steps are done: from now on the mesh is the level's result.
     virtual void commit() noexcept = 0;

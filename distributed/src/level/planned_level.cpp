@@ -1,5 +1,6 @@
 #include "level/planned_level.hpp"
 
+#include <algorithm>
 #include <limits>
 #include <utility>
 #include <vector>
@@ -61,12 +62,19 @@ bool suits_incremental_level(const DistributedMesh& mesh, const MarkedCells& mar
 /// they had.
 void renumber(MarkedCells& marked, const std::vector<CellIndex>& before) {
     if (marked.all || before.empty()) return;
-    std::vector<bool> is_marked(before.size(), false);
-    for (const CellIndex c : marked.cells) is_marked[c.value()] = true;
-    marked.cells.clear();
-    for (std::size_t c = 0; c < before.size(); ++c) {
-        if (is_marked[before[c].value()]) marked.cells.push_back(CellIndex{c});
+    constexpr std::uint32_t unmarked = CellIndex::none_value;
+    std::vector<std::uint32_t> place(before.size(), unmarked);  // in the list of marked cells
+    for (std::size_t k = 0; k < marked.cells.size(); ++k) {
+        place[marked.cells[k].value()] = static_cast<std::uint32_t>(k);
     }
+    MarkedCells renumbered{.count = marked.count, .judged = marked.judged};
+    for (std::size_t c = 0; c < before.size(); ++c) {
+        const std::uint32_t k = place[before[c].value()];
+        if (k == unmarked) continue;
+        renumbered.cells.push_back(CellIndex{c});
+        if (!marked.edges.empty()) renumbered.edges.push_back(marked.edges[k]);
+    }
+    marked = std::move(renumbered);
 }
 
 /// The level with edges of the marked cells marked.
@@ -132,7 +140,23 @@ void bisect(Level& way, const DistributedMesh& mesh, const RefineOptions& option
     rounding.agree(mesh, level);
 }
 
+template <class I>
+std::vector<std::uint32_t> numbers_of(const std::vector<I>& list) {
+    std::vector<std::uint32_t> numbers(list.size());
+    std::ranges::transform(list, numbers.begin(), &I::value);
+    return numbers;
+}
+
 }  // namespace
+
+ListChanges PlannedLevel::changes() {
+    ListChanges changes = level->changes();
+    if (order == nullptr) return changes;
+    changes.cells.set_order(numbers_of(order->cells_before()));
+    changes.facets.set_order(numbers_of(order->facets_before()));
+    changes.edges.set_order(numbers_of(order->edges_before()));
+    return changes;
+}
 
 PlannedLevel plan_level(DistributedMesh& mesh, const std::function<MarkedCells()>& mark_cells,
                         const RefineOptions& options, const Tuning& tuning, int level) {

@@ -20,6 +20,8 @@ struct PlannedLevel {
     std::size_t judged = 0;  ///< cells of this process that the selection looked at
 
     [[nodiscard]] bool changes_anything() const { return level != nullptr; }
+    /// What becomes of this process's lists, by the numbers that they have now.
+    [[nodiscard]] ListChanges changes();
     void commit() noexcept {
         level->commit();
         if (order != nullptr) order->keep();

@@ -4,18 +4,21 @@
 #include <array>
 #include <limits>
 #include <numeric>
+#include <optional>
 #include <utility>
 #include <vector>
+
+#include "level/huge_pages.hpp"
 
 namespace octetra::distributed {
 namespace {
 
 using Ends = std::array<std::uint64_t, 2>;
 
-/// Collective. Who is to put pairs in order gets them: processes answer for blocks of lower ends.
-/// The pairs are ascending in their lower ends.
-std::vector<std::vector<Ends>> ask(const Communicator& processes, std::vector<Ends> pairs,
-                                   std::uint64_t block) {
+/// Pairs by who is to put them in order: processes answer for blocks of lower ends. The pairs are
+/// ascending in these.
+std::vector<std::vector<Ends>> by_process(const Communicator& processes,
+                                          const std::vector<Ends>& pairs, std::uint64_t block) {
     std::vector<std::vector<Ends>> questions(static_cast<std::size_t>(processes.size()));
     auto begin = pairs.begin();
     for (std::size_t r = 0; r < questions.size(); ++r) {
@@ -24,8 +27,7 @@ std::vector<std::vector<Ends>> ask(const Communicator& processes, std::vector<En
         questions[r].assign(begin, end);
         begin = end;
     }
-    pairs = {};
-    return processes.all_to_all(questions);
+    return questions;
 }
 
 /// The different pairs among those asked for, in ascending order. Put there by counting, as few
@@ -93,57 +95,106 @@ private:
     std::vector<Ends> pairs_;
 };
 
-/// Collective. The places of these pairs among the different pairs of all processes, in ascending
-/// order; adds their number to `total`. The pairs are ascending in their lower ends, which are less
-/// than `end_count`.
-std::vector<std::uint64_t> ranked(const Communicator& processes, std::vector<Ends> pairs,
-                                  std::uint64_t end_count, std::uint64_t& total) {
+/// Collective. The places of pairs among the different pairs of all processes, in ascending order;
+/// adds their number to `total`. `pairs` makes this process's, which are ascending in their lower
+/// ends, and these less than `end_count`. Where a process fails there is no result on any.
+std::vector<std::uint64_t> ranked(const Communicator& processes, auto&& pairs,
+                                  std::uint64_t end_count, std::uint64_t& total,
+                                  LocalFailure& failure) {
+    const auto somewhere_failed = [&] {
+        return failure.max_unless_failed(processes, 0) == LocalFailure::somewhere;
+    };
     const auto process_count = static_cast<std::uint64_t>(processes.size());
     const std::uint64_t block = end_count / process_count + 1;
-    auto asked = ask(processes, std::move(pairs), block);
+    std::vector<std::vector<Ends>> asked;
+    failure.attempt([&] { asked = by_process(processes, pairs(), block); });
+    if (somewhere_failed()) return {};
 
-    const OrderedPairs known(asked);
-    const std::uint64_t first = total + processes.sum_before(known.size());
-    total += processes.sum(known.size());
+    std::optional<OrderedPairs> known;
+    failure.attempt([&] {
+        asked = processes.all_to_all(asked);
+        known.emplace(asked);
+    });
+    const std::uint64_t count = known ? known->size() : 0;
+    const std::uint64_t first = total + processes.sum_before(count);
+    total += processes.sum(count);
 
-    std::vector<std::vector<std::uint64_t>> answers(asked.size());
-    for (std::size_t r = 0; r < asked.size(); ++r) {
-        answers[r].reserve(asked[r].size());
-        for (const Ends& pair : asked[r]) answers[r].push_back(first + known.place_of(pair));
-        asked[r] = {};
-    }
+    std::vector<std::vector<std::uint64_t>> answers;
+    failure.attempt([&] {
+        answers.resize(asked.size());
+        for (std::size_t r = 0; r < asked.size(); ++r) {
+            answers[r].reserve(asked[r].size());
+            for (const Ends& pair : asked[r]) answers[r].push_back(first + known->place_of(pair));
+            asked[r] = {};
+        }
+    });
+    if (somewhere_failed()) return {};
     // The pairs were ascending in their lower ends, so the answers come in their order.
     std::vector<std::uint64_t> places;
-    for (const auto& from_one : processes.all_to_all(answers)) {
-        places.insert(places.end(), from_one.begin(), from_one.end());
-    }
+    failure.attempt([&] {
+        for (const auto& from_one : processes.all_to_all(answers)) {
+            places.insert(places.end(), from_one.begin(), from_one.end());
+        }
+    });
     return places;
 }
 
 }  // namespace
 
-CanonicalNumbers canonical_numbers(const DistributedMesh& mesh) {
+void CanonicalNumbers::number_midpoints(const DistributedMesh& mesh, VertexIndex end,
+                                        LocalFailure& failure) {
+    const VertexIndex begin = of_vertex.end_index();
+    if (mesh.processes.size() == 1) {  // vertices are in canonical order
+        failure.attempt([&] {
+            make_room(of_vertex, end.value());
+            for (VertexIndex v = begin; v < end; ++v) of_vertex.push_back(GlobalVertex{v.value()});
+            vertex_count = of_vertex.size();
+        });
+        return;
+    }
+    const auto number = [&](VertexIndex v) { return static_cast<std::uint64_t>(of_vertex[v]); };
+    const auto pairs = [&] {
+        std::vector<Ends> of_ends;
+        of_ends.reserve(end.value() - begin.value());
+        for (VertexIndex v = begin; v < end; ++v) {
+            const auto& [a, b] = mesh.midpoint_to_edge[v.value() - mesh.input_vertices.size()];
+            of_ends.push_back({number(a), number(b)});
+        }
+        return of_ends;
+    };
+    const auto places = ranked(mesh.processes, pairs, vertex_count, vertex_count, failure);
+    failure.attempt([&] {
+        make_room(of_vertex, end.value());
+        for (const std::uint64_t place : places) of_vertex.push_back(GlobalVertex{place});
+    });
+}
+
+void CanonicalNumbers::forget_from(VertexIndex end, std::uint64_t count) noexcept {
+    if (end < of_vertex.end_index()) of_vertex.resize(end.value());
+    vertex_count = count;
+}
+
+CanonicalNumbers input_numbers(const DistributedMesh& mesh) {
     CanonicalNumbers numbers;
     numbers.of_vertex.assign(mesh.input_vertices.begin(), mesh.input_vertices.end());
-    numbers.of_vertex.reserve(mesh.points.size());
     numbers.vertex_count = mesh.input_vertex_count;
-    const auto number = [&](VertexIndex v) {
-        return static_cast<std::uint64_t>(numbers.of_vertex[v]);
-    };
+    return numbers;
+}
+
+CanonicalNumbers canonical_numbers(const DistributedMesh& mesh) {
+    LocalFailure failure;
+    CanonicalNumbers numbers;
+    failure.attempt([&] {
+        numbers = input_numbers(mesh);
+        numbers.of_vertex.reserve(mesh.points.size());
+    });
+    // All processes have as many levels.
     for (std::size_t level = 0; level < mesh.level_begin.size(); ++level) {
         const VertexIndex end = level + 1 < mesh.level_begin.size() ? mesh.level_begin[level + 1]
                                                                     : mesh.points.end_index();
-        std::vector<Ends> pairs;
-        pairs.reserve(end.value() - mesh.level_begin[level].value());
-        for (VertexIndex v = mesh.level_begin[level]; v < end; ++v) {
-            const auto& [a, b] = mesh.midpoint_to_edge[v.value() - mesh.input_vertices.size()];
-            pairs.push_back({number(a), number(b)});
-        }
-        for (const std::uint64_t place :
-             ranked(mesh.processes, std::move(pairs), numbers.vertex_count, numbers.vertex_count)) {
-            numbers.of_vertex.push_back(GlobalVertex{place});
-        }
+        numbers.number_midpoints(mesh, end, failure);
     }
+    failure.agree(mesh.processes);
     return numbers;
 }
 

@@ -2,17 +2,30 @@
 
 #include <octetra/distributed/distributed_mesh.hpp>
 
+#include "comm/local_failure.hpp"
+
 namespace octetra::distributed {
 
+/// The canonical numbers of a process's vertices.
 struct CanonicalNumbers {
     IndexVector<VertexIndex, GlobalVertex> of_vertex;
     std::uint64_t vertex_count = 0;  ///< in the whole mesh
+
+    /// Collective. Numbers the midpoints of one level more: of this process, the vertices from the
+    /// last that has a number to before `end`. They come in the order of their ends' numbers; each
+    /// pair of ends goes to a process that the lower end decides, which puts its pairs in order and
+    /// answers. Memory and messages are in proportion to the midpoints. Where a process fails, the
+    /// numbers are not to be used on any until they have been taken back.
+    void number_midpoints(const DistributedMesh& mesh, VertexIndex end, LocalFailure& failure);
+
+    /// Takes numbers back: `count` is what vertex_count was.
+    void forget_from(VertexIndex end, std::uint64_t count) noexcept;
 };
 
-/// Collective. The canonical number of each vertex of this process. The midpoints of a level come
-/// in the order of their ends' numbers; each pair of ends goes to a process that the lower end
-/// decides, which puts its pairs in order and answers. Memory and messages are in proportion to the
-/// vertices.
+/// Of the vertices of the input alone. Not collective.
+[[nodiscard]] CanonicalNumbers input_numbers(const DistributedMesh& mesh);
+
+/// Collective. Of all vertices of this process.
 [[nodiscard]] CanonicalNumbers canonical_numbers(const DistributedMesh& mesh);
 
 }  // namespace octetra::distributed

@@ -8,9 +8,10 @@
 
 namespace octetra::distributed {
 
-/// One process has the whole mesh in canonical order; several exchange slices.
+/// One process that may keep the mesh has all of it in canonical order; else slices are exchanged.
 struct CanonicalMesh::Parts {
-    DistributedMesh mesh;
+    DistributedMesh own;
+    const DistributedMesh* mesh = &own;
     std::unique_ptr<CanonicalSlices> slices;
     Collected collected;
     std::unique_ptr<WholeMesh> whole;
@@ -21,15 +22,26 @@ struct CanonicalMesh::Parts {
             collected = collect(std::move(parts));
             whole = std::make_unique<WholeMesh>(collected.mesh, &collected.maps);
         } else {
-            mesh = std::move(parts);
-            restore_canonical_order(mesh);
-            slices = std::make_unique<CanonicalSlices>(mesh);
+            own = std::move(parts);
+            restore_canonical_order(own);
+            slices = std::make_unique<CanonicalSlices>(own);
         }
+    }
+    struct Borrowed {
+        const DistributedMesh* mesh;
+    };
+    explicit Parts(Borrowed borrowed) : mesh(borrowed.mesh) {
+        const Phase phase(mesh->processes, "number vertices");
+        slices = std::make_unique<CanonicalSlices>(*mesh);
     }
 };
 
+CanonicalMesh::CanonicalMesh(std::unique_ptr<Parts> parts) : parts_(std::move(parts)) {}
 CanonicalMesh::CanonicalMesh(DistributedMesh mesh)
     : parts_(std::make_unique<Parts>(std::move(mesh))) {}
+CanonicalMesh CanonicalMesh::of(const DistributedMesh& mesh) {
+    return CanonicalMesh(std::make_unique<Parts>(Parts::Borrowed{&mesh}));
+}
 CanonicalMesh::~CanonicalMesh() = default;
 CanonicalMesh::CanonicalMesh(CanonicalMesh&&) noexcept = default;
 CanonicalMesh& CanonicalMesh::operator=(CanonicalMesh&&) noexcept = default;
@@ -46,7 +58,7 @@ MeshSource& CanonicalMesh::whole() {
 std::string write_mesh(CanonicalMesh& mesh, const std::filesystem::path& path) {
     const CanonicalSlices* slices = mesh.parts_->slices.get();
     if (slices == nullptr || !is_in_pieces(path)) return octetra::write_mesh(mesh.whole(), path);
-    OwnPiece piece(mesh.parts_->mesh, slices->numbers(), slices->facts());
+    OwnPiece piece(*mesh.parts_->mesh, slices->lists(), slices->numbers(), slices->facts());
     return write_pieces(piece, slices->group(), path);
 }
 

@@ -25,10 +25,11 @@ void check_countable(const MeshFacts& facts) {
 
 CanonicalSlices::CanonicalSlices(const DistributedMesh& mesh)
     : mesh_(&mesh),
+      lists_(mesh),
       numbers_(canonical_numbers(mesh)),
-      cell_runs_(canonical_runs(mesh.processes, mesh.cell_ancestors)),
-      facet_runs_(canonical_runs(mesh.processes, mesh.facet_ancestors)),
-      edge_runs_(canonical_runs(mesh.processes, mesh.edge_ancestors)),
+      cell_runs_(canonical_runs(mesh.processes, lists_.cells.ancestors())),
+      facet_runs_(canonical_runs(mesh.processes, lists_.facets.ancestors())),
+      edge_runs_(canonical_runs(mesh.processes, lists_.edges.ancestors())),
       facts_(find_facts()) {
     check_countable(facts_);
 }
@@ -46,9 +47,9 @@ MeshFacts CanonicalSlices::find_facts() const {
             .index_base = mesh_->index_base,
             .first_midpoint = mesh_->input_vertex_count,
             .has_point_markers = any_has(mesh_->input_vertex_markers),
-            .has_regions = any_has(mesh_->cell_ancestors.markers),
-            .has_facet_markers = any_has(mesh_->facet_ancestors.markers),
-            .has_edge_markers = any_has(mesh_->edge_ancestors.markers),
+            .has_regions = any_has(lists_.cells.ancestors().markers),
+            .has_facet_markers = any_has(lists_.facets.ancestors().markers),
+            .has_edge_markers = any_has(lists_.edges.ancestors().markers),
             .has_parents = true};
 }
 
@@ -129,15 +130,14 @@ std::span<const EdgeVertices> CanonicalSlices::midpoint_ends(const Window& windo
 
 template <class I, std::size_t N>
 std::span<const std::array<VertexIndex, N>> CanonicalSlices::bring(
-    const Window& window, const IndexVector<I, std::array<VertexIndex, N>>& entities,
-    const AncestorMap& ancestors, const CanonicalRuns& runs,
-    std::vector<std::array<VertexIndex, N>>& slice) const {
+    const Window& window, const OrderedList<IndexVector<I, std::array<VertexIndex, N>>>& list,
+    const CanonicalRuns& runs, std::vector<std::array<VertexIndex, N>>& slice) const {
     bring_to_slices<std::array<VertexIndex, N>>(
         mesh_->processes, window,
         [&](std::uint64_t begin, std::uint64_t end, auto&& emit) {
-            for_each_between(runs, ancestors, begin, end,
+            for_each_between(runs, list.ancestors(), begin, end,
                              [&](std::uint64_t number, std::size_t local, std::size_t) {
-                                 emit(number, numbered(entities[I{local}]));
+                                 emit(number, numbered(list.list()[I{local}]));
                              });
         },
         slice);
@@ -161,20 +161,21 @@ std::span<const Marker> CanonicalSlices::bring_markers(const Window& window,
 }
 
 std::span<const CellVertices> CanonicalSlices::cells(const Window& window) {
-    return bring(window, mesh_->cells, mesh_->cell_ancestors, cell_runs_, cells_);
+    return bring(window, lists_.cells, cell_runs_, cells_);
 }
 
 std::span<const Marker> CanonicalSlices::regions(const Window& window) {
-    return bring_markers(window, mesh_->cell_ancestors, cell_runs_, regions_);
+    return bring_markers(window, lists_.cells.ancestors(), cell_runs_, regions_);
 }
 
 std::span<const CellIndex> CanonicalSlices::parents(const Window& window) {
     bring_to_slices<CellIndex>(
         mesh_->processes, window,
         [&](std::uint64_t begin, std::uint64_t end, auto&& emit) {
-            for_each_between(cell_runs_, mesh_->cell_ancestors, begin, end,
+            const AncestorMap& ancestors = lists_.cells.ancestors();
+            for_each_between(cell_runs_, ancestors, begin, end,
                              [&](std::uint64_t number, std::size_t, std::size_t root) {
-                                 emit(number, CellIndex{mesh_->cell_ancestors.roots[root]});
+                                 emit(number, CellIndex{ancestors.roots[root]});
                              });
         },
         parents_);
@@ -182,19 +183,19 @@ std::span<const CellIndex> CanonicalSlices::parents(const Window& window) {
 }
 
 std::span<const FacetVertices> CanonicalSlices::facets(const Window& window) {
-    return bring(window, mesh_->facets, mesh_->facet_ancestors, facet_runs_, facets_);
+    return bring(window, lists_.facets, facet_runs_, facets_);
 }
 
 std::span<const Marker> CanonicalSlices::facet_markers(const Window& window) {
-    return bring_markers(window, mesh_->facet_ancestors, facet_runs_, facet_markers_);
+    return bring_markers(window, lists_.facets.ancestors(), facet_runs_, facet_markers_);
 }
 
 std::span<const EdgeVertices> CanonicalSlices::edges(const Window& window) {
-    return bring(window, mesh_->edges, mesh_->edge_ancestors, edge_runs_, edges_);
+    return bring(window, lists_.edges, edge_runs_, edges_);
 }
 
 std::span<const Marker> CanonicalSlices::edge_markers(const Window& window) {
-    return bring_markers(window, mesh_->edge_ancestors, edge_runs_, edge_markers_);
+    return bring_markers(window, lists_.edges.ancestors(), edge_runs_, edge_markers_);
 }
 
 }  // namespace octetra::distributed

@@ -7,6 +7,7 @@
 
 #include "numbering/canonical_numbers.hpp"
 #include "numbering/canonical_runs.hpp"
+#include "output/ordered_lists.hpp"
 
 namespace octetra::distributed {
 
@@ -20,6 +21,7 @@ public:
     [[nodiscard]] const MeshFacts& facts() const override { return facts_; }
     [[nodiscard]] const ProcessGroup& group() const override { return mesh_->processes; }
     [[nodiscard]] const CanonicalNumbers& numbers() const { return numbers_; }
+    [[nodiscard]] const OrderedLists& lists() const { return lists_; }
 
     [[nodiscard]] std::span<const Point> points(const Window& window) override;
     [[nodiscard]] std::span<const Marker> point_markers(const Window& window) override;
@@ -46,14 +48,14 @@ private:
     void for_each_vertex(std::uint64_t begin, std::uint64_t end, auto&& emit) const;
     template <class I, std::size_t N>
     std::span<const std::array<VertexIndex, N>> bring(
-        const Window& window, const IndexVector<I, std::array<VertexIndex, N>>& entities,
-        const AncestorMap& ancestors, const CanonicalRuns& runs,
-        std::vector<std::array<VertexIndex, N>>& slice) const;
+        const Window& window, const OrderedList<IndexVector<I, std::array<VertexIndex, N>>>& list,
+        const CanonicalRuns& runs, std::vector<std::array<VertexIndex, N>>& slice) const;
     std::span<const Marker> bring_markers(const Window& window, const AncestorMap& ancestors,
                                           const CanonicalRuns& runs,
                                           std::vector<Marker>& slice) const;
 
     const DistributedMesh* mesh_;
+    OrderedLists lists_;
     CanonicalNumbers numbers_;
     CanonicalRuns cell_runs_;
     CanonicalRuns facet_runs_;

@@ -77,13 +77,22 @@ Collected gather(const DistributedMesh& part) {
 
 Collected collect(DistributedMesh mesh) {
     const Communicator processes = mesh.processes;  // the mesh may be gone before the phase ends
+    if (processes.size() > 1) return collect_copy(mesh);
     const Phase phase(processes, "collect");
     restore_canonical_order(mesh);
     const std::uint32_t index_base = mesh.index_base;
     const VertexIndex first_midpoint{mesh.input_vertex_count};
-    Collected whole = mesh.processes.size() == 1 ? hand_over(std::move(mesh)) : gather(mesh);
+    Collected whole = hand_over(std::move(mesh));
     whole.mesh.index_base = index_base;
     whole.maps.first_midpoint = first_midpoint;
+    return whole;
+}
+
+Collected collect_copy(const DistributedMesh& mesh) {
+    const Phase phase(mesh.processes, "collect");
+    Collected whole = gather(mesh);
+    whole.mesh.index_base = mesh.index_base;
+    whole.maps.first_midpoint = VertexIndex{mesh.input_vertex_count};
     return whole;
 }
 

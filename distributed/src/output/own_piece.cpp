@@ -59,9 +59,9 @@ void for_each_root(const AncestorMap& ancestors, const Window& window, auto&& em
 
 }  // namespace
 
-OwnPiece::OwnPiece(const DistributedMesh& mesh, const CanonicalNumbers& numbers,
-                   const MeshFacts& whole)
-    : mesh_(&mesh), numbers_(&numbers), facts_(whole) {
+OwnPiece::OwnPiece(const DistributedMesh& mesh, const OrderedLists& lists,
+                   const CanonicalNumbers& numbers, const MeshFacts& whole)
+    : mesh_(&mesh), lists_(&lists), numbers_(&numbers), facts_(whole) {
     facts_.vertices = mesh.points.size();
     facts_.cells = mesh.cells.size();
     facts_.facets = mesh.facets.size();
@@ -89,20 +89,22 @@ std::span<const std::uint64_t> OwnPiece::vertex_numbers(const Window& w) {
     return vertex_numbers_;
 }
 
-std::span<const CellVertices> OwnPiece::cells(const Window& w) { return slice(mesh_->cells, w); }
+std::span<const CellVertices> OwnPiece::cells(const Window& w) {
+    return slice(lists_->cells.list(), w);
+}
 
 std::span<const Marker> OwnPiece::regions(const Window& w) {
     regions_.clear();
-    for_each_root(mesh_->cell_ancestors, w, [&](std::size_t root) {
-        regions_.push_back(mesh_->cell_ancestors.markers[root]);
+    for_each_root(lists_->cells.ancestors(), w, [&](std::size_t root) {
+        regions_.push_back(lists_->cells.ancestors().markers[root]);
     });
     return regions_;
 }
 
 std::span<const CellIndex> OwnPiece::parents(const Window& w) {
     parents_.clear();
-    for_each_root(mesh_->cell_ancestors, w, [&](std::size_t root) {
-        parents_.push_back(CellIndex{mesh_->cell_ancestors.roots[root]});
+    for_each_root(lists_->cells.ancestors(), w, [&](std::size_t root) {
+        parents_.push_back(CellIndex{lists_->cells.ancestors().roots[root]});
     });
     return parents_;
 }

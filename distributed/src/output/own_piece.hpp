@@ -6,6 +6,7 @@
 #include <octetra/distributed/distributed_mesh.hpp>
 
 #include "numbering/canonical_numbers.hpp"
+#include "output/ordered_lists.hpp"
 
 namespace octetra::distributed {
 
@@ -13,8 +14,9 @@ namespace octetra::distributed {
 /// The tagged facets and edges are only counted.
 class OwnPiece final : public MeshSource {
 public:
-    /// Collective. `whole` tells of the whole mesh. Refers to the mesh and the numbers.
-    OwnPiece(const DistributedMesh& mesh, const CanonicalNumbers& numbers, const MeshFacts& whole);
+    /// Collective. `whole` tells of the whole mesh. Refers to the mesh, its lists and the numbers.
+    OwnPiece(const DistributedMesh& mesh, const OrderedLists& lists,
+             const CanonicalNumbers& numbers, const MeshFacts& whole);
 
     // Not collective:
     [[nodiscard]] const MeshFacts& facts() const override { return facts_; }
@@ -28,6 +30,7 @@ public:
 
 private:
     const DistributedMesh* mesh_;
+    const OrderedLists* lists_;
     const CanonicalNumbers* numbers_;
     MeshFacts facts_;
     std::vector<Marker> point_markers_;  ///< of all vertices of the piece

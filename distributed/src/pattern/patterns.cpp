@@ -155,7 +155,7 @@ private:
     }
 
     static DivisionNumber division_of(const Pieces& pieces, std::vector<Division>& divisions) {
-        Division division{.child_count = static_cast<std::uint8_t>(pieces.size())};
+        Division division{.piece_count = static_cast<std::uint8_t>(pieces.size())};
         std::ranges::transform(pieces, division.halvings.begin(), &Pieces::Piece::halvings);
         const auto found = std::ranges::find(divisions, division);
         const auto number = static_cast<DivisionNumber>(found - divisions.begin());

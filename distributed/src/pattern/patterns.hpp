@@ -4,6 +4,8 @@
 #include <cstdint>
 #include <vector>
 
+#include <octetra/distributed/succession.hpp>
+
 /// Every way in which one cell can be bisected, worked out once from the rule.
 namespace octetra::distributed {
 
@@ -19,15 +21,6 @@ inline constexpr EdgeMask all_edges = 0b111111;  ///< of a cell
 
 /// A corner (0..3) or the midpoint of edge k (4 + k).
 using Place = std::uint8_t;
-
-/// How many children a cell has, and how often it was halved for each of them: the share of child k
-/// in the cell's volume is 2^-halvings[k].
-struct Division {
-    std::uint8_t child_count = 1;
-    std::array<std::uint8_t, 8> halvings{};
-
-    friend auto operator<=>(const Division&, const Division&) = default;
-};
 
 /// The number of a division in PatternTable::divisions(); 0 is that of a cell which stays whole.
 using DivisionNumber = std::uint8_t;

@@ -21,7 +21,10 @@ void cut(BisectedTriangle& result, const FacetVertices& triangle, const Bisected
         // Both halves take the piece's place; those behind it make room.
         for (std::size_t j = result.piece_count; j > i + 1; --j) {
             result.pieces[j] = result.pieces[j - 1];
+            result.halvings[j] = result.halvings[j - 1];
         }
+        ++result.halvings[i];
+        result.halvings[i + 1] = result.halvings[i];
         ++result.piece_count;
         result.pieces[i][edge.high] = edge.midpoint;
         result.pieces[i + 1] = piece;

@@ -2,18 +2,36 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 
 #include <octetra/core/mesh.hpp>
+#include <octetra/distributed/succession.hpp>
 
 namespace octetra::distributed {
 
 /// How a triangle of the mesh is bisected.
 struct BisectedTriangle {
     std::size_t piece_count = 1;
-    std::array<FacetVertices, 4> pieces{};  ///< in canonical order
+    std::array<FacetVertices, 4> pieces{};   ///< in canonical order
+    std::array<std::uint8_t, 4> halvings{};  ///< how often the triangle was cut for each piece
     std::size_t inner_edge_count = 0;
     std::array<EdgeVertices, 3> inner_edges{};  ///< between the pieces, in order of bisection
 };
+
+/// The ways in which a triangle, or an edge, can be divided; number 0: it stays whole.
+inline constexpr std::array<Division, 5> triangle_divisions{
+    {{1, {0}}, {2, {1, 1}}, {3, {1, 2, 2}}, {3, {2, 2, 1}}, {4, {2, 2, 2, 2}}}};
+inline constexpr std::array<Division, 2> edge_divisions{{{1, {0}}, {2, {1, 1}}}};
+
+/// Which of triangle_divisions it is.
+[[nodiscard]] inline std::uint8_t division_of(const BisectedTriangle& bisected) {
+    switch (bisected.piece_count) {
+        case 1: return 0;
+        case 2: return 1;
+        case 3: return bisected.halvings[0] == 1 ? 2 : 3;
+        default: return 4;
+    }
+}
 
 /// `midpoints` of the triangle's edges, in the order of triangle_edges; none() where an edge is not
 /// bisected. The selection must be closed.

@@ -15,6 +15,8 @@ class CanonicalMesh {
 public:
     /// Collective. Throws InputError on all processes where 32 bits cannot number the mesh.
     explicit CanonicalMesh(DistributedMesh mesh);
+    /// The same, of a mesh that stays as it is, and must as long as this is used.
+    [[nodiscard]] static CanonicalMesh of(const DistributedMesh& mesh);
     ~CanonicalMesh();
     CanonicalMesh(const CanonicalMesh&) = delete;
     CanonicalMesh& operator=(const CanonicalMesh&) = delete;
@@ -31,6 +33,7 @@ public:
     struct Parts;
 
 private:
+    explicit CanonicalMesh(std::unique_ptr<Parts> parts);
     std::unique_ptr<Parts> parts_;
     friend std::string write_mesh(CanonicalMesh& mesh, const std::filesystem::path& path);
 };

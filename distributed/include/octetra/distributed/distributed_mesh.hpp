@@ -115,4 +115,7 @@ struct Collected {
 /// one. Throws InputError on all processes where 32 bits cannot number it.
 [[nodiscard]] Collected collect(DistributedMesh mesh);
 
+/// Collective. The same, of a mesh that stays as it is.
+[[nodiscard]] Collected collect_copy(const DistributedMesh& mesh);
+
 }  // namespace octetra::distributed

@@ -130,16 +130,19 @@ private:
 }  // namespace
 
 /// A list with all entities replaced by their pieces: append_pieces(entity, pieces) for each, in
-/// order.
+/// order, says which of the divisions it is.
 template <class List>
 FullSweepLevel::NewList<List> FullSweepLevel::in_pieces(const List& list,
                                                         const AncestorMap& ancestors,
                                                         auto&& append_pieces) {
     NewList<List> pieces;
     pieces.first.reserve(ancestors.first.size());
+    pieces.divisions.reserve(list.size());
     auto entity = list.begin();
     for (const std::uint32_t begin : ancestors.first) {
-        for (; entity < list.begin() + begin; ++entity) append_pieces(*entity, pieces.entities);
+        for (; entity < list.begin() + begin; ++entity) {
+            pieces.divisions.push_back(append_pieces(*entity, pieces.entities));
+        }
         pieces.first.push_back(pieces.entities.end_index().value());
     }
     return pieces;
@@ -156,14 +159,18 @@ void FullSweepLevel::mark(const MarkedCells& marked, Scheme scheme) {
     if (marked.all && scheme == Scheme::eight) {
         closure_.mark_all();
     } else if (marked.all) {
-        for (CellIndex c{0}; c < mesh_->cells.end_index(); ++c) mark(c, scheme);
+        for (CellIndex c{0}; c < mesh_->cells.end_index(); ++c) {
+            mark(c, marks_of(scheme, orders_.of(c)));
+        }
     } else {
-        for (const CellIndex c : marked.cells) mark(c, scheme);
+        for (std::size_t k = 0; k < marked.cells.size(); ++k) {
+            const CellIndex c = marked.cells[k];
+            mark(c, marked.edges.empty() ? marks_of(scheme, orders_.of(c)) : marked.edges[k]);
+        }
     }
 }
 
-void FullSweepLevel::mark(CellIndex cell, Scheme scheme) {
-    const EdgeMask mask = marks_of(scheme, orders_.of(cell));
+void FullSweepLevel::mark(CellIndex cell, EdgeMask mask) {
     const auto edges = numbering_->edges_of(cell);
     for (std::size_t e = 0; e < 6; ++e) {
         if ((mask >> e & 1U) != 0) closure_.mark(edges[e]);
@@ -212,23 +219,53 @@ void FullSweepLevel::bisect_tagged() {
             const BisectedTriangle bisected =
                 bisect_triangle(facet, midpoints_of(facet, *numbering_, midpoints_), mesh.points);
             std::copy_n(bisected.pieces.begin(), bisected.piece_count, std::back_inserter(all));
+            return division_of(bisected);
         });
     tagged_edges_ =
         in_pieces(mesh.edges, mesh.edge_ancestors, [&](const EdgeVertices& edge, auto& all) {
             // Which half comes first is a matter of the end points' positions in the list.
             const VertexIndex midpoint = midpoints_[numbering_->find(edge[0], edge[1])];
-            if (midpoint.is_none()) {
-                all.append(edge);
-            } else {
-                all.append({edge[0], midpoint});
-                all.append({midpoint, edge[1]});
-            }
+            const bool is_whole = midpoint.is_none();
+            all.append({edge[0], is_whole ? edge[1] : midpoint});
+            if (!is_whole) all.append({midpoint, edge[1]});
+            return static_cast<std::uint8_t>(is_whole ? 0 : 1);
         });
 }
 
 void FullSweepLevel::bisect_interfaces() {
     interfaces_ = mesh_->interfaces;
     distributed::bisect_interfaces(interfaces_, mesh_->points, *numbering_, midpoints_);
+}
+
+// Of an edge that is bisected the first half has its place; see bisect_interfaces().
+std::vector<std::vector<VertexIndex>> FullSweepLevel::shared_midpoints() const {
+    const VertexIndex first_midpoint = mesh_->level_begin.back();
+    std::vector<std::vector<VertexIndex>> midpoints(interfaces_.size());
+    for (std::size_t i = 0; i < interfaces_.size(); ++i) {
+        for (std::size_t k = 0; k < mesh_->interfaces[i].edges.size(); ++k) {
+            const VertexIndex end = interfaces_[i].edges[k][1];
+            if (end >= first_midpoint) midpoints[i].push_back(end);
+        }
+    }
+    return midpoints;
+}
+
+Succession FullSweepLevel::changes_of_cells() {
+    const PatternTable& table = PatternTable::get();
+    std::vector<std::uint8_t> divisions(marked_.size(), 0);
+    for (CellIndex c{0}; c < marked_.end_index(); ++c) {
+        if (marked_[c] == 0) continue;
+        // If all edges are, the order makes no difference.
+        const LengthOrder order = marked_[c] == all_edges ? LengthOrder{0} : orders_.of(c);
+        divisions[c.value()] = table.pattern(order, marked_[c]).division;
+    }
+    return Succession::of_all(std::move(divisions), table.divisions());
+}
+
+ListChanges FullSweepLevel::changes() {
+    return {changes_of_cells(),
+            Succession::of_all(std::move(facets_.divisions), triangle_divisions),
+            Succession::of_all(std::move(tagged_edges_.divisions), edge_divisions)};
 }
 
 void FullSweepLevel::commit() noexcept {

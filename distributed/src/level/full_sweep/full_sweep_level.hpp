@@ -30,6 +30,8 @@ public:
     [[nodiscard]] RoundingFailure bisect_cells(std::size_t cell_count) override;
     void bisect_tagged() override;
     void bisect_interfaces() override;
+    [[nodiscard]] std::vector<std::vector<VertexIndex>> shared_midpoints() const override;
+    [[nodiscard]] ListChanges changes() override;
     void commit() noexcept override;
     [[nodiscard]] std::size_t cells_touched() const override { return orders_.end_index().value(); }
 
@@ -39,6 +41,8 @@ private:
     struct NewList {
         List entities;
         std::vector<std::uint32_t> first;  ///< as in AncestorMap
+        /// Of each entity that was there before; not of cells.
+        std::vector<std::uint8_t> divisions;
 
         void commit(List& list, AncestorMap& ancestors) {
             list = std::move(entities);
@@ -48,8 +52,9 @@ private:
     template <class List>
     static NewList<List> in_pieces(const List& list, const AncestorMap& ancestors,
                                    auto&& append_pieces);
+    [[nodiscard]] Succession changes_of_cells();
 
-    void mark(CellIndex cell, Scheme scheme);
+    void mark(CellIndex cell, EdgeMask mask);
 
     DistributedMesh* mesh_;
     LocalEdgeSet edges_;

@@ -56,8 +56,10 @@ IncrementalLevel::IncrementalLevel(DistributedMesh& mesh)
     : mesh_(&mesh), adjacency_(&adjacency_of(mesh)), closure_(mesh, *adjacency_) {}
 
 void IncrementalLevel::mark(const MarkedCells& marked, Scheme scheme) {
-    for (const CellIndex c : marked.cells) {
-        closure_.mark(c, marks_of(scheme, closure_.order_of(c)));
+    for (std::size_t k = 0; k < marked.cells.size(); ++k) {
+        const CellIndex c = marked.cells[k];
+        closure_.mark(
+            c, marked.edges.empty() ? marks_of(scheme, closure_.order_of(c)) : marked.edges[k]);
     }
 }
 
@@ -218,6 +220,33 @@ void IncrementalLevel::make_room_in_interfaces() {
     }
     adjacency_->shared_edges.make_room(edges, mesh_->interfaces);
     adjacency_->shared_faces.make_room(faces, mesh_->interfaces);
+}
+
+std::vector<std::vector<VertexIndex>> IncrementalLevel::shared_midpoints() const {
+    std::vector<std::vector<VertexIndex>> midpoints(mesh_->interfaces.size());
+    for (const CutSharedEdge& cut : cut_shared_edges_) {
+        midpoints[cut.place.interface].push_back(cut.midpoint);
+    }
+    return midpoints;
+}
+
+ListChanges IncrementalLevel::changes() {
+    using Cuts = std::vector<Succession::Cut>;
+    Cuts cells;
+    for (const auto& note : closure_.notes()) {
+        cells.push_back({note.cell.value(), pattern_of(note).division});
+    }
+    Cuts facets;
+    for (const auto& [facet, midpoints] : cut_facets_) {
+        facets.push_back({facet.value(), division_of(bisect_triangle(mesh_->facets[facet],
+                                                                     midpoints, mesh_->points))});
+    }
+    Cuts edges;
+    for (const CutEdge& cut : cut_tagged_edges_) edges.push_back({cut.edge.value(), 1});
+    return {
+        Succession::of_cuts(mesh_->cells.size(), std::move(cells), PatternTable::get().divisions()),
+        Succession::of_cuts(mesh_->facets.size(), std::move(facets), triangle_divisions),
+        Succession::of_cuts(mesh_->edges.size(), std::move(edges), edge_divisions)};
 }
 
 void IncrementalLevel::commit() noexcept {

@@ -34,6 +34,8 @@ public:
     [[nodiscard]] RoundingFailure bisect_cells(std::size_t cell_count) override;
     void bisect_tagged() override;
     void bisect_interfaces() override;
+    [[nodiscard]] std::vector<std::vector<VertexIndex>> shared_midpoints() const override;
+    [[nodiscard]] ListChanges changes() override;
     void commit() noexcept override;
     [[nodiscard]] std::size_t cells_touched() const override { return closure_.notes().size(); }
 

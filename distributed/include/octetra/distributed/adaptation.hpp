@@ -1,0 +1,102 @@
+#pragma once
+
+#include <cstddef>
+#include <stdexcept>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include <octetra/core/mesh.hpp>
+#include <octetra/distributed/refine.hpp>
+#include <octetra/distributed/succession.hpp>
+
+namespace octetra::distributed {
+
+/// What the children of a cell get of a value that it had.
+enum class CellValues {
+    copied,   ///< each the same: a density, a tag
+    divided,  ///< by their shares in its volume: a mass, a count
+};
+
+/// What a step of an AdaptiveMesh did to this process's part: for everything that there is now,
+/// what it was before. All numbers are local. It stays valid whatever becomes of the mesh. No
+/// function is collective.
+///
+/// Vertices keep their numbers; new ones follow behind them.
+struct Adaptation {
+    /// Did anything change, on any process? The same on all.
+    bool changed = false;
+    Succession cells;
+    Succession facets;  ///< tagged ones
+    Succession edges;   ///< tagged ones
+    std::size_t vertex_count_before = 0;
+    /// The ends of the edge that each new vertex is the midpoint of, lower first: number
+    /// vertex_count_before is that of the first.
+    std::vector<EdgeVertices> new_vertex_ends;
+    SynchronisationCounts synchronisation;
+
+    /// Values of a continuous, piecewise linear function (P1), `components` for each vertex: of new
+    /// vertices the mean of the edge's ends, which is what the function is there. Takes the values,
+    /// and gives them back with more behind. Throws std::invalid_argument where they do not fit.
+    template <class T>
+    [[nodiscard]] std::vector<T> transfer_vertices(std::vector<T> values,
+                                                   std::size_t components = 1) const {
+        check(values.size(), vertex_count_before, components);
+        values.reserve(values.size() + new_vertex_ends.size() * components);
+        for (const auto& [a, b] : new_vertex_ends) {
+            for (std::size_t k = 0; k < components; ++k) {
+                values.push_back(
+                    (values[a.value() * components + k] + values[b.value() * components + k]) / 2);
+            }
+        }
+        return values;
+    }
+
+    /// Values of cells, `components` for each. Takes time in proportion to the cells that changed
+    /// where they keep their numbers. Throws std::invalid_argument where the values do not fit.
+    template <class T>
+    [[nodiscard]] std::vector<T> transfer_cells(std::vector<T> values, std::size_t components = 1,
+                                                CellValues children = CellValues::copied) const {
+        check(values.size(), cells.count_before(), components);
+        const auto share = [&](const T& value, unsigned halvings) {
+            if (children == CellValues::copied) return value;
+            return static_cast<T>(value / static_cast<T>(1U << halvings));
+        };
+        if (!cells.keeps_numbers()) {
+            std::vector<T> after(cells.count() * components);
+            cells.for_each_new([&](std::size_t number, std::size_t before, unsigned halvings) {
+                for (std::size_t k = 0; k < components; ++k) {
+                    after[number * components + k] =
+                        share(values[before * components + k], halvings);
+                }
+            });
+            return after;
+        }
+        values.resize(cells.count() * components);
+        // The first piece of a cell has its place, so its value is changed when all others have
+        // theirs.
+        cells.for_each_new([&](std::size_t number, std::size_t before, unsigned halvings) {
+            if (number == before) return;
+            for (std::size_t k = 0; k < components; ++k) {
+                values[number * components + k] = share(values[before * components + k], halvings);
+            }
+        });
+        if (children == CellValues::copied) return values;
+        cells.for_each_new([&](std::size_t number, std::size_t before, unsigned halvings) {
+            if (number != before) return;
+            for (std::size_t k = 0; k < components; ++k) {
+                values[number * components + k] = share(values[number * components + k], halvings);
+            }
+        });
+        return values;
+    }
+
+private:
+    static void check(std::size_t size, std::size_t count, std::size_t components) {
+        if (size != count * components) {
+            throw std::invalid_argument("values do not fit the mesh as it was before the step");
+        }
+    }
+};
+
+}  // namespace octetra::distributed

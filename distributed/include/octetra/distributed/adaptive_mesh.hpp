@@ -1,0 +1,113 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <limits>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include <octetra/core/mesh.hpp>
+#include <octetra/core/selection.hpp>
+#include <octetra/distributed/adaptation.hpp>
+#include <octetra/distributed/canonical_mesh.hpp>
+#include <octetra/distributed/communicator.hpp>
+#include <octetra/distributed/distributed_mesh.hpp>
+#include <octetra/distributed/partition.hpp>
+#include <octetra/distributed/sharing.hpp>
+
+namespace octetra::distributed {
+
+struct StepOptions {
+    Scheme scheme = Scheme::eight;
+    Synchronisation synchronisation = Synchronisation::neighbour;
+    /// A step that would make more cells than this, of the whole mesh, is refused.
+    std::uint64_t max_cells = std::numeric_limits<std::uint64_t>::max();
+};
+
+/// A tetrahedral mesh in a solver's loop: distributed over the processes of a communicator, refined
+/// again and again, and asked in between. Every process has the cells that it was given and their
+/// descendants; a vertex is on every process that has a cell at it.
+///
+/// Numbers are local to the process, 32 bits, where nothing else is said; those of type
+/// GlobalVertex, and counts, are of the whole mesh. A vertex keeps its local and its global number
+/// for ever. Cells and tagged facets and edges may get other numbers in a step, of which its
+/// Adaptation tells. The order of a process's cells is not that of files, which is the same on any
+/// number of processes.
+///
+/// Functions are collective where their description says so: all processes call them, in the same
+/// order. What a collective function throws it throws alike on all processes, and the mesh is as it
+/// was before the call: an InputError for an argument that is not right on some process, or for a
+/// step that cannot be made; std::bad_alloc if one has no memory; SystemError for what else fails.
+///
+/// Nothing is printed, and no process is ended.
+class AdaptiveMesh {
+public:
+    /// Collective. A mesh from a file, which the first process reads and the partition shares out.
+    [[nodiscard]] static AdaptiveMesh read(const Communicator& processes,
+                                           const std::filesystem::path& path,
+                                           const Partition& partition = {});
+    /// Collective. A mesh that the first process has; the others' `mesh` and `cell_to_rank` are not
+    /// looked at.
+    [[nodiscard]] static AdaptiveMesh distribute(const Communicator& processes, Mesh mesh,
+                                                 const std::vector<int>& cell_to_rank);
+    /// Collective. Of parts that are as the input was: nothing has been refined.
+    explicit AdaptiveMesh(DistributedMesh part);
+
+    ~AdaptiveMesh();
+    AdaptiveMesh(const AdaptiveMesh&) = delete;
+    AdaptiveMesh& operator=(const AdaptiveMesh&) = delete;
+    AdaptiveMesh(AdaptiveMesh&&) noexcept;
+    AdaptiveMesh& operator=(AdaptiveMesh&&) noexcept;
+
+    /// Collective. One step of 8T-LE refinement, of the marked cells and what closure adds. `marks`
+    /// has a byte for each cell of this process; not 0 means marked.
+    Adaptation refine(std::span<const std::uint8_t> marks, const StepOptions& options = {});
+    /// The same, of cells that are listed, in any order.
+    Adaptation refine(std::span<const CellIndex> marked, const StepOptions& options = {});
+    /// The same, of the cells that the criteria of the command line mark. Numbers of cells are
+    /// those of the input.
+    Adaptation refine(const Selection& selection, const StepOptions& options = {});
+    /// Collective. One step that bisects these edges, each of some cell of this process, and what
+    /// closure adds. It is enough that one of the processes which have an edge lists it.
+    Adaptation refine_edges(std::span<const EdgeVertices> marked, const StepOptions& options = {});
+
+    [[nodiscard]] const Communicator& processes() const;
+
+    // This process's part. Spans are valid until the mesh is refined.
+    [[nodiscard]] std::span<const Point> points() const;
+    [[nodiscard]] std::span<const CellVertices> cells() const;
+    /// The region tag of each cell; empty where the input has none. Takes time in proportion to the
+    /// part.
+    [[nodiscard]] std::vector<Marker> regions() const;
+    [[nodiscard]] std::span<const FacetVertices> facets() const;  ///< tagged ones
+    [[nodiscard]] std::vector<Marker> facet_markers() const;
+    [[nodiscard]] std::span<const EdgeVertices> edges() const;  ///< tagged ones
+    [[nodiscard]] std::vector<Marker> edge_markers() const;
+
+    /// Of the whole mesh.
+    [[nodiscard]] std::uint64_t vertex_count() const;
+    /// Of each vertex of this process, its number in the whole mesh: in the canonical order, which
+    /// is that of files.
+    [[nodiscard]] std::span<const GlobalVertex> vertex_numbers() const;
+    [[nodiscard]] const Sharing<VertexIndex>& vertex_sharing() const;
+
+    /// Collective. Writes one file, the same whatever the number of processes and the partition,
+    /// or, of a `.pvtu`, each process's part as a piece. Returns what the format could not hold.
+    [[nodiscard]] std::string write(const std::filesystem::path& path) const;
+    /// Collective. The first process gets the whole mesh in the order of files, the others an empty
+    /// one. Throws InputError where 32 bits cannot number it.
+    [[nodiscard]] Mesh collect() const;
+    /// Collective. The whole mesh as a source of slices, for writers and for verification. Refers
+    /// to the mesh, which must not be refined meanwhile.
+    [[nodiscard]] CanonicalMesh canonical() const;
+
+private:
+    struct State;
+    explicit AdaptiveMesh(std::unique_ptr<State> state);
+
+    std::unique_ptr<State> state_;
+};
+
+}  // namespace octetra::distributed

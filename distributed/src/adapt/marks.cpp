@@ -1,0 +1,80 @@
+#include "adapt/marks.hpp"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include <octetra/core/error.hpp>
+#include <octetra/core/vertex_buckets.hpp>
+
+namespace octetra::distributed {
+
+MarkedCells marked_by_bytes(const DistributedMesh& mesh, std::span<const std::uint8_t> marks) {
+    if (marks.size() != mesh.cells.size()) {
+        throw InputError(fmt::format("rank {}: {} marks for {} cells", mesh.processes.rank(),
+                                     marks.size(), mesh.cells.size()));
+    }
+    MarkedCells marked;
+    for (std::size_t c = 0; c < marks.size(); ++c) {
+        if (marks[c] != 0) marked.cells.push_back(CellIndex{c});
+    }
+    marked.count = marked.cells.size();
+    marked.judged = marks.size();
+    return marked;
+}
+
+MarkedCells marked_by_list(const DistributedMesh& mesh, std::span<const CellIndex> listed) {
+    MarkedCells marked;
+    marked.cells.assign(listed.begin(), listed.end());
+    std::ranges::sort(marked.cells);
+    marked.cells.erase(std::unique(marked.cells.begin(), marked.cells.end()), marked.cells.end());
+    if (!marked.cells.empty() && marked.cells.back() >= mesh.cells.end_index()) {
+        throw InputError(fmt::format("rank {}: cell {} is marked, and there are {}",
+                                     mesh.processes.rank(), marked.cells.back().value(),
+                                     mesh.cells.size()));
+    }
+    marked.count = marked.cells.size();
+    marked.judged = listed.size();
+    return marked;
+}
+
+MarkedCells cells_with_marked_edges(const DistributedMesh& mesh,
+                                    std::span<const EdgeVertices> marked) {
+    MarkedCells cells;
+    if (marked.empty()) return cells;
+    IndexVector<EdgeIndex, EdgeVertices> edges;
+    for (const auto& [a, b] : marked) {
+        if (std::max(a, b) >= mesh.points.end_index()) {
+            throw InputError(fmt::format("rank {}: edge {} {} is marked, and there are {} vertices",
+                                         mesh.processes.rank(), a.value(), b.value(),
+                                         mesh.points.size()));
+        }
+        edges.push_back({a, b});
+    }
+    const VertexBuckets<EdgeIndex, 2> buckets(edges, mesh.points.size());
+    IndexVector<EdgeIndex, std::uint8_t> met(edges.size(), 0);
+    for (CellIndex c{0}; c < mesh.cells.end_index(); ++c) {
+        unsigned mask = 0;
+        for (std::size_t e = 0; e < 6; ++e) {
+            const auto [i, j] = cell_edges[e];
+            buckets.find({mesh.cells[c][i], mesh.cells[c][j]}, [&](EdgeIndex edge) {
+                if (met[edge] == 0) mask |= 1U << e;
+                met[edge] = 1;
+            });
+        }
+        if (mask == 0) continue;
+        cells.cells.push_back(c);
+        cells.edges.push_back(static_cast<EdgeMask>(mask));
+    }
+    const auto missing = std::ranges::find(met, std::uint8_t{0});
+    if (missing != met.end()) {
+        const auto& [a, b] = marked[static_cast<std::size_t>(missing - met.begin())];
+        throw InputError(fmt::format("rank {}: edge {} {} is marked, and no cell has it",
+                                     mesh.processes.rank(), a.value(), b.value()));
+    }
+    cells.count = cells.cells.size();
+    cells.judged = mesh.cells.size();
+    return cells;
+}
+
+}  // namespace octetra::distributed

@@ -1,0 +1,106 @@
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <span>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include <octetra/distributed/sharing.hpp>
+
+#include "level/huge_pages.hpp"
+
+namespace octetra::distributed {
+
+/// Which of the processes that have an entity owns it; `ranks` ascending, this one among them.
+[[nodiscard]] inline int owner_of(std::uint64_t number, std::span<const int> ranks) {
+    std::uint64_t h = number + 0x9e3779b97f4a7c15U;  // splitmix64
+    h = (h ^ h >> 30U) * 0xbf58476d1ce4e5b9U;
+    h = (h ^ h >> 27U) * 0x94d049bb133111ebU;
+    return ranks[(h ^ h >> 31U) % ranks.size()];
+}
+
+/// Adds entities to a Sharing: first prepared, which may fail and changes nothing, then committed.
+template <class I>
+class SharingBuilder {
+public:
+    SharingBuilder(Sharing<I>& sharing, int rank) : sharing_(&sharing) { sharing.rank_ = rank; }
+
+    /// With this rank; `entities` in an order that both sides know. Each rank at most once.
+    void share(int rank, std::vector<I> entities) {
+        if (!entities.empty()) added_.push_back({rank, std::move(entities)});
+    }
+
+    /// Once all is told. All added entities have greater numbers than those that are there;
+    /// `number_of(i)` is the global number.
+    void prepare(auto&& number_of) {
+        struct Entry {
+            I entity;
+            int rank;
+        };
+        std::vector<Entry> entries;
+        for (const auto& [rank, entities] : added_) {
+            for (const I i : entities) entries.push_back({i, rank});
+        }
+        std::ranges::sort(entries, {}, [](const Entry& e) { return std::pair(e.entity, e.rank); });
+        std::vector<int> ranks;
+        for (std::size_t begin = 0, end = 0; begin < entries.size(); begin = end) {
+            const I entity = entries[begin].entity;
+            ranks.assign(1, sharing_->rank_);
+            for (; end < entries.size() && entries[end].entity == entity; ++end) {
+                ranks_.push_back(entries[end].rank);
+                ranks.push_back(entries[end].rank);
+            }
+            std::ranges::sort(ranks);
+            shared_.push_back(entity);
+            ends_.push_back(static_cast<std::uint32_t>(sharing_->ranks_.size() + ranks_.size()));
+            owners_.push_back(owner_of(number_of(entity), ranks));
+        }
+        make_room_for_all();
+    }
+
+    void commit() noexcept {
+        const auto append = [](auto& list, const auto& added) {
+            list.insert(list.end(), added.begin(), added.end());
+        };
+        append(sharing_->shared_, shared_);
+        append(sharing_->begin_, ends_);
+        append(sharing_->ranks_, ranks_);
+        append(sharing_->owners_, owners_);
+        for (auto& [rank, entities] : added_) {
+            auto there = neighbour(rank);
+            if (there == sharing_->neighbours_.end() || there->rank != rank) {
+                sharing_->neighbours_.insert(there, {rank, std::move(entities)});
+            } else {
+                append(there->entities, entities);
+            }
+        }
+    }
+
+private:
+    [[nodiscard]] auto neighbour(int rank) {
+        return std::ranges::lower_bound(sharing_->neighbours_, rank, {}, &SharedWith<I>::rank);
+    }
+    void make_room_for_all() {
+        make_room(sharing_->shared_, sharing_->shared_.size() + shared_.size());
+        make_room(sharing_->begin_, sharing_->begin_.size() + ends_.size());
+        make_room(sharing_->ranks_, sharing_->ranks_.size() + ranks_.size());
+        make_room(sharing_->owners_, sharing_->owners_.size() + owners_.size());
+        make_room(sharing_->neighbours_, sharing_->neighbours_.size() + added_.size());
+        for (const auto& [rank, entities] : added_) {
+            const auto there = neighbour(rank);
+            if (there == sharing_->neighbours_.end() || there->rank != rank) continue;
+            make_room(there->entities, there->entities.size() + entities.size());
+        }
+    }
+
+    Sharing<I>* sharing_;
+    std::vector<SharedWith<I>> added_;
+    std::vector<I> shared_;
+    std::vector<std::uint32_t> ends_;
+    std::vector<int> ranks_;
+    std::vector<int> owners_;
+};
+
+}  // namespace octetra::distributed

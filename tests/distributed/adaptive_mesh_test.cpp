@@ -1,0 +1,402 @@
+#include <algorithm>
+#include <array>
+#include <functional>
+#include <map>
+#include <numeric>
+#include <optional>
+
+#include <cmath>
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <octetra/core/error.hpp>
+#include <octetra/core/files/mesh_files.hpp>
+#include <octetra/distributed/adaptive_mesh.hpp>
+#include <octetra/distributed/exchange.hpp>
+#include <octetra/reference/refine.hpp>
+
+#include "distributed/marked_mesh.hpp"
+#include "distributed/world.hpp"
+#include "support/meshes.hpp"
+#include "support/temporary_folder.hpp"
+#include "support/thrown.hpp"
+
+/// The mesh of a solver's loop, by what a program sees of it.
+namespace octetra::distributed {
+namespace {
+
+AdaptiveMesh shared_out(const Mesh& mesh, const Partition& partition) {
+    return AdaptiveMesh::distribute(test::world(), mesh,
+                                    partition_cells(mesh, test::world().size(), partition));
+}
+
+const Partition at_random{.method = PartitionMethod::random, .seed = 7};
+const Partition in_blocks{.method = PartitionMethod::block};
+
+Corners corners_of(const AdaptiveMesh& mesh, std::size_t cell) {
+    Corners corners;
+    for (std::size_t k = 0; k < 4; ++k) corners[k] = mesh.points()[mesh.cells()[cell][k].value()];
+    return corners;
+}
+
+std::vector<std::uint8_t> marks_of(const AdaptiveMesh& mesh, const Selection& selection) {
+    std::vector<std::uint8_t> bytes(mesh.cells().size());
+    for (std::size_t c = 0; c < bytes.size(); ++c) {
+        bytes[c] = marks(selection, corners_of(mesh, c), 0, GlobalCell{0}) ? 1 : 0;
+    }
+    return bytes;
+}
+
+/// Steps that change little, much, little: incremental levels, full sweeps, and from one to the
+/// other.
+const std::vector<Selection> steps{
+    {.spheres = {{{0.5, 0.5, 0.5}, 0.45}}}, {.spheres = {{{0.5, 0.5, 0.5}, 0.35}}},
+    {.random = RandomShare{0.3, 5}},        {.spheres = {{{2.5, 2.5, 2.5}, 0.45}}},
+    {.spheres = {{{2.5, 2.5, 2.5}, 0.35}}}, {.all = true},
+};
+
+/// The first process's mesh after these steps, by the reference; nothing on the others.
+Mesh expected_after(const Mesh& mesh, std::span<const Selection> selections, Scheme scheme) {
+    Mesh fine = mesh;
+    if (!test::world().is_first()) return {};
+    for (const Selection& selection : selections) {
+        fine = reference::refine(fine, selection, scheme, 1).mesh;
+    }
+    return fine;
+}
+
+class AdaptiveMeshIn : public testing::TestWithParam<Partition> {};
+INSTANTIATE_TEST_SUITE_P(Parts, AdaptiveMeshIn, testing::Values(Partition{}, in_blocks, at_random),
+                         [](const auto& i) { return fmt::format("{}", i.index); });
+
+TEST_P(AdaptiveMeshIn, IsAfterAnyStepWhatTheReferenceMakes) {
+    const Mesh mesh = test::marked(test::shaken_kuhn(6, 0.2, 3), 3);
+    for (const Scheme scheme : {Scheme::eight, Scheme::four, Scheme::two}) {
+        AdaptiveMesh adapted = shared_out(mesh, GetParam());
+        for (std::size_t k = 0; k < steps.size(); ++k) {
+            const Adaptation step =
+                k % 2 == 0 ? adapted.refine(marks_of(adapted, steps[k]), {.scheme = scheme})
+                           : adapted.refine(steps[k], {.scheme = scheme});
+            EXPECT_TRUE(step.changed);
+            // Where one process has all, the ways that it takes are known.
+            EXPECT_TRUE(test::world().size() > 1 ||
+                        step.cells.keeps_numbers() == (k != 2 && k != 5));
+            const Mesh expected = expected_after(mesh, std::span(steps).first(k + 1), scheme);
+            const Mesh whole = adapted.collect();
+            EXPECT_TRUE(whole == expected || !test::world().is_first()) << k;
+        }
+    }
+}
+
+/// Collective. On each process, what all processes have, in the order of their ranks.
+template <class T>
+std::vector<std::vector<T>> of_all(const std::vector<T>& own) {
+    return test::world().all_to_all(
+        std::vector<std::vector<T>>(static_cast<std::size_t>(test::world().size()), own));
+}
+
+TEST_P(AdaptiveMeshIn, WritesTheFilesOfTheWholeMesh) {
+    AdaptiveMesh mesh = shared_out(test::shaken_kuhn(3, 0.2, 3), GetParam());
+    std::optional<test::TemporaryFolder> folder;  // one for all processes
+    std::string path;
+    if (test::world().is_first()) {
+        folder.emplace();
+        path = (*folder / "mesh.mesh").string();
+    }
+    std::vector<char> letters(path.begin(), path.end());
+    test::world().broadcast(letters);
+    path.assign(letters.begin(), letters.end());
+    for (const Selection& selection : {steps[0], steps[2]}) {
+        (void)mesh.refine(selection);
+        EXPECT_EQ(mesh.write(path), "");
+        Mesh expected = mesh.collect();
+        if (!test::world().is_first()) continue;
+        const std::string bytes = test::content_of(path);
+        expected.index_base = 1;
+        WholeMesh whole(expected);
+        (void)write_mesh(whole, path);
+        EXPECT_EQ(bytes, test::content_of(path));
+    }
+}
+
+TEST_P(AdaptiveMeshIn, KnowsOfEveryVertexItsNumberItsSharersAndItsOwner) {
+    AdaptiveMesh mesh = shared_out(test::shaken_kuhn(3, 0.2, 1), GetParam());
+    for (const Selection& selection : steps) {
+        (void)mesh.refine(selection);
+        struct Vertex {
+            std::uint64_t number;
+            Point point;
+        };
+        std::vector<Vertex> own;
+        for (std::size_t v = 0; v < mesh.points().size(); ++v) {
+            own.push_back({static_cast<std::uint64_t>(mesh.vertex_numbers()[v]), mesh.points()[v]});
+        }
+        std::map<std::uint64_t, std::vector<int>> ranks;
+        std::map<std::uint64_t, Point> points;
+        const auto all = of_all(own);
+        for (std::size_t r = 0; r < all.size(); ++r) {
+            for (const Vertex& v : all[r]) {
+                ranks[v.number].push_back(static_cast<int>(r));
+                EXPECT_EQ(points.try_emplace(v.number, v.point).first->second, v.point);
+            }
+        }
+        EXPECT_EQ(mesh.vertex_count(), ranks.size());
+        EXPECT_EQ(ranks.rbegin()->first + 1, ranks.size());
+
+        // What others say of the owner, and of what they have in common with this one.
+        struct Said {
+            std::uint64_t number;
+            int owner;
+        };
+        std::vector<Said> said;
+        const Sharing<VertexIndex>& sharing = mesh.vertex_sharing();
+        for (std::size_t v = 0; v < own.size(); ++v) {
+            std::vector<int> expected = ranks[own[v].number];
+            std::erase(expected, test::world().rank());
+            EXPECT_TRUE(std::ranges::equal(sharing.sharers(VertexIndex{v}), expected));
+            said.push_back({own[v].number, sharing.owner(VertexIndex{v})});
+            EXPECT_EQ(std::ranges::count(ranks[own[v].number], said.back().owner), 1);
+        }
+        std::map<std::uint64_t, int> owners;
+        for (const auto& from_one : of_all(said)) {
+            for (const auto& [number, owner] : from_one) {
+                EXPECT_EQ(owners.try_emplace(number, owner).first->second, owner);
+            }
+        }
+        std::vector<int> neighbours;
+        std::vector<std::vector<std::uint64_t>> listed;
+        for (const auto& [rank, vertices] : sharing.neighbours()) {
+            neighbours.push_back(rank);
+            auto& list = listed.emplace_back();
+            for (const VertexIndex v : vertices) list.push_back(own[v.value()].number);
+        }
+        EXPECT_EQ(test::world().exchange_with(neighbours, listed), listed);
+    }
+}
+
+TEST_P(AdaptiveMeshIn, TellsWhatEachCellFacetAndEdgeWas) {
+    AdaptiveMesh mesh = shared_out(test::marked(test::shaken_kuhn(3, 0.2, 2), 2), GetParam());
+    for (const Selection& selection : steps) {
+        const std::vector<CellVertices> cells(mesh.cells().begin(), mesh.cells().end());
+        const std::vector<FacetVertices> facets(mesh.facets().begin(), mesh.facets().end());
+        const std::vector<EdgeVertices> edges(mesh.edges().begin(), mesh.edges().end());
+        const auto regions = mesh.regions();
+        const auto facet_markers = mesh.facet_markers();
+        const auto edge_markers = mesh.edge_markers();
+        const std::size_t vertex_count = mesh.points().size();
+
+        const Adaptation step = mesh.refine(selection);
+        ASSERT_EQ(step.vertex_count_before, vertex_count);
+        ASSERT_EQ(vertex_count + step.new_vertex_ends.size(), mesh.points().size());
+        for (std::size_t k = 0; k < step.new_vertex_ends.size(); ++k) {
+            const auto [a, b] = step.new_vertex_ends[k];
+            EXPECT_EQ(mesh.points()[vertex_count + k],
+                      midpoint(mesh.points()[a.value()], mesh.points()[b.value()]));
+        }
+        // A piece has corners of the whole and midpoints of its edges; shares add up to it.
+        const auto check = [&](const Succession& succession, const auto& before, const auto& after,
+                               const auto& markers_before, const auto& markers_after) {
+            ASSERT_EQ(succession.count_before(), before.size());
+            ASSERT_EQ(succession.count(), after.size());
+            std::vector<double> shares(before.size(), 0);
+            std::vector<char> is_told(after.size(), 0);
+            const auto parents = succession.parents();
+            succession.for_each_new([&](std::size_t number, std::size_t whole, unsigned halvings) {
+                EXPECT_EQ(parents[number], whole);
+                EXPECT_EQ(is_told[number], 0);
+                is_told[number] = 1;
+                shares[whole] += 1.0 / (1U << halvings);
+            });
+            for (std::size_t i = 0; i < after.size(); ++i) {
+                const auto& whole = before[parents[i]];
+                const auto is_corner = [&](VertexIndex v) {
+                    return std::ranges::find(whole, v) != whole.end();
+                };
+                EXPECT_TRUE(std::ranges::all_of(after[i], [&](VertexIndex v) {
+                    if (is_corner(v)) return true;
+                    const auto [a, b] = step.new_vertex_ends.at(v.value() - vertex_count);
+                    return is_corner(a) && is_corner(b);
+                }));
+                EXPECT_TRUE(is_told[i] != 0 || after[i] == before[i]);
+                EXPECT_EQ(markers_after[i], markers_before[parents[i]]);
+            }
+            for (const double share : shares) EXPECT_TRUE(share == 1 || share == 0) << share;
+        };
+        check(step.cells, cells, mesh.cells(), regions, mesh.regions());
+        check(step.facets, facets, mesh.facets(), facet_markers, mesh.facet_markers());
+        check(step.edges, edges, mesh.edges(), edge_markers, mesh.edge_markers());
+    }
+}
+
+TEST_P(AdaptiveMeshIn, TransfersLinearFunctionsExactlyAndKeepsSums) {
+    AdaptiveMesh mesh = shared_out(test::shaken_kuhn(3, 0.2, 4), GetParam());
+    const auto linear = [&] {
+        std::vector<double> values;
+        for (const auto& [x, y, z] : mesh.points()) {
+            values.push_back(1 + 2 * x - y);
+            values.push_back(z - 4 * y);
+        }
+        return values;
+    };
+    std::vector<double> u = linear();
+    std::vector<float> mass(mesh.cells().size(), 1);
+    std::vector<int> root(mesh.cells().size());
+    std::iota(root.begin(), root.end(), 0);
+    const auto first_cells = mesh.cells().size();
+    for (const Selection& selection : steps) {
+        const Adaptation step = mesh.refine(selection);
+        u = step.transfer_vertices(std::move(u), 2);
+        mass = step.transfer_cells(std::move(mass), 1, CellValues::divided);
+        root = step.transfer_cells(std::move(root));
+        EXPECT_EQ(u, linear());
+    }
+    std::vector<double> mass_of_root(first_cells, 0);
+    for (std::size_t c = 0; c < mass.size(); ++c) {
+        mass_of_root[static_cast<std::size_t>(root[c])] += double{mass[c]};
+    }
+    EXPECT_EQ(mass_of_root, std::vector<double>(first_cells, 1));
+    const Adaptation nothing = mesh.refine(Selection{});
+    EXPECT_EQ(nothing.transfer_cells(mass), mass);
+    mass.push_back(1);
+    EXPECT_THROW((void)nothing.transfer_cells(mass), std::invalid_argument);
+}
+
+TEST_P(AdaptiveMeshIn, BisectsMarkedEdgesAndWhatClosureAdds) {
+    // Of two cells' marks the edges, by whichever process has them: what `2t` marks is one edge.
+    const Mesh whole = test::shaken_kuhn(3, 0.2, 6);
+    for (const Selection& selection : {steps[0], steps[2]}) {
+        AdaptiveMesh by_edges = shared_out(whole, GetParam());
+        std::vector<EdgeVertices> longest;
+        for (std::size_t c = 0; c < by_edges.cells().size(); ++c) {
+            if (!marks(selection, corners_of(by_edges, c), 0, GlobalCell{0})) continue;
+            const CellVertices& cell = by_edges.cells()[c];
+            EdgeVertices best{cell[0], cell[1]};
+            const auto length = [&](const EdgeVertices& e) {
+                const Point& a = by_edges.points()[e[0].value()];
+                const Point& b = by_edges.points()[e[1].value()];
+                return std::hypot(a.x - b.x, a.y - b.y, a.z - b.z);
+            };
+            for (const auto& [i, j] : cell_edges) {
+                const EdgeVertices edge{cell[j], cell[i]};
+                if (length(edge) > length(best)) best = edge;
+            }
+            longest.push_back(best);
+        }
+        (void)by_edges.refine_edges(longest);
+        const Mesh expected = expected_after(whole, std::span(&selection, 1), Scheme::two);
+        EXPECT_TRUE(by_edges.collect() == expected);
+    }
+}
+
+TEST_P(AdaptiveMeshIn, ExchangesValuesOfSharedVertices) {
+    AdaptiveMesh mesh = shared_out(test::shaken_kuhn(3, 0.2, 1), GetParam());
+    (void)mesh.refine(steps[2]);
+    const Sharing<VertexIndex>& sharing = mesh.vertex_sharing();
+    const std::size_t count = mesh.points().size();
+    const auto& world = test::world();
+
+    std::vector<int> values(2 * count, world.rank());
+    update_copies(world, sharing, count, std::span(values), 2);
+    for (std::size_t v = 0; v < count; ++v) {
+        EXPECT_EQ(values[2 * v], sharing.owner(VertexIndex{v}));
+        EXPECT_EQ(values[2 * v + 1], sharing.owner(VertexIndex{v}));
+    }
+    std::vector<double> ones(count, 1);
+    combine_everywhere(world, sharing, count, std::span(ones), std::plus<>());
+    std::vector<int> least(count, world.rank());
+    combine_everywhere(world, sharing, count, std::span(least),
+                       [](int a, int b) { return std::min(a, b); });
+    std::uint64_t owned = 0;
+    for (std::size_t v = 0; v < count; ++v) {
+        const auto sharers = sharing.sharers(VertexIndex{v});
+        EXPECT_EQ(ones[v], static_cast<double>(1 + sharers.size()));
+        const int first = sharers.empty() ? world.rank() : std::min(sharers[0], world.rank());
+        EXPECT_EQ(least[v], first);
+        owned += sharing.is_owned(VertexIndex{v}) ? 1U : 0U;
+    }
+    EXPECT_EQ(world.sum(owned), mesh.vertex_count());
+
+    // Too few on one process: the same words on all.
+    if (world.rank() == world.size() - 1) ones.pop_back();
+    const auto words =
+        test::thrown_by<InputError>([&] { update_copies(world, sharing, count, std::span(ones)); });
+    EXPECT_THAT(words, testing::HasSubstr("values for"));
+}
+
+/// All that a program can see of a mesh, and what it will be written as.
+struct Seen {
+    std::vector<Point> points;
+    std::vector<CellVertices> cells;
+    std::vector<FacetVertices> facets;
+    std::vector<EdgeVertices> edges;
+    std::vector<Marker> regions;
+    std::vector<Marker> facet_markers;
+    std::vector<GlobalVertex> numbers;
+    Sharing<VertexIndex> sharing;
+    Mesh whole;
+
+    explicit Seen(const AdaptiveMesh& mesh)
+        : points(mesh.points().begin(), mesh.points().end()),
+          cells(mesh.cells().begin(), mesh.cells().end()),
+          facets(mesh.facets().begin(), mesh.facets().end()),
+          edges(mesh.edges().begin(), mesh.edges().end()),
+          regions(mesh.regions()),
+          facet_markers(mesh.facet_markers()),
+          numbers(mesh.vertex_numbers().begin(), mesh.vertex_numbers().end()),
+          sharing(mesh.vertex_sharing()),
+          whole(mesh.collect()) {}
+    friend bool operator==(const Seen&, const Seen&) = default;
+};
+
+TEST_P(AdaptiveMeshIn, IsAsItWasAfterAStepThatIsRefused) {
+    const auto& world = test::world();
+    const bool is_last = world.rank() == world.size() - 1;
+    AdaptiveMesh mesh = shared_out(test::marked(test::shaken_kuhn(3, 0.2, 1), 1), GetParam());
+    for (const Selection& selection : {steps[0], steps[2], steps[0]}) {
+        const Seen before(mesh);
+        auto marks = marks_of(mesh, {.all = true});
+        if (is_last) marks.push_back(1);
+        const auto words = test::thrown_by<InputError>([&] { (void)mesh.refine(marks); });
+        EXPECT_THAT(words, testing::StartsWith(fmt::format("rank {}: ", world.size() - 1)));
+        std::vector<CellIndex> listed;
+        if (is_last) listed.push_back(CellIndex{mesh.cells().size()});
+        EXPECT_THROW((void)mesh.refine(listed), InputError);
+        std::vector<EdgeVertices> no_edges;
+        if (is_last) no_edges.push_back({VertexIndex{0}, VertexIndex{mesh.points().size()}});
+        EXPECT_THROW((void)mesh.refine_edges(no_edges), InputError);
+        EXPECT_THROW((void)mesh.refine(selection, {.max_cells = 10}), InputError);
+        EXPECT_TRUE(before == Seen(mesh));
+        EXPECT_FALSE(mesh.refine(Selection{}).changed);
+        EXPECT_TRUE(before == Seen(mesh));
+        (void)mesh.refine(selection);
+    }
+}
+
+TEST_P(AdaptiveMeshIn, IsAsItWasAfterAStepThatRoundingForbids) {
+    // Whole numbers are all that there is: some levels down an edge has no midpoint.
+    Mesh whole = test::kuhn(3, 3, 3, 8);
+    for (Point& p : whole.points) p = {p.x + 0x1p52, p.y + 0x1p52, p.z + 0x1p52};
+    const Selection corner{
+        .boxes = {{{0x1p52, 0x1p52, 0x1p52}, {0x1p52 + 8, 0x1p52 + 8, 0x1p52 + 8}}}};
+    for (const Selection& selection : {corner, Selection{.all = true}}) {
+        AdaptiveMesh mesh = shared_out(whole, GetParam());
+        int steps_taken = 0;
+        while (true) {
+            const Seen before(mesh);
+            try {
+                (void)mesh.refine(selection);
+                ++steps_taken;
+            } catch (const InputError& error) {
+                EXPECT_THAT(error.what(), testing::HasSubstr("midpoints"));
+                EXPECT_TRUE(before == Seen(mesh));
+                break;
+            }
+        }
+        EXPECT_GE(steps_taken, 1);
+    }
+}
+
+}  // namespace
+}  // namespace octetra::distributed

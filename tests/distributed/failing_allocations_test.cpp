@@ -1,0 +1,173 @@
+#include <cstdlib>
+#include <new>
+#include <optional>
+
+#include <gtest/gtest.h>
+
+#include <octetra/core/error.hpp>
+#include <octetra/distributed/adaptive_mesh.hpp>
+#include <octetra/distributed/exchange.hpp>
+
+#include "distributed/marked_mesh.hpp"
+#include "distributed/world.hpp"
+
+/// Where one process has no memory, at whatever place of a step, all processes hear of it, and the
+/// mesh is as it was. This program's operator new refuses an allocation when it is told to.
+namespace {
+
+constexpr long never = -1;
+long allocations_left = never;
+
+void* allocate(std::size_t size) {
+    if (allocations_left == 0) throw std::bad_alloc();
+    if (allocations_left > 0) --allocations_left;
+    void* const memory = std::malloc(size == 0 ? 1 : size);
+    if (memory == nullptr) throw std::bad_alloc();
+    return memory;
+}
+
+}  // namespace
+
+void* operator new(std::size_t size) { return allocate(size); }
+void* operator new[](std::size_t size) { return allocate(size); }
+void operator delete(void* memory) noexcept { std::free(memory); }
+void operator delete[](void* memory) noexcept { std::free(memory); }
+void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
+void operator delete[](void* memory, std::size_t) noexcept { std::free(memory); }
+
+namespace octetra::distributed {
+namespace {
+
+/// What a program can see of a mesh.
+struct Seen {
+    std::vector<Point> points;
+    std::vector<CellVertices> cells;
+    std::vector<FacetVertices> facets;
+    std::vector<Marker> regions;
+    std::vector<GlobalVertex> numbers;
+    Sharing<VertexIndex> sharing;
+    Mesh whole;
+
+    explicit Seen(const AdaptiveMesh& mesh)
+        : points(mesh.points().begin(), mesh.points().end()),
+          cells(mesh.cells().begin(), mesh.cells().end()),
+          facets(mesh.facets().begin(), mesh.facets().end()),
+          regions(mesh.regions()),
+          numbers(mesh.vertex_numbers().begin(), mesh.vertex_numbers().end()),
+          sharing(mesh.vertex_sharing()),
+          whole(mesh.collect()) {}
+    friend bool operator==(const Seen&, const Seen&) = default;
+};
+
+/// Does `work` on all processes, while on `rank` only so many allocations succeed. Did it get
+/// there?
+bool done_with(long allocations, int rank, auto&& work) {
+    if (test::world().rank() == rank) allocations_left = allocations;
+    bool done = true;
+    try {
+        work();
+    } catch (const std::bad_alloc&) {
+        done = false;
+    }
+    allocations_left = never;
+    return done;
+}
+
+/// Little, and what that leaves; much, so that the order of all cells is restored; and all.
+const std::vector<Selection> steps{
+    {.spheres = {{{0.5, 0.5, 0.5}, 0.45}}},
+    {.spheres = {{{0.5, 0.5, 0.5}, 0.4}}},
+    {.random = RandomShare{0.3, 5}},
+    {.all = true},
+};
+
+/// The mesh as it is before one of the steps.
+AdaptiveMesh before_step(std::size_t step) {
+    const Mesh whole = test::marked(test::shaken_kuhn(5, 0.2, 1), 1);
+    const Partition in_blocks{.method = PartitionMethod::block};
+    AdaptiveMesh mesh = AdaptiveMesh::distribute(
+        test::world(), whole, partition_cells(whole, test::world().size(), in_blocks));
+    for (std::size_t k = 0; k < step; ++k) (void)mesh.refine(steps[k]);
+    return mesh;
+}
+
+/// Lets every allocation of some work on a mesh, which prepare(mesh) makes, fail in turn on each of
+/// the processes. Afterwards the mesh is as before, and when none fails any more, the work is done
+/// on all. Returns how many allocations that were, on all processes.
+std::uint64_t let_each_fail(std::size_t step, auto&& prepare) {
+    const Communicator& world = test::world();
+    long failures = 0;
+    for (int rank = 0; rank < world.size(); ++rank) {
+        AdaptiveMesh mesh = before_step(step);
+        const Seen before(mesh);
+        auto work = prepare(mesh);
+        for (long allocations = 0;; ++allocations) {
+            const bool done = done_with(allocations, rank, work);
+            const auto done_on = static_cast<int>(world.sum(done ? 1 : 0));
+            EXPECT_EQ(done_on, done ? world.size() : 0) << allocations;
+            if (done_on > 0) break;
+            ++failures;
+            EXPECT_TRUE(before == Seen(mesh)) << "rank " << rank << ", after " << allocations;
+        }
+    }
+    return static_cast<std::uint64_t>(failures);
+}
+
+TEST(FailingAllocations, OfAStepLeaveTheMeshAsItWasOnAllProcesses) {
+    for (std::size_t step = 0; step < steps.size(); ++step) {
+        for (const auto synchronisation : {Synchronisation::neighbour, Synchronisation::gateway}) {
+            const std::uint64_t failures = let_each_fail(step, [&](AdaptiveMesh& mesh) {
+                return
+                    [&] { (void)mesh.refine(steps[step], {.synchronisation = synchronisation}); };
+            });
+            EXPECT_GE(failures, 20U);
+        }
+    }
+}
+
+TEST(FailingAllocations, OfAStepBySoManyMarkedEdgesLeaveTheMeshAsItWas) {
+    const std::uint64_t failures = let_each_fail(1, [&](AdaptiveMesh& mesh) {
+        std::vector<EdgeVertices> edges;
+        for (const CellVertices& cell : mesh.cells()) edges.push_back({cell[3], cell[0]});
+        return [edges, &mesh] { (void)mesh.refine_edges(edges); };
+    });
+    EXPECT_GE(failures, 20U);
+}
+
+TEST(FailingAllocations, OfAnExchangeAreThrownOnAllProcesses) {
+    const std::uint64_t failures = let_each_fail(1, [&](AdaptiveMesh& mesh) {
+        std::vector<double> values(mesh.points().size(), 1);
+        return [values, &mesh]() mutable {
+            update_copies(mesh.processes(), mesh.vertex_sharing(), values.size(),
+                          std::span(values));
+        };
+    });
+    EXPECT_TRUE(failures >= 1 || test::world().size() == 1);
+}
+
+/// Messages that are cut into pieces, and of which one process can keep nothing.
+TEST(FailingAllocations, OfAReceiverOfLongMessagesKeepNobodyWaiting) {
+    const Communicator& world = test::world();
+    std::vector<std::vector<std::uint64_t>> outboxes;
+    for (int r = 0; r < world.size(); ++r) {
+        outboxes.emplace_back(300'000U * static_cast<std::size_t>(r + 1), 7U);
+    }
+    for (int rank = 0; rank < world.size(); ++rank) {
+        for (long allocations = 0;; ++allocations) {
+            const bool done = done_with(allocations, rank, [&] {
+                for (const auto& inbox : world.all_to_all(outboxes)) {
+                    EXPECT_TRUE(inbox.empty() || inbox.front() + inbox.back() == 14U);
+                }
+            });
+            EXPECT_TRUE(done || world.rank() == rank);
+            if (world.sum(done ? 1 : 0) == static_cast<std::uint64_t>(world.size())) break;
+        }
+    }
+    const auto inboxes = world.all_to_all(outboxes);
+    for (const auto& inbox : inboxes) {
+        EXPECT_EQ(inbox, outboxes[static_cast<std::size_t>(world.rank())]);
+    }
+}
+
+}  // namespace
+}  // namespace octetra::distributed

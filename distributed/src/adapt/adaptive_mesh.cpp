@@ -160,6 +160,10 @@ AdaptiveMesh AdaptiveMesh::distribute(const Communicator& processes, Mesh mesh,
     return AdaptiveMesh(distributed::distribute(processes, std::move(mesh), cell_to_rank));
 }
 
+AdaptiveMesh AdaptiveMesh::from_parts(const Communicator& processes, MeshPart part) {
+    return AdaptiveMesh(distribute_parts(processes, std::move(part)));
+}
+
 Adaptation AdaptiveMesh::refine(std::span<const std::uint8_t> marks, const StepOptions& options) {
     return state_->step([&] { return marked_by_bytes(state_->mesh, marks); }, options);
 }

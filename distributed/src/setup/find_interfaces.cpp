@@ -11,14 +11,20 @@ namespace {
 /// The processes that share each vertex, ascending, as pieces of one array.
 class VertexSharers {
 public:
-    explicit VertexSharers(const DistributedMesh& mesh) : begin_(mesh.points.size() + 1, 0) {
+    /// Collective.
+    VertexSharers(const DistributedMesh& mesh, LocalFailure& failure) {
         std::vector<std::array<std::uint64_t, 1>> keys;
-        for (const GlobalVertex v : mesh.input_vertices) {
-            keys.push_back({static_cast<std::uint64_t>(v)});
-        }
-        sharers_ = find_sharers(mesh.processes, keys);
-        for (const Sharer& s : sharers_) ++begin_[s.key + 1];
-        for (std::size_t v = 1; v < begin_.size(); ++v) begin_[v] += begin_[v - 1];
+        failure.attempt([&] {
+            for (const GlobalVertex v : mesh.input_vertices) {
+                keys.push_back({static_cast<std::uint64_t>(v)});
+            }
+        });
+        sharers_ = find_sharers(mesh.processes, keys, failure);
+        failure.attempt([&] {
+            begin_.assign(mesh.points.size() + 1, 0);
+            for (const Sharer& s : sharers_) ++begin_[s.key + 1];
+            for (std::size_t v = 1; v < begin_.size(); ++v) begin_[v] += begin_[v - 1];
+        });
     }
 
     /// Does another process have this vertex?
@@ -66,37 +72,50 @@ VertexLists<N> candidates(const DistributedMesh& mesh, const VertexSharers& shar
     return found;
 }
 
-/// Calls share(rank, vertices) for each of the candidates that other processes really have, in
-/// ascending order of the vertices, which is the order of their global numbers.
-template <std::size_t N>
-void find_shared(const DistributedMesh& mesh, VertexLists<N> candidates, auto&& share) {
-    std::ranges::sort(candidates);
-    candidates.erase(std::unique(candidates.begin(), candidates.end()), candidates.end());
+/// Collective. Calls share(rank, vertices) for each of the sides that other processes really have,
+/// in ascending order of the vertices, which is the order of their global numbers.
+template <std::size_t N, std::size_t Sides>
+void find_shared(const DistributedMesh& mesh, const VertexSharers& sharers,
+                 const std::array<std::array<std::uint8_t, N>, Sides>& sides, LocalFailure& failure,
+                 auto&& share) {
+    VertexLists<N> found;
     std::vector<std::array<std::uint64_t, N>> keys;
-    for (const auto& vertices : candidates) {
-        auto& key = keys.emplace_back();
-        std::ranges::transform(vertices, key.begin(), [&](VertexIndex v) {
-            return static_cast<std::uint64_t>(mesh.input_vertices[v.value()]);
-        });
-    }
-    for (const Sharer& s : find_sharers(mesh.processes, keys)) share(s.rank, candidates[s.key]);
+    failure.attempt([&] {
+        found = candidates(mesh, sharers, sides);
+        std::ranges::sort(found);
+        found.erase(std::unique(found.begin(), found.end()), found.end());
+        for (const auto& vertices : found) {
+            auto& key = keys.emplace_back();
+            std::ranges::transform(vertices, key.begin(), [&](VertexIndex v) {
+                return static_cast<std::uint64_t>(mesh.input_vertices[v.value()]);
+            });
+        }
+    });
+    const auto shared = find_sharers(mesh.processes, keys, failure);
+    failure.attempt([&] {
+        for (const Sharer& s : shared) share(s.rank, found[s.key]);
+    });
 }
 
 }  // namespace
 
 std::vector<Interface> find_interfaces(const DistributedMesh& mesh) {
     if (mesh.processes.size() == 1) return {};
-    const VertexSharers sharers(mesh);
+    LocalFailure failure;
+    const VertexSharers sharers(mesh, failure);
     std::map<int, Interface> by_rank;
-    find_shared(mesh, candidates(mesh, sharers, cell_edges),
+    find_shared(mesh, sharers, cell_edges, failure,
                 [&](int rank, const EdgeVertices& edge) { by_rank[rank].edges.push_back(edge); });
-    find_shared(mesh, candidates(mesh, sharers, cell_faces),
+    find_shared(mesh, sharers, cell_faces, failure,
                 [&](int rank, const FacetVertices& face) { by_rank[rank].faces.push_back(face); });
     std::vector<Interface> interfaces;
-    for (auto& [rank, interface] : by_rank) {
-        interface.rank = rank;
-        interfaces.push_back(std::move(interface));
-    }
+    failure.attempt([&] {
+        for (auto& [rank, interface] : by_rank) {
+            interface.rank = rank;
+            interfaces.push_back(std::move(interface));
+        }
+    });
+    failure.agree(mesh.processes);
     return interfaces;
 }
 

@@ -11,17 +11,24 @@ Sharing<VertexIndex> find_vertex_sharing(const DistributedMesh& mesh) {
     Sharing<VertexIndex> sharing;
     SharingBuilder<VertexIndex> builder(sharing, mesh.processes.rank());
     if (mesh.processes.size() == 1) return sharing;
+    LocalFailure failure;
     std::vector<std::array<std::uint64_t, 1>> keys;
-    for (const GlobalVertex v : mesh.input_vertices)
-        keys.push_back({static_cast<std::uint64_t>(v)});
-    // By key, so the vertices of each process ascend, here as there.
-    std::map<int, std::vector<VertexIndex>> by_rank;
-    for (const Sharer& s : find_sharers(mesh.processes, keys)) {
-        by_rank[s.rank].push_back(VertexIndex{s.key});
-    }
-    for (auto& [rank, vertices] : by_rank) builder.share(rank, std::move(vertices));
-    builder.prepare(
-        [&](VertexIndex v) { return static_cast<std::uint64_t>(mesh.input_vertices[v.value()]); });
+    failure.attempt([&] {
+        for (const GlobalVertex v : mesh.input_vertices) {
+            keys.push_back({static_cast<std::uint64_t>(v)});
+        }
+    });
+    const auto sharers = find_sharers(mesh.processes, keys, failure);
+    failure.attempt([&] {
+        // By key, so the vertices of each process ascend, here as there.
+        std::map<int, std::vector<VertexIndex>> by_rank;
+        for (const Sharer& s : sharers) by_rank[s.rank].push_back(VertexIndex{s.key});
+        for (auto& [rank, vertices] : by_rank) builder.share(rank, std::move(vertices));
+        builder.prepare([&](VertexIndex v) {
+            return static_cast<std::uint64_t>(mesh.input_vertices[v.value()]);
+        });
+    });
+    failure.agree(mesh.processes);
     builder.commit();
     return sharing;
 }

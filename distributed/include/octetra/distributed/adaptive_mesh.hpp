@@ -14,6 +14,7 @@
 #include <octetra/distributed/canonical_mesh.hpp>
 #include <octetra/distributed/communicator.hpp>
 #include <octetra/distributed/distributed_mesh.hpp>
+#include <octetra/distributed/mesh_part.hpp>
 #include <octetra/distributed/partition.hpp>
 #include <octetra/distributed/sharing.hpp>
 
@@ -52,6 +53,9 @@ public:
     /// looked at.
     [[nodiscard]] static AdaptiveMesh distribute(const Communicator& processes, Mesh mesh,
                                                  const std::vector<int>& cell_to_rank);
+    /// Collective. A mesh that processes hold in parts of their own making: no process ever has all
+    /// of it. Cells stay where they are.
+    [[nodiscard]] static AdaptiveMesh from_parts(const Communicator& processes, MeshPart part);
     /// Collective. Of parts that are as the input was: nothing has been refined.
     explicit AdaptiveMesh(DistributedMesh part);
 

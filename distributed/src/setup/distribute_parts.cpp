@@ -1,0 +1,334 @@
+#include <algorithm>
+#include <bit>
+#include <numeric>
+#include <optional>
+#include <ranges>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include <octetra/core/error.hpp>
+#include <octetra/core/orientation.hpp>
+#include <octetra/core/vertex_buckets.hpp>
+#include <octetra/distributed/mesh_part.hpp>
+#include <octetra/distributed/profile.hpp>
+
+#include "comm/local_failure.hpp"
+#include "setup/find_interfaces.hpp"
+#include "setup/number_check.hpp"
+#include "setup/sharers.hpp"
+
+namespace octetra::distributed {
+namespace {
+
+template <class... Arguments>
+[[noreturn]] void refuse(const Communicator& processes, fmt::format_string<Arguments...> words,
+                         Arguments&&... arguments) {
+    throw InputError(fmt::format("rank {}: {}", processes.rank(),
+                                 fmt::format(words, std::forward<Arguments>(arguments)...)));
+}
+
+void check_sizes(const Communicator& processes, const MeshPart& part) {
+    const auto check = [&](const char* what, std::size_t values, std::size_t entities,
+                           bool may_be_empty) {
+        if (values == entities || (may_be_empty && values == 0)) return;
+        refuse(processes, "{} {} for {} entities", values, what, entities);
+    };
+    const std::size_t vertices = part.vertex_numbers.size();
+    check("points", part.points.size(), vertices, false);
+    check("vertex markers", part.point_markers.size(), vertices, true);
+    check("attributes", part.point_attributes.size(), vertices * part.attributes_per_point, false);
+    check("region tags", part.regions.size(), part.cells.size(), true);
+    check("cell numbers", part.cell_numbers.size(), part.cells.size(), true);
+    check("facet markers", part.facet_markers.size(), part.facets.size(), true);
+    check("edge markers", part.edge_markers.size(), part.edges.size(), true);
+    const std::size_t most =
+        std::max({vertices, part.cells.size(), part.facets.size(), part.edges.size()});
+    if (most >= VertexIndex::limit) refuse(processes, "{} entities of a kind are too many", most);
+    if (!std::ranges::is_sorted(part.cell_numbers, std::ranges::less_equal())) {
+        refuse(processes, "cell numbers do not ascend");
+    }
+}
+
+/// Collective. Refuses a list that some processes have of their entities and others have not, and
+/// numbers that are not the same on all.
+void check_alike(const Communicator& processes, const MeshPart& part) {
+    const auto check = [&](const char* what, std::size_t values, std::size_t entities) {
+        const bool given = processes.max(values > 0 ? 1 : 0) == 1;
+        const bool missing = processes.max(values == 0 && entities > 0 ? 1 : 0) == 1;
+        if (given && missing) {
+            throw InputError(fmt::format("some processes have {}, and others none", what));
+        }
+    };
+    check("vertex markers", part.point_markers.size(), part.points.size());
+    check("region tags", part.regions.size(), part.cells.size());
+    check("cell numbers", part.cell_numbers.size(), part.cells.size());
+    check("facet markers", part.facet_markers.size(), part.facets.size());
+    check("edge markers", part.edge_markers.size(), part.edges.size());
+    const auto check_same = [&](const char* what, std::uint64_t number) {
+        if (processes.max(number) != ~processes.max(~number)) {
+            throw InputError(fmt::format("processes give different {}", what));
+        }
+    };
+    check_same("numbers of attributes", part.attributes_per_point);
+    check_same("index bases", part.index_base);
+    if (processes.max(part.index_base) > 1) throw InputError("the index base is 0 or 1");
+}
+
+/// The vertices of a part in ascending order of their numbers, those that others use left out.
+class PartVertices {
+public:
+    PartVertices(const Communicator& processes, const MeshPart& part)
+        : order_(part.vertex_numbers.size()), used_(part.vertex_numbers.size(), 0) {
+        std::iota(order_.begin(), order_.end(), 0U);
+        std::ranges::sort(order_, {}, [&](std::uint32_t v) { return part.vertex_numbers[v]; });
+        for (const std::uint32_t v : order_) numbers_.push_back(part.vertex_numbers[v]);
+        const auto twice = std::ranges::adjacent_find(numbers_);
+        if (twice != numbers_.end()) refuse(processes, "vertex {} is listed twice", *twice);
+        for (std::size_t v = 0; v < part.points.size(); ++v) {
+            const Point& p = part.points[v];
+            const auto fits = [](double x) { return std::abs(x) < coordinate_limit; };
+            if (fits(p.x) && fits(p.y) && fits(p.z)) continue;  // and finite
+            refuse(processes, "vertex {} has a coordinate that is not finite, or too large",
+                   part.vertex_numbers[v]);
+        }
+    }
+
+    /// The places of an entity's vertices in the order, by their numbers.
+    template <std::size_t N>
+    [[nodiscard]] std::array<VertexIndex, N> places_of(
+        const Communicator& processes, const std::array<std::uint64_t, N>& numbers) const {
+        std::array<VertexIndex, N> places;
+        for (std::size_t k = 0; k < N; ++k) {
+            const auto found = std::ranges::lower_bound(numbers_, numbers[k]);
+            if (found == numbers_.end() || *found != numbers[k]) {
+                refuse(processes, "vertex {} is used, and not listed", numbers[k]);
+            }
+            places[k] = VertexIndex{static_cast<std::size_t>(found - numbers_.begin())};
+        }
+        return places;
+    }
+    void use(const CellVertices& cell) {
+        for (const VertexIndex v : cell) used_[v.value()] = 1;
+    }
+
+    [[nodiscard]] const std::vector<std::uint64_t>& numbers() const { return numbers_; }
+    [[nodiscard]] const std::vector<std::uint8_t>& used() const { return used_; }
+    /// Which of the part's vertices stands at this place.
+    [[nodiscard]] std::size_t at(std::size_t place) const { return order_[place]; }
+
+private:
+    std::vector<std::uint32_t> order_;
+    std::vector<std::uint64_t> numbers_;
+    std::vector<std::uint8_t> used_;  ///< by a cell of this process
+};
+
+/// The cells with vertices by place.
+IndexVector<CellIndex, CellVertices> cells_by_place(const Communicator& processes,
+                                                    const MeshPart& part, PartVertices& vertices) {
+    IndexVector<CellIndex, CellVertices> cells;
+    cells.reserve(part.cells.size());
+    for (std::size_t c = 0; c < part.cells.size(); ++c) {
+        const CellVertices cell = vertices.places_of(processes, part.cells[c]);
+        const auto point = [&](std::size_t k) { return part.points[vertices.at(cell[k].value())]; };
+        const int sign = orientation(point(0), point(1), point(2), point(3));
+        if (sign <= 0) refuse(processes, "cell {} is {}", c, sign < 0 ? "inverted" : "flat");
+        vertices.use(cell);
+        cells.push_back(cell);
+    }
+    return cells;
+}
+
+/// Facets or edges with vertices by place; each must be one of the cells' `sides`, and if it is
+/// there again have the same marker.
+template <class I, std::size_t N, std::size_t Sides>
+IndexVector<I, std::array<VertexIndex, N>> tagged_by_place(
+    const Communicator& processes, const PartVertices& vertices,
+    const IndexVector<CellIndex, CellVertices>& cells,
+    const std::vector<std::array<std::uint64_t, N>>& listed, const std::vector<Marker>& markers,
+    const std::array<std::array<std::uint8_t, N>, Sides>& sides, const char* what) {
+    IndexVector<I, std::array<VertexIndex, N>> list;
+    for (const auto& numbers : listed) list.push_back(vertices.places_of(processes, numbers));
+    if (list.empty()) return list;
+    const VertexBuckets<I, N> buckets(list, vertices.numbers().size());
+    IndexVector<I, std::uint8_t> met(list.size(), 0);
+    for (const CellVertices& cell : cells) {
+        for (const auto& side : sides) {
+            std::array<VertexIndex, N> corners;
+            for (std::size_t k = 0; k < N; ++k) corners[k] = cell[side[k]];
+            buckets.find(corners, [&](I i) { met[i] = 1; });
+        }
+    }
+    const auto stray = std::ranges::find(met, std::uint8_t{0});
+    if (stray != met.end()) {
+        refuse(processes, "{} {} is of no cell of this process", what, stray - met.begin());
+    }
+    if (markers.empty()) return list;
+    buckets.for_each_repeated([&](I first, I again) {
+        if (markers[first.value()] == markers[again.value()]) return;
+        refuse(processes, "{} {} is listed again as {}, with another marker", what, first.value(),
+               again.value());
+    });
+    return list;
+}
+
+/// Collective. Which of this process's facets or edges it keeps: a lower rank may have them, too.
+template <class I, std::size_t N>
+std::vector<std::uint8_t> kept(const Communicator& processes, const PartVertices& vertices,
+                               const IndexVector<I, std::array<VertexIndex, N>>& list,
+                               const std::vector<Marker>& markers, const char* what,
+                               LocalFailure& failure) {
+    using Key = std::array<std::uint64_t, N + 1>;  // with the marker
+    std::vector<std::pair<Key, std::uint32_t>> entries;
+    std::vector<std::array<std::uint64_t, N>> keys;
+    std::vector<Key> marked_keys;
+    failure.attempt([&] {
+        for (I i{0}; i < list.end_index(); ++i) {
+            Key key{};
+            for (std::size_t k = 0; k < N; ++k) key[k] = vertices.numbers()[list[i][k].value()];
+            std::sort(key.begin(), key.begin() + N);
+            if (!markers.empty()) key[N] = static_cast<std::uint32_t>(markers[i.value()]);
+            entries.emplace_back(key, i.value());
+        }
+        std::ranges::sort(entries);
+        for (const auto& [key, i] : entries) {
+            if (!marked_keys.empty() && marked_keys.back() == key) continue;
+            marked_keys.push_back(key);
+            auto& vertices_only = keys.emplace_back();
+            std::copy_n(key.begin(), N, vertices_only.begin());
+        }
+    });
+    const auto sharers = find_sharers(processes, keys, failure);
+    const auto agreeing = find_sharers(processes, marked_keys, failure);
+    std::vector<std::uint8_t> keeps;
+    failure.attempt([&] {
+        if (sharers != agreeing) {
+            refuse(processes, "another process lists one of its {}s with another marker", what);
+        }
+        std::vector<std::uint8_t> keeps_key(keys.size(), 1);
+        for (const Sharer& s : sharers) {
+            if (s.rank < processes.rank()) keeps_key[s.key] = 0;
+        }
+        keeps.resize(list.size());
+        std::size_t key = 0;
+        for (const auto& [marked_key, i] : entries) {
+            while (marked_keys[key] != marked_key) ++key;
+            keeps[i] = keeps_key[key];
+        }
+    });
+    return keeps;
+}
+
+AncestorMap roots_of(std::vector<std::uint64_t> numbers, std::vector<Marker> markers) {
+    AncestorMap ancestors{.roots = std::move(numbers), .first = {}, .markers = std::move(markers)};
+    ancestors.first.resize(ancestors.roots.size() + 1);
+    std::iota(ancestors.first.begin(), ancestors.first.end(), 0U);
+    return ancestors;
+}
+
+/// Collective. Puts the facets or edges that this process keeps into its part of the mesh.
+template <class I, std::size_t N>
+void take_tagged(const Communicator& processes, const PartVertices& vertices,
+                 const IndexVector<I, std::array<VertexIndex, N>>& list,
+                 const std::vector<Marker>& markers, const char* what,
+                 IndexVector<I, std::array<VertexIndex, N>>& entities, AncestorMap& ancestors,
+                 LocalFailure& failure) {
+    const auto keeps = kept(processes, vertices, list, markers, what, failure);
+    const auto count = static_cast<std::uint64_t>(std::ranges::count(keeps, std::uint8_t{1}));
+    const std::uint64_t first = processes.sum_before(count);
+    failure.attempt([&] {
+        std::vector<std::uint64_t> numbers(count);
+        std::iota(numbers.begin(), numbers.end(), first);
+        std::vector<Marker> kept_markers;
+        for (I i{0}; i < list.end_index(); ++i) {
+            if (keeps[i.value()] == 0) continue;
+            entities.push_back(list[i]);
+            if (!markers.empty()) kept_markers.push_back(markers[i.value()]);
+        }
+        ancestors = roots_of(std::move(numbers), std::move(kept_markers));
+    });
+}
+
+/// Leaves out the vertices that this process does not keep, and numbers by those that it does.
+void take_vertices(const MeshPart& part, const PartVertices& vertices,
+                   const std::vector<std::uint8_t>& keeps, DistributedMesh& mesh) {
+    std::vector<VertexIndex> local(keeps.size());
+    for (std::size_t place = 0; place < keeps.size(); ++place) {
+        if (keeps[place] == 0) continue;
+        const std::size_t v = vertices.at(place);
+        local[place] = mesh.points.append(part.points[v]);
+        mesh.input_vertices.push_back(GlobalVertex{vertices.numbers()[place]});
+        if (!part.point_markers.empty()) mesh.input_vertex_markers.push_back(part.point_markers[v]);
+        for (std::size_t k = 0; k < part.attributes_per_point; ++k) {
+            mesh.point_attributes.push_back(
+                part.point_attributes[v * part.attributes_per_point + k]);
+        }
+    }
+    const auto renumber = [&](auto& list) {
+        for (auto& entity : list) {
+            for (VertexIndex& v : entity) v = local[v.value()];
+        }
+    };
+    renumber(mesh.cells);
+    renumber(mesh.facets);
+    renumber(mesh.edges);
+}
+
+}  // namespace
+
+DistributedMesh distribute_parts(const Communicator& processes, MeshPart part) {
+    const Phase phase(processes, "distribute");
+    LocalFailure failure;
+    failure.attempt([&] { check_sizes(processes, part); });
+    failure.agree(processes);
+    check_alike(processes, part);
+
+    DistributedMesh mesh;
+    mesh.processes = processes;
+    mesh.attributes_per_point = part.attributes_per_point;
+    mesh.index_base = part.index_base;
+    std::optional<PartVertices> vertices;
+    IndexVector<FacetIndex, FacetVertices> facets;
+    IndexVector<EdgeIndex, EdgeVertices> edges;
+    failure.attempt([&] {
+        vertices.emplace(processes, part);
+        mesh.cells = cells_by_place(processes, part, *vertices);
+        facets = tagged_by_place<FacetIndex>(processes, *vertices, mesh.cells, part.facets,
+                                             part.facet_markers, cell_faces, "facet");
+        edges = tagged_by_place<EdgeIndex>(processes, *vertices, mesh.cells, part.edges,
+                                           part.edge_markers, cell_edges, "edge");
+    });
+    failure.agree(processes);
+
+    const CheckedVertices checked = check_vertices(
+        processes, vertices->numbers(), vertices->used(),
+        [&](std::size_t place) { return part.points[vertices->at(place)]; },
+        [&](std::size_t place) {
+            return part.point_markers.empty() ? Marker{0} : part.point_markers[vertices->at(place)];
+        });
+    mesh.input_vertex_count = checked.count;
+    mesh.input_cell_count = processes.sum(part.cells.size());
+    const std::uint64_t first_cell = processes.sum_before(part.cells.size());
+    failure.attempt([&] {
+        if (part.cell_numbers.empty()) {
+            part.cell_numbers.resize(part.cells.size());
+            std::iota(part.cell_numbers.begin(), part.cell_numbers.end(), first_cell);
+        }
+    });
+    failure.agree(processes);
+    check_complete(processes, part.cell_numbers, mesh.input_cell_count, "cell");
+
+    take_tagged(processes, *vertices, facets, part.facet_markers, "facet", mesh.facets,
+                mesh.facet_ancestors, failure);
+    take_tagged(processes, *vertices, edges, part.edge_markers, "edge", mesh.edges,
+                mesh.edge_ancestors, failure);
+    failure.attempt([&] {
+        mesh.cell_ancestors = roots_of(std::move(part.cell_numbers), std::move(part.regions));
+        take_vertices(part, *vertices, checked.keeps, mesh);
+    });
+    failure.agree(processes);
+    mesh.interfaces = find_interfaces(mesh);
+    return mesh;
+}
+
+}  // namespace octetra::distributed

@@ -1,0 +1,157 @@
+#include "setup/number_check.hpp"
+
+#include <bit>
+
+#include <fmt/format.h>
+
+#include <octetra/core/error.hpp>
+
+#include "comm/local_failure.hpp"
+
+namespace octetra::distributed {
+namespace {
+
+struct Listed {
+    std::uint64_t number = 0;
+    Point point;
+    Marker marker = 0;
+    std::uint32_t is_used = 0;
+};
+
+bool same(const Listed& a, const Listed& b) {
+    const auto bits = [](double x) { return std::bit_cast<std::uint64_t>(x + 0.0); };  // -0 is 0
+    return bits(a.point.x) == bits(b.point.x) && bits(a.point.y) == bits(b.point.y) &&
+           bits(a.point.z) == bits(b.point.z) && a.marker == b.marker;
+}
+
+/// One process's block of the numbers 0 .. count-1.
+struct Block {
+    std::uint64_t begin = 0;
+    std::uint64_t end = 0;
+    std::uint64_t length = 0;
+
+    Block(const Communicator& processes, std::uint64_t count)
+        : length(count / static_cast<std::uint64_t>(processes.size()) + 1) {
+        begin = std::min(count, length * static_cast<std::uint64_t>(processes.rank()));
+        end = std::min(count, begin + length);
+    }
+};
+
+[[noreturn]] void refuse_missing(std::uint64_t number, const char* what) {
+    throw InputError(fmt::format("{} {} is missing: no process lists it", what, number));
+}
+
+/// What processes say of the vertices of a block: for each of them, in their order, does the
+/// process keep it?
+std::vector<std::vector<std::uint8_t>> answers_to(const std::vector<std::vector<Listed>>& inboxes,
+                                                  const Block& block) {
+    constexpr int nobody = -1;
+    struct Known {
+        Listed listed;
+        int first = nobody;
+        bool is_used = false;
+    };
+    std::vector<Known> known(block.end - block.begin);
+    for (std::size_t rank = 0; rank < inboxes.size(); ++rank) {
+        for (const Listed& listed : inboxes[rank]) {
+            Known& of = known[listed.number - block.begin];
+            if (of.first == nobody) {
+                of.listed = listed;
+                of.first = static_cast<int>(rank);
+            } else if (!same(of.listed, listed)) {
+                throw InputError(
+                    fmt::format("vertex {}: ranks {} and {} have different points or markers",
+                                listed.number, of.first, rank));
+            }
+            of.is_used = of.is_used || listed.is_used != 0;
+        }
+    }
+    for (std::size_t i = 0; i < known.size(); ++i) {
+        if (known[i].first == nobody) refuse_missing(block.begin + i, "vertex");
+    }
+    std::vector<std::vector<std::uint8_t>> answers(inboxes.size());
+    for (std::size_t rank = 0; rank < inboxes.size(); ++rank) {
+        for (const Listed& listed : inboxes[rank]) {
+            const Known& of = known[listed.number - block.begin];
+            const bool keeps =
+                of.is_used ? listed.is_used != 0 : of.first == static_cast<int>(rank);
+            answers[rank].push_back(keeps ? 1 : 0);
+        }
+    }
+    return answers;
+}
+
+}  // namespace
+
+CheckedVertices check_vertices(const Communicator& processes,
+                               const std::vector<std::uint64_t>& numbers,
+                               const std::vector<std::uint8_t>& used,
+                               const std::function<Point(std::size_t)>& point_at,
+                               const std::function<Marker(std::size_t)>& marker_at) {
+    // The greatest number must not make anybody ask for memory that no list accounts for.
+    const std::uint64_t listed = processes.sum(numbers.size());
+    const std::uint64_t greatest = processes.max(numbers.empty() ? 0 : numbers.back());
+    if (listed == 0) return {};
+    if (greatest >= listed) {
+        throw InputError(fmt::format("vertices are numbered up to {}, and only {} are listed",
+                                     greatest, listed));
+    }
+    CheckedVertices checked{.count = greatest + 1, .keeps = {}};
+    const Block block(processes, checked.count);
+    LocalFailure failure;
+    std::vector<std::vector<Listed>> outboxes;
+    failure.attempt([&] {
+        outboxes.resize(static_cast<std::size_t>(processes.size()));
+        for (std::size_t i = 0; i < numbers.size(); ++i) {
+            outboxes[numbers[i] / block.length].push_back(
+                {numbers[i], point_at(i), marker_at(i), used[i]});
+        }
+    });
+    failure.agree(processes);
+    std::vector<std::vector<std::uint8_t>> answers;
+    failure.attempt([&] { answers = answers_to(processes.all_to_all(outboxes), block); });
+    failure.agree(processes);
+    failure.attempt([&] {
+        // Numbers ascend, so the answers come in their order.
+        for (const auto& from_one : processes.all_to_all(answers)) {
+            checked.keeps.insert(checked.keeps.end(), from_one.begin(), from_one.end());
+        }
+    });
+    failure.agree(processes);
+    return checked;
+}
+
+void check_complete(const Communicator& processes, const std::vector<std::uint64_t>& numbers,
+                    std::uint64_t count, const char* what) {
+    const Block block(processes, count);
+    LocalFailure failure;
+    std::vector<std::vector<std::uint64_t>> outboxes;
+    failure.attempt([&] {
+        outboxes.resize(static_cast<std::size_t>(processes.size()));
+        for (const std::uint64_t number : numbers) {
+            if (number >= count) {
+                throw InputError(fmt::format("rank {}: {} {} is too large: there are {}",
+                                             processes.rank(), what, number, count));
+            }
+            outboxes[number / block.length].push_back(number);
+        }
+    });
+    failure.agree(processes);
+    failure.attempt([&] {
+        std::vector<bool> met(block.end - block.begin, false);
+        for (const auto& inbox : processes.all_to_all(outboxes)) {
+            for (const std::uint64_t number : inbox) {
+                if (met[number - block.begin]) {
+                    throw InputError(fmt::format("{} {} is there twice", what, number));
+                }
+                met[number - block.begin] = true;
+            }
+        }
+        for (std::size_t i = 0; i < met.size(); ++i) {
+            if (!met[i]) refuse_missing(block.begin + i, what);
+        }
+    });
+    failure.agree(processes);
+}
+
+}  // namespace octetra::distributed

@@ -90,13 +90,6 @@ TEST_P(AdaptiveMeshIn, IsAfterAnyStepWhatTheReferenceMakes) {
     }
 }
 
-/// Collective. On each process, what all processes have, in the order of their ranks.
-template <class T>
-std::vector<std::vector<T>> of_all(const std::vector<T>& own) {
-    return test::world().all_to_all(
-        std::vector<std::vector<T>>(static_cast<std::size_t>(test::world().size()), own));
-}
-
 TEST_P(AdaptiveMeshIn, WritesTheFilesOfTheWholeMesh) {
     AdaptiveMesh mesh = shared_out(test::shaken_kuhn(3, 0.2, 3), GetParam());
     std::optional<test::TemporaryFolder> folder;  // one for all processes
@@ -135,7 +128,7 @@ TEST_P(AdaptiveMeshIn, KnowsOfEveryVertexItsNumberItsSharersAndItsOwner) {
         }
         std::map<std::uint64_t, std::vector<int>> ranks;
         std::map<std::uint64_t, Point> points;
-        const auto all = of_all(own);
+        const auto all = test::of_all(own);
         for (std::size_t r = 0; r < all.size(); ++r) {
             for (const Vertex& v : all[r]) {
                 ranks[v.number].push_back(static_cast<int>(r));
@@ -160,7 +153,7 @@ TEST_P(AdaptiveMeshIn, KnowsOfEveryVertexItsNumberItsSharersAndItsOwner) {
             EXPECT_EQ(std::ranges::count(ranks[own[v].number], said.back().owner), 1);
         }
         std::map<std::uint64_t, int> owners;
-        for (const auto& from_one : of_all(said)) {
+        for (const auto& from_one : test::of_all(said)) {
             for (const auto& [number, owner] : from_one) {
                 EXPECT_EQ(owners.try_emplace(number, owner).first->second, owner);
             }

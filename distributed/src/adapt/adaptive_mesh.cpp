@@ -15,6 +15,9 @@
 #include "numbering/canonical_numbers.hpp"
 #include "sharing/sharing_builder.hpp"
 #include "sharing/vertex_sharing.hpp"
+#include "topology/face_neighbours.hpp"
+#include "topology/find_ghosts.hpp"
+#include "topology/number_sides.hpp"
 
 namespace octetra::distributed {
 
@@ -209,6 +212,19 @@ std::span<const GlobalVertex> AdaptiveMesh::vertex_numbers() const {
     return state_->numbers.of_vertex;
 }
 const Sharing<VertexIndex>& AdaptiveMesh::vertex_sharing() const { return state_->sharing; }
+
+std::vector<BoundaryFace> AdaptiveMesh::boundary() const { return find_boundary(state_->mesh); }
+FaceNeighbours AdaptiveMesh::face_neighbours() const { return find_face_neighbours(state_->mesh); }
+MeshEdges AdaptiveMesh::number_edges() const {
+    return distributed::number_edges(state_->mesh, state_->numbers);
+}
+MeshFaces AdaptiveMesh::number_faces() const {
+    return distributed::number_faces(state_->mesh, state_->numbers);
+}
+GhostLayer AdaptiveMesh::ghosts(GhostsBy by) const {
+    return find_ghosts(
+        state_->mesh, state_->numbers, state_->sharing, [&] { return regions(); }, by);
+}
 
 Mesh AdaptiveMesh::collect() const { return collect_copy(state_->mesh).mesh; }
 CanonicalMesh AdaptiveMesh::canonical() const { return CanonicalMesh::of(state_->mesh); }

@@ -10,14 +10,14 @@
 
 namespace octetra::distributed {
 
-/// Calls found(face, a, b) once for every face that two cells share, a < b; the face's vertices are
-/// ascending. Where more than two cells have the same face, which no valid mesh has, they are taken
-/// two by two.
+/// Of a Mesh, or a process's part of one: calls found(face, a, b) once for every face that two
+/// cells share, a < b; the face's vertices are ascending. Where more than two cells have the same
+/// face, which no valid mesh has, they are taken two by two.
 ///
 /// A face is looked for at its lowest vertex, where a cell has three of its faces, or one if it is
 /// the cell's second lowest. So each cell is fetched twice, whatever order the cells are in.
 /// Memory: 4 bytes per vertex and 8 per cell.
-void for_each_inner_face(const Mesh& mesh, auto&& found) {
+void for_each_inner_face(const auto& mesh, auto&& found) {
     const auto sorted = [](CellVertices cell) {
         for (const auto& [i, j] : {std::pair{0U, 1U}, {2U, 3U}, {0U, 2U}, {1U, 3U}, {1U, 2U}}) {
             if (cell[j] < cell[i]) std::swap(cell[i], cell[j]);

@@ -14,9 +14,11 @@
 #include <octetra/distributed/canonical_mesh.hpp>
 #include <octetra/distributed/communicator.hpp>
 #include <octetra/distributed/distributed_mesh.hpp>
+#include <octetra/distributed/ghosts.hpp>
 #include <octetra/distributed/mesh_part.hpp>
 #include <octetra/distributed/partition.hpp>
 #include <octetra/distributed/sharing.hpp>
+#include <octetra/distributed/sides.hpp>
 
 namespace octetra::distributed {
 
@@ -96,6 +98,21 @@ public:
     /// is that of files.
     [[nodiscard]] std::span<const GlobalVertex> vertex_numbers() const;
     [[nodiscard]] const Sharing<VertexIndex>& vertex_sharing() const;
+
+    // Made when they are asked for, in time in proportion to the part; pictures of the mesh as it
+    // is then.
+
+    /// The faces of this process's cells that are on the boundary of the whole mesh, tagged or not,
+    /// by cell. Not collective.
+    [[nodiscard]] std::vector<BoundaryFace> boundary() const;
+    /// Collective. What is behind each face of this process's cells, also on other processes.
+    [[nodiscard]] FaceNeighbours face_neighbours() const;
+    /// Collective. All edges, or faces, of this process's cells, with their numbers in the whole
+    /// mesh, sharers and owners.
+    [[nodiscard]] MeshEdges number_edges() const;
+    [[nodiscard]] MeshFaces number_faces() const;
+    /// Collective. A layer of other processes' cells around this one's.
+    [[nodiscard]] GhostLayer ghosts(GhostsBy by) const;
 
     /// Collective. Writes one file, the same whatever the number of processes and the partition,
     /// or, of a `.pvtu`, each process's part as a piece. Returns what the format could not hold.

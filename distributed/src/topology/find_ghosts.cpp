@@ -1,0 +1,176 @@
+#include "topology/find_ghosts.hpp"
+
+#include <algorithm>
+#include <cstring>
+
+#include <fmt/format.h>
+
+#include <octetra/core/error.hpp>
+
+#include "comm/local_failure.hpp"
+#include "topology/face_neighbours.hpp"
+
+namespace octetra::distributed {
+namespace {
+
+/// A cell as it is sent.
+struct SentCell {
+    std::array<std::uint64_t, 4> vertices{};
+    std::array<Point, 4> points{};
+    CellIndex cell;
+    Marker region = 0;
+};
+
+/// The cells that each neighbour sees, ascending.
+std::vector<GhostLayer::Exchange> seen_by_vertex(const DistributedMesh& mesh,
+                                                 const Sharing<VertexIndex>& sharing) {
+    std::vector<GhostLayer::Exchange> exchanges;
+    std::vector<std::uint8_t> is_shared(mesh.points.size());
+    for (const auto& [rank, vertices] : sharing.neighbours()) {
+        std::ranges::fill(is_shared, std::uint8_t{0});
+        for (const VertexIndex v : vertices) is_shared[v.value()] = 1;
+        auto& exchange = exchanges.emplace_back();
+        exchange.rank = rank;
+        for (CellIndex c{0}; c < mesh.cells.end_index(); ++c) {
+            const auto shared = [&](VertexIndex v) { return is_shared[v.value()] != 0; };
+            if (std::ranges::any_of(mesh.cells[c], shared)) exchange.sent.push_back(c);
+        }
+    }
+    return exchanges;
+}
+
+std::vector<GhostLayer::Exchange> seen_by_face(const DistributedMesh& mesh,
+                                               const FaceNeighbours& neighbours) {
+    std::vector<GhostLayer::Exchange> exchanges;
+    for (const Interface& interface : mesh.interfaces) {
+        exchanges.push_back({.rank = interface.rank, .sent = {}});
+    }
+    for (CellIndex c{0}; c < neighbours.end_index(); ++c) {
+        for (const FaceNeighbour& neighbour : neighbours[c]) {
+            if (neighbour.is_boundary() || neighbour.rank == mesh.processes.rank()) continue;
+            auto& sent =
+                std::ranges::lower_bound(exchanges, neighbour.rank, {}, &GhostLayer::Exchange::rank)
+                    ->sent;
+            if (sent.empty() || sent.back() != c) sent.push_back(c);
+        }
+    }
+    return exchanges;
+}
+
+/// Puts what came into the layer; vertices that are new to this process get numbers behind its own.
+void take(const DistributedMesh& mesh, const CanonicalNumbers& numbers,
+          const std::vector<std::vector<SentCell>>& inboxes, bool with_regions, GhostLayer& layer) {
+    const auto own = [&](std::uint64_t number) {
+        const auto found = std::ranges::lower_bound(numbers.of_vertex, GlobalVertex{number});
+        const bool is_own = found != numbers.of_vertex.end() && *found == GlobalVertex{number};
+        return is_own ? VertexIndex{static_cast<std::size_t>(found - numbers.of_vertex.begin())}
+                      : VertexIndex::none();
+    };
+    std::vector<std::pair<std::uint64_t, Point>> foreign;
+    for (const auto& inbox : inboxes) {
+        for (const SentCell& sent : inbox) {
+            for (std::size_t k = 0; k < 4; ++k) {
+                if (own(sent.vertices[k]).is_none()) {
+                    foreign.emplace_back(sent.vertices[k], sent.points[k]);
+                }
+            }
+        }
+    }
+    std::ranges::sort(foreign, {}, [](const auto& entry) { return entry.first; });
+    for (const auto& [number, point] : foreign) {
+        if (!layer.vertex_numbers.empty() && layer.vertex_numbers.back() == GlobalVertex{number}) {
+            continue;
+        }
+        layer.vertex_numbers.push_back(GlobalVertex{number});
+        layer.points.push_back(point);
+    }
+    const auto local = [&](std::uint64_t number) {
+        const VertexIndex v = own(number);
+        if (!v.is_none()) return v;
+        const auto found = std::ranges::lower_bound(layer.vertex_numbers, GlobalVertex{number});
+        return VertexIndex{mesh.points.size() +
+                           static_cast<std::size_t>(found - layer.vertex_numbers.begin())};
+    };
+    for (std::size_t i = 0; i < inboxes.size(); ++i) {
+        layer.exchanges[i].received = inboxes[i].size();
+        for (const SentCell& sent : inboxes[i]) {
+            CellVertices cell;
+            std::ranges::transform(sent.vertices, cell.begin(), local);
+            layer.cells.push_back(cell);
+            layer.owners.push_back({layer.exchanges[i].rank, sent.cell});
+            if (with_regions) layer.regions.push_back(sent.region);
+        }
+    }
+}
+
+}  // namespace
+
+GhostLayer find_ghosts(const DistributedMesh& mesh, const CanonicalNumbers& numbers,
+                       const Sharing<VertexIndex>& sharing,
+                       const std::function<std::vector<Marker>()>& regions, GhostsBy by) {
+    const Communicator& processes = mesh.processes;
+    const bool with_regions = processes.max(mesh.cell_ancestors.markers.empty() ? 0 : 1) == 1;
+    FaceNeighbours neighbours;
+    if (by == GhostsBy::face) neighbours = find_face_neighbours(mesh);
+    GhostLayer layer;
+    layer.own_cell_count = mesh.cells.size();
+    std::vector<int> ranks;
+    std::vector<std::vector<SentCell>> outboxes;
+    LocalFailure failure;
+    failure.attempt([&] {
+        const std::vector<Marker> tags = regions();
+        layer.exchanges =
+            by == GhostsBy::face ? seen_by_face(mesh, neighbours) : seen_by_vertex(mesh, sharing);
+        for (const GhostLayer::Exchange& exchange : layer.exchanges) {
+            ranks.push_back(exchange.rank);
+            auto& outbox = outboxes.emplace_back();
+            for (const CellIndex c : exchange.sent) {
+                SentCell& sent = outbox.emplace_back();
+                sent.cell = c;
+                if (!tags.empty()) sent.region = tags[c.value()];
+                for (std::size_t k = 0; k < 4; ++k) {
+                    const VertexIndex v = mesh.cells[c][k];
+                    sent.vertices[k] = static_cast<std::uint64_t>(numbers.of_vertex[v]);
+                    sent.points[k] = mesh.points[v];
+                }
+            }
+        }
+    });
+    failure.agree(processes);
+    failure.attempt([&] {
+        take(mesh, numbers, processes.exchange_with(ranks, outboxes), with_regions, layer);
+    });
+    failure.agree(processes);
+    return layer;
+}
+
+void GhostLayer::exchange(const Communicator& processes, std::span<const std::byte> own,
+                          std::size_t entry_size, std::span<std::byte> ghosts) const {
+    std::vector<int> ranks;
+    std::vector<std::vector<std::byte>> outboxes;
+    LocalFailure failure;
+    failure.attempt([&] {
+        if (own.size() != own_cell_count * entry_size) {
+            throw InputError(fmt::format("rank {}: values of {} cells do not fit {} bytes",
+                                         processes.rank(), own_cell_count, own.size()));
+        }
+        for (const Exchange& with : exchanges) {
+            ranks.push_back(with.rank);
+            auto& outbox = outboxes.emplace_back(with.sent.size() * entry_size);
+            for (std::size_t k = 0; k < with.sent.size(); ++k) {
+                std::memcpy(outbox.data() + k * entry_size,
+                            own.data() + with.sent[k].value() * entry_size, entry_size);
+            }
+        }
+    });
+    failure.agree(processes);
+    failure.attempt([&] { outboxes = processes.exchange_with(ranks, outboxes); });
+    failure.agree(processes);
+    std::size_t offset = 0;
+    for (const auto& inbox : outboxes) {
+        if (!inbox.empty()) std::memcpy(ghosts.data() + offset, inbox.data(), inbox.size());
+        offset += inbox.size();
+    }
+}
+
+}  // namespace octetra::distributed

@@ -1,0 +1,115 @@
+#include "topology/number_sides.hpp"
+
+#include <algorithm>
+#include <numeric>
+
+#include <octetra/core/error.hpp>
+
+#include "comm/local_failure.hpp"
+#include "numbering/ranked.hpp"
+#include "sharing/sharing_builder.hpp"
+
+namespace octetra::distributed {
+namespace {
+
+template <std::size_t N>
+using Corners = std::array<VertexIndex, N>;
+
+/// Local numbers: sides are found at their lowest vertices, where they are put in order.
+template <class I, std::size_t N, std::size_t PerCell>
+void number_locally(const DistributedMesh& mesh,
+                    const std::array<std::array<std::uint8_t, N>, PerCell>& places,
+                    Sides<I, N, PerCell>& sides) {
+    const std::size_t count = PerCell * mesh.cells.size();
+    if (count >= I::limit) throw InputError("too many cells on one process to number their sides");
+    const auto corners_of = [&](std::size_t side) {
+        Corners<N> corners;
+        for (std::size_t k = 0; k < N; ++k) {
+            corners[k] = mesh.cells[CellIndex{side / PerCell}][places[side % PerCell][k]];
+        }
+        std::ranges::sort(corners);
+        return corners;
+    };
+    std::vector<std::uint32_t> begin(mesh.points.size() + 1, 0);
+    for (std::size_t side = 0; side < count; ++side) ++begin[corners_of(side)[0].value()];
+    std::inclusive_scan(begin.begin(), begin.end(), begin.begin());
+    std::vector<std::uint32_t> at_vertex(count);
+    for (std::size_t side = count; side-- > 0;) {
+        at_vertex[--begin[corners_of(side)[0].value()]] = static_cast<std::uint32_t>(side);
+    }
+    sides.of_cell.resize(mesh.cells.size());
+    std::vector<std::pair<Corners<N>, std::uint32_t>> star;
+    for (std::size_t v = 0; v + 1 < begin.size(); ++v) {
+        star.clear();
+        for (std::uint32_t k = begin[v]; k < begin[v + 1]; ++k) {
+            star.emplace_back(corners_of(at_vertex[k]), at_vertex[k]);
+        }
+        std::sort(star.begin(), star.end());
+        for (const auto& [corners, side] : star) {
+            if (sides.vertices.empty() || sides.vertices.back() != corners) {
+                sides.vertices.push_back(corners);
+            }
+            sides.of_cell[CellIndex{side / PerCell}][side % PerCell] = I{sides.vertices.size() - 1};
+        }
+    }
+}
+
+template <class I, std::size_t N, std::size_t PerCell>
+I find(const Sides<I, N, PerCell>& sides, Corners<N> corners) {
+    std::ranges::sort(corners);
+    const auto found = std::ranges::lower_bound(sides.vertices, corners);
+    return I{static_cast<std::size_t>(found - sides.vertices.begin())};
+}
+
+/// Collective. `shared_of(interface)` are the sides that it lists.
+template <class I, std::size_t N, std::size_t PerCell>
+Sides<I, N, PerCell> number(const DistributedMesh& mesh, const CanonicalNumbers& numbers,
+                            const std::array<std::array<std::uint8_t, N>, PerCell>& places,
+                            auto&& shared_of) {
+    Sides<I, N, PerCell> sides;
+    SharingBuilder<I> sharing(sides.sharing, mesh.processes.rank());
+    LocalFailure failure;
+    failure.attempt([&] { number_locally(mesh, places, sides); });
+    // Vertices are in canonical order here and there, so sides ascend by either numbers.
+    const auto tuples = [&] {
+        std::vector<NumberTuple<N>> tuples_of_sides;
+        tuples_of_sides.reserve(sides.vertices.size());
+        for (const auto& corners : sides.vertices) {
+            auto& tuple = tuples_of_sides.emplace_back();
+            std::ranges::transform(corners, tuple.begin(), [&](VertexIndex v) {
+                return static_cast<std::uint64_t>(numbers.of_vertex[v]);
+            });
+        }
+        return tuples_of_sides;
+    };
+    const auto ranks =
+        ranked<N>(mesh.processes, tuples, numbers.vertex_count, sides.count, failure);
+    failure.attempt([&] {
+        sides.numbers.assign(ranks.begin(), ranks.end());
+        for (const Interface& interface : mesh.interfaces) {
+            std::vector<I> shared;
+            for (const auto& corners : shared_of(interface)) {
+                shared.push_back(find(sides, corners));
+            }
+            sharing.share(interface.rank, std::move(shared));
+        }
+        sharing.prepare([&](I i) { return sides.numbers[i]; });
+    });
+    failure.agree(mesh.processes);
+    sharing.commit();
+    return sides;
+}
+
+}  // namespace
+
+MeshEdges number_edges(const DistributedMesh& mesh, const CanonicalNumbers& numbers) {
+    return number<EdgeIndex>(
+        mesh, numbers, cell_edges, [](const Interface& i) -> const auto& { return i.edges; });
+}
+
+MeshFaces number_faces(const DistributedMesh& mesh, const CanonicalNumbers& numbers) {
+    return number<FaceIndex>(
+        mesh, numbers, cell_faces, [](const Interface& i) -> const auto& { return i.faces; });
+}
+
+}  // namespace octetra::distributed

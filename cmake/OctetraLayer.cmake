@@ -31,8 +31,9 @@ function(octetra_layer name)
                                                    VERIFY_INTERFACE_HEADER_SETS ON)
   target_sources(octetra_${name} PUBLIC FILE_SET HEADERS BASE_DIRS include FILES ${layer_HEADERS})
   if(layer_LAYER_HEADERS)
-    target_sources(octetra_${name} PUBLIC FILE_SET layer_headers TYPE HEADERS BASE_DIRS layers
-                                          FILES ${layer_LAYER_HEADERS})
+    target_sources(octetra_${name} PRIVATE ${layer_LAYER_HEADERS})
+    target_include_directories(octetra_${name} PUBLIC
+                               $<BUILD_INTERFACE:${CMAKE_CURRENT_SOURCE_DIR}/layers>)
   endif()
   target_include_directories(octetra_${name} PRIVATE src)
   target_link_libraries(octetra_${name} PUBLIC ${layer_LINKS} PRIVATE ${layer_USES})

@@ -323,6 +323,19 @@ TEST(Refine, EndedByASignalBetweenRenamesPutsAllFilesOfTheMeshInPlace) {
     }
 }
 
+TEST(Refine, KilledBetweenRenamesLeavesNoMeshThatCanBeReadWithoutItsFacets) {
+    for (const std::string rename : {"1", "2", "3"}) {
+        const TemporaryFolder folder;
+        ASSERT_EQ(test::octetra("generate kuhn 2 -o cube.ele --quiet", folder).status, 0);
+        const std::string run =
+            "env ASAN_OPTIONS=verify_asan_link_order=0 OCTETRA_KILLED_AT_RENAME=" + rename +
+            " LD_PRELOAD=" OCTETRA_RENAME_INTERRUPTER " " OCTETRA_PROGRAM
+            " refine cube.ele --all --quiet -o fine.ele";
+        EXPECT_EQ(test::run_program(test::words(run), folder.path()).status, 128 + SIGKILL);
+        EXPECT_EQ(test::octetra("info fine.ele", folder).status, 2) << rename;
+    }
+}
+
 TEST(Refine, GoesOnWhereItWasStartedToIgnoreASignal) {
     // As nohup does; a shell that starts a program in the background does it with SIGINT.
     const TemporaryFolder folder;

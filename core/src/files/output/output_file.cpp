@@ -8,6 +8,7 @@
 #include <cerrno>
 #include <cstring>
 #include <optional>
+#include <ranges>
 #include <utility>
 
 #include <fmt/format.h>
@@ -128,7 +129,7 @@ void OutputFile::commit_all(const std::vector<std::unique_ptr<OutputFile>>& file
     group.agree({});
     if (group.is_first()) deferred.emplace();
     group.on_first([&] {
-        for (const auto& file : files) {
+        for (const auto& file : std::views::reverse(files)) {
             file->rename();
             if (!file->failure_.empty()) throw SystemError(file->failure_);
         }

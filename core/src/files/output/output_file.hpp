@@ -56,8 +56,9 @@ public:
     /// Brings everything to the file and closes it.
     void close();
     void commit();
-    /// Commits files that belong together, when all are complete, and then does `rest` on the first
-    /// process. A signal that would end the program in between waits until all is done.
+    /// Commits files that belong together, when all are complete: the last first, so that where the
+    /// first one is in its place all are. Then does `rest` on the first process. A signal that
+    /// would end the program in between waits until all is done.
     static void commit_all(const std::vector<std::unique_ptr<OutputFile>>& files,
                            const ProcessGroup& group, const std::function<void()>& rest);
 

@@ -1,0 +1,7 @@
+#include <octetra/core/version.hpp>
+
+namespace octetra {
+
+const char* version() { return OCTETRA_VERSION; }
+
+}  // namespace octetra

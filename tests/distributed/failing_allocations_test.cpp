@@ -6,6 +6,7 @@
 
 #include <octetra/core/error.hpp>
 #include <octetra/distributed/adaptive_mesh.hpp>
+#include <octetra/distributed/estimator_marks.hpp>
 #include <octetra/distributed/exchange.hpp>
 
 #include "distributed/marked_mesh.hpp"
@@ -143,6 +144,18 @@ TEST(FailingAllocations, OfAnExchangeAreThrownOnAllProcesses) {
         };
     });
     EXPECT_TRUE(failures >= 1 || test::world().size() == 1);
+}
+
+TEST(FailingAllocations, OfMarkingByIndicatorsAreThrownOnAllProcesses) {
+    const std::uint64_t failures = let_each_fail(1, [&](AdaptiveMesh& mesh) {
+        std::vector<double> indicators(mesh.cells().size(), 0.1);
+        return [indicators, &mesh] {
+            (void)mark_bulk(mesh.processes(), indicators, 0.5);
+            (void)mark_maximum(mesh.processes(), indicators, 0.5);
+            (void)mark_fraction(mesh.processes(), indicators, 0.5);
+        };
+    });
+    EXPECT_GE(failures, 3U);
 }
 
 /// Messages that are cut into pieces, and of which one process can keep nothing.

@@ -43,6 +43,8 @@ SynchronisationCounts run(const Communicator& processes, Synchronisation synchro
     (void)collect(std::move(part));
     std::vector<int> numbers(100);
     processes.broadcast(numbers);
+    std::vector<std::uint64_t> addends(100);
+    processes.sum(addends);
     return counts;
 }
 

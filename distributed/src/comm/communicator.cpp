@@ -58,10 +58,15 @@ namespace {
 constexpr int exchange_tag = 1;
 constexpr int size_tag = 2;  ///< of a message that tells how many bytes the next ones bring
 
-std::uint64_t reduced(std::uint64_t number, MPI_Op operation, MPI_Comm comm, Profile* profile) {
+void reduce(std::span<std::uint64_t> numbers, MPI_Op operation, MPI_Comm comm, Profile* profile) {
     const Communication communication(profile, "reduction");
-    communication.count_collective(sizeof number);
-    MPI_Allreduce(MPI_IN_PLACE, &number, 1, MPI_UINT64_T, operation, comm);
+    communication.count_collective(numbers.size_bytes());
+    MPI_Allreduce(MPI_IN_PLACE, numbers.data(), static_cast<int>(numbers.size()), MPI_UINT64_T,
+                  operation, comm);
+}
+
+std::uint64_t reduced(std::uint64_t number, MPI_Op operation, MPI_Comm comm, Profile* profile) {
+    reduce(std::span(&number, 1), operation, comm, profile);
     return number;
 }
 
@@ -82,6 +87,10 @@ Communicator Communicator::with_profile(std::shared_ptr<Profile> profile) const 
 
 std::uint64_t Communicator::sum(std::uint64_t number) const {
     return mpi_ ? reduced(number, MPI_SUM, mpi_->comm, profile()) : number;
+}
+
+void Communicator::sum(std::span<std::uint64_t> numbers) const {
+    if (mpi_) reduce(numbers, MPI_SUM, mpi_->comm, profile());
 }
 
 std::uint64_t Communicator::max(std::uint64_t number) const {

@@ -56,9 +56,13 @@ std::string seen_at_a_slow_terminal(const std::string& arguments,
     return seen;
 }
 
+/// A mesh whose check is stopped a few times.
+const std::string generate_mesh =
+    OCTETRA_SANITIZED ? "generate kuhn 10 10 10 -o mesh.ele" : "generate kuhn 20 20 20 -o mesh.ele";
+
 TEST(VerifyProgress, IsShownAtATerminalWhereACheckTakesLongerThanASecond) {
     const test::TemporaryFolder folder;
-    ASSERT_EQ(test::octetra("generate kuhn 20 20 20 -o mesh.ele", folder).status, 0);
+    ASSERT_EQ(test::octetra(generate_mesh, folder).status, 0);
     const std::string seen = seen_at_a_slow_terminal("verify mesh.ele", folder.path());
     EXPECT_NE(seen.find(" %"), std::string::npos) << seen;
     EXPECT_NE(seen.find("mesh.ele: valid"), std::string::npos) << seen;
@@ -66,7 +70,7 @@ TEST(VerifyProgress, IsShownAtATerminalWhereACheckTakesLongerThanASecond) {
 
 TEST(VerifyProgress, IsNotShownInFiles) {
     const test::TemporaryFolder folder;
-    ASSERT_EQ(test::octetra("generate kuhn 20 20 20 -o mesh.ele", folder).status, 0);
+    ASSERT_EQ(test::octetra(generate_mesh, folder).status, 0);
     const std::string seen = seen_at_a_slow_terminal("verify mesh.ele", folder.path(), "errors");
     EXPECT_EQ(seen.find(" %"), std::string::npos) << seen;
     EXPECT_EQ(test::content_of(folder / "errors"), "");

@@ -69,11 +69,14 @@ const std::vector<NumberOption> number_options{
 };
 
 TEST_F(Usage, OfNumbersIsToldInOneLine) {
+    std::size_t combination = 0;
     for (const auto& [arguments, name, takes, whole] : number_options) {
         std::vector<std::string> values{"",   "x",  "nan", "inf", "0x2",  "2q",
                                         " 2", "2 ", "+-2", "2,2", "1e400"};
         if (whole) values.insert(values.end(), {"1.5", "2.0", "1e0", "1e-310"});
         for (const std::string& value : values) {
+            // Of some 15 values and as many options; under sanitizers each of both comes up.
+            if (OCTETRA_SANITIZED && combination++ % 4 != 0) continue;
             const bool too_large = !whole && value == "1e400";
             expect_refused(arguments, value,
                            name + " takes " + takes + ", not '" + value + "'" +

@@ -5,6 +5,8 @@ ranks=$1
 shift
 export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1
 export OMPI_MCA_btl_vader_single_copy_mechanism=none OMPI_MCA_rmaps_base_oversubscribe=1
+# Every mpirun would bind its first rank to the same core, also while another test runs there.
+export OMPI_MCA_hwloc_base_binding_policy=none
 # Open MPI keeps some memory until the end of the process, which the leak sanitizer would report;
 # and the address sanitizer wants to be told that a test may preload a library.
 export ASAN_OPTIONS="detect_leaks=0:verify_asan_link_order=0${ASAN_OPTIONS:+:$ASAN_OPTIONS}"

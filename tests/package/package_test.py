@@ -1,0 +1,114 @@
+"""Programs that are built against Octetra in the ways in which programs are: by find_package() and by
+pkg-config from an installation that was moved, shared and static, and with Octetra as a part of them."""
+
+import os
+import pathlib
+import shutil
+import subprocess
+import sys
+import tempfile
+import unittest
+
+source, build = (pathlib.Path(argument) for argument in sys.argv[1:3])
+mpirun = source / "tests/support/mpirun.sh"
+examples = ("read_refine_write", "from_solver_parts", "quadratic_transfer")
+
+PART_OF_A_PROGRAM = """\
+cmake_minimum_required(VERSION 3.25)
+project(Program LANGUAGES CXX)
+{how}
+add_executable(program {source}/examples/read_refine_write.cpp)
+find_package(MPI REQUIRED COMPONENTS CXX)
+target_link_libraries(program PRIVATE Octetra::distributed MPI::MPI_CXX)
+if(TARGET octetra OR TARGET test_core OR TARGET octetra_verify)
+  message(FATAL_ERROR "Octetra as a part of a program brings more than libraries of its own accord")
+endif()
+"""
+
+
+def run(*command, cwd=None, env=None):
+    done = subprocess.run([str(word) for word in command], cwd=cwd, env=env, capture_output=True,
+                          text=True, check=False)
+    if done.returncode != 0:
+        raise AssertionError(f"{command}: {done.returncode}\n{done.stdout}\n{done.stderr}")
+    return done.stdout
+
+
+class Package(unittest.TestCase):
+    def setUp(self):
+        self.folder = pathlib.Path(tempfile.mkdtemp(prefix="octetra-package-"))
+        self.addCleanup(shutil.rmtree, self.folder)
+        self.mesh = self.folder / "cube.mesh"
+        run(build / "cli/octetra", "generate", "kuhn", "4", "-o", self.mesh, "--quiet")
+
+    def configure(self, project, folder, *options):
+        run("cmake", "-G", "Ninja", "-S", project, "-B", folder, *options)
+
+    def installed(self, built):
+        """Where what was built is installed, and was moved to."""
+        run("cmake", "--install", built, "--prefix", self.folder / "first")
+        (self.folder / "first").rename(self.folder / "moved")
+        for path in (self.folder / "moved").rglob("*"):
+            if path.suffix in (".cmake", ".pc", ".hpp"):
+                text = path.read_text()
+                self.assertNotIn(str(self.folder), text, path)
+                self.assertNotIn(str(source), text, path)
+        return self.folder / "moved"
+
+    def check_refined(self, program, ranks=(1, 2, 4)):
+        """The program's file is the same on any number of ranks, and what the command makes."""
+        files = set()
+        for n in ranks:
+            output = self.folder / f"refined.{n}.mesh"
+            run(mpirun, n, program, self.mesh, output)
+            files.add(output.read_bytes())
+        self.assertEqual(len(files), 1)
+        once, twice = self.folder / "once.mesh", self.folder / "twice.mesh"
+        refine = (build / "cli/octetra", "refine", "--quiet")
+        run(*refine, self.mesh, "--sphere", "0,0,0,0.5", "-o", once)
+        run(*refine, once, "--sphere", "0,0,0,0.25", "-o", twice)
+        self.assertEqual(files.pop(), twice.read_bytes())
+
+    def build_and_run_examples(self, prefix, *options):
+        built = self.folder / "examples"
+        self.configure(source / "examples", built, f"-DCMAKE_PREFIX_PATH={prefix}", *options)
+        run("cmake", "--build", built)
+        self.check_refined(built / "read_refine_write")
+        for n in (1, 2, 4):
+            self.assertIn(f"mass {n} of {n}", run(mpirun, n, built / "from_solver_parts"))
+            self.assertIn("exact:", run(mpirun, n, built / "quadratic_transfer", self.mesh))
+
+    def test_static_libraries_are_found_where_they_were_moved_to(self):
+        prefix = self.installed(build)
+        self.assertIn("octetra 0.", run(prefix / "bin/octetra", "--version"))
+        self.build_and_run_examples(prefix)
+
+        folders = [str(path.parent) for path in prefix.rglob("octetra-core.pc")]
+        flags = run("pkg-config", "--cflags", "--libs", "octetra-distributed",
+                    env={**os.environ, "PKG_CONFIG_PATH": ":".join(folders)}).split()
+        program = self.folder / "by_pkg_config"
+        run("c++", "-std=c++20", source / "examples/read_refine_write.cpp", *flags, "-o", program)
+        self.check_refined(program, ranks=(2,))
+
+    def test_a_program_has_octetra_as_a_part_of_itself(self):
+        project = self.folder / "program"
+        for how in (f"add_subdirectory({source} octetra)",
+                    "include(FetchContent)\n"
+                    f"FetchContent_Declare(Octetra SOURCE_DIR {source})\n"
+                    "FetchContent_MakeAvailable(Octetra)"):
+            project.mkdir(exist_ok=True)
+            (project / "CMakeLists.txt").write_text(
+                PART_OF_A_PROGRAM.format(how=how, source=source))
+            shutil.rmtree(project / "build", ignore_errors=True)
+            self.configure(project, project / "build", "-DBUILD_SHARED_LIBS=ON")
+        run("cmake", "--build", project / "build")
+        self.check_refined(project / "build/program", ranks=(2,))
+
+        # Shared libraries ask their users for MPI alone.
+        prefix = self.installed(project / "build")
+        self.build_and_run_examples(
+            prefix, *(f"-DCMAKE_DISABLE_FIND_PACKAGE_{p}=ON" for p in ("fmt", "ZLIB", "METIS")))
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1] + sys.argv[3:])

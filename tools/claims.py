@@ -50,7 +50,8 @@ def page_of(sections):
     lines = ["# Claims and tests", "",
              "What Octetra promises, and the tests that fail if it is not so. Made by "
              "`tools/claims.py --write` of", "`tests/claims.txt`; do not edit. "
-             "[TESTING.md](../TESTING.md) says how to run a test."]
+             "[TESTING.md](../TESTING.md) says how to run a test; `grep -rn CASE tests/` finds one by",
+             "the last part of its name."]
     for heading, claims in sections:
         lines += ["", f"## {heading}", "", "| claim | tests |", "|---|---|"]
         lines += [f"| {claim} | {', '.join(f'`{test}`' for test in tests)} |"

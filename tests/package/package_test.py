@@ -11,7 +11,6 @@ import unittest
 
 source, build = (pathlib.Path(argument) for argument in sys.argv[1:3])
 mpirun = source / "tests/support/mpirun.sh"
-examples = ("read_refine_write", "from_solver_parts", "quadratic_transfer")
 
 PART_OF_A_PROGRAM = """\
 cmake_minimum_required(VERSION 3.25)
@@ -77,6 +76,9 @@ class Package(unittest.TestCase):
         for n in (1, 2, 4):
             self.assertIn(f"mass {n} of {n}", run(mpirun, n, built / "from_solver_parts"))
             self.assertIn("exact:", run(mpirun, n, built / "quadratic_transfer", self.mesh))
+        loops = [run(mpirun, n, built / "adaptive_loop", self.mesh, 3, self.folder / "front.mesh")
+                 + (self.folder / "front.mesh").read_text() for n in (1, 2, 4)]
+        self.assertEqual(loops, [loops[0]] * 3)
 
     def test_static_libraries_are_found_where_they_were_moved_to(self):
         prefix = self.installed(build)

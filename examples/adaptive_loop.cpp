@@ -1,0 +1,84 @@
+// An adaptive loop without a solver: the mesh follows a steep front, u = atan(60 (|x| - 0.7)), which is
+// interpolated where a solver would solve.
+//     mpirun -n 4 ./adaptive_loop cube.mesh 5 front.vtu
+#include <mpi.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <cstdio>
+#include <cstdlib>
+#include <exception>
+#include <string>
+#include <vector>
+
+#include <octetra/distributed/adaptive_mesh.hpp>
+#include <octetra/distributed/estimator_marks.hpp>
+#include <octetra/distributed/mpi.hpp>
+
+namespace od = octetra::distributed;
+using octetra::Point;
+
+namespace {
+
+double front(const Point& p) { return std::atan(60 * (std::hypot(p.x, p.y, p.z) - 0.7)); }
+
+std::vector<double> solve(const od::AdaptiveMesh& mesh) {
+    std::vector<double> u;
+    for (const Point& p : mesh.points()) u.push_back(front(p));
+    return u;
+}
+
+// For each cell of this process the square of how far u is off in the middle of its edges.
+std::vector<double> estimate(const od::AdaptiveMesh& mesh, const std::vector<double>& u) {
+    std::vector<double> eta2;
+    for (const octetra::CellVertices& cell : mesh.cells()) {
+        double worst = 0;
+        for (const auto& [i, j] : octetra::cell_edges) {
+            const std::size_t a = cell[i].value();
+            const std::size_t b = cell[j].value();
+            const double exact = front(octetra::midpoint(mesh.points()[a], mesh.points()[b]));
+            worst = std::max(worst, std::abs(exact - (u[a] + u[b]) / 2));
+        }
+        eta2.push_back(worst * worst);
+    }
+    return eta2;
+}
+
+void run(const char* input, int steps, const char* output) {
+    const od::Communicator processes = od::communicator_of(MPI_COMM_WORLD);
+    od::AdaptiveMesh mesh = od::AdaptiveMesh::read(processes, input);
+    std::vector<double> u = solve(mesh);
+    for (int step = 1; step <= steps; ++step) {
+        const std::vector<double> eta2 = estimate(mesh, u);
+        const std::vector<std::uint8_t> marks = od::mark_bulk(processes, eta2, 0.5);
+        const od::Adaptation adaptation = mesh.refine(marks);
+
+        u = adaptation.transfer_vertices(std::move(u));  // a first guess for the solver
+        u = solve(mesh);
+        const auto cells = processes.sum(mesh.cells().size());
+        if (processes.is_first()) {
+            std::printf("step %d: %llu cells, %llu vertices\n", step,
+                        static_cast<unsigned long long>(cells),
+                        static_cast<unsigned long long>(mesh.vertex_count()));
+        }
+    }
+    (void)mesh.write(output);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    MPI_Init(&argc, &argv);
+    int status = argc == 4 ? 0 : 2;
+    try {
+        if (argc == 4) run(argv[1], std::atoi(argv[2]), argv[3]);
+    } catch (const std::exception& error) {  // the same on all processes
+        int rank = 0;
+        MPI_Comm_rank(MPI_COMM_WORLD, &rank);
+        if (rank == 0) std::fprintf(stderr, "%s\n", error.what());
+        status = 2;
+    }
+    MPI_Finalize();
+    return status;
+}

@@ -79,6 +79,19 @@ class Package(unittest.TestCase):
         loops = [run(mpirun, n, built / "adaptive_loop", self.mesh, 3, self.folder / "front.mesh")
                  + (self.folder / "front.mesh").read_text() for n in (1, 2, 4)]
         self.assertEqual(loops, [loops[0]] * 3)
+        if (built / "adaptive_poisson").exists():  # where PETSc is installed
+            self.check_rates(built / "adaptive_poisson")
+
+    def check_rates(self, program):
+        """In theory, of the error against unknowns: -2/9 on uniform meshes, -1/3 on adaptive ones."""
+        for kind, steps, low, high in (("uniform", 3, -0.24, -0.18), ("adaptive", 5, -0.36, -0.29)):
+            tables = []
+            for n in (1, 2):
+                rows = [line.split() for line in run(mpirun, n, program, kind, steps).splitlines()]
+                rate = float(rows[-1][4])
+                self.assertTrue(low < rate < high, rows)
+                tables.append([row[:3] for row in rows])  # cells, unknowns, error
+            self.assertEqual(tables[0], tables[1])
 
     def test_static_libraries_are_found_where_they_were_moved_to(self):
         prefix = self.installed(build)

@@ -1,5 +1,5 @@
-// An adaptive loop without a solver: the mesh follows a steep front, u = atan(60 (|x| - 0.7)), which is
-// interpolated where a solver would solve.
+// An adaptive loop without a solver: the mesh follows a steep front, u = atan(60 (|x| - 0.7)),
+// which is interpolated where a solver would solve.
 //     mpirun -n 4 ./adaptive_loop cube.mesh 5 front.vtu
 #include <mpi.h>
 

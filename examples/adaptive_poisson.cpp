@@ -2,7 +2,8 @@
 // multigrid) on meshes that follow an error estimator, or on uniformly refined ones.
 //
 // Domain: ((-1,1)^2 without [0,1) x (-1,0]) x (0,1). Solution: u = r^(2/3) sin(2 theta / 3), whose
-// gradient has no bound at the edge r = 0. Dirichlet conditions on the sides, natural ones on z = 0 and 1.
+// gradient has no bound at the edge r = 0. Dirichlet conditions on the sides, natural ones on z = 0
+// and 1.
 //     mpirun -n 4 ./adaptive_poisson adaptive 7 step      writes step.1.vtu, step.2.vtu ...
 #include <petscksp.h>
 
@@ -169,8 +170,8 @@ std::vector<double> solve(const od::AdaptiveMesh& mesh) {
     Mat matrix = nullptr;
     Vec right = nullptr;
     Vec unknown = nullptr;
-    MatCreateAIJ(PETSC_COMM_WORLD, own, own, PETSC_DETERMINE, PETSC_DETERMINE, 64, nullptr, 64, nullptr,
-                 &matrix);
+    MatCreateAIJ(PETSC_COMM_WORLD, own, own, PETSC_DETERMINE, PETSC_DETERMINE, 64, nullptr, 64,
+                 nullptr, &matrix);
     MatSetOption(matrix, MAT_NEW_NONZERO_ALLOCATION_ERR, PETSC_FALSE);
     VecCreateMPI(PETSC_COMM_WORLD, own, PETSC_DETERMINE, &right);
     VecDuplicate(right, &unknown);
@@ -198,7 +199,8 @@ std::vector<double> solve(const od::AdaptiveMesh& mesh) {
     }
     VecAssemblyBegin(unknown);
     VecAssemblyEnd(unknown);
-    MatZeroRowsColumns(matrix, static_cast<PetscInt>(fixed.size()), fixed.data(), 1, unknown, right);
+    MatZeroRowsColumns(matrix, static_cast<PetscInt>(fixed.size()), fixed.data(), 1, unknown,
+                       right);
 
     KSP solver = nullptr;
     PC preconditioner = nullptr;

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <array>
 #include <functional>
+#include <initializer_list>
 #include <map>
 #include <numeric>
 #include <optional>
@@ -13,9 +14,11 @@
 
 #include <octetra/core/error.hpp>
 #include <octetra/core/files/mesh_files.hpp>
+#include <octetra/core/orientation.hpp>
 #include <octetra/distributed/adaptive_mesh.hpp>
 #include <octetra/distributed/exchange.hpp>
 #include <octetra/reference/refine.hpp>
+#include <octetra/verify/verify.hpp>
 
 #include "distributed/marked_mesh.hpp"
 #include "distributed/world.hpp"
@@ -316,6 +319,87 @@ TEST_P(AdaptiveMeshIn, ExchangesValuesOfSharedVertices) {
     const auto words =
         test::thrown_by<InputError>([&] { update_copies(world, sharing, count, std::span(ones)); });
     EXPECT_THAT(words, testing::HasSubstr("values for"));
+}
+
+/// A number that a cell adds to each of its vertices; sums of these are exact.
+double weight_of(const Corners& corners) {
+    double sum = 0;
+    for (const Point& p : corners) sum += p.x + 2 * p.y + 4 * p.z;
+    return sum;
+}
+
+/// As solvers assemble: every process over its own cells, and what it shares added up.
+std::vector<double> assembled(const AdaptiveMesh& mesh) {
+    std::vector<double> values(mesh.points().size(), 0);
+    for (std::size_t c = 0; c < mesh.cells().size(); ++c) {
+        for (const VertexIndex v : mesh.cells()[c]) {
+            values[v.value()] += weight_of(corners_of(mesh, c));
+        }
+    }
+    combine_everywhere(test::world(), mesh.vertex_sharing(), values.size(), std::span(values),
+                       std::plus<>());
+    return values;
+}
+
+TEST(AdaptiveMesh, HasSharersAlsoWherePartsTouchInOneVertexOrEdgeOnly) {
+    // Fans of cells round one vertex, and round one edge, every cell on another process: few have a
+    // face in common with another one, or an edge.
+    Mesh round_vertex;
+    round_vertex.points = {{0, 0, 0}};
+    Mesh round_edge;
+    round_edge.points = {{0, 0, 0}, {0, 0, 1}};
+    for (int k = 0; k < 6; ++k) {
+        const double x = k < 3 ? 1 : -1;
+        const double at = 1 + k % 3 * 2;
+        const auto add = [](Mesh& mesh, std::initializer_list<Point> points, std::size_t first) {
+            CellVertices cell;
+            for (std::size_t i = 0; i < first; ++i) cell[i] = VertexIndex{i};
+            std::size_t i = first;
+            for (const Point& p : points) cell[i++] = mesh.points.append(p);
+            if (orientation(mesh.points[cell[0]], mesh.points[cell[1]], mesh.points[cell[2]],
+                            mesh.points[cell[3]]) < 0) {
+                std::swap(cell[2], cell[3]);
+            }
+            mesh.cells.push_back(cell);
+        };
+        add(round_vertex, {{x, at, 0}, {x, at + 1, 0}, {x, at, 1}}, 1);
+        add(round_edge, {{x, at, 0}, {x, at + 1, 0}}, 2);
+    }
+    for (const Mesh& whole : {round_vertex, round_edge}) {
+        std::vector<int> ranks;
+        for (int c = 0; c < 6; ++c) ranks.push_back(c % test::world().size());
+        AdaptiveMesh parts = AdaptiveMesh::distribute(test::world(), whole, ranks);
+        for (int step = 0; step < 2; ++step) {
+            const Mesh fine = parts.collect();
+            std::vector<double> expected(fine.points.size(), 0);
+            for (CellIndex c{0}; c < fine.cells.end_index(); ++c) {
+                Corners corners;
+                for (std::size_t k = 0; k < 4; ++k) corners[k] = fine.points[fine.cells[c][k]];
+                for (const VertexIndex v : fine.cells[c]) expected[v.value()] += weight_of(corners);
+            }
+            test::world().broadcast(expected);
+            const std::vector<double> values = assembled(parts);
+            for (std::size_t v = 0; v < values.size(); ++v) {
+                EXPECT_EQ(values[v],
+                          expected[static_cast<std::uint64_t>(parts.vertex_numbers()[v])]);
+            }
+            (void)parts.refine(Selection{.all = true});
+        }
+    }
+}
+
+TEST_P(AdaptiveMeshIn, IsJudgedWithoutBeingCollectedOrChanged) {
+    Mesh coarse = test::shaken_kuhn(3, 0.2, 2);
+    test::list_boundary(coarse);
+    AdaptiveMesh mesh = shared_out(coarse, GetParam());
+    const Selection selection = steps[0];
+    (void)mesh.refine(selection);
+    CanonicalMesh fine = mesh.canonical();
+    const auto verdict = verify::verify_refinement(
+        verify::share_out(coarse, test::world()), verify::slice_of(fine.whole()), test::world(),
+        {.request = verify::Request{selection, Scheme::eight, 1}});
+    EXPECT_TRUE(verdict.valid());
+    (void)mesh.refine(Selection{.all = true});  // it can go on
 }
 
 /// All that a program can see of a mesh, and what it will be written as.

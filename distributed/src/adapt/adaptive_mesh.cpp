@@ -1,5 +1,6 @@
 #include <octetra/distributed/adaptive_mesh.hpp>
 
+#include <algorithm>
 #include <functional>
 #include <utility>
 
@@ -168,6 +169,10 @@ AdaptiveMesh AdaptiveMesh::from_parts(const Communicator& processes, MeshPart pa
 }
 
 Adaptation AdaptiveMesh::refine(std::span<const std::uint8_t> marks, const StepOptions& options) {
+    // That all are marked, on all processes, needs no closure.
+    const bool all_here =
+        marks.size() == cells().size() && std::ranges::find(marks, 0) == marks.end();
+    if (processes().max(all_here ? 0 : 1) == 0) return refine(Selection{.all = true}, options);
     return state_->step([&] { return marked_by_bytes(state_->mesh, marks); }, options);
 }
 

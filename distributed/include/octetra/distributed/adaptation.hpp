@@ -42,7 +42,6 @@ struct Adaptation {
     [[nodiscard]] std::vector<T> transfer_vertices(std::vector<T> values,
                                                    std::size_t components = 1) const {
         check(values.size(), vertex_count_before, components);
-        values.reserve(values.size() + new_vertex_ends.size() * components);
         for (const auto& [a, b] : new_vertex_ends) {
             for (std::size_t k = 0; k < components; ++k) {
                 values.push_back(

@@ -163,12 +163,21 @@ TEST_P(AdaptiveMeshIn, KnowsOfEveryVertexItsNumberItsSharersAndItsOwner) {
         }
         std::vector<int> neighbours;
         std::vector<std::vector<std::uint64_t>> listed;
-        for (const auto& [rank, vertices] : sharing.neighbours()) {
-            neighbours.push_back(rank);
+        std::vector<std::vector<std::uint64_t>> owned;
+        std::vector<std::vector<std::uint64_t>> received;
+        for (const SharedWith<VertexIndex>& with : sharing.neighbours()) {
+            neighbours.push_back(with.rank);
             auto& list = listed.emplace_back();
-            for (const VertexIndex v : vertices) list.push_back(own[v.value()].number);
+            for (const VertexIndex v : with.entities) list.push_back(own[v.value()].number);
+            auto& owned_list = owned.emplace_back();
+            for (const VertexIndex v : with.owned) owned_list.push_back(own[v.value()].number);
+            auto& received_list = received.emplace_back();
+            for (const VertexIndex v : with.received) {
+                received_list.push_back(own[v.value()].number);
+            }
         }
         EXPECT_EQ(test::world().exchange_with(neighbours, listed), listed);
+        EXPECT_EQ(test::world().exchange_with(neighbours, owned), received);
     }
 }
 

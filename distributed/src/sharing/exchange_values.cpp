@@ -1,5 +1,3 @@
-#include <cstring>
-
 #include <fmt/format.h>
 
 #include <octetra/core/error.hpp>
@@ -9,40 +7,27 @@
 
 namespace octetra::distributed::detail {
 
-void exchange_values(const Communicator& processes,
-                     const std::function<std::vector<ValueLists>()>& lists, std::byte* values,
-                     std::size_t value_count, std::size_t value_size, std::size_t components,
-                     std::size_t entity_count, Receive receive, void* context) {
-    const std::size_t entry_size = value_size * components;
-    std::vector<ValueLists> with;
+void exchange_values(const Communicator& processes, const ValueExchange& exchange) {
     std::vector<int> ranks;
     std::vector<std::vector<std::byte>> outboxes;
     LocalFailure failure;
     failure.attempt([&] {
-        if (value_count != entity_count * components) {
-            throw InputError(fmt::format("{} values for {} entities, where {} for each are needed",
-                                         value_count, entity_count, components));
+        if (exchange.value_count != exchange.value_count_needed) {
+            throw InputError(
+                fmt::format("rank {}: {} values for shared entities, and {} are needed",
+                            processes.rank(), exchange.value_count, exchange.value_count_needed));
         }
-        with = lists();
-        for (const ValueLists& list : with) {
-            ranks.push_back(list.rank);
-            auto& outbox = outboxes.emplace_back(list.sent.size() * entry_size);
-            for (std::size_t k = 0; k < list.sent.size(); ++k) {
-                std::memcpy(outbox.data() + k * entry_size, values + list.sent[k] * entry_size,
-                            entry_size);
-            }
+        for (std::size_t n = 0; n < exchange.neighbour_count; ++n) {
+            ranks.push_back(exchange.rank(n));
+            outboxes.emplace_back(exchange.bytes_sent(n));
+            exchange.pack(n, outboxes.back().data());
         }
     });
     failure.agree(processes);
     std::vector<std::vector<std::byte>> inboxes;
     failure.attempt([&] { inboxes = processes.exchange_with(ranks, outboxes); });
     failure.agree(processes);
-    for (std::size_t n = 0; n < with.size(); ++n) {
-        for (std::size_t k = 0; k < with[n].received.size(); ++k) {
-            receive(values + with[n].received[k] * entry_size, inboxes[n].data() + k * entry_size,
-                    components, context);
-        }
-    }
+    for (std::size_t n = 0; n < inboxes.size(); ++n) exchange.unpack(n, inboxes[n].data());
 }
 
 }  // namespace octetra::distributed::detail

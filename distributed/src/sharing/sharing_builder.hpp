@@ -29,7 +29,7 @@ public:
 
     /// With this rank; `entities` in an order that both sides know. Each rank at most once.
     void share(int rank, std::vector<I> entities) {
-        if (!entities.empty()) added_.push_back({rank, std::move(entities)});
+        if (!entities.empty()) added_.push_back({rank, std::move(entities), {}, {}});
     }
 
     /// Once all is told. All added entities have greater numbers than those that are there;
@@ -40,8 +40,8 @@ public:
             int rank;
         };
         std::vector<Entry> entries;
-        for (const auto& [rank, entities] : added_) {
-            for (const I i : entities) entries.push_back({i, rank});
+        for (const SharedWith<I>& with : added_) {
+            for (const I i : with.entities) entries.push_back({i, with.rank});
         }
         std::ranges::sort(entries, {}, [](const Entry& e) { return std::pair(e.entity, e.rank); });
         std::vector<int> ranks;
@@ -57,6 +57,13 @@ public:
             ends_.push_back(static_cast<std::uint32_t>(sharing_->ranks_.size() + ranks_.size()));
             owners_.push_back(owner_of(number_of(entity), ranks));
         }
+        for (SharedWith<I>& with : added_) {
+            for (const I i : with.entities) {
+                const int owner = owner_of_added(i);
+                if (owner == sharing_->rank_) with.owned.push_back(i);
+                if (owner == with.rank) with.received.push_back(i);
+            }
+        }
         make_room_for_all();
     }
 
@@ -68,17 +75,23 @@ public:
         append(sharing_->begin_, ends_);
         append(sharing_->ranks_, ranks_);
         append(sharing_->owners_, owners_);
-        for (auto& [rank, entities] : added_) {
-            auto there = neighbour(rank);
-            if (there == sharing_->neighbours_.end() || there->rank != rank) {
-                sharing_->neighbours_.insert(there, {rank, std::move(entities)});
+        for (SharedWith<I>& with : added_) {
+            const auto there = neighbour(with.rank);
+            if (there == sharing_->neighbours_.end() || there->rank != with.rank) {
+                sharing_->neighbours_.insert(there, std::move(with));
             } else {
-                append(there->entities, entities);
+                append(there->entities, with.entities);
+                append(there->owned, with.owned);
+                append(there->received, with.received);
             }
         }
     }
 
 private:
+    [[nodiscard]] int owner_of_added(I i) const {
+        return owners_[static_cast<std::size_t>(std::ranges::lower_bound(shared_, i) -
+                                                shared_.begin())];
+    }
     [[nodiscard]] auto neighbour(int rank) {
         return std::ranges::lower_bound(sharing_->neighbours_, rank, {}, &SharedWith<I>::rank);
     }
@@ -88,10 +101,15 @@ private:
         make_room(sharing_->ranks_, sharing_->ranks_.size() + ranks_.size());
         make_room(sharing_->owners_, sharing_->owners_.size() + owners_.size());
         make_room(sharing_->neighbours_, sharing_->neighbours_.size() + added_.size());
-        for (const auto& [rank, entities] : added_) {
-            const auto there = neighbour(rank);
-            if (there == sharing_->neighbours_.end() || there->rank != rank) continue;
-            make_room(there->entities, there->entities.size() + entities.size());
+        const auto make_room_for = [](auto& list, const auto& added) {
+            make_room(list, list.size() + added.size());
+        };
+        for (const SharedWith<I>& with : added_) {
+            const auto there = neighbour(with.rank);
+            if (there == sharing_->neighbours_.end() || there->rank != with.rank) continue;
+            make_room_for(there->entities, with.entities);
+            make_room_for(there->owned, with.owned);
+            make_room_for(there->received, with.received);
         }
     }
 

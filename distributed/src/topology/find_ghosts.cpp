@@ -26,11 +26,11 @@ std::vector<GhostLayer::Exchange> seen_by_vertex(const DistributedMesh& mesh,
                                                  const Sharing<VertexIndex>& sharing) {
     std::vector<GhostLayer::Exchange> exchanges;
     std::vector<std::uint8_t> is_shared(mesh.points.size());
-    for (const auto& [rank, vertices] : sharing.neighbours()) {
+    for (const SharedWith<VertexIndex>& with : sharing.neighbours()) {
         std::ranges::fill(is_shared, std::uint8_t{0});
-        for (const VertexIndex v : vertices) is_shared[v.value()] = 1;
+        for (const VertexIndex v : with.entities) is_shared[v.value()] = 1;
         auto& exchange = exchanges.emplace_back();
-        exchange.rank = rank;
+        exchange.rank = with.rank;
         for (CellIndex c{0}; c < mesh.cells.end_index(); ++c) {
             const auto shared = [&](VertexIndex v) { return is_shared[v.value()] != 0; };
             if (std::ranges::any_of(mesh.cells[c], shared)) exchange.sent.push_back(c);

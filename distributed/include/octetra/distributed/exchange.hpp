@@ -1,7 +1,7 @@
 #pragma once
 
-#include <algorithm>
 #include <cstddef>
+#include <cstring>
 #include <functional>
 #include <span>
 #include <type_traits>
@@ -16,38 +16,67 @@ namespace octetra::distributed {
 
 namespace detail {
 
-/// What goes to and comes from one other process.
-struct ValueLists {
-    int rank = 0;
-    std::vector<std::uint32_t> sent;  ///< entities
-    std::vector<std::uint32_t> received;
+/// What processes exchange, neighbour by neighbour, n counting those of a Sharing.
+struct ValueExchange {
+    std::size_t neighbour_count = 0;
+    std::function<int(std::size_t n)> rank;
+    std::function<std::size_t(std::size_t n)> bytes_sent;
+    std::function<void(std::size_t n, std::byte* message)> pack;
+    std::function<void(std::size_t n, const std::byte* message)> unpack;
+    std::size_t value_count = 0;  ///< that there are, and that are needed
+    std::size_t value_count_needed = 0;
 };
 
-/// Entities that this process owns and has in common with others, and those that others own.
-template <class I>
-[[nodiscard]] std::vector<ValueLists> owned_and_others(const Sharing<I>& sharing) {
-    std::vector<ValueLists> lists;
-    for (const auto& [rank, entities] : sharing.neighbours()) {
-        ValueLists& list = lists.emplace_back();
-        list.rank = rank;
-        for (const I i : entities) {
-            const int owner = sharing.owner(i);
-            if (owner == sharing.rank()) list.sent.push_back(i.value());
-            if (owner == rank) list.received.push_back(i.value());
-        }
-    }
-    return lists;
+/// Collective. Throws alike on all processes, before anything is unpacked.
+void exchange_values(const Communicator& processes, const ValueExchange& exchange);
+
+/// `sent` and `received` are the lists of SharedWith; take(value, come) gets what has come.
+template <class I, class T>
+void exchange_shared(const Communicator& processes, const Sharing<I>& sharing,
+                     std::vector<I> SharedWith<I>::*sent, std::vector<I> SharedWith<I>::*received,
+                     std::size_t entity_count, std::span<T> values, std::size_t components,
+                     auto take) {
+    static_assert(std::is_trivially_copyable_v<T>);
+    // The functions refer to this alone: then they take no memory, for want of which one process
+    // would throw and leave the others waiting.
+    const struct {
+        const std::vector<SharedWith<I>>& neighbours;
+        std::vector<I> SharedWith<I>::*sent;
+        std::vector<I> SharedWith<I>::*received;
+        std::span<T> values;
+        std::size_t components;
+        decltype(take) take_value;
+    } all{sharing.neighbours(), sent, received, values, components, take};
+    exchange_values(
+        processes,
+        {.neighbour_count = all.neighbours.size(),
+         .rank = [&all](std::size_t n) { return all.neighbours[n].rank; },
+         .bytes_sent =
+             [&all](std::size_t n) {
+                 return (all.neighbours[n].*all.sent).size() * all.components * sizeof(T);
+             },
+         .pack =
+             [&all](std::size_t n, std::byte* message) {
+                 const std::size_t entry_size = all.components * sizeof(T);
+                 for (const I i : all.neighbours[n].*all.sent) {
+                     std::memcpy(message, all.values.data() + i.value() * all.components,
+                                 entry_size);
+                     message += entry_size;
+                 }
+             },
+         .unpack =
+             [&all](std::size_t n, const std::byte* message) {
+                 for (const I i : all.neighbours[n].*all.received) {
+                     for (std::size_t k = 0; k < all.components; ++k, message += sizeof(T)) {
+                         T come;
+                         std::memcpy(&come, message, sizeof come);
+                         all.take_value(all.values[i.value() * all.components + k], come);
+                     }
+                 }
+             },
+         .value_count = values.size(),
+         .value_count_needed = entity_count * components});
 }
-
-/// Puts an entity's value that has come into the place of its value here.
-using Receive = void (*)(void* value, const void* come, std::size_t components, void* context);
-
-/// Collective among neighbours. `values` holds entries of `entry_size` bytes for `entity_count`
-/// entities; throws alike on all processes.
-void exchange_values(const Communicator& processes,
-                     const std::function<std::vector<ValueLists>()>& lists, std::byte* values,
-                     std::size_t value_count, std::size_t value_size, std::size_t components,
-                     std::size_t entity_count, Receive receive, void* context);
 
 }  // namespace detail
 
@@ -58,14 +87,9 @@ void exchange_values(const Communicator& processes,
 template <class I, class T>
 void update_copies(const Communicator& processes, const Sharing<I>& sharing,
                    std::size_t entity_count, std::span<T> values, std::size_t components = 1) {
-    static_assert(std::is_trivially_copyable_v<T>);
-    const auto replace = [](void* value, const void* come, std::size_t count, void*) {
-        std::copy_n(static_cast<const T*>(come), count, static_cast<T*>(value));
-    };
-    detail::exchange_values(
-        processes, [&] { return detail::owned_and_others(sharing); },
-        reinterpret_cast<std::byte*>(values.data()), values.size(), sizeof(T), components,
-        entity_count, replace, nullptr);
+    detail::exchange_shared(processes, sharing, &SharedWith<I>::owned, &SharedWith<I>::received,
+                            entity_count, values, components,
+                            [](T& value, const T& come) { value = come; });
 }
 
 /// Collective. The owner of each entity gets operation(its value, a copy's) for every copy, in the
@@ -75,22 +99,9 @@ template <class I, class T, class Operation>
 void combine_at_owner(const Communicator& processes, const Sharing<I>& sharing,
                       std::size_t entity_count, std::span<T> values, Operation operation,
                       std::size_t components = 1) {
-    static_assert(std::is_trivially_copyable_v<T>);
-    const auto combine = [](void* value, const void* come, std::size_t count, void* context) {
-        Operation& with = *static_cast<Operation*>(context);
-        for (std::size_t k = 0; k < count; ++k) {
-            T& own = static_cast<T*>(value)[k];
-            own = with(own, static_cast<const T*>(come)[k]);
-        }
-    };
-    const auto others_and_owned = [&] {
-        auto lists = detail::owned_and_others(sharing);
-        for (auto& list : lists) list.sent.swap(list.received);
-        return lists;
-    };
-    detail::exchange_values(processes, others_and_owned,
-                            reinterpret_cast<std::byte*>(values.data()), values.size(), sizeof(T),
-                            components, entity_count, combine, &operation);
+    detail::exchange_shared(processes, sharing, &SharedWith<I>::received, &SharedWith<I>::owned,
+                            entity_count, values, components,
+                            [&](T& value, const T& come) { value = operation(value, come); });
 }
 
 /// Collective. Combines the values of all copies of each entity, and gives all copies the result:

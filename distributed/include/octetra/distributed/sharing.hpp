@@ -12,11 +12,13 @@
 namespace octetra::distributed {
 
 /// What this process shares with another one. Both have the same entities listed in the same order,
-/// each by its own numbers.
+/// each by its own numbers; and those that one of them owns, likewise.
 template <class I>
 struct SharedWith {
     int rank = 0;
     std::vector<I> entities;
+    std::vector<I> owned;     ///< of these, this process's own
+    std::vector<I> received;  ///< and the other one's own; the rest are a third one's
 
     friend bool operator==(const SharedWith&, const SharedWith&) = default;
 };

@@ -173,7 +173,7 @@ void FullSweepLevel::mark(const MarkedCells& marked, Scheme scheme) {
 void FullSweepLevel::mark(CellIndex cell, EdgeMask mask) {
     const auto edges = numbering_->edges_of(cell);
     for (std::size_t e = 0; e < 6; ++e) {
-        if ((mask >> e & 1U) != 0) closure_.mark(edges[e]);
+        if ((unsigned{mask} >> e & 1U) != 0) closure_.mark(edges[e]);
     }
 }
 

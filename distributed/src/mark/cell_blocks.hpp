@@ -5,8 +5,8 @@
 
 #include <octetra/distributed/distributed_mesh.hpp>
 
-#include "level/huge_pages.hpp"
 #include "mark/selection_bounds.hpp"
+#include "memory/huge_pages.hpp"
 
 namespace octetra::distributed {
 

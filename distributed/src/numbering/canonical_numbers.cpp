@@ -3,7 +3,7 @@
 #include <array>
 #include <vector>
 
-#include "level/huge_pages.hpp"
+#include "memory/huge_pages.hpp"
 #include "numbering/ranked.hpp"
 
 namespace octetra::distributed {

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <vector>
 
-#include "level/huge_pages.hpp"
 #include "level/midpoints.hpp"
+#include "memory/huge_pages.hpp"
 
 namespace octetra::distributed {
 namespace {

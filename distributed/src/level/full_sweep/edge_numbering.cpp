@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "level/huge_pages.hpp"
+#include "memory/huge_pages.hpp"
 
 namespace octetra::distributed {
 

@@ -9,8 +9,8 @@
 
 #include "level/full_sweep/bisect_edges.hpp"
 #include "level/full_sweep/bisect_interfaces.hpp"
-#include "level/huge_pages.hpp"
 #include "level/rounding_margin.hpp"
+#include "memory/huge_pages.hpp"
 #include "pattern/triangle.hpp"
 
 namespace octetra::distributed {

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "level/huge_pages.hpp"
+#include "memory/huge_pages.hpp"
 
 namespace octetra::distributed {
 

@@ -8,7 +8,7 @@
 
 #include <octetra/core/mesh.hpp>
 
-#include "level/huge_pages.hpp"
+#include "memory/huge_pages.hpp"
 
 namespace octetra::distributed {
 

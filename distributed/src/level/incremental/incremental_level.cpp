@@ -7,8 +7,8 @@
 
 #include <octetra/distributed/profile.hpp>
 
-#include "level/huge_pages.hpp"
 #include "level/rounding_margin.hpp"
+#include "memory/huge_pages.hpp"
 #include "pattern/triangle.hpp"
 
 namespace octetra::distributed {

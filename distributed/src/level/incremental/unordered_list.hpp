@@ -9,8 +9,8 @@
 
 #include <octetra/distributed/distributed_mesh.hpp>
 
-#include "level/huge_pages.hpp"
 #include "level/incremental/incidence.hpp"
+#include "memory/huge_pages.hpp"
 
 namespace octetra::distributed {
 

@@ -1,4 +1,4 @@
-#include "level/huge_pages.hpp"
+#include "memory/huge_pages.hpp"
 
 #include <sys/mman.h>
 

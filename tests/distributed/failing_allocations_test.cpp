@@ -2,14 +2,17 @@
 #include <new>
 #include <optional>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <octetra/core/error.hpp>
 #include <octetra/distributed/adaptive_mesh.hpp>
 #include <octetra/distributed/estimator_marks.hpp>
 #include <octetra/distributed/exchange.hpp>
+#include <octetra/distributed/out_of_memory.hpp>
 
 #include "distributed/marked_mesh.hpp"
+#include "distributed/seen_mesh.hpp"
 #include "distributed/world.hpp"
 
 /// Where one process has no memory, at whatever place of a step, all processes hear of it, and the
@@ -39,27 +42,6 @@ void operator delete[](void* memory, std::size_t) noexcept { std::free(memory); 
 namespace octetra::distributed {
 namespace {
 
-/// What a program can see of a mesh.
-struct Seen {
-    std::vector<Point> points;
-    std::vector<CellVertices> cells;
-    std::vector<FacetVertices> facets;
-    std::vector<Marker> regions;
-    std::vector<GlobalVertex> numbers;
-    Sharing<VertexIndex> sharing;
-    Mesh whole;
-
-    explicit Seen(const AdaptiveMesh& mesh)
-        : points(mesh.points().begin(), mesh.points().end()),
-          cells(mesh.cells().begin(), mesh.cells().end()),
-          facets(mesh.facets().begin(), mesh.facets().end()),
-          regions(mesh.regions()),
-          numbers(mesh.vertex_numbers().begin(), mesh.vertex_numbers().end()),
-          sharing(mesh.vertex_sharing()),
-          whole(mesh.collect()) {}
-    friend bool operator==(const Seen&, const Seen&) = default;
-};
-
 /// Does `work` on all processes, while on `rank` only so many allocations succeed. Did it get
 /// there?
 bool done_with(long allocations, int rank, auto&& work) {
@@ -67,7 +49,11 @@ bool done_with(long allocations, int rank, auto&& work) {
     bool done = true;
     try {
         work();
-    } catch (const std::bad_alloc&) {
+    } catch (const OutOfMemory& error) {
+        allocations_left = never;
+        EXPECT_STREQ(error.what(), fmt::format("rank {}: out of memory", rank).c_str());
+        done = false;
+    } catch (const std::bad_alloc&) {  // of an exchange by itself, which tells nobody
         done = false;
     }
     allocations_left = never;
@@ -100,7 +86,7 @@ std::uint64_t let_each_fail(std::size_t step, auto&& prepare) {
     long failures = 0;
     for (int rank = 0; rank < world.size(); ++rank) {
         AdaptiveMesh mesh = before_step(step);
-        const Seen before(mesh);
+        const test::SeenMesh before(mesh);
         auto work = prepare(mesh);
         for (long allocations = 0;; ++allocations) {
             const bool done = done_with(allocations, rank, work);
@@ -108,7 +94,8 @@ std::uint64_t let_each_fail(std::size_t step, auto&& prepare) {
             EXPECT_EQ(done_on, done ? world.size() : 0) << allocations;
             if (done_on > 0) break;
             ++failures;
-            EXPECT_TRUE(before == Seen(mesh)) << "rank " << rank << ", after " << allocations;
+            EXPECT_TRUE(before == test::SeenMesh(mesh))
+                << "rank " << rank << ", after " << allocations;
         }
     }
     return static_cast<std::uint64_t>(failures);

@@ -5,6 +5,7 @@
 #include <new>
 
 #include <octetra/core/error.hpp>
+#include <octetra/distributed/out_of_memory.hpp>
 
 namespace octetra::distributed {
 namespace {
@@ -47,7 +48,7 @@ void LocalFailure::agree(const Communicator& processes) const {
     if (lowest == size) return;
     const Words words = processes.of_rank(static_cast<int>(lowest), words_of(failure_));
     switch (words.kind) {
-        case Kind::out_of_memory: throw std::bad_alloc();
+        case Kind::out_of_memory: throw OutOfMemory(static_cast<int>(lowest));
         case Kind::bad_input: throw InputError(words.what.data());
         case Kind::system_failed: throw SystemError(words.what.data());
     }

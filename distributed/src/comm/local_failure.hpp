@@ -25,7 +25,7 @@ public:
     [[nodiscard]] bool found() const { return failure_ != nullptr; }
 
     /// Collective. Throws on all processes the same if any has failed: what has failed on the one
-    /// of the lowest rank. That is std::bad_alloc, an InputError, or for all else a SystemError.
+    /// of the lowest rank. That is OutOfMemory, an InputError, or for all else a SystemError.
     void agree(const Communicator& processes) const;
 
     /// Collective. The greatest of the processes' numbers, or `somewhere` if any has failed. Throws

@@ -9,6 +9,7 @@
 #include <octetra/distributed/distributed_mesh.hpp>
 #include <octetra/distributed/profile.hpp>
 
+#include "setup/ancestors_of_roots.hpp"
 #include "setup/find_interfaces.hpp"
 
 namespace octetra::distributed {
@@ -192,18 +193,11 @@ Share share_out(const Communicator& processes, const Mesh& mesh,
     return cutter.share_of(0);
 }
 
-AncestorMap lineage_of(std::vector<std::uint64_t> roots, std::vector<Marker> markers) {
-    AncestorMap ancestors{.roots = std::move(roots), .first = {}, .markers = std::move(markers)};
-    ancestors.first.resize(ancestors.roots.size() + 1);
-    std::iota(ancestors.first.begin(), ancestors.first.end(), 0U);
-    return ancestors;
-}
-
 template <class I, std::size_t N>
 void take_list(ListShare<N> share, IndexVector<I, std::array<VertexIndex, N>>& entities,
                AncestorMap& ancestors) {
     entities.assign(share.vertices.begin(), share.vertices.end());
-    ancestors = lineage_of(std::move(share.numbers), std::move(share.markers));
+    ancestors = ancestors_of_roots(std::move(share.numbers), std::move(share.markers));
 }
 
 void take_share(Share share, DistributedMesh& part) {
@@ -229,9 +223,10 @@ void take_over(Mesh mesh, DistributedMesh& part) {
         part.input_vertices.push_back(GlobalVertex{v.value()});
     }
     part.input_vertex_markers = std::move(mesh.point_markers);
-    part.cell_ancestors = lineage_of(all(mesh.cells.size()), std::move(mesh.regions));
-    part.facet_ancestors = lineage_of(all(mesh.facets.size()), std::move(mesh.facet_markers));
-    part.edge_ancestors = lineage_of(all(mesh.edges.size()), std::move(mesh.edge_markers));
+    part.cell_ancestors = ancestors_of_roots(all(mesh.cells.size()), std::move(mesh.regions));
+    part.facet_ancestors =
+        ancestors_of_roots(all(mesh.facets.size()), std::move(mesh.facet_markers));
+    part.edge_ancestors = ancestors_of_roots(all(mesh.edges.size()), std::move(mesh.edge_markers));
     part.points = std::move(mesh.points);
     part.cells = std::move(mesh.cells);
     part.facets = std::move(mesh.facets);

@@ -14,6 +14,7 @@
 #include <octetra/distributed/profile.hpp>
 
 #include "comm/local_failure.hpp"
+#include "setup/ancestors_of_roots.hpp"
 #include "setup/find_interfaces.hpp"
 #include "setup/number_check.hpp"
 #include "setup/sharers.hpp"
@@ -219,13 +220,6 @@ std::vector<std::uint8_t> kept(const Communicator& processes, const PartVertices
     return keeps;
 }
 
-AncestorMap roots_of(std::vector<std::uint64_t> numbers, std::vector<Marker> markers) {
-    AncestorMap ancestors{.roots = std::move(numbers), .first = {}, .markers = std::move(markers)};
-    ancestors.first.resize(ancestors.roots.size() + 1);
-    std::iota(ancestors.first.begin(), ancestors.first.end(), 0U);
-    return ancestors;
-}
-
 /// Collective. Puts the facets or edges that this process keeps into its part of the mesh.
 template <class I, std::size_t N>
 void take_tagged(const Communicator& processes, const PartVertices& vertices,
@@ -245,7 +239,7 @@ void take_tagged(const Communicator& processes, const PartVertices& vertices,
             entities.push_back(list[i]);
             if (!markers.empty()) kept_markers.push_back(markers[i.value()]);
         }
-        ancestors = roots_of(std::move(numbers), std::move(kept_markers));
+        ancestors = ancestors_of_roots(std::move(numbers), std::move(kept_markers));
     });
 }
 
@@ -323,7 +317,8 @@ DistributedMesh distribute_parts(const Communicator& processes, MeshPart part) {
     take_tagged(processes, *vertices, edges, part.edge_markers, "edge", mesh.edges,
                 mesh.edge_ancestors, failure);
     failure.attempt([&] {
-        mesh.cell_ancestors = roots_of(std::move(part.cell_numbers), std::move(part.regions));
+        mesh.cell_ancestors =
+            ancestors_of_roots(std::move(part.cell_numbers), std::move(part.regions));
         take_vertices(part, *vertices, checked.keeps, mesh);
     });
     failure.agree(processes);

@@ -1,6 +1,28 @@
 #include <octetra/core/mesh_source.hpp>
 
+#include <utility>
+
 namespace octetra {
+namespace {
+
+std::uint64_t number_of(CellIndex cell) { return cell.value(); }
+
+template <std::size_t N>
+VertexNumbers<N> number_of(const std::array<VertexIndex, N>& vertices) {
+    VertexNumbers<N> numbers;
+    std::ranges::transform(vertices, numbers.begin(), &VertexIndex::value);
+    return numbers;
+}
+
+/// The slice of a list, with 64-bit numbers.
+auto numbered(const auto& list, const Window& window, auto& numbers) {
+    numbers.clear();
+    for (const auto& entity : slice(list, window)) numbers.push_back(number_of(entity));
+    return std::span(std::as_const(numbers));
+}
+
+}  // namespace
+
 WholeMesh::WholeMesh(const Mesh& mesh, const RefinementMaps* maps)
     : mesh_(&mesh),
       maps_(maps),
@@ -24,21 +46,25 @@ std::span<const Marker> WholeMesh::point_markers(const Window& w) {
 std::span<const double> WholeMesh::point_attributes(const Window& w) {
     return slice(mesh_->point_attributes, w, mesh_->attributes_per_point);
 }
-std::span<const EdgeVertices> WholeMesh::midpoint_ends(const Window& w) {
-    return slice(maps_->midpoint_to_edge, w);
+std::span<const VertexNumbers<2>> WholeMesh::midpoint_ends(const Window& w) {
+    return numbered(maps_->midpoint_to_edge, w, midpoint_ends_);
 }
-std::span<const CellVertices> WholeMesh::cells(const Window& w) { return slice(mesh_->cells, w); }
+std::span<const VertexNumbers<4>> WholeMesh::cells(const Window& w) {
+    return numbered(mesh_->cells, w, cells_);
+}
 std::span<const Marker> WholeMesh::regions(const Window& w) { return slice(mesh_->regions, w); }
-std::span<const CellIndex> WholeMesh::parents(const Window& w) {
-    return slice(maps_->cell_to_parent, w);
+std::span<const std::uint64_t> WholeMesh::parents(const Window& w) {
+    return numbered(maps_->cell_to_parent, w, parents_);
 }
-std::span<const FacetVertices> WholeMesh::facets(const Window& w) {
-    return slice(mesh_->facets, w);
+std::span<const VertexNumbers<3>> WholeMesh::facets(const Window& w) {
+    return numbered(mesh_->facets, w, facets_);
 }
 std::span<const Marker> WholeMesh::facet_markers(const Window& w) {
     return slice(mesh_->facet_markers, w);
 }
-std::span<const EdgeVertices> WholeMesh::edges(const Window& w) { return slice(mesh_->edges, w); }
+std::span<const VertexNumbers<2>> WholeMesh::edges(const Window& w) {
+    return numbered(mesh_->edges, w, edges_);
+}
 std::span<const Marker> WholeMesh::edge_markers(const Window& w) {
     return slice(mesh_->edge_markers, w);
 }

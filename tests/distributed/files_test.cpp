@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <octetra/core/error.hpp>
 #include <octetra/core/files/maps_files.hpp>
 #include <octetra/core/files/mesh_files.hpp>
 #include <octetra/distributed/canonical_mesh.hpp>
@@ -62,28 +63,29 @@ std::vector<T> put_together(std::uint64_t count, std::uint64_t slice_length, aut
 }
 
 void expect_slices(MeshSource& slices, std::uint64_t length, const Collected& whole) {
+    WholeMesh expected(whole.mesh, &whole.maps);
     const MeshFacts& f = slices.facts();
-    const auto expect = [&]<class T>(const std::vector<T>& expected, std::uint64_t count,
+    const auto expect = [&]<class T>(std::uint64_t count,
                                      std::span<const T> (MeshSource::*slice)(const Window&)) {
         const auto found = put_together<T>(
             count, length, [&](const Window& window) { return (slices.*slice)(window); });
         if (world().is_first()) {
-            EXPECT_TRUE(found == expected) << length;
+            EXPECT_TRUE(std::ranges::equal(found, (expected.*slice)(whole_window(count))))
+                << length;
         }
     };
     using Source = MeshSource;
-    expect.operator()<Point>(whole.mesh.points, f.vertices, &Source::points);
-    expect.operator()<Marker>(whole.mesh.point_markers, f.vertices, &Source::point_markers);
-    expect.operator()<double>(whole.mesh.point_attributes, f.vertices, &Source::point_attributes);
-    expect.operator()<EdgeVertices>(whole.maps.midpoint_to_edge, f.vertices - f.first_midpoint,
-                                    &Source::midpoint_ends);
-    expect.operator()<CellVertices>(whole.mesh.cells, f.cells, &Source::cells);
-    expect.operator()<Marker>(whole.mesh.regions, f.cells, &Source::regions);
-    expect.operator()<CellIndex>(whole.maps.cell_to_parent, f.cells, &Source::parents);
-    expect.operator()<FacetVertices>(whole.mesh.facets, f.facets, &Source::facets);
-    expect.operator()<Marker>(whole.mesh.facet_markers, f.facets, &Source::facet_markers);
-    expect.operator()<EdgeVertices>(whole.mesh.edges, f.edges, &Source::edges);
-    expect.operator()<Marker>(whole.mesh.edge_markers, f.edges, &Source::edge_markers);
+    expect(f.vertices, &Source::points);
+    expect(f.vertices, &Source::point_markers);
+    expect(f.vertices, &Source::point_attributes);
+    expect(f.vertices - f.first_midpoint, &Source::midpoint_ends);
+    expect(f.cells, &Source::cells);
+    expect(f.cells, &Source::regions);
+    expect(f.cells, &Source::parents);
+    expect(f.facets, &Source::facets);
+    expect(f.facets, &Source::facet_markers);
+    expect(f.edges, &Source::edges);
+    expect(f.edges, &Source::edge_markers);
 }
 
 TEST(Slices, OfEveryLengthMakeUpTheWholeMesh) {
@@ -99,6 +101,47 @@ TEST(Slices, OfEveryLengthMakeUpTheWholeMesh) {
             expect_slices(fine.whole(), length, whole);
         }
     }
+}
+
+/// Collective. The mesh as if it were the end of one that has `vertices` more vertices before.
+DistributedMesh behind(std::uint64_t vertices, const Mesh& mesh) {
+    DistributedMesh part = distribute(world(), mesh, partition_cells(mesh, world().size(), {}));
+    for (GlobalVertex& v : part.input_vertices) {
+        v = GlobalVertex{static_cast<std::uint64_t>(v) + vertices};
+    }
+    part.input_vertex_count += vertices;
+    refine(part, {.random = RandomShare{0.3, 3}}, {.levels = 2});
+    return part;
+}
+
+TEST(Slices, NumberVerticesBeyond32Bits) {
+    if (world().size() == 1) return;  // which numbers its vertices from 0
+    constexpr std::uint64_t far = std::uint64_t{1} << 33U;
+    const Mesh mesh = test::marked(test::shaken_kuhn(2, 0.3, 5), 1);
+    CanonicalMesh near(behind(0, mesh));
+    CanonicalMesh beyond(behind(far, mesh));
+    const MeshFacts& f = near.facts();
+    ASSERT_EQ(beyond.facts().vertices, f.vertices + far);
+    ASSERT_EQ(beyond.facts().first_midpoint, f.first_midpoint + far);
+    const auto expect = [&]<std::size_t N>(
+                            std::uint64_t count,
+                            std::span<const VertexNumbers<N>> (MeshSource::*slice)(const Window&)) {
+        const Window window{0, count / 2 + 1, count};
+        const auto lower = (near.whole().*slice)(window);
+        const auto upper = (beyond.whole().*slice)(window);
+        ASSERT_EQ(lower.size(), upper.size());
+        for (std::size_t i = 0; i < lower.size(); ++i) {
+            for (std::size_t k = 0; k < N; ++k) ASSERT_EQ(upper[i][k], lower[i][k] + far);
+        }
+    };
+    expect(f.cells, &MeshSource::cells);
+    expect(f.facets, &MeshSource::facets);
+    expect(f.edges, &MeshSource::edges);
+    expect(f.vertices - f.first_midpoint, &MeshSource::midpoint_ends);
+    const auto points = near.whole().points({0, f.vertices, f.vertices});
+    const auto last = beyond.whole().points({far, f.vertices, f.vertices + far});
+    EXPECT_TRUE(std::ranges::equal(points, last));
+    EXPECT_THROW(static_cast<void>(collect(behind(far, mesh))), InputError);
 }
 
 class FilesOfAllRanks : public testing::TestWithParam<std::string> {

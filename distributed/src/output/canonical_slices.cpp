@@ -2,27 +2,10 @@
 
 #include <algorithm>
 
-#include <fmt/format.h>
-
-#include <octetra/core/error.hpp>
-
 #include "level/known_marker.hpp"
 #include "output/slices.hpp"
 
 namespace octetra::distributed {
-namespace {
-
-void check_countable(const MeshFacts& facts) {
-    const std::uint64_t most = std::max({facts.vertices, facts.cells, facts.facets, facts.edges});
-    if (most < VertexIndex::limit) return;
-    throw InputError(
-        fmt::format("the refined mesh is too large to be numbered: {} entities of a kind, and at "
-                    "most {} are possible",
-                    most, VertexIndex::limit));
-}
-
-}  // namespace
-
 CanonicalSlices::CanonicalSlices(const DistributedMesh& mesh)
     : mesh_(&mesh),
       lists_(mesh),
@@ -30,9 +13,7 @@ CanonicalSlices::CanonicalSlices(const DistributedMesh& mesh)
       cell_runs_(canonical_runs(mesh.processes, lists_.cells.ancestors())),
       facet_runs_(canonical_runs(mesh.processes, lists_.facets.ancestors())),
       edge_runs_(canonical_runs(mesh.processes, lists_.edges.ancestors())),
-      facts_(find_facts()) {
-    check_countable(facts_);
-}
+      facts_(find_facts()) {}
 
 MeshFacts CanonicalSlices::find_facts() const {
     // A process without cells does not know whether the others' have tags.
@@ -114,9 +95,9 @@ std::span<const double> CanonicalSlices::point_attributes(const Window& window) 
     return point_attributes_;
 }
 
-std::span<const EdgeVertices> CanonicalSlices::midpoint_ends(const Window& window) {
+std::span<const VertexNumbers<2>> CanonicalSlices::midpoint_ends(const Window& window) {
     const std::uint64_t first = mesh_->input_vertex_count;
-    bring_to_slices<EdgeVertices>(
+    bring_to_slices<VertexNumbers<2>>(
         mesh_->processes, window,
         [&](std::uint64_t begin, std::uint64_t end, auto&& emit) {
             for_each_vertex(first + begin, first + end, [&](std::uint64_t number, VertexIndex v) {
@@ -129,10 +110,10 @@ std::span<const EdgeVertices> CanonicalSlices::midpoint_ends(const Window& windo
 }
 
 template <class I, std::size_t N>
-std::span<const std::array<VertexIndex, N>> CanonicalSlices::bring(
+std::span<const VertexNumbers<N>> CanonicalSlices::bring(
     const Window& window, const OrderedList<IndexVector<I, std::array<VertexIndex, N>>>& list,
-    const CanonicalRuns& runs, std::vector<std::array<VertexIndex, N>>& slice) const {
-    bring_to_slices<std::array<VertexIndex, N>>(
+    const CanonicalRuns& runs, std::vector<VertexNumbers<N>>& slice) const {
+    bring_to_slices<VertexNumbers<N>>(
         mesh_->processes, window,
         [&](std::uint64_t begin, std::uint64_t end, auto&& emit) {
             for_each_between(runs, list.ancestors(), begin, end,
@@ -160,7 +141,7 @@ std::span<const Marker> CanonicalSlices::bring_markers(const Window& window,
     return slice;
 }
 
-std::span<const CellVertices> CanonicalSlices::cells(const Window& window) {
+std::span<const VertexNumbers<4>> CanonicalSlices::cells(const Window& window) {
     return bring(window, lists_.cells, cell_runs_, cells_);
 }
 
@@ -168,21 +149,21 @@ std::span<const Marker> CanonicalSlices::regions(const Window& window) {
     return bring_markers(window, lists_.cells.ancestors(), cell_runs_, regions_);
 }
 
-std::span<const CellIndex> CanonicalSlices::parents(const Window& window) {
-    bring_to_slices<CellIndex>(
+std::span<const std::uint64_t> CanonicalSlices::parents(const Window& window) {
+    bring_to_slices<std::uint64_t>(
         mesh_->processes, window,
         [&](std::uint64_t begin, std::uint64_t end, auto&& emit) {
             const AncestorMap& ancestors = lists_.cells.ancestors();
             for_each_between(cell_runs_, ancestors, begin, end,
                              [&](std::uint64_t number, std::size_t, std::size_t root) {
-                                 emit(number, CellIndex{ancestors.roots[root]});
+                                 emit(number, ancestors.roots[root]);
                              });
         },
         parents_);
     return parents_;
 }
 
-std::span<const FacetVertices> CanonicalSlices::facets(const Window& window) {
+std::span<const VertexNumbers<3>> CanonicalSlices::facets(const Window& window) {
     return bring(window, lists_.facets, facet_runs_, facets_);
 }
 
@@ -190,7 +171,7 @@ std::span<const Marker> CanonicalSlices::facet_markers(const Window& window) {
     return bring_markers(window, lists_.facets.ancestors(), facet_runs_, facet_markers_);
 }
 
-std::span<const EdgeVertices> CanonicalSlices::edges(const Window& window) {
+std::span<const VertexNumbers<2>> CanonicalSlices::edges(const Window& window) {
     return bring(window, lists_.edges, edge_runs_, edges_);
 }
 

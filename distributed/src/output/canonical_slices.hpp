@@ -14,8 +14,7 @@ namespace octetra::distributed {
 /// A mesh in its canonical order, from the processes that hold its parts. See MeshSource.
 class CanonicalSlices final : public MeshSource {
 public:
-    /// Collective. Throws InputError on all processes where 32 bits cannot number the mesh. Refers
-    /// to the mesh.
+    /// Collective. Refers to the mesh.
     explicit CanonicalSlices(const DistributedMesh& mesh);
 
     [[nodiscard]] const MeshFacts& facts() const override { return facts_; }
@@ -26,30 +25,30 @@ public:
     [[nodiscard]] std::span<const Point> points(const Window& window) override;
     [[nodiscard]] std::span<const Marker> point_markers(const Window& window) override;
     [[nodiscard]] std::span<const double> point_attributes(const Window& window) override;
-    [[nodiscard]] std::span<const EdgeVertices> midpoint_ends(const Window& window) override;
-    [[nodiscard]] std::span<const CellVertices> cells(const Window& window) override;
+    [[nodiscard]] std::span<const VertexNumbers<2>> midpoint_ends(const Window& window) override;
+    [[nodiscard]] std::span<const VertexNumbers<4>> cells(const Window& window) override;
     [[nodiscard]] std::span<const Marker> regions(const Window& window) override;
-    [[nodiscard]] std::span<const CellIndex> parents(const Window& window) override;
-    [[nodiscard]] std::span<const FacetVertices> facets(const Window& window) override;
+    [[nodiscard]] std::span<const std::uint64_t> parents(const Window& window) override;
+    [[nodiscard]] std::span<const VertexNumbers<3>> facets(const Window& window) override;
     [[nodiscard]] std::span<const Marker> facet_markers(const Window& window) override;
-    [[nodiscard]] std::span<const EdgeVertices> edges(const Window& window) override;
+    [[nodiscard]] std::span<const VertexNumbers<2>> edges(const Window& window) override;
     [[nodiscard]] std::span<const Marker> edge_markers(const Window& window) override;
 
 private:
     [[nodiscard]] MeshFacts find_facts() const;
-    [[nodiscard]] VertexIndex number_of(VertexIndex local) const {
-        return VertexIndex{static_cast<std::uint64_t>(numbers_.of_vertex[local])};
-    }
     template <std::size_t N>
-    [[nodiscard]] std::array<VertexIndex, N> numbered(std::array<VertexIndex, N> vertices) const {
-        for (VertexIndex& v : vertices) v = number_of(v);
-        return vertices;
+    [[nodiscard]] VertexNumbers<N> numbered(const std::array<VertexIndex, N>& vertices) const {
+        VertexNumbers<N> numbers;
+        for (std::size_t k = 0; k < N; ++k) {
+            numbers[k] = static_cast<std::uint64_t>(numbers_.of_vertex[vertices[k]]);
+        }
+        return numbers;
     }
     void for_each_vertex(std::uint64_t begin, std::uint64_t end, auto&& emit) const;
     template <class I, std::size_t N>
-    std::span<const std::array<VertexIndex, N>> bring(
+    std::span<const VertexNumbers<N>> bring(
         const Window& window, const OrderedList<IndexVector<I, std::array<VertexIndex, N>>>& list,
-        const CanonicalRuns& runs, std::vector<std::array<VertexIndex, N>>& slice) const;
+        const CanonicalRuns& runs, std::vector<VertexNumbers<N>>& slice) const;
     std::span<const Marker> bring_markers(const Window& window, const AncestorMap& ancestors,
                                           const CanonicalRuns& runs,
                                           std::vector<Marker>& slice) const;
@@ -66,13 +65,13 @@ private:
     std::vector<Point> points_;
     std::vector<Marker> point_markers_;
     std::vector<double> point_attributes_;
-    std::vector<EdgeVertices> midpoint_ends_;
-    std::vector<CellVertices> cells_;
+    std::vector<VertexNumbers<2>> midpoint_ends_;
+    std::vector<VertexNumbers<4>> cells_;
     std::vector<Marker> regions_;
-    std::vector<CellIndex> parents_;
-    std::vector<FacetVertices> facets_;
+    std::vector<std::uint64_t> parents_;
+    std::vector<VertexNumbers<3>> facets_;
     std::vector<Marker> facet_markers_;
-    std::vector<EdgeVertices> edges_;
+    std::vector<VertexNumbers<2>> edges_;
     std::vector<Marker> edge_markers_;
 };
 

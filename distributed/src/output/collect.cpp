@@ -1,5 +1,9 @@
+#include <algorithm>
 #include <utility>
 
+#include <fmt/format.h>
+
+#include <octetra/core/error.hpp>
 #include <octetra/distributed/distributed_mesh.hpp>
 #include <octetra/distributed/profile.hpp>
 
@@ -45,31 +49,59 @@ Collected hand_over(DistributedMesh part) {
     return whole;
 }
 
-void assign(auto& list, const auto& slice) { list.assign(slice.begin(), slice.end()); }
+/// Throws, on all processes, where 32 bits cannot number the entities of one memory.
+void check_countable(const MeshFacts& facts) {
+    const std::uint64_t most = std::max({facts.vertices, facts.cells, facts.facets, facts.edges});
+    if (most < VertexIndex::limit) return;
+    throw InputError(
+        fmt::format("the mesh is too large for one process: {} entities of a kind, and at most {} "
+                    "are possible",
+                    most, VertexIndex::limit));
+}
 
-/// One slice of everything, the first process's.
+/// The first process's list gets all `count` entities, a window at a time: what is on its way
+/// should take little memory.
+void fetch(auto& list, std::uint64_t count, std::size_t per_entity, auto&& slice_of) {
+    constexpr std::uint64_t length = 1U << 18U;
+    for (std::uint64_t begin = 0; begin < count; begin += length) {
+        const auto slice = slice_of(Window{begin, length, std::min(count, begin + length)});
+        if (begin == 0 && !slice.empty()) list.reserve(count * per_entity);
+        for (const auto& value : slice) {
+            if constexpr (requires { indices_of(value); }) {
+                list.push_back(indices_of(value));
+            } else {
+                list.emplace_back(value);
+            }
+        }
+    }
+}
+
 Collected gather(const DistributedMesh& part) {
     CanonicalSlices slices(part);
     const MeshFacts& facts = slices.facts();
+    check_countable(facts);
     Collected whole;
     Mesh& mesh = whole.mesh;
-    const Window vertices = whole_window(facts.vertices);
-    const Window cells = whole_window(facts.cells);
-    const Window facets = whole_window(facts.facets);
-    const Window edges = whole_window(facts.edges);
-    assign(mesh.points, slices.points(vertices));
-    if (facts.has_point_markers) assign(mesh.point_markers, slices.point_markers(vertices));
+    const auto all = [&](auto& list, std::uint64_t count, auto slice, std::size_t per_entity = 1) {
+        fetch(list, count, per_entity,
+              [&](const Window& window) { return (slices.*slice)(window); });
+    };
     if (part.processes.is_first()) mesh.attributes_per_point = facts.attributes_per_point;
-    assign(mesh.point_attributes, slices.point_attributes(vertices));
-    assign(mesh.cells, slices.cells(cells));
-    if (facts.has_regions) assign(mesh.regions, slices.regions(cells));
-    assign(mesh.facets, slices.facets(facets));
-    if (facts.has_facet_markers) assign(mesh.facet_markers, slices.facet_markers(facets));
-    assign(mesh.edges, slices.edges(edges));
-    if (facts.has_edge_markers) assign(mesh.edge_markers, slices.edge_markers(edges));
-    assign(whole.maps.cell_to_parent, slices.parents(cells));
-    assign(whole.maps.midpoint_to_edge,
-           slices.midpoint_ends(whole_window(facts.vertices - facts.first_midpoint)));
+    using Slices = CanonicalSlices;
+    all(mesh.points, facts.vertices, &Slices::points);
+    if (facts.has_point_markers) all(mesh.point_markers, facts.vertices, &Slices::point_markers);
+    if (facts.attributes_per_point > 0) {
+        all(mesh.point_attributes, facts.vertices, &Slices::point_attributes,
+            facts.attributes_per_point);
+    }
+    all(mesh.cells, facts.cells, &Slices::cells);
+    if (facts.has_regions) all(mesh.regions, facts.cells, &Slices::regions);
+    all(mesh.facets, facts.facets, &Slices::facets);
+    if (facts.has_facet_markers) all(mesh.facet_markers, facts.facets, &Slices::facet_markers);
+    all(mesh.edges, facts.edges, &Slices::edges);
+    if (facts.has_edge_markers) all(mesh.edge_markers, facts.edges, &Slices::edge_markers);
+    all(whole.maps.cell_to_parent, facts.cells, &Slices::parents);
+    all(whole.maps.midpoint_to_edge, facts.vertices - facts.first_midpoint, &Slices::midpoint_ends);
     return whole;
 }
 

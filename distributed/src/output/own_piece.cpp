@@ -89,8 +89,12 @@ std::span<const std::uint64_t> OwnPiece::vertex_numbers(const Window& w) {
     return vertex_numbers_;
 }
 
-std::span<const CellVertices> OwnPiece::cells(const Window& w) {
-    return slice(lists_->cells.list(), w);
+std::span<const VertexNumbers<4>> OwnPiece::cells(const Window& w) {
+    cells_.clear();
+    for (const auto& [a, b, c, d] : slice(lists_->cells.list(), w)) {
+        cells_.push_back({a.value(), b.value(), c.value(), d.value()});
+    }
+    return cells_;
 }
 
 std::span<const Marker> OwnPiece::regions(const Window& w) {
@@ -101,10 +105,10 @@ std::span<const Marker> OwnPiece::regions(const Window& w) {
     return regions_;
 }
 
-std::span<const CellIndex> OwnPiece::parents(const Window& w) {
+std::span<const std::uint64_t> OwnPiece::parents(const Window& w) {
     parents_.clear();
     for_each_root(lists_->cells.ancestors(), w, [&](std::size_t root) {
-        parents_.push_back(CellIndex{lists_->cells.ancestors().roots[root]});
+        parents_.push_back(lists_->cells.ancestors().roots[root]);
     });
     return parents_;
 }

@@ -24,9 +24,9 @@ public:
     [[nodiscard]] std::span<const Marker> point_markers(const Window& window) override;
     [[nodiscard]] std::span<const double> point_attributes(const Window& window) override;
     [[nodiscard]] std::span<const std::uint64_t> vertex_numbers(const Window& window) override;
-    [[nodiscard]] std::span<const CellVertices> cells(const Window& window) override;
+    [[nodiscard]] std::span<const VertexNumbers<4>> cells(const Window& window) override;
     [[nodiscard]] std::span<const Marker> regions(const Window& window) override;
-    [[nodiscard]] std::span<const CellIndex> parents(const Window& window) override;
+    [[nodiscard]] std::span<const std::uint64_t> parents(const Window& window) override;
 
 private:
     const DistributedMesh* mesh_;
@@ -35,8 +35,9 @@ private:
     MeshFacts facts_;
     std::vector<Marker> point_markers_;  ///< of all vertices of the piece
     std::vector<std::uint64_t> vertex_numbers_;
+    std::vector<VertexNumbers<4>> cells_;
     std::vector<Marker> regions_;
-    std::vector<CellIndex> parents_;
+    std::vector<std::uint64_t> parents_;
 };
 
 }  // namespace octetra::distributed

@@ -1,5 +1,11 @@
 #include <octetra/verify/mesh_slice.hpp>
 
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include <octetra/core/error.hpp>
+
 #include "parts/exchange.hpp"
 
 namespace octetra::verify {
@@ -20,6 +26,16 @@ void share_out_list(const std::vector<T>& whole, std::uint64_t count, std::size_
         }
     }
     slice = std::move(exchange(group, std::move(to_each)).front());
+}
+
+/// Verification numbers all entities of the whole mesh with 32 bits.
+void check_countable(const MeshFacts& facts) {
+    const std::uint64_t most = std::max({facts.vertices, facts.cells, facts.facets, facts.edges});
+    if (most < VertexIndex::limit) return;
+    throw InputError(
+        fmt::format("the mesh is too large to be verified: {} entities of a kind, and at most {} "
+                    "are possible",
+                    most, VertexIndex::limit));
 }
 
 }  // namespace
@@ -57,12 +73,17 @@ MeshSlice share_out(const Mesh& mesh, const ProcessGroup& group) {
 
 MeshSlice slice_of(MeshSource& mesh) {
     const MeshFacts& facts = mesh.facts();
+    check_countable(facts);
     MeshSlice slice{{}, {facts.vertices, facts.cells, facts.facets, facts.edges}};
     Mesh& lists = slice.lists;
     lists.attributes_per_point = facts.attributes_per_point;
     lists.index_base = facts.index_base;
     const int size = mesh.group().size();
     const auto take = [](auto& list, auto span) { list.assign(span.begin(), span.end()); };
+    const auto take_numbers = [](auto& list, auto span) {
+        list.reserve(span.size());
+        for (const auto& numbers : span) list.push_back(indices_of(numbers));
+    };
     const Window vertices = slices_of(facts.vertices, size);
     take(lists.points, mesh.points(vertices));
     if (facts.has_point_markers) take(lists.point_markers, mesh.point_markers(vertices));
@@ -70,13 +91,13 @@ MeshSlice slice_of(MeshSource& mesh) {
         take(lists.point_attributes, mesh.point_attributes(vertices));
     }
     const Window cells = slices_of(facts.cells, size);
-    take(lists.cells, mesh.cells(cells));
+    take_numbers(lists.cells, mesh.cells(cells));
     if (facts.has_regions) take(lists.regions, mesh.regions(cells));
     const Window facets = slices_of(facts.facets, size);
-    take(lists.facets, mesh.facets(facets));
+    take_numbers(lists.facets, mesh.facets(facets));
     if (facts.has_facet_markers) take(lists.facet_markers, mesh.facet_markers(facets));
     const Window edges = slices_of(facts.edges, size);
-    take(lists.edges, mesh.edges(edges));
+    take_numbers(lists.edges, mesh.edges(edges));
     if (facts.has_edge_markers) take(lists.edge_markers, mesh.edge_markers(edges));
     return slice;
 }

@@ -38,13 +38,15 @@ void print_refusal(const verify::Verdict& verdict, const RefineOptions& options,
 RefinementMaps maps_of_all(MeshSource& fine, const distributed::Communicator& world) {
     const MeshFacts& facts = fine.facts();
     RefinementMaps maps;
-    const auto share = [&](auto& list, auto span) {
-        list.assign(span.begin(), span.end());
-        world.broadcast(list);
-    };
-    share(maps.cell_to_parent, fine.parents(whole_window(facts.cells)));
-    share(maps.midpoint_to_edge,
-          fine.midpoint_ends(whole_window(facts.vertices - facts.first_midpoint)));
+    for (const std::uint64_t parent : fine.parents(whole_window(facts.cells))) {
+        maps.cell_to_parent.push_back(CellIndex{parent});
+    }
+    const Window midpoints = whole_window(facts.vertices - facts.first_midpoint);
+    for (const auto& ends : fine.midpoint_ends(midpoints)) {
+        maps.midpoint_to_edge.push_back(indices_of(ends));
+    }
+    world.broadcast(maps.cell_to_parent);
+    world.broadcast(maps.midpoint_to_edge);
     maps.first_midpoint = VertexIndex{facts.first_midpoint};
     return maps;
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -40,6 +41,19 @@ template <class T>
 /// Everything in the first process's slice.
 [[nodiscard]] inline Window whole_window(std::uint64_t count) { return {0, count, count}; }
 
+/// The vertices of an entity by their numbers in the whole mesh, which may be more than 32 bits
+/// number: that limits what one process holds only.
+template <std::size_t N>
+using VertexNumbers = std::array<std::uint64_t, N>;
+
+/// The same for a whole mesh in one memory, of fewer than VertexIndex::limit vertices.
+template <std::size_t N>
+[[nodiscard]] std::array<VertexIndex, N> indices_of(const VertexNumbers<N>& numbers) {
+    std::array<VertexIndex, N> indices;
+    for (std::size_t k = 0; k < N; ++k) indices[k] = VertexIndex{numbers[k]};
+    return indices;
+}
+
 /// What is the same on all processes.
 struct MeshFacts {
     std::uint64_t vertices = 0;
@@ -75,7 +89,7 @@ public:
     [[nodiscard]] virtual const ProcessGroup& group() const { return ProcessGroup::alone(); }
 
     [[nodiscard]] virtual std::span<const Point> points(const Window& window) = 0;
-    [[nodiscard]] virtual std::span<const CellVertices> cells(const Window& window) = 0;
+    [[nodiscard]] virtual std::span<const VertexNumbers<4>> cells(const Window& window) = 0;
 
     [[nodiscard]] virtual std::span<const Marker> point_markers(const Window&) { return {}; }
     /// attributes_per_point for each vertex of the slice.
@@ -86,15 +100,17 @@ public:
     }
     /// Of a window of midpoints, number 0 being vertex first_midpoint: the ends of the edges that
     /// they halve, smaller first.
-    [[nodiscard]] virtual std::span<const EdgeVertices> midpoint_ends(const Window&) { return {}; }
+    [[nodiscard]] virtual std::span<const VertexNumbers<2>> midpoint_ends(const Window&) {
+        return {};
+    }
 
     [[nodiscard]] virtual std::span<const Marker> regions(const Window&) { return {}; }
     /// The cells of the input that the cells lie in.
-    [[nodiscard]] virtual std::span<const CellIndex> parents(const Window&) { return {}; }
+    [[nodiscard]] virtual std::span<const std::uint64_t> parents(const Window&) { return {}; }
 
-    [[nodiscard]] virtual std::span<const FacetVertices> facets(const Window&) { return {}; }
+    [[nodiscard]] virtual std::span<const VertexNumbers<3>> facets(const Window&) { return {}; }
     [[nodiscard]] virtual std::span<const Marker> facet_markers(const Window&) { return {}; }
-    [[nodiscard]] virtual std::span<const EdgeVertices> edges(const Window&) { return {}; }
+    [[nodiscard]] virtual std::span<const VertexNumbers<2>> edges(const Window&) { return {}; }
     [[nodiscard]] virtual std::span<const Marker> edge_markers(const Window&) { return {}; }
 };
 
@@ -107,19 +123,26 @@ public:
     [[nodiscard]] std::span<const Point> points(const Window& window) override;
     [[nodiscard]] std::span<const Marker> point_markers(const Window& window) override;
     [[nodiscard]] std::span<const double> point_attributes(const Window& window) override;
-    [[nodiscard]] std::span<const EdgeVertices> midpoint_ends(const Window& window) override;
-    [[nodiscard]] std::span<const CellVertices> cells(const Window& window) override;
+    [[nodiscard]] std::span<const VertexNumbers<2>> midpoint_ends(const Window& window) override;
+    [[nodiscard]] std::span<const VertexNumbers<4>> cells(const Window& window) override;
     [[nodiscard]] std::span<const Marker> regions(const Window& window) override;
-    [[nodiscard]] std::span<const CellIndex> parents(const Window& window) override;
-    [[nodiscard]] std::span<const FacetVertices> facets(const Window& window) override;
+    [[nodiscard]] std::span<const std::uint64_t> parents(const Window& window) override;
+    [[nodiscard]] std::span<const VertexNumbers<3>> facets(const Window& window) override;
     [[nodiscard]] std::span<const Marker> facet_markers(const Window& window) override;
-    [[nodiscard]] std::span<const EdgeVertices> edges(const Window& window) override;
+    [[nodiscard]] std::span<const VertexNumbers<2>> edges(const Window& window) override;
     [[nodiscard]] std::span<const Marker> edge_markers(const Window& window) override;
 
 private:
     const Mesh* mesh_;
     const RefinementMaps* maps_;
     MeshFacts facts_;
+
+    // What was asked for last.
+    std::vector<VertexNumbers<2>> midpoint_ends_;
+    std::vector<VertexNumbers<4>> cells_;
+    std::vector<std::uint64_t> parents_;
+    std::vector<VertexNumbers<3>> facets_;
+    std::vector<VertexNumbers<2>> edges_;
 };
 
 }  // namespace octetra

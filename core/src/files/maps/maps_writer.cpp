@@ -25,10 +25,10 @@ void write_maps(MeshSource& mesh, const std::filesystem::path& path) {
     OutputFile out(path, group);
     put_heading(out, group, "cells ", facts.cells);
     put_list(out, facts.cells, group, [&](const Window& window, std::uint64_t cell) {
-        for (const CellIndex parent : mesh.parents(window)) {
+        for (const std::uint64_t parent : mesh.parents(window)) {
             put_number(out, cell++);
             out.put(' ');
-            put_number(out, parent.value());
+            put_number(out, parent);
             out.put('\n');
         }
     });
@@ -38,9 +38,9 @@ void write_maps(MeshSource& mesh, const std::filesystem::path& path) {
         for (const auto& [a, b] : mesh.midpoint_ends(window)) {
             put_number(out, facts.first_midpoint + midpoint++);
             out.put(' ');
-            put_number(out, a.value());
+            put_number(out, a);
             out.put(' ');
-            put_number(out, b.value());
+            put_number(out, b);
             out.put('\n');
         }
     });

@@ -17,7 +17,7 @@ template <std::size_t N>
 struct Section {
     std::string_view keyword;
     std::uint64_t count;
-    std::span<const std::array<VertexIndex, N>> (MeshSource::*vertices)(const Window&);
+    std::span<const VertexNumbers<N>> (MeshSource::*vertices)(const Window&);
     bool has_markers;
     std::span<const Marker> (MeshSource::*markers)(const Window&);
 };
@@ -39,8 +39,8 @@ void write_section(OutputFile& out, MeshSource& mesh, const Section<N>& section)
         std::span<const Marker> markers;
         if (section.has_markers) markers = (mesh.*section.markers)(window);
         for (std::size_t i = 0; i < entities.size(); ++i) {
-            for (const VertexIndex vertex : entities[i]) {
-                out.put(std::uint64_t{vertex.value()} + 1);
+            for (const std::uint64_t vertex : entities[i]) {
+                out.put(vertex + 1);
                 out.put(' ');
             }
             out.put(markers.empty() ? 0 : markers[i]);

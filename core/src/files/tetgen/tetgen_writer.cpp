@@ -59,7 +59,7 @@ void write_node(OutputFile& out, MeshSource& mesh) {
 template <std::size_t N>
 struct List {
     std::uint64_t count;
-    std::span<const std::array<VertexIndex, N>> (MeshSource::*vertices)(const Window&);
+    std::span<const VertexNumbers<N>> (MeshSource::*vertices)(const Window&);
     bool has_markers;
     std::span<const Marker> (MeshSource::*markers)(const Window&);
 };
@@ -74,9 +74,9 @@ void write_list(OutputFile& out, MeshSource& mesh, const List<N>& list) {
         if (list.has_markers) markers = (mesh.*list.markers)(window);
         for (std::size_t i = 0; i < entities.size(); ++i, ++number) {
             out.put(index_base + number);
-            for (const VertexIndex vertex : entities[i]) {
+            for (const std::uint64_t vertex : entities[i]) {
                 out.put(' ');
-                out.put(index_base + vertex.value());
+                out.put(index_base + vertex);
             }
             if (!markers.empty()) {
                 out.put(' ');

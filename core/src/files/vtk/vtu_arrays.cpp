@@ -113,9 +113,9 @@ std::vector<VtuArray> vtu_cells(MeshSource& mesh) {
         const auto cells = mesh.cells(window);
         out.resize(cells.size() * 4 * sizeof(std::int64_t));
         char* place = out.data();
-        for (const CellVertices& cell : cells) {
-            for (const VertexIndex vertex : cell) {
-                const auto number = std::int64_t{vertex.value()};
+        for (const VertexNumbers<4>& cell : cells) {
+            for (const std::uint64_t vertex : cell) {
+                const auto number = static_cast<std::int64_t>(vertex);
                 std::memcpy(place, &number, sizeof number);
                 place += sizeof number;
             }
@@ -155,8 +155,8 @@ VtuData vtu_data(MeshSource& mesh) {
         data.of_cells.push_back(array<std::int64_t>(
             "parent", 1, facts.cells,
             [&mesh](const Window& window) { return mesh.parents(window); },
-            [first = facts.index_base](std::span<const CellIndex> parents, std::size_t i) {
-                return std::int64_t{parents[i].value()} + first;
+            [first = facts.index_base](std::span<const std::uint64_t> parents, std::size_t i) {
+                return static_cast<std::int64_t>(parents[i]) + first;
             }));
     }
     return data;

@@ -13,7 +13,7 @@ namespace octetra::distributed {
 /// order: what is written to files. Every process still holds only its part.
 class CanonicalMesh {
 public:
-    /// Collective. Throws InputError on all processes where 32 bits cannot number the mesh.
+    /// Collective.
     explicit CanonicalMesh(DistributedMesh mesh);
     /// The same, of a mesh that stays as it is, and must as long as this is used.
     [[nodiscard]] static CanonicalMesh of(const DistributedMesh& mesh);

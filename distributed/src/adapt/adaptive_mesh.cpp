@@ -121,7 +121,7 @@ Adaptation AdaptiveMesh::State::step(const std::function<MarkedCells()>& mark,
     LocalFailure failure;
     {
         const Phase numbering(mesh.processes, "number vertices");
-        numbers.number_midpoints(mesh, mesh.points.end_index(), failure);
+        numbers.number_midpoints(mesh, mesh.points.end_index(), sharing.shared(), failure);
     }
     failure.attempt([&] {
         auto midpoints = plan.level->shared_midpoints();
@@ -221,10 +221,10 @@ const Sharing<VertexIndex>& AdaptiveMesh::vertex_sharing() const { return state_
 std::vector<BoundaryFace> AdaptiveMesh::boundary() const { return find_boundary(state_->mesh); }
 FaceNeighbours AdaptiveMesh::face_neighbours() const { return find_face_neighbours(state_->mesh); }
 MeshEdges AdaptiveMesh::number_edges() const {
-    return distributed::number_edges(state_->mesh, state_->numbers);
+    return distributed::number_edges(state_->mesh, state_->numbers, state_->sharing.shared());
 }
 MeshFaces AdaptiveMesh::number_faces() const {
-    return distributed::number_faces(state_->mesh, state_->numbers);
+    return distributed::number_faces(state_->mesh, state_->numbers, state_->sharing.shared());
 }
 GhostLayer AdaptiveMesh::ghosts(GhostsBy by) const {
     return find_ghosts(

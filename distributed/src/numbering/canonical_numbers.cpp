@@ -1,13 +1,33 @@
 #include "numbering/canonical_numbers.hpp"
 
-#include <array>
+#include <algorithm>
 #include <vector>
 
 #include "memory/huge_pages.hpp"
 #include "numbering/ranked.hpp"
+#include "sharing/vertex_sharing.hpp"
 
 namespace octetra::distributed {
+namespace {
+
+/// Collective. The vertices that other processes have too, ascending. A midpoint is shared where
+/// its edge was, and its halves are then; what is shared at a single vertex is the input's.
+std::vector<VertexIndex> find_shared_vertices(const DistributedMesh& mesh) {
+    std::vector<VertexIndex> shared = find_vertex_sharing(mesh).shared();
+    for (const Interface& interface : mesh.interfaces) {
+        for (const EdgeVertices& edge : interface.edges) {
+            shared.insert(shared.end(), edge.begin(), edge.end());
+        }
+    }
+    std::ranges::sort(shared);
+    shared.erase(std::unique(shared.begin(), shared.end()), shared.end());
+    return shared;
+}
+
+}  // namespace
+
 void CanonicalNumbers::number_midpoints(const DistributedMesh& mesh, VertexIndex end,
+                                        std::span<const VertexIndex> shared_vertices,
                                         LocalFailure& failure) {
     const VertexIndex begin = of_vertex.end_index();
     if (mesh.processes.size() == 1) {  // vertices are in canonical order
@@ -18,17 +38,11 @@ void CanonicalNumbers::number_midpoints(const DistributedMesh& mesh, VertexIndex
         });
         return;
     }
-    const auto number = [&](VertexIndex v) { return static_cast<std::uint64_t>(of_vertex[v]); };
-    const auto pairs = [&] {
-        std::vector<std::array<std::uint64_t, 2>> of_ends;
-        of_ends.reserve(end.value() - begin.value());
-        for (VertexIndex v = begin; v < end; ++v) {
-            const auto& [a, b] = mesh.midpoint_to_edge[v.value() - mesh.input_vertices.size()];
-            of_ends.push_back({number(a), number(b)});
-        }
-        return of_ends;
-    };
-    const auto places = ranked<2>(mesh.processes, pairs, vertex_count, vertex_count, failure);
+    const auto ends =
+        std::span(mesh.midpoint_to_edge)
+            .subspan(begin.value() - mesh.input_vertices.size(), end.value() - begin.value());
+    const auto places = ranked<2>(mesh.processes, ends, of_vertex, shared_vertices, vertex_count,
+                                  vertex_count, failure);
     failure.attempt([&] {
         make_room(of_vertex, end.value());
         for (const std::uint64_t place : places) of_vertex.push_back(GlobalVertex{place});
@@ -50,6 +64,8 @@ CanonicalNumbers input_numbers(const DistributedMesh& mesh) {
 CanonicalNumbers canonical_numbers(const DistributedMesh& mesh) {
     LocalFailure failure;
     CanonicalNumbers numbers;
+    std::vector<VertexIndex> shared;
+    if (mesh.processes.size() > 1) shared = find_shared_vertices(mesh);
     failure.attempt([&] {
         numbers = input_numbers(mesh);
         numbers.of_vertex.reserve(mesh.points.size());
@@ -58,7 +74,7 @@ CanonicalNumbers canonical_numbers(const DistributedMesh& mesh) {
     for (std::size_t level = 0; level < mesh.level_begin.size(); ++level) {
         const VertexIndex end = level + 1 < mesh.level_begin.size() ? mesh.level_begin[level + 1]
                                                                     : mesh.points.end_index();
-        numbers.number_midpoints(mesh, end, failure);
+        numbers.number_midpoints(mesh, end, shared, failure);
     }
     failure.agree(mesh.processes);
     return numbers;

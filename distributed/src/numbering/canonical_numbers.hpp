@@ -1,5 +1,7 @@
 #pragma once
 
+#include <span>
+
 #include <octetra/distributed/distributed_mesh.hpp>
 
 #include "comm/local_failure.hpp"
@@ -12,11 +14,12 @@ struct CanonicalNumbers {
     std::uint64_t vertex_count = 0;  ///< in the whole mesh
 
     /// Collective. Numbers the midpoints of one level more: of this process, the vertices from the
-    /// last that has a number to before `end`. They come in the order of their ends' numbers; each
-    /// pair of ends goes to a process that the lower end decides, which puts its pairs in order and
-    /// answers. Memory and messages are in proportion to the midpoints. Where a process fails, the
-    /// numbers are not to be used on any until they have been taken back.
-    void number_midpoints(const DistributedMesh& mesh, VertexIndex end, LocalFailure& failure);
+    /// last that has a number to before `end`. They come in the order of their ends' numbers, which
+    /// processes put together that lower ends decide: see ranked(). `shared_vertices` are those
+    /// with a number that other processes have too, ascending. Where a process fails, the numbers
+    /// are not to be used on any until they have been taken back.
+    void number_midpoints(const DistributedMesh& mesh, VertexIndex end,
+                          std::span<const VertexIndex> shared_vertices, LocalFailure& failure);
 
     /// Takes numbers back: `count` is what vertex_count was.
     void forget_from(VertexIndex end, std::uint64_t count) noexcept;

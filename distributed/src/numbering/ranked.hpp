@@ -4,150 +4,218 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <limits>
-#include <numeric>
-#include <optional>
+#include <functional>
+#include <span>
+#include <utility>
 #include <vector>
 
 #include <octetra/distributed/communicator.hpp>
+#include <octetra/distributed/distributed_mesh.hpp>
 
 #include "comm/local_failure.hpp"
 
 namespace octetra::distributed {
 
-/// Vertices by global numbers: the two ends of an edge, lower first, or the three of a face.
+/// The two ends of an edge, lower first, or the three vertices of a face: local numbers, which
+/// ascend as global ones do.
 template <std::size_t N>
-using NumberTuple = std::array<std::uint64_t, N>;
+using VertexTuple = std::array<VertexIndex, N>;
 
-/// Tuples by who is to put them in order: processes answer for blocks of lowest numbers. The tuples
-/// are ascending in these.
+/// What a process asks about its tuples: by lowest vertex, how many there are. Only where other
+/// processes have that vertex too, the tuples themselves are told, as others may have the same.
+///
+/// In words of 64 bits, for each lowest vertex: its global number; twice the count, plus 1 where it
+/// is shared; and of a shared one, the other N-1 vertices of each tuple. All ascend.
+using Question = std::vector<std::uint64_t>;
+
+/// The questions to each process: those about blocks of lowest numbers.
 template <std::size_t N>
-std::vector<std::vector<NumberTuple<N>>> by_process(const Communicator& processes,
-                                                    const std::vector<NumberTuple<N>>& tuples,
-                                                    std::uint64_t block) {
-    std::vector<std::vector<NumberTuple<N>>> questions(static_cast<std::size_t>(processes.size()));
-    auto begin = tuples.begin();
-    for (std::size_t r = 0; r < questions.size(); ++r) {
-        const auto end = std::partition_point(
-            begin, tuples.end(),
-            [&](const NumberTuple<N>& tuple) { return tuple[0] / block == r; });
-        questions[r].assign(begin, end);
-        begin = end;
+std::vector<Question> questions_about(std::span<const VertexTuple<N>> tuples,
+                                      const IndexVector<VertexIndex, GlobalVertex>& numbers,
+                                      std::span<const VertexIndex> shared_vertices,
+                                      std::uint64_t block, int process_count) {
+    const auto number_of = [&](VertexIndex v) { return static_cast<std::uint64_t>(numbers[v]); };
+    auto shared = shared_vertices.begin();
+    const auto is_shared = [&](VertexIndex v) {
+        const auto end = shared_vertices.end();
+        if (shared != end && *shared < v) shared = std::lower_bound(shared, end, v);
+        return shared != end && *shared == v;
+    };
+    std::vector<Question> questions(static_cast<std::size_t>(process_count));
+    for (std::size_t begin = 0, end = 0; begin < tuples.size(); begin = end) {
+        const VertexIndex lowest = tuples[begin][0];
+        while (end < tuples.size() && tuples[end][0] == lowest) ++end;
+        const bool tell = is_shared(lowest);
+        Question& words = questions[number_of(lowest) / block];
+        words.push_back(number_of(lowest));
+        words.push_back((end - begin) << 1U | (tell ? 1U : 0U));
+        if (!tell) continue;
+        for (const VertexTuple<N>& tuple : tuples.subspan(begin, end - begin)) {
+            for (std::size_t k = 1; k < N; ++k) words.push_back(number_of(tuple[k]));
+        }
     }
     return questions;
 }
 
-/// The different tuples among those asked for, in ascending order. Put there by counting, as few
-/// have lowest numbers close to each other; there are no more bins than tuples, however far their
-/// lowest numbers are apart.
+/// Reads a question lowest vertex by lowest vertex.
 template <std::size_t N>
-class OrderedTuples {
+class QuestionReader {
 public:
-    explicit OrderedTuples(const std::vector<std::vector<NumberTuple<N>>>& asked) {
-        find_bins(asked);
-        for_each(asked, [&](const NumberTuple<N>& tuple) { ++begin_[bin_of(tuple)]; });
-        std::inclusive_scan(begin_.begin(), begin_.end(), begin_.begin());
-        // Filled from behind, after which every beginning is where it belongs.
-        for_each(asked,
-                 [&](const NumberTuple<N>& tuple) { tuples_[--begin_[bin_of(tuple)]] = tuple; });
-        std::uint64_t count = 0;
-        for (std::size_t bin = 0; bin + 1 < begin_.size(); ++bin) {
-            const std::uint64_t begin = begin_[bin];
-            const std::uint64_t end = begin_[bin + 1];
-            std::sort(tuples_.data() + begin, tuples_.data() + end);
-            begin_[bin] = count;
-            for (std::uint64_t k = begin; k < end; ++k) {
-                if (count > begin_[bin] && tuples_[count - 1] == tuples_[k]) continue;
-                tuples_[count++] = tuples_[k];
-            }
-        }
-        begin_.back() = count;
-        tuples_.resize(count);
-    }
+    using Rest = std::array<std::uint64_t, N - 1>;
 
-    [[nodiscard]] std::uint64_t size() const { return tuples_.size(); }
-
-    /// The place of a tuple that is there.
-    [[nodiscard]] std::uint64_t place_of(const NumberTuple<N>& tuple) const {
-        const std::size_t bin = bin_of(tuple);
-        const auto* const found =
-            std::lower_bound(tuples_.data() + begin_[bin], tuples_.data() + begin_[bin + 1], tuple);
-        return static_cast<std::uint64_t>(found - tuples_.data());
+    explicit QuestionReader(const Question& words) : words_(words) {}
+    [[nodiscard]] bool at_end() const { return words_.empty(); }
+    [[nodiscard]] std::uint64_t lowest() const { return words_[0]; }
+    [[nodiscard]] std::uint64_t count() const { return words_[1] >> 1U; }
+    [[nodiscard]] bool is_shared() const { return (words_[1] & 1U) != 0; }
+    /// Of tuple i about a shared vertex.
+    [[nodiscard]] Rest rest(std::size_t i) const {
+        Rest rest;
+        std::ranges::copy(words_.subspan(2 + i * (N - 1), N - 1), rest.begin());
+        return rest;
     }
+    void next() { words_ = words_.subspan(2 + (is_shared() ? count() * (N - 1) : 0)); }
 
 private:
-    static void for_each(const std::vector<std::vector<NumberTuple<N>>>& asked, auto&& visit) {
-        for (const auto& from_one : asked) std::ranges::for_each(from_one, visit);
-    }
-    void find_bins(const std::vector<std::vector<NumberTuple<N>>>& asked) {
-        std::uint64_t count = 0;
-        std::uint64_t last = 0;
-        least_ = std::numeric_limits<std::uint64_t>::max();
-        for (const auto& from_one : asked) {
-            if (from_one.empty()) continue;
-            count += from_one.size();
-            least_ = std::min(least_, from_one.front()[0]);
-            last = std::max(last, from_one.back()[0]);
-        }
-        tuples_.resize(count);
-        if (count == 0) return begin_.assign(1, 0);
-        while ((last - least_) >> shift_ >= count) ++shift_;
-        begin_.assign(((last - least_) >> shift_) + 2, 0);
-    }
-    [[nodiscard]] std::size_t bin_of(const NumberTuple<N>& tuple) const {
-        return (tuple[0] - least_) >> shift_;
-    }
-
-    std::uint64_t least_ = 0;  ///< lowest number
-    unsigned shift_ = 0;
-    std::vector<std::uint64_t> begin_;  ///< by bin
-    std::vector<NumberTuple<N>> tuples_;
+    std::span<const std::uint64_t> words_;
 };
 
-/// Collective. The places of tuples among the different tuples of all processes, in ascending
-/// order, counted from `total`, to which it adds their number. `tuples` makes this process's, which
-/// are ascending in their lowest numbers, and these less than `end_count`. Where a process fails
-/// there is no result on any.
+/// The answers to all processes' questions: the places of tuples among all different ones of the
+/// block, in ascending order. For a lowest vertex that is one process's alone, the first tuple's
+/// place; for a shared one, each tuple's.
 template <std::size_t N>
-[[nodiscard]] std::vector<std::uint64_t> ranked(const Communicator& processes, auto&& tuples,
-                                                std::uint64_t end_count, std::uint64_t& total,
-                                                LocalFailure& failure) {
+class Answers {
+public:
+    explicit Answers(const std::vector<Question>& questions) : to_(questions.size()) {
+        for (const Question& question : questions) readers_.emplace_back(question);
+        for (std::size_t r = 0; r < readers_.size(); ++r) wait(r);
+        while (!waiting_.empty()) {
+            take_all_with_lowest();
+            if (ranks_.size() == 1) {
+                answer_one(ranks_.front());
+            } else {
+                answer_several();
+            }
+            for (const std::size_t r : ranks_) {
+                readers_[r].next();
+                wait(r);
+            }
+        }
+    }
+
+    /// How many different tuples there are.
+    [[nodiscard]] std::uint64_t count() const { return count_; }
+    [[nodiscard]] std::vector<std::vector<std::uint64_t>> take() && { return std::move(to_); }
+
+private:
+    using Rest = typename QuestionReader<N>::Rest;
+
+    void wait(std::size_t r) {
+        if (readers_[r].at_end()) return;
+        waiting_.emplace_back(readers_[r].lowest(), r);
+        std::ranges::push_heap(waiting_, std::greater{});
+    }
+    void take_all_with_lowest() {
+        ranks_.clear();
+        const std::uint64_t lowest = waiting_.front().first;
+        while (!waiting_.empty() && waiting_.front().first == lowest) {
+            ranks_.push_back(waiting_.front().second);
+            std::ranges::pop_heap(waiting_, std::greater{});
+            waiting_.pop_back();
+        }
+    }
+    void answer_one(std::size_t r) {
+        const std::uint64_t tuples = readers_[r].count();
+        const std::uint64_t answers = readers_[r].is_shared() ? tuples : 1;
+        for (std::uint64_t i = 0; i < answers; ++i) to_[r].push_back(count_ + i);
+        count_ += tuples;
+    }
+    void answer_several() {
+        different_.clear();
+        for_each_rest([&](std::size_t, const Rest& rest) { different_.push_back(rest); });
+        std::sort(different_.begin(), different_.end());
+        different_.erase(std::unique(different_.begin(), different_.end()), different_.end());
+        for_each_rest([&](std::size_t r, const Rest& rest) {
+            const auto place = std::lower_bound(different_.begin(), different_.end(), rest);
+            to_[r].push_back(count_ + static_cast<std::uint64_t>(place - different_.begin()));
+        });
+        count_ += different_.size();
+    }
+    void for_each_rest(auto&& visit) const {
+        for (const std::size_t r : ranks_) {
+            for (std::size_t i = 0; i < readers_[r].count(); ++i) visit(r, readers_[r].rest(i));
+        }
+    }
+
+    std::vector<std::vector<std::uint64_t>> to_;
+    std::vector<QuestionReader<N>> readers_;
+    std::vector<std::pair<std::uint64_t, std::size_t>> waiting_;  ///< a heap: lowest, rank
+    std::vector<std::size_t> ranks_;                              ///< that ask about one lowest
+    std::vector<Rest> different_;
+    std::uint64_t count_ = 0;
+};
+
+/// The place of each of `count` tuples, from the answers to this process's questions. A process
+/// that has failed answers nothing; places are not to be used then.
+template <std::size_t N>
+std::vector<std::uint64_t> places_of(std::size_t count, const std::vector<Question>& questions,
+                                     const std::vector<std::vector<std::uint64_t>>& answers) {
+    std::vector<std::uint64_t> places;
+    places.reserve(count);
+    for (std::size_t r = 0; r < questions.size(); ++r) {
+        if (answers[r].empty()) continue;
+        auto answer = answers[r].begin();
+        for (QuestionReader<N> reader(questions[r]); !reader.at_end(); reader.next()) {
+            for (std::uint64_t i = 0; i < reader.count(); ++i) {
+                places.push_back(reader.is_shared() ? *answer++ : *answer + i);
+            }
+            if (!reader.is_shared()) ++answer;
+        }
+    }
+    places.resize(count);
+    return places;
+}
+
+/// Collective. The places of tuples among the different tuples of all processes, in ascending
+/// order, counted from `total`, to which it adds their number. This process's `tuples` ascend;
+/// their vertices have global numbers less than `end_count`. `shared_vertices` are those that
+/// other processes have too, ascending. Where a process fails there is no result on any.
+///
+/// Each lowest vertex meets its equals at a process that its number decides. Memory and messages
+/// are in proportion to the lowest vertices, and to the tuples of shared ones.
+template <std::size_t N>
+[[nodiscard]] std::vector<std::uint64_t> ranked(
+    const Communicator& processes, std::span<const VertexTuple<N>> tuples,
+    const IndexVector<VertexIndex, GlobalVertex>& numbers,
+    std::span<const VertexIndex> shared_vertices, std::uint64_t end_count, std::uint64_t& total,
+    LocalFailure& failure) {
     const auto somewhere_failed = [&] {
         return failure.max_unless_failed(processes, 0) == LocalFailure::somewhere;
     };
-    const auto process_count = static_cast<std::uint64_t>(processes.size());
-    const std::uint64_t block = end_count / process_count + 1;
-    std::vector<std::vector<NumberTuple<N>>> asked;
-    failure.attempt([&] { asked = by_process<N>(processes, tuples(), block); });
-    if (somewhere_failed()) return {};
-
-    std::optional<OrderedTuples<N>> known;
+    const std::uint64_t block = end_count / static_cast<std::uint64_t>(processes.size()) + 1;
+    std::vector<Question> questions;
     failure.attempt([&] {
-        asked = processes.all_to_all(asked);
-        known.emplace(asked);
+        questions = questions_about<N>(tuples, numbers, shared_vertices, block, processes.size());
     });
-    const std::uint64_t count = known ? known->size() : 0;
-    const std::uint64_t first = total + processes.sum_before(count);
-    total += processes.sum(count);
+    if (somewhere_failed()) return {};
 
     std::vector<std::vector<std::uint64_t>> answers;
+    std::uint64_t count = 0;
     failure.attempt([&] {
-        answers.resize(asked.size());
-        for (std::size_t r = 0; r < asked.size(); ++r) {
-            answers[r].reserve(asked[r].size());
-            for (const NumberTuple<N>& tuple : asked[r])
-                answers[r].push_back(first + known->place_of(tuple));
-            asked[r] = {};
-        }
+        const std::vector<Question> asked = processes.all_to_all(questions);
+        Answers<N> found(asked);
+        count = found.count();
+        answers = std::move(found).take();
     });
+    const std::uint64_t first = total + processes.sum_before(count);
+    total += processes.sum(count);
+    for (auto& places : answers) {
+        for (std::uint64_t& place : places) place += first;
+    }
     if (somewhere_failed()) return {};
-    // The tuples were ascending in their lowest numbers, so the answers come in their order.
     std::vector<std::uint64_t> places;
-    failure.attempt([&] {
-        for (const auto& from_one : processes.all_to_all(answers)) {
-            places.insert(places.end(), from_one.begin(), from_one.end());
-        }
-    });
+    failure.attempt(
+        [&] { places = places_of<N>(tuples.size(), questions, processes.all_to_all(answers)); });
     return places;
 }
 

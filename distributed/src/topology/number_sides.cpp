@@ -64,6 +64,7 @@ I find(const Sides<I, N, PerCell>& sides, Corners<N> corners) {
 /// Collective. `shared_of(interface)` are the sides that it lists.
 template <class I, std::size_t N, std::size_t PerCell>
 Sides<I, N, PerCell> number(const DistributedMesh& mesh, const CanonicalNumbers& numbers,
+                            std::span<const VertexIndex> shared_vertices,
                             const std::array<std::array<std::uint8_t, N>, PerCell>& places,
                             auto&& shared_of) {
     Sides<I, N, PerCell> sides;
@@ -71,19 +72,8 @@ Sides<I, N, PerCell> number(const DistributedMesh& mesh, const CanonicalNumbers&
     LocalFailure failure;
     failure.attempt([&] { number_locally(mesh, places, sides); });
     // Vertices are in canonical order here and there, so sides ascend by either numbers.
-    const auto tuples = [&] {
-        std::vector<NumberTuple<N>> tuples_of_sides;
-        tuples_of_sides.reserve(sides.vertices.size());
-        for (const auto& corners : sides.vertices) {
-            auto& tuple = tuples_of_sides.emplace_back();
-            std::ranges::transform(corners, tuple.begin(), [&](VertexIndex v) {
-                return static_cast<std::uint64_t>(numbers.of_vertex[v]);
-            });
-        }
-        return tuples_of_sides;
-    };
-    const auto ranks =
-        ranked<N>(mesh.processes, tuples, numbers.vertex_count, sides.count, failure);
+    const auto ranks = ranked<N>(mesh.processes, sides.vertices, numbers.of_vertex, shared_vertices,
+                                 numbers.vertex_count, sides.count, failure);
     failure.attempt([&] {
         sides.numbers.assign(ranks.begin(), ranks.end());
         for (const Interface& interface : mesh.interfaces) {
@@ -102,14 +92,18 @@ Sides<I, N, PerCell> number(const DistributedMesh& mesh, const CanonicalNumbers&
 
 }  // namespace
 
-MeshEdges number_edges(const DistributedMesh& mesh, const CanonicalNumbers& numbers) {
+MeshEdges number_edges(const DistributedMesh& mesh, const CanonicalNumbers& numbers,
+                       std::span<const VertexIndex> shared_vertices) {
     return number<EdgeIndex>(
-        mesh, numbers, cell_edges, [](const Interface& i) -> const auto& { return i.edges; });
+        mesh, numbers, shared_vertices, cell_edges,
+        [](const Interface& i) -> const auto& { return i.edges; });
 }
 
-MeshFaces number_faces(const DistributedMesh& mesh, const CanonicalNumbers& numbers) {
+MeshFaces number_faces(const DistributedMesh& mesh, const CanonicalNumbers& numbers,
+                       std::span<const VertexIndex> shared_vertices) {
     return number<FaceIndex>(
-        mesh, numbers, cell_faces, [](const Interface& i) -> const auto& { return i.faces; });
+        mesh, numbers, shared_vertices, cell_faces,
+        [](const Interface& i) -> const auto& { return i.faces; });
 }
 
 }  // namespace octetra::distributed

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <span>
+
 #include <octetra/distributed/distributed_mesh.hpp>
 #include <octetra/distributed/sides.hpp>
 
@@ -7,9 +9,12 @@
 
 namespace octetra::distributed {
 
-/// Collective. The edges, or faces, of a mesh whose vertices have these numbers. Throws alike on
-/// all processes: InputError where 32 bits cannot number those of one process.
-[[nodiscard]] MeshEdges number_edges(const DistributedMesh& mesh, const CanonicalNumbers& numbers);
-[[nodiscard]] MeshFaces number_faces(const DistributedMesh& mesh, const CanonicalNumbers& numbers);
+/// Collective. The edges, or faces, of a mesh whose vertices have these numbers; `shared_vertices`
+/// are those that other processes have too, ascending. Throws alike on all processes: InputError
+/// where 32 bits cannot number those of one process.
+[[nodiscard]] MeshEdges number_edges(const DistributedMesh& mesh, const CanonicalNumbers& numbers,
+                                     std::span<const VertexIndex> shared_vertices);
+[[nodiscard]] MeshFaces number_faces(const DistributedMesh& mesh, const CanonicalNumbers& numbers,
+                                     std::span<const VertexIndex> shared_vertices);
 
 }  // namespace octetra::distributed

@@ -1,23 +1,28 @@
-# Targets that are no part of the default build: `man`, the manual pages from --help, and
-# `api-docs`, pages of the public headers. Packages: [docs] of packages.txt.
+# Pages made from the program and the headers. `man`, the manual pages from --help, is built with the rest
+# where its tools are, so that they are installed; `api-docs`, pages of the public headers, is not.
+# Packages: [docs] of packages.txt.
 include(GNUInstallDirs)
 
 find_program(OCTETRA_HELP2MAN NAMES help2man)
+find_package(Python3 QUIET COMPONENTS Interpreter)
 find_program(OCTETRA_DOXYGEN NAMES doxygen)
 
-if(OCTETRA_HELP2MAN)
-  add_custom_target(man
-    COMMAND python3 ${CMAKE_SOURCE_DIR}/tools/man_pages.py --octetra $<TARGET_FILE:octetra>
+if(OCTETRA_HELP2MAN AND Python3_FOUND AND NOT CMAKE_CROSSCOMPILING)  # the program is run
+  set(script ${CMAKE_SOURCE_DIR}/tools/man_pages.py)
+  # A page for each subcommand; octetra.1 stands for them all. None of an earlier program stays.
+  add_custom_command(OUTPUT ${CMAKE_BINARY_DIR}/man/octetra.1
+    COMMAND ${CMAKE_COMMAND} -E rm -rf ${CMAKE_BINARY_DIR}/man
+    COMMAND ${Python3_EXECUTABLE} ${script} --octetra $<TARGET_FILE:octetra>
             --help2man ${OCTETRA_HELP2MAN} -o ${CMAKE_BINARY_DIR}/man
-    DEPENDS octetra COMMENT "Making the manual pages, man/octetra.1 and on" VERBATIM)
+    DEPENDS octetra ${script} COMMENT "Making the manual pages, man/octetra.1 and on" VERBATIM)
+  add_custom_target(man ALL DEPENDS ${CMAKE_BINARY_DIR}/man/octetra.1)
+  install(DIRECTORY ${CMAKE_BINARY_DIR}/man/ DESTINATION ${CMAKE_INSTALL_MANDIR}/man1
+          FILES_MATCHING PATTERN "*.1")
 else()
   add_custom_target(man
-    COMMAND ${CMAKE_COMMAND} -E echo "The manual pages need help2man: apt-get install help2man"
+    COMMAND ${CMAKE_COMMAND} -E echo "The manual pages need help2man and python3: apt-get install help2man"
     COMMAND ${CMAKE_COMMAND} -E false VERBATIM)
 endif()
-# If they have been made by then.
-install(DIRECTORY ${CMAKE_BINARY_DIR}/man/ DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 OPTIONAL
-        FILES_MATCHING PATTERN "*.1")
 
 if(OCTETRA_DOXYGEN)
   file(GLOB folders ${CMAKE_SOURCE_DIR}/*/include)

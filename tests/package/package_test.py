@@ -9,6 +9,8 @@ import sys
 import tempfile
 import unittest
 
+from manual_pages import manual_pages
+
 source, build = (pathlib.Path(argument) for argument in sys.argv[1:3])
 mpirun = source / "tests/support/mpirun.sh"
 
@@ -54,6 +56,15 @@ class Package(unittest.TestCase):
                 self.assertNotIn(str(source), text, path)
         return self.folder / "moved"
 
+    def check_manual_pages(self, prefix):
+        """Made with the rest where the tool for them is installed."""
+        expected = set()
+        if shutil.which("help2man"):
+            names = manual_pages(run(prefix / "bin/octetra", "--help"))
+            expected = {f"share/man/man1/{name}.1" for name in names}
+        found = {str(path.relative_to(prefix)) for path in (prefix / "share").rglob("*.1")}
+        self.assertEqual(found, expected)
+
     def check_refined(self, program, ranks=(1, 2, 4)):
         """The program's file is the same on any number of ranks, and what the command makes."""
         files = set()
@@ -96,6 +107,7 @@ class Package(unittest.TestCase):
     def test_static_libraries_are_found_where_they_were_moved_to(self):
         prefix = self.installed(build)
         self.assertIn("octetra 0.", run(prefix / "bin/octetra", "--version"))
+        self.check_manual_pages(prefix)
         self.build_and_run_examples(prefix)
 
         folders = [str(path.parent) for path in prefix.rglob("octetra-core.pc")]

@@ -17,14 +17,19 @@ function(octetra_compile_options target)
   endif()
 endfunction()
 
-# octetra_layer(<name> SOURCES <file>... HEADERS <file>... [LAYER_HEADERS <file>...]
+# octetra_layer(<name> [STATIC] SOURCES <file>... HEADERS <file>... [LAYER_HEADERS <file>...]
 #               [LINKS <target>...] [USES <target>...])
 # LAYER_HEADERS, under layers/, are for other layers and not for users; they ask for the options of
 # octetra_compile_options. LINKS are part of the layer's interface, USES are not. BUILD_SHARED_LIBS
-# decides what kind of library it is; a static one can be linked into a shared one, too.
+# decides what kind of library it is; a static one can be linked into a shared one, too. STATIC is a layer
+# that is not installed, whatever the others are: the installed program has it in itself.
 function(octetra_layer name)
-  cmake_parse_arguments(PARSE_ARGV 1 layer "" "" "SOURCES;HEADERS;LAYER_HEADERS;LINKS;USES")
-  add_library(octetra_${name} ${layer_SOURCES})
+  cmake_parse_arguments(PARSE_ARGV 1 layer "STATIC" "" "SOURCES;HEADERS;LAYER_HEADERS;LINKS;USES")
+  set(kind "")
+  if(layer_STATIC)
+    set(kind STATIC)
+  endif()
+  add_library(octetra_${name} ${kind} ${layer_SOURCES})
   add_library(Octetra::${name} ALIAS octetra_${name})
   set_target_properties(octetra_${name} PROPERTIES EXPORT_NAME ${name}
                                                    POSITION_INDEPENDENT_CODE ON

@@ -133,6 +133,10 @@ class Package(unittest.TestCase):
 
         # Shared libraries ask their users for MPI alone.
         prefix = self.installed(project / "build")
+        for file in prefix.rglob("*.pc"):
+            for kind in ("--print-requires", "--print-requires-private"):
+                for package in run("pkg-config", kind, file).split():
+                    self.assertRegex(package, "^(octetra-.*|ompi-cxx)$", file)
         self.build_and_run_examples(
             prefix, *(f"-DCMAKE_DISABLE_FIND_PACKAGE_{p}=ON" for p in ("fmt", "ZLIB", "METIS")))
 

@@ -33,7 +33,8 @@ INSTANTIATE_TEST_SUITE_P(
                     "campaign shrink a.json b.json", "campaign shrink a.json --minutes 0",
                     "campaign shrink a.json --ranks 0", "campaign shrink a.json --ranks",
                     "campaign shrink --slow 1 a.json", "campaign files --minutes 0",
-                    "format --slow", "docs now", "clean all"));
+                    "campaign packages --minutes 0", "campaign packages now", "format --slow",
+                    "docs now", "clean all"));
 
 /// Without installing anything: that comes before the list of mutants is read.
 TEST(Mutants, TakeNoTimeThatIsOverAtOnce) {

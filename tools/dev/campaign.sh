@@ -8,7 +8,7 @@ if (($# > 0)) && [[ $1 != -* ]]; then
     shift
 fi
 case $kind in
-    fuzz | files | worlds | mutants | valgrind | foreign | shrink)
+    fuzz | files | worlds | mutants | packages | valgrind | foreign | shrink)
         exec bash "tools/dev/campaign/$kind.sh" "$@"
         ;;
     all) ;;
@@ -26,6 +26,7 @@ turn() {
 }
 turn valgrind
 turn foreign
+turn packages
 turn files --minutes $((minutes / 10))
 turn fuzz --minutes $((minutes * 3 / 10))
 turn worlds --minutes $((minutes / 10))

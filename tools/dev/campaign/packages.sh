@@ -1,0 +1,16 @@
+# ./dev campaign packages [--minutes M]: the Debian packages, built and used
+# shellcheck shell=bash
+source "$root/tools/dev/common.sh"
+
+# Where the tools are missing there is nothing to find, and the test has said so.
+packages_commands() {
+    local status=0
+    PYTHONDONTWRITEBYTECODE=1 python3 tests/package/debian_test.py "$root" build/packages "$minutes" || status=$?
+    if ((status != 77)); then return "$status"; fi
+}
+
+minutes=30
+take_numbers packages minutes "$@"
+need build packages
+export DEB_BUILD_OPTIONS=${DEB_BUILD_OPTIONS:-parallel=$jobs}
+step "packages" packages_commands

@@ -1,12 +1,128 @@
-"""The recipe for Debian's packages agrees with what is built."""
+"""The recipes for packages agree with what is built: Spack's, taken without Spack, and Debian's."""
 
+import importlib.util
+import itertools
 import pathlib
 import re
+import subprocess
 import sys
+import tempfile
+import types
 import unittest
+import unittest.mock
+import urllib.parse
 
 source = pathlib.Path(sys.argv[1])
 lists = (source / "CMakeLists.txt").read_text()
+
+# What Spack calls what find_package() looks for.
+SPACK_NAMES = {"fmt": "fmt", "ZLIB": "zlib-api", "Boost": "boost", "MPI": "mpi", "METIS": "metis",
+               "CGAL": "cgal", "CLI11": "cli11", "nlohmann_json": "nlohmann-json"}
+
+
+def holds(condition, variants):
+    """Does `+this ~that` hold? Of compilers and the like nothing is known here."""
+    words = re.findall(r"([+~])(\w+)", condition)
+    return bool(words) and all(variants[name] == (sign == "+") for sign, name in words)
+
+
+class Recipe:
+    """What package.py says to Spack, as far as it matters here."""
+
+    def __init__(self, path):
+        self.defaults, self.conflicts, self.dependencies = {}, [], []
+        self.around = []  # conditions of `with when(...)`
+        spack = types.ModuleType("spack.package")
+        spack.CMakePackage = self.cmake_package()
+        spack.variant = lambda name, default, description: self.defaults.update({name: default})
+        spack.conflicts = lambda what, when=None, msg=None: self.conflicts.append((what, when))
+        spack.depends_on = self.depends_on
+        spack.when = self.when
+        for name in ("version", "license", "generator"):
+            setattr(spack, name, lambda *words, **options: None)
+        modules = {"spack": types.ModuleType("spack"), "spack.package": spack}
+        with unittest.mock.patch.dict(sys.modules, modules):
+            specification = importlib.util.spec_from_file_location("recipe", path)
+            module = importlib.util.module_from_spec(specification)
+            specification.loader.exec_module(module)
+        self.package = module.Octetra
+
+    @staticmethod
+    def cmake_package():
+        class CMakePackage:
+            def __init__(self, variants):
+                self.variants = variants
+
+            def define(self, option, value):
+                return f"-D{option}:BOOL={'ON' if value else 'OFF'}"
+
+            def define_from_variant(self, option, name):
+                return self.define(option, self.variants[name])
+
+        return CMakePackage
+
+    def when(self, condition):
+        class Around:
+            def __enter__(_):
+                self.around.append(condition)
+
+            def __exit__(_, *error):
+                self.around.pop()
+
+        return Around()
+
+    def depends_on(self, spec, when=None, type=None):
+        conditions = [*self.around, *([when] if when else [])]
+        self.dependencies.append((re.match(r"[\w-]+", spec)[0], conditions))
+
+    def allowed(self):
+        """All combinations of variants that conflict with nothing."""
+        for values in itertools.product((True, False), repeat=len(self.defaults)):
+            variants = dict(zip(self.defaults, values))
+            if not any(holds(what, variants) and holds(when, variants)
+                       for what, when in self.conflicts if when):
+                yield variants
+
+    def dependencies_of(self, variants):
+        return {name for name, conditions in self.dependencies
+                if all(holds(condition, variants) for condition in conditions)}
+
+    def options_of(self, variants):
+        return self.package(variants).cmake_args()
+
+
+class Spack(unittest.TestCase):
+    def setUp(self):
+        self.recipe = Recipe(source / "packaging/spack/packages/octetra/package.py")
+
+    def test_recipe_builds_the_repository_in_which_it_lies(self):
+        url = urllib.parse.urlparse(self.recipe.package.git)
+        self.assertEqual(url.scheme, "file")
+        self.assertTrue(source.samefile(urllib.parse.unquote(url.path)))
+
+    def test_recipe_sets_options_that_there_are(self):
+        known = set(re.findall(r"^option\((\w+)", lists, re.MULTILINE)) | {"BUILD_SHARED_LIBS"}
+        set_options = {re.match(r"-D(\w+):BOOL=(?:ON|OFF)$", option)[1]
+                       for option in self.recipe.options_of(self.recipe.defaults)}
+        self.assertLessEqual(set_options, known)
+
+    def test_recipe_depends_on_all_that_cmake_looks_for(self):
+        """CMake says so itself, when it is told that there is none of the other packages."""
+        self.assertEqual(set(re.findall(r"find_package\((\w+)", lists)), set(SPACK_NAMES))
+        combinations = list(self.recipe.allowed())
+        self.assertIn(self.recipe.defaults, combinations)
+        for variants in combinations:
+            if variants["shared"]:
+                continue  # which changes nothing of this
+            needed = self.recipe.dependencies_of(variants)
+            self.assertEqual("tetgen" in needed, variants["tetgen"])
+            others = (f"-DCMAKE_DISABLE_FIND_PACKAGE_{name}=ON"
+                      for name, spack_name in SPACK_NAMES.items() if spack_name not in needed)
+            with self.subTest(**variants), tempfile.TemporaryDirectory(prefix="octetra-spack-") as folder:
+                done = subprocess.run(["cmake", "-G", "Ninja", "-S", source, "-B", folder,
+                                       *self.recipe.options_of(variants), *others],
+                                      capture_output=True, text=True, check=False)
+                self.assertEqual(done.returncode, 0, done.stderr)
 
 
 class Debian(unittest.TestCase):

@@ -4,11 +4,13 @@
 #include <array>
 #include <vector>
 
+#include <octetra/reference/refine.hpp>
+
 #include "edges.hpp"
 
 namespace octetra::reference {
 
-/// For each edge of the table its midpoint's vertex number, or none() if it is not marked.
+/// For each edge of the table its midpoint's vertex number, or none() if it is not bisected.
 using EdgeToMidpoint = IndexVector<EdgeIndex, VertexIndex>;
 
 /// A marked edge and its midpoint.
@@ -55,5 +57,18 @@ template <std::size_t N>
     bisect(entity, bisected_edges(mesh, table, midpoints, {entity.begin(), entity.end()}), pieces);
     return pieces;
 }
+
+/// The numbers of the midpoints of some of the mesh's edges, which ascend.
+[[nodiscard]] EdgeToMidpoint midpoints_of(const std::vector<EdgeVertices>& edges,
+                                          const EdgeTable& table, const Mesh& mesh);
+
+/// The mesh with these edges bisected, a closed set that ascends, and by them its cells, facets and
+/// tagged edges. Throws as refine() does; `level` is for the message.
+[[nodiscard]] Refinement bisect_mesh(const Refinement& coarse,
+                                     const std::vector<EdgeVertices>& edges, int level,
+                                     std::size_t max_cells = any_number);
+
+/// The mesh as it is.
+[[nodiscard]] Refinement unrefined(const Mesh& mesh);
 
 }  // namespace octetra::reference

@@ -2,8 +2,6 @@
 
 #include <algorithm>
 
-#include "longest.hpp"
-
 namespace octetra::reference {
 
 EdgeSet close(EdgeSet marked, const Mesh& mesh, const EdgeTable& table) {

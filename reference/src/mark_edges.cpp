@@ -1,18 +1,27 @@
 #include "mark_edges.hpp"
 
-#include "longest.hpp"
+#include "closure.hpp"
 
 namespace octetra::reference {
 
-EdgeSet mark_edges(const Mesh& mesh, const EdgeTable& table, const Selection& selection,
-                   Scheme scheme, const IndexVector<CellIndex, CellIndex>& cell_to_parent) {
-    EdgeSet marked(table.edges.size(), false);
+CellMarks marked_cells(const Refinement& refined, const Selection& selection) {
+    const Mesh& mesh = refined.mesh;
+    CellMarks marks(mesh.cells.size(), false);
     for (CellIndex c{0}; c < mesh.cells.end_index(); ++c) {
         Corners corners;
         for (std::size_t k = 0; k < 4; ++k) corners[k] = mesh.points[mesh.cells[c][k]];
         const Marker region = mesh.regions.empty() ? 0 : mesh.regions[c];
-        if (!marks(selection, corners, region, GlobalCell{cell_to_parent[c].value()})) continue;
+        const GlobalCell root{refined.maps.cell_to_parent[c].value()};
+        marks[c] = octetra::marks(selection, corners, region, root);
+    }
+    return marks;
+}
 
+EdgeSet mark_edges(const Mesh& mesh, const EdgeTable& table, const CellMarks& marks,
+                   Scheme scheme) {
+    EdgeSet marked(table.edges.size(), false);
+    for (CellIndex c{0}; c < mesh.cells.end_index(); ++c) {
+        if (marks[c] == 0) continue;
         const auto& edges = table.cell_to_edges[c];
         switch (scheme) {
             case Scheme::eight:
@@ -27,6 +36,16 @@ EdgeSet mark_edges(const Mesh& mesh, const EdgeTable& table, const Selection& se
         }
     }
     return marked;
+}
+
+std::vector<EdgeVertices> edges_to_bisect(const Mesh& mesh, const CellMarks& marks, Scheme scheme) {
+    const EdgeTable table = number_edges(mesh);
+    const EdgeSet closed = close(mark_edges(mesh, table, marks, scheme), mesh, table);
+    std::vector<EdgeVertices> edges;
+    for (EdgeIndex e{0}; e < table.edges.end_index(); ++e) {
+        if (closed[e] != 0) edges.push_back(table.edges[e]);
+    }
+    return edges;
 }
 
 }  // namespace octetra::reference

@@ -1,147 +1,16 @@
-#include <octetra/reference/refine.hpp>
-
-#include <fmt/format.h>
-
-#include <octetra/core/error.hpp>
-#include <octetra/core/orientation.hpp>
+#include <octetra/reference/history.hpp>
 
 #include "bisect.hpp"
-#include "closure.hpp"
-#include "edges.hpp"
 #include "mark_edges.hpp"
-#include "markers.hpp"
 
 namespace octetra::reference {
-namespace {
-
-void check_countable(std::size_t count, std::string_view what) {
-    if (count >= VertexIndex::limit) {
-        throw InputError(
-            fmt::format("the refined mesh would have more than {} {}", VertexIndex::limit, what));
-    }
-}
-
-/// The vertices of `mesh` and the midpoints of the marked edges.
-EdgeToMidpoint bisect_edges(const Mesh& mesh, const EdgeTable& table, const EdgeSet& marked,
-                            Refinement& fine) {
-    const auto markers = midpoint_markers(mesh, table);
-    const std::size_t attributes = mesh.attributes_per_point;
-    fine.mesh.points = mesh.points;
-    fine.mesh.point_markers = mesh.point_markers;
-    fine.mesh.attributes_per_point = attributes;
-    fine.mesh.point_attributes = mesh.point_attributes;
-
-    EdgeToMidpoint midpoints(table.edges.size(), VertexIndex::none());
-    for (EdgeIndex e{0}; e < table.edges.end_index(); ++e) {
-        if (marked[e] == 0) continue;
-        const auto& [a, b] = table.edges[e];
-        check_countable(fine.mesh.points.size() + 1, "vertices");
-        midpoints[e] = fine.mesh.points.append(midpoint(mesh.points[a], mesh.points[b]));
-        fine.maps.midpoint_to_edge.push_back(table.edges[e]);
-        if (!mesh.point_markers.empty()) fine.mesh.point_markers.append(markers[e]);
-        for (std::size_t k = 0; k < attributes; ++k) {
-            fine.mesh.point_attributes.push_back(
-                mean(mesh.point_attributes[a.value() * attributes + k],
-                     mesh.point_attributes[b.value() * attributes + k]));
-        }
-    }
-    return midpoints;
-}
-
-/// Rounded midpoints may leave the edge that they bisect, and a thin enough child then turns over.
-void check_child(const CellVertices& child, const Mesh& fine, CellIndex parent, int level,
-                 std::uint32_t index_base) {
-    const auto& p = fine.points;
-    const bool finite = is_finite(p[child[0]]) && is_finite(p[child[1]]) &&
-                        is_finite(p[child[2]]) && is_finite(p[child[3]]);
-    const int sign = finite ? orientation(p[child[0]], p[child[1]], p[child[2]], p[child[3]]) : 0;
-    if (sign > 0) return;
-    throw InputError(fmt::format(
-        "cell {}, level {}: bisection would make a child that is {}, because its midpoints cannot "
-        "be rounded to double precision well enough; the cell is too small for its coordinates, "
-        "or these are too large to be added",
-        parent.value() + index_base, level, sign < 0 ? "inverted" : "flat"));
-}
-
-/// Before anything is made of it.
-void check_allowed(const Mesh& mesh, const EdgeTable& table, const EdgeToMidpoint& midpoints,
-                   std::size_t max_cells, int level) {
-    if (max_cells == any_number) return;
-    std::size_t count = 0;
-    for (const CellVertices& cell : mesh.cells) {
-        count += pieces_of(cell, mesh, table, midpoints).size();
-    }
-    if (count <= max_cells || count == mesh.cells.size()) return;
-    throw InputError(
-        fmt::format("level {} would make {} cells, more than the {} allowed: mark fewer cells or "
-                    "levels, or allow more",
-                    level, count, max_cells));
-}
-
-void bisect_cells(const Mesh& mesh, const EdgeTable& table, const EdgeToMidpoint& midpoints,
-                  const IndexVector<CellIndex, CellIndex>& cell_to_parent, int level,
-                  Refinement& fine) {
-    for (CellIndex c{0}; c < mesh.cells.end_index(); ++c) {
-        const auto children = pieces_of(mesh.cells[c], mesh, table, midpoints);
-        check_countable(fine.mesh.cells.size() + children.size(), "cells");
-        for (const CellVertices& child : children) {
-            if (children.size() > 1) {
-                check_child(child, fine.mesh, cell_to_parent[c], level, mesh.index_base);
-            }
-            fine.mesh.cells.append(child);
-            fine.maps.cell_to_parent.append(cell_to_parent[c]);
-            if (!mesh.regions.empty()) fine.mesh.regions.append(mesh.regions[c]);
-        }
-    }
-}
-
-/// Facets and tagged edges go the way of the cells that they belong to.
-template <class I, std::size_t N>
-void bisect_tagged(const IndexVector<I, std::array<VertexIndex, N>>& list,
-                   const IndexVector<I, Marker>& markers, const Mesh& mesh, const EdgeTable& table,
-                   const EdgeToMidpoint& midpoints,
-                   IndexVector<I, std::array<VertexIndex, N>>& fine_list,
-                   IndexVector<I, Marker>& fine_markers) {
-    for (I i{0}; i < list.end_index(); ++i) {
-        for (const auto& piece : pieces_of(list[i], mesh, table, midpoints)) {
-            check_countable(fine_list.size() + 1, "tagged facets or edges");
-            fine_list.append(piece);
-            if (!markers.empty()) fine_markers.append(markers[i]);
-        }
-    }
-}
-
-Refinement refine_once(const Refinement& coarse, const Selection& selection, Scheme scheme,
-                       int level, std::size_t max_cells) {
-    const Mesh& mesh = coarse.mesh;
-    const EdgeTable table = number_edges(mesh);
-    const EdgeSet marked =
-        close(mark_edges(mesh, table, selection, scheme, coarse.maps.cell_to_parent), mesh, table);
-
-    Refinement fine;
-    fine.mesh.index_base = mesh.index_base;
-    fine.maps.first_midpoint = coarse.maps.first_midpoint;
-    fine.maps.midpoint_to_edge = coarse.maps.midpoint_to_edge;
-    const EdgeToMidpoint midpoints = bisect_edges(mesh, table, marked, fine);
-    check_allowed(mesh, table, midpoints, max_cells, level);
-    bisect_cells(mesh, table, midpoints, coarse.maps.cell_to_parent, level, fine);
-    bisect_tagged(mesh.facets, mesh.facet_markers, mesh, table, midpoints, fine.mesh.facets,
-                  fine.mesh.facet_markers);
-    bisect_tagged(mesh.edges, mesh.edge_markers, mesh, table, midpoints, fine.mesh.edges,
-                  fine.mesh.edge_markers);
-    return fine;
-}
-
-}  // namespace
 
 Refinement refine(const Mesh& mesh, const Selection& selection, Scheme scheme, int levels,
                   std::size_t max_cells) {
-    Refinement result;
-    result.mesh = mesh;
-    result.maps.first_midpoint = mesh.points.end_index();
-    for (CellIndex c{0}; c < mesh.cells.end_index(); ++c) result.maps.cell_to_parent.append(c);
+    Refinement result = unrefined(mesh);
     for (int level = 1; level <= levels; ++level) {
-        result = refine_once(result, selection, scheme, level, max_cells);
+        const auto edges = edges_to_bisect(result.mesh, marked_cells(result, selection), scheme);
+        result = bisect_mesh(result, edges, level, max_cells);
     }
     return result;
 }

@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include "closure.hpp"
-#include "longest.hpp"
 #include "mark_edges.hpp"
 #include "support/meshes.hpp"
 
@@ -78,10 +77,7 @@ INSTANTIATE_TEST_SUITE_P(Seeds, Closure, testing::Range<std::uint64_t>(0, 8));
 TEST(Selection, SchemesSelectAllTheFacesLongestOrTheLongestEdge) {
     const Mesh mesh = test::one_cell(test::tie_free_corners);
     const EdgeTable table = number_edges(mesh);
-    const IndexVector<CellIndex, CellIndex> roots{CellIndex{0}};
-    const auto marked = [&](Scheme scheme) {
-        return mark_edges(mesh, table, {.all = true}, scheme, roots);
-    };
+    const auto marked = [&](Scheme scheme) { return mark_edges(mesh, table, {true}, scheme); };
     // Squared lengths: 01 49, 02 29, 03 41, 12 50, 13 76, 23 46.
     EXPECT_EQ(marked(Scheme::eight), (EdgeSet{1, 1, 1, 1, 1, 1}));
     // Faces: 123 has 13, 023 has 23, 013 has 13, 012 has 12.

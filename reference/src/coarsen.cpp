@@ -1,0 +1,101 @@
+#include <algorithm>
+#include <utility>
+
+#include <octetra/reference/history.hpp>
+
+#include "bisect.hpp"
+#include "closure.hpp"
+
+namespace octetra::reference {
+namespace {
+
+using VertexSet = IndexVector<VertexIndex, char>;
+
+/// A mesh before a step, and the midpoints that the step made of its edges.
+struct Step {
+    const Mesh* mesh;
+    EdgeTable table;
+    EdgeToMidpoint midpoints;
+
+    Step(const Mesh& before, const std::vector<EdgeVertices>& edges)
+        : mesh(&before),
+          table(number_edges(before)),
+          midpoints(midpoints_of(edges, table, before)) {}
+    [[nodiscard]] bool cuts(CellIndex c) const {
+        return std::ranges::any_of(table.cell_to_edges[c],
+                                   [&](EdgeIndex e) { return !midpoints[e].is_none(); });
+    }
+};
+
+/// Rule (a) of coarsened().
+VertexSet vertices_that_must_stay(const Mesh& input, const Mesh& present, const CellMarks& may_go,
+                                  const std::vector<Step>& steps) {
+    VertexSet kept(present.points.size(), false);
+    std::fill_n(kept.begin(), input.points.size(), true);
+    const auto keep = [&](const CellVertices& cell) {
+        for (const VertexIndex v : cell) kept[v] = true;
+    };
+    for (CellIndex c{0}; c < present.cells.end_index(); ++c) {
+        if (may_go[c] == 0) keep(present.cells[c]);
+    }
+    for (const Step& step : steps) {
+        for (CellIndex c{0}; c < step.mesh->cells.end_index(); ++c) {
+            if (step.cuts(c)) keep(step.mesh->cells[c]);
+        }
+    }
+    return kept;
+}
+
+/// Rule (b): the rule of closure, within each step.
+void keep_closed(const Step& step, VertexSet& kept) {
+    EdgeSet stays(step.table.edges.size(), false);
+    for (EdgeIndex e{0}; e < stays.end_index(); ++e) {
+        stays[e] = !step.midpoints[e].is_none() && kept[step.midpoints[e]] != 0;
+    }
+    stays = close(stays, *step.mesh, step.table);
+    for (EdgeIndex e{0}; e < stays.end_index(); ++e) {
+        if (stays[e] != 0) kept[step.midpoints[e]] = true;
+    }
+}
+
+/// The history without the midpoints that go; those that stay get the numbers that replay will
+/// give them.
+History without(const History& history, const VertexSet& kept) {
+    History rest{history.input, {}};
+    IndexVector<VertexIndex, VertexIndex> new_number(kept.size(), VertexIndex::none());
+    VertexIndex next{0};
+    for (; next < history.input.points.end_index(); ++next) new_number[next] = next;
+    VertexIndex midpoint = next;
+    for (const auto& step : history.steps) {
+        std::vector<std::pair<EdgeVertices, VertexIndex>> edges;  // and the midpoint's old number
+        for (const auto& [a, b] : step) {
+            const auto [low, high] = std::minmax(new_number[a], new_number[b]);
+            if (kept[midpoint] != 0) edges.push_back({{low, high}, midpoint});
+            ++midpoint;
+        }
+        if (edges.empty()) continue;
+        std::ranges::sort(edges);
+        auto& left = rest.steps.emplace_back();
+        for (const auto& [edge, old_number] : edges) {
+            left.push_back(edge);
+            new_number[old_number] = next;
+            ++next;
+        }
+    }
+    return rest;
+}
+
+}  // namespace
+
+History coarsened(const History& history, const CellMarks& may_go) {
+    const std::vector<Refinement> meshes = replay(history);
+    std::vector<Step> steps;
+    for (std::size_t t = 0; t < history.steps.size(); ++t) {
+        steps.emplace_back(meshes[t].mesh, history.steps[t]);
+    }
+    VertexSet kept = vertices_that_must_stay(history.input, meshes.back().mesh, may_go, steps);
+    for (const Step& step : steps) keep_closed(step, kept);
+    return without(history, kept);
+}
+
+}  // namespace octetra::reference

@@ -56,7 +56,8 @@ TEST_P(CorpusEquality, ByEverySchemeAndPartition) {
     const std::vector<Selection> selections{{.random = RandomShare{0.15, 4}},
                                             {.cells = {GlobalCell{0}}}};
     std::vector<std::string> methods{"lepp", "dual", "block", "random:1", "random:2"};
-    if (world.size() == 1) methods.resize(1);  // one rank has all cells, whatever the partition
+    // One rank has all cells, whatever the partition; under sanitizers the other test has the rest.
+    if (world.size() == 1 || OCTETRA_SANITIZED) methods.resize(1);
     std::size_t turn = 0;
     for (const Selection& selection : selections) {
         for (const Scheme scheme : {Scheme::eight, Scheme::four, Scheme::two}) {

@@ -12,6 +12,9 @@ function(octetra_compile_options target)
                                            # A fused multiply-add would round squared lengths, and the
                                            # order of edges, otherwise in one place than in another.
                                            -ffp-contract=off)
+  if(CMAKE_UNITY_BUILD)  # a file hides by its names what those before it have
+    target_compile_options(${target} PRIVATE -Wno-shadow)
+  endif()
   if(OCTETRA_WARNINGS_AS_ERRORS)
     target_compile_options(${target} PRIVATE -Werror)
   endif()

@@ -14,13 +14,11 @@
 namespace octetra::properties {
 namespace {
 
-using generator::Complex;
-
 std::size_t points_of(int size) { return 5 + static_cast<std::size_t>(size) / 3; }
 
 /// The Delaunay mesh of points that `point` draws.
 Mesh delaunay(std::size_t count, const std::function<Point()>& point) {
-    Complex cloud;
+    generator::Complex cloud;
     for (std::size_t i = 0; i < count; ++i) cloud.add(point());
     Mesh mesh = generator::tetrahedralise(cloud, "");
     mesh.facets.clear();
@@ -73,7 +71,7 @@ Mesh centred_lattice(Draw& /*draw*/, int size) { return generator::bcc(size < 80
 Mesh prism(Draw& draw, int size) {
     const auto corners = static_cast<std::uint32_t>(draw.between(3, 4 + size / 20));
     const auto layers = static_cast<std::uint32_t>(draw.between(1, 3));
-    Complex complex;
+    generator::Complex complex;
     std::vector<Point> outline;
     for (std::uint32_t i = 0; i < corners; ++i) {
         const double angle = 2 * std::numbers::pi * (i + 0.5 * draw.unit()) / corners;

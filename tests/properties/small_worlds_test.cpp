@@ -22,9 +22,6 @@
 namespace octetra::properties {
 namespace {
 
-/// Under sanitizers every so-manieth.
-constexpr std::size_t stride = OCTETRA_SMALL_WORLDS_STRIDE;
-
 /// Those with the numbers first, first + step, ... below `end`.
 std::vector<Mesh> worlds(const WorldKind& kind, std::size_t first, std::size_t end,
                          std::size_t step) {

@@ -20,9 +20,6 @@
 namespace octetra::properties {
 namespace {
 
-/// Under sanitizers fewer.
-constexpr std::size_t stride = OCTETRA_SMALL_WORLDS_STRIDE;
-
 /// All but those that small_worlds_test.cpp has in all orders: one cell, two at an edge, two at a
 /// face, three in a row.
 std::vector<Complex> complexes_by_classes() {

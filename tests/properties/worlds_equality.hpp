@@ -11,6 +11,9 @@
 /// right. On the first rank, within lead(). A fault is shrunk, kept, and fails the test.
 namespace octetra::properties {
 
+/// Of how many worlds one is tried; under sanitizers fewer.
+constexpr std::size_t stride = OCTETRA_SMALL_WORLDS_STRIDE;
+
 void expect_equality(const Case& c);
 
 /// Worlds of as many cells each: for each scheme and each choice of cells, which is a set of bits,

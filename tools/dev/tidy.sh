@@ -18,7 +18,8 @@ need build tidy
 # clang-tidy knows clang's options and warnings, so it gets the commands of the clang build; and it reads no
 # precompiled headers but those that it finds built.
 configure clang clang "-DOCTETRA_TESTS=$(on_if_installed test)" \
-    "-DOCTETRA_BENCH=$(on_if_installed bench)" -DCMAKE_DISABLE_PRECOMPILE_HEADERS=ON
+    "-DOCTETRA_BENCH=$(on_if_installed bench)" -DCMAKE_DISABLE_PRECOMPILE_HEADERS=ON \
+    -DOCTETRA_UNITY=OFF  # it takes one file at a time
 if ((${#files[@]} == 0)); then
     mapfile -t files < <(sed -n 's/^ *"file": "\(.*\)",*$/\1/p' build/clang/compile_commands.json |
         grep -vF "$root/build/" | sort -u)

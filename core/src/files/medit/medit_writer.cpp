@@ -14,7 +14,7 @@ namespace {
 /// Where the entities of a section come from, and their reference numbers, which are 0 where the
 /// mesh has no markers.
 template <std::size_t N>
-struct Section {
+struct EntitySection {
     std::string_view keyword;
     std::uint64_t count;
     std::span<const VertexNumbers<N>> (MeshSource::*vertices)(const Window&);
@@ -22,8 +22,8 @@ struct Section {
     std::span<const Marker> (MeshSource::*markers)(const Window&);
 };
 
-void put_heading(OutputFile& out, const ProcessGroup& group, std::string_view keyword,
-                 std::uint64_t count) {
+void put_section_heading(OutputFile& out, const ProcessGroup& group, std::string_view keyword,
+                         std::uint64_t count) {
     if (!group.is_first()) return;
     out.put(keyword);
     out.put('\n');
@@ -32,8 +32,8 @@ void put_heading(OutputFile& out, const ProcessGroup& group, std::string_view ke
 }
 
 template <std::size_t N>
-void write_section(OutputFile& out, MeshSource& mesh, const Section<N>& section) {
-    put_heading(out, mesh.group(), section.keyword, section.count);
+void write_section(OutputFile& out, MeshSource& mesh, const EntitySection<N>& section) {
+    put_section_heading(out, mesh.group(), section.keyword, section.count);
     put_list(out, section.count, mesh.group(), [&](const Window& window, std::uint64_t) {
         const auto entities = (mesh.*section.vertices)(window);
         std::span<const Marker> markers;
@@ -51,7 +51,7 @@ void write_section(OutputFile& out, MeshSource& mesh, const Section<N>& section)
 
 void write_vertices(OutputFile& out, MeshSource& mesh) {
     const MeshFacts& facts = mesh.facts();
-    put_heading(out, mesh.group(), "Vertices", facts.vertices);
+    put_section_heading(out, mesh.group(), "Vertices", facts.vertices);
     put_list(out, facts.vertices, mesh.group(), [&](const Window& window, std::uint64_t) {
         const std::span<const Point> points = mesh.points(window);
         std::span<const Marker> markers;

@@ -5,6 +5,9 @@ ranks=$1
 shift
 export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1
 export OMPI_MCA_btl_vader_single_copy_mechanism=none OMPI_MCA_rmaps_base_oversubscribe=1
+# All is on one machine: to look for other networks takes longer than many a test. (Without room for
+# shared memory there is TCP.)
+export OMPI_MCA_pml=ob1 OMPI_MCA_btl=self,vader,tcp
 # Every mpirun would bind its first rank to the same core, also while another test runs there.
 export OMPI_MCA_hwloc_base_binding_policy=none
 # Open MPI keeps some memory until the end of the process, which the leak sanitizer would report;

@@ -20,6 +20,7 @@
 #include <octetra/reference/refine.hpp>
 #include <octetra/verify/verify.hpp>
 
+#include "distributed/adaptive_steps.hpp"
 #include "distributed/marked_mesh.hpp"
 #include "distributed/seen_mesh.hpp"
 #include "distributed/world.hpp"
@@ -31,35 +32,8 @@
 namespace octetra::distributed {
 namespace {
 
-AdaptiveMesh shared_out(const Mesh& mesh, const Partition& partition) {
-    return AdaptiveMesh::distribute(test::world(), mesh,
-                                    partition_cells(mesh, test::world().size(), partition));
-}
-
 const Partition at_random{.method = PartitionMethod::random, .seed = 7};
 const Partition in_blocks{.method = PartitionMethod::block};
-
-Corners corners_of(const AdaptiveMesh& mesh, std::size_t cell) {
-    Corners corners;
-    for (std::size_t k = 0; k < 4; ++k) corners[k] = mesh.points()[mesh.cells()[cell][k].value()];
-    return corners;
-}
-
-std::vector<std::uint8_t> marks_of(const AdaptiveMesh& mesh, const Selection& selection) {
-    std::vector<std::uint8_t> bytes(mesh.cells().size());
-    for (std::size_t c = 0; c < bytes.size(); ++c) {
-        bytes[c] = marks(selection, corners_of(mesh, c), 0, GlobalCell{0}) ? 1 : 0;
-    }
-    return bytes;
-}
-
-/// Steps that change little, much, little: incremental levels, full sweeps, and from one to the
-/// other.
-const std::vector<Selection> steps{
-    {.spheres = {{{0.5, 0.5, 0.5}, 0.45}}}, {.spheres = {{{0.5, 0.5, 0.5}, 0.35}}},
-    {.random = RandomShare{0.3, 5}},        {.spheres = {{{2.5, 2.5, 2.5}, 0.45}}},
-    {.spheres = {{{2.5, 2.5, 2.5}, 0.35}}}, {.all = true},
-};
 
 /// The first process's mesh after these steps, by the reference; nothing on the others.
 Mesh expected_after(const Mesh& mesh, std::span<const Selection> selections, Scheme scheme) {
@@ -71,7 +45,6 @@ Mesh expected_after(const Mesh& mesh, std::span<const Selection> selections, Sch
     return fine;
 }
 
-class AdaptiveMeshIn : public testing::TestWithParam<Partition> {};
 INSTANTIATE_TEST_SUITE_P(Parts, AdaptiveMeshIn, testing::Values(Partition{}, in_blocks, at_random),
                          [](const auto& i) { return fmt::format("{}", i.index); });
 
@@ -410,54 +383,6 @@ TEST_P(AdaptiveMeshIn, IsJudgedWithoutBeingCollectedOrChanged) {
         {.request = verify::Request{selection, Scheme::eight, 1}});
     EXPECT_TRUE(verdict.valid());
     (void)mesh.refine(Selection{.all = true});  // it can go on
-}
-
-TEST_P(AdaptiveMeshIn, IsAsItWasAfterAStepThatIsRefused) {
-    const auto& world = test::world();
-    const bool is_last = world.rank() == world.size() - 1;
-    AdaptiveMesh mesh = shared_out(test::marked(test::shaken_kuhn(3, 0.2, 1), 1), GetParam());
-    for (const Selection& selection : {steps[0], steps[2], steps[0]}) {
-        const test::SeenMesh before(mesh);
-        auto marks = marks_of(mesh, {.all = true});
-        if (is_last) marks.push_back(1);
-        const auto words = test::thrown_by<InputError>([&] { (void)mesh.refine(marks); });
-        EXPECT_THAT(words, testing::StartsWith(fmt::format("rank {}: ", world.size() - 1)));
-        std::vector<CellIndex> listed;
-        if (is_last) listed.push_back(CellIndex{mesh.cells().size()});
-        EXPECT_THROW((void)mesh.refine(listed), InputError);
-        std::vector<EdgeVertices> no_edges;
-        if (is_last) no_edges.push_back({VertexIndex{0}, VertexIndex{mesh.points().size()}});
-        EXPECT_THROW((void)mesh.refine_edges(no_edges), InputError);
-        EXPECT_THROW((void)mesh.refine(selection, {.max_cells = 10}), InputError);
-        EXPECT_TRUE(before == test::SeenMesh(mesh));
-        EXPECT_FALSE(mesh.refine(Selection{}).changed);
-        EXPECT_TRUE(before == test::SeenMesh(mesh));
-        (void)mesh.refine(selection);
-    }
-}
-
-TEST_P(AdaptiveMeshIn, IsAsItWasAfterAStepThatRoundingForbids) {
-    // Whole numbers are all that there is: some levels down an edge has no midpoint.
-    Mesh whole = test::kuhn(3, 3, 3, 8);
-    for (Point& p : whole.points) p = {p.x + 0x1p52, p.y + 0x1p52, p.z + 0x1p52};
-    const Selection corner{
-        .boxes = {{{0x1p52, 0x1p52, 0x1p52}, {0x1p52 + 8, 0x1p52 + 8, 0x1p52 + 8}}}};
-    for (const Selection& selection : {corner, Selection{.all = true}}) {
-        AdaptiveMesh mesh = shared_out(whole, GetParam());
-        int steps_taken = 0;
-        while (true) {
-            const test::SeenMesh before(mesh);
-            try {
-                (void)mesh.refine(selection);
-                ++steps_taken;
-            } catch (const InputError& error) {
-                EXPECT_THAT(error.what(), testing::HasSubstr("midpoints"));
-                EXPECT_TRUE(before == test::SeenMesh(mesh));
-                break;
-            }
-        }
-        EXPECT_GE(steps_taken, 1);
-    }
 }
 
 }  // namespace

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include <octetra/core/orientation.hpp>
+#include <octetra/distributed/adaptive_mesh.hpp>
+
+#include "distributed/world.hpp"
+
+/// What tests of the mesh of a solver's loop have in common.
+namespace octetra::distributed {
+
+inline AdaptiveMesh shared_out(const Mesh& mesh, const Partition& partition) {
+    return AdaptiveMesh::distribute(test::world(), mesh,
+                                    partition_cells(mesh, test::world().size(), partition));
+}
+
+inline Corners corners_of(const AdaptiveMesh& mesh, std::size_t cell) {
+    Corners corners;
+    for (std::size_t k = 0; k < 4; ++k) corners[k] = mesh.points()[mesh.cells()[cell][k].value()];
+    return corners;
+}
+
+inline std::vector<std::uint8_t> marks_of(const AdaptiveMesh& mesh, const Selection& selection) {
+    std::vector<std::uint8_t> bytes(mesh.cells().size());
+    for (std::size_t c = 0; c < bytes.size(); ++c) {
+        bytes[c] = marks(selection, corners_of(mesh, c), 0, GlobalCell{0}) ? 1 : 0;
+    }
+    return bytes;
+}
+
+/// Steps that change little, much, little: incremental levels, full sweeps, and from one to the
+/// other.
+inline const std::vector<Selection> steps{
+    {.spheres = {{{0.5, 0.5, 0.5}, 0.45}}}, {.spheres = {{{0.5, 0.5, 0.5}, 0.35}}},
+    {.random = RandomShare{0.3, 5}},        {.spheres = {{{2.5, 2.5, 2.5}, 0.45}}},
+    {.spheres = {{{2.5, 2.5, 2.5}, 0.35}}}, {.all = true},
+};
+
+/// By how the cells are shared out in the beginning.
+class AdaptiveMeshIn : public testing::TestWithParam<Partition> {};
+
+}  // namespace octetra::distributed

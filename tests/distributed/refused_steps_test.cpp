@@ -1,0 +1,80 @@
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <octetra/core/error.hpp>
+#include <octetra/distributed/adaptive_mesh.hpp>
+
+#include "distributed/adaptive_steps.hpp"
+#include "distributed/marked_mesh.hpp"
+#include "distributed/seen_mesh.hpp"
+#include "distributed/world.hpp"
+#include "support/meshes.hpp"
+#include "support/thrown.hpp"
+
+/// A step that is refused leaves the mesh as it was.
+namespace octetra::distributed {
+namespace {
+
+TEST_P(AdaptiveMeshIn, IsAsItWasAfterAStepThatIsRefused) {
+    const auto& world = test::world();
+    const bool is_last = world.rank() == world.size() - 1;
+    AdaptiveMesh mesh = shared_out(test::marked(test::shaken_kuhn(3, 0.2, 1), 1), GetParam());
+    for (const Selection& selection : {steps[0], steps[2], steps[0]}) {
+        const test::SeenMesh before(mesh);
+        auto marks = marks_of(mesh, {.all = true});
+        if (is_last) marks.push_back(1);
+        const auto words = test::thrown_by<InputError>([&] { (void)mesh.refine(marks); });
+        EXPECT_THAT(words, testing::StartsWith(fmt::format("rank {}: ", world.size() - 1)));
+        std::vector<CellIndex> listed;
+        if (is_last) listed.push_back(CellIndex{mesh.cells().size()});
+        EXPECT_THROW((void)mesh.refine(listed), InputError);
+        std::vector<EdgeVertices> no_edges;
+        if (is_last) no_edges.push_back({VertexIndex{0}, VertexIndex{mesh.points().size()}});
+        EXPECT_THROW((void)mesh.refine_edges(no_edges), InputError);
+        EXPECT_THROW((void)mesh.refine(selection, {.max_cells = 10}), InputError);
+        EXPECT_TRUE(before == test::SeenMesh(mesh));
+        EXPECT_FALSE(mesh.refine(Selection{}).changed);
+        EXPECT_TRUE(before == test::SeenMesh(mesh));
+        (void)mesh.refine(selection);
+    }
+}
+
+TEST_P(AdaptiveMeshIn, IsAsItWasAfterAStepThatRoundingForbids) {
+    // Whole numbers are all that there is: some levels down an edge has no midpoint.
+    Mesh whole = test::kuhn(3, 3, 3, 8);
+    for (Point& p : whole.points) p = {p.x + 0x1p52, p.y + 0x1p52, p.z + 0x1p52};
+    const Selection corner{
+        .boxes = {{{0x1p52, 0x1p52, 0x1p52}, {0x1p52 + 8, 0x1p52 + 8, 0x1p52 + 8}}}};
+    for (const Selection& selection : {corner, Selection{.all = true}}) {
+        AdaptiveMesh mesh = shared_out(whole, GetParam());
+        int steps_taken = 0;
+        while (true) {
+            const test::SeenMesh before(mesh);
+            try {
+                (void)mesh.refine(selection);
+                ++steps_taken;
+            } catch (const InputError& error) {
+                EXPECT_THAT(error.what(), testing::HasSubstr("midpoints"));
+                EXPECT_TRUE(before == test::SeenMesh(mesh));
+                break;
+            }
+        }
+        EXPECT_GE(steps_taken, 1);
+    }
+}
+
+TEST_P(AdaptiveMeshIn, IsAsItWasAfterAStepThatChangesMuchAndIsRefusedAfterOneThatChangedLittle) {
+    // Small steps leave lists in another order, and a full sweep needs the canonical one.
+    AdaptiveMesh mesh = shared_out(test::marked(test::shaken_kuhn(6, 0.2, 1), 1), GetParam());
+    for (const Selection& small : {steps[0], steps[1], steps[3]}) {
+        (void)mesh.refine(small);
+        const test::SeenMesh before(mesh);
+        const auto cells = test::world().sum(mesh.cells().size());
+        EXPECT_THROW((void)mesh.refine(Selection{.all = true}, {.max_cells = cells}), InputError);
+        EXPECT_TRUE(before == test::SeenMesh(mesh));
+    }
+}
+
+}  // namespace
+}  // namespace octetra::distributed

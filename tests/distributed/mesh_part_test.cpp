@@ -2,6 +2,7 @@
 #include <functional>
 #include <map>
 #include <numeric>
+#include <set>
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -121,14 +122,31 @@ TEST(MeshPart, WithCellNumbersMakesTheMeshThatAFileWouldHave) {
     }
 }
 
+std::function<int(CellIndex)> blocks_of(const Mesh& mesh) {
+    const auto per_rank = mesh.cells.size() / static_cast<std::size_t>(test::world().size()) + 1;
+    return [per_rank](CellIndex c) { return static_cast<int>(c.value() / per_rank); };
+}
+
 TEST(MeshPart, WithoutCellNumbersHasTheCellsInTheOrderOfTheRanks) {
     const Mesh mesh = test::kuhn(2, 2, 2);
-    const auto per_rank = mesh.cells.size() / static_cast<std::size_t>(test::world().size()) + 1;
-    const auto in_blocks = [&](CellIndex c) { return static_cast<int>(c.value() / per_rank); };
     const AdaptiveMesh parts =
-        AdaptiveMesh::from_parts(test::world(), part_of(mesh, in_blocks, false));
+        AdaptiveMesh::from_parts(test::world(), part_of(mesh, blocks_of(mesh), false));
     const Mesh whole = parts.collect();
     EXPECT_TRUE(whole == mesh || !test::world().is_first());
+}
+
+TEST(MeshPart, KeepsNoVertexThatOnlyOthersUse) {
+    const Mesh mesh = test::kuhn(2, 2, 2);
+    MeshPart part = part_of(mesh, blocks_of(mesh), true);
+    std::set<std::uint64_t> used;
+    for (const auto& cell : part.cells) used.insert(cell.begin(), cell.end());
+    const auto listed = part.vertex_numbers.size();
+    const bool is_any_left_out = test::world().sum(listed - used.size()) > 0;
+    EXPECT_TRUE(is_any_left_out || test::world().size() == 1);
+    const AdaptiveMesh parts = AdaptiveMesh::from_parts(test::world(), std::move(part));
+    EXPECT_EQ(parts.points().size(), used.size());
+    for (const GlobalVertex v : parts.vertex_numbers())
+        EXPECT_TRUE(used.contains(static_cast<std::uint64_t>(v)));
 }
 
 TEST(MeshPart, KeepsVerticesOfNoCellOnOneProcess) {

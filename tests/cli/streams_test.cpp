@@ -107,12 +107,14 @@ TEST_F(Streams, ThatCannotBeUsedChangeNoFileAndNoStatusButWhereResultsAreLost) {
         {"refine --help", 0, true},
         {"nonsense", 2},
     };
+    std::size_t turn = 0;  // under sanitizers each command has every fourth
     for (const Command& command : commands) {
         const test::Outcome open = run(command.arguments, "");
         ASSERT_EQ(open.status, command.status) << command.arguments << "\n" << open.err;
         ASSERT_EQ(open.out.empty(), !command.prints) << command.arguments << "\n" << open.out;
         const std::string written = take(command.file);
         for (const Redirection& redirection : redirections) {
+            if (OCTETRA_SANITIZED && turn++ % 4 != 0) continue;
             SCOPED_TRACE(command.arguments + " " + redirection.text);
             const bool is_lost = redirection.loses_results && command.prints;
             EXPECT_EQ(run(command.arguments, redirection.text).status,

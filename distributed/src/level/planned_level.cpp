@@ -179,4 +179,15 @@ PlannedLevel plan_level(DistributedMesh& mesh, const std::function<MarkedCells()
     return plan;
 }
 
+PlannedLevel plan_closed_level(DistributedMesh& mesh,
+                               const std::function<MarkedCells()>& mark_cells, const Tuning& tuning,
+                               int level) {
+    PlannedLevel plan;
+    LocalFailure failure;
+    failure.attempt([&] { begin_level(mesh, {}, tuning, mark_cells(), plan); });
+    failure.agree(mesh.processes);
+    bisect(*plan.level, mesh, {}, level);
+    return plan;
+}
+
 }  // namespace octetra::distributed

@@ -36,4 +36,10 @@ struct PlannedLevel {
                                       const RefineOptions& options, const Tuning& tuning,
                                       int level);
 
+/// Collective. The same, where the edges of the marked cells are known to be closed on all
+/// processes together.
+[[nodiscard]] PlannedLevel plan_closed_level(DistributedMesh& mesh,
+                                             const std::function<MarkedCells()>& mark_cells,
+                                             const Tuning& tuning, int level);
+
 }  // namespace octetra::distributed

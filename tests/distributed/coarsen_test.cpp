@@ -1,0 +1,94 @@
+#include <gtest/gtest.h>
+
+#include <octetra/distributed/partition.hpp>
+#include <octetra/reference/history.hpp>
+
+#include "distributed/marked_mesh.hpp"
+#include "distributed/recorded.hpp"
+#include "distributed/world.hpp"
+#include "support/meshes.hpp"
+
+/// The engine's coarsening, edit by edit, beside the reference's.
+namespace octetra::distributed {
+namespace {
+
+/// Collective. The same steps by both.
+class Both {
+public:
+    explicit Both(const Mesh& mesh, std::uint64_t seed)
+        : reference_{mesh, {}},
+          engine_{distribute(test::world(), mesh,
+                             partition_cells(mesh, test::world().size(),
+                                             parse_partition("random:" + std::to_string(seed))))} {}
+
+    void refine(const Selection& selection, Scheme scheme, const Tuning& tuning) {
+        engine_.refine(selection, scheme, tuning);
+        reference_ = reference::refined(reference_, marks(selection), scheme);
+    }
+    Coarser coarsen(const Selection& selection) {
+        Coarser coarser = engine_.coarsen(selection);
+        reference_ = reference::coarsened(reference_, marks(selection));
+        return coarser;
+    }
+    void expect_equal() const {
+        const Mesh expected = reference::replay(reference_).back().mesh;
+        const Mesh found = collect_copy(engine_.mesh).mesh;
+        if (!test::world().is_first()) return;
+        EXPECT_EQ(found.cells.size(), expected.cells.size());
+        EXPECT_TRUE(found == expected);
+    }
+    [[nodiscard]] const DistributedMesh& mesh() const { return engine_.mesh; }
+    [[nodiscard]] const reference::History& history() const { return reference_; }
+
+private:
+    [[nodiscard]] reference::CellMarks marks(const Selection& selection) const {
+        return reference::marked_cells(reference::replay(reference_).back(), selection);
+    }
+
+    reference::History reference_;
+    test::Recorded engine_;
+};
+
+class Coarsening : public testing::TestWithParam<std::uint64_t> {};
+
+TEST_P(Coarsening, IsTheReferencesStepByStep) {
+    std::mt19937_64 random(GetParam());
+    const bool has_ties = GetParam() % 2 == 0;
+    const Mesh lattice = has_ties ? test::kuhn(3, 3, 3) : test::shaken_kuhn(3, 0.2, GetParam());
+    Both both(test::marked(lattice, 1), GetParam());
+    constexpr std::array<Scheme, 3> schemes{Scheme::eight, Scheme::four, Scheme::two};
+    for (int step = 0; step < 8; ++step) {
+        Selection selection;
+        constexpr std::array<double, 4> shares{0.004, 0.1, 0.5, 0.95};
+        selection.random = RandomShare{shares[random() % 4], random()};
+        const Tuning tuning{.incremental_below = random() % 3 == 0 ? 0.0 : 1.0};
+        const Scheme scheme = schemes[random() % 3];
+        if (step >= 2 && random() % 2 == 0) {
+            both.coarsen(random() % 4 == 0 ? Selection{.all = true} : selection);
+        } else {
+            selection.random->fraction /= 5;
+            both.refine(selection, scheme, tuning);
+        }
+        both.expect_equal();
+    }
+}
+
+TEST_P(Coarsening, OfAllAgainAndAgainEndsInTheInput) {
+    const Mesh mesh = test::marked(test::shaken_kuhn(2, 0.2, GetParam()), 1);
+    Both both(mesh, GetParam());
+    for (std::uint64_t step = 0; step < 3; ++step) {
+        both.refine({.random = RandomShare{0.2, GetParam() + step}}, Scheme::eight, {});
+    }
+    for (int step = 0; step < 3; ++step) {
+        both.coarsen({.all = true});
+        both.expect_equal();
+    }
+    EXPECT_TRUE(both.history().steps.empty());
+    const Mesh found = collect_copy(both.mesh()).mesh;
+    EXPECT_TRUE(found == mesh || !test::world().is_first());
+}
+
+INSTANTIATE_TEST_SUITE_P(Seeds, Coarsening, testing::Range<std::uint64_t>(0, 12));
+
+}  // namespace
+}  // namespace octetra::distributed

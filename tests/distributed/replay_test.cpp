@@ -1,0 +1,91 @@
+#include <gtest/gtest.h>
+
+#include <octetra/distributed/partition.hpp>
+
+#include "distributed/marked_mesh.hpp"
+#include "distributed/recorded.hpp"
+#include "distributed/world.hpp"
+#include "support/meshes.hpp"
+
+/// What the history of a part keeps makes the part again.
+namespace octetra::distributed {
+namespace {
+
+void expect_equal(const AncestorMap& a, const AncestorMap& b) {
+    EXPECT_EQ(a.roots, b.roots);
+    EXPECT_EQ(a.first, b.first);
+    EXPECT_EQ(a.markers, b.markers);
+}
+
+void expect_equal(const DistributedMesh& a, const DistributedMesh& b) {
+    EXPECT_EQ(a.points, b.points);
+    EXPECT_EQ(a.point_attributes, b.point_attributes);
+    EXPECT_EQ(a.input_vertices, b.input_vertices);
+    EXPECT_EQ(a.level_begin, b.level_begin);
+    EXPECT_EQ(a.midpoint_to_edge, b.midpoint_to_edge);
+    EXPECT_EQ(a.cells, b.cells);
+    EXPECT_EQ(a.facets, b.facets);
+    EXPECT_EQ(a.edges, b.edges);
+    expect_equal(a.cell_ancestors, b.cell_ancestors);
+    expect_equal(a.facet_ancestors, b.facet_ancestors);
+    expect_equal(a.edge_ancestors, b.edge_ancestors);
+    ASSERT_EQ(a.midpoint_markers.size(), b.midpoint_markers.size());
+    for (std::size_t i = 0; i < a.midpoint_markers.size(); ++i) {
+        EXPECT_EQ(a.midpoint_markers[i].source, b.midpoint_markers[i].source);
+        EXPECT_EQ(a.midpoint_markers[i].marker, b.midpoint_markers[i].marker);
+    }
+    ASSERT_EQ(a.interfaces.size(), b.interfaces.size());
+    for (std::size_t i = 0; i < a.interfaces.size(); ++i) {
+        EXPECT_EQ(a.interfaces[i].rank, b.interfaces[i].rank);
+        EXPECT_EQ(a.interfaces[i].edges, b.interfaces[i].edges);
+        EXPECT_EQ(a.interfaces[i].faces, b.interfaces[i].faces);
+    }
+}
+
+class Replay : public testing::TestWithParam<std::uint64_t> {};
+
+TEST_P(Replay, GivesEveryNumberAndBitOfThePartAgain) {
+    std::mt19937_64 random(GetParam());
+    const Mesh mesh = test::marked(test::shaken_kuhn(3, 0.2, GetParam()), 1);
+    const auto ranks = partition_cells(mesh, test::world().size(),
+                                       parse_partition("random:" + std::to_string(GetParam())));
+    test::Recorded recorded{distribute(test::world(), mesh, ranks)};
+    constexpr std::array<Scheme, 3> schemes{Scheme::eight, Scheme::four, Scheme::two};
+    for (int step = 0; step < 8; ++step) {
+        Selection selection;
+        selection.random = RandomShare{random() % 3 == 0 ? 0.2 : 0.004, random()};
+        const Tuning tuning{.incremental_below = random() % 3 == 0 ? 0.0 : 1.0};
+        recorded.refine(selection, schemes[random() % 3], tuning);
+        const std::vector<CutRuns> steps = recorded.history.steps(recorded.cells_in_order());
+        for (const double incremental_below : {0.0, 1.0}) {
+            DistributedMesh again = recorded.history.input_of(recorded.mesh);
+            replay(again, steps, {.incremental_below = incremental_below});
+            restore_canonical_order(again);
+            const CanonicalOrder order(recorded.mesh);
+            expect_equal(again, recorded.mesh);
+        }
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Seeds, Replay, testing::Range<std::uint64_t>(0, 6));
+
+TEST(CutRuns, ReadBackAsWritten) {
+    std::mt19937_64 random(1);
+    std::vector<std::pair<Cut, std::uint64_t>> written;
+    CutRuns runs;
+    for (int i = 0; i < 1000; ++i) {
+        const auto cut =
+            static_cast<Cut>((written.empty() ? 0U : written.back().first + 1U) % 127U);
+        written.emplace_back(
+            cut, random() % 4 == 0 ? random() >> (random() % 50U + 2) : random() % 4 + 1);
+        if (written.back().second == 0) written.back().second = 1;
+        runs.append(written.back().first, written.back().second);
+    }
+    runs.finish();
+    std::vector<std::pair<Cut, std::uint64_t>> read;
+    for_each_run(runs, [&](Cut cut, std::uint64_t count) { read.emplace_back(cut, count); });
+    EXPECT_EQ(read, written);
+}
+
+}  // namespace
+}  // namespace octetra::distributed

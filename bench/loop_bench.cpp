@@ -50,6 +50,7 @@ void measure_uniform(const Communicator& world, const Input& input) {
     double engine = never;
     double library = never;
     double transfer = never;
+    double coarsening = never;
     double per_cell = 0;
     for (int repeat = 0; repeat < 3; ++repeat) {
         {
@@ -69,12 +70,15 @@ void measure_uniform(const Communicator& world, const Input& input) {
                                 q = step.transfer_cells(std::move(q));
                             }));
         per_cell = static_cast<double>(peak_bytes()) / static_cast<double>(mesh.cells().size());
+        step = distributed::Adaptation();
+        coarsening = std::min(
+            coarsening, seconds_of(world, [&] { (void)mesh.coarsen(Selection{.all = true}); }));
     }
     if (!world.is_first()) return;
     fmt::print(
         "uniform: engine {:.3f} s, library {:.3f} s ({:.2f}), transfer {:.3f} s; peak memory "
-        "{:.0f} bytes a cell\n",
-        engine, library, library / engine, transfer, per_cell);
+        "{:.0f} bytes a cell; taken back in {:.3f} s\n",
+        engine, library, library / engine, transfer, per_cell, coarsening);
 }
 
 /// A ball of about so many cells of the lattice.
@@ -126,6 +130,15 @@ void measure_small(const Communicator& world, const Input& input, std::size_t cu
                 "{:.2f} ms\n",
                 step + 1, cells - before, 1e3 * engine, 1e3 * library, 1e3 * transfer);
         }
+    }
+    const auto before = world.sum(mesh.cells().size());
+    Selection selection;
+    selection.spheres.push_back(ball(cubes, 8 * marked, 4));
+    const std::vector<std::uint8_t> may_go = marks_of(selection, mesh);
+    const double seconds = seconds_of(world, [&] { (void)mesh.coarsen(may_go); });
+    const auto cells = world.sum(mesh.cells().size());
+    if (world.is_first()) {
+        fmt::print("{} cells fewer by coarsening: {:.2f} ms\n", before - cells, 1e3 * seconds);
     }
 }
 

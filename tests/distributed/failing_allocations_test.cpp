@@ -122,6 +122,12 @@ TEST(FailingAllocations, OfAStepBySoManyMarkedEdgesLeaveTheMeshAsItWas) {
     EXPECT_GE(failures, 20U);
 }
 
+TEST(FailingAllocations, OfCoarseningLeaveTheMeshAsItWasOnAllProcesses) {
+    const std::uint64_t failures =
+        let_each_fail(2, [&](AdaptiveMesh& mesh) { return [&] { (void)mesh.coarsen(steps[0]); }; });
+    EXPECT_GE(failures, 100U);
+}
+
 TEST(FailingAllocations, OfAnExchangeAreThrownOnAllProcesses) {
     const std::uint64_t failures = let_each_fail(1, [&](AdaptiveMesh& mesh) {
         std::vector<double> values(mesh.points().size(), 1);

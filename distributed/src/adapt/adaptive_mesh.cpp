@@ -11,75 +11,14 @@
 #include <octetra/distributed/profile.hpp>
 
 #include "adapt/marks.hpp"
-#include "comm/local_failure.hpp"
-#include "level/planned_level.hpp"
-#include "numbering/canonical_numbers.hpp"
-#include "sharing/sharing_builder.hpp"
-#include "sharing/vertex_sharing.hpp"
+#include "adapt/mesh_state.hpp"
 #include "topology/face_neighbours.hpp"
 #include "topology/find_ghosts.hpp"
 #include "topology/number_sides.hpp"
 
 namespace octetra::distributed {
 
-struct AdaptiveMesh::State {
-    DistributedMesh mesh;
-    CanonicalNumbers numbers;
-    Sharing<VertexIndex> sharing;
-    int step_count = 0;
-
-    explicit State(DistributedMesh part)
-        : mesh(std::move(part)), numbers(input_numbers(mesh)), sharing(find_vertex_sharing(mesh)) {}
-
-    Adaptation step(const std::function<MarkedCells()>& mark, const StepOptions& options);
-};
-
 namespace {
-
-/// The numbers of a level's new vertices: taken back unless they are kept.
-class NewNumbers {
-public:
-    explicit NewNumbers(CanonicalNumbers& numbers)
-        : numbers_(&numbers), end_(numbers.of_vertex.end_index()), count_(numbers.vertex_count) {}
-    ~NewNumbers() {
-        if (numbers_ != nullptr) numbers_->forget_from(end_, count_);
-    }
-    NewNumbers(const NewNumbers&) = delete;
-    NewNumbers& operator=(const NewNumbers&) = delete;
-    NewNumbers(NewNumbers&&) = delete;
-    NewNumbers& operator=(NewNumbers&&) = delete;
-    void keep() noexcept { numbers_ = nullptr; }
-
-private:
-    CanonicalNumbers* numbers_;
-    VertexIndex end_;
-    std::uint64_t count_;
-};
-
-/// Before the level is committed.
-Adaptation adaptation_of(PlannedLevel& plan, const DistributedMesh& mesh) {
-    const std::size_t before = mesh.level_begin.back().value();
-    const auto new_ends =
-        std::span(mesh.midpoint_to_edge).subspan(before - mesh.input_vertices.size());
-    ListChanges changes = plan.changes();
-    return {.changed = true,
-            .cells = std::move(changes.cells),
-            .facets = std::move(changes.facets),
-            .edges = std::move(changes.edges),
-            .vertex_count_before = before,
-            .new_vertex_ends = {new_ends.begin(), new_ends.end()},
-            .synchronisation = plan.counts};
-}
-
-Adaptation unchanged(const DistributedMesh& mesh) {
-    return {.changed = false,
-            .cells = Succession(mesh.cells.size()),
-            .facets = Succession(mesh.facets.size()),
-            .edges = Succession(mesh.edges.size()),
-            .vertex_count_before = mesh.points.size(),
-            .new_vertex_ends = {},
-            .synchronisation = {}};
-}
 
 /// The marker of each entity of a list.
 template <class I>
@@ -102,44 +41,6 @@ std::vector<Marker> all_markers(const AncestorMap& ancestors, const auto* unorde
 }
 
 }  // namespace
-
-Adaptation AdaptiveMesh::State::step(const std::function<MarkedCells()>& mark,
-                                     const StepOptions& options) {
-    const RefineOptions refine_options{.scheme = options.scheme,
-                                       .levels = 1,
-                                       .synchronisation = options.synchronisation,
-                                       .max_cells = options.max_cells,
-                                       .on_level = {}};
-    const int level = step_count + 1;
-    const Phase phase(mesh.processes, "level", level);
-    PlannedLevel plan = plan_level(mesh, mark, refine_options, Tuning{}, level);
-    if (!plan.changes_anything()) return unchanged(mesh);
-
-    NewNumbers new_numbers(numbers);
-    SharingBuilder<VertexIndex> shared(sharing, mesh.processes.rank());
-    Adaptation adaptation;
-    LocalFailure failure;
-    {
-        const Phase numbering(mesh.processes, "number vertices");
-        numbers.number_midpoints(mesh, mesh.points.end_index(), sharing.shared(), failure);
-    }
-    failure.attempt([&] {
-        auto midpoints = plan.level->shared_midpoints();
-        for (std::size_t i = 0; i < midpoints.size(); ++i) {
-            shared.share(mesh.interfaces[i].rank, std::move(midpoints[i]));
-        }
-        shared.prepare(
-            [&](VertexIndex v) { return static_cast<std::uint64_t>(numbers.of_vertex[v]); });
-        adaptation = adaptation_of(plan, mesh);
-    });
-    failure.agree(mesh.processes);
-
-    plan.commit();
-    shared.commit();
-    new_numbers.keep();
-    ++step_count;
-    return adaptation;
-}
 
 AdaptiveMesh::AdaptiveMesh(std::unique_ptr<State> state) : state_(std::move(state)) {}
 AdaptiveMesh::AdaptiveMesh(DistributedMesh part)
@@ -173,20 +74,32 @@ Adaptation AdaptiveMesh::refine(std::span<const std::uint8_t> marks, const StepO
     const bool all_here =
         marks.size() == cells().size() && std::ranges::find(marks, 0) == marks.end();
     if (processes().max(all_here ? 0 : 1) == 0) return refine(Selection{.all = true}, options);
-    return state_->step([&] { return marked_by_bytes(state_->mesh, marks); }, options);
+    return state_->refine([&] { return marked_by_bytes(state_->mesh, marks); }, options);
 }
 
 Adaptation AdaptiveMesh::refine(std::span<const CellIndex> marked, const StepOptions& options) {
-    return state_->step([&] { return marked_by_list(state_->mesh, marked); }, options);
+    return state_->refine([&] { return marked_by_list(state_->mesh, marked); }, options);
 }
 
 Adaptation AdaptiveMesh::refine(const Selection& selection, const StepOptions& options) {
-    return state_->step([&] { return mark_cells(state_->mesh, selection, false); }, options);
+    return state_->refine([&] { return mark_cells(state_->mesh, selection, false); }, options);
 }
 
 Adaptation AdaptiveMesh::refine_edges(std::span<const EdgeVertices> marked,
                                       const StepOptions& options) {
-    return state_->step([&] { return cells_with_marked_edges(state_->mesh, marked); }, options);
+    return state_->refine([&] { return cells_with_marked_edges(state_->mesh, marked); }, options);
+}
+
+Adaptation AdaptiveMesh::coarsen(std::span<const std::uint8_t> may_go) {
+    return coarsen_state(state_, [&] { return marked_by_bytes(state_->mesh, may_go); });
+}
+
+Adaptation AdaptiveMesh::coarsen(std::span<const CellIndex> may_go) {
+    return coarsen_state(state_, [&] { return marked_by_list(state_->mesh, may_go); });
+}
+
+Adaptation AdaptiveMesh::coarsen(const Selection& may_go) {
+    return coarsen_state(state_, [&] { return mark_cells(state_->mesh, may_go, false); });
 }
 
 const Communicator& AdaptiveMesh::processes() const { return state_->mesh.processes; }

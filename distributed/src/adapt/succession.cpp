@@ -36,4 +36,15 @@ std::vector<std::uint32_t> Succession::parents() const {
     return parents;
 }
 
+Succession Succession::of_merges(std::size_t count, std::vector<std::uint32_t> whole_of,
+                                 std::vector<std::uint8_t> halvings) {
+    Succession succession(whole_of.size());
+    succession.count_ = count;
+    succession.keeps_numbers_ = false;
+    succession.merges_ = true;
+    succession.whole_of_ = std::move(whole_of);
+    succession.halvings_ = std::move(halvings);
+    return succession;
+}
+
 }  // namespace octetra::distributed

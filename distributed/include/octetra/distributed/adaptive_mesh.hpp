@@ -79,6 +79,17 @@ public:
     /// closure adds. It is enough that one of the processes which have an edge lists it.
     Adaptation refine_edges(std::span<const EdgeVertices> marked, const StepOptions& options = {});
 
+    /// Collective. Takes refinement back where no cell needs it any more. `may_go` has a byte for
+    /// each cell of this process: not 0 where the cell may become part of the one that it was
+    /// bisected from. A vertex goes when all cells at it may, none of them has been bisected since,
+    /// and what stays conforms still; so every cell that is not marked stays, and none goes back
+    /// by more than one step. The mesh is then the one that its steps, without what was taken
+    /// back, make of the input. Marks of all cells, again and again, end in the input.
+    Adaptation coarsen(std::span<const std::uint8_t> may_go);
+    /// The same, of cells that are listed, in any order; or that the criteria mark.
+    Adaptation coarsen(std::span<const CellIndex> may_go);
+    Adaptation coarsen(const Selection& may_go);
+
     [[nodiscard]] const Communicator& processes() const;
 
     // This process's part. Spans are valid until the mesh is refined.
@@ -124,8 +135,9 @@ public:
     /// to the mesh, which must not be refined meanwhile.
     [[nodiscard]] CanonicalMesh canonical() const;
 
-private:
     struct State;
+
+private:
     explicit AdaptiveMesh(std::unique_ptr<State> state);
 
     std::unique_ptr<State> state_;

@@ -22,9 +22,11 @@ struct Division {
 /// How this process's cells, or tagged facets, or tagged edges became those after a step. All
 /// numbers are local.
 ///
-/// Where little changed, what was not bisected has its number still: of what was, the first piece
-/// has the number of the whole, and the others stand behind all that there was before. Where much
-/// changed, all have new numbers.
+/// Of refinement: where little changed, what was not bisected has its number still: of what was,
+/// the first piece has the number of the whole, and the others stand behind all that there was
+/// before. Where much changed, all have new numbers.
+///
+/// Of coarsening, merges() is true: pieces became wholes, and all have new numbers.
 class Succession {
 public:
     /// Nothing changed.
@@ -36,10 +38,18 @@ public:
     /// Has all that was not bisected its number still?
     [[nodiscard]] bool keeps_numbers() const { return keeps_numbers_; }
 
-    /// Calls visit(number, before, halvings) for each entity of after the step, where `before` is
-    /// the number of what it is or is a piece of; in ascending order where keeps_numbers() is
-    /// false. Where it is true, only for the pieces: those that take the place of a whole, and
-    /// those behind.
+    /// Was this coarsening? Then whole_of() and halvings() tell what became of what.
+    [[nodiscard]] bool merges() const { return merges_; }
+    /// For each entity of before, the one that it became or is a piece of.
+    [[nodiscard]] std::span<const std::uint32_t> whole_of() const { return whole_of_; }
+    /// Of cells, how often the whole had been halved for each of before: its share in the volume is
+    /// 2^-halvings, but for rounded midpoints.
+    [[nodiscard]] std::span<const std::uint8_t> halvings() const { return halvings_; }
+
+    /// Of refinement. Calls visit(number, before, halvings) for each entity of after the step,
+    /// where `before` is the number of what it is or is a piece of; in ascending order where
+    /// keeps_numbers() is false. Where it is true, only for the pieces: those that take the place
+    /// of a whole, and those behind.
     void for_each_new(auto&& visit) const {
         std::size_t next = keeps_numbers_ ? count_before_ : 0;
         const auto pieces = [&](std::uint32_t before, const Division& division, bool in_place) {
@@ -58,8 +68,8 @@ public:
         }
     }
 
-    /// Of each entity after the step, the number of what it is or is a piece of. Takes time in
-    /// proportion to all of them.
+    /// Of refinement. Of each entity after the step, the number of what it is or is a piece of.
+    /// Takes time in proportion to all of them.
     [[nodiscard]] std::vector<std::uint32_t> parents() const;
 
     // For who bisects.
@@ -75,6 +85,11 @@ public:
     [[nodiscard]] static Succession of_all(std::vector<std::uint8_t> division_of,
                                            std::span<const Division> divisions);
 
+    /// Of a list whose entities became `count` wholes. No halvings: not of cells.
+    [[nodiscard]] static Succession of_merges(std::size_t count,
+                                              std::vector<std::uint32_t> whole_of,
+                                              std::vector<std::uint8_t> halvings);
+
     /// Of a list whose entities were brought into another order first: `before` are the numbers
     /// that they had, or empty.
     void set_order(std::vector<std::uint32_t> before) { before_ = std::move(before); }
@@ -87,6 +102,9 @@ private:
     std::vector<Cut> cuts_;
     std::vector<std::uint32_t> before_;
     std::vector<std::uint8_t> division_of_;
+    bool merges_ = false;
+    std::vector<std::uint32_t> whole_of_;
+    std::vector<std::uint8_t> halvings_;
 };
 
 }  // namespace octetra::distributed

@@ -1,0 +1,138 @@
+#include "adapt/mesh_state.hpp"
+
+#include <span>
+#include <utility>
+
+#include <octetra/distributed/profile.hpp>
+
+#include "comm/local_failure.hpp"
+#include "history/replay.hpp"
+#include "sharing/sharing_builder.hpp"
+#include "sharing/vertex_sharing.hpp"
+
+namespace octetra::distributed {
+namespace {
+
+/// The numbers of a level's new vertices: taken back unless they are kept.
+class NewNumbers {
+public:
+    explicit NewNumbers(CanonicalNumbers& numbers)
+        : numbers_(&numbers), end_(numbers.of_vertex.end_index()), count_(numbers.vertex_count) {}
+    ~NewNumbers() {
+        if (numbers_ != nullptr) numbers_->forget_from(end_, count_);
+    }
+    NewNumbers(const NewNumbers&) = delete;
+    NewNumbers& operator=(const NewNumbers&) = delete;
+    NewNumbers(NewNumbers&&) = delete;
+    NewNumbers& operator=(NewNumbers&&) = delete;
+    void keep() noexcept { numbers_ = nullptr; }
+
+private:
+    CanonicalNumbers* numbers_;
+    VertexIndex end_;
+    std::uint64_t count_;
+};
+
+/// Before the level is committed.
+Adaptation adaptation_of(PlannedLevel& plan, const DistributedMesh& mesh) {
+    const std::size_t before = mesh.level_begin.back().value();
+    const auto new_ends =
+        std::span(mesh.midpoint_to_edge).subspan(before - mesh.input_vertices.size());
+    ListChanges changes = plan.changes();
+    return {.changed = true,
+            .cells = std::move(changes.cells),
+            .facets = std::move(changes.facets),
+            .edges = std::move(changes.edges),
+            .vertex_count_before = before,
+            .new_vertex_ends = {new_ends.begin(), new_ends.end()},
+            .synchronisation = plan.counts};
+}
+
+Adaptation unchanged(const DistributedMesh& mesh) {
+    return {.changed = false,
+            .cells = Succession(mesh.cells.size()),
+            .facets = Succession(mesh.facets.size()),
+            .edges = Succession(mesh.edges.size()),
+            .vertex_count_before = mesh.points.size(),
+            .new_vertex_ends = {},
+            .synchronisation = {}};
+}
+
+}  // namespace
+
+AdaptiveMesh::State::State(DistributedMesh part)
+    : mesh(std::move(part)),
+      numbers(input_numbers(mesh)),
+      sharing(find_vertex_sharing(mesh)),
+      history(mesh) {}
+
+AdaptiveMesh::State::State(DistributedMesh part, Sharing<VertexIndex> shared,
+                           std::vector<CutRuns> steps)
+    : mesh(std::move(part)),
+      numbers(input_numbers(mesh)),
+      sharing(std::move(shared)),
+      history(mesh, std::move(steps)) {}
+
+Adaptation AdaptiveMesh::State::refine(const std::function<MarkedCells()>& mark,
+                                       const StepOptions& options) {
+    const RefineOptions refine_options{.scheme = options.scheme,
+                                       .levels = 1,
+                                       .synchronisation = options.synchronisation,
+                                       .max_cells = options.max_cells,
+                                       .on_level = {}};
+    const int level = step_count + 1;
+    const Phase phase(mesh.processes, "level", level);
+    PlannedLevel plan = plan_level(mesh, mark, refine_options, Tuning{}, level);
+    if (!plan.changes_anything()) return unchanged(mesh);
+    Adaptation adaptation;
+    PartHistory::NewStep step;
+    commit(plan, [&] {
+        step = recorded(plan);
+        adaptation = adaptation_of(plan, mesh);
+    });
+    history.commit(std::move(step));
+    return adaptation;
+}
+
+void AdaptiveMesh::State::replay() {
+    for (const CutRuns& step : history.ordered_steps()) {
+        PlannedLevel plan = plan_step(mesh, step, Tuning{}, step_count + 1);
+        commit(plan, [] {});
+    }
+    LocalFailure failure;
+    failure.attempt([&] { restore_canonical_order(mesh); });
+    failure.agree(mesh.processes);
+}
+
+void AdaptiveMesh::State::commit(PlannedLevel& plan, const std::function<void()>& prepare) {
+    NewNumbers new_numbers(numbers);
+    SharingBuilder<VertexIndex> shared(sharing, mesh.processes.rank());
+    LocalFailure failure;
+    {
+        const Phase numbering(mesh.processes, "number vertices");
+        numbers.number_midpoints(mesh, mesh.points.end_index(), sharing.shared(), failure);
+    }
+    failure.attempt([&] {
+        auto midpoints = plan.level->shared_midpoints();
+        for (std::size_t i = 0; i < midpoints.size(); ++i) {
+            shared.share(mesh.interfaces[i].rank, std::move(midpoints[i]));
+        }
+        shared.prepare(
+            [&](VertexIndex v) { return static_cast<std::uint64_t>(numbers.of_vertex[v]); });
+        prepare();
+    });
+    failure.agree(mesh.processes);
+
+    plan.commit();
+    shared.commit();
+    new_numbers.keep();
+    ++step_count;
+}
+
+PartHistory::NewStep AdaptiveMesh::State::recorded(PlannedLevel& plan) {
+    const bool restores_order = plan.order != nullptr;
+    return history.prepare(mesh.cells.size(), plan.level->cut_cells(), restores_order,
+                           restores_order ? plan.order->cells_before() : std::vector<CellIndex>{});
+}
+
+}  // namespace octetra::distributed

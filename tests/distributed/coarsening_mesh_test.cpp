@@ -1,0 +1,162 @@
+#include <map>
+#include <random>
+
+#include <gtest/gtest.h>
+
+#include <octetra/core/error.hpp>
+#include <octetra/distributed/adaptive_mesh.hpp>
+#include <octetra/distributed/partition.hpp>
+#include <octetra/reference/history.hpp>
+
+#include "distributed/marked_mesh.hpp"
+#include "distributed/seen_mesh.hpp"
+#include "distributed/world.hpp"
+#include "support/meshes.hpp"
+#include "support/refinement.hpp"
+
+/// AdaptiveMesh::coarsen, and what it tells.
+namespace octetra::distributed {
+namespace {
+
+AdaptiveMesh shared_out(const Mesh& mesh, const std::string& partition) {
+    return AdaptiveMesh::distribute(
+        test::world(), mesh,
+        partition_cells(mesh, test::world().size(), parse_partition(partition)));
+}
+
+Selection some(double share, std::uint64_t seed) { return {.random = RandomShare{share, seed}}; }
+
+class CoarseningMesh : public testing::TestWithParam<std::uint64_t> {};
+
+/// Little and much, back and forth: full sweeps and incremental ones.
+std::vector<std::pair<bool, Selection>> random_steps(std::uint64_t seed) {
+    std::mt19937_64 random(seed);
+    std::vector<std::pair<bool, Selection>> steps{{true, some(0.1, seed)}};
+    for (int k = 0; k < 7; ++k) {
+        const bool refines = random() % 2 == 0;
+        constexpr std::array<double, 3> shares{0.002, 0.05, 0.9};
+        steps.emplace_back(refines, some(shares[random() % (refines ? 2 : 3)], random()));
+    }
+    return steps;
+}
+
+TEST_P(CoarseningMesh, IsTheReferencesOnEveryPartition) {
+    const Mesh input = test::marked(test::shaken_kuhn(4, 0.2, GetParam()), 1);
+    AdaptiveMesh mesh = shared_out(input, GetParam() % 2 == 0 ? "block" : "random:3");
+    reference::History history{input, {}};
+    for (const auto& [refines, selection] : random_steps(GetParam())) {
+        const auto marks = marked_cells(reference::replay(history).back(), selection);
+        const Adaptation step = refines ? mesh.refine(selection) : mesh.coarsen(selection);
+        const reference::History before = history;
+        history = refines ? reference::refined(history, marks, Scheme::eight)
+                          : reference::coarsened(history, marks);
+        EXPECT_EQ(step.changed, history.steps != before.steps);
+        const Mesh found = mesh.collect();
+        EXPECT_TRUE(found == reference::replay(history).back().mesh || !test::world().is_first());
+    }
+}
+
+/// Of vertices and cells, what the mesh says of them by where they are.
+TEST_P(CoarseningMesh, KnowsNumbersSharersAndOwnersAsIfItHadNeverBeenFiner) {
+    const Mesh input = test::marked(test::shaken_kuhn(3, 0.2, GetParam()), 1);
+    AdaptiveMesh mesh = shared_out(input, "random:5");
+    (void)mesh.refine(some(0.1, GetParam()));
+    const test::SeenMesh before(mesh);
+    (void)mesh.refine(some(0.3, GetParam() + 1));
+    for (int k = 0; k < 2; ++k) (void)mesh.coarsen({.all = true});
+    (void)mesh.refine(some(0.1, GetParam()));
+    EXPECT_TRUE(before == test::SeenMesh(mesh));
+}
+
+TEST_P(CoarseningMesh, KeepsValuesOfVerticesAndMakesThoseOfCellsFromTheirPieces) {
+    const Mesh input = test::marked(test::shaken_kuhn(3, 0.2, GetParam()), 1);
+    AdaptiveMesh mesh = shared_out(input, "random:5");
+    for (const std::uint64_t k : {0U, 1U, 2U}) (void)mesh.refine(some(0.02, GetParam() + k));
+    const auto cell_volume = [&](std::size_t c) {
+        Corners corners;
+        for (std::size_t k = 0; k < 4; ++k) {
+            corners[k] = mesh.points()[mesh.cells()[c][k].value()];
+        }
+        return volume(corners);
+    };
+    std::vector<double> x;
+    for (const Point& p : mesh.points()) x.insert(x.end(), {p.x, p.y, p.z});
+    std::vector<double> density;
+    std::vector<double> mass;
+    double total = 0;
+    for (std::size_t c = 0; c < mesh.cells().size(); ++c) {
+        density.push_back(static_cast<double>(c % 7));
+        mass.push_back(density.back() * cell_volume(c));
+        total += mass.back();
+    }
+    const std::vector<double> ones(mesh.cells().size(), 1);
+    const Adaptation step = mesh.coarsen(some(0.9, GetParam()));
+    ASSERT_TRUE(step.changed && step.is_coarser());
+    x = step.transfer_vertices(std::move(x), 3);
+    density = step.transfer_cells(std::move(density), 1, CellValues::averaged);
+    mass = step.transfer_cells(std::move(mass), 1, CellValues::divided);
+    ASSERT_EQ(density.size(), mesh.cells().size());
+    for (std::size_t v = 0; v < mesh.points().size(); ++v) {
+        EXPECT_EQ((Point{x[3 * v], x[3 * v + 1], x[3 * v + 2]}), mesh.points()[v]);
+    }
+    double kept = 0;
+    for (std::size_t c = 0; c < mass.size(); ++c) {
+        kept += mass[c];
+        EXPECT_NEAR(density[c] * cell_volume(c), mass[c], 1e-12);
+    }
+    EXPECT_NEAR(kept, total, 1e-9);
+    const auto means = step.transfer_cells(ones);
+    const auto weighted = step.transfer_cells(ones, 1, CellValues::averaged);
+    for (std::size_t c = 0; c < means.size(); ++c) {
+        EXPECT_NEAR(means[c], 1, 1e-12);
+        EXPECT_EQ(weighted[c], 1);
+    }
+}
+
+TEST_P(CoarseningMesh, TellsOfEveryFacetAndTaggedEdgeWhatItBecame) {
+    const Mesh input = test::marked(test::shaken_kuhn(3, 0.2, GetParam()), 1);
+    AdaptiveMesh mesh = shared_out(input, "random:5");
+    for (const std::uint64_t k : {0U, 1U, 2U}) (void)mesh.refine(some(0.02, GetParam() + k));
+    const std::vector<Point> points(mesh.points().begin(), mesh.points().end());
+    const std::vector<FacetVertices> facets(mesh.facets().begin(), mesh.facets().end());
+    const std::vector<Marker> markers = mesh.facet_markers();
+    const std::vector<EdgeVertices> edges(mesh.edges().begin(), mesh.edges().end());
+    const Adaptation step = mesh.coarsen(some(0.9, GetParam()));
+    ASSERT_EQ(step.facets.whole_of().size(), facets.size());
+    ASSERT_EQ(step.edges.whole_of().size(), edges.size());
+    // A piece lies in its whole: its corners are some means of the whole's.
+    const auto area = [](const Point& a, const Point& b, const Point& c) {
+        const Point u{b.x - a.x, b.y - a.y, b.z - a.z};
+        const Point v{c.x - a.x, c.y - a.y, c.z - a.z};
+        return std::hypot(u.y * v.z - u.z * v.y, u.z * v.x - u.x * v.z, u.x * v.y - u.y * v.x);
+    };
+    std::vector<double> areas(mesh.facets().size(), 0);
+    const std::vector<Marker> markers_after = mesh.facet_markers();
+    for (std::size_t f = 0; f < facets.size(); ++f) {
+        const std::uint32_t whole = step.facets.whole_of()[f];
+        EXPECT_EQ(markers[f], markers_after[whole]);
+        areas[whole] += area(points[facets[f][0].value()], points[facets[f][1].value()],
+                             points[facets[f][2].value()]);
+    }
+    for (std::size_t f = 0; f < areas.size(); ++f) {
+        const auto& [a, b, c] = mesh.facets()[f];
+        EXPECT_NEAR(
+            areas[f],
+            area(mesh.points()[a.value()], mesh.points()[b.value()], mesh.points()[c.value()]),
+            1e-9);
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Seeds, CoarseningMesh, testing::Range<std::uint64_t>(0, 8));
+
+TEST(CoarseningByWrongMarks, IsRefusedOnAllProcessesAndChangesNothing) {
+    AdaptiveMesh mesh = shared_out(test::shaken_kuhn(3, 0.2, 1), "block");
+    (void)mesh.refine(some(0.1, 1));
+    const test::SeenMesh before(mesh);
+    std::vector<std::uint8_t> marks(mesh.cells().size() + (test::world().is_first() ? 1 : 0), 1);
+    EXPECT_THROW((void)mesh.coarsen(marks), InputError);
+    EXPECT_TRUE(before == test::SeenMesh(mesh));
+}
+
+}  // namespace
+}  // namespace octetra::distributed

@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <utility>
 
 #include <octetra/reference/history.hpp>
 
@@ -58,8 +57,8 @@ void keep_closed(const Step& step, VertexSet& kept) {
     }
 }
 
-/// The history without the midpoints that go; those that stay get the numbers that replay will
-/// give them.
+/// The history without the midpoints that go. Those that stay close ranks, and get the numbers that
+/// replay will give them: as their order stays, edges that ascend still do.
 History without(const History& history, const VertexSet& kept) {
     History rest{history.input, {}};
     IndexVector<VertexIndex, VertexIndex> new_number(kept.size(), VertexIndex::none());
@@ -67,20 +66,16 @@ History without(const History& history, const VertexSet& kept) {
     for (; next < history.input.points.end_index(); ++next) new_number[next] = next;
     VertexIndex midpoint = next;
     for (const auto& step : history.steps) {
-        std::vector<std::pair<EdgeVertices, VertexIndex>> edges;  // and the midpoint's old number
+        std::vector<EdgeVertices> left;
         for (const auto& [a, b] : step) {
-            const auto [low, high] = std::minmax(new_number[a], new_number[b]);
-            if (kept[midpoint] != 0) edges.push_back({{low, high}, midpoint});
+            if (kept[midpoint] != 0) {
+                left.push_back({new_number[a], new_number[b]});
+                new_number[midpoint] = next;
+                ++next;
+            }
             ++midpoint;
         }
-        if (edges.empty()) continue;
-        std::ranges::sort(edges);
-        auto& left = rest.steps.emplace_back();
-        for (const auto& [edge, old_number] : edges) {
-            left.push_back(edge);
-            new_number[old_number] = next;
-            ++next;
-        }
+        if (!left.empty()) rest.steps.push_back(left);
     }
     return rest;
 }

@@ -4,6 +4,7 @@
 
 #include <octetra/reference/refine.hpp>
 
+#include "reference/random_history.hpp"
 #include "support/meshes.hpp"
 #include "support/refinement.hpp"
 #include "support/tagged_meshes.hpp"
@@ -67,6 +68,23 @@ TEST_P(Invariance, UnderScalingByAPowerOfTwoAndExactTranslation) {
     const Mesh before = refine(mesh, some, Scheme::eight, 2).mesh;
     const Mesh after = refine(transformed(mesh, 0.25, shift), some, Scheme::eight, 2).mesh;
     EXPECT_EQ(after, transformed(before, 0.25, shift));
+}
+
+TEST_P(Invariance, OfRefiningAndCoarseningUnderRenumbering) {
+    const std::uint64_t seed = GetParam();
+    Mesh mesh = random_input(seed);
+    mesh.attributes_per_point = 0;
+    mesh.point_attributes.clear();
+    const auto calls = random_calls(mesh, seed);
+    const auto renumbered_calls = random_calls(test::renumbered(mesh, seed), seed);
+    for (std::size_t i = 0; i < calls.size(); ++i) {
+        const auto meshes = replay(calls[i].after);
+        const auto renumbered_meshes = replay(renumbered_calls[i].after);
+        ASSERT_EQ(meshes.size(), renumbered_meshes.size());
+        for (std::size_t t = 0; t < meshes.size(); ++t) {
+            expect_same_geometry(meshes[t].mesh, renumbered_meshes[t].mesh);
+        }
+    }
 }
 
 INSTANTIATE_TEST_SUITE_P(Seeds, Invariance, testing::Range<std::uint64_t>(1, 5));

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <octetra/core/error.hpp>
+#include <octetra/reference/history.hpp>
 #include <octetra/reference/refine.hpp>
 
 #include "support/conformity.hpp"
@@ -117,6 +118,61 @@ TEST(Rounding, ThatWouldInvertAChildIsReported) {
     }
     EXPECT_GT(refused, 10U);
     EXPECT_GT(inverted, 0U);
+}
+
+/// A cell whose coordinates are 2^52 and this much more: it has no room for halves.
+std::array<Point, 4> far_out(std::array<Point, 4> corners) {
+    for (Point& p : corners) p = {0x1p52 + p.x, 0x1p52 + p.y, 0x1p52 + p.z};
+    return corners;
+}
+
+/// A cell at the origin, refined in a first step, and a sliver, refined in a second.
+struct RefinedSliver {
+    History history;
+    std::size_t children = 0;
+
+    explicit RefinedSliver(const std::array<Point, 4>& corners) {
+        history.input = test::one_cell(test::cube_corner);
+        Mesh& mesh = history.input;
+        const Mesh sliver = test::one_cell(corners);
+        for (const Point& p : sliver.points) mesh.points.append(p);
+        mesh.cells.append(sliver.cells.front());
+        for (VertexIndex& v : mesh.cells.back()) v = VertexIndex{4U + v.value()};
+        history = refined(history, {true, false}, Scheme::eight);
+        history = refined(history, {0, 0, 0, 0, 0, 0, 0, 0, true}, Scheme::eight);
+        children = replay(history).back().mesh.cells.size() - 8;
+    }
+    /// Marks of some of the sliver's children, as bits, and of all that the first step made or not.
+    [[nodiscard]] CellMarks marks(unsigned of_sliver, bool of_other) const {
+        CellMarks marks(8, static_cast<char>(of_other));
+        for (std::size_t i = 0; i < children; ++i) {
+            marks.push_back(static_cast<char>(of_sliver >> i & 1U));
+        }
+        return marks;
+    }
+    [[nodiscard]] std::string refusal_of(const CellMarks& may_go) const {
+        const History coarser = coarsened(history, may_go);
+        return test::thrown_by<InputError>([&] { (void)replay(coarser); });
+    }
+};
+
+TEST(Rounding, ThatSpoilsALargerCellIsReportedWhenCoarseningIsReplayed) {
+    // Eight children are positively oriented, and so is the cell. Without one of the midpoints
+    // there are larger children, which are not: what rounding added is missing.
+    const RefinedSliver inverted(far_out({{{5, 7, 0}, {13, 21, 0}, {63, 51, 3}, {22, 62, 1}}}));
+    ASSERT_EQ(inverted.children, 8U);
+    EXPECT_THAT(inverted.refusal_of(inverted.marks(0b0011'1100, false)),
+                AllOf(HasSubstr("cell 1, level 2"), HasSubstr("inverted")));
+    EXPECT_THAT(inverted.refusal_of(inverted.marks(0b0011'1100, true)),  // and the first step goes
+                AllOf(HasSubstr("cell 1, level 1"), HasSubstr("inverted")));
+
+    const RefinedSliver flat(far_out({{{57, 47, 2}, {56, 42, 2}, {25, 36, 3}, {20, 54, 0}}}));
+    ASSERT_EQ(flat.children, 8U);
+    EXPECT_THAT(flat.refusal_of(flat.marks(0b0000'1100, false)),
+                AllOf(HasSubstr("cell 1, level 2"), HasSubstr("flat")));
+    // The cell as a whole can come back.
+    EXPECT_EQ(replay(coarsened(flat.history, flat.marks(0xFF, true))).back().mesh,
+              flat.history.input);
 }
 
 TEST(Rounding, OfMidpointsBeyondTheLargestDoubleIsReported) {

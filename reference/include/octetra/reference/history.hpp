@@ -40,6 +40,9 @@ using CellMarks = IndexVector<CellIndex, char>;
 ///      the edge, K has the midpoint of that face's longest edge.
 /// The edges whose midpoints go are struck from their steps, and steps without edges are dropped.
 /// (b) is the rule of closure, so what is left of each step is closed.
+///
+/// Where midpoints were rounded, a cell without them may be flat or inverted though what it was cut
+/// into was not: then replay() of what is left throws.
 [[nodiscard]] History coarsened(const History& history, const CellMarks& may_go);
 
 }  // namespace octetra::reference

@@ -3,10 +3,10 @@
 source "$root/tools/dev/common.sh"
 source "$root/tools/dev/laws.sh"
 
-readonly world_parts=261
+readonly world_parts=262
 # worlds_of_part N: in part 1 to 180 the first cell has the order of its edges with that number; parts 181 to
 # 205 are the complexes by classes of orders; parts 206 to 261 are those of them whose orders are few enough to
-# have all, cut into pieces. The first of these counts them, too.
+# have all, cut into pieces. The first of these counts them, too. Part 262 refines and coarsens.
 worlds_of_part() {
     local filter='SmallWorlds.OfTwoCellsAtAnEdge*:SmallWorlds.OfThreeCellsInARow*'
     if (($1 <= 180)); then
@@ -14,6 +14,9 @@ worlds_of_part() {
     elif (($1 <= 205)); then
         export OCTETRA_COMPLEX=$(($1 - 180))
         filter='SmallWorlds.OfOneComplex*'
+    elif (($1 == 262)); then
+        export OCTETRA_COARSENED_WORLDS=1
+        filter='CoarsenedWorlds.*'
     else
         export OCTETRA_PART_UP_TO_EXCHANGE=$(($1 - 205))
         filter='SmallWorlds.OfEightMoreComplexes*'

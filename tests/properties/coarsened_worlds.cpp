@@ -1,0 +1,106 @@
+#include "properties/coarsened_worlds.hpp"
+
+#include <algorithm>
+#include <functional>
+
+#include "support/coarsening.hpp"
+#include "support/conformity.hpp"
+#include "support/meshes.hpp"
+#include "support/nesting.hpp"
+
+namespace octetra::properties {
+namespace {
+
+using reference::CellMarks;
+using reference::History;
+using reference::Refinement;
+
+/// Coordinates are whole numbers of 22 bits, and each of up to eight steps adds a bit.
+constexpr double scale = 0x1p8;
+
+bool are_closed(const History& history, const std::vector<Refinement>& meshes) {
+    for (std::size_t t = 0; t < history.steps.size(); ++t) {
+        const auto& edges = history.steps[t];
+        if (edges.empty() || !std::ranges::is_sorted(edges)) return false;
+        if (!test::is_closed(meshes[t].mesh, edges)) return false;
+    }
+    return true;
+}
+
+bool has_unmarked_cells(const Mesh& old, const CellMarks& marked, const Mesh& coarser) {
+    const auto cells = test::geometry(coarser);
+    for (CellIndex c{0}; c < old.cells.end_index(); ++c) {
+        if (marked[c] != 0) continue;
+        Corners corners = test::corners_of(old, c);
+        std::ranges::sort(corners, std::less<>{});
+        if (!std::ranges::binary_search(cells, std::pair(corners, Marker{0}), std::less<>{})) {
+            return false;
+        }
+    }
+    return true;
+}
+
+bool goes_back_by_one_generation(const std::vector<Refinement>& before, const Refinement& coarser) {
+    const auto parents = test::parents(before, scale);
+    const auto around = test::cells_around(before.back(), coarser, scale);
+    for (CellIndex c{0}; c < around.end_index(); ++c) {
+        for (const CellIndex larger : around[c]) {
+            const Corners corners = test::corners_of(coarser.mesh, larger);
+            if (!test::contains(parents[c.value()], corners, scale)) return false;
+        }
+    }
+    return true;
+}
+
+bool conforms(const Mesh& mesh) {
+    const auto census = test::count_faces(mesh);
+    return census.faults == 0 && census.boundary_faces == mesh.facets.size();
+}
+
+}  // namespace
+
+std::string fault_of_coarsening(const History& history, const CellMarks& may_go) {
+    const History rest = reference::coarsened(history, may_go);
+    const auto before = reference::replay(history);
+    const auto after = reference::replay(rest);
+    const Refinement& old = before.back();
+    const Refinement& coarser = after.back();
+    if (!are_closed(rest, after)) return "a step is not closed";
+    if (test::points_of(coarser.mesh) != test::points_that_stay(history, may_go).all) {
+        return "the rules force other vertices to stay";
+    }
+    if (!has_unmarked_cells(old.mesh, may_go, coarser.mesh)) return "a cell is gone";
+    if (!test::refines(old, coarser, scale)) return "the old mesh does not refine the new one";
+    if (!goes_back_by_one_generation(before, coarser)) return "a cell is back by two generations";
+    if (!conforms(coarser.mesh)) return "the mesh does not conform";
+    return {};
+}
+
+std::vector<History> histories_of_one_step(const Mesh& cell) {
+    std::vector<History> histories;
+    for (EdgeBits bits = 1; bits < 64; ++bits) {
+        std::vector<EdgeVertices> edges;
+        for (std::size_t e = 0; e < 6; ++e) {
+            const CellVertices& v = cell.cells.front();
+            const auto [low, high] = std::minmax(v[cell_edges[e][0]], v[cell_edges[e][1]]);
+            if ((bits >> e & 1U) != 0) edges.push_back({low, high});
+        }
+        std::ranges::sort(edges);
+        if (test::is_closed(cell, edges)) histories.push_back({cell, {edges}});
+    }
+    return histories;
+}
+
+History refined_at_random(const History& history, Draw& draw) {
+    constexpr std::array schemes{Scheme::eight, Scheme::four, Scheme::two};
+    return reference::refined(history, random_marks(history, draw), schemes[draw.below(3)]);
+}
+
+CellMarks random_marks(const History& history, Draw& draw) {
+    CellMarks marks(reference::replay(history).back().mesh.cells.size(), false);
+    const double share = draw.unit();
+    for (char& mark : marks) mark = draw.chance(share) ? 1 : 0;
+    return marks;
+}
+
+}  // namespace octetra::properties

@@ -91,6 +91,20 @@ std::vector<History> histories_of_one_step(const Mesh& cell) {
     return histories;
 }
 
+std::string fault_of_fewer_edges(const History& more, const History& fewer) {
+    const Refinement fine = reference::replay(more).back();
+    const Refinement coarse = reference::replay(fewer).back();
+    if (!test::refines(fine, coarse, scale)) return "the pattern does not refine that of fewer";
+    const auto points = test::points_of(coarse.mesh);
+    CellMarks has_missing_midpoint;
+    for (const CellVertices& child : fine.mesh.cells) {
+        has_missing_midpoint.append(std::ranges::any_of(
+            child, [&](VertexIndex v) { return !points.contains(fine.mesh.points[v]); }));
+    }
+    if (!has_unmarked_cells(fine.mesh, has_missing_midpoint, coarse.mesh)) return "a cell is gone";
+    return {};
+}
+
 History refined_at_random(const History& history, Draw& draw) {
     constexpr std::array schemes{Scheme::eight, Scheme::four, Scheme::two};
     return reference::refined(history, random_marks(history, draw), schemes[draw.below(3)]);

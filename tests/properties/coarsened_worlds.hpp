@@ -22,6 +22,12 @@ namespace octetra::properties {
 /// The first step of a mesh of one cell: all sets of its edges that are closed, but the empty one.
 [[nodiscard]] std::vector<reference::History> histories_of_one_step(const Mesh& cell);
 
+/// What is wrong if the first history makes something of one cell in a step that the second, whose
+/// step has fewer edges or no step at all, does not contain: cells that lie in none of its, or that
+/// have no midpoint of the edges that are missing and are not there. Or nothing.
+[[nodiscard]] std::string fault_of_fewer_edges(const reference::History& more,
+                                               const reference::History& fewer);
+
 /// One step more, of random cells by a random scheme.
 [[nodiscard]] reference::History refined_at_random(const reference::History& history, Draw& draw);
 

@@ -97,6 +97,22 @@ TEST(CoarsenedWorlds, OfOneCellInEveryOrderAndEveryPatternForEverySetOfItsChildr
     });
 }
 
+/// Other cells may keep any edges of a cell, so this is more than its own children can bring about.
+TEST(CoarsenedWorlds, OfOneCellInEveryOrderAreNestedWhateverClosedSetIsLeftOfAnother) {
+    lead([] {
+        for_worlds(one_cell(), {}, [](const Mesh& world, Draw&) {
+            const auto patterns = histories_of_one_step(world);
+            for (const History& more : patterns) {
+                ASSERT_EQ(fault_of_fewer_edges(more, {world, {}}), "");
+                for (const History& fewer : patterns) {
+                    if (!std::ranges::includes(more.steps.front(), fewer.steps.front())) continue;
+                    ASSERT_EQ(fault_of_fewer_edges(more, fewer), "");
+                }
+            }
+        });
+    });
+}
+
 /// Some random cells and then, of what is left, some more.
 void coarsen_at_random(History history, std::size_t times, Draw& draw) {
     for (std::size_t i = 0; i < times; ++i) {

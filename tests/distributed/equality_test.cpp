@@ -209,6 +209,25 @@ TEST(MostCells, AreNoMatterWhereNothingIsMarked) {
     EXPECT_EQ(test::world().sum(part.cells.size()), 6U);
 }
 
+template <class T>
+concept Summable = requires(const Communicator& processes, T number) {
+    processes.sum(number);
+};
+template <class T>
+concept SummableBefore = requires(const Communicator& processes, T number) {
+    processes.sum_before(number);
+};
+template <class T>
+concept Comparable = requires(const Communicator& processes, T number) {
+    processes.max(number);
+};
+
+TEST(Communicator, TakesWholeNumbersAlone) {
+    EXPECT_TRUE(Summable<int> && SummableBefore<std::uint32_t> && Comparable<std::size_t>);
+    EXPECT_FALSE(Summable<double> || Summable<float>);
+    EXPECT_FALSE(SummableBefore<double> || Comparable<double>);
+}
+
 TEST(Communicator, SumsBeforeAndAllToAllAndBroadcast) {
     const Communicator& world = test::world();
     const auto rank = static_cast<std::uint64_t>(world.rank());

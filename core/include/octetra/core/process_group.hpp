@@ -1,5 +1,6 @@
 #pragma once
 
+#include <concepts>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -30,13 +31,17 @@ public:
         return to_each;
     }
 
-    /// The sum over all processes, and over those of lower rank.
+    /// The sum over all processes, and over those of lower rank. Of whole numbers alone: others
+    /// would be cut off without a word.
     [[nodiscard]] virtual std::uint64_t sum(std::uint64_t number) const;
     [[nodiscard]] virtual std::uint64_t sum_before(std::uint64_t number) const;
+    void sum(std::floating_point auto number) const = delete;
+    void sum_before(std::floating_point auto number) const = delete;
 
     /// What the first process has.
     [[nodiscard]] virtual Bytes of_first(Bytes bytes) const;
     [[nodiscard]] std::uint64_t of_first(std::uint64_t number) const;
+    void of_first(std::floating_point auto number) const = delete;
 
     /// Runs `work` on the first process, while the others wait. What it throws there is thrown on
     /// all: an InputError as such, all else as SystemError.

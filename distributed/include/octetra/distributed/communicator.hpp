@@ -1,5 +1,6 @@
 #pragma once
 
+#include <concepts>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -41,7 +42,9 @@ public:
     [[nodiscard]] std::vector<Bytes> exchange(std::vector<Bytes> to_each) const override {
         return all_to_all(to_each);
     }
+    using ProcessGroup::sum;
     [[nodiscard]] std::uint64_t sum(std::uint64_t number) const override;
+    using ProcessGroup::sum_before;
     [[nodiscard]] std::uint64_t sum_before(std::uint64_t number) const override;
     using ProcessGroup::of_first;
     [[nodiscard]] Bytes of_first(Bytes bytes) const override {
@@ -55,6 +58,7 @@ public:
 
     /// Collective. The maximum of one number from each process.
     [[nodiscard]] std::uint64_t max(std::uint64_t number) const;
+    void max(std::floating_point auto number) const = delete;
 
     /// Collective. Every process gets the first one's values.
     template <class T>

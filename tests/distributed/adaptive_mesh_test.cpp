@@ -209,6 +209,13 @@ TEST_P(AdaptiveMeshIn, TellsWhatEachCellFacetAndEdgeWas) {
     }
 }
 
+/// What a program may have for each cell; nothing that could be divided.
+struct Material {
+    int number = 0;
+    int phase = 0;
+    friend bool operator==(const Material&, const Material&) = default;
+};
+
 TEST_P(AdaptiveMeshIn, TransfersLinearFunctionsExactlyAndKeepsSums) {
     AdaptiveMesh mesh = shared_out(test::shaken_kuhn(3, 0.2, 4), GetParam());
     const auto linear = [&] {
@@ -223,12 +230,17 @@ TEST_P(AdaptiveMeshIn, TransfersLinearFunctionsExactlyAndKeepsSums) {
     std::vector<float> mass(mesh.cells().size(), 1);
     std::vector<int> root(mesh.cells().size());
     std::iota(root.begin(), root.end(), 0);
+    std::vector<Material> material;
+    for (const int r : root) material.push_back({r, -r});
     const auto first_cells = mesh.cells().size();
     for (const Selection& selection : steps) {
         const Adaptation step = mesh.refine(selection);
         u = step.transfer_vertices(std::move(u), 2);
         mass = step.transfer_cells(std::move(mass), 1, CellValues::divided);
         root = step.transfer_cells(std::move(root));
+        EXPECT_THROW((void)step.transfer_cells(material, 1, CellValues::divided),
+                     std::invalid_argument);
+        material = step.transfer_cells(std::move(material));
         EXPECT_EQ(u, linear());
     }
     std::vector<double> mass_of_root(first_cells, 0);
@@ -236,6 +248,10 @@ TEST_P(AdaptiveMeshIn, TransfersLinearFunctionsExactlyAndKeepsSums) {
         mass_of_root[static_cast<std::size_t>(root[c])] += double{mass[c]};
     }
     EXPECT_EQ(mass_of_root, std::vector<double>(first_cells, 1));
+    ASSERT_EQ(material.size(), root.size());
+    for (std::size_t c = 0; c < root.size(); ++c) {
+        EXPECT_EQ(material[c], (Material{root[c], -root[c]}));
+    }
     const Adaptation nothing = mesh.refine(Selection{});
     EXPECT_EQ(nothing.transfer_cells(mass), mass);
     mass.push_back(1);
@@ -277,13 +293,13 @@ TEST_P(AdaptiveMeshIn, ExchangesValuesOfSharedVertices) {
     const auto& world = test::world();
 
     std::vector<int> values(2 * count, world.rank());
-    update_copies(world, sharing, count, std::span(values), 2);
+    update_copies(world, sharing, count, values, 2);
     for (std::size_t v = 0; v < count; ++v) {
         EXPECT_EQ(values[2 * v], sharing.owner(VertexIndex{v}));
         EXPECT_EQ(values[2 * v + 1], sharing.owner(VertexIndex{v}));
     }
     std::vector<double> ones(count, 1);
-    combine_everywhere(world, sharing, count, std::span(ones), std::plus<>());
+    combine_everywhere(world, sharing, count, ones, std::plus<>());
     std::vector<int> least(count, world.rank());
     combine_everywhere(world, sharing, count, std::span(least),
                        [](int a, int b) { return std::min(a, b); });

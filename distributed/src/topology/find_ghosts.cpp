@@ -145,14 +145,17 @@ GhostLayer find_ghosts(const DistributedMesh& mesh, const CanonicalNumbers& numb
 }
 
 void GhostLayer::exchange(const Communicator& processes, std::span<const std::byte> own,
-                          std::size_t entry_size, std::span<std::byte> ghosts) const {
+                          std::size_t value_size, std::size_t components,
+                          std::span<std::byte> ghosts) const {
+    const std::size_t entry_size = value_size * components;
     std::vector<int> ranks;
     std::vector<std::vector<std::byte>> outboxes;
     LocalFailure failure;
     failure.attempt([&] {
         if (own.size() != own_cell_count * entry_size) {
-            throw InputError(fmt::format("rank {}: values of {} cells do not fit {} bytes",
-                                         processes.rank(), own_cell_count, own.size()));
+            throw InputError(fmt::format("rank {}: {} values for cells, and {} are needed",
+                                         processes.rank(), own.size() / value_size,
+                                         own_cell_count * components));
         }
         for (const Exchange& with : exchanges) {
             ranks.push_back(with.rank);

@@ -63,15 +63,26 @@ struct Adaptation {
     }
 
     /// Values of cells, `components` for each. Takes time in proportion to the cells that changed
-    /// where they keep their numbers. Throws std::invalid_argument where the values do not fit.
+    /// where they keep their numbers. Throws std::invalid_argument where the values do not fit, or
+    /// T is no kind of number and they are to be divided or were pieces.
     template <class T>
     [[nodiscard]] std::vector<T> transfer_cells(std::vector<T> values, std::size_t components = 1,
                                                 CellValues children = CellValues::copied) const {
         check(values.size(), cells.count_before(), components);
-        if (is_coarser()) return merged(values, components, children);
-        const auto share = [&](const T& value, unsigned halvings) {
-            if (children != CellValues::divided) return value;
-            return static_cast<T>(value / static_cast<T>(1U << halvings));
+        constexpr bool is_number = requires(T value) { value += value / T(1U); };
+        if (!is_number && (is_coarser() || children == CellValues::divided)) {
+            throw std::invalid_argument("values of this type can be copied, and nothing else");
+        }
+        if constexpr (is_number) {
+            if (is_coarser()) return merged(values, components, children);
+        }
+        const auto share = [&](const T& value, [[maybe_unused]] unsigned halvings) {
+            if constexpr (is_number) {
+                if (children == CellValues::divided) {
+                    return static_cast<T>(value / static_cast<T>(1U << halvings));
+                }
+            }
+            return value;
         };
         if (!cells.keeps_numbers()) {
             std::vector<T> after(cells.count() * components);

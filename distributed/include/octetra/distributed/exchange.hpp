@@ -114,4 +114,23 @@ void combine_everywhere(const Communicator& processes, const Sharing<I>& sharing
     update_copies(processes, sharing, entity_count, values, components);
 }
 
+// The same of vectors, from which the type of a span is not deduced.
+template <class I, class T>
+void update_copies(const Communicator& processes, const Sharing<I>& sharing,
+                   std::size_t entity_count, std::vector<T>& values, std::size_t components = 1) {
+    update_copies(processes, sharing, entity_count, std::span(values), components);
+}
+template <class I, class T, class Operation>
+void combine_at_owner(const Communicator& processes, const Sharing<I>& sharing,
+                      std::size_t entity_count, std::vector<T>& values, Operation operation,
+                      std::size_t components = 1) {
+    combine_at_owner(processes, sharing, entity_count, std::span(values), operation, components);
+}
+template <class I, class T, class Operation>
+void combine_everywhere(const Communicator& processes, const Sharing<I>& sharing,
+                        std::size_t entity_count, std::vector<T>& values, Operation operation,
+                        std::size_t components = 1) {
+    combine_everywhere(processes, sharing, entity_count, std::span(values), operation, components);
+}
+
 }  // namespace octetra::distributed

@@ -50,16 +50,22 @@ struct GhostLayer {
                                         std::size_t components = 1) const {
         static_assert(std::is_trivially_copyable_v<T>);
         std::vector<T> ghosts(cells.size() * components);
-        exchange(processes, std::as_bytes(own), sizeof(T) * components,
+        exchange(processes, std::as_bytes(own), sizeof(T), components,
                  std::as_writable_bytes(std::span(ghosts)));
         return ghosts;
+    }
+    template <class T>
+    [[nodiscard]] std::vector<T> values(const Communicator& processes, const std::vector<T>& own,
+                                        std::size_t components = 1) const {
+        return values(processes, std::span<const T>(own), components);
     }
 
     std::size_t own_cell_count = 0;
 
 private:
     void exchange(const Communicator& processes, std::span<const std::byte> own,
-                  std::size_t entry_size, std::span<std::byte> ghosts) const;
+                  std::size_t value_size, std::size_t components,
+                  std::span<std::byte> ghosts) const;
 };
 
 }  // namespace octetra::distributed

@@ -33,6 +33,16 @@ TEST_P(AdaptiveMeshIn, IsAsItWasAfterAStepThatIsRefused) {
         if (is_last) no_edges.push_back({VertexIndex{0}, VertexIndex{mesh.points().size()}});
         EXPECT_THROW((void)mesh.refine_edges(no_edges), InputError);
         EXPECT_THROW((void)mesh.refine(selection, {.max_cells = 10}), InputError);
+        if (world.size() > 1) {
+            StepOptions other;
+            if (is_last) other.scheme = Scheme::two;
+            EXPECT_EQ(test::thrown_by<InputError>([&] { (void)mesh.refine(selection, other); }),
+                      fmt::format("rank {}: options of the step are not those of rank 0",
+                                  world.size() - 1));
+            other = {};
+            if (is_last) other.max_cells = 10;  // alone it would ask how many cells there are
+            EXPECT_THROW((void)mesh.refine(marks_of(mesh, selection), other), InputError);
+        }
         EXPECT_TRUE(before == test::SeenMesh(mesh));
         EXPECT_FALSE(mesh.refine(Selection{}).changed);
         EXPECT_TRUE(before == test::SeenMesh(mesh));

@@ -5,6 +5,7 @@
 
 #include <octetra/distributed/profile.hpp>
 
+#include "adapt/step_options.hpp"
 #include "comm/local_failure.hpp"
 #include "history/replay.hpp"
 #include "sharing/sharing_builder.hpp"
@@ -75,6 +76,7 @@ AdaptiveMesh::State::State(DistributedMesh part, Sharing<VertexIndex> shared,
 
 Adaptation AdaptiveMesh::State::refine(const std::function<MarkedCells()>& mark,
                                        const StepOptions& options) {
+    check_same(mesh.processes, options);
     const RefineOptions refine_options{.scheme = options.scheme,
                                        .levels = 1,
                                        .synchronisation = options.synchronisation,

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include <octetra/core/error.hpp>
 #include <octetra/core/mesh.hpp>
 #include <octetra/core/selection.hpp>
 #include <octetra/distributed/adaptation.hpp>
@@ -16,17 +17,21 @@
 #include <octetra/distributed/distributed_mesh.hpp>
 #include <octetra/distributed/ghosts.hpp>
 #include <octetra/distributed/mesh_part.hpp>
+#include <octetra/distributed/out_of_memory.hpp>
 #include <octetra/distributed/partition.hpp>
 #include <octetra/distributed/sharing.hpp>
 #include <octetra/distributed/sides.hpp>
 
 namespace octetra::distributed {
 
+/// The same on all processes.
 struct StepOptions {
     Scheme scheme = Scheme::eight;
     Synchronisation synchronisation = Synchronisation::neighbour;
     /// A step that would make more cells than this, of the whole mesh, is refused.
     std::uint64_t max_cells = std::numeric_limits<std::uint64_t>::max();
+
+    friend bool operator==(const StepOptions&, const StepOptions&) = default;
 };
 
 /// A tetrahedral mesh in a solver's loop: distributed over the processes of a communicator, refined
@@ -92,7 +97,8 @@ public:
 
     [[nodiscard]] const Communicator& processes() const;
 
-    // This process's part. Spans are valid until the mesh is refined.
+    // This process's part. Spans are valid until the mesh is refined. A tagged facet or edge is on
+    // one process alone, with a cell that has it: another one may have its vertices and not it.
     [[nodiscard]] std::span<const Point> points() const;
     [[nodiscard]] std::span<const CellVertices> cells() const;
     /// The region tag of each cell; empty where the input has none. Takes time in proportion to the
@@ -108,6 +114,9 @@ public:
     /// Of each vertex of this process, its number in the whole mesh: in the canonical order, which
     /// is that of files.
     [[nodiscard]] std::span<const GlobalVertex> vertex_numbers() const;
+    /// Who else has this process's vertices, and who owns them. Sums of floating-point values over
+    /// sharers differ in their last bits with the number of processes: they are rounded in another
+    /// order.
     [[nodiscard]] const Sharing<VertexIndex>& vertex_sharing() const;
 
     // Made when they are asked for, in time in proportion to the part; pictures of the mesh as it
@@ -126,7 +135,8 @@ public:
     [[nodiscard]] GhostLayer ghosts(GhostsBy by) const;
 
     /// Collective. Writes one file, the same whatever the number of processes and the partition,
-    /// or, of a `.pvtu`, each process's part as a piece. Returns what the format could not hold.
+    /// or, of a `.pvtu`, each process's part as a piece. Replaces an existing file, also the one
+    /// that the mesh was read from. Returns what the format could not hold.
     [[nodiscard]] std::string write(const std::filesystem::path& path) const;
     /// Collective. The first process gets the whole mesh in the order of files, the others an empty
     /// one. Throws InputError where 32 bits cannot number it.

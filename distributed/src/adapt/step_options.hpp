@@ -1,0 +1,11 @@
+#pragma once
+
+#include <octetra/distributed/adaptive_mesh.hpp>
+
+namespace octetra::distributed {
+
+/// Collective. Throws InputError on all processes unless all have the same options: by different
+/// ones they would make meshes that do not fit each other, or wait for each other for ever.
+void check_same(const Communicator& processes, const StepOptions& options);
+
+}  // namespace octetra::distributed

@@ -45,6 +45,17 @@ std::vector<double> estimate(const od::AdaptiveMesh& mesh, const std::vector<dou
     return eta2;
 }
 
+// At how many vertices of the whole mesh is the guess, carried over from the mesh before, near u?
+std::uint64_t count_near(const od::AdaptiveMesh& mesh, const std::vector<double>& guess,
+                         const std::vector<double>& u) {
+    std::uint64_t count = 0;
+    for (std::size_t v = 0; v < u.size(); ++v) {
+        const bool is_owned = mesh.vertex_sharing().is_owned(octetra::VertexIndex{v});
+        if (is_owned && std::abs(guess[v] - u[v]) < 0.05) ++count;
+    }
+    return mesh.processes().sum(count);
+}
+
 void run(const char* input, int steps, const char* output) {
     const od::Communicator processes = od::communicator_of(MPI_COMM_WORLD);
     od::AdaptiveMesh mesh = od::AdaptiveMesh::read(processes, input);
@@ -54,13 +65,15 @@ void run(const char* input, int steps, const char* output) {
         const std::vector<std::uint8_t> marks = od::mark_bulk(processes, eta2, 0.5);
         const od::Adaptation adaptation = mesh.refine(marks);
 
-        u = adaptation.transfer_vertices(std::move(u));  // a first guess for the solver
+        const std::vector<double> guess = adaptation.transfer_vertices(std::move(u));
         u = solve(mesh);
         const auto cells = processes.sum(mesh.cells().size());
+        const auto near = count_near(mesh, guess, u);
         if (processes.is_first()) {
-            std::printf("step %d: %llu cells, %llu vertices\n", step,
+            std::printf("step %d: %llu cells, %llu vertices, a good first guess at %llu\n", step,
                         static_cast<unsigned long long>(cells),
-                        static_cast<unsigned long long>(mesh.vertex_count()));
+                        static_cast<unsigned long long>(mesh.vertex_count()),
+                        static_cast<unsigned long long>(near));
         }
     }
     (void)mesh.write(output);
@@ -70,12 +83,13 @@ void run(const char* input, int steps, const char* output) {
 
 int main(int argc, char** argv) {
     MPI_Init(&argc, &argv);
+    int rank = 0;
+    MPI_Comm_rank(MPI_COMM_WORLD, &rank);
     int status = argc == 4 ? 0 : 2;
+    if (argc != 4 && rank == 0) std::fprintf(stderr, "usage: adaptive_loop INPUT STEPS OUTPUT\n");
     try {
         if (argc == 4) run(argv[1], std::atoi(argv[2]), argv[3]);
     } catch (const std::exception& error) {  // the same on all processes
-        int rank = 0;
-        MPI_Comm_rank(MPI_COMM_WORLD, &rank);
         if (rank == 0) std::fprintf(stderr, "%s\n", error.what());
         status = 2;
     }

@@ -4,7 +4,7 @@
 // Domain: ((-1,1)^2 without [0,1) x (-1,0]) x (0,1). Solution: u = r^(2/3) sin(2 theta / 3), whose
 // gradient has no bound at the edge r = 0. Dirichlet conditions on the sides, natural ones on z = 0
 // and 1.
-//     mpirun -n 4 ./adaptive_poisson adaptive 7 step      writes step.1.vtu, step.2.vtu ...
+//     mpirun -n 4 ./adaptive_poisson adaptive 7 step      writes step.0.vtu, step.1.vtu ...
 #include <petscksp.h>
 
 #include <algorithm>
@@ -295,6 +295,25 @@ double squared_error(const od::AdaptiveMesh& mesh, const std::vector<Vector>& gr
     return sum;
 }
 
+// ---- output -------------------------------------------------------------------------------------
+
+// The mesh and, as attributes of its vertices, u. Makes a second mesh, of this one's parts.
+void write_with(const od::AdaptiveMesh& mesh, const std::vector<double>& u,
+                const std::string& path) {
+    od::MeshPart part;
+    for (const auto number : mesh.vertex_numbers()) {
+        part.vertex_numbers.push_back(static_cast<std::uint64_t>(number));
+    }
+    part.points.assign(mesh.points().begin(), mesh.points().end());
+    part.attributes_per_point = 1;
+    part.point_attributes = u;
+    for (const CellVertices& cell : mesh.cells()) {
+        auto& numbers = part.cells.emplace_back();
+        for (std::size_t k = 0; k < 4; ++k) numbers[k] = part.vertex_numbers[cell[k].value()];
+    }
+    (void)od::AdaptiveMesh::from_parts(mesh.processes(), std::move(part)).write(path);
+}
+
 // ---- the loop -----------------------------------------------------------------------------------
 
 double sum_of(double own) {
@@ -347,7 +366,7 @@ void run(bool adaptive, int steps, const std::string& output) {
         const auto cells = processes.sum(mesh.cells().size());
         const double most = static_cast<double>(processes.max(mesh.cells().size())) *
                             processes.size() / static_cast<double>(cells);
-        if (!output.empty()) (void)mesh.write(output + "." + std::to_string(step) + ".vtu");
+        if (!output.empty()) write_with(mesh, u, output + "." + std::to_string(step) + ".vtu");
 
         watch.lap();
         if (step < steps) {

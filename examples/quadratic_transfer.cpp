@@ -127,11 +127,14 @@ void run(const char* input) {
 
 int main(int argc, char** argv) {
     MPI_Init(&argc, &argv);
+    int rank = 0;
+    MPI_Comm_rank(MPI_COMM_WORLD, &rank);
     int status = argc == 2 ? 0 : 2;
+    if (argc != 2 && rank == 0) std::fprintf(stderr, "usage: quadratic_transfer INPUT\n");
     try {
         if (argc == 2) run(argv[1]);
     } catch (const std::exception& error) {  // the same on all processes
-        std::fprintf(stderr, "%s\n", error.what());
+        if (rank == 0) std::fprintf(stderr, "%s\n", error.what());
         status = 2;
     }
     MPI_Finalize();

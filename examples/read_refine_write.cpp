@@ -1,4 +1,4 @@
-// The smallest program: reads a mesh, refines it twice around a point, writes it.
+// The smallest program: reads a mesh, refines it twice around the origin, writes it.
 //     mpirun -n 4 ./read_refine_write bracket.mesh refined.mesh
 #include <mpi.h>
 
@@ -15,7 +15,7 @@ namespace od = octetra::distributed;
 
 namespace {
 
-// One byte for each cell of this process: is its centroid near the first vertex of the whole mesh?
+// One byte for each cell of this process: is its centroid near the centre?
 std::vector<std::uint8_t> marks_near(const od::AdaptiveMesh& mesh, const octetra::Point& centre,
                                      double radius) {
     std::vector<std::uint8_t> marks;
@@ -50,12 +50,13 @@ void run(const char* input, const char* output) {
 
 int main(int argc, char** argv) {
     MPI_Init(&argc, &argv);
+    int rank = 0;
+    MPI_Comm_rank(MPI_COMM_WORLD, &rank);
     int status = argc == 3 ? 0 : 2;
+    if (argc != 3 && rank == 0) std::fprintf(stderr, "usage: read_refine_write INPUT OUTPUT\n");
     try {
         if (argc == 3) run(argv[1], argv[2]);
     } catch (const std::exception& error) {  // the same on all processes
-        int rank = 0;
-        MPI_Comm_rank(MPI_COMM_WORLD, &rank);
         if (rank == 0) std::fprintf(stderr, "%s\n", error.what());
         status = 2;
     }

@@ -108,10 +108,10 @@ int run(int argc, char** argv) {
         "Exit status: 0 done; 1 the answer is no; 2 bad usage or input; 3 the system failed;\n"
         "128 + its number: a signal ended octetra or, under mpirun, one of its ranks.\n"
         "Example:\n"
-        "  octetra generate gear -o gear.1.ele\n"
-        "  octetra refine gear.1.ele --sphere 1,0,0.1,0.3 --levels 2 -o fine.1.ele\n"
-        "  octetra verify gear.1.ele fine.1.ele\n"
-        "  mpirun -n 4 octetra refine gear.1.ele --sphere 1,0,0.1,0.3 --levels 2 -o fine.vtu");
+        "  octetra generate kuhn 8 -o cube.mesh\n"
+        "  octetra refine cube.mesh --sphere 0,0,0,0.3 --levels 2 -o fine.mesh\n"
+        "  octetra verify cube.mesh fine.mesh\n"
+        "  mpirun -n 4 octetra refine cube.mesh --sphere 0,0,0,0.3 --levels 2 -o fine.vtu");
     add_refine(program, world);
     add_info(program, world);
     add_generate(program, world);

@@ -11,7 +11,10 @@ set(octetra_package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/Octetra)
 # itself concerns only who links a static one.
 function(octetra_install_layer name)
   cmake_parse_arguments(PARSE_ARGV 1 layer "" "" "REQUIRES;PRIVATE_PACKAGES;PRIVATE_LIBRARIES")
+  # A shared layer finds those below it beside itself: a program need not name all of them.
+  set(run_path $ORIGIN ${CMAKE_INSTALL_RPATH})
   set_target_properties(octetra_${name} PROPERTIES
+    INSTALL_RPATH "${run_path}"
     VERSION ${PROJECT_VERSION} SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR})
   install(TARGETS octetra_${name} EXPORT Octetra_${name}
           ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}
@@ -52,4 +55,5 @@ function(octetra_install_package)
                 ${PROJECT_BINARY_DIR}/OctetraConfigVersion.cmake
                 ${PROJECT_SOURCE_DIR}/cmake/FindMETIS.cmake
           DESTINATION ${octetra_package_dir})
+  install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${CMAKE_INSTALL_DATAROOTDIR}/doc/octetra)
 endfunction()

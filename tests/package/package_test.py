@@ -3,6 +3,7 @@ pkg-config from an installation that was moved, shared and static, and with Octe
 
 import os
 import pathlib
+import re
 import shutil
 import subprocess
 import sys
@@ -27,6 +28,14 @@ endif()
 """
 
 
+
+def blocks_of_tutorial():
+    """What the page of the library shows as lines to type or to copy, by its first words."""
+    page = (source / "docs/library.md").read_text()
+    blocks = re.findall(r"^```text\n(.*?)^```$", page, re.MULTILINE | re.DOTALL)
+    return lambda start: next(block for block in blocks if block.startswith(start))
+
+
 def run(*command, cwd=None, env=None):
     done = subprocess.run([str(word) for word in command], cwd=cwd, env=env, capture_output=True,
                           text=True, check=False)
@@ -48,7 +57,10 @@ class Package(unittest.TestCase):
     def installed(self, built):
         """Where what was built is installed, and was moved to."""
         run("cmake", "--install", built, "--prefix", self.folder / "first")
-        (self.folder / "first").rename(self.folder / "moved")
+        return self.moved(self.folder / "first")
+
+    def moved(self, prefix):
+        prefix.rename(self.folder / "moved")
         for path in (self.folder / "moved").rglob("*"):
             if path.suffix in (".cmake", ".pc", ".hpp"):
                 text = path.read_text()
@@ -64,6 +76,15 @@ class Package(unittest.TestCase):
             expected = {f"share/man/man1/{name}.1" for name in names}
         found = {str(path.relative_to(prefix)) for path in (prefix / "share").rglob("*.1")}
         self.assertEqual(found, expected)
+
+    def check_missing_component(self, prefix):
+        project = self.folder / "missing"
+        project.mkdir()
+        (project / "CMakeLists.txt").write_text(
+            "cmake_minimum_required(VERSION 3.25)\nproject(Missing LANGUAGES CXX)\n"
+            "find_package(Octetra REQUIRED COMPONENTS distributed gmsh)\n")
+        with self.assertRaisesRegex(AssertionError, "without the component gmsh"):
+            self.configure(project, project / "build", f"-DCMAKE_PREFIX_PATH={prefix}")
 
     def check_refined(self, program, ranks=(1, 2, 4)):
         """The program's file is the same on any number of ranks, and what the command makes."""
@@ -108,6 +129,9 @@ class Package(unittest.TestCase):
         prefix = self.installed(build)
         self.assertIn("octetra 0.", run(prefix / "bin/octetra", "--version"))
         self.check_manual_pages(prefix)
+        self.assertEqual((prefix / "share/doc/octetra/LICENSE").read_text(),
+                         (source / "LICENSE").read_text())
+        self.check_missing_component(prefix)
         self.build_and_run_examples(prefix)
 
         folders = [str(path.parent) for path in prefix.rglob("octetra-core.pc")]
@@ -129,18 +153,50 @@ class Package(unittest.TestCase):
             shutil.rmtree(project / "build", ignore_errors=True)
             self.configure(project, project / "build", "-DBUILD_SHARED_LIBS=ON",
                            "-DCMAKE_UNITY_BUILD=ON")  # it takes a third of the time
-        run("cmake", "--build", project / "build")
+        run("cmake", "--build", project / "build", "--target", "program")
         self.check_refined(project / "build/program", ranks=(2,))
 
+    def test_the_tutorial_leads_to_shared_libraries_and_a_loop(self):
+        home = self.folder / "home"
+        loop = home / "loop"
+        loop.mkdir(parents=True)
+        environment = {**os.environ, "HOME": str(home), "OMPI_ALLOW_RUN_AS_ROOT": "1",
+                       "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1",
+                       "OMPI_MCA_rmaps_base_oversubscribe": "1",
+                       "OMPI_MCA_btl_vader_single_copy_mechanism": "none",
+                       "OMPI_MCA_hwloc_base_binding_policy": "none"}
+        block = blocks_of_tutorial()
+
+        def follow(commands, folder):
+            return run("bash", "-e", "-c", commands, cwd=folder, env=environment)
+
+        # The checkout stays as it is, and the program is there already.
+        install = block("cmake -S .").replace("build/mine", str(self.folder / "mine")).replace(
+            "cmake -S .",
+            "cmake -S . -DOCTETRA_VERIFY=OFF -DOCTETRA_CLI=OFF -DCMAKE_UNITY_BUILD=ON")
+        follow(install, source)
+        prefix, = home.glob("octetra*")
+        (prefix / "bin").mkdir()
+        (prefix / "bin/octetra").symlink_to(build / "cli/octetra")
+
+        (loop / "CMakeLists.txt").write_text(block("cmake_minimum_required"))
+        shutil.copy(source / "examples/adaptive_loop.cpp", loop)
+        follow(block("cmake -B build"), loop)
+        by_cmake = (loop / "front.vtu").read_bytes()
+        (loop / "front.vtu").unlink()
+        follow(block("export PKG_CONFIG_PATH") + "./loop cube.mesh 5 front.vtu", loop)
+        self.assertEqual((loop / "front.vtu").read_bytes(), by_cmake)
+
         # Shared libraries ask their users for MPI alone. They compute what static ones do, so one
-        # number of ranks is enough; and these are not optimised.
-        prefix = self.installed(project / "build")
+        # number of ranks is enough.
+        prefix = self.moved(prefix)
         for file in prefix.rglob("*.pc"):
             for kind in ("--print-requires", "--print-requires-private"):
                 for package in run("pkg-config", kind, file).split():
                     self.assertRegex(package, "^(octetra-.*|ompi-cxx)$", file)
         self.build_and_run_examples(
-            prefix, *(f"-DCMAKE_DISABLE_FIND_PACKAGE_{p}=ON" for p in ("fmt", "ZLIB", "METIS")),
+            prefix, "-DCMAKE_BUILD_TYPE=Release",
+            *(f"-DCMAKE_DISABLE_FIND_PACKAGE_{p}=ON" for p in ("fmt", "ZLIB", "METIS")),
             ranks=(2,))
 
 

@@ -74,6 +74,31 @@ AdaptiveMesh::State::State(DistributedMesh part, Sharing<VertexIndex> shared,
       sharing(std::move(shared)),
       history(mesh, std::move(steps)) {}
 
+void AdaptiveMesh::State::commit(PlannedLevel& plan, auto&& prepare) {
+    NewNumbers new_numbers(numbers);
+    SharingBuilder<VertexIndex> shared(sharing, mesh.processes.rank());
+    LocalFailure failure;
+    {
+        const Phase numbering(mesh.processes, "number vertices");
+        numbers.number_midpoints(mesh, mesh.points.end_index(), sharing.shared(), failure);
+    }
+    failure.attempt([&] {
+        auto midpoints = plan.level->shared_midpoints();
+        for (std::size_t i = 0; i < midpoints.size(); ++i) {
+            shared.share(mesh.interfaces[i].rank, std::move(midpoints[i]));
+        }
+        shared.prepare(
+            [&](VertexIndex v) { return static_cast<std::uint64_t>(numbers.of_vertex[v]); });
+        prepare();
+    });
+    failure.agree(mesh.processes);
+
+    plan.commit();
+    shared.commit();
+    new_numbers.keep();
+    ++step_count;
+}
+
 Adaptation AdaptiveMesh::State::refine(const std::function<MarkedCells()>& mark,
                                        const StepOptions& options) {
     check_same(mesh.processes, options);
@@ -104,31 +129,6 @@ void AdaptiveMesh::State::replay() {
     LocalFailure failure;
     failure.attempt([&] { restore_canonical_order(mesh); });
     failure.agree(mesh.processes);
-}
-
-void AdaptiveMesh::State::commit(PlannedLevel& plan, const std::function<void()>& prepare) {
-    NewNumbers new_numbers(numbers);
-    SharingBuilder<VertexIndex> shared(sharing, mesh.processes.rank());
-    LocalFailure failure;
-    {
-        const Phase numbering(mesh.processes, "number vertices");
-        numbers.number_midpoints(mesh, mesh.points.end_index(), sharing.shared(), failure);
-    }
-    failure.attempt([&] {
-        auto midpoints = plan.level->shared_midpoints();
-        for (std::size_t i = 0; i < midpoints.size(); ++i) {
-            shared.share(mesh.interfaces[i].rank, std::move(midpoints[i]));
-        }
-        shared.prepare(
-            [&](VertexIndex v) { return static_cast<std::uint64_t>(numbers.of_vertex[v]); });
-        prepare();
-    });
-    failure.agree(mesh.processes);
-
-    plan.commit();
-    shared.commit();
-    new_numbers.keep();
-    ++step_count;
 }
 
 PartHistory::NewStep AdaptiveMesh::State::recorded(PlannedLevel& plan) {

@@ -33,8 +33,9 @@ struct AdaptiveMesh::State {
     void replay();
 
 private:
-    /// Collective. Commits the level when all is made ready, `prepare` called on each process.
-    void commit(PlannedLevel& plan, const std::function<void()>& prepare);
+    /// Collective. Commits the level when all is made ready, `prepare` called on each process. (Not
+    /// a std::function, which one process alone may have no memory for.)
+    void commit(PlannedLevel& plan, auto&& prepare);
     [[nodiscard]] PartHistory::NewStep recorded(PlannedLevel& plan);
 };
 

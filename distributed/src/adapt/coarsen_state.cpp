@@ -80,15 +80,6 @@ Adaptation adaptation_of(const DistributedMesh& mesh, const CanonicalOrder& orde
     return adaptation;
 }
 
-Adaptation unchanged(const DistributedMesh& mesh) {
-    Adaptation adaptation;
-    adaptation.cells = Succession(mesh.cells.size());
-    adaptation.facets = Succession(mesh.facets.size());
-    adaptation.edges = Succession(mesh.edges.size());
-    adaptation.vertex_count_before = mesh.points.size();
-    return adaptation;
-}
-
 }  // namespace
 
 Adaptation coarsen_state(std::unique_ptr<AdaptiveMesh::State>& state,

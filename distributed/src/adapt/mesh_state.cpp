@@ -49,6 +49,8 @@ Adaptation adaptation_of(PlannedLevel& plan, const DistributedMesh& mesh) {
             .synchronisation = plan.counts};
 }
 
+}  // namespace
+
 Adaptation unchanged(const DistributedMesh& mesh) {
     return {.changed = false,
             .cells = Succession(mesh.cells.size()),
@@ -58,8 +60,6 @@ Adaptation unchanged(const DistributedMesh& mesh) {
             .new_vertex_ends = {},
             .synchronisation = {}};
 }
-
-}  // namespace
 
 AdaptiveMesh::State::State(DistributedMesh part)
     : mesh(std::move(part)),

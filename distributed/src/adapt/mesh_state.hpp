@@ -39,6 +39,9 @@ private:
     [[nodiscard]] PartHistory::NewStep recorded(PlannedLevel& plan);
 };
 
+/// What a step that changes nothing did.
+[[nodiscard]] Adaptation unchanged(const DistributedMesh& mesh);
+
 /// Collective. Lets marked cells go back by a generation: a new state takes the place of the old.
 [[nodiscard]] Adaptation coarsen_state(std::unique_ptr<AdaptiveMesh::State>& state,
                                        const std::function<MarkedCells()>& mark);

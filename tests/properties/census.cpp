@@ -9,8 +9,8 @@ namespace octetra::properties {
 namespace {
 
 /// Longest first; nothing if two are as long.
-std::optional<Order> order_of(const std::vector<Point>& points,
-                              const std::array<std::size_t, 4>& cell) {
+std::optional<Order> order_without_ties(const std::vector<Point>& points,
+                                        const std::array<std::size_t, 4>& cell) {
     std::array<double, 6> squared{};
     for (std::size_t e = 0; e < 6; ++e) {
         squared[e] =
@@ -30,7 +30,7 @@ using OrderNumbers = std::vector<std::size_t>;
 std::optional<OrderNumbers> orders_of(const std::vector<Point>& points, const Complex& complex) {
     OrderNumbers numbers;
     for (const auto& cell : complex) {
-        const auto order = order_of(points, cell);
+        const auto order = order_without_ties(points, cell);
         if (!order) return {};
         numbers.push_back(number_of(*order));
     }

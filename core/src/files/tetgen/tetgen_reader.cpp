@@ -79,22 +79,22 @@ LineOf lines_of(const fs::path& path) {
 }
 
 /// What files call the vertices of a mesh: `count` numbers from `first`.
-struct VertexNumbers {
+struct NumberedVertices {
     std::uint64_t first;
     std::uint64_t count;
 };
 
-VertexNumbers vertex_numbers(const GrowingMesh& growing) {
+NumberedVertices vertex_numbers(const GrowingMesh& growing) {
     return {growing.mesh.index_base, growing.facts().vertices};
 }
 
 [[noreturn]] void refuse_vertex(std::uint64_t number, const LineReader& reader,
-                                VertexNumbers numbers) {
+                                NumberedVertices numbers) {
     reader.fail(fmt::format("there is no vertex {}: the {} vertices are numbered from {}", number,
                             numbers.count, numbers.first));
 }
 
-VertexIndex read_vertex(Fields& fields, const LineReader& reader, VertexNumbers numbers) {
+VertexIndex read_vertex(Fields& fields, const LineReader& reader, NumberedVertices numbers) {
     const std::uint64_t number = fields.unsigned_integer("a vertex number");
     const std::uint64_t index = number - numbers.first;  // wraps round below the first
     if (index >= numbers.count) refuse_vertex(number, reader, numbers);
@@ -161,7 +161,7 @@ void read_ele(const fs::path& path, const ReadOptions& options, GrowingMesh& gro
     reader.check_count(count, field_count, "cells");
 
     growing.expect(cell_kind, count, attributes == 1);
-    const VertexNumbers numbers = vertex_numbers(growing);
+    const NumberedVertices numbers = vertex_numbers(growing);
     Mesh& mesh = growing.mesh;
     CellCheck check(mesh, options);
     RepeatedCells repeated(options.only_syntax ? 0 : count);
@@ -200,7 +200,7 @@ void read_entities(const fs::path& path, std::string_view name, const EntityKind
     reader.check_count(count, field_count, "entries");
 
     growing.expect(kind, count, markers == 1);
-    const VertexNumbers numbers = vertex_numbers(growing);
+    const NumberedVertices numbers = vertex_numbers(growing);
     Mesh& mesh = growing.mesh;
     // With -nn TetGen adds the cells at each face (two) or edge (one), and tells nobody.
     constexpr std::size_t adjacent_cells = N == 3 ? 2 : 1;

@@ -58,9 +58,9 @@ std::string runnable(const std::string& command) {
     return result;
 }
 
-/// Without what may differ from run to run and from screen to screen: seconds, widths of columns.
+/// Without what differs from run to run and from screen to screen: seconds, widths of columns.
 std::string comparable(const std::string& line) {
-    const std::string timeless = std::regex_replace(line, std::regex(R"(\d+\.\d+ s$)"), "T s");
+    const std::string timeless = std::regex_replace(line, std::regex(R"(\d+\.\d+ s\b)"), "T s");
     std::string result;
     for (const std::string& word : words(timeless)) result += word + ' ';
     return result;

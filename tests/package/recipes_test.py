@@ -16,7 +16,7 @@ source = pathlib.Path(sys.argv[1])
 lists = (source / "CMakeLists.txt").read_text()
 
 # What Spack calls what find_package() looks for.
-SPACK_NAMES = {"fmt": "fmt", "ZLIB": "zlib-api", "Boost": "boost", "MPI": "mpi", "METIS": "metis",
+SPACK_NAMES = {"fmt": "fmt", "ZLIB": "zlib-api", "Boost": "boost", "xxHash": "xxhash", "MPI": "mpi", "METIS": "metis",
                "CGAL": "cgal", "CLI11": "cli11", "nlohmann_json": "nlohmann-json"}
 
 

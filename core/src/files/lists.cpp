@@ -31,6 +31,13 @@ std::vector<GlobalCell> read_cell_list(const std::filesystem::path& path, std::u
     return cells;
 }
 
+std::vector<TextLine> read_lines(const std::filesystem::path& path) {
+    LineReader reader(path);
+    std::vector<TextLine> lines;
+    while (reader.next()) lines.push_back({reader.line_number(), std::string(reader.line())});
+    return lines;
+}
+
 void write_list(const std::vector<int>& numbers, const std::filesystem::path& path) {
     OutputFile out(path);
     for (const int number : numbers) {

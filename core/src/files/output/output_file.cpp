@@ -43,6 +43,15 @@ void pass_on_permissions(const struct stat& old, int file) {
     (void)::fchmod(file, mode);
 }
 
+/// Some file systems cannot, and then need not.
+void sync_folder_of(const std::filesystem::path& file) {
+    const std::filesystem::path folder = file.has_parent_path() ? file.parent_path() : ".";
+    const int opened = ::open(folder.c_str(), O_RDONLY | O_CLOEXEC | O_DIRECTORY);
+    if (opened < 0) return;
+    (void)::fsync(opened);
+    ::close(opened);
+}
+
 }  // namespace
 
 OutputFile::OutputFile(std::filesystem::path path, const ProcessGroup& group)
@@ -101,6 +110,13 @@ void OutputFile::end_turn() {
     used_ = 0;
 }
 
+void OutputFile::sync() {
+    end_turn();
+    if (failure_.empty() && ::fsync(file_) != 0) fail("writing failed");
+    is_synced_ = true;
+    agree();
+}
+
 void OutputFile::close() {
     end_turn();
     if (struct stat old{}; group_->is_first() && ::stat(place_.c_str(), &old) == 0) {
@@ -139,7 +155,8 @@ void OutputFile::commit_all(const std::vector<std::unique_ptr<OutputFile>>& file
 }
 
 void OutputFile::rename() {
-    if (::rename(temporary_.c_str(), place_.c_str()) != 0) fail("cannot be put in place");
+    if (::rename(temporary_.c_str(), place_.c_str()) != 0) return fail("cannot be put in place");
+    if (is_synced_) sync_folder_of(place_);
 }
 
 /// One process alone writes what it has; one of a group keeps it until its turn.

@@ -53,6 +53,9 @@ public:
     /// Replaces bytes that were put before (in earlier turns, by whichever process).
     void overwrite(std::uint64_t position, const void* data, std::size_t size);
 
+    /// Collective. Brings everything to the disk, and its place when it is put there: once it has
+    /// its final name it has it for good, whatever becomes of the machine.
+    void sync();
     /// Brings everything to the file and closes it.
     void close();
     void commit();
@@ -88,6 +91,7 @@ private:
     std::size_t used_ = 0;
     std::uint64_t flushed_ = 0;
     bool committed_ = false;
+    bool is_synced_ = false;
     std::string failure_;  ///< the first one, until it is thrown
 };
 

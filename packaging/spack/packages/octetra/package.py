@@ -40,6 +40,7 @@ class Octetra(CMakePackage):
     depends_on("fmt")
     depends_on("zlib-api")
     depends_on("boost")  # headers alone
+    depends_on("xxhash")  # headers alone
     with when("+distributed"):
         depends_on("mpi")
         depends_on("metis@5:~int64")

@@ -1,0 +1,84 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include <octetra/core/mesh.hpp>
+
+/// Checkpoints, `.octetra`: a mesh as its input and how each step cut the cells that there were,
+/// with values of vertices and cells. docs/formats.md has the format.
+namespace octetra {
+
+enum class FieldOn : std::uint32_t { vertices, cells };
+enum class FieldType : std::uint32_t { float64, float32, int32, int64 };
+
+[[nodiscard]] std::size_t size_of(FieldType type);
+
+/// Named values of the mesh as it is, `components` for each vertex or cell.
+struct FieldFacts {
+    std::string name;
+    FieldOn on = FieldOn::vertices;
+    FieldType type = FieldType::float64;
+    std::size_t components = 1;
+
+    friend bool operator==(const FieldFacts&, const FieldFacts&) = default;
+};
+
+struct StepFacts {
+    std::uint64_t cells_before = 0;
+    std::uint64_t cells_cut = 0;
+    std::uint64_t bytes = 0;  ///< that it takes in the file
+
+    friend bool operator==(const StepFacts&, const StepFacts&) = default;
+};
+
+/// What a checkpoint says of itself.
+struct CheckpointFacts {
+    // The input:
+    std::uint64_t vertices = 0;
+    std::uint64_t cells = 0;
+    std::uint64_t facets = 0;
+    std::uint64_t edges = 0;  ///< tagged ones
+    std::size_t attributes_per_point = 0;
+    std::uint32_t index_base = 0;
+    bool has_point_markers = false;
+    bool has_regions = false;
+    bool has_facet_markers = false;
+    bool has_edge_markers = false;
+
+    // The mesh as it is:
+    std::uint64_t vertices_now = 0;
+    std::uint64_t cells_now = 0;
+
+    std::vector<StepFacts> steps;
+    std::vector<FieldFacts> fields;
+
+    friend bool operator==(const CheckpointFacts&, const CheckpointFacts&) = default;
+};
+
+/// Reads the table of a checkpoint, and nothing else. Throws InputError where it is damaged, or the
+/// file is no checkpoint, and SystemError.
+[[nodiscard]] CheckpointFacts read_checkpoint_facts(const std::filesystem::path& path);
+
+/// What this process reads as a whole, but for the fields.
+struct Checkpoint {
+    CheckpointFacts facts;
+    Mesh input;
+    /// For each step the edges that it bisected of each cell before it: six bits, in the order of
+    /// cell_edges.
+    std::vector<std::vector<std::uint8_t>> steps;
+};
+
+/// Reads a checkpoint whose input has fewer than 2^32 - 1 entities of each kind. Every block is
+/// checked against its hash, and numbers are in range. Not checked: what read_mesh() does beyond
+/// the syntax, and whether the steps fit the cells. Throws InputError, which names the block, or
+/// SystemError.
+[[nodiscard]] Checkpoint read_checkpoint(const std::filesystem::path& path);
+
+/// Has this file the extension of checkpoints?
+[[nodiscard]] bool is_checkpoint(const std::filesystem::path& path);
+
+}  // namespace octetra

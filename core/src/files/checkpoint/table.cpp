@@ -1,0 +1,181 @@
+#include "files/checkpoint/table.hpp"
+
+#include <cstring>
+#include <limits>
+#include <string>
+#include <string_view>
+
+#define XXH_INLINE_ALL
+#include <xxhash.h>
+
+#include <fmt/format.h>
+
+#include <octetra/core/error.hpp>
+
+namespace octetra {
+namespace {
+
+constexpr std::uint64_t point_markers = 1;
+constexpr std::uint64_t regions = 2;
+constexpr std::uint64_t facet_markers = 4;
+constexpr std::uint64_t edge_markers = 8;
+
+std::uint64_t flags_of(const CheckpointFacts& facts) {
+    return (facts.has_point_markers ? point_markers : 0U) | (facts.has_regions ? regions : 0U) |
+           (facts.has_facet_markers ? facet_markers : 0U) |
+           (facts.has_edge_markers ? edge_markers : 0U);
+}
+
+void put(std::vector<std::byte>& bytes, const void* data, std::size_t size) {
+    const auto* first = static_cast<const std::byte*>(data);
+    bytes.insert(bytes.end(), first, first + size);
+}
+void put(std::vector<std::byte>& bytes, std::uint64_t number) {
+    put(bytes, &number, sizeof number);
+}
+
+/// The rest of a table, as it is read.
+class Table {
+public:
+    Table(const std::filesystem::path& path, std::span<const std::byte> bytes)
+        : path_(&path), rest_(bytes) {}
+
+    std::uint64_t number() {
+        std::uint64_t value = 0;
+        std::memcpy(&value, take(sizeof value).data(), sizeof value);
+        return value;
+    }
+    std::uint64_t number_to(std::uint64_t most, std::string_view what) {
+        const std::uint64_t value = number();
+        if (value > most) fail(fmt::format("{} {}, of at most {}", value, what, most));
+        return value;
+    }
+    /// How many things come that take this many bytes each.
+    std::size_t count(std::size_t bytes_each, std::string_view what) {
+        return static_cast<std::size_t>(number_to(rest_.size() / bytes_each, what));
+    }
+    std::string text() {
+        const auto bytes = take(count(1, "bytes of a name"));
+        std::string text(bytes.size(), '\0');
+        std::memcpy(text.data(), bytes.data(), bytes.size());
+        return text;
+    }
+    [[nodiscard]] std::size_t size() const { return rest_.size(); }
+
+    [[noreturn]] void fail(std::string_view what) const {
+        throw InputError(
+            fmt::format("{}: the table of this checkpoint is wrong: {}", path_->native(), what));
+    }
+
+private:
+    std::span<const std::byte> take(std::size_t size) {
+        if (rest_.size() < size) fail("it is too short");
+        const auto bytes = rest_.first(size);
+        rest_ = rest_.subspan(size);
+        return bytes;
+    }
+
+    const std::filesystem::path* path_;
+    std::span<const std::byte> rest_;
+};
+
+/// What no file can hold, so that nothing overflows that is made of it.
+constexpr std::uint64_t most_entities = std::uint64_t{1} << 56U;
+
+void read_facts(Table& table, CheckpointFacts& facts) {
+    for (std::uint64_t* count : {&facts.vertices, &facts.cells, &facts.facets, &facts.edges,
+                                 &facts.vertices_now, &facts.cells_now}) {
+        *count = table.number_to(most_entities, "entities of a kind");
+    }
+    facts.attributes_per_point = table.number_to(1U << 20U, "attributes of a vertex");
+    facts.index_base = static_cast<std::uint32_t>(table.number_to(1, "as the index base"));
+    const std::uint64_t flags = table.number_to(15, "as flags");
+    facts.has_point_markers = (flags & point_markers) != 0;
+    facts.has_regions = (flags & regions) != 0;
+    facts.has_facet_markers = (flags & facet_markers) != 0;
+    facts.has_edge_markers = (flags & edge_markers) != 0;
+    facts.steps.resize(table.count(3 * sizeof(std::uint64_t), "steps"));
+    for (StepFacts& step : facts.steps) {
+        step.cells_before = table.number();
+        step.cells_cut = table.number();
+        step.bytes = table.number();
+    }
+    facts.fields.resize(table.count(4 * sizeof(std::uint64_t), "fields"));
+    for (FieldFacts& field : facts.fields) {
+        field.on = static_cast<FieldOn>(table.number_to(1, "as where a field is"));
+        field.type = static_cast<FieldType>(table.number_to(3, "as the type of a field"));
+        field.components = table.number_to(1U << 20U, "components of a field");
+        field.name = table.text();
+    }
+}
+
+}  // namespace
+
+std::uint64_t hash_of(std::span<const std::byte> bytes) {
+    return XXH3_64bits(bytes.data(), bytes.size());
+}
+
+std::size_t section_count(const CheckpointFacts& facts) {
+    return first_field + facts.fields.size();
+}
+
+std::vector<std::byte> table_of(const CheckpointFacts& facts,
+                                const std::vector<BlockEntry>& blocks) {
+    std::vector<std::byte> bytes;
+    for (const std::uint64_t number :
+         {facts.vertices, facts.cells, facts.facets, facts.edges, facts.vertices_now,
+          facts.cells_now, std::uint64_t{facts.attributes_per_point},
+          std::uint64_t{facts.index_base}, flags_of(facts)}) {
+        put(bytes, number);
+    }
+    put(bytes, facts.steps.size());
+    for (const StepFacts& step : facts.steps) {
+        put(bytes, step.cells_before);
+        put(bytes, step.cells_cut);
+        put(bytes, step.bytes);
+    }
+    put(bytes, facts.fields.size());
+    for (const FieldFacts& field : facts.fields) {
+        put(bytes, static_cast<std::uint64_t>(field.on));
+        put(bytes, static_cast<std::uint64_t>(field.type));
+        put(bytes, field.components);
+        put(bytes, field.name.size());
+        put(bytes, field.name.data(), field.name.size());
+    }
+    put(bytes, blocks.data(), blocks.size() * sizeof(BlockEntry));
+    return bytes;
+}
+
+void read_table(const std::filesystem::path& path, std::span<const std::byte> table_bytes,
+                std::uint64_t table_begin, CheckpointFacts& facts,
+                std::vector<BlockEntry>& blocks) {
+    Table table(path, table_bytes);
+    read_facts(table, facts);
+    std::uint64_t expected = 0;
+    for (std::size_t s = 0; s < section_count(facts); ++s) {
+        expected += shape_of(facts, static_cast<Section>(s)).blocks();
+    }
+    if (table.size() % sizeof(BlockEntry) != 0 || table.size() / sizeof(BlockEntry) != expected) {
+        table.fail(fmt::format("{} blocks make up what it tells of, and it lists {} bytes of them",
+                               expected, table.size()));
+    }
+    blocks.resize(expected);
+    std::uint64_t end = sizeof(CheckpointHeader);
+    std::size_t next = 0;
+    for (std::size_t s = 0; s < section_count(facts); ++s) {
+        const SectionShape shape = shape_of(facts, static_cast<Section>(s));
+        for (std::uint64_t b = 0; b < shape.blocks(); ++b, ++next) {
+            const std::uint64_t size = table.number();
+            blocks[next] = {size, table.number()};
+            const std::uint64_t fixed = shape.length_of(b) * shape.entity_size;
+            if (size > table_begin - end || (shape.entity_size > 0 && size != fixed)) {
+                table.fail(fmt::format("{} bytes for block {} of the {}", size, b,
+                                       name_of(facts, static_cast<Section>(s))));
+            }
+            end += size;
+        }
+    }
+    if (end != table_begin) table.fail("its blocks are not all that is in the file");
+}
+
+}  // namespace octetra

@@ -1,0 +1,57 @@
+#pragma once
+
+#include <array>
+#include <bit>
+#include <cstdint>
+#include <filesystem>
+#include <span>
+#include <vector>
+
+#include <octetra/core/checkpoint_blocks.hpp>
+
+/// What stands around the blocks of a checkpoint. See docs/formats.md.
+namespace octetra {
+
+static_assert(std::endian::native == std::endian::little,
+              "checkpoints are written as this machine has its numbers");
+
+/// Not text, and damaged by whoever takes it for text.
+inline constexpr std::array<char, 8> checkpoint_magic{'\x89', 'O',  'C',    'T',
+                                                      '\r',   '\n', '\x1a', '\n'};
+
+struct CheckpointHeader {
+    std::array<char, 8> magic = checkpoint_magic;
+    std::uint32_t version = 1;
+    std::uint32_t byte_order = 0x01020304;
+};
+static_assert(sizeof(CheckpointHeader) == 16);
+
+/// The last bytes of the file.
+struct CheckpointTrailer {
+    std::uint64_t table_begin = 0;
+    std::uint64_t table_size = 0;
+    std::uint64_t table_hash = 0;
+    std::array<char, 8> magic = checkpoint_magic;
+};
+static_assert(sizeof(CheckpointTrailer) == 32);
+
+struct BlockEntry {
+    std::uint64_t size = 0;
+    std::uint64_t hash = 0;
+};
+
+/// XXH3, 64 bits.
+[[nodiscard]] std::uint64_t hash_of(std::span<const std::byte> bytes);
+
+[[nodiscard]] std::size_t section_count(const CheckpointFacts& facts);
+
+/// The table: the facts, and the blocks in the order of the file.
+[[nodiscard]] std::vector<std::byte> table_of(const CheckpointFacts& facts,
+                                              const std::vector<BlockEntry>& blocks);
+
+/// Reads it. Throws InputError, with the file's name, where it is none, or blocks of these sizes
+/// do not end where the table begins.
+void read_table(const std::filesystem::path& path, std::span<const std::byte> table,
+                std::uint64_t table_begin, CheckpointFacts& facts, std::vector<BlockEntry>& blocks);
+
+}  // namespace octetra

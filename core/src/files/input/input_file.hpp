@@ -1,0 +1,34 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace octetra {
+
+/// A file that is read in places. Throws InputError where it cannot be opened or is no file, or has
+/// become shorter, and SystemError where reading fails.
+class InputFile {
+public:
+    explicit InputFile(std::filesystem::path path);
+    ~InputFile();
+    InputFile(const InputFile&) = delete;
+    InputFile& operator=(const InputFile&) = delete;
+    InputFile(InputFile&&) = delete;
+    InputFile& operator=(InputFile&&) = delete;
+
+    [[nodiscard]] std::uint64_t size() const { return size_; }
+    [[nodiscard]] std::vector<std::byte> read(std::uint64_t position, std::uint64_t size) const;
+    void read(std::uint64_t position, void* data, std::uint64_t size) const;
+    /// Throws InputError "PATH: what".
+    [[noreturn]] void fail(const std::string& what) const;
+
+private:
+    std::filesystem::path path_;
+    int file_ = -1;
+    std::uint64_t size_ = 0;
+};
+
+}  // namespace octetra

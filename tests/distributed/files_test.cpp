@@ -9,6 +9,7 @@
 #include <octetra/reference/refine.hpp>
 
 #include "distributed/marked_mesh.hpp"
+#include "distributed/shared_folder.hpp"
 #include "distributed/world.hpp"
 #include "support/temporary_folder.hpp"
 
@@ -25,28 +26,6 @@ DistributedMesh refined(const Mesh& mesh, const std::string& partition, const Se
     refine(part, selection, {.levels = levels});
     return part;
 }
-
-/// Collective. A folder of the first process's that all know.
-class SharedFolder {
-public:
-    SharedFolder() {
-        if (world().is_first()) own_ = std::make_unique<test::TemporaryFolder>();
-        std::vector<char> name;
-        if (own_) {
-            const std::string path = own_->path().native();
-            name.assign(path.begin(), path.end());
-        }
-        world().broadcast(name);
-        path_ = std::string(name.begin(), name.end());
-    }
-    [[nodiscard]] std::filesystem::path operator/(const std::string& name) const {
-        return path_ / name;
-    }
-
-private:
-    std::unique_ptr<test::TemporaryFolder> own_;
-    std::filesystem::path path_;
-};
 
 /// Collective. All slices of all windows, put together on the first process.
 template <class T>
@@ -148,7 +127,7 @@ class FilesOfAllRanks : public testing::TestWithParam<std::string> {
 protected:
     /// Collective. All ranks write the file, the first one the reference's, and compares.
     void expect_equal_files(const Mesh& mesh, const Selection& selection, int levels) const {
-        const SharedFolder folder;
+        const test::SharedFolder folder;
         CanonicalMesh fine(refined(mesh, GetParam(), selection, levels));
         std::string maps;
         if (world().is_first()) {

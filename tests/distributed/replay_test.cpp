@@ -69,23 +69,5 @@ TEST_P(Replay, GivesEveryNumberAndBitOfThePartAgain) {
 
 INSTANTIATE_TEST_SUITE_P(Seeds, Replay, testing::Range<std::uint64_t>(0, 6));
 
-TEST(CutRuns, ReadBackAsWritten) {
-    std::mt19937_64 random(1);
-    std::vector<std::pair<Cut, std::uint64_t>> written;
-    CutRuns runs;
-    for (int i = 0; i < 1000; ++i) {
-        const auto cut =
-            static_cast<Cut>((written.empty() ? 0U : written.back().first + 1U) % 127U);
-        written.emplace_back(
-            cut, random() % 4 == 0 ? random() >> (random() % 50U + 2) : random() % 4 + 1);
-        if (written.back().second == 0) written.back().second = 1;
-        runs.append(written.back().first, written.back().second);
-    }
-    runs.finish();
-    std::vector<std::pair<Cut, std::uint64_t>> read;
-    for_each_run(runs, [&](Cut cut, std::uint64_t count) { read.emplace_back(cut, count); });
-    EXPECT_EQ(read, written);
-}
-
 }  // namespace
 }  // namespace octetra::distributed

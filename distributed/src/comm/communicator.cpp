@@ -93,6 +93,10 @@ void Communicator::sum(std::span<std::uint64_t> numbers) const {
     if (mpi_) reduce(numbers, MPI_SUM, mpi_->comm, profile());
 }
 
+void Communicator::max(std::span<std::uint64_t> numbers) const {
+    if (mpi_) reduce(numbers, MPI_MAX, mpi_->comm, profile());
+}
+
 std::uint64_t Communicator::max(std::uint64_t number) const {
     return mpi_ ? reduced(number, MPI_MAX, mpi_->comm, profile()) : number;
 }

@@ -15,8 +15,11 @@
 #include <fmt/format.h>
 
 #include <octetra/core/error.hpp>
+#include <octetra/core/selection.hpp>
 
+#include "comm/local_failure.hpp"
 #include "partition/cell_graph.hpp"
+#include "partition/rcb.hpp"
 
 namespace octetra::distributed {
 namespace {
@@ -118,6 +121,30 @@ std::vector<int> by_graph(const Mesh& mesh, int parts, PartitionMethod method,
     return partition_graph(lepp_graph(mesh, of_cells, most), parts);
 }
 
+/// Weights as whole numbers, the least of them about a thousand.
+std::uint64_t whole_weight(float weight, float least) {
+    constexpr double most = 0x1p+30;  // the sum of 2^32 of them is to fit
+    return static_cast<std::uint64_t>(
+        std::min(most, 1000.0 * static_cast<double>(weight) / static_cast<double>(least)));
+}
+
+std::vector<int> by_coordinates(const Mesh& mesh, int parts, const std::vector<float>& weights) {
+    (void)weights_of(mesh.cells.size(), weights, parts);
+    const float least = weights.empty() ? 1 : std::ranges::min(weights);
+    std::vector<WeighedPoint> points;
+    points.reserve(mesh.cells.size());
+    for (CellIndex c{0}; c < mesh.cells.end_index(); ++c) {
+        const auto& [a, b, d, e] = mesh.cells[c];
+        const Corners corners{mesh.points[a], mesh.points[b], mesh.points[d], mesh.points[e]};
+        points.push_back({centroid(corners), c.value(),
+                          weights.empty() ? 1 : whole_weight(weights[c.value()], least)});
+    }
+    LocalFailure failure;
+    std::vector<int> part = bisect_coordinates(Communicator(), points, parts, failure);
+    failure.agree(Communicator());
+    return part;
+}
+
 std::vector<int> by_lot(std::size_t cells, int parts, std::uint64_t seed) {
     std::mt19937_64 random(seed);
     std::vector<int> part(cells);
@@ -165,6 +192,7 @@ std::vector<int> from_file(const std::filesystem::path& path, std::size_t cells,
 Partition parse_partition(const std::string& text) {
     if (text == "lepp") return {.method = PartitionMethod::lepp};
     if (text == "dual") return {.method = PartitionMethod::dual};
+    if (text == "rcb") return {.method = PartitionMethod::rcb};
     if (text == "block") return {.method = PartitionMethod::block};
     if (text.starts_with("file:") && text.size() > 5) {
         return {.method = PartitionMethod::file, .path = text.substr(5)};
@@ -176,7 +204,7 @@ Partition parse_partition(const std::string& text) {
         if (error == std::errc{} && stop == end) return partition;
     }
     throw InputError(fmt::format(
-        "--partition takes lepp, dual, block, random:SEED or file:PATH, not '{}'", text));
+        "--partition takes lepp, dual, rcb, block, random:SEED or file:PATH, not '{}'", text));
 }
 
 std::vector<int> partition_cells(const Mesh& mesh, int parts, const Partition& partition,
@@ -185,6 +213,7 @@ std::vector<int> partition_cells(const Mesh& mesh, int parts, const Partition& p
     switch (partition.method) {
         case PartitionMethod::lepp:
         case PartitionMethod::dual: return by_graph(mesh, parts, partition.method, weights);
+        case PartitionMethod::rcb: return by_coordinates(mesh, parts, weights);
         case PartitionMethod::block: return equal_blocks(cells, parts);
         case PartitionMethod::random: return by_lot(cells, parts, partition.seed);
         case PartitionMethod::file: return from_file(partition.path, cells, parts);

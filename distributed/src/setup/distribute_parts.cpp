@@ -42,13 +42,19 @@ void check_sizes(const Communicator& processes, const MeshPart& part) {
     check("region tags", part.regions.size(), part.cells.size(), true);
     check("cell numbers", part.cell_numbers.size(), part.cells.size(), true);
     check("facet markers", part.facet_markers.size(), part.facets.size(), true);
+    check("facet numbers", part.facet_numbers.size(), part.facets.size(), true);
     check("edge markers", part.edge_markers.size(), part.edges.size(), true);
+    check("edge numbers", part.edge_numbers.size(), part.edges.size(), true);
     const std::size_t most =
         std::max({vertices, part.cells.size(), part.facets.size(), part.edges.size()});
     if (most >= VertexIndex::limit) refuse(processes, "{} entities of a kind are too many", most);
-    if (!std::ranges::is_sorted(part.cell_numbers, std::ranges::less_equal())) {
-        refuse(processes, "cell numbers do not ascend");
-    }
+    const auto check_ascent = [&](const char* what, const std::vector<std::uint64_t>& numbers) {
+        if (std::ranges::is_sorted(numbers, std::ranges::less_equal())) return;
+        refuse(processes, "{} numbers do not ascend", what);
+    };
+    check_ascent("cell", part.cell_numbers);
+    check_ascent("facet", part.facet_numbers);
+    check_ascent("edge", part.edge_numbers);
 }
 
 /// Collective. Refuses a list that some processes have of their entities and others have not, and
@@ -65,7 +71,9 @@ void check_alike(const Communicator& processes, const MeshPart& part) {
     check("region tags", part.regions.size(), part.cells.size());
     check("cell numbers", part.cell_numbers.size(), part.cells.size());
     check("facet markers", part.facet_markers.size(), part.facets.size());
+    check("facet numbers", part.facet_numbers.size(), part.facets.size());
     check("edge markers", part.edge_markers.size(), part.edges.size());
+    check("edge numbers", part.edge_numbers.size(), part.edges.size());
     const auto check_same = [&](const char* what, std::uint64_t number) {
         if (processes.max(number) != ~processes.max(~number)) {
             throw InputError(fmt::format("processes give different {}", what));
@@ -220,27 +228,39 @@ std::vector<std::uint8_t> kept(const Communicator& processes, const PartVertices
     return keeps;
 }
 
+/// The facets or edges of a part, by place.
+template <class I, std::size_t N>
+struct TaggedList {
+    const char* what;
+    const IndexVector<I, std::array<VertexIndex, N>>& list;
+    const std::vector<Marker>& markers;
+    const std::vector<std::uint64_t>& numbers;
+};
+
 /// Collective. Puts the facets or edges that this process keeps into its part of the mesh.
 template <class I, std::size_t N>
 void take_tagged(const Communicator& processes, const PartVertices& vertices,
-                 const IndexVector<I, std::array<VertexIndex, N>>& list,
-                 const std::vector<Marker>& markers, const char* what,
+                 const TaggedList<I, N>& listed,
                  IndexVector<I, std::array<VertexIndex, N>>& entities, AncestorMap& ancestors,
                  LocalFailure& failure) {
-    const auto keeps = kept(processes, vertices, list, markers, what, failure);
+    const auto keeps = kept(processes, vertices, listed.list, listed.markers, listed.what, failure);
     const auto count = static_cast<std::uint64_t>(std::ranges::count(keeps, std::uint8_t{1}));
-    const std::uint64_t first = processes.sum_before(count);
+    std::uint64_t next = processes.sum_before(count);
+    const bool are_numbered = processes.max(listed.numbers.size()) > 0;
     failure.attempt([&] {
-        std::vector<std::uint64_t> numbers(count);
-        std::iota(numbers.begin(), numbers.end(), first);
+        std::vector<std::uint64_t> numbers;
         std::vector<Marker> kept_markers;
-        for (I i{0}; i < list.end_index(); ++i) {
+        for (I i{0}; i < listed.list.end_index(); ++i) {
             if (keeps[i.value()] == 0) continue;
-            entities.push_back(list[i]);
-            if (!markers.empty()) kept_markers.push_back(markers[i.value()]);
+            entities.push_back(listed.list[i]);
+            numbers.push_back(are_numbered ? listed.numbers[i.value()] : next++);
+            if (!listed.markers.empty()) kept_markers.push_back(listed.markers[i.value()]);
         }
         ancestors = ancestors_of_roots(std::move(numbers), std::move(kept_markers));
     });
+    if (!are_numbered) return;
+    failure.agree(processes);
+    check_complete(processes, ancestors.roots, processes.sum(count), listed.what);
 }
 
 /// Leaves out the vertices that this process does not keep, and numbers by those that it does.
@@ -312,10 +332,12 @@ DistributedMesh distribute_parts(const Communicator& processes, MeshPart part) {
     failure.agree(processes);
     check_complete(processes, part.cell_numbers, mesh.input_cell_count, "cell");
 
-    take_tagged(processes, *vertices, facets, part.facet_markers, "facet", mesh.facets,
-                mesh.facet_ancestors, failure);
-    take_tagged(processes, *vertices, edges, part.edge_markers, "edge", mesh.edges,
-                mesh.edge_ancestors, failure);
+    take_tagged(processes, *vertices,
+                TaggedList<FacetIndex, 3>{"facet", facets, part.facet_markers, part.facet_numbers},
+                mesh.facets, mesh.facet_ancestors, failure);
+    take_tagged(processes, *vertices,
+                TaggedList<EdgeIndex, 2>{"edge", edges, part.edge_markers, part.edge_numbers},
+                mesh.edges, mesh.edge_ancestors, failure);
     failure.attempt([&] {
         mesh.cell_ancestors =
             ancestors_of_roots(std::move(part.cell_numbers), std::move(part.regions));

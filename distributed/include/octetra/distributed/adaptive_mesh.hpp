@@ -15,6 +15,7 @@
 #include <octetra/distributed/canonical_mesh.hpp>
 #include <octetra/distributed/communicator.hpp>
 #include <octetra/distributed/distributed_mesh.hpp>
+#include <octetra/distributed/field.hpp>
 #include <octetra/distributed/ghosts.hpp>
 #include <octetra/distributed/mesh_part.hpp>
 #include <octetra/distributed/out_of_memory.hpp>
@@ -63,6 +64,16 @@ public:
     /// Collective. A mesh that processes hold in parts of their own making: no process ever has all
     /// of it. Cells stay where they are.
     [[nodiscard]] static AdaptiveMesh from_parts(const Communicator& processes, MeshPart part);
+    /// Collective. A mesh that save() has written, on any number of processes, with its history:
+    /// what is done to it from now on gives what it would have given there. No process has more
+    /// than its part at any time, unless the partition is of another method than rcb. Into
+    /// `fields`, null on all processes or on none, come those that were saved with it.
+    ///
+    /// Throws InputError where the file is damaged or no checkpoint, on all processes alike.
+    [[nodiscard]] static AdaptiveMesh load(
+        const Communicator& processes, const std::filesystem::path& path,
+        const Partition& partition = {.method = PartitionMethod::rcb},
+        std::vector<Field>* fields = nullptr);
     /// Collective. Of parts that are as the input was: nothing has been refined.
     explicit AdaptiveMesh(DistributedMesh part);
 
@@ -138,6 +149,12 @@ public:
     /// or, of a `.pvtu`, each process's part as a piece. Replaces an existing file, also the one
     /// that the mesh was read from. Returns what the format could not hold.
     [[nodiscard]] std::string write(const std::filesystem::path& path) const;
+    /// Collective. Writes a checkpoint, `.octetra`: the input, what each step did, and `fields`,
+    /// values of this mesh's vertices and cells. The file is the same whatever the number of
+    /// processes and the partition. It is written beside its place, brought to the disk, and then
+    /// renamed: whatever happens meanwhile, a file that was there is there still, or the new one.
+    /// Throws InputError where a field does not fit the mesh or the processes have different ones.
+    void save(const std::filesystem::path& path, std::span<const Field> fields = {}) const;
     /// Collective. The first process gets the whole mesh in the order of files, the others an empty
     /// one. Throws InputError where 32 bits cannot number it.
     [[nodiscard]] Mesh collect() const;

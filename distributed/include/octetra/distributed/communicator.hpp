@@ -55,6 +55,8 @@ public:
     /// Collective. Each number becomes the sum of those at its place on all processes, which have
     /// equally many, fewer than 2^31. Needs no memory.
     void sum(std::span<std::uint64_t> numbers) const;
+    /// Collective. The same with the greatest.
+    void max(std::span<std::uint64_t> numbers) const;
 
     /// Collective. The maximum of one number from each process.
     [[nodiscard]] std::uint64_t max(std::uint64_t number) const;

@@ -31,12 +31,14 @@ struct MeshPart {
     std::vector<std::uint64_t> cell_numbers;
 
     /// Tagged facets and edges, each of a cell of this process. More than one process may list the
-    /// same one, with the same marker; the lowest rank keeps it. They are numbered in the order of
-    /// the ranks.
+    /// same one, with the same marker; the lowest rank keeps it. Numbers are as those of cells; or
+    /// empty on all: they are numbered in the order of the ranks.
     std::vector<std::array<std::uint64_t, 3>> facets;
     std::vector<Marker> facet_markers;  ///< or empty
+    std::vector<std::uint64_t> facet_numbers;
     std::vector<std::array<std::uint64_t, 2>> edges;
     std::vector<Marker> edge_markers;  ///< or empty
+    std::vector<std::uint64_t> edge_numbers;
 
     std::uint32_t index_base = 0;  ///< what files are to call the first vertex: 0 or 1
 };

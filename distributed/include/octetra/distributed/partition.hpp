@@ -14,6 +14,7 @@ namespace octetra::distributed {
 enum class PartitionMethod {
     lepp,    ///< METIS on the graph that joins cells through their longest edges (the paper's)
     dual,    ///< METIS on the graph that joins cells through faces
+    rcb,     ///< recursive coordinate bisection of the cells' centroids
     block,   ///< equal shares in the order of the input
     random,  ///< at random
     file,    ///< as a file says
@@ -25,19 +26,20 @@ struct Partition {
     std::filesystem::path path;  ///< for file: part numbers from 0, one for each cell, in order
 };
 
-/// Does it make parts even in weights? Those by METIS do.
+/// Does it make parts even in weights?
 [[nodiscard]] inline bool takes_weights(const Partition& partition) {
-    return partition.method == PartitionMethod::lepp || partition.method == PartitionMethod::dual;
+    return partition.method == PartitionMethod::lepp || partition.method == PartitionMethod::dual ||
+           partition.method == PartitionMethod::rcb;
 }
 
-/// "lepp", "dual", "block", "random:SEED" or "file:PATH". Throws InputError.
+/// "lepp", "dual", "rcb", "block", "random:SEED" or "file:PATH". Throws InputError.
 [[nodiscard]] Partition parse_partition(const std::string& text);
 
-/// The part, 0 to parts-1, of each cell; parts may be empty. By lepp and dual, parts are about
-/// equal in the sum of their cells' weights, such as predicted_cells() finds, as far as no single
-/// cell outweighs a part; without weights, in their number. Not collective: one process decides.
-/// Throws InputError where a part file does not fit the mesh, METIS cannot count so many cells, or
-/// is given weights but not one for each cell, positive and finite.
+/// The part, 0 to parts-1, of each cell; parts may be empty. By lepp, dual and rcb, parts are
+/// about equal in the sum of their cells' weights, such as predicted_cells() finds, as far as no
+/// single cell outweighs a part; without weights, in their number. Not collective: one process
+/// decides. Throws InputError where a part file does not fit the mesh, METIS cannot count so many
+/// cells, or there are weights but not one for each cell, positive and finite.
 [[nodiscard]] std::vector<int> partition_cells(const Mesh& mesh, int parts,
                                                const Partition& partition,
                                                const std::vector<float>& weights = {});

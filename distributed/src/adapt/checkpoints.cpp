@@ -1,0 +1,131 @@
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include <octetra/core/checkpoint_blocks.hpp>
+#include <octetra/core/error.hpp>
+#include <octetra/distributed/adaptive_mesh.hpp>
+#include <octetra/distributed/profile.hpp>
+
+#include "adapt/mesh_state.hpp"
+#include "checkpoint/cut_marks.hpp"
+#include "checkpoint/load.hpp"
+#include "checkpoint/load_fields.hpp"
+#include "checkpoint/root_cuts.hpp"
+#include "checkpoint/save.hpp"
+#include "comm/local_failure.hpp"
+#include "level/incremental/adjacency.hpp"
+
+namespace octetra::distributed {
+namespace {
+
+/// The steps of a part of so many roots, each as runs over all its cells.
+std::vector<CutRuns> steps_of(const CutRoots& cuts, std::size_t root_count,
+                              std::size_t step_count) {
+    RootsTogether together(step_count);
+    RootBytes rest = cuts.bytes;
+    std::size_t next = 0;
+    for (const CutRoots::Root& root : cuts.roots) {
+        together.append_whole(root.place - next);
+        (void)together.append(rest.first(root.bytes));
+        rest = rest.subspan(root.bytes);
+        next = root.place + std::size_t{1};
+    }
+    together.append_whole(root_count - next);
+    return std::move(together).finish();
+}
+
+/// Collective. Does the steps again. They are marks to refine by: what a damaged or made-up history
+/// leaves open closure adds, and then it is another history than that of the file.
+void redo(AdaptiveMesh::State& state, CutRoots cuts, const CheckpointFacts& facts) {
+    const Communicator& processes = state.mesh.processes;
+    LocalFailure failure;
+    std::vector<CutRuns> given;
+    std::unique_ptr<CutMarks> marks;
+    failure.attempt([&] {
+        given = steps_of(cuts, state.mesh.cells.size(), facts.steps.size());
+        marks = std::make_unique<CutMarks>(std::move(cuts));
+    });
+    failure.agree(processes);
+    for (std::size_t t = 0; t < facts.steps.size(); ++t) {
+        const bool all = processes.max(marks->next_is_uniform(state.mesh) ? 0 : 1) == 0;
+        (void)state.refine(
+            [&] {
+                MarkedCells marked = marks->next(state.mesh);
+                if (all)
+                    return MarkedCells{.all = true,
+                                       .cells = {},
+                                       .edges = {},
+                                       .count = marked.count,
+                                       .judged = marked.judged};
+                return marked;
+            },
+            {});
+    }
+    failure.attempt([&] {
+        const CanonicalOrder order(state.mesh);
+        if (state.history.steps(order.cells_before()) != given) {
+            throw InputError("its steps do not fit each other, or the cells");
+        }
+    });
+    failure.agree(processes);
+    if (processes.sum(state.mesh.cells.size()) != facts.cells_now ||
+        state.numbers.vertex_count != facts.vertices_now) {
+        throw InputError("its steps make another mesh than its table tells of");
+    }
+}
+
+/// What is found wrong with the mesh gets the file's name in front.
+auto naming(const std::filesystem::path& path, auto&& work) {
+    try {
+        return work();
+    } catch (const InputError& error) {
+        throw InputError(fmt::format("{}: {}", path.native(), error.what()));
+    }
+}
+
+}  // namespace
+
+void AdaptiveMesh::save(const std::filesystem::path& path, std::span<const Field> fields) const {
+    LocalFailure failure;
+    DistributedMesh& mesh = state_->mesh;
+    std::unique_ptr<CanonicalOrder> order;
+    std::unique_ptr<DistributedMesh> input;
+    std::vector<CutRuns> steps;
+    failure.attempt([&] {
+        order = std::make_unique<CanonicalOrder>(mesh);
+        steps = state_->history.steps(order->cells_before());
+        input = std::make_unique<DistributedMesh>(state_->history.input_of(mesh));
+    });
+    failure.agree(mesh.processes);
+    distributed::save({.mesh = &mesh,
+                       .cells_before = order->cells_before(),
+                       .numbers = &state_->numbers,
+                       .sharing = &state_->sharing,
+                       .input = input.get(),
+                       .steps = steps},
+                      fields, path);
+}
+
+AdaptiveMesh AdaptiveMesh::load(const Communicator& processes, const std::filesystem::path& path,
+                                const Partition& partition, std::vector<Field>* fields) {
+    LocalFailure failure;
+    std::unique_ptr<CheckpointReader> file;
+    failure.attempt([&] { file = std::make_unique<CheckpointReader>(path); });
+    failure.agree(processes);
+    LoadedPart part = load_part(processes, *file, path, partition);
+    auto state = naming(path, [&] {
+        auto made = std::make_unique<State>(distribute_parts(processes, std::move(part.input)));
+        redo(*made, std::move(part.cuts), file->facts());
+        return made;
+    });
+    if (fields != nullptr) {
+        const CanonicalOrder order(state->mesh);
+        *fields = load_fields(state->mesh, order.cells_before(), state->numbers, *file);
+    }
+    return AdaptiveMesh(std::move(state));
+}
+
+}  // namespace octetra::distributed

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include <octetra/core/point.hpp>
+#include <octetra/distributed/communicator.hpp>
+
+#include "comm/local_failure.hpp"
+
+namespace octetra::distributed {
+
+/// What is to be shared out: a cell, as its centroid.
+struct WeighedPoint {
+    Point point;
+    std::uint64_t number = 0;  ///< in the whole mesh: decides where points are equal
+    std::uint64_t weight = 1;
+};
+
+/// Collective. Recursive coordinate bisection: boxes are cut across their longest extent into two
+/// whose weights are as their numbers of parts, until each is one part. Returns the part, 0 to
+/// parts-1, of each of this process's points. All is done in whole numbers, so the parts are the
+/// same however many processes find them, and whichever has which points. Weights add up to less
+/// than 2^63.
+///
+/// Of each level of the tree, processes exchange 8 sums of 256 numbers for each box. Where a
+/// process has failed or fails, the result is not to be used on any.
+[[nodiscard]] std::vector<int> bisect_coordinates(const Communicator& processes,
+                                                  const std::vector<WeighedPoint>& points,
+                                                  int parts, LocalFailure& failure);
+
+}  // namespace octetra::distributed

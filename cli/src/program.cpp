@@ -97,8 +97,8 @@ int run(int argc, char** argv) {
 
     CLI::App program(
         "Refines tetrahedral meshes by longest-edge bisection (8T-LE).\n"
-        "Files by extension: .ele/.node (TetGen), .mesh (Medit), .vtu and .pvtu (VTK, written "
-        "only).",
+        "Files by extension: .ele/.node (TetGen), .mesh (Medit), .octetra (with its history), .vtu "
+        "and .pvtu (VTK, written only).",
         "octetra");
     program.set_version_flag("--version", "octetra " OCTETRA_VERSION);
     program.require_subcommand(1);
@@ -113,6 +113,8 @@ int run(int argc, char** argv) {
         "  octetra verify cube.mesh fine.mesh\n"
         "  mpirun -n 4 octetra refine cube.mesh --sphere 0,0,0,0.3 --levels 2 -o fine.vtu");
     add_refine(program, world);
+    add_adapt(program, world);
+    add_coarsen(program, world);
     add_info(program, world);
     add_generate(program, world);
     add_convert(program, world);

@@ -71,10 +71,6 @@ std::string meant_by(std::string_view word, const std::vector<std::string>& name
     return best;
 }
 
-std::string did_you_mean(const std::string& meant) {
-    return meant.empty() ? std::string() : fmt::format("; did you mean {}?", meant);
-}
-
 bool is_option(std::string_view word) {
     return word.size() > 1 && word[0] == '-' &&
            std::string_view(".0123456789").find(word[1]) == std::string_view::npos;
@@ -89,7 +85,7 @@ std::string unknown_option(const Innermost& command, std::string_view word) {
     }
     const std::string_view name = word.substr(0, word.find('='));
     return fmt::format("{} has no option {}{}", command.app->get_name(), name,
-                       did_you_mean(meant_by(name, names)));
+                       did_you_mean(name, names));
 }
 
 std::string unknown_subcommand(const Innermost& command, const std::string& word) {
@@ -98,7 +94,7 @@ std::string unknown_subcommand(const Innermost& command, const std::string& word
         names.push_back(subcommand->get_name());
     }
     return fmt::format("{} takes one of {}, not '{}'{}", command.app->get_name(),
-                       fmt::join(names, ", "), word, did_you_mean(meant_by(word, names)));
+                       fmt::join(names, ", "), word, did_you_mean(word, names));
 }
 
 std::string unexpected_word(const Innermost& command, std::string_view word) {
@@ -157,6 +153,15 @@ std::string what_is_wrong(const Innermost& command, const CLI::ParseError& error
 }
 
 }  // namespace
+
+std::string did_you_mean(std::string_view word, const std::vector<std::string>& names) {
+    const std::string meant = meant_by(word, names);
+    return meant.empty() ? std::string() : fmt::format("; did you mean {}?", meant);
+}
+
+std::string usage_fault(const CLI::App& program, const CLI::ParseError& error) {
+    return what_is_wrong(innermost(program), error);
+}
 
 std::string usage_error(const CLI::App& program, const CLI::ParseError& error) {
     const Innermost command = innermost(program);

@@ -52,6 +52,8 @@ const std::vector<NumberOption> number_options{
     {"refine m.ele -o out.mesh --all --levels", "--levels", "a whole number from 0 to 50"},
     {"verify m.ele m.ele --all --levels", "--levels", "a whole number from 0 to 50"},
     {"refine m.ele -o out.mesh --all --max-cells", "--max-cells", "a whole number from 1 up"},
+    {"adapt m.ele -o out.mesh --script s.txt --max-cells", "--max-cells",
+     "a whole number from 1 up"},
     {"refine m.ele -o out.mesh --random 1 --seed", "--seed", "a whole number from 0 up"},
     {"refine m.ele -o out.mesh --region", "--region",
      "a whole number from -2147483648 to 2147483647"},
@@ -168,9 +170,9 @@ TEST_F(Usage, OfNamesAndWordsIsToldInOneLine) {
                    "--engine takes one of distributed, reference, not 'x'");
     expect_refused(refine + "--sync", "x", "--sync takes one of neighbour, gateway, not 'x'");
     for (const std::string value : {"", "x", "random:", "random:x", "random:1.5", "file:"}) {
-        expect_refused(
-            refine + "--partition", value,
-            "--partition takes lepp, dual, block, random:SEED or file:PATH, not '" + value + "'");
+        expect_refused(refine + "--partition", value,
+                       "--partition takes lepp, dual, rcb, block, random:SEED or file:PATH, not '" +
+                           value + "'");
     }
 }
 

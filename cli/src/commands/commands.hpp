@@ -13,6 +13,8 @@ class Communicator;
 /// are thrown on all.
 namespace octetra::cli {
 
+void add_adapt(CLI::App& program, const distributed::Communicator& world);
+void add_coarsen(CLI::App& program, const distributed::Communicator& world);
 void add_compare(CLI::App& program, const distributed::Communicator& world);
 void add_convert(CLI::App& program, const distributed::Communicator& world);
 void add_generate(CLI::App& program, const distributed::Communicator& world);

@@ -3,7 +3,6 @@
 
 #include <CLI/CLI.hpp>
 
-#include <octetra/core/files/mesh_files.hpp>
 #include <octetra/distributed/communicator.hpp>
 #include <octetra/verify/compare.hpp>
 
@@ -22,9 +21,8 @@ struct CompareOptions {
 };
 
 bool run(const CompareOptions& options) {
-    const ReadOptions as_it_stands{.only_syntax = true, .note = note};
     const auto comparison =
-        verify::compare(read_mesh(options.a, as_it_stands), read_mesh(options.b, as_it_stands));
+        verify::compare(read_as_it_stands(options.a), read_as_it_stands(options.b));
     print_comparison(comparison, options.a, options.b);
     return comparison.likeness == verify::Likeness::identical ||
            (!options.identical && comparison.likeness == verify::Likeness::up_to_numbering);

@@ -20,7 +20,7 @@ struct ConvertOptions {
 };
 
 void convert(const ConvertOptions& options) {
-    check_writable(options.output);
+    check_output(options.output);
     check_files_apart({mesh_named("MESH", options.input.path)},
                       {mesh_to_write("OUT", options.output)});
     const Mesh mesh = read_input(options.input);
@@ -35,7 +35,8 @@ void add_convert(CLI::App& program, const distributed::Communicator& world) {
     CLI::App* command = program.add_subcommand(
         "convert", "Write a mesh in another format, coordinates bit for bit");
     add_input_options(*command, options->input);
-    command->add_option("OUT", options->output, "where to write: .ele, .mesh, .vtu or .pvtu")
+    command
+        ->add_option("OUT", options->output, "where to write: .ele, .mesh, .octetra, .vtu or .pvtu")
         ->type_name("")
         ->check(names_a_file())
         ->required();

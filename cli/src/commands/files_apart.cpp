@@ -25,11 +25,7 @@ void check_pair(const NamedFiles& input, const fs::path& read, const NamedFiles&
 void check_written_pair(const NamedFiles& one, const NamedFiles& other) {
     for (const fs::path& a : one.files) {
         for (const fs::path& b : other.files) {
-            if (!are_one_place(a, b)) continue;
-            const std::string alias =
-                a == b ? std::string() : fmt::format(", which is {}", a.native());
-            throw InputError(fmt::format("{} and {} name the same file, {}{}", one.argument,
-                                         other.argument, b.native(), alias));
+            if (are_one_place(a, b)) refuse_same_file(one.argument, a, other.argument, b);
         }
     }
 }
@@ -47,6 +43,15 @@ NamedFiles mesh_to_write(std::string_view argument, const fs::path& path, int pi
 NamedFiles file_named(std::string_view argument, const fs::path& path) {
     if (path.empty()) return {argument, {}};
     return {argument, {path}};
+}
+
+void refuse_same_file(std::string_view one, const fs::path& its_name, std::string_view other,
+                      const fs::path& the_others_name) {
+    const std::string alias = its_name == the_others_name
+                                  ? std::string()
+                                  : fmt::format(", which is {}", its_name.native());
+    throw InputError(fmt::format("{} and {} name the same file, {}{}", one, other,
+                                 the_others_name.native(), alias));
 }
 
 void check_files_apart(const std::vector<NamedFiles>& read,

@@ -27,4 +27,9 @@ struct NamedFiles {
 /// arguments name one file to write.
 void check_files_apart(const std::vector<NamedFiles>& read, const std::vector<NamedFiles>& written);
 
+/// Throws InputError: two arguments name one file to write, by these names.
+[[noreturn]] void refuse_same_file(std::string_view one, const std::filesystem::path& its_name,
+                                   std::string_view other,
+                                   const std::filesystem::path& the_others_name);
+
 }  // namespace octetra::cli

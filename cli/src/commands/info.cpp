@@ -2,6 +2,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include <octetra/core/files/checkpoint.hpp>
 #include <octetra/distributed/communicator.hpp>
 #include <octetra/quality/mesh_statistics.hpp>
 
@@ -32,7 +33,13 @@ void add_info(CLI::App& program, const distributed::Communicator& world) {
     command->callback([options, world] {
         world.on_first([&] {
             const quality::MeshStatistics statistics = quality::measure(read_input(options->input));
-            options->json ? print_json(statistics) : print_table(statistics);
+            if (!is_checkpoint(options->input.path)) {
+                return options->json ? print_json(statistics) : print_table(statistics);
+            }
+            const CheckpointFacts facts = read_checkpoint_facts(options->input.path);
+            if (options->json) return print_json(statistics, &facts);
+            print_table(statistics);
+            print_history(facts);
         });
     });
 }

@@ -7,8 +7,10 @@
 
 #include <CLI/CLI.hpp>
 #include <octetra/core/error.hpp>
+#include <octetra/core/files/checkpoint.hpp>
 #include <octetra/core/files/mesh_files.hpp>
 #include <octetra/core/files/places.hpp>
+#include <octetra/distributed/adaptive_mesh.hpp>
 
 #include "grouped.hpp"
 #include "terminal.hpp"
@@ -16,7 +18,9 @@
 namespace octetra::cli {
 
 void add_input_options(CLI::App& subcommand, InputOptions& options) {
-    subcommand.add_option("MESH", options.path, "the mesh: .ele or .node (TetGen), .mesh (Medit)")
+    subcommand
+        .add_option("MESH", options.path,
+                    "the mesh: .ele or .node (TetGen), .mesh (Medit), .octetra")
         ->type_name("")
         ->check(names_a_file())
         ->required();
@@ -27,7 +31,7 @@ void add_input_options(CLI::App& subcommand, InputOptions& options) {
 void add_output_option(CLI::App& subcommand, std::string& path) {
     subcommand
         .add_option("-o,--output", path,
-                    "where to write: .ele (TetGen), .mesh (Medit), .vtu or .pvtu (VTK)")
+                    "where to write: .ele (TetGen), .mesh (Medit), .vtu or .pvtu (VTK), .octetra")
         ->type_name("OUT")
         ->check(names_a_file())
         ->required();
@@ -40,13 +44,17 @@ CLI::Validator names_a_file() {
     return {refusal, ""};
 }
 
+void check_output(const std::filesystem::path& path, int ranks) {
+    is_checkpoint(path) ? check_place(path) : check_writable(path, ranks);
+}
+
 void check_side_file(std::string_view option, const std::filesystem::path& path) {
     if (path == "-") {
         throw InputError(
             fmt::format("{}: - names no file; write ./- for one of that name", option));
     }
-    constexpr std::array<std::string_view, 7> mesh_files{".ele",  ".node", ".face", ".edge",
-                                                         ".mesh", ".vtu",  ".pvtu"};
+    constexpr std::array<std::string_view, 8> mesh_files{".ele",  ".node", ".face", ".edge",
+                                                         ".mesh", ".vtu",  ".pvtu", ".octetra"};
     if (std::ranges::find(mesh_files, path.extension()) != mesh_files.end()) {
         throw InputError(fmt::format("{}: {} is the name of a mesh file; choose another", option,
                                      path.native()));
@@ -64,11 +72,29 @@ void report_written(const Mesh& mesh, const std::string& path) {
           holds_facets ? fmt::format(", {} facets", grouped(mesh.facets.size())) : "");
 }
 
+namespace {
+
+Mesh load_alone(const std::string& path) {
+    return distributed::AdaptiveMesh::load(distributed::Communicator(), path).collect();
+}
+
+}  // namespace
+
+Mesh read_as_it_stands(const std::string& path) {
+    if (is_checkpoint(path)) return load_alone(path);
+    return read_mesh(path, {.only_syntax = true, .note = note});
+}
+
 Mesh read_input(const InputOptions& options) {
+    if (is_checkpoint(options.path)) return load_alone(options.path);
     return read_mesh(options.path, {.fix_orientation = options.fix_orientation, .note = note});
 }
 
 void write_output(const Mesh& mesh, const std::string& path) {
+    if (is_checkpoint(path)) {
+        using distributed::AdaptiveMesh;
+        return AdaptiveMesh::distribute(distributed::Communicator(), mesh, {}).save(path);
+    }
     const std::string lost = write_mesh(mesh, path);
     if (!lost.empty()) note(lost);
 }

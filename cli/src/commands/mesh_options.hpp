@@ -22,6 +22,10 @@ void add_input_options(CLI::App& subcommand, InputOptions& options);
 /// Declares -o OUT.
 void add_output_option(CLI::App& subcommand, std::string& path);
 
+/// Refuses, before the work, a path that no mesh, and no checkpoint, can be written at by so many
+/// ranks. Throws InputError.
+void check_output(const std::filesystem::path& path, int ranks = 1);
+
 /// Refuses, before the work, a path for a file beside the mesh (maps, parts) that cannot be written
 /// or would take the place of a mesh. Throws InputError.
 void check_side_file(std::string_view option, const std::filesystem::path& path);
@@ -33,6 +37,8 @@ void check_side_file(std::string_view option, const std::filesystem::path& path)
 void note(std::string_view what);
 
 [[nodiscard]] Mesh read_input(const InputOptions& options);
+/// For whoever judges the mesh: of a file, whatever reads as one.
+[[nodiscard]] Mesh read_as_it_stands(const std::string& path);
 
 /// "wrote PATH: ... vertices, ... cells, ... facets" on stdout.
 void report_written(const Mesh& mesh, const std::string& path);

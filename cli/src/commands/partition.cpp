@@ -123,7 +123,7 @@ void add_partition(CLI::App& program, const distributed::Communicator& world) {
         ->required();
     command
         ->add_option("--partition", options->method,
-                     "lepp, dual, block, random:SEED or file:PATH [lepp]")
+                     "lepp, dual, rcb, block, random:SEED or file:PATH [lepp]")
         ->type_name("METHOD");
     command->add_option("-o,--output", options->output, "also write each cell's part, a line each")
         ->type_name("FILE")

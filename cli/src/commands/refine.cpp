@@ -11,6 +11,7 @@
 #include <CLI/CLI.hpp>
 
 #include <octetra/core/error.hpp>
+#include <octetra/core/files/checkpoint.hpp>
 #include <octetra/core/files/maps_files.hpp>
 #include <octetra/core/files/mesh_files.hpp>
 #include <octetra/core/files/places.hpp>
@@ -24,6 +25,7 @@
 #include <octetra/reference/refine.hpp>
 #include <octetra/verify/verify.hpp>
 
+#include "adapt/adaptation.hpp"
 #include "answer.hpp"
 #include "choice.hpp"
 #include "commands/commands.hpp"
@@ -31,11 +33,14 @@
 #include "commands/input_check.hpp"
 #include "commands/mesh_options.hpp"
 #include "commands/number_options.hpp"
+#include "commands/parallel_options.hpp"
 #include "commands/profile_options.hpp"
 #include "commands/refine/judge.hpp"
 #include "commands/refine/options.hpp"
 #include "commands/refine/report.hpp"
 #include "commands/refinement_options.hpp"
+#include "commands/report_line.hpp"
+#include "commands/share_out.hpp"
 #include "stopwatch.hpp"
 #include "terminal.hpp"
 
@@ -44,22 +49,19 @@ namespace {
 
 constexpr std::array<Word<Engine>, 2> engines{
     {{"distributed", Engine::distributed}, {"reference", Engine::reference}}};
-constexpr std::array<Word<distributed::Synchronisation>, 2> synchronisations{
-    {{"neighbour", distributed::Synchronisation::neighbour},
-     {"gateway", distributed::Synchronisation::gateway}}};
 
 Plan plan_of(const RefineOptions& options) {
     const Engine engine = parse_choice("--engine", options.engine, engines);
-    if (engine == Engine::reference && (options.partition || options.synchronisation)) {
+    if (engine == Engine::reference &&
+        (options.parallel.partition || options.parallel.synchronisation)) {
         throw InputError(
             "--partition and --sync say how ranks share the work; --engine reference works on one");
     }
     return {.selection = parse_selection(options.refinement.selection),
             .scheme = parse_scheme(options.refinement),
             .engine = engine,
-            .partition = distributed::parse_partition(options.partition.value_or("lepp")),
-            .synchronisation = parse_choice("--sync", options.synchronisation.value_or("neighbour"),
-                                            synchronisations)};
+            .partition = partition_of(options.parallel),
+            .synchronisation = synchronisation_of(options.parallel)};
 }
 
 /// Runs an engine; what it finds wrong with the mesh gets the mesh's name in front.
@@ -128,26 +130,6 @@ bool refine_by_reference(const Mesh& mesh, const Plan& plan, const RefineOptions
     return judge_and_write(mesh, fine.mesh, fine.maps, plan, options, world, watch);
 }
 
-/// Collective. The parts of a mesh that the first process has.
-distributed::DistributedMesh share_out(Mesh mesh, const Plan& plan, int levels,
-                                       const distributed::Communicator& world) {
-    std::vector<int> cell_to_rank;
-    distributed::in_phase(world, "partition", [&] {
-        world.on_first([&] {
-            // A part file that does not fit is a mistake on one rank, too.
-            const bool by_file = plan.partition.method == distributed::PartitionMethod::file;
-            if (world.size() == 1 && !by_file) return;
-            const std::vector<float> weights =
-                takes_weights(plan.partition)
-                    ? distributed::predicted_cells(mesh, plan.selection, plan.scheme, levels)
-                    : std::vector<float>{};
-            cell_to_rank =
-                distributed::partition_cells(mesh, world.size(), plan.partition, weights);
-        });
-    });
-    return distributed::distribute(world, std::move(mesh), cell_to_rank);
-}
-
 /// Collective. False, on all processes, if the result is not valid.
 bool refine_distributed(Mesh mesh, const Plan& plan, const RefineOptions& options,
                         const distributed::Communicator& world, Stopwatch& watch) {
@@ -156,9 +138,12 @@ bool refine_distributed(Mesh mesh, const Plan& plan, const RefineOptions& option
     const Mesh coarse = verify_alone ? mesh : Mesh{};
     verify::MeshSlice coarse_slice;
     if (verify_together) coarse_slice = verify::share_out(mesh, world);
-    auto parts = share_out(std::move(mesh), plan, options.refinement.levels, world);
+    auto parts = share_out(std::move(mesh), plan.partition, world, [&](const Mesh& whole) {
+        return distributed::predicted_cells(whole, plan.selection, plan.scheme,
+                                            options.refinement.levels);
+    });
     int levels = 0;
-    const auto show = level_progress(options);
+    const auto show = level_progress(options.quiet, options.refinement.levels);
     const auto on_level = [&](int level, std::uint64_t cells) {
         levels = level;
         if (show) show(level, cells);
@@ -166,7 +151,7 @@ bool refine_distributed(Mesh mesh, const Plan& plan, const RefineOptions& option
     std::uint64_t too_large = 0;
     const auto report_parts = [&](const MeshFacts& facts) {
         if (!world.is_first()) return;
-        if (show) print_error_text(fmt::format("\r{:60}\r", ""));
+        if (show) clear_level_progress();
         report_refined(options, {levels, world.size(), facts, too_large}, watch.lap());
     };
     naming_the_mesh(options, [&] {
@@ -217,8 +202,33 @@ void check_outputs(const RefineOptions& options, const Plan& plan, int ranks) {
         {mesh_to_write("-o", options.output, ranks), beside[0], beside[1], beside[2]});
 }
 
+/// Of a mesh with its history, or into one: as a step of octetra adapt.
+void refine_with_history(const RefineOptions& options, const Plan& plan,
+                         const distributed::Communicator& all) {
+    const auto refuse = [](std::string_view option, std::string_view instead) {
+        throw InputError(fmt::format("{} does not go with .octetra files; {}", option, instead));
+    };
+    if (plan.engine == Engine::reference) refuse("--engine reference", "leave it out");
+    if (!options.maps.empty()) refuse("--maps", "write another format, of a mesh without history");
+    if (options.check) refuse("--check", "octetra verify judges a mesh");
+    if (options.verify) refuse("--verify", "octetra adapt --verify judges its result");
+    const Script one_step{
+        {}, {{0, "refine", RefineStep{options.refinement, plan.selection, plan.scheme}}}};
+    adapt({.input = options.input,
+           .output = options.output,
+           .parallel = options.parallel,
+           .profile = options.profile,
+           .max_cells = options.max_cells,
+           .verify = false,
+           .quiet = options.quiet},
+          one_step, measured(all, options.profile));
+}
+
 void refine(const RefineOptions& options, const distributed::Communicator& all) {
     Plan plan = plan_of(options);
+    if (is_checkpoint(options.input.path) || is_checkpoint(options.output)) {
+        return refine_with_history(options, plan, all);
+    }
     Stopwatch watch;
     const distributed::Communicator world = measured(all, options.profile);
     Mesh mesh;
@@ -254,17 +264,8 @@ void add_engine_options(CLI::App& command, RefineOptions& options) {
                     "the fast one, over MPI under mpirun, or the serial reference [distributed]")
         ->type_name("distributed|reference")
         ->group(group);
-    command
-        .add_option("--partition", options.partition,
-                    "which rank gets which cell: lepp, dual, block, random:SEED, file:PATH [lepp]")
-        ->type_name("METHOD")
-        ->group(group);
-    command
-        .add_option("--sync", options.synchronisation,
-                    "ranks tell their neighbours, or the first rank, which tells the others "
-                    "[neighbour]")
-        ->type_name("neighbour|gateway")
-        ->group(group);
+    add_partition_option(command, options.parallel, group);
+    add_synchronisation_option(command, options.parallel, group);
 }
 
 }  // namespace

@@ -82,7 +82,7 @@ bool has_criterion(const SelectionOptions& options) {
            options.max_volume;
 }
 
-Selection parse_selection(const SelectionOptions& options) {
+Selection parse_selection(const SelectionOptions& options, std::string_view wanted) {
     Selection selection;
     selection.all = options.all;
     for (const std::string& text : options.spheres) selection.spheres.push_back(parse_sphere(text));
@@ -102,18 +102,21 @@ Selection parse_selection(const SelectionOptions& options) {
     }
     selection.max_volume = options.max_volume;
     if (!has_criterion(options)) {
-        throw InputError(
-            "say which cells to refine: --all, --cells, --sphere, --box, --region, --random or "
-            "--max-volume");
+        throw InputError(fmt::format(
+            "say {}: --all, --cells, --sphere, --box, --region, --random or --max-volume", wanted));
     }
     return selection;
 }
 
-void complete_selection(Selection& selection, const SelectionOptions& options,
-                        const SelectableMesh& mesh) {
-    if (!selection.regions.empty() && !mesh.has_regions) {
+void check_regions(const SelectionOptions& options, bool mesh_has_regions) {
+    if (!options.regions.empty() && !mesh_has_regions) {
         throw InputError("--region: the cells of this mesh have no region tags");
     }
+}
+
+void complete_selection(Selection& selection, const SelectionOptions& options,
+                        const SelectableMesh& mesh) {
+    check_regions(options, mesh.has_regions);
     if (!options.cells_file.empty()) {
         selection.cells = read_cell_list(options.cells_file, mesh.index_base, mesh.cells);
     }

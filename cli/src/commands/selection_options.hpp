@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <octetra/core/mesh.hpp>
@@ -33,8 +34,10 @@ void add_selection_options(CLI::App& subcommand, SelectionOptions& options,
 /// Was any cell asked for?
 [[nodiscard]] bool has_criterion(const SelectionOptions& options);
 
-/// What does not need the mesh: at least one criterion, numbers in range. Throws InputError.
-[[nodiscard]] Selection parse_selection(const SelectionOptions& options);
+/// What does not need the mesh: at least one criterion, numbers in range. Throws InputError, which
+/// says what the criteria are for.
+[[nodiscard]] Selection parse_selection(const SelectionOptions& options,
+                                        std::string_view wanted = "which cells to refine");
 
 /// What a selection asks of a mesh.
 struct SelectableMesh {
@@ -42,6 +45,9 @@ struct SelectableMesh {
     std::uint32_t index_base = 0;
     std::uint64_t cells = 0;
 };
+
+/// Throws InputError if regions are asked for of a mesh that has none.
+void check_regions(const SelectionOptions& options, bool mesh_has_regions);
 
 /// The rest: the cell list, and whether the mesh has what is asked for. Throws InputError.
 void complete_selection(Selection& selection, const SelectionOptions& options,

@@ -5,9 +5,11 @@
 #include <CLI/CLI.hpp>
 
 #include <octetra/core/error.hpp>
+#include <octetra/core/files/checkpoint.hpp>
 #include <octetra/core/files/lists.hpp>
 #include <octetra/core/files/maps_files.hpp>
 #include <octetra/core/files/mesh_files.hpp>
+#include <octetra/distributed/adaptive_mesh.hpp>
 #include <octetra/distributed/communicator.hpp>
 #include <octetra/verify/verify.hpp>
 
@@ -69,13 +71,12 @@ verify::VerifyOptions options_of(const VerifyCommandOptions& given) {
 
 verify::Verdict judge(const VerifyCommandOptions& given, verify::VerifyOptions options,
                       JudgedFiles& judged) {
-    const ReadOptions as_it_stands{.only_syntax = true, .note = note};
-    const Mesh first = read_mesh(given.first, as_it_stands);
+    const Mesh first = read_as_it_stands(given.first);
     if (given.second.empty()) {
         judged = {.fine = given.first, .fine_index_base = first.index_base};
         return verify_mesh(first, options);
     }
-    const Mesh second = read_mesh(given.second, as_it_stands);
+    const Mesh second = read_as_it_stands(given.second);
     judged = {given.second, given.first, second.index_base, first.index_base};
     if (options.request) {
         complete_selection(options.request->selection, given.refinement.selection,
@@ -87,6 +88,16 @@ verify::Verdict judge(const VerifyCommandOptions& given, verify::VerifyOptions o
         options.maps = &*maps;
     }
     return verify_refinement(first, second, options);
+}
+
+/// Collective. No process has the mesh as a whole.
+verify::MeshSlice read_slice(const std::string& path, const distributed::Communicator& world) {
+    if (is_checkpoint(path)) {
+        const auto mesh = distributed::AdaptiveMesh::load(world, path);
+        auto canonical = mesh.canonical();
+        return verify::slice_of(canonical.whole());
+    }
+    return verify::read_slice(path, {.only_syntax = true, .note = note}, world);
 }
 
 /// Collective. All processes get the first one's maps.
@@ -101,14 +112,13 @@ void share_maps(RefinementMaps& maps, const distributed::Communicator& world) {
 /// Collective. Every process judges a part; none has a mesh as a whole.
 verify::Verdict judge_together(const VerifyCommandOptions& given, verify::VerifyOptions options,
                                JudgedFiles& judged, const distributed::Communicator& world) {
-    const ReadOptions as_it_stands{.only_syntax = true, .note = note};
-    verify::MeshSlice first = verify::read_slice(given.first, as_it_stands, world);
+    verify::MeshSlice first = read_slice(given.first, world);
     const std::uint32_t index_base = first.lists.index_base;
     if (given.second.empty()) {
         judged = {.fine = given.first, .fine_index_base = index_base};
         return verify_mesh(std::move(first), world, options);
     }
-    verify::MeshSlice second = verify::read_slice(given.second, as_it_stands, world);
+    verify::MeshSlice second = read_slice(given.second, world);
     judged = {given.second, given.first, second.lists.index_base, index_base};
     if (options.request) {
         Selection& selection = options.request->selection;

@@ -2,6 +2,7 @@
 
 #include <string>
 
+#include <octetra/core/files/checkpoint.hpp>
 #include <octetra/quality/mesh_statistics.hpp>
 
 /// Mesh statistics for people and for programs.
@@ -27,16 +28,22 @@
 ///     eta_histogram        likewise
 ///     adjacency            cells_per_edge, cells_per_vertex, edges_per_vertex, faces_per_edge
 ///                          (means), max_cells_at_edge, max_cells_at_vertex; or null
+///     history              of a checkpoint alone: {steps: [{cells_before, cells_cut, bytes}, ...],
+///                          fields: [{name, on: "vertices" or "cells", components}, ...]}
 namespace octetra::cli {
 
 /// Lines of at most 80 columns, numbers with six significant digits.
 [[nodiscard]] std::string format_table(const quality::MeshStatistics& statistics);
 
-/// Indented JSON, and a line end.
-[[nodiscard]] std::string format_json(const quality::MeshStatistics& statistics);
+/// Indented JSON, and a line end; of a checkpoint with what it tells of its history.
+[[nodiscard]] std::string format_json(const quality::MeshStatistics& statistics,
+                                      const CheckpointFacts* checkpoint = nullptr);
 
 /// The same, to stdout. Throws std::system_error where that fails.
 void print_table(const quality::MeshStatistics& statistics);
-void print_json(const quality::MeshStatistics& statistics);
+void print_json(const quality::MeshStatistics& statistics,
+                const CheckpointFacts* checkpoint = nullptr);
+/// The steps and fields of a checkpoint, to stdout.
+void print_history(const CheckpointFacts& facts);
 
 }  // namespace octetra::cli

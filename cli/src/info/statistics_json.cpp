@@ -1,4 +1,5 @@
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include <nlohmann/json.hpp>
@@ -34,6 +35,22 @@ Json json(const quality::Adjacency& adjacency) {
             {"max_cells_at_vertex", adjacency.max_cells_at_vertex}};
 }
 
+Json json(const CheckpointFacts& facts) {
+    Json steps = Json::array();
+    for (const StepFacts& step : facts.steps) {
+        steps.push_back({{"cells_before", step.cells_before},
+                         {"cells_cut", step.cells_cut},
+                         {"bytes", step.bytes}});
+    }
+    Json fields = Json::array();
+    for (const FieldFacts& field : facts.fields) {
+        fields.push_back({{"name", field.name},
+                          {"on", field.on == FieldOn::vertices ? "vertices" : "cells"},
+                          {"components", field.components}});
+    }
+    return {{"steps", std::move(steps)}, {"fields", std::move(fields)}};
+}
+
 Json json(const quality::EntityCounts& counts) {
     return {{"vertices", counts.vertices},
             {"edges", counts.edges},
@@ -64,24 +81,27 @@ Json json(const std::vector<quality::TagTotal>& totals, const char* tag, const c
 
 }  // namespace
 
-std::string format_json(const quality::MeshStatistics& s) {
-    const Json out{{"counts", json(s.counts)},
-                   {"bounding_box", json(s.bounding_box)},
-                   {"volume", s.volume},
-                   {"boundary_area", s.boundary_area},
-                   {"regions", json(s.regions, "tag", "cells", "volume")},
-                   {"facet_markers", json(s.facet_markers, "marker", "facets", "area")},
-                   {"edge_length", json(s.edge_length)},
-                   {"cell_volume", json(s.cell_volume)},
-                   {"face_angle", json(s.face_angle)},
-                   {"dihedral_angle", json(s.dihedral_angle)},
-                   {"eta", json(s.eta)},
-                   {"dihedral_histogram", json(s.dihedral_histogram)},
-                   {"eta_histogram", json(s.eta_histogram)},
-                   {"adjacency", json(s.adjacency)}};
+std::string format_json(const quality::MeshStatistics& s, const CheckpointFacts* checkpoint) {
+    Json out{{"counts", json(s.counts)},
+             {"bounding_box", json(s.bounding_box)},
+             {"volume", s.volume},
+             {"boundary_area", s.boundary_area},
+             {"regions", json(s.regions, "tag", "cells", "volume")},
+             {"facet_markers", json(s.facet_markers, "marker", "facets", "area")},
+             {"edge_length", json(s.edge_length)},
+             {"cell_volume", json(s.cell_volume)},
+             {"face_angle", json(s.face_angle)},
+             {"dihedral_angle", json(s.dihedral_angle)},
+             {"eta", json(s.eta)},
+             {"dihedral_histogram", json(s.dihedral_histogram)},
+             {"eta_histogram", json(s.eta_histogram)},
+             {"adjacency", json(s.adjacency)}};
+    if (checkpoint != nullptr) out["history"] = json(*checkpoint);
     return out.dump(2) + "\n";
 }
 
-void print_json(const quality::MeshStatistics& statistics) { print_text(format_json(statistics)); }
+void print_json(const quality::MeshStatistics& statistics, const CheckpointFacts* checkpoint) {
+    print_text(format_json(statistics, checkpoint));
+}
 
 }  // namespace octetra::cli

@@ -2,7 +2,6 @@
 
 #include <cstdint>
 #include <limits>
-#include <optional>
 #include <string>
 
 #include <octetra/core/selection.hpp>
@@ -10,6 +9,7 @@
 #include <octetra/distributed/refine.hpp>
 
 #include "commands/mesh_options.hpp"
+#include "commands/parallel_options.hpp"
 #include "commands/profile_options.hpp"
 #include "commands/refinement_options.hpp"
 
@@ -33,8 +33,7 @@ struct RefineOptions {
     std::string maps;
     RefinementOptions refinement;
     std::string engine = "distributed";
-    std::optional<std::string> partition;
-    std::optional<std::string> synchronisation;
+    ParallelOptions parallel;
     ProfileOptions profile;
     std::uint64_t max_cells = std::numeric_limits<std::uint64_t>::max();
     bool check = false;

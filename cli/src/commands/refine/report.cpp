@@ -1,13 +1,9 @@
 #include "commands/refine/report.hpp"
 
-#include <unistd.h>
-
-#include <cstdio>
-
 #include <fmt/format.h>
 
+#include "commands/report_line.hpp"
 #include "grouped.hpp"
-#include "terminal.hpp"
 
 namespace octetra::cli {
 namespace {
@@ -30,17 +26,7 @@ void note_idle_levels(const RefineOptions& options, int levels) {
 
 void report(const RefineOptions& options, std::string_view doing, std::uint64_t vertices,
             std::uint64_t cells, double seconds) {
-    if (options.quiet) return;
-    print("{:<30} {:>13} vertices {:>13} cells {:>8.2f} s\n", doing, grouped(vertices),
-          grouped(cells), seconds);
-    std::fflush(stdout);
-}
-
-std::function<void(int, std::uint64_t)> level_progress(const RefineOptions& options) {
-    if (options.quiet || ::isatty(STDERR_FILENO) == 0) return {};
-    return [levels = options.refinement.levels](int level, std::uint64_t cells) {
-        print_error_text(fmt::format("\rlevel {} of {}: {} cells ", level, levels, grouped(cells)));
-    };
+    report_line(options.quiet, doing, vertices, cells, seconds);
 }
 
 void report_refined(const RefineOptions& options, const RefinedFacts& refined, double seconds) {

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
 #include <string>
 #include <string_view>
 
@@ -15,9 +14,6 @@ namespace octetra::cli {
 /// A line of what was done, how large the mesh is now, and how long it took.
 void report(const RefineOptions& options, std::string_view doing, std::uint64_t vertices,
             std::uint64_t cells, double seconds);
-
-/// Where people watch, a line that each level writes over.
-[[nodiscard]] std::function<void(int, std::uint64_t)> level_progress(const RefineOptions& options);
 
 /// What the engine has made, in numbers.
 struct RefinedFacts {

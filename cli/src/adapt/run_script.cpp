@@ -1,0 +1,118 @@
+#include "adapt/run_script.hpp"
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+#include <fmt/format.h>
+
+#include <octetra/core/error.hpp>
+#include <octetra/distributed/profile.hpp>
+
+#include "adapt/run_steps.hpp"
+#include "adapt/write_result.hpp"
+#include "commands/mesh_options.hpp"
+#include "commands/report_line.hpp"
+#include "grouped.hpp"
+
+namespace octetra::cli {
+namespace {
+
+using distributed::AdaptiveMesh;
+
+struct Counts {
+    std::uint64_t vertices = 0;
+    std::uint64_t cells = 0;
+};
+
+/// Collective.
+Counts counts_of(const AdaptiveMesh& mesh) {
+    return {mesh.vertex_count(), mesh.processes().sum(mesh.cells().size())};
+}
+
+/// What a step did: "refined, 2 levels", and a remark, if there is one to make.
+struct Done {
+    std::string what;
+    std::string remark = {};
+    bool changes_mesh = true;
+};
+
+std::string levels_done(std::string_view done, int levels) {
+    return fmt::format("{}, {} level{}", done, levels, levels == 1 ? "" : "s");
+}
+
+/// Why fewer levels than were asked for changed anything.
+std::string idle_levels(int done, int levels, std::string_view reason) {
+    if (levels == 0) return "--levels 0: the mesh stays as it is";
+    if (done == levels) return {};
+    if (done == 0) return fmt::format("{}: the mesh stays as it is", reason);
+    return fmt::format("{} any more after level {} of {}", reason, done, levels);
+}
+
+class Runner {
+public:
+    Runner(AdaptiveMesh& mesh, const ScriptRun& run) : mesh_(&mesh), run_(&run) {}
+
+    Done operator()(RefineStep step) {
+        complete(step.selection, step.typed.selection);
+        const int levels = step.typed.levels;
+        distributed::StepOptions options = run_->options;
+        options.scheme = step.scheme;
+        const int done = refine(*mesh_, step, options, level_progress(run_->quiet, levels));
+        return {levels_done("refined", done), idle_levels(done, levels, "no cell was marked")};
+    }
+
+    Done operator()(CoarsenStep step) {
+        complete(step.selection, step.typed.selection);
+        const int levels = step.typed.levels;
+        const int done = coarsen(*mesh_, step, level_progress(run_->quiet, levels));
+        return {levels_done("coarsened", done), idle_levels(done, levels, "no vertex could go")};
+    }
+
+    Done operator()(const WriteStep& step) {
+        return {fmt::format("wrote {}", step.path), write_result(*mesh_, step.path), false};
+    }
+
+private:
+    /// Collective.
+    void complete(Selection& selection, const SelectionOptions& typed) const {
+        const std::uint64_t cells = counts_of(*mesh_).cells;
+        mesh_->processes().on_first([&] {
+            complete_selection(selection, typed,
+                               {run_->input.has_regions, run_->input.index_base, cells});
+        });
+        mesh_->processes().broadcast(selection.cells);
+    }
+
+    AdaptiveMesh* mesh_;
+    const ScriptRun* run_;
+};
+
+}  // namespace
+
+void run_script(AdaptiveMesh& mesh, const Script& script, const ScriptRun& run, Stopwatch& watch) {
+    Counts before = counts_of(mesh);
+    for (const ScriptStep& step : script.steps) {
+        Done done;
+        try {
+            done = std::visit(Runner(mesh, run), step.step);
+        } catch (const InputError& error) {
+            throw wrong_line(script, step, error.what());
+        }
+        const Counts after = counts_of(mesh);
+        if (mesh.processes().is_first()) {
+            const std::string was =
+                fmt::format("  (before: {}, {})", grouped(before.vertices), grouped(before.cells));
+            const std::string doing =
+                script.path.empty()
+                    ? done.what
+                    : fmt::format("{}:{} {}", script.path.native(), step.line, done.what);
+            report_line(run.quiet, doing, after.vertices, after.cells, watch.lap(),
+                        done.changes_mesh ? was : "");
+            if (!done.remark.empty()) note(wrong_line(script, step, done.remark).what());
+        }
+        before = after;
+    }
+}
+
+}  // namespace octetra::cli

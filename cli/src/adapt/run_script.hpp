@@ -1,0 +1,22 @@
+#pragma once
+
+#include <octetra/core/mesh_source.hpp>
+#include <octetra/distributed/adaptive_mesh.hpp>
+
+#include "script/read_script.hpp"
+#include "stopwatch.hpp"
+
+namespace octetra::cli {
+
+struct ScriptRun {
+    MeshFacts input;  ///< of the mesh before the first step
+    distributed::StepOptions options;
+    bool quiet = false;
+};
+
+/// Collective. Runs the steps one after the other, and says of each what it did. What goes wrong
+/// with one is thrown with its line in front; the files of those before it stay.
+void run_script(distributed::AdaptiveMesh& mesh, const Script& script, const ScriptRun& run,
+                Stopwatch& watch);
+
+}  // namespace octetra::cli

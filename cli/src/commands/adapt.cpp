@@ -1,0 +1,72 @@
+#include <memory>
+#include <string>
+
+#include <CLI/CLI.hpp>
+
+#include <octetra/distributed/profile.hpp>
+
+#include "adapt/adaptation.hpp"
+#include "commands/commands.hpp"
+#include "commands/number_options.hpp"
+
+namespace octetra::cli {
+namespace {
+
+struct AdaptOptions {
+    std::string script;
+    AdaptationOptions adaptation;
+};
+
+}  // namespace
+
+void add_adapt(CLI::App& program, const distributed::Communicator& world) {
+    auto options = std::make_shared<AdaptOptions>();
+    CLI::App* command = program.add_subcommand(
+        "adapt", "Refine and coarsen a mesh, step by step, as a script says");
+    add_input_options(*command, options->adaptation.input);
+    command
+        ->add_option("--script", options->script,
+                     "the steps, one a line, in the order in which they are done")
+        ->type_name("FILE")
+        ->check(names_a_file())
+        ->required();
+    add_output_option(*command, options->adaptation.output);
+    add_number(*command, "--max-cells", options->adaptation.max_cells, whole_numbers_from(1),
+               "end in an error before a step that would make more")
+        ->type_name("N");
+    const std::string group = "How it is done (the result is the same bytes)";
+    add_partition_option(*command, options->adaptation.parallel, group);
+    add_synchronisation_option(*command, options->adaptation.parallel, group);
+    add_profile_options(*command, options->adaptation.profile);
+    command->add_flag("--verify", options->adaptation.verify,
+                      "judge the result as a refinement of MESH, and write OUT if it is valid");
+    command->add_flag("--quiet", options->adaptation.quiet, "print nothing but notes and errors");
+    command->footer(
+        "Steps, with the options of the subcommands of these names; # begins a comment:\n"
+        "  refine CRITERION... [--levels L] [--scheme 8t|4t|2t]\n"
+        "  coarsen CRITERION... [--outside] [--levels L]   take refinement back, by one step a "
+        "level,\n"
+        "                                                  in these cells, or outside them\n"
+        "  save FILE.octetra                               the mesh as it is then, with its "
+        "history\n"
+        "  write FILE                                      the same, in any format\n"
+        "--cells takes the numbers that a file written just before the step has, from 0 or 1 as\n"
+        "MESH. Names have no blanks. All lines are checked before the first step is run.\n"
+        "Exit status: 0 done; 1 --verify finds the result not valid, and OUT is not written;\n"
+        "2 bad usage or bad input; 3 the system failed: memory, disk; 128 + its number: a signal\n"
+        "ended a rank, as 137 where it was killed.\n"
+        "Example:\n"
+        "  octetra generate kuhn 8 -o cube.mesh\n"
+        "  echo 'refine --sphere 0,0,0,0.5 --levels 2' > steps.txt\n"
+        "  echo 'coarsen --outside --sphere 0,0,0,0.3' >> steps.txt\n"
+        "  octetra adapt cube.mesh --script steps.txt -o fine.vtu\n"
+        "  mpirun -n 4 octetra adapt cube.mesh --script steps.txt -o fine.vtu");
+    command->callback([options, world] {
+        const distributed::Communicator all = measured(world, options->adaptation.profile);
+        const Script script =
+            distributed::in_phase(all, "read", [&] { return read_script(options->script, all); });
+        adapt(options->adaptation, script, all);
+    });
+}
+
+}  // namespace octetra::cli

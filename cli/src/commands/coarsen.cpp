@@ -1,0 +1,67 @@
+#include <memory>
+#include <string>
+
+#include <fmt/format.h>
+#include <CLI/CLI.hpp>
+
+#include <octetra/core/error.hpp>
+#include <octetra/core/files/checkpoint.hpp>
+
+#include "adapt/adaptation.hpp"
+#include "commands/coarsening_options.hpp"
+#include "commands/commands.hpp"
+
+namespace octetra::cli {
+namespace {
+
+struct CoarsenOptions {
+    CoarseningOptions coarsening;
+    AdaptationOptions adaptation;
+};
+
+void coarsen(const CoarsenOptions& options, const distributed::Communicator& world) {
+    const std::string& input = options.adaptation.input.path;
+    if (!is_checkpoint(input)) {
+        throw InputError(
+            fmt::format("{} has no history that could be taken back: coarsening takes a .octetra "
+                        "file, as octetra refine or adapt with -o FILE.octetra writes",
+                        input));
+    }
+    const Script one_step{
+        {},
+        {{0, "coarsen", CoarsenStep{options.coarsening, parse_coarsening(options.coarsening)}}}};
+    adapt(options.adaptation, one_step, measured(world, options.adaptation.profile));
+}
+
+}  // namespace
+
+void add_coarsen(CLI::App& program, const distributed::Communicator& world) {
+    auto options = std::make_shared<CoarsenOptions>();
+    CLI::App* command = program.add_subcommand(
+        "coarsen", "Take refinement back, by a step, in the cells that may go");
+    command
+        ->add_option("MESH", options->adaptation.input.path,
+                     "the mesh with its history: .octetra, as refine and adapt write it")
+        ->type_name("")
+        ->check(names_a_file())
+        ->required();
+    add_output_option(*command, options->adaptation.output);
+    add_coarsening_options(*command, options->coarsening,
+                           "Which cells may go (criteria add up; give at least one)");
+    add_partition_option(*command, options->adaptation.parallel,
+                         "How it is done (the result is the same bytes)");
+    add_profile_options(*command, options->adaptation.profile);
+    command->add_flag(
+        "--verify", options->adaptation.verify,
+        "judge the result as a refinement of the history's input, and write it if it is valid");
+    command->add_flag("--quiet", options->adaptation.quiet, "print nothing but notes and errors");
+    command->footer(
+        "Example:\n"
+        "  octetra generate kuhn 8 -o cube.mesh\n"
+        "  octetra refine cube.mesh --sphere 0,0,0,0.5 --levels 2 -o fine.octetra\n"
+        "  octetra coarsen fine.octetra --outside --sphere 0,0,0,0.3 -o coarser.octetra\n"
+        "  mpirun -n 4 octetra coarsen coarser.octetra --all --levels 9 -o cube.vtu");
+    command->callback([options, world] { coarsen(*options, world); });
+}
+
+}  // namespace octetra::cli

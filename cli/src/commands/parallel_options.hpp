@@ -1,0 +1,30 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include <octetra/distributed/partition.hpp>
+#include <octetra/distributed/refine.hpp>
+
+namespace CLI {
+class App;
+}
+
+namespace octetra::cli {
+
+/// How ranks share the work, as it was typed.
+struct ParallelOptions {
+    std::optional<std::string> partition;
+    std::optional<std::string> synchronisation;
+};
+
+/// Declares --partition and --sync, under the headline `group` of the help.
+void add_partition_option(CLI::App& subcommand, ParallelOptions& options, const std::string& group);
+void add_synchronisation_option(CLI::App& subcommand, ParallelOptions& options,
+                                const std::string& group);
+
+/// What they mean, or the default. Throw InputError.
+[[nodiscard]] distributed::Partition partition_of(const ParallelOptions& options);
+[[nodiscard]] distributed::Synchronisation synchronisation_of(const ParallelOptions& options);
+
+}  // namespace octetra::cli

@@ -1,0 +1,29 @@
+#include <string>
+
+#include <fmt/format.h>
+
+#include "grouped.hpp"
+#include "info/print_statistics.hpp"
+#include "terminal.hpp"
+
+namespace octetra::cli {
+
+void print_history(const CheckpointFacts& facts) {
+    print("\n{:<12}{:>17}{:>17}{:>17}{:>15}\n", "Step", "cells before", "cells cut", "cells after",
+          "bytes");
+    for (std::size_t t = 0; t < facts.steps.size(); ++t) {
+        const StepFacts& step = facts.steps[t];
+        const std::uint64_t after =
+            t + 1 < facts.steps.size() ? facts.steps[t + 1].cells_before : facts.cells_now;
+        print("  {:<10}{:>17}{:>17}{:>17}{:>15}\n", t + 1, grouped(step.cells_before),
+              grouped(step.cells_cut), grouped(after), grouped(step.bytes));
+    }
+    for (const FieldFacts& field : facts.fields) {
+        print(
+            "field '{}': {} on {}\n", field.name,
+            field.components == 1 ? "1 component" : fmt::format("{} components", field.components),
+            field.on == FieldOn::vertices ? "vertices" : "cells");
+    }
+}
+
+}  // namespace octetra::cli

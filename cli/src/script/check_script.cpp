@@ -1,0 +1,108 @@
+#include "script/check_script.hpp"
+
+#include <limits>
+#include <map>
+#include <string>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include <octetra/core/error.hpp>
+#include <octetra/core/files/lists.hpp>
+#include <octetra/core/files/places.hpp>
+
+#include "commands/mesh_options.hpp"
+
+namespace octetra::cli {
+namespace {
+
+const SelectionOptions* criteria_of(const Step& step) {
+    if (const auto* refine = std::get_if<RefineStep>(&step)) {
+        return &refine->typed.selection;
+    }
+    if (const auto* coarsen = std::get_if<CoarsenStep>(&step)) return &coarsen->typed.selection;
+    return nullptr;
+}
+
+/// Runs check(step) of each step; what that throws gets the line in front.
+void check_each(const Script& script, auto&& check) {
+    for (const ScriptStep& step : script.steps) {
+        try {
+            check(step);
+        } catch (const InputError& error) {
+            throw wrong_line(script, step, error.what());
+        }
+    }
+}
+
+/// What is written so far, by the place where it stands in the end: as many files as a long script
+/// has are not to be compared two by two.
+class WrittenPlaces {
+public:
+    struct Name {
+        std::string argument;
+        std::filesystem::path path;
+    };
+
+    void add(const std::string& argument, const std::vector<std::filesystem::path>& files) {
+        for (const auto& file : files) places_.try_emplace(place_of(file), Name{argument, file});
+    }
+    /// Who writes this file already, or null.
+    [[nodiscard]] const Name* find(const std::filesystem::path& file) const {
+        const auto found = places_.find(place_of(file));
+        return found == places_.end() ? nullptr : &found->second;
+    }
+
+private:
+    std::map<std::filesystem::path, Name> places_;
+};
+
+}  // namespace
+
+std::vector<NamedFiles> files_read_by(const Script& script) {
+    std::vector<NamedFiles> files;
+    for (const ScriptStep& step : script.steps) {
+        const SelectionOptions* criteria = criteria_of(step.step);
+        if (criteria != nullptr && !criteria->cells_file.empty()) {
+            files.push_back(file_named("--cells", criteria->cells_file));
+        }
+    }
+    return files;
+}
+
+void check_outputs_of(const Script& script, const std::vector<NamedFiles>& read,
+                      const std::vector<NamedFiles>& written, int ranks) {
+    WrittenPlaces places;
+    for (const NamedFiles& files : written) places.add(std::string(files.argument), files.files);
+    check_each(script, [&](const ScriptStep& step) {
+        const auto* write = std::get_if<WriteStep>(&step.step);
+        if (write == nullptr) return;
+        check_output(write->path, ranks);
+        const NamedFiles files = mesh_to_write(step.word, write->path, ranks);
+        check_files_apart(read, {files});
+        for (const auto& file : files.files) {
+            if (const auto* other = places.find(file)) {
+                refuse_same_file(other->argument, other->path, step.word, file);
+            }
+        }
+        places.add(fmt::format("line {}", step.line), files.files);
+    });
+}
+
+void check_lists_of(const Script& script) {
+    constexpr auto any_number = std::numeric_limits<std::size_t>::max();
+    check_each(script, [&](const ScriptStep& step) {
+        const SelectionOptions* criteria = criteria_of(step.step);
+        if (criteria == nullptr || criteria->cells_file.empty()) return;
+        (void)read_cell_list(criteria->cells_file, 0, any_number);
+    });
+}
+
+void check_regions_of(const Script& script, const MeshFacts& input) {
+    check_each(script, [&](const ScriptStep& step) {
+        const SelectionOptions* criteria = criteria_of(step.step);
+        if (criteria != nullptr) check_regions(*criteria, input.has_regions);
+    });
+}
+
+}  // namespace octetra::cli

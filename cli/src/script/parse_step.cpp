@@ -1,0 +1,125 @@
+#include "script/parse_step.hpp"
+
+#include <algorithm>
+#include <array>
+#include <sstream>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+#include <CLI/CLI.hpp>
+
+#include <octetra/core/error.hpp>
+#include <octetra/core/files/checkpoint.hpp>
+
+#include "usage_errors.hpp"
+
+namespace octetra::cli {
+namespace {
+
+std::vector<std::string> words_of(std::string_view line) {
+    const auto is_control = [](char c) {
+        return (static_cast<unsigned char>(c) < 0x20 && c != '\t') || c == 0x7f;
+    };
+    if (std::ranges::any_of(line, is_control)) {
+        throw InputError("there is a control character in this line: not a text file?");
+    }
+    std::istringstream in{std::string(line)};
+    std::vector<std::string> words;
+    for (std::string word; in >> word;) words.push_back(std::move(word));
+    return words;
+}
+
+/// The options of a step, as those of a subcommand. CLI11 takes words from the last to the first.
+void parse_words(CLI::App& command, std::vector<std::string> words) {
+    std::ranges::reverse(words);
+    try {
+        command.parse(std::move(words));
+    } catch (const CLI::ParseError& error) {
+        throw InputError(usage_fault(command, error));
+    }
+}
+
+/// Without --help and --all=3.
+struct LineCommand : CLI::App {
+    explicit LineCommand(const std::string& word) : CLI::App("", word) {
+        set_help_flag();
+        option_defaults()->disable_flag_override();
+    }
+};
+
+Step parse_refine(std::vector<std::string> options) {
+    LineCommand command("refine");
+    RefineStep step;
+    add_refinement_options(command, step.typed, "");
+    parse_words(command, std::move(options));
+    step.selection = parse_selection(step.typed.selection);
+    step.scheme = parse_scheme(step.typed);
+    return step;
+}
+
+Step parse_coarsen(std::vector<std::string> options) {
+    LineCommand command("coarsen");
+    CoarsenStep step;
+    add_coarsening_options(command, step.typed, "");
+    parse_words(command, std::move(options));
+    step.selection = parse_coarsening(step.typed);
+    return step;
+}
+
+std::string only_name(const std::vector<std::string>& words, std::string_view word,
+                      std::string_view example) {
+    if (words.size() == 1) return words.front();
+    throw InputError(fmt::format("{} takes one word, the name of a file without blanks: {} {}",
+                                 word, word, example));
+}
+
+Step parse_write(const std::vector<std::string>& words) {
+    return WriteStep{only_name(words, "write", "STEP.vtu")};
+}
+
+Step parse_save(const std::vector<std::string>& words) {
+    WriteStep step{only_name(words, "save", "STATE.octetra")};
+    if (!is_checkpoint(step.path)) {
+        throw InputError(fmt::format(
+            "save writes .octetra files, not {}; write takes the other formats", step.path));
+    }
+    return step;
+}
+
+struct StepWord {
+    std::string_view word;
+    Step (*parse)(std::vector<std::string> options);
+};
+
+constexpr std::array<StepWord, 4> step_words{
+    {{"refine", parse_refine},
+     {"coarsen", parse_coarsen},
+     {"save", [](std::vector<std::string> words) { return parse_save(words); }},
+     {"write", [](std::vector<std::string> words) { return parse_write(words); }}}};
+
+[[noreturn]] void refuse_word(const std::string& word) {
+    if (word == "rebalance") {
+        throw InputError(
+            "rebalance is not there yet: cells stay on the ranks that they began on; leave this "
+            "line out");
+    }
+    std::vector<std::string> names;
+    for (const auto& [name, parse] : step_words) names.emplace_back(name);
+    throw InputError(fmt::format("a step begins with one of {}, not '{}'{}", fmt::join(names, ", "),
+                                 word, did_you_mean(word, names)));
+}
+
+}  // namespace
+
+ScriptStep parse_step(std::string_view line) {
+    std::vector<std::string> words = words_of(line);
+    const std::string word = words.front();
+    const auto* const known =
+        std::ranges::find_if(step_words, [&](const StepWord& s) { return s.word == word; });
+    if (known == step_words.end()) refuse_word(word);
+    words.erase(words.begin());
+    return {0, word, known->parse(std::move(words))};
+}
+
+}  // namespace octetra::cli

@@ -1,0 +1,236 @@
+#include <set>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <octetra/core/files/mesh_files.hpp>
+
+#include "cli/octetra_program.hpp"
+
+/// octetra adapt: steps of a script are what the subcommands of the same names do, on any number of
+/// ranks.
+namespace octetra {
+namespace {
+
+using test::TemporaryFolder;
+using testing::HasSubstr;
+
+class Adapt : public testing::Test {
+protected:
+    Adapt() {
+        EXPECT_EQ(test::octetra("generate kuhn 4 -o kuhn.mesh --quiet", folder).status, 0);
+        EXPECT_EQ(test::octetra("generate two-material -o m.ele --quiet", folder).status, 0);
+    }
+
+    [[nodiscard]] test::Outcome adapt(const std::string& mesh, const std::string& script,
+                                      const std::string& options) const {
+        (void)folder.write("s.txt", script);
+        return test::octetra("adapt " + mesh + " --script s.txt --quiet " + options, folder);
+    }
+    void expect_done(const test::Outcome& run) const { EXPECT_EQ(run.status, 0) << run.err; }
+    void run(const std::string& arguments) const {
+        expect_done(test::octetra(arguments + " --quiet", folder));
+    }
+    void expect_same(const std::string& a, const std::string& b) const {
+        EXPECT_TRUE(test::content_of(folder / a) == test::content_of(folder / b)) << a << " " << b;
+    }
+
+    const TemporaryFolder folder;
+};
+
+struct History {
+    std::string script;
+    std::vector<std::string> counts;  ///< what the report says after each step
+};
+
+std::string counted(const std::string& vertices, const std::string& cells) {
+    return std::string(14 - vertices.size(), ' ') + vertices + " vertices " +
+           std::string(13 - cells.size(), ' ') + cells + " cells";
+}
+
+/// Counts that an independent program has found.
+const std::vector<History> histories{
+    {"refine --sphere .3,.4,.5,.3\n"
+     "refine --sphere .3,.4,.5,.2\n"
+     "coarsen --sphere .3,.4,.5,.2\n"
+     "refine --sphere .7,.6,.5,.25\n"
+     "coarsen --sphere .3,.4,.5,.4\n"
+     "coarsen --all\n"
+     "coarsen --all\n"
+     "coarsen --all\n",
+     {counted("290", "1,254"), counted("679", "3,420"), counted("636", "3,128"),
+      counted("1,162", "6,108"), counted("701", "3,500"), counted("287", "1,250"),
+      counted("190", "734"), counted("125", "384")}},
+    {"refine --all\n"
+     "refine --sphere .5,.5,.5,.3\n"
+     "coarsen --all\n"
+     "coarsen --all\n",
+     {counted("729", "3,072"), counted("1,381", "6,768"), counted("385", "1,872"),
+      counted("125", "384")}},
+};
+
+TEST_F(Adapt, HasTheCountsThatWereFoundIndependently) {
+    for (const auto& [script, counts] : histories) {
+        (void)folder.write("s.txt", script);
+        const auto run = test::octetra("adapt kuhn.mesh --script s.txt -o out.mesh", folder);
+        ASSERT_EQ(run.status, 0) << run.err;
+        std::istringstream lines(run.out);
+        std::string line;
+        std::getline(lines, line);  // read
+        for (const std::string& count : counts) {
+            std::getline(lines, line);
+            EXPECT_THAT(line, HasSubstr(count));
+        }
+        expect_same("out.mesh", "kuhn.mesh");
+    }
+}
+
+TEST_F(Adapt, RefinesAsTheSubcommandDoes) {
+    (void)folder.write("cells.txt", "0 7 4000");
+    for (const std::string options :
+         {"--all", "--sphere 0,0,0,0.4 --levels 3", "--random 0.1 --seed 3 --levels 2",
+          "--cells cells.txt --levels 3", "--cells cells.txt --region 2 --levels 2 --scheme 4t",
+          "--max-volume 1e-4 --levels 5 --scheme 2t", "--box 0,0,0,1,1,1 --levels 0"}) {
+        run("refine m.ele -o by-refine.ele " + options);
+        expect_done(adapt("m.ele", "refine " + options + "\n", "-o by-adapt.ele"));
+        for (const std::string file : {"node", "ele", "face", "edge"}) {
+            expect_same("by-adapt." + file, "by-refine." + file);
+        }
+    }
+}
+
+/// Where all steps refine, each may as well be done by itself, to what the one before has written.
+TEST_F(Adapt, RefinesOnAsIfTheMeshHadBeenWrittenAndReadAgain) {
+    (void)folder.write("cells.txt", "1 2 700 5001");
+    run("refine m.ele -o one.ele --sphere 0,0,0,0.4");
+    run("refine one.ele -o two.ele --cells cells.txt --levels 2");
+    run("refine two.ele -o three.ele --cells cells.txt --random 0.05 --scheme 2t");
+    const std::string script =
+        "refine --sphere 0,0,0,0.4\nwrite mid.ele\nrefine --cells cells.txt --levels 2\n"
+        "refine --cells cells.txt --random 0.05 --scheme 2t\n";
+    (void)folder.write("s.txt", script);
+    for (const int ranks : {1, 3}) {
+        expect_done(
+            test::octetra_on(ranks, "adapt m.ele --script s.txt --quiet -o end.ele", folder));
+        for (const std::string file : {"node", "ele", "face"}) {
+            expect_same("mid." + file, "one." + file);
+            expect_same("end." + file, "three." + file);
+        }
+    }
+}
+
+TEST_F(Adapt, CoarsensListedCellsAndThoseOutside) {
+    const std::string refine = "refine --sphere 0,0,0,0.4\n";
+    expect_done(adapt("kuhn.mesh", refine, "-o fine.mesh"));
+    const std::size_t count = read_mesh(folder / "fine.mesh").cells.size();
+    std::string low;
+    std::string high;
+    for (std::size_t c = 1; c <= count; ++c)
+        (c < count / 2 ? low : high) += std::to_string(c) + "\n";
+    (void)folder.write("low.txt", low);
+    (void)folder.write("high.txt", high);
+    // What is inside of one is outside of the rest, by any criterion.
+    const std::vector<std::pair<std::string, std::string>> alike{
+        {"coarsen --box 0,0,0,1,1,0.15", "coarsen --outside --box 0,0,0.1500000001,1,1,1"},
+        {"coarsen --cells low.txt", "coarsen --outside --cells high.txt"},
+        {"coarsen --all --levels 50", "coarsen --outside --sphere 9,9,9,1"},
+        {"coarsen --outside --all", "coarsen --sphere 9,9,9,1"},
+    };
+    std::set<std::string> results;
+    for (const auto& [one, other] : alike) {
+        SCOPED_TRACE(one);
+        expect_done(adapt("kuhn.mesh", refine + one + "\n", "-o one.mesh"));
+        expect_done(adapt("kuhn.mesh", refine + other + "\n", "-o other.mesh"));
+        expect_same("one.mesh", "other.mesh");
+        results.insert(test::content_of(folder / "one.mesh"));
+    }
+    EXPECT_EQ(results.size(), alike.size()) << "some are no coarsening";
+}
+
+TEST_F(Adapt, WritesTheSameBytesOnAnyNumberOfRanks) {
+    (void)folder.write("cells.txt", "1 2 3 900 1500");
+    (void)folder.write("s.txt",
+                       "refine --sphere 0,0,0,0.4 --levels 2\n"
+                       "refine --cells cells.txt --region 2\n"
+                       "coarsen --outside --sphere 0.1,0,0,0.3 --levels 2\n"
+                       "write mid.vtu\n"
+                       "refine --random 0.05\n"
+                       "coarsen --cells cells.txt --box 0,0,0,1,1,1\n");
+    run("adapt m.ele --script s.txt -o alone.ele");
+    const std::string mid = test::content_of(folder / "mid.vtu");
+    for (const int ranks : {1, 2, 3, 4, 7}) {
+        for (const std::string how :
+             {"", "--sync gateway --partition dual", "--partition random:7"}) {
+            SCOPED_TRACE(testing::Message() << ranks << " ranks " << how);
+            std::filesystem::remove(folder / "mid.vtu");
+            expect_done(test::octetra_on(
+                ranks, "adapt m.ele --script s.txt --quiet -o p.ele " + how, folder));
+            for (const std::string file : {"node", "ele", "face"}) {
+                expect_same("p." + file, "alone." + file);
+            }
+            EXPECT_TRUE(test::content_of(folder / "mid.vtu") == mid);
+        }
+    }
+}
+
+TEST_F(Adapt, EndsInOneMessageOnSeveralRanks) {
+    const std::vector<std::pair<std::string, std::string>> failures{
+        {"refien --all\n", "octetra: s.txt:1: a step begins with one of"},
+        {"refine --all\nrefine --region 3 --levels 9\nwrite no/x.vtu\n",
+         "octetra: s.txt:3: no/x.vtu: there is no folder"},
+        {"refine --all\nrefine --all --levels 9\n", "octetra: s.txt:2: level 2 would make "},
+        {"refine --cells cells.txt\n", "octetra: s.txt:1: cells.txt:1: there is no cell 99999"},
+    };
+    (void)folder.write("cells.txt", "99999");
+    for (const auto& [script, message] : failures) {
+        (void)folder.write("s.txt", script);
+        const auto run = test::octetra_on(
+            3, "adapt m.ele --script s.txt --quiet --max-cells 100000 -o p.ele", folder);
+        EXPECT_EQ(run.status, 2) << script << run.err;
+        EXPECT_EQ(test::occurrences(run.err, message), 1U) << script << run.err;
+        EXPECT_EQ(test::occurrences(run.err, "octetra: "), 1U) << script << run.err;
+        EXPECT_FALSE(std::filesystem::exists(folder / "p.ele"));
+    }
+}
+
+TEST_F(Adapt, VerifiesTheResultAndWritesOnlyWhatIsValid) {
+    const std::string steps =
+        "refine --sphere 0,0,0,0.4 --levels 2\ncoarsen --outside --sphere 0,0,0,0.2\n";
+    (void)folder.write("s.txt", steps);
+    // Three cells at one face can be read and refined, but that is no mesh.
+    (void)folder.write("three.node",
+                       "6 3 0 0\n0 0 0 0\n1 1 0 0\n2 0 1 0\n3 0 0 1\n4 0 0 -1\n5 2 2 1\n");
+    (void)folder.write("three.ele", "3 4 0\n0 0 1 2 3\n1 0 2 1 4\n2 0 1 2 5\n");
+    run("adapt m.ele --script s.txt -o unjudged.ele");
+    for (const int ranks : {1, 2}) {
+        (void)folder.write("s.txt", steps);
+        const auto good =
+            test::octetra_on(ranks, "adapt m.ele --script s.txt -o good.ele --verify", folder);
+        expect_done(good);
+        EXPECT_THAT(good.err, HasSubstr("note: of m.ele itself, orientation and faces"));
+        expect_same("good.ele", "unjudged.ele");
+        (void)folder.write("s.txt", "refine --all\n");
+        const auto bad =
+            test::octetra_on(ranks, "adapt three.ele --script s.txt -o bad.ele --verify", folder);
+        EXPECT_EQ(bad.status, 1) << bad.err;
+        EXPECT_THAT(bad.out, HasSubstr("face_of_many_cells: 1"));
+        EXPECT_THAT(bad.out, HasSubstr("bad.ele was not written"));
+        EXPECT_FALSE(std::filesystem::exists(folder / "bad.ele"));
+    }
+}
+
+TEST_F(Adapt, IsProfiled) {
+    (void)folder.write("s.txt", "refine --all\ncoarsen --all\n");
+    const auto run = test::octetra_on(
+        2, "adapt m.ele --script s.txt -o out.ele --profile p.json --trace t.json", folder);
+    expect_done(run);
+    EXPECT_THAT(run.out, HasSubstr("bisect tetrahedra"));
+    EXPECT_THAT(test::content_of(folder / "p.json"), HasSubstr("number vertices"));
+    EXPECT_THAT(test::content_of(folder / "t.json"), HasSubstr("closure"));
+}
+
+}  // namespace
+}  // namespace octetra

@@ -1,0 +1,62 @@
+"""Holds tools/read_checkpoint.py against the program.
+
+usage: read_checkpoint_test.py OCTETRA TOOLS
+"""
+import pathlib
+import subprocess
+import sys
+import tempfile
+import unittest
+
+import numpy
+
+octetra = sys.argv[1]
+sys.path.insert(0, sys.argv[2])
+import read_checkpoint  # noqa: E402
+
+
+def mesh_of(path):
+    """Points and cells of a Medit file."""
+    words = path.read_text().split()
+
+    def section(name, columns):
+        at = words.index(name) + 1
+        rows = words[at + 1:at + 1 + int(words[at]) * (columns + 1)]
+        return numpy.array(rows).reshape(-1, columns + 1)[:, :columns]
+    return section("Vertices", 3).astype(float), section("Tetrahedra", 4).astype(int) - 1
+
+
+class ReadCheckpoint(unittest.TestCase):
+    def setUp(self):
+        self.folder = tempfile.TemporaryDirectory()
+        self.addCleanup(self.folder.cleanup)
+        self.path = pathlib.Path(self.folder.name)
+
+    def run_octetra(self, *words):
+        subprocess.run([octetra, *words, "--quiet"], cwd=self.path, check=True)
+
+    def test_finds_the_mesh_that_the_program_finds(self):
+        # More than a block of cells, and steps that cut few and many.
+        (self.path / "steps.txt").write_text("refine --random 0.2 --seed 3\n"
+                                             "refine --sphere 0.5,0.5,0.5,0.1 --scheme 2t\n"
+                                             "coarsen --random 0.9 --seed 5\n"
+                                             "refine --sphere 0.2,0.2,0.2,0.1 --levels 2\n"
+                                             "save a.octetra\n")
+        self.run_octetra("generate", "kuhn", "9", "-o", "cube.mesh")
+        self.run_octetra("adapt", "cube.mesh", "--script", "steps.txt", "-o", "a.mesh")
+        points, cells, fields = read_checkpoint.read(self.path / "a.octetra")
+        expected_points, expected_cells = mesh_of(self.path / "a.mesh")
+        numpy.testing.assert_array_equal(points, expected_points)
+        numpy.testing.assert_array_equal(cells, expected_cells)
+        self.assertEqual(fields, {})
+
+    def test_refuses_a_file_that_is_cut_off(self):
+        self.run_octetra("generate", "kuhn", "2", "-o", "cube.mesh")
+        self.run_octetra("refine", "cube.mesh", "--all", "-o", "a.octetra")
+        whole = (self.path / "a.octetra").read_bytes()
+        (self.path / "b.octetra").write_bytes(whole[:-1])
+        with self.assertRaises(ValueError):
+            read_checkpoint.read(self.path / "b.octetra")
+
+
+unittest.main(argv=sys.argv[:1])

@@ -3,8 +3,8 @@
 #include <octetra/distributed/partition.hpp>
 #include <octetra/reference/history.hpp>
 
+#include "distributed/loop.hpp"
 #include "distributed/marked_mesh.hpp"
-#include "distributed/recorded.hpp"
 #include "distributed/world.hpp"
 #include "support/meshes.hpp"
 
@@ -25,19 +25,18 @@ public:
         engine_.refine(selection, scheme, tuning);
         reference_ = reference::refined(reference_, marks(selection), scheme);
     }
-    Coarser coarsen(const Selection& selection) {
-        Coarser coarser = engine_.coarsen(selection);
+    void coarsen(const Selection& selection) {
+        engine_.coarsen(selection);
         reference_ = reference::coarsened(reference_, marks(selection));
-        return coarser;
     }
     void expect_equal() const {
         const Mesh expected = reference::replay(reference_).back().mesh;
-        const Mesh found = collect_copy(engine_.mesh).mesh;
+        const Mesh found = collect_copy(engine_.mesh()).mesh;
         if (!test::world().is_first()) return;
         EXPECT_EQ(found.cells.size(), expected.cells.size());
         EXPECT_TRUE(found == expected);
     }
-    [[nodiscard]] const DistributedMesh& mesh() const { return engine_.mesh; }
+    [[nodiscard]] const DistributedMesh& mesh() const { return engine_.mesh(); }
     [[nodiscard]] const reference::History& history() const { return reference_; }
 
 private:
@@ -46,7 +45,7 @@ private:
     }
 
     reference::History reference_;
-    test::Recorded engine_;
+    test::Loop engine_;
 };
 
 class Coarsening : public testing::TestWithParam<std::uint64_t> {};

@@ -16,25 +16,26 @@
 #include "checkpoint/root_cuts.hpp"
 #include "checkpoint/save.hpp"
 #include "comm/local_failure.hpp"
+#include "history/steps_of.hpp"
 #include "level/incremental/adjacency.hpp"
 
 namespace octetra::distributed {
 namespace {
 
 /// The steps of a part of so many roots, each as runs over all its cells.
-std::vector<CutRuns> steps_of(const CutRoots& cuts, std::size_t root_count,
+std::vector<CutRuns> together(const CutRoots& cuts, std::size_t root_count,
                               std::size_t step_count) {
-    RootsTogether together(step_count);
+    RootsTogether steps(step_count);
     RootBytes rest = cuts.bytes;
     std::size_t next = 0;
     for (const CutRoots::Root& root : cuts.roots) {
-        together.append_whole(root.place - next);
-        (void)together.append(rest.first(root.bytes));
+        steps.append_whole(root.place - next);
+        (void)steps.append(rest.first(root.bytes));
         rest = rest.subspan(root.bytes);
         next = root.place + std::size_t{1};
     }
-    together.append_whole(root_count - next);
-    return std::move(together).finish();
+    steps.append_whole(root_count - next);
+    return std::move(steps).finish();
 }
 
 /// Collective. Does the steps again. They are marks to refine by: what a damaged or made-up history
@@ -45,7 +46,7 @@ void redo(AdaptiveMesh::State& state, CutRoots cuts, const CheckpointFacts& fact
     std::vector<CutRuns> given;
     std::unique_ptr<CutMarks> marks;
     failure.attempt([&] {
-        given = steps_of(cuts, state.mesh.cells.size(), facts.steps.size());
+        given = together(cuts, state.mesh.cells.size(), facts.steps.size());
         marks = std::make_unique<CutMarks>(std::move(cuts));
     });
     failure.agree(processes);
@@ -66,7 +67,7 @@ void redo(AdaptiveMesh::State& state, CutRoots cuts, const CheckpointFacts& fact
     }
     failure.attempt([&] {
         const CanonicalOrder order(state.mesh);
-        if (state.history.steps(order.cells_before()) != given) {
+        if (steps_of(state.mesh) != given) {
             throw InputError("its steps do not fit each other, or the cells");
         }
     });
@@ -96,8 +97,8 @@ void AdaptiveMesh::save(const std::filesystem::path& path, std::span<const Field
     std::vector<CutRuns> steps;
     failure.attempt([&] {
         order = std::make_unique<CanonicalOrder>(mesh);
-        steps = state_->history.steps(order->cells_before());
-        input = std::make_unique<DistributedMesh>(state_->history.input_of(mesh));
+        steps = steps_of(mesh);
+        input = std::make_unique<DistributedMesh>(input_of(mesh));
     });
     failure.agree(mesh.processes);
     distributed::save({.mesh = &mesh,

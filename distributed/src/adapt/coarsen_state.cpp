@@ -1,32 +1,19 @@
 #include <algorithm>
+#include <iterator>
+#include <optional>
 #include <utility>
 
+#include <octetra/distributed/profile.hpp>
+
 #include "adapt/mesh_state.hpp"
+#include "coarsen/coarser_part.hpp"
+#include "coarsen/kept_vertices.hpp"
 #include "comm/local_failure.hpp"
-#include "history/coarsen.hpp"
-#include "history/whole_of.hpp"
+#include "level/incremental/adjacency.hpp"
 #include "sharing/sharing_builder.hpp"
 
 namespace octetra::distributed {
 namespace {
-
-/// Who shares the vertices of the input, by a mesh that was refined from it.
-Sharing<VertexIndex> sharing_of_input(const DistributedMesh& mesh,
-                                      const Sharing<VertexIndex>& sharing) {
-    Sharing<VertexIndex> of_input;
-    SharingBuilder<VertexIndex> builder(of_input, mesh.processes.rank());
-    const VertexIndex end{mesh.input_vertices.size()};
-    for (const SharedWith<VertexIndex>& with : sharing.neighbours()) {
-        std::vector<VertexIndex> vertices;
-        std::ranges::copy_if(with.entities, std::back_inserter(vertices),
-                             [&](VertexIndex v) { return v < end; });
-        builder.share(with.rank, std::move(vertices));
-    }
-    builder.prepare(
-        [&](VertexIndex v) { return static_cast<std::uint64_t>(mesh.input_vertices[v.value()]); });
-    builder.commit();
-    return of_input;
-}
 
 /// A byte for each cell as it stands in canonical order.
 std::vector<std::uint8_t> in_order(const MarkedCells& marked, std::size_t cell_count,
@@ -49,34 +36,84 @@ std::vector<T> by_number(std::vector<T> ordered, const std::vector<I>& before) {
     return values;
 }
 
-std::vector<std::uint32_t> values_of(const std::vector<CellIndex>& cells) {
-    std::vector<std::uint32_t> values(cells.size());
-    std::ranges::transform(cells, values.begin(), &CellIndex::value);
-    return values;
+/// The shared vertices that stay, by the numbers that they have then.
+std::vector<VertexIndex> kept_of(const std::vector<VertexIndex>& shared,
+                                 const std::vector<VertexIndex>& vertices_before) {
+    std::vector<VertexIndex> kept;
+    for (const VertexIndex v : shared) {
+        const auto found = std::ranges::lower_bound(vertices_before, v);
+        if (found == vertices_before.end() || *found != v) continue;
+        kept.push_back(VertexIndex{static_cast<std::size_t>(found - vertices_before.begin())});
+    }
+    return kept;
 }
 
-/// `mesh` is in canonical order, which `order` has brought it into.
-Adaptation adaptation_of(const DistributedMesh& mesh, const CanonicalOrder& order, Coarser coarser,
-                         const DistributedMesh& after) {
-    IndexVector<VertexIndex, VertexIndex> vertex_after(mesh.points.size(), VertexIndex::none());
-    for (std::size_t v = 0; v < coarser.vertices_before.size(); ++v) {
-        vertex_after[coarser.vertices_before[v]] = VertexIndex{v};
+/// Collective. The first level, from 0, that loses a vertex on any process.
+std::size_t first_changed_level(const DistributedMesh& mesh, const CoarserPart& part) {
+    const auto& before = part.vertices_before;
+    std::size_t first_gone = 0;
+    while (first_gone < before.size() && before[first_gone].value() == first_gone) ++first_gone;
+    const auto level = std::ranges::upper_bound(mesh.level_begin, VertexIndex{first_gone}) -
+                       mesh.level_begin.begin();              // all of them where none goes
+    const std::size_t level_count = mesh.level_begin.size();  // the same on all processes
+    const std::size_t changed = level_count + 1 - static_cast<std::size_t>(level);
+    const bool loses_any = first_gone < mesh.points.size();
+    return level_count - mesh.processes.max(loses_any ? changed : 0);
+}
+
+/// Collective. The numbers of the vertices that stay: before the first level that loses any, they
+/// are as they were.
+CanonicalNumbers numbers_after(const AdaptiveMesh::State& state, const CoarserPart& part,
+                               LocalFailure& failure) {
+    const DistributedMesh& after = part.mesh;
+    const std::size_t first_level = first_changed_level(state.mesh, part);
+    CanonicalNumbers numbers;
+    std::vector<VertexIndex> shared;
+    std::uint64_t same = 0;
+    failure.attempt([&] {
+        const auto& before = state.numbers.of_vertex;
+        const auto count = static_cast<std::ptrdiff_t>(state.mesh.level_begin[first_level].value());
+        numbers.of_vertex.reserve(after.points.size());
+        numbers.of_vertex.assign(before.begin(), before.begin() + count);
+        shared = kept_of(state.sharing.shared(), part.vertices_before);
+        if (count > 0) same = static_cast<std::uint64_t>(numbers.of_vertex.back()) + 1;
+    });
+    numbers.vertex_count = after.processes.max(std::max(same, state.mesh.input_vertex_count));
+    for (std::size_t t = first_level; t < after.level_begin.size(); ++t) {
+        const VertexIndex end =
+            t + 1 < after.level_begin.size() ? after.level_begin[t + 1] : after.points.end_index();
+        if (!numbers.number_midpoints(after, end, shared, failure)) break;
     }
-    const auto facets = whole_of(mesh, mesh.facets, mesh.facet_ancestors, after.facets,
-                                 after.facet_ancestors, vertex_after);
-    const auto edges = whole_of(mesh, mesh.edges, mesh.edge_ancestors, after.edges,
-                                after.edge_ancestors, vertex_after);
+    return numbers;
+}
+
+/// Who shares the vertices that stay. Whoever has one keeps it, so they are those of before.
+Sharing<VertexIndex> sharing_after(const Sharing<VertexIndex>& sharing, const CoarserPart& part,
+                                   const CanonicalNumbers& numbers) {
+    Sharing<VertexIndex> after;
+    SharingBuilder<VertexIndex> builder(after, sharing.rank());
+    for (const SharedWith<VertexIndex>& with : sharing.neighbours()) {
+        builder.share(with.rank, kept_of(with.entities, part.vertices_before));
+    }
+    builder.prepare(
+        [&](VertexIndex v) { return static_cast<std::uint64_t>(numbers.of_vertex[v]); });
+    builder.commit();
+    return after;
+}
+
+Adaptation adaptation_of(const DistributedMesh& mesh, const CanonicalOrder& order, CoarserPart part,
+                         const DistributedMesh& after) {
     Adaptation adaptation;
     adaptation.changed = true;
     adaptation.cells = Succession::of_merges(
-        after.cells.size(), by_number(values_of(coarser.cell_after), order.cells_before()),
-        by_number(std::move(coarser.halvings), order.cells_before()));
-    adaptation.facets =
-        Succession::of_merges(after.facets.size(), by_number(facets, order.facets_before()), {});
-    adaptation.edges =
-        Succession::of_merges(after.edges.size(), by_number(edges, order.edges_before()), {});
+        after.cells.size(), by_number(std::move(part.cell_after), order.cells_before()),
+        by_number(std::move(part.halvings), order.cells_before()));
+    adaptation.facets = Succession::of_merges(
+        after.facets.size(), by_number(std::move(part.facet_after), order.facets_before()), {});
+    adaptation.edges = Succession::of_merges(
+        after.edges.size(), by_number(std::move(part.edge_after), order.edges_before()), {});
     adaptation.vertex_count_before = mesh.points.size();
-    adaptation.vertices_before = std::move(coarser.vertices_before);
+    adaptation.vertices_before = std::move(part.vertices_before);
     return adaptation;
 }
 
@@ -86,18 +123,17 @@ Adaptation coarsen_state(std::unique_ptr<AdaptiveMesh::State>& state,
                          const std::function<MarkedCells()>& mark) {
     DistributedMesh& mesh = state->mesh;
     const Communicator processes = mesh.processes;
+    const Phase phase(processes, "coarsen");
     LocalFailure failure;
     std::unique_ptr<CanonicalOrder> order;
-    std::vector<CutRuns> steps;
     std::vector<std::uint8_t> may_go;
     failure.attempt([&] {
         const MarkedCells marked = mark();
         order = std::make_unique<CanonicalOrder>(mesh);
-        steps = state->history.steps(order->cells_before());
         may_go = in_order(marked, mesh.cells.size(), order->cells_before());
     });
-    Coarser coarser = coarsen(mesh, steps, may_go, failure);
-    const std::size_t gone = mesh.points.size() - coarser.vertices_before.size();
+    const KeptVertices kept = find_kept_vertices(mesh, state->sharing, may_go, failure);
+    const auto gone = static_cast<std::uint64_t>(std::ranges::count(kept, 0));
     const std::uint64_t most = failure.max_unless_failed(processes, gone);
     if (most == LocalFailure::somewhere) failure.agree(processes);
     Adaptation adaptation;
@@ -107,16 +143,18 @@ Adaptation coarsen_state(std::unique_ptr<AdaptiveMesh::State>& state,
         return adaptation;
     }
 
+    std::optional<CoarserPart> part;
+    failure.attempt([&] { part = coarser_part(mesh, kept); });
+    failure.agree(processes);
+    drop_empty_levels(*part);
+    CanonicalNumbers numbers = numbers_after(*state, *part, failure);
     std::unique_ptr<AdaptiveMesh::State> next;
     failure.attempt([&] {
-        next = std::make_unique<AdaptiveMesh::State>(state->history.input_of(mesh),
-                                                     sharing_of_input(mesh, state->sharing),
-                                                     std::move(coarser.steps));
+        auto sharing = sharing_after(state->sharing, *part, numbers);
+        next = std::make_unique<AdaptiveMesh::State>(std::move(part->mesh), std::move(numbers),
+                                                     std::move(sharing));
+        adaptation = adaptation_of(mesh, *order, *std::move(part), next->mesh);
     });
-    failure.agree(processes);
-    next->replay();
-    failure.attempt(
-        [&] { adaptation = adaptation_of(mesh, *order, std::move(coarser), next->mesh); });
     failure.agree(processes);
     order.reset();
     state = std::move(next);

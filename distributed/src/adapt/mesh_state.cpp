@@ -7,7 +7,6 @@
 
 #include "adapt/step_options.hpp"
 #include "comm/local_failure.hpp"
-#include "history/replay.hpp"
 #include "sharing/sharing_builder.hpp"
 #include "sharing/vertex_sharing.hpp"
 
@@ -62,45 +61,17 @@ Adaptation unchanged(const DistributedMesh& mesh) {
 }
 
 AdaptiveMesh::State::State(DistributedMesh part)
-    : mesh(std::move(part)),
-      numbers(input_numbers(mesh)),
-      sharing(find_vertex_sharing(mesh)),
-      history(mesh) {}
+    : mesh(std::move(part)), numbers(input_numbers(mesh)), sharing(find_vertex_sharing(mesh)) {}
 
-AdaptiveMesh::State::State(DistributedMesh part, Sharing<VertexIndex> shared,
-                           std::vector<CutRuns> steps)
+AdaptiveMesh::State::State(DistributedMesh part, CanonicalNumbers its_numbers,
+                           Sharing<VertexIndex> shared)
     : mesh(std::move(part)),
-      numbers(input_numbers(mesh)),
+      numbers(std::move(its_numbers)),
       sharing(std::move(shared)),
-      history(mesh, std::move(steps)) {}
-
-void AdaptiveMesh::State::commit(PlannedLevel& plan, auto&& prepare) {
-    NewNumbers new_numbers(numbers);
-    SharingBuilder<VertexIndex> shared(sharing, mesh.processes.rank());
-    LocalFailure failure;
-    {
-        const Phase numbering(mesh.processes, "number vertices");
-        numbers.number_midpoints(mesh, mesh.points.end_index(), sharing.shared(), failure);
-    }
-    failure.attempt([&] {
-        auto midpoints = plan.level->shared_midpoints();
-        for (std::size_t i = 0; i < midpoints.size(); ++i) {
-            shared.share(mesh.interfaces[i].rank, std::move(midpoints[i]));
-        }
-        shared.prepare(
-            [&](VertexIndex v) { return static_cast<std::uint64_t>(numbers.of_vertex[v]); });
-        prepare();
-    });
-    failure.agree(mesh.processes);
-
-    plan.commit();
-    shared.commit();
-    new_numbers.keep();
-    ++step_count;
-}
+      step_count(static_cast<int>(mesh.level_begin.size())) {}
 
 Adaptation AdaptiveMesh::State::refine(const std::function<MarkedCells()>& mark,
-                                       const StepOptions& options) {
+                                       const StepOptions& options, const Tuning& tuning) {
     check_same(mesh.processes, options);
     const RefineOptions refine_options{.scheme = options.scheme,
                                        .levels = 1,
@@ -109,32 +80,32 @@ Adaptation AdaptiveMesh::State::refine(const std::function<MarkedCells()>& mark,
                                        .on_level = {}};
     const int level = step_count + 1;
     const Phase phase(mesh.processes, "level", level);
-    PlannedLevel plan = plan_level(mesh, mark, refine_options, Tuning{}, level);
+    PlannedLevel plan = plan_level(mesh, mark, refine_options, tuning, level);
     if (!plan.changes_anything()) return unchanged(mesh);
     Adaptation adaptation;
-    PartHistory::NewStep step;
-    commit(plan, [&] {
-        step = recorded(plan);
+    NewNumbers new_numbers(numbers);
+    SharingBuilder<VertexIndex> shared(sharing, mesh.processes.rank());
+    LocalFailure failure;
+    {
+        const Phase numbering(mesh.processes, "number vertices");
+        (void)numbers.number_midpoints(mesh, mesh.points.end_index(), sharing.shared(), failure);
+    }
+    failure.attempt([&] {
+        auto midpoints = plan.level->shared_midpoints();
+        for (std::size_t i = 0; i < midpoints.size(); ++i) {
+            shared.share(mesh.interfaces[i].rank, std::move(midpoints[i]));
+        }
+        shared.prepare(
+            [&](VertexIndex v) { return static_cast<std::uint64_t>(numbers.of_vertex[v]); });
         adaptation = adaptation_of(plan, mesh);
     });
-    history.commit(std::move(step));
-    return adaptation;
-}
-
-void AdaptiveMesh::State::replay() {
-    for (const CutRuns& step : history.ordered_steps()) {
-        PlannedLevel plan = plan_step(mesh, step, Tuning{}, step_count + 1);
-        commit(plan, [] {});
-    }
-    LocalFailure failure;
-    failure.attempt([&] { restore_canonical_order(mesh); });
     failure.agree(mesh.processes);
-}
 
-PartHistory::NewStep AdaptiveMesh::State::recorded(PlannedLevel& plan) {
-    const bool restores_order = plan.order != nullptr;
-    return history.prepare(mesh.cells.size(), plan.level->cut_cells(), restores_order,
-                           restores_order ? plan.order->cells_before() : std::vector<CellIndex>{});
+    plan.commit();
+    shared.commit();
+    new_numbers.keep();
+    ++step_count;
+    return adaptation;
 }
 
 }  // namespace octetra::distributed

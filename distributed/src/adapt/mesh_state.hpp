@@ -5,38 +5,28 @@
 
 #include <octetra/distributed/adaptive_mesh.hpp>
 
-#include "history/part_history.hpp"
 #include "level/planned_level.hpp"
 #include "mark/marked_cells.hpp"
 #include "numbering/canonical_numbers.hpp"
 
 namespace octetra::distributed {
 
-/// An AdaptiveMesh from inside: the mesh, what is known of it, and what was done to it. All that
-/// is collective throws alike on all processes, and changes nothing then.
+/// An AdaptiveMesh from inside: the mesh, what is known of it, and how many steps it took. All
+/// that is collective throws alike on all processes, and changes nothing then.
 struct AdaptiveMesh::State {
     DistributedMesh mesh;
     CanonicalNumbers numbers;
     Sharing<VertexIndex> sharing;
-    PartHistory history;
     int step_count = 0;
 
     /// Collective. Of a part that is as the input was.
     explicit State(DistributedMesh part);
-    /// The same, of vertices shared so, which is going to be cut by these steps: see replay().
-    State(DistributedMesh part, Sharing<VertexIndex> shared, std::vector<CutRuns> steps);
+    /// Of all that is known.
+    State(DistributedMesh part, CanonicalNumbers its_numbers, Sharing<VertexIndex> shared);
 
     /// Collective.
-    Adaptation refine(const std::function<MarkedCells()>& mark, const StepOptions& options);
-    /// Collective. Cuts the input by the steps that the history has. Leaves the mesh in canonical
-    /// order.
-    void replay();
-
-private:
-    /// Collective. Commits the level when all is made ready, `prepare` called on each process. (Not
-    /// a std::function, which one process alone may have no memory for.)
-    void commit(PlannedLevel& plan, auto&& prepare);
-    [[nodiscard]] PartHistory::NewStep recorded(PlannedLevel& plan);
+    Adaptation refine(const std::function<MarkedCells()>& mark, const StepOptions& options,
+                      const Tuning& tuning = {});
 };
 
 /// What a step that changes nothing did.

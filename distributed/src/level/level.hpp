@@ -7,7 +7,6 @@
 #include <octetra/distributed/refine.hpp>
 #include <octetra/distributed/succession.hpp>
 
-#include "history/cuts.hpp"
 #include "level/closure.hpp"
 #include "level/rounding_failure.hpp"
 #include "pattern/patterns.hpp"
@@ -52,8 +51,6 @@ public:
     [[nodiscard]] virtual std::vector<std::vector<VertexIndex>> shared_midpoints() const = 0;
     /// And how the process's lists change.
     [[nodiscard]] virtual ListChanges changes() = 0;
-    /// And how it cuts cells.
-    [[nodiscard]] virtual CutCells cut_cells() = 0;
 
     /// Once all steps are done: from now on the mesh is the level's result.
     virtual void commit() noexcept = 0;

@@ -26,7 +26,7 @@ std::vector<VertexIndex> find_shared_vertices(const DistributedMesh& mesh) {
 
 }  // namespace
 
-void CanonicalNumbers::number_midpoints(const DistributedMesh& mesh, VertexIndex end,
+bool CanonicalNumbers::number_midpoints(const DistributedMesh& mesh, VertexIndex end,
                                         std::span<const VertexIndex> shared_vertices,
                                         LocalFailure& failure) {
     const VertexIndex begin = of_vertex.end_index();
@@ -36,17 +36,22 @@ void CanonicalNumbers::number_midpoints(const DistributedMesh& mesh, VertexIndex
             for (VertexIndex v = begin; v < end; ++v) of_vertex.push_back(GlobalVertex{v.value()});
             vertex_count = of_vertex.size();
         });
-        return;
+        return true;
     }
-    const auto ends =
-        std::span(mesh.midpoint_to_edge)
-            .subspan(begin.value() - mesh.input_vertices.size(), end.value() - begin.value());
+    std::span<const EdgeVertices> ends;
+    if (!failure.found()) {
+        ends =
+            std::span(mesh.midpoint_to_edge)
+                .subspan(begin.value() - mesh.input_vertices.size(), end.value() - begin.value());
+    }
     const auto places = ranked<2>(mesh.processes, ends, of_vertex, shared_vertices, vertex_count,
                                   vertex_count, failure);
+    if (!places) return false;
     failure.attempt([&] {
         make_room(of_vertex, end.value());
-        for (const std::uint64_t place : places) of_vertex.push_back(GlobalVertex{place});
+        for (const std::uint64_t place : *places) of_vertex.push_back(GlobalVertex{place});
     });
+    return true;
 }
 
 void CanonicalNumbers::forget_from(VertexIndex end, std::uint64_t count) noexcept {
@@ -74,7 +79,7 @@ CanonicalNumbers canonical_numbers(const DistributedMesh& mesh) {
     for (std::size_t level = 0; level < mesh.level_begin.size(); ++level) {
         const VertexIndex end = level + 1 < mesh.level_begin.size() ? mesh.level_begin[level + 1]
                                                                     : mesh.points.end_index();
-        numbers.number_midpoints(mesh, end, shared, failure);
+        if (!numbers.number_midpoints(mesh, end, shared, failure)) break;
     }
     failure.agree(mesh.processes);
     return numbers;

@@ -17,9 +17,11 @@ struct CanonicalNumbers {
     /// last that has a number to before `end`. They come in the order of their ends' numbers, which
     /// processes put together that lower ends decide: see ranked(). `shared_vertices` are those
     /// with a number that other processes have too, ascending. Where a process fails, the numbers
-    /// are not to be used on any until they have been taken back.
-    void number_midpoints(const DistributedMesh& mesh, VertexIndex end,
-                          std::span<const VertexIndex> shared_vertices, LocalFailure& failure);
+    /// are not to be used on any until they have been taken back. False where that is known, on all
+    /// alike: then no further level is to be numbered.
+    [[nodiscard]] bool number_midpoints(const DistributedMesh& mesh, VertexIndex end,
+                                        std::span<const VertexIndex> shared_vertices,
+                                        LocalFailure& failure);
 
     /// Takes numbers back: `count` is what vertex_count was.
     void forget_from(VertexIndex end, std::uint64_t count) noexcept;

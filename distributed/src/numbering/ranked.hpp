@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <span>
 #include <utility>
 #include <vector>
@@ -179,12 +180,13 @@ std::vector<std::uint64_t> places_of(std::size_t count, const std::vector<Questi
 /// Collective. The places of tuples among the different tuples of all processes, in ascending
 /// order, counted from `total`, to which it adds their number. This process's `tuples` ascend;
 /// their vertices have global numbers less than `end_count`. `shared_vertices` are those that
-/// other processes have too, ascending. Where a process fails there is no result on any.
+/// other processes have too, ascending. Nothing where a process is known to have failed, on all
+/// alike; where one fails at the end, that shows at the next agreement only.
 ///
 /// Each lowest vertex meets its equals at a process that its number decides. Memory and messages
 /// are in proportion to the lowest vertices, and to the tuples of shared ones.
 template <std::size_t N>
-[[nodiscard]] std::vector<std::uint64_t> ranked(
+[[nodiscard]] std::optional<std::vector<std::uint64_t>> ranked(
     const Communicator& processes, std::span<const VertexTuple<N>> tuples,
     const IndexVector<VertexIndex, GlobalVertex>& numbers,
     std::span<const VertexIndex> shared_vertices, std::uint64_t end_count, std::uint64_t& total,
@@ -197,7 +199,7 @@ template <std::size_t N>
     failure.attempt([&] {
         questions = questions_about<N>(tuples, numbers, shared_vertices, block, processes.size());
     });
-    if (somewhere_failed()) return {};
+    if (somewhere_failed()) return std::nullopt;
 
     std::vector<std::vector<std::uint64_t>> answers;
     std::uint64_t count = 0;
@@ -212,7 +214,7 @@ template <std::size_t N>
     for (auto& places : answers) {
         for (std::uint64_t& place : places) place += first;
     }
-    if (somewhere_failed()) return {};
+    if (somewhere_failed()) return std::nullopt;
     std::vector<std::uint64_t> places;
     failure.attempt(
         [&] { places = places_of<N>(tuples.size(), questions, processes.all_to_all(answers)); });

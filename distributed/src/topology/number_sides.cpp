@@ -75,7 +75,8 @@ Sides<I, N, PerCell> number(const DistributedMesh& mesh, const CanonicalNumbers&
     const auto ranks = ranked<N>(mesh.processes, sides.vertices, numbers.of_vertex, shared_vertices,
                                  numbers.vertex_count, sides.count, failure);
     failure.attempt([&] {
-        sides.numbers.assign(ranks.begin(), ranks.end());
+        if (!ranks) return;
+        sides.numbers.assign(ranks->begin(), ranks->end());
         for (const Interface& interface : mesh.interfaces) {
             std::vector<I> shared;
             for (const auto& corners : shared_of(interface)) {

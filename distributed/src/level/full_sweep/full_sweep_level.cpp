@@ -268,25 +268,6 @@ ListChanges FullSweepLevel::changes() {
             Succession::of_all(std::move(tagged_edges_.divisions), edge_divisions)};
 }
 
-CutCells FullSweepLevel::cut_cells() {
-    CutCells cells{.is_ordered = true, .runs = {}, .listed = {}};
-    if (closure_.all_marked()) {
-        cells.runs.append(cut_into(all_edges, most_children), marked_.size());
-    } else {
-        const PatternTable& table = PatternTable::get();
-        for (CellIndex c{0}; c < marked_.end_index(); ++c) {
-            const EdgeMask edges = marked_[c];
-            const std::size_t child_count = edges == 0 ? 1
-                                            : edges == all_edges
-                                                ? most_children
-                                                : table.pattern(orders_.of(c), edges).child_count;
-            cells.runs.append(cut_into(edges, child_count));
-        }
-    }
-    cells.runs.finish();
-    return cells;
-}
-
 void FullSweepLevel::commit() noexcept {
     cells_.commit(mesh_->cells, mesh_->cell_ancestors);
     facets_.commit(mesh_->facets, mesh_->facet_ancestors);

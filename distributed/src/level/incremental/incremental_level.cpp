@@ -249,15 +249,6 @@ ListChanges IncrementalLevel::changes() {
         Succession::of_cuts(mesh_->edges.size(), std::move(edges), edge_divisions)};
 }
 
-CutCells IncrementalLevel::cut_cells() {
-    CutCells cells;
-    cells.listed.reserve(closure_.notes().size());
-    for (const auto& note : closure_.notes()) {
-        cells.listed.push_back({note.cell, cut_into(note.marked, pattern_of(note).child_count)});
-    }
-    return cells;
-}
-
 void IncrementalLevel::commit() noexcept {
     commit_cells();
     commit_tagged();

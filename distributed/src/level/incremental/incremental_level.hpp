@@ -36,7 +36,6 @@ public:
     void bisect_interfaces() override;
     [[nodiscard]] std::vector<std::vector<VertexIndex>> shared_midpoints() const override;
     [[nodiscard]] ListChanges changes() override;
-    [[nodiscard]] CutCells cut_cells() override;
     void commit() noexcept override;
     [[nodiscard]] std::size_t cells_touched() const override { return closure_.notes().size(); }
 

@@ -1,0 +1,172 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include <octetra/distributed/distributed_mesh.hpp>
+
+#include "coarsen/kept_vertices.hpp"
+#include "history/families.hpp"
+#include "memory/huge_pages.hpp"
+
+namespace octetra::distributed {
+
+/// What a list (of cells, tagged facets or edges) becomes without the vertices that go, in
+/// canonical order; vertices have the numbers still that they had.
+template <class I, std::size_t N>
+struct CoarserList {
+    IndexVector<I, std::array<VertexIndex, N>> list;
+    std::vector<std::uint32_t> first;  ///< as in AncestorMap
+    /// For each entity of before, the one that it is or is a piece of, and how often that was
+    /// halved for it.
+    std::vector<std::uint32_t> whole_of;
+    std::vector<std::uint8_t> halvings;
+};
+
+/// What a parent is divided into, in canonical order.
+template <std::size_t N>
+struct Pieces {
+    std::size_t count = 0;
+    std::array<std::array<VertexIndex, N>, 8> vertices;
+};
+
+/// The midpoints of a parent's edges that stay, none() of the others.
+template <std::size_t N>
+using KeptMidpoints = std::array<VertexIndex, N*(N - 1) / 2>;
+
+/// Makes a CoarserList in one pass. Where vertices go, a family is divided anew by those that stay:
+/// members that are pieces then, too, keep their place in the list with all that became of them,
+/// and the others are pieces of one of the new pieces.
+template <class I, std::size_t N>
+class ListCoarsening {
+public:
+    using Vertices = std::array<VertexIndex, N>;
+
+    ListCoarsening(const VertexLevels& levels, const KeptVertices& kept)
+        : levels_(&levels), kept_(&kept), families_(levels) {}
+
+    /// divide(level, root, parent, midpoints) gives the pieces of a parent; `root` is its place
+    /// among this process's roots.
+    [[nodiscard]] CoarserList<I, N> run(const IndexVector<I, Vertices>& list, auto&& divide) {
+        reserve_in_huge_pages(made_.whole_of, list.size());
+        reserve_in_huge_pages(made_.halvings, list.size());
+        const auto parent_met = [&](std::uint32_t level, const Vertices& parent,
+                                    std::span<const Member> members) {
+            return merge(level, parent, members, divide);
+        };
+        const auto root_met = [&](const Vertices&, const Note& note) {
+            made_.first.push_back(note.begin);
+        };
+        for (const Vertices& vertices : list) {
+            const std::uint8_t gone = count_gone(vertices);
+            const Note note{end(), static_cast<std::uint32_t>(made_.whole_of.size()), gone > 0};
+            made_.whole_of.push_back(note.begin);
+            made_.halvings.push_back(gone);
+            made_.list.push_back(vertices);
+            families_.add(vertices, note, parent_met, root_met);
+        }
+        made_.first.push_back(end());
+        return std::move(made_);
+    }
+
+private:
+    /// Where what became of an entity begins: in the new list, and in the old one.
+    struct Note {
+        std::uint32_t begin = 0;
+        std::uint32_t begin_before = 0;
+        bool has_gone_vertex = false;  ///< then it is of the old list, and no more divided
+    };
+    using Member = typename Families<N, Note>::Member;
+
+    [[nodiscard]] std::uint32_t end() const { return made_.list.end_index().value(); }
+    [[nodiscard]] std::uint8_t count_gone(const Vertices& vertices) const {
+        unsigned gone = 0;
+        for (const VertexIndex v : vertices) gone += (*kept_)[v] != 0 ? 0U : 1U;
+        return static_cast<std::uint8_t>(gone);
+    }
+
+    Note merge(std::uint32_t level, const Vertices& parent, std::span<const Member> members,
+               auto&& divide) {
+        const Note note{members[0].note.begin, members[0].note.begin_before, false};
+        if (std::ranges::none_of(members, [](const Member& m) { return m.note.has_gone_vertex; })) {
+            return note;
+        }
+        const auto midpoints = kept_midpoints(level, parent, members);
+        Pieces<N> pieces{1, {parent}};
+        if (std::ranges::any_of(midpoints, [](VertexIndex v) { return !v.is_none(); })) {
+            pieces = divide(level, made_.first.size(), parent, midpoints);
+        }
+        family_.clear();
+        for (std::size_t k = 0; k < pieces.count; ++k) {
+            append_piece(pieces.vertices[k], parent, members);
+        }
+        made_.list.resize(note.begin);
+        made_.list.insert(made_.list.end(), family_.begin(), family_.end());
+        return note;
+    }
+
+    [[nodiscard]] KeptMidpoints<N> kept_midpoints(std::uint32_t level, const Vertices& parent,
+                                                  std::span<const Member> members) const {
+        KeptMidpoints<N> midpoints;
+        const VertexIndex first_new = levels_->begin(level);
+        for (const Member& member : members) {
+            for (const VertexIndex v : member.vertices) {
+                if (v < first_new || (*kept_)[v] == 0) continue;
+                midpoints[edge_between(parent, levels_->ends(v))] = v;
+            }
+        }
+        return midpoints;
+    }
+
+    /// All members that a piece is or is made of, into the new list of the family.
+    void append_piece(const Vertices& piece, const Vertices& parent,
+                      std::span<const Member> members) {
+        const auto begin = static_cast<std::uint32_t>(members[0].note.begin + family_.size());
+        bool is_made = false;
+        for (std::size_t k = 0; k < members.size(); ++k) {
+            const auto& [vertices, note] = members[k];
+            if (!note.has_gone_vertex) {
+                if (vertices == piece) move(members, k, begin);
+                continue;
+            }
+            if (without_gone(vertices, parent) != piece) continue;
+            made_.whole_of[note.begin_before] = begin;
+            is_made = true;
+        }
+        if (is_made) family_.push_back(piece);
+    }
+    /// What became of a member that stays.
+    void move(std::span<const Member> members, std::size_t k, std::uint32_t begin) {
+        const auto& note = members[k].note;
+        const bool is_last = k + 1 == members.size();
+        const std::uint32_t note_end = is_last ? end() : members[k + 1].note.begin;
+        const std::size_t end_before =
+            is_last ? made_.whole_of.size() : members[k + 1].note.begin_before;
+        family_.insert(family_.end(), made_.list.begin() + note.begin,
+                       made_.list.begin() + note_end);
+        if (begin == note.begin) return;
+        for (std::size_t i = note.begin_before; i < end_before; ++i) {
+            made_.whole_of[i] += begin - note.begin;  // may go backwards, modulo 2^32
+        }
+    }
+    /// A child has a midpoint in the place of one of its edge's ends. Where that goes, the end is
+    /// there again.
+    [[nodiscard]] Vertices without_gone(Vertices vertices, const Vertices& parent) const {
+        for (std::size_t k = 0; k < N; ++k) {
+            if ((*kept_)[vertices[k]] == 0) vertices[k] = parent[k];
+        }
+        return vertices;
+    }
+
+    const VertexLevels* levels_;
+    const KeptVertices* kept_;
+    Families<N, Note> families_;
+    CoarserList<I, N> made_;
+    IndexVector<I, Vertices> family_;  ///< what a family becomes
+};
+
+}  // namespace octetra::distributed

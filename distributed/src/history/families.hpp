@@ -1,0 +1,106 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include <octetra/core/mesh.hpp>
+
+#include "history/vertex_levels.hpp"
+#include "pattern/patterns.hpp"
+
+namespace octetra::distributed {
+
+/// Reads the history off a list in canonical order (of cells, tagged facets or edges: N vertices
+/// each): siblings stand together there, so one pass over the list finds all families, a family
+/// after those of its members, up to the roots.
+///
+/// A child has one new vertex for each time that its parent was halved for it, so its share in the
+/// parent is known from itself; a family whose shares make up the whole has all its members. What
+/// stands between members of a family is what became of another member later.
+template <std::size_t N, class Note>
+class Families {
+public:
+    using Vertices = std::array<VertexIndex, N>;
+
+    /// Of a family, or a root.
+    struct Member {
+        Vertices vertices;
+        Note note;
+    };
+
+    /// `levels` must outlive this.
+    explicit Families(const VertexLevels& levels) : levels_(&levels) {}
+
+    /// Takes the next of the list. Calls parent_met(level, parent, members) for each family that
+    /// this one completes, which gives the parent's note; `level` is the one that divided it, and
+    /// the members are in canonical order. Calls root_met(root, note) where a root is complete.
+    void add(const Vertices& vertices, Note note, auto&& parent_met, auto&& root_met) {
+        Member next{vertices, note};
+        for (std::uint32_t level = levels_->newest(next.vertices); level > 0;
+             level = levels_->newest(next.vertices)) {
+            if (open_.empty() || open_.back().level < level) {
+                open_.push_back({level, 0, members_.size()});
+            }
+            const VertexIndex first_new = levels_->begin(level);
+            Open& family = open_.back();
+            family.shares += whole >> count_new(next.vertices, first_new);
+            members_.push_back(next);
+            if (family.shares < whole) return;
+            const std::span<const Member> members = std::span(members_).subspan(family.begin);
+            next.vertices = parent_of(members, first_new);
+            next.note = parent_met(level, std::as_const(next.vertices), members);
+            members_.resize(family.begin);
+            open_.pop_back();
+        }
+        root_met(std::as_const(next.vertices), next.note);
+    }
+
+    /// Have all families been completed?
+    [[nodiscard]] bool at_root() const { return open_.empty(); }
+
+private:
+    static constexpr unsigned whole = 1U << (N - 1);
+
+    struct Open {
+        std::uint32_t level;
+        unsigned shares;
+        std::size_t begin;  ///< of its members
+    };
+
+    static unsigned count_new(const Vertices& vertices, VertexIndex first_new) {
+        unsigned count = 0;
+        for (const VertexIndex v : vertices) count += v >= first_new ? 1U : 0U;
+        return count;
+    }
+    /// A corner stays at its position in every child that has it, and each is in some.
+    static Vertices parent_of(std::span<const Member> members, VertexIndex first_new) {
+        Vertices parent;
+        for (const Member& member : members) {
+            for (std::size_t k = 0; k < N; ++k) {
+                if (member.vertices[k] < first_new) parent[k] = member.vertices[k];
+            }
+        }
+        return parent;
+    }
+
+    const VertexLevels* levels_;
+    std::vector<Open> open_;  ///< each within the one before
+    std::vector<Member> members_;
+};
+
+/// The edge of a cell, facet or tagged edge that has these ends.
+template <std::size_t N>
+[[nodiscard]] std::size_t edge_between(const std::array<VertexIndex, N>& vertices,
+                                       const EdgeVertices& ends) {
+    const auto position = [&](VertexIndex v) {
+        return static_cast<std::size_t>(std::ranges::find(vertices, v) - vertices.begin());
+    };
+    const auto [i, j] = std::minmax({position(ends[0]), position(ends[1])});
+    return i * (2 * N - i - 1) / 2 + (j - i - 1);  // they are in lexicographic order
+}
+
+}  // namespace octetra::distributed

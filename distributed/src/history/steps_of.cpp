@@ -1,0 +1,141 @@
+#include "history/steps_of.hpp"
+
+#include <numeric>
+#include <utility>
+
+#include "history/cuts.hpp"
+#include "history/families.hpp"
+#include "history/vertex_levels.hpp"
+
+namespace octetra::distributed {
+namespace {
+
+struct Nothing {};
+using CellFamilies = Families<4, Nothing>;
+
+/// The edges of the parent that were bisected for its children.
+EdgeMask bisected(const CellVertices& parent, std::span<const CellFamilies::Member> children,
+                  VertexIndex first_new, const VertexLevels& levels) {
+    if (children.size() == 8) return all_edges;
+    unsigned edges = 0;
+    for (const auto& child : children) {
+        for (const VertexIndex v : child.vertices) {
+            if (v >= first_new) edges |= 1U << edge_between(parent, levels.ends(v));
+        }
+    }
+    return static_cast<EdgeMask>(edges);
+}
+
+/// The steps of a tree of cells whose families are met one after the other. Before a step there are
+/// the cells that some earlier one made and no earlier one cut; those left of a cell that the step
+/// cuts are met before it, and those right of it after it.
+class Steps {
+public:
+    explicit Steps(std::size_t count) : runs_(count), written_(count, 0), counts_(count + 1) {}
+
+    void cut(std::uint32_t level, Cut cut) {
+        write_whole(level);
+        runs_[level - 1].append(cut);
+        ++counts_[level].cut;
+        ++written_[level - 1];
+    }
+    /// A cell that `level` made has been met, and all that became of it.
+    void met(std::uint32_t level) { ++counts_[level].made; }
+
+    [[nodiscard]] std::vector<CutRuns> finish() && {
+        for (std::uint32_t level = 1; level <= runs_.size(); ++level) {
+            write_whole(level);
+            runs_[level - 1].finish();
+        }
+        return std::move(runs_);
+    }
+
+private:
+    struct Counts {
+        std::uint64_t made = 0;
+        std::uint64_t cut = 0;
+    };
+
+    /// Those that have been met since the last one that the step cut.
+    void write_whole(std::uint32_t level) {
+        std::uint64_t there = 0;
+        for (std::uint32_t before = 0; before < level; ++before) {
+            there += counts_[before].made - counts_[before].cut;
+        }
+        // Of cells that were met, so are the ancestors cut; this level's own are still there.
+        runs_[level - 1].append(0, there - written_[level - 1]);
+        written_[level - 1] = there;
+    }
+
+    std::vector<CutRuns> runs_;
+    std::vector<std::uint64_t> written_;  ///< cells of each step so far
+    std::vector<Counts> counts_;          ///< by level, from 0
+};
+
+/// Ancestors of which each is its own and only descendant.
+AncestorMap undivided(const AncestorMap& ancestors) {
+    AncestorMap roots{.roots = ancestors.roots, .first = {}, .markers = ancestors.markers};
+    roots.first.resize(roots.roots.size() + 1);
+    std::iota(roots.first.begin(), roots.first.end(), 0U);
+    return roots;
+}
+
+template <class I, std::size_t N>
+IndexVector<I, std::array<VertexIndex, N>> roots_of(
+    const IndexVector<I, std::array<VertexIndex, N>>& list, const VertexLevels& levels) {
+    IndexVector<I, std::array<VertexIndex, N>> roots;
+    Families<N, Nothing> families(levels);
+    for (const auto& vertices : list) {
+        families.add(
+            vertices, {}, [](auto&&...) { return Nothing{}; },
+            [&](const auto& root, Nothing) { roots.push_back(root); });
+    }
+    return roots;
+}
+
+}  // namespace
+
+std::vector<CutRuns> steps_of(const DistributedMesh& mesh) {
+    const VertexLevels levels(mesh);
+    Steps steps(levels.count());
+    CellFamilies families(levels);
+    const auto parent_met = [&](std::uint32_t level, const CellVertices& parent,
+                                std::span<const CellFamilies::Member> children) {
+        const EdgeMask edges = bisected(parent, children, levels.begin(level), levels);
+        steps.cut(level, cut_into(edges, children.size()));
+        steps.met(levels.newest(parent));
+        return Nothing{};
+    };
+    for (const CellVertices& cell : mesh.cells) {
+        steps.met(levels.newest(cell));
+        families.add(cell, {}, parent_met, [](auto&&...) {});
+    }
+    return std::move(steps).finish();
+}
+
+DistributedMesh input_of(const DistributedMesh& mesh) {
+    const auto vertex_count = static_cast<std::ptrdiff_t>(mesh.input_vertices.size());
+    const auto attribute_count =
+        vertex_count * static_cast<std::ptrdiff_t>(mesh.attributes_per_point);
+    const VertexLevels levels(mesh);
+    DistributedMesh input;
+    input.processes = mesh.processes;
+    input.points.assign(mesh.points.begin(), mesh.points.begin() + vertex_count);
+    input.attributes_per_point = mesh.attributes_per_point;
+    input.point_attributes.assign(mesh.point_attributes.begin(),
+                                  mesh.point_attributes.begin() + attribute_count);
+    input.input_vertices = mesh.input_vertices;
+    input.input_vertex_markers = mesh.input_vertex_markers;
+    input.cells = roots_of(mesh.cells, levels);
+    input.cell_ancestors = undivided(mesh.cell_ancestors);
+    input.facets = roots_of(mesh.facets, levels);
+    input.facet_ancestors = undivided(mesh.facet_ancestors);
+    input.edges = roots_of(mesh.edges, levels);
+    input.edge_ancestors = undivided(mesh.edge_ancestors);
+    input.input_vertex_count = mesh.input_vertex_count;
+    input.input_cell_count = mesh.input_cell_count;
+    input.index_base = mesh.index_base;
+    return input;
+}
+
+}  // namespace octetra::distributed

@@ -1,0 +1,50 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include <octetra/distributed/distributed_mesh.hpp>
+
+namespace octetra::distributed {
+
+/// Which level made a vertex, counted from 1; 0: it is the input's. Looks at the mesh it is made
+/// of, which must not change meanwhile.
+class VertexLevels {
+public:
+    explicit VertexLevels(const DistributedMesh& mesh)
+        : begins_(mesh.level_begin),
+          ends_(mesh.midpoint_to_edge),
+          first_midpoint_(mesh.input_vertices.size()) {}
+
+    [[nodiscard]] std::uint32_t of(VertexIndex v) const {
+        const std::size_t last = begins_.size();
+        if (last > 0 && v >= begins_[last - 1]) return static_cast<std::uint32_t>(last);
+        return static_cast<std::uint32_t>(std::ranges::upper_bound(begins_, v) - begins_.begin());
+    }
+    /// The level of the newest of them: of a cell's vertices, that which made the cell.
+    template <std::size_t N>
+    [[nodiscard]] std::uint32_t newest(const std::array<VertexIndex, N>& vertices) const {
+        return of(*std::ranges::max_element(vertices));
+    }
+    /// The first vertex that this level made, or would have.
+    [[nodiscard]] VertexIndex begin(std::uint32_t level) const {
+        return level == 0 ? VertexIndex{0} : begins_[level - 1];
+    }
+    [[nodiscard]] std::uint32_t count() const { return static_cast<std::uint32_t>(begins_.size()); }
+
+    /// The ends of the edge that a midpoint halves, lower first.
+    [[nodiscard]] const EdgeVertices& ends(VertexIndex midpoint) const {
+        return ends_[midpoint.value() - first_midpoint_];
+    }
+
+private:
+    std::span<const VertexIndex> begins_;
+    std::span<const EdgeVertices> ends_;
+    std::size_t first_midpoint_;
+};
+
+}  // namespace octetra::distributed

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <memory>
+#include <utility>
+
+#include "adapt/mesh_state.hpp"
+
+namespace octetra::test {
+
+using namespace distributed;
+
+/// A mesh that is refined and coarsened as an AdaptiveMesh is, in the way that a test wants.
+class Loop {
+public:
+    explicit Loop(DistributedMesh input)
+        : state_(std::make_unique<AdaptiveMesh::State>(std::move(input))) {}
+
+    /// Collective. One step.
+    Adaptation refine(const Selection& selection, Scheme scheme, const Tuning& tuning) {
+        return state_->refine([&] { return mark_cells(mesh(), selection, false); },
+                              {.scheme = scheme}, tuning);
+    }
+    /// Collective.
+    Adaptation coarsen(const Selection& selection) {
+        return coarsen_state(state_, [&] { return mark_cells(mesh(), selection, false); });
+    }
+    [[nodiscard]] DistributedMesh& mesh() { return state_->mesh; }
+    [[nodiscard]] const DistributedMesh& mesh() const { return state_->mesh; }
+
+private:
+    std::unique_ptr<AdaptiveMesh::State> state_;
+};
+
+}  // namespace octetra::test

@@ -54,6 +54,7 @@ public:
     [[nodiscard]] CoarserList<I, N> run(const IndexVector<I, Vertices>& list, auto&& divide) {
         reserve_in_huge_pages(made_.whole_of, list.size());
         reserve_in_huge_pages(made_.halvings, list.size());
+        reserve_in_huge_pages(made_.list, list.size());
         const auto parent_met = [&](std::uint32_t level, const Vertices& parent,
                                     std::span<const Member> members) {
             return merge(level, parent, members, divide);
@@ -61,15 +62,19 @@ public:
         const auto root_met = [&](const Vertices&, const Note& note) {
             made_.first.push_back(note.begin);
         };
-        for (const Vertices& vertices : list) {
-            const std::uint8_t gone = count_gone(vertices);
-            const Note note{end(), static_cast<std::uint32_t>(made_.whole_of.size()), gone > 0};
-            made_.whole_of.push_back(note.begin);
-            made_.halvings.push_back(gone);
-            made_.list.push_back(vertices);
-            families_.add(vertices, note, parent_met, root_met);
+        const std::span<const Vertices> all = list;
+        for (std::size_t i = 0; i < all.size();) {
+            if (i + whole <= all.size()) {
+                const auto next = all.subspan(i).template first<whole>();
+                if (families_.are_family(next) && add_alike(next, parent_met, root_met)) {
+                    i += whole;
+                    continue;
+                }
+            }
+            add(all[i++], parent_met, root_met);
         }
         made_.first.push_back(end());
+        if (made_.list.size() < made_.list.capacity() / 2) made_.list.shrink_to_fit();
         return std::move(made_);
     }
 
@@ -82,10 +87,43 @@ private:
     };
     using Member = typename Families<N, Note>::Member;
 
+    static constexpr unsigned whole = Families<N, Note>::whole;
+
+    void add(const Vertices& vertices, auto&& parent_met, auto&& root_met) {
+        const std::uint8_t gone = count_gone(vertices);
+        const Note note{end(), end_before(), gone > 0};
+        made_.whole_of.push_back(note.begin);
+        made_.halvings.push_back(gone);
+        made_.list.push_back(vertices);
+        families_.add(vertices, note, parent_met, root_met);
+    }
+    /// A family of which all new vertices stay, or none: the most frequent ones.
+    [[nodiscard]] bool add_alike(std::span<const Vertices, whole> family, auto&& parent_met,
+                                 auto&& root_met) {
+        unsigned gone = 0;
+        for (const Vertices& vertices : family) gone += count_gone(vertices);
+        if (gone != 0 && gone != whole * (N - 1)) return false;
+        const Note note{end(), end_before(), false};
+        const Vertices parent = families_.parent_of(family);
+        if (gone == 0) {
+            for (unsigned k = 0; k < whole; ++k) made_.whole_of.push_back(note.begin + k);
+            made_.list.insert(made_.list.end(), family.begin(), family.end());
+        } else {
+            made_.whole_of.insert(made_.whole_of.end(), whole, note.begin);
+            made_.list.push_back(parent);
+        }
+        made_.halvings.insert(made_.halvings.end(), whole, gone == 0 ? 0 : N - 1);
+        families_.add(parent, note, parent_met, root_met);
+        return true;
+    }
+
+    [[nodiscard]] std::uint32_t end_before() const {
+        return static_cast<std::uint32_t>(made_.whole_of.size());
+    }
     [[nodiscard]] std::uint32_t end() const { return made_.list.end_index().value(); }
     [[nodiscard]] std::uint8_t count_gone(const Vertices& vertices) const {
         unsigned gone = 0;
-        for (const VertexIndex v : vertices) gone += (*kept_)[v] != 0 ? 0U : 1U;
+        for (const VertexIndex v : vertices) gone += 1U - (*kept_)[v];
         return static_cast<std::uint8_t>(gone);
     }
 
@@ -144,12 +182,11 @@ private:
         const auto& note = members[k].note;
         const bool is_last = k + 1 == members.size();
         const std::uint32_t note_end = is_last ? end() : members[k + 1].note.begin;
-        const std::size_t end_before =
-            is_last ? made_.whole_of.size() : members[k + 1].note.begin_before;
+        const std::uint32_t before_end = is_last ? end_before() : members[k + 1].note.begin_before;
         family_.insert(family_.end(), made_.list.begin() + note.begin,
                        made_.list.begin() + note_end);
         if (begin == note.begin) return;
-        for (std::size_t i = note.begin_before; i < end_before; ++i) {
+        for (std::size_t i = note.begin_before; i < before_end; ++i) {
             made_.whole_of[i] += begin - note.begin;  // may go backwards, modulo 2^32
         }
     }

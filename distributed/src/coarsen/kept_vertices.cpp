@@ -20,11 +20,16 @@ public:
     }
 
     void keep(VertexIndex v) { kept_[v] = 1; }
+    /// Without a branch, which could not be foreseen.
+    void keep_if(VertexIndex v, bool condition) {
+        kept_[v] = static_cast<std::uint8_t>(kept_[v] | (condition ? 1U : 0U));
+    }
     [[nodiscard]] bool has(VertexIndex v) const { return kept_[v] != 0; }
     [[nodiscard]] KeptVertices result() && { return std::move(kept_); }
 
     /// Rule (b), as far as this process sees: again and again until nothing changes.
     void close() {
+        if (!is_any_level_divided()) return;
         const std::size_t count = mesh_->cells.size();
         bool changed = true;
         for (bool backwards = false; changed; backwards = !backwards) {
@@ -37,6 +42,16 @@ public:
     }
 
 private:
+    /// Are there midpoints of one level of which some stay and some may go?
+    [[nodiscard]] bool is_any_level_divided() const {
+        for (std::uint32_t level = 1; level <= levels_.count(); ++level) {
+            const std::size_t end = std::min<std::size_t>(levels_.end(level).value(), kept_.size());
+            const auto first = kept_.begin() + levels_.begin(level).value();
+            const auto last = kept_.begin() + static_cast<std::ptrdiff_t>(end);
+            if (std::find(first, last, 0) != last && std::find(first, last, 1) != last) return true;
+        }
+        return false;
+    }
     /// Rule (a).
     void keep_what_cells_need() {
         for (CellIndex c{0}; c < mesh_->cells.end_index(); ++c) {
@@ -44,15 +59,19 @@ private:
             // Its parent has been cut, and its own level's vertices may be of no other such cell.
             const VertexIndex first_new =
                 may_go_[c.value()] == 0 ? VertexIndex::none() : levels_.begin(levels_.newest(cell));
-            for (const VertexIndex v : cell) {
-                if (v < first_new) keep(v);
-            }
+            for (const VertexIndex v : cell) keep_if(v, v < first_new);
         }
     }
 
     bool close(const CellVertices& cell) {
-        if (std::ranges::all_of(cell, [&](VertexIndex v) { return has(v); })) return false;
         const VertexIndex first_new = levels_.begin(levels_.newest(cell));
+        unsigned kept = 0;
+        unsigned kept_new = 0;
+        for (const VertexIndex v : cell) {
+            kept += kept_[v];
+            kept_new += v < first_new ? 0U : kept_[v];
+        }
+        if (kept == cell.size() || kept_new == 0) return false;
         bool changed = false;
         for (const VertexIndex v : cell) {
             if (has(v)) continue;

@@ -11,7 +11,7 @@
 
 namespace octetra::distributed {
 
-/// For each vertex of a process: does it stay?
+/// For each vertex of a process: 1 if it stays, else 0.
 using KeptVertices = IndexVector<VertexIndex, std::uint8_t>;
 
 /// Collective. The vertices that stay when the cells that `may_go` marks (a byte for each cell of

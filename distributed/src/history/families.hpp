@@ -59,12 +59,36 @@ public:
         root_met(std::as_const(next.vertices), next.note);
     }
 
-    /// Have all families been completed?
-    [[nodiscard]] bool at_root() const { return open_.empty(); }
-
-private:
+    /// As many as a family has whose parent's edges were all bisected.
     static constexpr unsigned whole = 1U << (N - 1);
 
+    /// Are the next of the list such a family, with nothing between its members? Then one may add
+    /// their parent in their stead. Sooner told than by adding them.
+    [[nodiscard]] bool are_family(std::span<const Vertices, whole> next) const {
+        const std::uint32_t level = levels_->newest(next[0]);
+        if (level == 0 || (!open_.empty() && open_.back().level == level)) return false;
+        const VertexIndex first_new = levels_->begin(level);
+        const VertexIndex end_new = levels_->end(level);
+        bool are = true;
+        for (const Vertices& vertices : next) {
+            unsigned newer = 0;
+            for (const VertexIndex v : vertices) newer += v >= end_new ? 1U : 0U;
+            are = are && newer == 0 && count_new(vertices, first_new) == N - 1;
+        }
+        return are;
+    }
+    [[nodiscard]] Vertices parent_of(std::span<const Vertices, whole> family) const {
+        const VertexIndex first_new = levels_->begin(levels_->newest(family[0]));
+        Vertices parent;
+        for (const Vertices& vertices : family) {
+            for (std::size_t k = 0; k < N; ++k) {
+                parent[k] = vertices[k] < first_new ? vertices[k] : parent[k];
+            }
+        }
+        return parent;
+    }
+
+private:
     struct Open {
         std::uint32_t level;
         unsigned shares;

@@ -28,11 +28,17 @@ public:
     /// The level of the newest of them: of a cell's vertices, that which made the cell.
     template <std::size_t N>
     [[nodiscard]] std::uint32_t newest(const std::array<VertexIndex, N>& vertices) const {
-        return of(*std::ranges::max_element(vertices));
+        VertexIndex newest_vertex = vertices[0];
+        for (const VertexIndex v : vertices) newest_vertex = std::max(newest_vertex, v);
+        return of(newest_vertex);
     }
     /// The first vertex that this level made, or would have.
     [[nodiscard]] VertexIndex begin(std::uint32_t level) const {
         return level == 0 ? VertexIndex{0} : begins_[level - 1];
+    }
+    /// The first vertex that a later level made, or none().
+    [[nodiscard]] VertexIndex end(std::uint32_t level) const {
+        return level == begins_.size() ? VertexIndex::none() : begins_[level];
     }
     [[nodiscard]] std::uint32_t count() const { return static_cast<std::uint32_t>(begins_.size()); }
 

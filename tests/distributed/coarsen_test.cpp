@@ -25,8 +25,8 @@ public:
         engine_.refine(selection, scheme, tuning);
         reference_ = reference::refined(reference_, marks(selection), scheme);
     }
-    void coarsen(const Selection& selection) {
-        engine_.coarsen(selection);
+    void coarsen(const Selection& selection, const Tuning& tuning) {
+        engine_.coarsen(selection, tuning);
         reference_ = reference::coarsened(reference_, marks(selection));
     }
     void expect_equal() const {
@@ -63,7 +63,7 @@ TEST_P(Coarsening, IsTheReferencesStepByStep) {
         const Tuning tuning{.incremental_below = random() % 3 == 0 ? 0.0 : 1.0};
         const Scheme scheme = schemes[random() % 3];
         if (step >= 2 && random() % 2 == 0) {
-            both.coarsen(random() % 4 == 0 ? Selection{.all = true} : selection);
+            both.coarsen(random() % 4 == 0 ? Selection{.all = true} : selection, tuning);
         } else {
             selection.random->fraction /= 5;
             both.refine(selection, scheme, tuning);
@@ -79,7 +79,7 @@ TEST_P(Coarsening, OfAllAgainAndAgainEndsInTheInput) {
         both.refine({.random = RandomShare{0.2, GetParam() + step}}, Scheme::eight, {});
     }
     for (int step = 0; step < 3; ++step) {
-        both.coarsen({.all = true});
+        both.coarsen({.all = true}, {});
         both.expect_equal();
     }
     EXPECT_TRUE(both.history().steps.empty());

@@ -21,8 +21,9 @@ public:
                               {.scheme = scheme}, tuning);
     }
     /// Collective.
-    Adaptation coarsen(const Selection& selection) {
-        return coarsen_state(state_, [&] { return mark_cells(mesh(), selection, false); });
+    Adaptation coarsen(const Selection& selection, const Tuning& tuning) {
+        return coarsen_state(
+            *state_, [&] { return mark_cells(mesh(), selection, false); }, tuning);
     }
     [[nodiscard]] DistributedMesh& mesh() { return state_->mesh; }
     [[nodiscard]] const DistributedMesh& mesh() const { return state_->mesh; }

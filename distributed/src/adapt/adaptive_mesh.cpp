@@ -28,9 +28,9 @@ std::vector<Marker> all_markers(const AncestorMap& ancestors, const auto* unorde
     if (ancestors.markers.empty()) return markers;
     markers.resize(count);
     if (unordered != nullptr) {
-        unordered->for_each_root(I{0}, I{count}, ancestors, [&](I i, std::size_t root) {
-            markers[i.value()] = ancestors.markers[root];
-        });
+        for (I i{0}; i < I{count}; ++i) {
+            markers[i.value()] = ancestors.markers[unordered->root_of(i)];
+        }
         return markers;
     }
     for (std::size_t r = 0; r < ancestors.roots.size(); ++r) {
@@ -91,15 +91,15 @@ Adaptation AdaptiveMesh::refine_edges(std::span<const EdgeVertices> marked,
 }
 
 Adaptation AdaptiveMesh::coarsen(std::span<const std::uint8_t> may_go) {
-    return coarsen_state(state_, [&] { return marked_by_bytes(state_->mesh, may_go); });
+    return coarsen_state(*state_, [&] { return marked_by_bytes(state_->mesh, may_go); });
 }
 
 Adaptation AdaptiveMesh::coarsen(std::span<const CellIndex> may_go) {
-    return coarsen_state(state_, [&] { return marked_by_list(state_->mesh, may_go); });
+    return coarsen_state(*state_, [&] { return marked_by_list(state_->mesh, may_go); });
 }
 
 Adaptation AdaptiveMesh::coarsen(const Selection& may_go) {
-    return coarsen_state(state_, [&] { return mark_cells(state_->mesh, may_go, false); });
+    return coarsen_state(*state_, [&] { return mark_cells(state_->mesh, may_go, false); });
 }
 
 const Communicator& AdaptiveMesh::processes() const { return state_->mesh.processes; }

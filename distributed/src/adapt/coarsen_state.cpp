@@ -7,34 +7,15 @@
 
 #include "adapt/mesh_state.hpp"
 #include "coarsen/coarser_part.hpp"
+#include "coarsen/incremental_coarsening.hpp"
 #include "coarsen/kept_vertices.hpp"
 #include "comm/local_failure.hpp"
 #include "level/incremental/adjacency.hpp"
+#include "level/incremental/suits_incremental_level.hpp"
 #include "sharing/sharing_builder.hpp"
 
 namespace octetra::distributed {
 namespace {
-
-/// A byte for each cell as it stands in canonical order.
-std::vector<std::uint8_t> in_order(const MarkedCells& marked, std::size_t cell_count,
-                                   const std::vector<CellIndex>& before) {
-    std::vector<std::uint8_t> marks(cell_count, marked.all ? 1 : 0);
-    for (const CellIndex c : marked.cells) marks[c.value()] = 1;
-    if (before.empty()) return marks;
-    std::vector<std::uint8_t> ordered;
-    ordered.reserve(marks.size());
-    for (const CellIndex c : before) ordered.push_back(marks[c.value()]);
-    return ordered;
-}
-
-/// What is known of entities in canonical order, by the numbers that they had.
-template <class T, class I>
-std::vector<T> by_number(std::vector<T> ordered, const std::vector<I>& before) {
-    if (before.empty()) return ordered;
-    std::vector<T> values(ordered.size());
-    for (std::size_t k = 0; k < before.size(); ++k) values[before[k].value()] = ordered[k];
-    return values;
-}
 
 /// The shared vertices that stay, by the numbers that they have then.
 std::vector<VertexIndex> kept_of(const std::vector<VertexIndex>& shared,
@@ -101,38 +82,53 @@ Sharing<VertexIndex> sharing_after(const Sharing<VertexIndex>& sharing, const Co
     return after;
 }
 
-Adaptation adaptation_of(const DistributedMesh& mesh, const CanonicalOrder& order, CoarserPart part,
-                         const DistributedMesh& after) {
+Adaptation adaptation_of(std::size_t vertex_count_before, CoarserPart& part) {
     Adaptation adaptation;
     adaptation.changed = true;
-    adaptation.cells = Succession::of_merges(
-        after.cells.size(), by_number(std::move(part.cell_after), order.cells_before()),
-        by_number(std::move(part.halvings), order.cells_before()));
-    adaptation.facets = Succession::of_merges(
-        after.facets.size(), by_number(std::move(part.facet_after), order.facets_before()), {});
-    adaptation.edges = Succession::of_merges(
-        after.edges.size(), by_number(std::move(part.edge_after), order.edges_before()), {});
-    adaptation.vertex_count_before = mesh.points.size();
-    adaptation.vertices_before = std::move(part.vertices_before);
+    adaptation.cells = std::move(part.cells);
+    adaptation.facets = std::move(part.facets);
+    adaptation.edges = std::move(part.edges);
+    adaptation.vertex_count_before = vertex_count_before;
     return adaptation;
 }
 
+/// What a process does with the lists of its own part, in one of two ways.
+struct Lists {
+    std::unique_ptr<IncrementalCoarsening> incremental;
+    std::unique_ptr<CanonicalOrder> order;  ///< for the other one
+
+    void plan(DistributedMesh& mesh, const KeptVertices& kept, CoarserPart& part) {
+        if (mesh.adjacency && mesh.adjacency->has_index) {
+            incremental = IncrementalCoarsening::of(mesh, kept);
+        }
+        if (incremental) {
+            incremental->plan(kept, part);
+        } else {
+            order = std::make_unique<CanonicalOrder>(mesh);
+            coarsen_lists(mesh, *order, kept, part);
+        }
+    }
+    void commit(CoarserPart& part) noexcept {
+        if (incremental) incremental->commit(part);
+        order.reset();
+    }
+};
+
 }  // namespace
 
-Adaptation coarsen_state(std::unique_ptr<AdaptiveMesh::State>& state,
-                         const std::function<MarkedCells()>& mark) {
-    DistributedMesh& mesh = state->mesh;
-    const Communicator processes = mesh.processes;
+Adaptation coarsen_state(AdaptiveMesh::State& state, const std::function<MarkedCells()>& mark,
+                         const Tuning& tuning) {
+    DistributedMesh& mesh = state.mesh;
+    const Communicator& processes = mesh.processes;
     const Phase phase(processes, "coarsen");
     LocalFailure failure;
-    std::unique_ptr<CanonicalOrder> order;
-    std::vector<std::uint8_t> may_go;
+    MarkedCells marked;
+    const Adjacency* adjacency = nullptr;
     failure.attempt([&] {
-        const MarkedCells marked = mark();
-        order = std::make_unique<CanonicalOrder>(mesh);
-        may_go = in_order(marked, mesh.cells.size(), order->cells_before());
+        marked = mark();
+        if (suits_incremental_level(mesh, marked, tuning)) adjacency = &Adjacency::of(mesh);
     });
-    const KeptVertices kept = find_kept_vertices(mesh, state->sharing, may_go, failure);
+    const KeptVertices kept = find_kept_vertices(mesh, state.sharing, marked, adjacency, failure);
     const auto gone = static_cast<std::uint64_t>(std::ranges::count(kept, 0));
     const std::uint64_t most = failure.max_unless_failed(processes, gone);
     if (most == LocalFailure::somewhere) failure.agree(processes);
@@ -144,20 +140,25 @@ Adaptation coarsen_state(std::unique_ptr<AdaptiveMesh::State>& state,
     }
 
     std::optional<CoarserPart> part;
-    failure.attempt([&] { part = coarser_part(mesh, kept); });
-    failure.agree(processes);
-    drop_empty_levels(*part);
-    CanonicalNumbers numbers = numbers_after(*state, *part, failure);
-    std::unique_ptr<AdaptiveMesh::State> next;
+    Lists lists;
     failure.attempt([&] {
-        auto sharing = sharing_after(state->sharing, *part, numbers);
-        next = std::make_unique<AdaptiveMesh::State>(std::move(part->mesh), std::move(numbers),
-                                                     std::move(sharing));
-        adaptation = adaptation_of(mesh, *order, *std::move(part), next->mesh);
+        part = coarser_vertices(mesh, kept);
+        lists.plan(mesh, kept, *part);
     });
     failure.agree(processes);
-    order.reset();
-    state = std::move(next);
+    drop_empty_levels(*part);
+    CanonicalNumbers numbers = numbers_after(state, *part, failure);
+    std::optional<Sharing<VertexIndex>> sharing;
+    failure.attempt([&] { sharing = sharing_after(state.sharing, *part, numbers); });
+    failure.agree(processes);
+
+    adaptation = adaptation_of(mesh.points.size(), *part);
+    lists.commit(*part);
+    adaptation.vertices_before = std::move(part->vertices_before);
+    state.mesh = std::move(part->mesh);
+    state.numbers = std::move(numbers);
+    state.sharing = *std::move(sharing);
+    state.step_count = static_cast<int>(mesh.level_begin.size());
     return adaptation;
 }
 

@@ -63,13 +63,6 @@ Adaptation unchanged(const DistributedMesh& mesh) {
 AdaptiveMesh::State::State(DistributedMesh part)
     : mesh(std::move(part)), numbers(input_numbers(mesh)), sharing(find_vertex_sharing(mesh)) {}
 
-AdaptiveMesh::State::State(DistributedMesh part, CanonicalNumbers its_numbers,
-                           Sharing<VertexIndex> shared)
-    : mesh(std::move(part)),
-      numbers(std::move(its_numbers)),
-      sharing(std::move(shared)),
-      step_count(static_cast<int>(mesh.level_begin.size())) {}
-
 Adaptation AdaptiveMesh::State::refine(const std::function<MarkedCells()>& mark,
                                        const StepOptions& options, const Tuning& tuning) {
     check_same(mesh.processes, options);

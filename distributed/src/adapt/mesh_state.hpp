@@ -21,8 +21,6 @@ struct AdaptiveMesh::State {
 
     /// Collective. Of a part that is as the input was.
     explicit State(DistributedMesh part);
-    /// Of all that is known.
-    State(DistributedMesh part, CanonicalNumbers its_numbers, Sharing<VertexIndex> shared);
 
     /// Collective.
     Adaptation refine(const std::function<MarkedCells()>& mark, const StepOptions& options,
@@ -32,8 +30,9 @@ struct AdaptiveMesh::State {
 /// What a step that changes nothing did.
 [[nodiscard]] Adaptation unchanged(const DistributedMesh& mesh);
 
-/// Collective. Lets marked cells go back by a generation: a new state takes the place of the old.
-[[nodiscard]] Adaptation coarsen_state(std::unique_ptr<AdaptiveMesh::State>& state,
-                                       const std::function<MarkedCells()>& mark);
+/// Collective. Lets marked cells go back by a generation.
+[[nodiscard]] Adaptation coarsen_state(AdaptiveMesh::State& state,
+                                       const std::function<MarkedCells()>& mark,
+                                       const Tuning& tuning = {});
 
 }  // namespace octetra::distributed

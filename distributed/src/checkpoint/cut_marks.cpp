@@ -26,8 +26,7 @@ public:
         if (mesh_->adjacency == nullptr) {
             return cell_.value() == mesh_->cell_ancestors.first[root_ + 1];
         }
-        return cell_.is_none() ||
-               mesh_->adjacency->cells.root_of(cell_, mesh_->cell_ancestors) != root_;
+        return cell_.is_none();
     }
     CellIndex next() {
         const CellIndex cell = cell_;

@@ -1,75 +1,16 @@
 #include "coarsen/coarser_part.hpp"
 
 #include <algorithm>
-#include <limits>
 #include <utility>
 
 #include "coarsen/coarser_interfaces.hpp"
 #include "coarsen/coarser_list.hpp"
+#include "coarsen/family_division.hpp"
 #include "comm/local_failure.hpp"
 #include "history/vertex_levels.hpp"
-#include "level/level.hpp"
-#include "level/rounding_margin.hpp"
-#include "pattern/length_order.hpp"
-#include "pattern/triangle.hpp"
 
 namespace octetra::distributed {
 namespace {
-
-/// Finds for each level the first bad piece of each root, as RoundingFailure asks.
-class PieceCheck {
-public:
-    PieceCheck(const DistributedMesh& mesh, std::size_t level_count)
-        : mesh_(&mesh), failures_(level_count), last_root_(level_count, no_root) {}
-
-    void check(std::uint32_t level, std::size_t root, const CellVertices& parent,
-               const Pieces<4>& pieces) {
-        if (last_root_[level - 1] == root || has_rounding_margin(mesh_->points, parent)) return;
-        for (std::size_t k = 0; k < pieces.count; ++k) {
-            const int sign = sign_of(pieces.vertices[k], mesh_->points);
-            if (sign > 0) continue;
-            failures_[level - 1].note(mesh_->cell_ancestors.roots[root], sign);
-            last_root_[level - 1] = root;
-            return;
-        }
-    }
-    [[nodiscard]] std::vector<RoundingFailure> failures() && { return std::move(failures_); }
-
-private:
-    static constexpr std::size_t no_root = std::numeric_limits<std::size_t>::max();
-
-    const DistributedMesh* mesh_;
-    std::vector<RoundingFailure> failures_;
-    std::vector<std::size_t> last_root_;  ///< of each level, with a bad piece
-};
-
-Pieces<4> pieces_of(const CellVertices& cell, const KeptMidpoints<4>& midpoints,
-                    const IndexVector<VertexIndex, Point>& points) {
-    std::array<VertexIndex, 10> vertices;  // by place
-    std::ranges::copy(cell, vertices.begin());
-    std::ranges::copy(midpoints, vertices.begin() + 4);
-    unsigned edges = 0;
-    for (std::size_t e = 0; e < 6; ++e) edges |= midpoints[e].is_none() ? 0U : 1U << e;
-    const Pattern& pattern =
-        PatternTable::get().pattern(length_order(points, cell), static_cast<EdgeMask>(edges));
-    Pieces<4> pieces{.count = pattern.child_count, .vertices = {}};
-    for (std::size_t k = 0; k < pieces.count; ++k) {
-        pieces.vertices[k] = child_of(vertices, pattern.children[k]);
-    }
-    return pieces;
-}
-
-Pieces<3> pieces_of(const FacetVertices& facet, const KeptMidpoints<3>& midpoints,
-                    const IndexVector<VertexIndex, Point>& points) {
-    const BisectedTriangle bisected = bisect_triangle(facet, midpoints, points);
-    Pieces<3> pieces{.count = bisected.piece_count, .vertices = {}};
-    std::ranges::copy(bisected.pieces, pieces.vertices.begin());
-    return pieces;
-}
-
-Pieces<2> pieces_of(const EdgeVertices& edge, const KeptMidpoints<2>& midpoint) {
-    return {.count = 2, .vertices = {{{edge[0], midpoint[0]}, {midpoint[0], edge[1]}}}};
-}
 
 /// What has no other numbers afterwards.
 DistributedMesh unchanged_parts(const DistributedMesh& mesh) {
@@ -78,9 +19,6 @@ DistributedMesh unchanged_parts(const DistributedMesh& mesh) {
     after.attributes_per_point = mesh.attributes_per_point;
     after.input_vertices = mesh.input_vertices;
     after.input_vertex_markers = mesh.input_vertex_markers;
-    after.cell_ancestors = {mesh.cell_ancestors.roots, {}, mesh.cell_ancestors.markers};
-    after.facet_ancestors = {mesh.facet_ancestors.roots, {}, mesh.facet_ancestors.markers};
-    after.edge_ancestors = {mesh.edge_ancestors.roots, {}, mesh.edge_ancestors.markers};
     after.input_vertex_count = mesh.input_vertex_count;
     after.input_cell_count = mesh.input_cell_count;
     after.index_base = mesh.index_base;
@@ -143,50 +81,52 @@ std::vector<VertexIndex> list_of(const KeptVertices& kept, std::size_t count) {
     return list;
 }
 
+/// What is known of entities in canonical order, by the numbers that they had.
+template <class T, class I>
+std::vector<T> by_number(std::vector<T> ordered, const std::vector<I>& before) {
+    if (before.empty()) return ordered;
+    std::vector<T> values(ordered.size());
+    for (std::size_t k = 0; k < before.size(); ++k) values[before[k].value()] = ordered[k];
+    return values;
+}
+
 }  // namespace
 
-CoarserPart coarser_part(const DistributedMesh& mesh, const KeptVertices& kept) {
-    const VertexLevels levels(mesh);
-    const auto number_after = numbers_after(kept);
+CoarserPart coarser_vertices(const DistributedMesh& mesh, const KeptVertices& kept) {
     CoarserPart part;
     part.mesh = unchanged_parts(mesh);
-    part.vertices_before = list_of(kept, number_after.back().value());
-    keep_vertices(mesh, part.vertices_before, number_after, part.mesh);
-
-    const auto take = [&](auto coarser, auto& list, AncestorMap& ancestors) {
-        list = std::move(coarser.list);
-        renumber(list, number_after);
-        ancestors.first = std::move(coarser.first);
-        return std::move(coarser.whole_of);
-    };
-    PieceCheck check(mesh, levels.count());
-    auto cells =
-        ListCoarsening<CellIndex, 4>(levels, kept)
-            .run(mesh.cells, [&](auto level, auto root, const auto& cell, const auto& midpoints) {
-                const Pieces<4> pieces = pieces_of(cell, midpoints, mesh.points);
-                check.check(level, root, cell, pieces);
-                return pieces;
-            });
-    part.failures = std::move(check).failures();
-    part.halvings = std::move(cells.halvings);
-    part.cell_after = take(std::move(cells), part.mesh.cells, part.mesh.cell_ancestors);
-    part.facet_after = take(ListCoarsening<FacetIndex, 3>(levels, kept)
-                                .run(mesh.facets,
-                                     [&](auto, auto, const auto& facet, const auto& midpoints) {
-                                         return pieces_of(facet, midpoints, mesh.points);
-                                     }),
-                            part.mesh.facets, part.mesh.facet_ancestors);
-    part.edge_after =
-        take(ListCoarsening<EdgeIndex, 2>(levels, kept)
-                 .run(mesh.edges, [](auto, auto, const auto& edge,
-                                     const auto& midpoint) { return pieces_of(edge, midpoint); }),
-             part.mesh.edges, part.mesh.edge_ancestors);
-    part.mesh.interfaces = coarser_interfaces(mesh.interfaces, levels, kept);
+    part.vertex_after = numbers_after(kept);
+    part.vertices_before = list_of(kept, part.vertex_after.back().value());
+    keep_vertices(mesh, part.vertices_before, part.vertex_after, part.mesh);
+    part.mesh.interfaces = coarser_interfaces(mesh.interfaces, VertexLevels(mesh), kept);
     for (Interface& interface : part.mesh.interfaces) {
-        renumber(interface.edges, number_after);
-        renumber(interface.faces, number_after);
+        renumber(interface.edges, part.vertex_after);
+        renumber(interface.faces, part.vertex_after);
     }
     return part;
+}
+
+void coarsen_lists(const DistributedMesh& mesh, const CanonicalOrder& order,
+                   const KeptVertices& kept, CoarserPart& part) {
+    const VertexLevels levels(mesh);
+    const auto take = [&](auto coarser, auto& list, AncestorMap& ancestors, const AncestorMap& of,
+                          const auto& before) {
+        list = std::move(coarser.list);
+        renumber(list, part.vertex_after);
+        ancestors = {of.roots, std::move(coarser.first), of.markers};
+        return Succession::of_merges(list.size(), by_number(std::move(coarser.whole_of), before),
+                                     by_number(std::move(coarser.halvings), before));
+    };
+    FamilyDivision divide(mesh, levels.count());
+    DistributedMesh& after = part.mesh;
+    part.cells = take(ListCoarsening<CellIndex, 4>(levels, kept).run(mesh.cells, divide),
+                      after.cells, after.cell_ancestors, mesh.cell_ancestors, order.cells_before());
+    part.facets =
+        take(ListCoarsening<FacetIndex, 3>(levels, kept).run(mesh.facets, divide), after.facets,
+             after.facet_ancestors, mesh.facet_ancestors, order.facets_before());
+    part.edges = take(ListCoarsening<EdgeIndex, 2>(levels, kept).run(mesh.edges, divide),
+                      after.edges, after.edge_ancestors, mesh.edge_ancestors, order.edges_before());
+    part.failures = std::move(divide).failures();
 }
 
 void drop_empty_levels(CoarserPart& part) {

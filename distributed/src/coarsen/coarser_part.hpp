@@ -1,32 +1,38 @@
 #pragma once
 
-#include <cstdint>
 #include <vector>
 
 #include <octetra/distributed/distributed_mesh.hpp>
+#include <octetra/distributed/succession.hpp>
 
 #include "coarsen/kept_vertices.hpp"
+#include "level/incremental/adjacency.hpp"
 #include "level/rounding_failure.hpp"
 
 namespace octetra::distributed {
 
 /// What a process's part becomes without the vertices that go.
 struct CoarserPart {
+    /// As long as the lists are not there, it has none, and no ancestors of them.
     DistributedMesh mesh;
     /// For each vertex that stays, the number that it had. All ascend still.
     std::vector<VertexIndex> vertices_before;
-    /// For each cell, facet, tagged edge of before, the one that it is or is a piece of, and how
-    /// often a cell was halved for it.
-    std::vector<std::uint32_t> cell_after;
-    std::vector<std::uint8_t> halvings;
-    std::vector<std::uint32_t> facet_after;
-    std::vector<std::uint32_t> edge_after;
+    /// For each vertex of before, the number that it has, or would have if it stayed; and the end.
+    IndexVector<VertexIndex, VertexIndex> vertex_after;
+    Succession cells;
+    Succession facets;
+    Succession edges;
     /// By level of before: a piece that rounding spoils.
     std::vector<RoundingFailure> failures;
 };
 
-/// Not collective. Of a mesh in canonical order. Its levels are as many as before.
-[[nodiscard]] CoarserPart coarser_part(const DistributedMesh& mesh, const KeptVertices& kept);
+/// Vertices, levels and interfaces; the levels are as many as before. Not collective.
+[[nodiscard]] CoarserPart coarser_vertices(const DistributedMesh& mesh, const KeptVertices& kept);
+
+/// Adds the lists of a mesh that `order` has brought into canonical order, in one pass over each.
+/// Not collective.
+void coarsen_lists(const DistributedMesh& mesh, const CanonicalOrder& order,
+                   const KeptVertices& kept, CoarserPart& part);
 
 /// Collective. Drops the levels of which no process has anything left, and throws on all processes
 /// where rounding spoils a piece, by the level that it has then: as the history without the

@@ -13,30 +13,33 @@ namespace {
 
 class Keeping {
 public:
-    Keeping(const DistributedMesh& mesh, std::span<const std::uint8_t> may_go)
-        : mesh_(&mesh), levels_(mesh), may_go_(may_go), kept_(mesh.points.size(), 0) {
-        std::fill_n(kept_.begin(), mesh.input_vertices.size(), std::uint8_t{1});
-        keep_what_cells_need();
+    Keeping(const DistributedMesh& mesh, const MarkedCells& marked, const Adjacency* adjacency)
+        : mesh_(&mesh), levels_(mesh), marked_(&marked) {
+        if (adjacency == nullptr) {
+            kept_.assign(mesh.points.size(), 0);
+            std::fill_n(kept_.begin(), mesh.input_vertices.size(), std::uint8_t{1});
+            keep_what_cells_need();
+        } else {
+            kept_.assign(mesh.points.size(), 1);
+            find_what_may_go(*adjacency);
+        }
     }
 
     void keep(VertexIndex v) { kept_[v] = 1; }
-    /// Without a branch, which could not be foreseen.
-    void keep_if(VertexIndex v, bool condition) {
-        kept_[v] = static_cast<std::uint8_t>(kept_[v] | (condition ? 1U : 0U));
-    }
     [[nodiscard]] bool has(VertexIndex v) const { return kept_[v] != 0; }
     [[nodiscard]] KeptVertices result() && { return std::move(kept_); }
 
     /// Rule (b), as far as this process sees: again and again until nothing changes.
     void close() {
         if (!is_any_level_divided()) return;
-        const std::size_t count = mesh_->cells.size();
+        const std::size_t count = marked_->all ? mesh_->cells.size() : marked_->cells.size();
         bool changed = true;
         for (bool backwards = false; changed; backwards = !backwards) {
             changed = false;
             for (std::size_t k = 0; k < count; ++k) {
-                const CellIndex c{backwards ? count - 1 - k : k};
-                if (may_go_[c.value()] != 0 && close(mesh_->cells[c])) changed = true;
+                const std::size_t i = backwards ? count - 1 - k : k;
+                const CellIndex c = marked_->all ? CellIndex{i} : marked_->cells[i];
+                if (close(mesh_->cells[c])) changed = true;
             }
         }
     }
@@ -52,19 +55,54 @@ private:
         }
         return false;
     }
-    /// Rule (a).
+
+    /// A byte for each cell: is it marked?
+    [[nodiscard]] IndexVector<CellIndex, std::uint8_t> marks() const {
+        IndexVector<CellIndex, std::uint8_t> marks(mesh_->cells.size(), marked_->all ? 1 : 0);
+        for (const CellIndex c : marked_->cells) marks[c] = 1;
+        return marks;
+    }
+    /// The first of the vertices that are new in the cell. Older ones are of its parent, too.
+    [[nodiscard]] VertexIndex first_new_of(const CellVertices& cell) const {
+        return levels_.begin(levels_.newest(cell));
+    }
+
+    /// Rule (a), by all cells.
     void keep_what_cells_need() {
+        const auto is_marked = marks();
         for (CellIndex c{0}; c < mesh_->cells.end_index(); ++c) {
             const CellVertices& cell = mesh_->cells[c];
-            // Its parent has been cut, and its own level's vertices may be of no other such cell.
             const VertexIndex first_new =
-                may_go_[c.value()] == 0 ? VertexIndex::none() : levels_.begin(levels_.newest(cell));
-            for (const VertexIndex v : cell) keep_if(v, v < first_new);
+                is_marked[c] == 0 ? VertexIndex::none() : first_new_of(cell);
+            // Without a branch, which could not be foreseen.
+            for (const VertexIndex v : cell) {
+                kept_[v] = static_cast<std::uint8_t>(kept_[v] | (v < first_new ? 1U : 0U));
+            }
+        }
+    }
+    /// Rule (a), by the cells at the new vertices of those that are marked.
+    void find_what_may_go(const Adjacency& adjacency) {
+        const auto is_marked = marks();
+        std::vector<bool> is_judged(mesh_->points.size(), false);
+        for (const CellIndex c : marked_->cells) {
+            const CellVertices& cell = mesh_->cells[c];
+            const std::uint32_t level = levels_.newest(cell);
+            if (level == 0) continue;
+            for (const VertexIndex v : cell) {
+                if (v < levels_.begin(level) || is_judged[v.value()]) continue;
+                is_judged[v.value()] = true;
+                bool may_go = true;
+                adjacency.cells.for_each_at(v, [&](CellIndex at) {
+                    may_go =
+                        may_go && is_marked[at] != 0 && levels_.newest(mesh_->cells[at]) == level;
+                });
+                kept_[v] = may_go ? 0 : 1;
+            }
         }
     }
 
     bool close(const CellVertices& cell) {
-        const VertexIndex first_new = levels_.begin(levels_.newest(cell));
+        const VertexIndex first_new = first_new_of(cell);
         unsigned kept = 0;
         unsigned kept_new = 0;
         for (const VertexIndex v : cell) {
@@ -98,7 +136,7 @@ private:
 
     const DistributedMesh* mesh_;
     VertexLevels levels_;
-    std::span<const std::uint8_t> may_go_;
+    const MarkedCells* marked_;
     KeptVertices kept_;
 };
 
@@ -180,13 +218,14 @@ std::uint64_t count_of(const Outboxes& outboxes) {
 }  // namespace
 
 KeptVertices find_kept_vertices(const DistributedMesh& mesh, const Sharing<VertexIndex>& sharing,
-                                std::span<const std::uint8_t> may_go, LocalFailure& failure) {
+                                const MarkedCells& marked, const Adjacency* adjacency,
+                                LocalFailure& failure) {
     const Communicator& processes = mesh.processes;
     std::unique_ptr<Keeping> keeping;
     std::unique_ptr<Told> told;
     Outboxes outboxes;
     failure.attempt([&] {
-        keeping = std::make_unique<Keeping>(mesh, may_go);
+        keeping = std::make_unique<Keeping>(mesh, marked, adjacency);
         told = std::make_unique<Told>(sharing);
         outboxes = told->first(*keeping);
     });

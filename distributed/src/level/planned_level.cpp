@@ -13,6 +13,7 @@
 #include "comm/local_failure.hpp"
 #include "level/full_sweep/full_sweep_level.hpp"
 #include "level/incremental/incremental_level.hpp"
+#include "level/incremental/suits_incremental_level.hpp"
 #include "level/synchronise.hpp"
 
 namespace octetra::distributed {
@@ -38,24 +39,6 @@ void check_allowed(const DistributedMesh& mesh, std::size_t count, const RefineO
             "levels, or allow more",
             level, cells, options.max_cells));
     });
-}
-
-/// Would little change, because few cells are marked or they are all in one place? Edges
-/// that marked cells mark concern five or six cells for each of their vertices.
-bool suits_incremental_level(const DistributedMesh& mesh, const MarkedCells& marked,
-                             const Tuning& tuning) {
-    if (marked.all || !Adjacency::can_hold(mesh)) return false;
-    const auto most = tuning.incremental_below * static_cast<double>(mesh.points.size());
-    std::vector<bool> is_met(mesh.points.size(), false);
-    std::size_t met = 0;
-    for (const CellIndex c : marked.cells) {
-        for (const VertexIndex v : mesh.cells[c]) {
-            if (is_met[v.value()]) continue;
-            is_met[v.value()] = true;
-            if (static_cast<double>(++met) >= most) return false;
-        }
-    }
-    return most > 0;
 }
 
 /// The marked cells by the numbers that they have in another order, where `before` are those that

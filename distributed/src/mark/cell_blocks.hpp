@@ -27,6 +27,11 @@ public:
     /// Takes in the mesh's cells from this one on.
     void append(const DistributedMesh& mesh, CellIndex begin);
 
+    /// The mesh has become shorter.
+    void truncate(std::size_t cell_count) { boxes_.resize((cell_count + size - 1) / size); }
+    /// Looks at all cells again that a block has now.
+    void renew(const DistributedMesh& mesh, std::size_t block);
+
     [[nodiscard]] const std::vector<Box>& boxes() const { return boxes_; }
 
 private:

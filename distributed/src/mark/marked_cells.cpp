@@ -31,7 +31,7 @@ public:
 
     void judge_new(const Adjacency& adjacency) {
         for (const CellIndex c : adjacency.new_cells) {
-            judge_if_near(c, adjacency.cells.root_of(c, mesh_->cell_ancestors));
+            judge_if_near(c, adjacency.cells.root_of(c));
         }
     }
 
@@ -41,9 +41,9 @@ public:
             if (by_place_only_ && !may_be_marked(*selection_, boxes[b])) continue;
             const std::size_t begin = b * CellBlocks::size;
             const std::size_t end = std::min(begin + CellBlocks::size, mesh_->cells.size());
-            adjacency.cells.for_each_root(
-                CellIndex{begin}, CellIndex{end}, mesh_->cell_ancestors,
-                [&](CellIndex c, std::size_t root) { judge_if_near(c, root); });
+            for (CellIndex c{begin}; c < CellIndex{end}; ++c) {
+                judge_if_near(c, adjacency.cells.root_of(c));
+            }
         }
     }
 

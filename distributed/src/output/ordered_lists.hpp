@@ -15,7 +15,7 @@ class OrderedList {
 public:
     OrderedList(const List& list, const AncestorMap& ancestors, const auto* unordered)
         : list_(&list), ancestors_(&ancestors) {
-        if (unordered == nullptr || unordered->is_ordered(list)) return;
+        if (unordered == nullptr || unordered->is_ordered()) return;
         auto ordered = unordered->ordered(list, ancestors);
         own_list_ = std::move(ordered.list);
         own_ancestors_ = {ancestors.roots, std::move(ordered.first), ancestors.markers};

@@ -2,14 +2,16 @@
 
 #include <algorithm>
 
+#include <octetra/distributed/profile.hpp>
+
 #include "memory/huge_pages.hpp"
 
 namespace octetra::distributed {
 
 Adjacency::Adjacency(DistributedMesh& mesh)
-    : cells(mesh.points.size(), mesh.cells),
-      facets(mesh.points.size(), mesh.facets),
-      edges(mesh.points.size(), mesh.edges),
+    : cells(mesh.points.size(), mesh.cells, mesh.cell_ancestors),
+      facets(mesh.points.size(), mesh.facets, mesh.facet_ancestors),
+      edges(mesh.points.size(), mesh.edges, mesh.edge_ancestors),
       shared_edges(mesh.points.size(), mesh.interfaces),
       shared_faces(mesh.points.size(), mesh.interfaces),
       blocks(mesh) {
@@ -36,6 +38,16 @@ void Adjacency::set_vertex_count(std::size_t count) {
     edges.set_vertex_count(count);
     shared_edges.set_vertex_count(count);
     shared_faces.set_vertex_count(count);
+}
+
+Adjacency& Adjacency::of(DistributedMesh& mesh) {
+    const Phase phase(mesh.processes, "adjacency");
+    if (mesh.adjacency == nullptr) {
+        mesh.adjacency.reset(new Adjacency(mesh));
+    } else {
+        mesh.adjacency->make_index(mesh);
+    }
+    return *mesh.adjacency;
 }
 
 void DeleteAdjacency::operator()(Adjacency* adjacency) const { delete adjacency; }
@@ -65,7 +77,7 @@ namespace {
 template <class Unordered, class List>
 typename Unordered::Ordered ordered(const Unordered& unordered, const List& list,
                                     const AncestorMap& ancestors) {
-    if (unordered.is_ordered(list)) return {};
+    if (unordered.is_ordered()) return {};
     return unordered.ordered(list, ancestors);
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -56,6 +57,41 @@ public:
         }
     }
 
+    void remove(I i, const Vertices& vertices) {
+        for (std::size_t k = 0; k < N; ++k) {
+            unlink(static_cast<std::uint32_t>(N * i.value() + k), vertices[k]);
+        }
+    }
+    /// The entity gets the number of one that was removed.
+    void move(I from, I to, const Vertices& vertices) {
+        for (std::size_t k = 0; k < N; ++k) {
+            const auto place = static_cast<std::uint32_t>(N * to.value() + k);
+            const Link link = links_[N * from.value() + k];
+            links_[place] = link;
+            (link.previous == none ? heads_[vertices[k]].first : links_[link.previous].next) =
+                place;
+            if (link.next != none) links_[link.next].previous = place;
+        }
+    }
+    /// Those from this one on have been removed, or moved.
+    void truncate(std::size_t count) {
+        if (!heads_.empty()) links_.resize(N * count);
+    }
+    /// The vertices that stay, by the numbers that they had, ascending. The others have no
+    /// entities.
+    void keep_vertices(std::span<const VertexIndex> before) {
+        if (heads_.empty()) return;
+        for (std::size_t v = 0; v < before.size(); ++v) heads_[VertexIndex{v}] = heads_[before[v]];
+        heads_.resize(before.size());
+    }
+
+    /// Calls visit(i) for each entity that has the vertex.
+    void for_each_at(VertexIndex v, auto&& visit) const {
+        if (heads_.empty()) return;
+        for (std::uint32_t at = heads_[v].first; at != none; at = links_[at].next) {
+            visit(I{at / N});
+        }
+    }
     /// Calls found(i, e) for each entity i that has the edge, as the e-th of its edges in the order
     /// of cell_edges or triangle_edges. `vertices_of(i)` are its vertices.
     void for_each_with(const EdgeVertices& edge, auto&& vertices_of, auto&& found) const {

@@ -5,24 +5,12 @@
 #include <utility>
 #include <vector>
 
-#include <octetra/distributed/profile.hpp>
-
 #include "level/rounding_margin.hpp"
 #include "memory/huge_pages.hpp"
 #include "pattern/triangle.hpp"
 
 namespace octetra::distributed {
 namespace {
-
-Adjacency& adjacency_of(DistributedMesh& mesh) {
-    const Phase phase(mesh.processes, "adjacency");
-    if (mesh.adjacency == nullptr) {
-        mesh.adjacency.reset(new Adjacency(mesh));
-    } else {
-        mesh.adjacency->make_index(mesh);
-    }
-    return *mesh.adjacency;
-}
 
 /// Triangles with one of their edges cut each, as triangle_edges numbers them, to triangles with
 /// all of their cuts, ascending by key.
@@ -53,7 +41,7 @@ std::size_t count_of_cuts(const auto& triangle) {
 }  // namespace
 
 IncrementalLevel::IncrementalLevel(DistributedMesh& mesh)
-    : mesh_(&mesh), adjacency_(&adjacency_of(mesh)), closure_(mesh, *adjacency_) {}
+    : mesh_(&mesh), adjacency_(&Adjacency::of(mesh)), closure_(mesh, *adjacency_) {}
 
 void IncrementalLevel::mark(const MarkedCells& marked, Scheme scheme) {
     for (std::size_t k = 0; k < marked.cells.size(); ++k) {
@@ -93,7 +81,7 @@ MidpointMarker IncrementalLevel::marker_of(const EdgeVertices& edge) const {
                            MidpointMarker::Source source) {
         if (ancestors.markers.empty()) return;
         unordered.for_each_with(edge, list, [&](auto i, std::size_t) {
-            take_marker(known, source, ancestors.markers[unordered.root_of(i, ancestors)]);
+            take_marker(known, source, ancestors.markers[unordered.root_of(i)]);
         });
     };
     learn(adjacency_->facets, mesh_->facets, mesh_->facet_ancestors, MidpointMarker::Source::facet);
@@ -119,8 +107,7 @@ RoundingFailure IncrementalLevel::bisect_cells(std::size_t cell_count) {
         if (has_rounding_margin(mesh_->points, mesh_->cells[note.cell])) continue;
         const int sign = sign_of_first_bad_child(note);
         if (sign > 0) continue;
-        bad.push_back(
-            {note.cell, adjacency_->cells.root_of(note.cell, mesh_->cell_ancestors), sign});
+        bad.push_back({note.cell, adjacency_->cells.root_of(note.cell), sign});
     }
     for (CellIndex c = mesh_->cells.end_index(); c < CellIndex{cell_count}; ++c) {
         new_cells_.push_back(c);
@@ -262,9 +249,8 @@ void IncrementalLevel::commit_cells() {
     const CellIndex first_added = mesh_->cells.end_index();
     for (const auto& note : closure_.notes()) {
         const auto children = children_of(note);
-        adjacency_->cells.replace(note.cell,
-                                  std::span(children).first(pattern_of(note).child_count),
-                                  mesh_->cells, mesh_->cell_ancestors);
+        adjacency_->cells.replace(
+            note.cell, std::span(children).first(pattern_of(note).child_count), mesh_->cells);
     }
     adjacency_->new_cells = std::move(new_cells_);
     adjacency_->blocks.append(*mesh_, first_added);
@@ -276,12 +262,12 @@ void IncrementalLevel::commit_tagged() {
         const BisectedTriangle bisected =
             bisect_triangle(mesh_->facets[facet], midpoints, mesh_->points);
         adjacency_->facets.replace(facet, std::span(bisected.pieces).first(bisected.piece_count),
-                                   mesh_->facets, mesh_->facet_ancestors);
+                                   mesh_->facets);
     }
     for (const auto& [tagged, midpoint] : cut_tagged_edges_) {
         const auto [a, b] = mesh_->edges[tagged];
         const std::array<EdgeVertices, 2> halves{{{a, midpoint}, {midpoint, b}}};
-        adjacency_->edges.replace(tagged, halves, mesh_->edges, mesh_->edge_ancestors);
+        adjacency_->edges.replace(tagged, halves, mesh_->edges);
     }
 }
 

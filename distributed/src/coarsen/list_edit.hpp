@@ -1,0 +1,154 @@
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <numeric>
+#include <optional>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include <octetra/distributed/succession.hpp>
+
+#include "coarsen/coarser_list.hpp"
+#include "level/incremental/unordered_list.hpp"
+
+namespace octetra::distributed {
+
+/// What a list in no order (of cells, tagged facets or edges) becomes without the vertices that go:
+/// the descendants of those roots that lose a vertex are gone through in canonical order, and the
+/// rest of the list is not looked at. First planned, which may fail and changes nothing, then done.
+template <class I, std::size_t N>
+class ListEdit {
+public:
+    using Vertices = std::array<VertexIndex, N>;
+    using List = IndexVector<I, Vertices>;
+    using Unordered = UnorderedList<I, N>;
+
+    ListEdit(const List& list, const Unordered& unordered, const AncestorMap& ancestors)
+        : list_(&list), unordered_(&unordered), ancestors_(&ancestors), count_after_(list.size()) {}
+
+    /// Finds the descendants of roots that have one of the vertices. False if they are more than
+    /// `most`: then it is better to go through the whole list.
+    [[nodiscard]] bool find(std::span<const VertexIndex> gone, std::size_t most) {
+        for (const VertexIndex v : gone) {
+            unordered_->for_each_at(v, [&](I i) { roots_.push_back(unordered_->root_of(i)); });
+        }
+        std::ranges::sort(roots_);
+        roots_.erase(std::unique(roots_.begin(), roots_.end()), roots_.end());
+        for (const std::uint32_t root : roots_) {
+            for (I i{ancestors_->first[root]}; !i.is_none(); i = unordered_->next(i)) {
+                if (before_.size() == most) return false;
+                before_.push_back(i);
+            }
+        }
+        return true;
+    }
+
+    /// For `divide` see ListCoarsening.
+    void plan(const VertexLevels& levels, const KeptVertices& kept, auto&& divide) {
+        List descendants;
+        descendants.reserve(before_.size());
+        for (const I i : before_) descendants.push_back((*list_)[i]);
+        made_ = ListCoarsening<I, N>(levels, kept)
+                    .run(descendants, [&](std::uint32_t level, std::size_t root,
+                                          const Vertices& parent, const auto& midpoints) {
+                        return divide(level, roots_[root], parent, midpoints);
+                    });
+        place_wholes();
+        plan_moves();
+    }
+
+    [[nodiscard]] Succession succession() const {
+        std::vector<std::uint32_t> whole_of(list_->size());
+        std::vector<std::uint8_t> halvings(list_->size(), 0);
+        std::iota(whole_of.begin(), whole_of.end(), 0U);
+        const auto moved = [&](I i) {
+            return i.value() < count_after_ ? i : moved_[i.value() - count_after_];
+        };
+        for (std::size_t i = count_after_; i < whole_of.size(); ++i) {
+            whole_of[i] = moved(I{i}).value();  // none() of what is removed: it has a whole
+        }
+        for (std::size_t k = 0; k < before_.size(); ++k) {
+            whole_of[before_[k].value()] = moved(places_[made_.whole_of[k]]).value();
+            halvings[before_[k].value()] = made_.halvings[k];
+        }
+        return Succession::of_merges(count_after_, std::move(whole_of), std::move(halvings));
+    }
+
+    /// The list and what finds its entities are those that this was planned of. Afterwards entities
+    /// have the vertices still that they had, by their old numbers.
+    void commit(List& list, Unordered& unordered, AncestorMap& ancestors) noexcept {
+        for (std::size_t k = 0; k < made_.list.size(); ++k) {
+            const I place = places_[k];
+            if (list[place] != made_.list[I{k}]) unordered.change(place, made_.list[I{k}], list);
+        }
+        for (const I i : removed_) unordered.remove(i, list);
+        for (std::size_t r = 0; r < roots_.size(); ++r) {
+            const std::span<const I> all = places_;
+            unordered.set_order(roots_[r],
+                                all.subspan(made_.first[r], made_.first[r + 1] - made_.first[r]),
+                                ancestors);
+        }
+        for (const auto& [from, to] : moves_) unordered.move(from, to, list, ancestors);
+        unordered.truncate(count_after_, list);
+    }
+
+    /// Calls visit(i) for each number that has an entity afterwards which it did not have.
+    void for_each_changed(auto&& visit) const {
+        for (std::size_t k = 0; k < before_.size(); ++k) {
+            const I place = places_[made_.whole_of[k]];
+            if (made_.halvings[k] > 0 && place.value() < count_after_) visit(place);
+        }
+        for (const auto& [from, to] : moves_) visit(to);
+    }
+
+private:
+    /// A whole has the number of its first piece; the other pieces' numbers are free.
+    void place_wholes() {
+        places_.assign(made_.list.size(), I::none());
+        for (std::size_t k = 0; k < before_.size(); ++k) {
+            I& place = places_[made_.whole_of[k]];
+            if (place.is_none()) {
+                place = before_[k];
+            } else {
+                removed_.push_back(before_[k]);
+            }
+        }
+    }
+    /// The last of the list move to where something was removed.
+    void plan_moves() {
+        std::ranges::sort(removed_);
+        count_after_ = list_->size() - removed_.size();
+        moved_.assign(removed_.size(), I{0});
+        const auto beyond = std::ranges::lower_bound(removed_, I{count_after_});
+        for (auto i = beyond; i != removed_.end(); ++i) {
+            moved_[i->value() - count_after_] = I::none();
+        }
+        auto hole = removed_.begin();
+        for (std::size_t k = 0; k < moved_.size(); ++k) {
+            if (moved_[k].is_none()) continue;
+            moved_[k] = *hole++;
+            moves_.push_back({I{count_after_ + k}, moved_[k]});
+        }
+    }
+
+    const List* list_;
+    const Unordered* unordered_;
+    const AncestorMap* ancestors_;
+    std::vector<std::uint32_t> roots_;  ///< that lose a vertex, ascending
+    std::vector<I> before_;             ///< their descendants, in canonical order
+    CoarserList<I, N> made_;            ///< of these
+    std::vector<I> places_;             ///< of each in made_, in the list before it moves
+    std::vector<I> removed_;
+    std::size_t count_after_;
+    std::vector<I> moved_;  ///< from count_after_ on: where they move, or none()
+    struct Move {
+        I from;
+        I to;
+    };
+    std::vector<Move> moves_;
+};
+
+}  // namespace octetra::distributed

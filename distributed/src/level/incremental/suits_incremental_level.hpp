@@ -1,0 +1,15 @@
+#pragma once
+
+#include <octetra/distributed/distributed_mesh.hpp>
+
+#include "level/tuning.hpp"
+#include "mark/marked_cells.hpp"
+
+namespace octetra::distributed {
+
+/// Would little change, because few cells are marked or they are all in one place? Edges
+/// that marked cells mark concern five or six cells for each of their vertices.
+[[nodiscard]] bool suits_incremental_level(const DistributedMesh& mesh, const MarkedCells& marked,
+                                           const Tuning& tuning);
+
+}  // namespace octetra::distributed

@@ -48,6 +48,10 @@ private:
     test::Loop engine_;
 };
 
+double random_share(std::mt19937_64& random) {
+    return std::uniform_real_distribution<double>()(random);
+}
+
 class Coarsening : public testing::TestWithParam<std::uint64_t> {};
 
 TEST_P(Coarsening, IsTheReferencesStepByStep) {
@@ -60,16 +64,41 @@ TEST_P(Coarsening, IsTheReferencesStepByStep) {
         Selection selection;
         constexpr std::array<double, 4> shares{0.004, 0.1, 0.5, 0.95};
         selection.random = RandomShare{shares[random() % 4], random()};
-        const Tuning tuning{.incremental_below = random() % 3 == 0 ? 0.0 : 1.0};
+        constexpr std::array<double, 3> roots_below{0.25, 1, 1};
+        const Tuning tuning{.incremental_below = random() % 4 == 0 ? 0.0 : 2.0,
+                            .roots_below = roots_below[random() % 3]};
         const Scheme scheme = schemes[random() % 3];
         if (step >= 2 && random() % 2 == 0) {
-            both.coarsen(random() % 4 == 0 ? Selection{.all = true} : selection, tuning);
+            both.coarsen(random() % 8 == 0 ? Selection{.all = true} : selection, tuning);
         } else {
             selection.random->fraction /= 5;
             both.refine(selection, scheme, tuning);
         }
         both.expect_equal();
     }
+}
+
+/// The lists stay in no order all the time, and what finds their entities is kept up.
+TEST_P(Coarsening, OfFewCellsAgainAndAgainIsTheReferences) {
+    std::mt19937_64 random(GetParam());
+    Both both(test::marked(test::shaken_kuhn(3, 0.2, GetParam()), 1), GetParam());
+    const Tuning incremental{.incremental_below = 2, .roots_below = 1};
+    both.refine({.random = RandomShare{0.2, GetParam()}}, Scheme::eight, {.incremental_below = 0});
+    both.refine({.spheres = {{{1.5, 1.5, 1.5}, 0.3}}}, Scheme::eight, incremental);
+    for (int step = 0; step < 8; ++step) {
+        Selection selection;
+        const double share = random() % 2 == 0 ? 0.003 : 0.05;
+        if (step % 2 == 0) {
+            selection.random = RandomShare{share / 3, random()};
+            both.refine(selection, step % 4 == 0 ? Scheme::two : Scheme::eight, incremental);
+        } else {
+            const Point centre{3 * random_share(random), 3 * random_share(random), 1.5};
+            selection.spheres.push_back({centre, 1});
+            both.coarsen(selection, incremental);
+        }
+        both.expect_equal();
+    }
+    EXPECT_NE(both.mesh().adjacency, nullptr);
 }
 
 TEST_P(Coarsening, OfAllAgainAndAgainEndsInTheInput) {
@@ -87,7 +116,7 @@ TEST_P(Coarsening, OfAllAgainAndAgainEndsInTheInput) {
     EXPECT_TRUE(found == mesh || !test::world().is_first());
 }
 
-INSTANTIATE_TEST_SUITE_P(Seeds, Coarsening, testing::Range<std::uint64_t>(0, 12));
+INSTANTIATE_TEST_SUITE_P(Seeds, Coarsening, testing::Range<std::uint64_t>(0, 16));
 
 }  // namespace
 }  // namespace octetra::distributed

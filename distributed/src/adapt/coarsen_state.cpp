@@ -97,9 +97,10 @@ struct Lists {
     std::unique_ptr<IncrementalCoarsening> incremental;
     std::unique_ptr<CanonicalOrder> order;  ///< for the other one
 
-    void plan(DistributedMesh& mesh, const KeptVertices& kept, CoarserPart& part) {
+    void plan(DistributedMesh& mesh, const KeptVertices& kept, const Tuning& tuning,
+              CoarserPart& part) {
         if (mesh.adjacency && mesh.adjacency->has_index) {
-            incremental = IncrementalCoarsening::of(mesh, kept);
+            incremental = IncrementalCoarsening::of(mesh, kept, tuning);
         }
         if (incremental) {
             incremental->plan(kept, part);
@@ -143,7 +144,7 @@ Adaptation coarsen_state(AdaptiveMesh::State& state, const std::function<MarkedC
     Lists lists;
     failure.attempt([&] {
         part = coarser_vertices(mesh, kept);
-        lists.plan(mesh, kept, *part);
+        lists.plan(mesh, kept, tuning, *part);
     });
     failure.agree(processes);
     drop_empty_levels(*part);

@@ -9,9 +9,6 @@
 namespace octetra::distributed {
 namespace {
 
-/// Roots' descendants are gone through where they are at most this share of all.
-constexpr std::size_t most_of = 4;
-
 std::vector<VertexIndex> gone_of(const KeptVertices& kept) {
     std::vector<VertexIndex> gone;
     for (auto next = kept.begin();;) {
@@ -40,10 +37,12 @@ IncrementalCoarsening::IncrementalCoarsening(DistributedMesh& mesh)
       edges_(mesh.edges, adjacency_->edges, mesh.edge_ancestors) {}
 
 std::unique_ptr<IncrementalCoarsening> IncrementalCoarsening::of(DistributedMesh& mesh,
-                                                                 const KeptVertices& kept) {
+                                                                 const KeptVertices& kept,
+                                                                 const Tuning& tuning) {
     std::unique_ptr<IncrementalCoarsening> coarsening(new IncrementalCoarsening(mesh));
     const std::vector<VertexIndex> gone = gone_of(kept);
-    if (!coarsening->cells_.find(gone, mesh.cells.size() / most_of)) return nullptr;
+    const double most = tuning.roots_below * static_cast<double>(mesh.cells.size());
+    if (!coarsening->cells_.find(gone, static_cast<std::size_t>(most))) return nullptr;
     // Those are as many as their cells' faces and edges at most.
     (void)coarsening->facets_.find(gone, mesh.facets.size());
     (void)coarsening->edges_.find(gone, mesh.edges.size());

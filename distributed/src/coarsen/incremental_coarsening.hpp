@@ -10,6 +10,7 @@
 #include "coarsen/kept_vertices.hpp"
 #include "coarsen/list_edit.hpp"
 #include "level/incremental/adjacency.hpp"
+#include "level/tuning.hpp"
 
 namespace octetra::distributed {
 
@@ -20,7 +21,8 @@ class IncrementalCoarsening {
 public:
     /// Nothing if these descendants are too many for this way. The mesh has its adjacency.
     [[nodiscard]] static std::unique_ptr<IncrementalCoarsening> of(DistributedMesh& mesh,
-                                                                   const KeptVertices& kept);
+                                                                   const KeptVertices& kept,
+                                                                   const Tuning& tuning);
 
     /// What the lists become goes into the part, but for the lists themselves.
     void plan(const KeptVertices& kept, CoarserPart& part);

@@ -15,6 +15,10 @@ struct Tuning {
     /// less than this share of all; or less than 1.5 times this share, when paths led further.
     /// 0: always all.
     double local_below = 0.5;
+    /// Coarsening that is incremental goes through the descendants of those roots that lose a
+    /// vertex, where they are at most this share of the process's cells; else through its whole
+    /// part.
+    double roots_below = 0.25;
 };
 
 /// Collective. refine() with a tuning other than the default.

@@ -26,7 +26,7 @@ struct Division {
 /// the first piece has the number of the whole, and the others stand behind all that there was
 /// before. Where much changed, all have new numbers.
 ///
-/// Of coarsening, merges() is true: pieces became wholes, and all have new numbers.
+/// Of coarsening, merges() is true: pieces became wholes, and any may have new numbers.
 class Succession {
 public:
     /// Nothing changed.

@@ -188,5 +188,17 @@ TEST(CheckpointFile, ThatIsSomethingElseIsRefused) {
     EXPECT_TRUE(is_refused(folder.write("newer.octetra", newer)));
 }
 
+TEST(FieldName, IsTextThatCanBePrinted) {
+    for (const std::string_view name : {"u", "Größe", "速度", "a b", "\xf4\x8f\xbf\xbf", ""}) {
+        EXPECT_TRUE(is_name(name)) << name;
+    }
+    for (const std::string_view name :
+         {"\x1b[2J", "a\nb", "\x7f", "\xc2\x9b", "\xff", "\xc3", "\xc3z", "\x80", "\xc0\x80",
+          "\xe0\x80\x80", "\xf0\x80\x80\x80", "\xed\xa0\x80", "\xf4\x90\x80\x80",
+          "\xf5\x80\x80\x80"}) {
+        EXPECT_FALSE(is_name(name)) << name;
+    }
+}
+
 }  // namespace
 }  // namespace octetra

@@ -266,6 +266,9 @@ TEST(CheckpointFields, ThatDoNotFitAreRefusedOnAllRanksAndNothingIsWritten) {
     if (is_last && world().size() > 1) fields[0].name = "v";
     if (world().size() == 1) fields[1].name = fields[0].name;
     EXPECT_THROW(mesh.save(folder / "state.octetra", fields), InputError);
+    fields = fields_of(mesh);
+    fields[0].name = "\x1b[2J";
+    EXPECT_THROW(mesh.save(folder / "state.octetra", fields), InputError);
     EXPECT_FALSE(std::filesystem::exists(folder / "state.octetra"));
 }
 

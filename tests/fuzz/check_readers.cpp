@@ -101,11 +101,12 @@ bool is_positive(const CellVertices& cell, const Mesh& mesh) {
     return orientation(points[cell[0]], points[cell[1]], points[cell[2]], points[cell[3]]) > 0;
 }
 
-constexpr std::array<NamedCheck, 5> all_checks{{{"tetgen", check_tetgen},
+constexpr std::array<NamedCheck, 6> all_checks{{{"tetgen", check_tetgen},
                                                 {"medit", check_medit},
                                                 {"maps", check_maps},
                                                 {"cell_list", check_cell_list},
-                                                {"part_file", check_part_file}}};
+                                                {"part_file", check_part_file},
+                                                {"checkpoint", check_checkpoint}}};
 
 }  // namespace
 

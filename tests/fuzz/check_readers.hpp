@@ -29,6 +29,8 @@ void check_medit(std::string_view input, const std::filesystem::path& folder);
 void check_maps(std::string_view input, const std::filesystem::path& folder);
 void check_cell_list(std::string_view input, const std::filesystem::path& folder);
 void check_part_file(std::string_view input, const std::filesystem::path& folder);
+/// As it stands, and with hashes that are right.
+void check_checkpoint(std::string_view input, const std::filesystem::path& folder);
 
 struct NamedCheck {
     std::string_view name;

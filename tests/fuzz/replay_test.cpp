@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <filesystem>
+#include <random>
 #include <string>
 #include <vector>
 
@@ -64,6 +65,19 @@ TEST(CorpusFile, IsReadOrRefusedAsItShould) {
             SCOPED_TRACE(file);
             EXPECT_NO_THROW(check_medit(content_of(file), folder.path()));
         }
+    }
+}
+
+/// Single bytes of it, too, made others at random.
+TEST(KeptCheckpoint, IsReadOrRefusedAsItShould) {
+    const TemporaryFolder folder;
+    const std::string good = content_of(corpus / "checkpoints" / "version-1.octetra");
+    check_checkpoint(good, folder.path());
+    std::mt19937_64 random(1);
+    for (int k = 0; k < 300; ++k) {
+        std::string bad = good;
+        bad[random() % bad.size()] = static_cast<char>(random());
+        EXPECT_NO_THROW(check_checkpoint(bad, folder.path())) << "number " << k;
     }
 }
 

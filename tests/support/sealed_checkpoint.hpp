@@ -15,8 +15,13 @@ namespace octetra::test {
 /// sense.
 inline void seal(std::string& file) {
     CheckpointTrailer trailer;
+    if (file.size() < sizeof(CheckpointHeader) + sizeof trailer) return;
     std::memcpy(&trailer, file.data() + file.size() - sizeof trailer, sizeof trailer);
     const auto bytes = std::as_bytes(std::span(file.data(), file.size()));
+    if (trailer.table_begin > file.size() ||
+        trailer.table_size > file.size() - trailer.table_begin) {
+        return;
+    }
     CheckpointFacts facts;
     std::vector<BlockEntry> blocks;
     const auto table = bytes.subspan(trailer.table_begin, trailer.table_size);
@@ -24,6 +29,7 @@ inline void seal(std::string& file) {
         read_table("", table, trailer.table_begin, facts, blocks);
         std::uint64_t begin = sizeof(CheckpointHeader);
         for (BlockEntry& block : blocks) {
+            if (block.size > trailer.table_begin - begin) return;
             block.hash = hash_of(bytes.subspan(begin, block.size));
             begin += block.size;
         }

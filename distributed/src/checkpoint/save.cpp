@@ -49,6 +49,9 @@ void check_sizes(const SavedMesh& saved, std::span<const Field> fields) {
                             fmt::format("{} {}", entities, on_vertices ? "vertices" : "cells"),
                             field.components, entities * field.components));
         }
+        if (!is_name(field.name)) {
+            throw InputError("the name of a field is no UTF-8, or has a control character");
+        }
         if (!names.insert({field.on, field.name}).second) {
             throw InputError(fmt::format("two fields are called '{}'", field.name));
         }

@@ -2,7 +2,7 @@
 # shellcheck shell=bash
 source "$root/tools/dev/common.sh"
 
-readers=(tetgen medit maps cell_list part_file)
+readers=(tetgen medit maps cell_list part_file checkpoint)
 
 # Files that readers must cope with, as the fuzzers take them, put into build/fuzz/corpus/NAME/; what
 # earlier runs found there stays.
@@ -26,13 +26,14 @@ put_seeds() {
     done
     printf 'cells 3\n0 0\n1 0\n2 1\nmidpoints 2\n5 0 3\n6 1 5\n' >"$into/maps/seed"
     printf '# cells\n1 17 4\n99\n' >"$into/cell_list/seed"
+    cp corpus/checkpoints/version-1.octetra "$into/checkpoint/seed"
     printf '# parts\n0\n2\n1\r\n11\n' >"$into/part_file/seed"
 }
 
 # fuzz_reader NAME SECONDS SEED: false if something was found, which is then kept.
 fuzz_reader() {
     local program=build/fuzz/tests/fuzz/fuzz_$1 found=build/fuzz/found/$1 log=build/fuzz/$1.log status=0
-    local limits=(-max_len=4096 -timeout=20 -rss_limit_mb=2048 -malloc_limit_mb=16)
+    local limits=(-max_len=16384 -timeout=20 -rss_limit_mb=2048 -malloc_limit_mb=16)
     local file kept
     rm -rf "$found"
     mkdir -p "$found"

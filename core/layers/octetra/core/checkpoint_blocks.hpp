@@ -7,6 +7,7 @@
 #include <memory>
 #include <span>
 #include <string>
+#include <string_view>
 #include <type_traits>
 #include <vector>
 
@@ -57,6 +58,9 @@ struct SectionShape {
 [[nodiscard]] SectionShape shape_of(const CheckpointFacts& facts, Section section);
 /// "points", "cuts", "field 'u'" ...: for messages.
 [[nodiscard]] std::string name_of(const CheckpointFacts& facts, Section section);
+/// Can this be the name of a field? That is UTF-8 without control characters, so that programs may
+/// print it.
+[[nodiscard]] bool is_name(std::string_view text);
 /// Bytes of a vertex number in lists of cells, facets and edges: 4 where that is enough, or 8.
 [[nodiscard]] std::size_t vertex_number_size(const CheckpointFacts& facts);
 

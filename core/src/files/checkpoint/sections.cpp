@@ -1,6 +1,7 @@
-#include <fmt/format.h>
 
 #include <octetra/core/checkpoint_blocks.hpp>
+
+#include "files/input/fields.hpp"
 
 namespace octetra {
 
@@ -52,7 +53,28 @@ std::string name_of(const CheckpointFacts& facts, Section section) {
         case Section::cuts: return "cuts";
     }
     const FieldFacts& field = facts.fields[static_cast<std::size_t>(section) - first_field];
-    return fmt::format("values of '{}'", field.name);
+    return "values of " + shown(field.name);
+}
+
+bool is_name(std::string_view text) {
+    const auto byte_at = [&](std::size_t i) {
+        return i < text.size() ? static_cast<unsigned char>(text[i]) : 0U;
+    };
+    for (std::size_t i = 0; i < text.size();) {
+        const unsigned lead = byte_at(i);
+        const std::size_t more = lead < 0x80 ? 0 : lead < 0xe0 ? 1 : lead < 0xf0 ? 2 : 3;
+        if (lead < 0x20 || (lead >= 0x7f && lead < 0xc2) || lead > 0xf4) return false;
+        for (std::size_t k = 1; k <= more; ++k) {
+            if ((byte_at(i + k) & 0xc0U) != 0x80) return false;
+        }
+        const unsigned next = byte_at(i + 1);
+        const bool is_control = lead == 0xc2 && next < 0xa0;
+        const bool is_too_long = (lead == 0xe0 && next < 0xa0) || (lead == 0xf0 && next < 0x90);
+        const bool is_no_letter = (lead == 0xed && next >= 0xa0) || (lead == 0xf4 && next >= 0x90);
+        if (is_control || is_too_long || is_no_letter) return false;
+        i += more + 1;
+    }
+    return true;
 }
 
 }  // namespace octetra

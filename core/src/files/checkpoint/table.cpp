@@ -106,6 +106,7 @@ void read_facts(Table& table, CheckpointFacts& facts) {
         field.type = static_cast<FieldType>(table.number_to(3, "as the type of a field"));
         field.components = table.number_to(1U << 20U, "components of a field");
         field.name = table.text();
+        if (!is_name(field.name)) table.fail("the name of a field cannot be shown");
     }
 }
 

@@ -33,7 +33,9 @@ put_seeds() {
 # fuzz_reader NAME SECONDS SEED: false if something was found, which is then kept.
 fuzz_reader() {
     local program=build/fuzz/tests/fuzz/fuzz_$1 found=build/fuzz/found/$1 log=build/fuzz/$1.log status=0
-    local limits=(-max_len=16384 -timeout=20 -rss_limit_mb=2048 -malloc_limit_mb=16)
+    local longest=4096
+    if [[ $1 == checkpoint ]]; then longest=16384; fi
+    local limits=(-max_len=$longest -timeout=20 -rss_limit_mb=2048 -malloc_limit_mb=16)
     local file kept
     rm -rf "$found"
     mkdir -p "$found"

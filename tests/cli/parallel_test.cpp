@@ -121,14 +121,14 @@ TEST_F(Parallel, ReportsRoundingAsOneProcessDoes) {
 
 /// No rank may write a file longer than 50 KiB: whichever meets the limit, all end the same way.
 TEST_F(Parallel, EndsInOneMessageWhereARankCannotWriteAndLeavesNothing) {
-    for (const std::string output : {"p.ele", "p.mesh", "p.vtu", "p.pvtu"}) {
+    for (const std::string output : {"p.ele", "p.mesh", "p.vtu", "p.pvtu", "p.octetra"}) {
         const auto run =
             test::run_program({OCTETRA_SOURCE_DIR "/tests/support/mpirun.sh", "3", "sh", "-c",
                                "ulimit -f 100; exec " + std::string(OCTETRA_PROGRAM) +
                                    " refine gear.1.ele --all --quiet -o " + output},
                               folder.path());
         EXPECT_EQ(run.status, 3) << output << "\n" << run.err;
-        EXPECT_EQ(occurrences(run.err, "octetra: "), 1U) << output << "\n" << run.err;
+        EXPECT_EQ(occurrences(run.err, "octetra: p."), 1U) << output << "\n" << run.err;
         EXPECT_THAT(run.err, HasSubstr("writing failed: File too large")) << output;
         for (const auto& entry : std::filesystem::directory_iterator(folder.path())) {
             EXPECT_THAT(entry.path().filename().native(), testing::StartsWith("gear.1."));
@@ -204,23 +204,33 @@ int calls_of_mpi(int rank, const std::string& arguments, const TemporaryFolder& 
     return std::stoi(run.err.substr(place + before.size()));
 }
 
-TEST_F(Parallel, EndsAtOnceWhereverARankIsKilledAndKeepsTheOutput) {
-    const std::string command = refine + "--quiet -o p.mesh";
+/// Kills one rank or another, early, late and between. `output` is there before, and stays.
+void expect_ends_at_kills(const std::string& command, const std::string& output,
+                          const TemporaryFolder& folder) {
     const int calls = calls_of_mpi(2, command, folder);
     ASSERT_GT(calls, 40) << "the calls are not caught";
-    const std::string complete = test::content_of(folder / "p.mesh");
+    const std::string complete = test::content_of(folder / output);
     // In the last one it waits while the first rank writes, which may just be done.
     for (const auto& [rank, at] : {std::pair{2, 1}, {0, calls / 3}, {2, calls / 2}, {2, calls}}) {
         SCOPED_TRACE(testing::Message() << "rank " << rank << ", call " << at << " of " << calls);
-        (void)folder.write("p.mesh", "as it was");
+        (void)folder.write(output, "as it was");
         const auto start = std::chrono::steady_clock::now();
         const auto run = run_with_a_kill(rank, at, command, folder);
         EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(30));
         EXPECT_EQ(run.status, 128 + SIGKILL) << "mpirun's";
         EXPECT_THAT(run.err, HasSubstr("signal 9"));
-        const std::string content = test::content_of(folder / "p.mesh");
+        const std::string content = test::content_of(folder / output);
         EXPECT_TRUE(content == "as it was" || (at == calls && content == complete));
     }
+}
+
+TEST_F(Parallel, EndsAtOnceWhereverARankIsKilledAndKeepsTheOutput) {
+    expect_ends_at_kills(refine + "--quiet -o p.mesh", "p.mesh", folder);
+}
+
+TEST_F(Parallel, EndsAtOnceWhereverARankIsKilledAndKeepsTheCheckpoint) {
+    ASSERT_EQ(test::octetra(refine + "--quiet -o state.octetra", folder).status, 0);
+    expect_ends_at_kills("coarsen state.octetra --all --quiet -o p.octetra", "p.octetra", folder);
 }
 
 }  // namespace

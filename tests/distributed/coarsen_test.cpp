@@ -32,6 +32,7 @@ public:
     void expect_equal() const {
         const Mesh expected = reference::replay(reference_).back().mesh;
         const Mesh found = collect_copy(engine_.mesh()).mesh;
+        EXPECT_EQ(engine_.mesh().level_begin.size(), reference_.steps.size());
         if (!test::world().is_first()) return;
         EXPECT_EQ(found.cells.size(), expected.cells.size());
         EXPECT_TRUE(found == expected);

@@ -1,8 +1,8 @@
 #include "properties/coarsened_worlds.hpp"
 
 #include <algorithm>
-#include <functional>
 
+#include "properties/coarser_meshes.hpp"
 #include "support/coarsening.hpp"
 #include "support/conformity.hpp"
 #include "support/meshes.hpp"
@@ -27,31 +27,6 @@ bool are_closed(const History& history, const std::vector<Refinement>& meshes) {
     return true;
 }
 
-bool has_unmarked_cells(const Mesh& old, const CellMarks& marked, const Mesh& coarser) {
-    const auto cells = test::geometry(coarser);
-    for (CellIndex c{0}; c < old.cells.end_index(); ++c) {
-        if (marked[c] != 0) continue;
-        Corners corners = test::corners_of(old, c);
-        std::ranges::sort(corners, std::less<>{});
-        if (!std::ranges::binary_search(cells, std::pair(corners, Marker{0}), std::less<>{})) {
-            return false;
-        }
-    }
-    return true;
-}
-
-bool goes_back_by_one_generation(const std::vector<Refinement>& before, const Refinement& coarser) {
-    const auto parents = test::parents(before, scale);
-    const auto around = test::cells_around(before.back(), coarser, scale);
-    for (CellIndex c{0}; c < around.end_index(); ++c) {
-        for (const CellIndex larger : around[c]) {
-            const Corners corners = test::corners_of(coarser.mesh, larger);
-            if (!test::contains(parents[c.value()], corners, scale)) return false;
-        }
-    }
-    return true;
-}
-
 bool conforms(const Mesh& mesh) {
     const auto census = test::count_faces(mesh);
     return census.faults == 0 && census.boundary_faces == mesh.facets.size();
@@ -71,7 +46,8 @@ std::string fault_of_coarsening(const History& history, const CellMarks& may_go)
     }
     if (!has_unmarked_cells(old.mesh, may_go, coarser.mesh)) return "a cell is gone";
     if (!test::refines(old, coarser, scale)) return "the old mesh does not refine the new one";
-    if (!goes_back_by_one_generation(before, coarser)) return "a cell is back by two generations";
+    if (!goes_back_by_one_generation(before, coarser, scale))
+        return "a cell is back by two generations";
     if (!conforms(coarser.mesh)) return "the mesh does not conform";
     return {};
 }

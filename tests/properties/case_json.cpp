@@ -1,5 +1,9 @@
 #include "properties/case_json.hpp"
 
+#include <algorithm>
+#include <array>
+#include <stdexcept>
+
 namespace octetra::properties {
 namespace {
 
@@ -51,32 +55,62 @@ Selection selection_of(const json& j) {
     return selection;
 }
 
+std::string name_of(Scheme scheme) {
+    return scheme == Scheme::eight ? "8t" : scheme == Scheme::four ? "4t" : "2t";
+}
+
+Scheme scheme_of(const std::string& name) {
+    return name == "8t" ? Scheme::eight : name == "4t" ? Scheme::four : Scheme::two;
+}
+
+/// By the numbers of Action.
+constexpr std::array<const char*, 5> actions{"refine", "coarsen", "take back", "again", "reload"};
+
+json json_of(const Step& step) {
+    json j{{"action", actions.at(static_cast<std::size_t>(step.action))}};
+    if (step.action == Action::refine || step.action == Action::coarsen) {
+        j["selection"] = json_of(step.selection);
+    }
+    if (step.action == Action::refine) j["scheme"] = name_of(step.scheme);
+    if (step.action == Action::reload) j["ranks"] = step.ranks;
+    return j;
+}
+
+Step step_of(const json& j) {
+    const auto action = std::ranges::find(actions, j.at("action").get<std::string>());
+    if (action == actions.end()) throw std::invalid_argument("there is no such step");
+    return {.action = static_cast<Action>(action - actions.begin()),
+            .selection = selection_of(j.value("selection", json::object())),
+            .scheme = scheme_of(j.value("scheme", "8t")),
+            .ranks = j.value("ranks", 1)};
+}
+
 }  // namespace
 
 json json_of(const Case& c) {
-    return {{"kind", c.kind},
-            {"selection", json_of(c.selection)},
-            {"scheme", c.scheme == Scheme::eight  ? "8t"
-                       : c.scheme == Scheme::four ? "4t"
-                                                  : "2t"},
-            {"levels", c.levels},
-            {"sync", c.synchronisation == Synchronisation::gateway ? "gateway" : "neighbour"},
-            {"cell_to_rank", c.cell_to_rank},
-            {"seed", c.seed}};
+    json j{{"kind", c.kind},
+           {"selection", json_of(c.selection)},
+           {"scheme", name_of(c.scheme)},
+           {"levels", c.levels},
+           {"sync", c.synchronisation == Synchronisation::gateway ? "gateway" : "neighbour"},
+           {"cell_to_rank", c.cell_to_rank},
+           {"seed", c.seed}};
+    for (const Step& step : c.steps) j["steps"].push_back(json_of(step));
+    return j;
 }
 
 Case case_of(const json& j) {
-    const std::string scheme = j.at("scheme");
+    std::vector<Step> steps;
+    for (const json& step : list(j, "steps")) steps.push_back(step_of(step));
     return {.kind = j.at("kind"),
             .selection = selection_of(j.at("selection")),
-            .scheme = scheme == "8t"   ? Scheme::eight
-                      : scheme == "4t" ? Scheme::four
-                                       : Scheme::two,
+            .scheme = scheme_of(j.at("scheme")),
             .levels = j.at("levels"),
             .synchronisation =
                 j.at("sync") == "gateway" ? Synchronisation::gateway : Synchronisation::neighbour,
             .cell_to_rank = j.at("cell_to_rank"),
-            .seed = j.at("seed")};
+            .seed = j.at("seed"),
+            .steps = std::move(steps)};
 }
 
 }  // namespace octetra::properties

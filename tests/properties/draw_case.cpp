@@ -56,22 +56,6 @@ Box some_box(const Mesh& mesh, Draw& draw) {
             {std::max(a.x, b.x), std::max(a.y, b.y), std::max(a.z, b.z)}};
 }
 
-void add_criterion(Selection& selection, const Mesh& mesh, Draw& draw) {
-    switch (draw.below(8)) {
-        case 0: selection.all = true; return;
-        case 1: selection.spheres.push_back(some_sphere(mesh, draw)); return;
-        case 2: selection.boxes.push_back(some_box(mesh, draw)); return;
-        case 3: selection.regions.push_back(draw.between(0, 3)); return;
-        case 4: selection.random = RandomShare{draw.unit() * draw.unit(), draw.any()}; return;
-        case 5: {
-            const Corners corners = test::corners_of(mesh, any_cell(mesh, draw));
-            selection.max_volume = volume(corners) * (0.25 + draw.unit());
-            return;
-        }
-        default: selection.cells = some_numbers(mesh, draw);
-    }
-}
-
 /// At random more often than not: then the border is everywhere.
 std::vector<int> some_partition(const Mesh& mesh, int ranks, Draw& draw) {
     const int parts = draw.chance(0.5) ? ranks : draw.between(1, ranks);
@@ -153,6 +137,22 @@ double largest_coordinate(const Mesh& mesh) {
 }
 
 }  // namespace
+
+void add_criterion(Selection& selection, const Mesh& mesh, Draw& draw) {
+    switch (draw.below(8)) {
+        case 0: selection.all = true; return;
+        case 1: selection.spheres.push_back(some_sphere(mesh, draw)); return;
+        case 2: selection.boxes.push_back(some_box(mesh, draw)); return;
+        case 3: selection.regions.push_back(draw.between(0, 3)); return;
+        case 4: selection.random = RandomShare{draw.unit() * draw.unit(), draw.any()}; return;
+        case 5: {
+            const Corners corners = test::corners_of(mesh, any_cell(mesh, draw));
+            selection.max_volume = volume(corners) * (0.25 + draw.unit());
+            return;
+        }
+        default: selection.cells = some_numbers(mesh, draw);
+    }
+}
 
 Case draw_case(Draw& draw, int size, int ranks, bool exact) {
     NamedMesh drawn = exact ? draw_exact_mesh(draw, size) : draw_mesh(draw, size);

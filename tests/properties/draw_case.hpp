@@ -9,6 +9,9 @@ namespace octetra::properties {
 /// fewer levels. `exact`: by draw_exact_mesh, and every number in the selection on its grid, too.
 [[nodiscard]] Case draw_case(Draw& draw, int size, int ranks, bool exact);
 
+/// Adds a random criterion of cells of this mesh.
+void add_criterion(Selection& selection, const Mesh& mesh, Draw& draw);
+
 /// What is degenerate or rare about a case, in words: "ties", "slivers", "empty ranks" ...
 [[nodiscard]] std::vector<std::string> tags_of(const Case& c, int ranks);
 

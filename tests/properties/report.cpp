@@ -20,7 +20,8 @@ std::string counted(std::size_t count, const std::string& what) {
 
 std::string size_of(const Case& c) {
     return counted(c.mesh.cells.size(), "cell") + ", " +
-           counted(static_cast<std::size_t>(c.levels), "level");
+           (c.steps.empty() ? counted(static_cast<std::size_t>(c.levels), "level")
+                            : counted(c.steps.size(), "step"));
 }
 
 std::string description(const Finding& finding, const std::filesystem::path& file) {

@@ -7,6 +7,7 @@
 #include <octetra/core/orientation.hpp>
 #include <octetra/verify/verify.hpp>
 
+#include "properties/histories/simpler_steps.hpp"
 #include "properties/one_level.hpp"
 #include "properties/submesh.hpp"
 
@@ -24,6 +25,16 @@ void add(Simplifications& all, const Shared& from, const std::function<void(Case
     });
 }
 
+void drop_cells(Selection& selection, std::size_t begin, std::size_t end) {
+    std::vector<GlobalCell> cells;
+    for (const GlobalCell cell : selection.cells) {
+        const auto number = static_cast<std::size_t>(cell);
+        if (number < begin) cells.push_back(cell);
+        if (number >= end) cells.push_back(GlobalCell{number - (end - begin)});
+    }
+    selection.cells = std::move(cells);
+}
+
 void drop_cells(Case& c, std::size_t begin, std::size_t end) {
     std::vector<char> keep(c.mesh.cells.size(), 1);
     std::fill(keep.begin() + static_cast<std::ptrdiff_t>(begin),
@@ -33,13 +44,8 @@ void drop_cells(Case& c, std::size_t begin, std::size_t end) {
         return c.cell_to_rank.begin() + static_cast<std::ptrdiff_t>(i);
     };
     c.cell_to_rank.erase(at(begin), at(end));
-    std::vector<GlobalCell> cells;
-    for (const GlobalCell cell : c.selection.cells) {
-        const auto number = static_cast<std::size_t>(cell);
-        if (number < begin) cells.push_back(cell);
-        if (number >= end) cells.push_back(GlobalCell{number - (end - begin)});
-    }
-    c.selection.cells = std::move(cells);
+    drop_cells(c.selection, begin, end);
+    for (Step& step : c.steps) drop_cells(step.selection, begin, end);
 }
 
 /// Halves of all, then quarters and so on, down to single ones.
@@ -176,6 +182,9 @@ Simplifications simplifications(const Case& c) {
     const auto shared = std::make_shared<const Case>(c);
     Simplifications all;
     add_fewer_cells(all, shared);
+    for (std::vector<Step>& steps : simpler_steps(c.steps)) {
+        add(all, shared, [steps = std::move(steps)](Case& r) { r.steps = steps; });
+    }
     if (c.levels > 1) add(all, shared, [](Case& r) { --r.levels; });
     add_fewer_criteria(all, shared);
     if (c.scheme != Scheme::eight) add(all, shared, [](Case& r) { r.scheme = Scheme::eight; });

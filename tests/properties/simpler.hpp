@@ -7,9 +7,10 @@
 
 namespace octetra::properties {
 
-/// Ways to make a case simpler by one thing, the boldest first: without some cells, levels,
-/// criteria, ranks, marks; with the default scheme and synchronisation; with rounder coordinates.
-/// None leads back, so trying them over and over ends. Each may be called once the case is gone.
+/// Ways to make a case simpler by one thing, the boldest first: without some cells, steps,
+/// levels, criteria, ranks, marks; with the default scheme and synchronisation; with rounder
+/// coordinates. None leads back, so trying them over and over ends. Each may be called once the
+/// case is gone.
 [[nodiscard]] std::vector<std::function<Case()>> simplifications(const Case& c);
 
 enum class Trial { fails, holds, not_made };

@@ -51,4 +51,13 @@ std::string fault_of_geometry(const Case& /*c*/) {
 
 std::string fault_of_counts(const Case& /*c*/) { return {}; }
 
+std::string fault_of_steps(const Case& /*c*/) { return {}; }
+std::string fault_of_numbering_in_steps(const Case& /*c*/) { return {}; }
+std::string fault_of_the_way_back(const Case& /*c*/) { return {}; }
+std::string fault_of_survivors(const Case& /*c*/) { return {}; }
+std::string fault_of_generations(const Case& /*c*/) { return {}; }
+std::string fault_of_volumes(const Case& /*c*/) { return {}; }
+std::string fault_of_checkpoints(const Case& /*c*/) { return {}; }
+std::string fault_of_refining_again(const Case& /*c*/) { return {}; }
+
 }  // namespace octetra::properties

@@ -15,10 +15,25 @@ const std::vector<Law>& laws() {
     return all;
 }
 
+const std::vector<Law>& history_laws() {
+    static const std::vector<Law> all{
+        {"every_step_is_the_references", fault_of_steps},
+        {"no_step_depends_on_numbering", fault_of_numbering_in_steps},
+        {"coarsening_ends_in_the_input", fault_of_the_way_back},
+        {"saving_and_loading_change_nothing", fault_of_checkpoints},
+        {"unmarked_cells_stay", fault_of_survivors},
+        {"coarsening_goes_back_by_one_generation", fault_of_generations, true},
+        {"refining_again_gives_the_same", fault_of_refining_again},
+        {"volumes_stay", fault_of_volumes, true}};
+    return all;
+}
+
 const Law& law_named(const std::string& name) {
-    const auto law = std::ranges::find(laws(), name, &Law::name);
-    if (law == laws().end()) throw std::out_of_range("there is no law named " + name);
-    return *law;
+    for (const auto* of : {&laws(), &history_laws()}) {
+        const auto law = std::ranges::find(*of, name, &Law::name);
+        if (law != of->end()) return *law;
+    }
+    throw std::out_of_range("there is no law named " + name);
 }
 
 }  // namespace octetra::properties

@@ -5,8 +5,8 @@
 
 #include "properties/case.hpp"
 
-/// What must hold of every refinement. Each law looks at a case and says what of it does not hold,
-/// or nothing. They are judged within lead(), on the first rank.
+/// What must hold of every refinement, and of every history. Each law looks at a case and says what
+/// of it does not hold, or nothing. They are judged within lead(), on the first rank.
 namespace octetra::properties {
 
 /// Both engines: the same bits, or the same words of refusal. What they make, the exact verifier
@@ -34,15 +34,48 @@ namespace octetra::properties {
 /// every marked cell is bisected as its scheme says.
 [[nodiscard]] std::string fault_of_counts(const Case& c);
 
+// Of histories, which have steps:
+
+/// After each step the ranks' mesh is the reference's, bit by bit, and so are the numbers that each
+/// rank tells; or both refuse the step in the same words.
+[[nodiscard]] std::string fault_of_steps(const Case& c);
+
+/// With vertices, cells and corners numbered otherwise, each step makes the same mesh.
+[[nodiscard]] std::string fault_of_numbering_in_steps(const Case& c);
+
+/// Coarsening all cells until nothing changes gives the input, each time by a step at least.
+[[nodiscard]] std::string fault_of_the_way_back(const Case& c);
+
+/// Cells that are not marked are still there after a coarsening: as meshes say, and Adaptations.
+[[nodiscard]] std::string fault_of_survivors(const Case& c);
+
+/// No coarsening takes a cell back by more than one generation, as meshes say, and Adaptations; and
+/// the coarser mesh is refined by the one before, and is a valid refinement of the input. For cases
+/// drawn `exact`.
+[[nodiscard]] std::string fault_of_generations(const Case& c);
+
+/// The volume stays as it is, exactly. For cases drawn `exact`.
+[[nodiscard]] std::string fault_of_volumes(const Case& c);
+
+/// Saving and loading on another number of ranks changes nothing: neither that mesh, nor what is
+/// made of it later, nor what is saved in the end, byte by byte.
+[[nodiscard]] std::string fault_of_checkpoints(const Case& c);
+
+/// What a refinement made, coarsened: the mesh before, bit by bit; the same cells refined again:
+/// the mesh after, bit by bit.
+[[nodiscard]] std::string fault_of_refining_again(const Case& c);
+
 struct Law {
     std::string name;
     std::string (*fault)(const Case&);
     bool exact = false;  ///< wants cases that are drawn so
 };
 
+/// Of one refinement.
 [[nodiscard]] const std::vector<Law>& laws();
+[[nodiscard]] const std::vector<Law>& history_laws();
 
-/// Throws std::out_of_range.
+/// Of either. Throws std::out_of_range.
 [[nodiscard]] const Law& law_named(const std::string& name);
 
 }  // namespace octetra::properties

@@ -7,6 +7,7 @@
 
 #include "distributed/world.hpp"
 #include "properties/draw_case.hpp"
+#include "properties/histories/draw_history.hpp"
 #include "properties/judge.hpp"
 #include "properties/report.hpp"
 #include "properties/simpler.hpp"
@@ -18,9 +19,7 @@
 namespace octetra::properties {
 
 /// For rapidcheck, which prints what it finds.
-static void showValue(const Case& c, std::ostream& out) {
-    out << c.kind << ": " << c.mesh.cells.size() << " cells, " << c.levels << " levels";
-}
+static void showValue(const Case& c, std::ostream& out) { out << c.kind << ": " << size_of(c); }
 
 /// For GoogleTest.
 static void PrintTo(const Law& law, std::ostream* out) { *out << law.name; }
@@ -34,20 +33,26 @@ rc::Shrinkable<Case> shrinkable(Case c) {
     });
 }
 
+/// What cases a law is about.
+struct Cases {
+    Case (*draw)(Draw& draw, int size, int ranks, bool exact);
+    std::vector<std::string> (*tags)(const Case& c, int ranks);
+};
+
 /// Other ones for each law.
-rc::Gen<Case> cases(const Law& law) {
-    return {[&law](const rc::Random& random, int size) {
+rc::Gen<Case> drawn(const Cases& cases, const Law& law) {
+    return {[&](const rc::Random& random, int size) {
         Draw draw(rc::Random(random).next() ^ std::hash<std::string>{}(law.name));
-        return shrinkable(draw_case(draw, size, test::world().size(), law.exact));
+        return shrinkable(cases.draw(draw, size, test::world().size(), law.exact));
     }};
 }
 
 /// How many of the cases had what.
 class Census {
 public:
-    void count(const Case& c) {
+    void count(const std::vector<std::string>& tags) {
         ++cases_;
-        for (const std::string& tag : tags_of(c, test::world().size())) ++counts_[tag];
+        for (const std::string& tag : tags) ++counts_[tag];
     }
     void print() const {
         std::cerr << "  " << cases_ << " cases";
@@ -62,12 +67,12 @@ private:
     std::map<std::string, std::size_t> counts_;
 };
 
-void check(const Law& law) {
+void check(const Law& law, const Cases& cases) {
     Census census;
     Finding smallest;  // rapidcheck goes on from each case that fails, so the last one it is
     const bool holds = rc::check(law.name, [&] {
-        const Case c = *cases(law);
-        if (smallest.fault.empty()) census.count(c);
+        const Case c = *drawn(cases, law);
+        if (smallest.fault.empty()) census.count(cases.tags(c, test::world().size()));
         const std::string fault = judge(law, c);
         if (fault.empty()) return;
         smallest = {law.name, fault, c, test::world().size()};
@@ -81,14 +86,28 @@ void check(const Law& law) {
     FAIL() << kept(smallest, found_folder());
 }
 
-class Laws : public testing::TestWithParam<Law> {};
+class Laws : public testing::TestWithParam<Law> {
+protected:
+    static void check_of(const Cases& cases, const char* parameters) {
+        ::setenv("RC_PARAMS", parameters, 0);  // what the user has set stays
+        lead([&] { check(GetParam(), cases); });
+    }
+};
 
 TEST_P(Laws, HoldOfRandomCases) {
-    ::setenv("RC_PARAMS", "max_success=" OCTETRA_SUCCESSES, 0);  // what the user has set stays
-    lead([] { check(GetParam()); });
+    check_of({draw_case, tags_of}, "max_success=" OCTETRA_SUCCESSES);
 }
 
 INSTANTIATE_TEST_SUITE_P(, Laws, testing::ValuesIn(laws()),
+                         [](const auto& law) { return law.param.name; });
+
+class HistoryLaws : public Laws {};
+
+TEST_P(HistoryLaws, HoldOfRandomHistories) {
+    check_of({draw_history, tags_of_history}, "max_success=" OCTETRA_HISTORY_SUCCESSES);
+}
+
+INSTANTIATE_TEST_SUITE_P(, HistoryLaws, testing::ValuesIn(history_laws()),
                          [](const auto& law) { return law.param.name; });
 
 }  // namespace

@@ -71,10 +71,14 @@ Renumbered renumbered(const Case& c, bool corners_too, Draw& draw) {
     mesh.cells = moved(mesh.cells, cell_order);
     if (!mesh.regions.empty()) mesh.regions = moved(mesh.regions, cell_order);
     draw.shuffle(r.cell_to_rank);
-    for (GlobalCell& cell : r.selection.cells) {
-        cell = GlobalCell{cell_order[static_cast<std::size_t>(cell)]};
-    }
-    std::ranges::sort(r.selection.cells);
+    const auto renumber_cells = [&](Selection& selection) {
+        for (GlobalCell& cell : selection.cells) {
+            cell = GlobalCell{cell_order[static_cast<std::size_t>(cell)]};
+        }
+        std::ranges::sort(selection.cells);
+    };
+    renumber_cells(r.selection);
+    for (Step& step : r.steps) renumber_cells(step.selection);
     return {std::move(r), cell_order};
 }
 
@@ -106,6 +110,23 @@ std::string fault_of_numbering(const Case& c) {
     const std::size_t cells = c.mesh.cells.size();
     if (moved(children(one, cells), cell_order) != children(other, cells)) {
         return "another numbering yields children in another order";
+    }
+    return {};
+}
+
+std::string fault_of_numbering_in_steps(const Case& c) {
+    Draw draw(c.seed);
+    const Case other_case = renumbered(c, draw.chance(0.5), draw).refinement;
+    const auto one = adapted_by_all(c).stages;
+    const auto other = adapted_by_all(other_case).stages;
+    for (std::size_t k = 0; k < one.size(); ++k) {
+        if (one[k].refusal.empty() != other[k].refusal.empty()) {
+            return "refused in one numbering only: '" + one[k].refusal + other[k].refusal + "'";
+        }
+        if (one[k].changed != other[k].changed ||
+            verify::compare(one[k].mesh, other[k].mesh).likeness == verify::Likeness::different) {
+            return "step " + std::to_string(k + 1) + ": another numbering yields another mesh";
+        }
     }
     return {};
 }

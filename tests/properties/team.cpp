@@ -7,16 +7,19 @@
 #include "distributed/world.hpp"
 #include "level/tuning.hpp"
 #include "properties/case_json.hpp"
+#include "support/temporary_folder.hpp"
 
 namespace octetra::properties {
 namespace {
 
 using distributed::Communicator;
 
-/// What the first rank asks for: a refinement, to be collected, or written where there is a file.
+/// What the first rank asks for: a refinement, to be collected, or written where there is a file;
+/// or a history, where there is a folder.
 struct Order {
     Case refinement;
     std::string file;
+    std::string folder;
 };
 
 void tell(const std::string& text) {
@@ -74,17 +77,27 @@ Outcome carry_out(const Order& order) {
 void obey() {
     for (std::string text = hear(); !text.empty(); text = hear()) {
         const auto json = nlohmann::json::parse(text);
-        (void)carry_out({case_of(json), json.at("file")});
+        const Order order{case_of(json), json.at("file"), json.at("folder")};
+        if (order.folder.empty()) {
+            (void)carry_out(order);
+        } else {
+            (void)adapt_together(order.refinement, order.folder);
+        }
     }
 }
 
-Outcome give(const Order& order) {
+void tell(const Order& order) {
     Case without_mesh = order.refinement;
     without_mesh.mesh = {};
     without_mesh.cell_to_rank.clear();
     nlohmann::json json = json_of(without_mesh);
     json["file"] = order.file;
+    json["folder"] = order.folder;
     tell(json.dump());
+}
+
+Outcome give(const Order& order) {
+    tell(order);
     return carry_out(order);
 }
 
@@ -101,10 +114,16 @@ void lead(const std::function<void()>& work) {
     tell("");
 }
 
-Outcome refined_by_all(const Case& c) { return give({c, {}}); }
+Outcome refined_by_all(const Case& c) { return give({c, {}, {}}); }
 
 std::string write_refined_by_all(const Case& c, const std::filesystem::path& file) {
-    return give({c, file.string()}).error;
+    return give({c, file.string(), {}}).error;
+}
+
+Adapted adapted_by_all(const Case& c) {
+    const test::TemporaryFolder folder;
+    tell({c, {}, folder.path().string()});
+    return adapt_together(c, folder.path());
 }
 
 Outcome refined_by_reference(const Case& c) {

@@ -8,6 +8,7 @@
 #include <octetra/core/mesh.hpp>
 
 #include "properties/case.hpp"
+#include "properties/histories/adapt_together.hpp"
 
 /// Laws are judged on the first rank alone. When it wants a case refined by all ranks, it tells the
 /// others, who wait for that. So draws, verdicts and shrinking need no agreement: there is one
@@ -32,7 +33,10 @@ void lead(const std::function<void()>& work);
 /// The same, written to a file by all ranks. The words in which that was refused, or nothing.
 [[nodiscard]] std::string write_refined_by_all(const Case& c, const std::filesystem::path& file);
 
-/// By the serial reference.
+/// All steps of a history, by the distributed engine, on as many ranks as each step says.
+[[nodiscard]] Adapted adapted_by_all(const Case& c);
+
+/// By the serial reference. Of histories, see adapted_by_reference().
 [[nodiscard]] Outcome refined_by_reference(const Case& c);
 
 }  // namespace octetra::properties

@@ -1,0 +1,118 @@
+#include "properties/histories/pasts.hpp"
+
+#include <cmath>
+#include <map>
+#include <stdexcept>
+
+namespace octetra::properties {
+
+using distributed::Adaptation;
+using distributed::AdaptiveMesh;
+using distributed::Field;
+
+namespace {
+
+/// More than any history refines.
+constexpr std::size_t most_generations = 16;
+
+/// The first one counts.
+void note(std::string* fault, const char* words) {
+    if (fault->empty()) *fault = words;
+}
+
+/// The past of what a cell has become by merging, which undoes its last halvings.
+Past back_by(const Past& past, int halvings, std::string* fault) {
+    if (halvings == 0) return past;
+    const int left = past.halvings.back() - halvings;
+    Past back = past;
+    back.halvings.pop_back();
+    if (back.halvings.empty() || left < back.halvings.back()) {
+        note(fault, "a cell is back by more than one generation");
+        return past;
+    }
+    if (left > back.halvings.back()) back.halvings.push_back(left);
+    return back;
+}
+
+}  // namespace
+
+Pasts first_pasts(const AdaptiveMesh& mesh, const std::vector<CellVertices>& input) {
+    using Corners = std::array<std::uint64_t, 4>;
+    std::map<Corners, std::uint64_t> roots;
+    for (std::size_t c = 0; c < input.size(); ++c) {
+        Corners corners{};
+        for (std::size_t k = 0; k < 4; ++k) corners[k] = input[c][k].value();
+        roots[corners] = c;
+    }
+    Pasts pasts;
+    for (const CellVertices& cell : mesh.cells()) {
+        Corners corners{};
+        for (std::size_t k = 0; k < 4; ++k) {
+            corners[k] = static_cast<std::uint64_t>(mesh.vertex_numbers()[cell[k].value()]);
+        }
+        pasts.push_back({.root = roots.at(corners)});
+    }
+    return pasts;
+}
+
+Pasts refined(const Pasts& pasts, const Adaptation& step) {
+    Pasts after = pasts;
+    after.resize(step.cells.count());
+    step.cells.for_each_new([&](std::size_t number, std::size_t before, unsigned halvings) {
+        after[number] = pasts[before];
+        if (halvings == 0) return;
+        after[number].halvings.push_back(pasts[before].halvings.back() +
+                                         static_cast<int>(halvings));
+    });
+    return after;
+}
+
+Pasts coarsened(const Pasts& pasts, const Adaptation& step, std::span<const std::uint8_t> may_go,
+                std::string* fault) {
+    if (!step.changed) return pasts;
+    Pasts after(step.cells.count());
+    std::vector<double> filled(after.size(), 0);
+    for (std::size_t c = 0; c < pasts.size(); ++c) {
+        const std::uint32_t whole = step.cells.whole_of()[c];
+        const int halvings = step.cells.halvings()[c];
+        if (may_go[c] == 0 && halvings != 0) note(fault, "a cell that was not marked is gone");
+        const Past past = back_by(pasts[c], halvings, fault);
+        if (filled[whole] > 0 && after[whole] != past) note(fault, "a cell is made of strangers");
+        after[whole] = past;
+        filled[whole] += std::ldexp(1.0, -halvings);
+    }
+    for (const double share : filled) {
+        if (share != 1) note(fault, "the pieces of a cell do not fill it");
+    }
+    return after;
+}
+
+std::vector<Field> fields_of(const Pasts& pasts) {
+    std::vector<std::int64_t> roots;
+    std::vector<std::int32_t> halvings;
+    for (const Past& past : pasts) {
+        if (past.halvings.size() > most_generations) throw std::logic_error("too many generations");
+        roots.push_back(static_cast<std::int64_t>(past.root));
+        halvings.insert(halvings.end(), past.halvings.begin(), past.halvings.end());
+        halvings.resize(most_generations * roots.size(), -1);
+    }
+    return {{"root", FieldOn::cells, 1, std::move(roots)},
+            {"halvings", FieldOn::cells, most_generations, std::move(halvings)}};
+}
+
+Pasts pasts_of(const std::vector<Field>& fields) {
+    const auto& roots = std::get<std::vector<std::int64_t>>(fields.at(0).values);
+    const auto& halvings = std::get<std::vector<std::int32_t>>(fields.at(1).values);
+    Pasts pasts;
+    for (std::size_t c = 0; c < roots.size(); ++c) {
+        Past past{.root = static_cast<std::uint64_t>(roots[c]), .halvings = {}};
+        for (std::size_t k = 0; k < most_generations; ++k) {
+            const int each = halvings[c * most_generations + k];
+            if (each >= 0) past.halvings.push_back(each);
+        }
+        pasts.push_back(std::move(past));
+    }
+    return pasts;
+}
+
+}  // namespace octetra::properties

@@ -10,6 +10,8 @@ export OMPI_MCA_btl_vader_single_copy_mechanism=none OMPI_MCA_rmaps_base_oversub
 export OMPI_MCA_pml=ob1 OMPI_MCA_btl=self,vader,tcp
 # Every mpirun would bind its first rank to the same core, also while another test runs there.
 export OMPI_MCA_hwloc_base_binding_policy=none
+# Who waits lets others run: those that it waits for may have no core of their own.
+export OMPI_MCA_mpi_yield_when_idle=1
 # Open MPI keeps some memory until the end of the process, which the leak sanitizer would report;
 # and the address sanitizer wants to be told that a test may preload a library.
 export ASAN_OPTIONS="detect_leaks=0:verify_asan_link_order=0${ASAN_OPTIONS:+:$ASAN_OPTIONS}"

@@ -4,6 +4,7 @@
 #include <optional>
 #include <utility>
 
+#include "judge_refinement.hpp"
 #include "measures/angles.hpp"
 #include "measures/sums.hpp"
 #include "mesh/checks.hpp"
@@ -111,8 +112,9 @@ public:
           coarse_(std::move(coarse)),
           fine_(std::move(fine)) {}
 
-    void judge() {
-        if (!judge_coarse()) return;
+    /// False if the coarse mesh is not as it must be.
+    bool judge() {
+        if (!judge_coarse()) return false;
         const bool well_formed =
             findings_.run("well-formed", [&] { return check_well_formed(fine_, findings_); });
         const bool oriented =
@@ -126,6 +128,7 @@ public:
                 return check_dihedral_angles(fine_, *options_.min_dihedral, findings_);
             });
         }
+        return true;
     }
 
 private:
@@ -234,18 +237,22 @@ private:
 
 }  // namespace
 
-Verdict verify_refinement(const Mesh& coarse, const Mesh& fine, const VerifyOptions& options) {
-    Findings findings(options.kept_per_code, ProcessGroup::alone(), options.progress);
+bool judge_refinement(const Mesh& coarse, const Mesh& fine, const VerifyOptions& options,
+                      Findings& findings) {
     const auto in_range = [&](const Mesh& mesh, Which which) {
         return findings.run(name_of_range_check(which), [&] {
             return check_ranges(mesh, mesh.points.size(), which, findings);
         });
     };
-    if (in_range(coarse, Which::coarse) && in_range(fine, Which::fine)) {
-        RefinementCheck(judged_whole(coarse, Which::coarse), judged_whole(fine, Which::fine),
-                        options, findings)
-            .judge();
-    }
+    return in_range(coarse, Which::coarse) && in_range(fine, Which::fine) &&
+           RefinementCheck(judged_whole(coarse, Which::coarse), judged_whole(fine, Which::fine),
+                           options, findings)
+               .judge();
+}
+
+Verdict verify_refinement(const Mesh& coarse, const Mesh& fine, const VerifyOptions& options) {
+    Findings findings(options.kept_per_code, ProcessGroup::alone(), options.progress);
+    (void)judge_refinement(coarse, fine, options, findings);
     return findings.finish();
 }
 
@@ -262,13 +269,13 @@ Verdict verify_refinement(MeshSlice coarse, MeshSlice fine, const ProcessGroup& 
     const Parts parts = parts_of(std::move(coarse), std::move(fine), group);
     findings.translate(Which::coarse, &parts.coarse.numbers);
     findings.translate(Which::fine, &parts.fine.numbers);
-    RefinementCheck({.mesh = parts.coarse.mesh,
-                     .which = Which::coarse,
-                     .domain = parts.domain,
-                     .totals = coarse_totals,
-                     .views = parts.coarse_in_view},
-                    {.mesh = parts.fine.mesh, .domain = parts.domain, .totals = fine_totals},
-                    options, findings)
+    (void)RefinementCheck({.mesh = parts.coarse.mesh,
+                           .which = Which::coarse,
+                           .domain = parts.domain,
+                           .totals = coarse_totals,
+                           .views = parts.coarse_in_view},
+                          {.mesh = parts.fine.mesh, .domain = parts.domain, .totals = fine_totals},
+                          options, findings)
         .judge();
     return findings.finish();
 }

@@ -100,7 +100,7 @@ private:
     const ProcessGroup* group_;
     Progress progress_;
     std::string_view running_;
-    std::array<const Numbers*, 2> numbers_{};
+    std::array<const Numbers*, 3> numbers_{};  ///< by Which
     std::uint64_t count_ = 0;
     std::array<std::vector<Violation>, code_count> kept_;
     Verdict verdict_;

@@ -43,7 +43,12 @@ std::string_view name(Code code) {
                                                                     "dihedral_too_small",
                                                                     "needless_bisection",
                                                                     "missing_bisection",
-                                                                    "wrong_pattern"};
+                                                                    "wrong_pattern",
+                                                                    "vertex_not_before",
+                                                                    "vertex_went",
+                                                                    "vertex_stayed",
+                                                                    "cell_not_before",
+                                                                    "too_many_generations"};
     return names[static_cast<std::size_t>(code)];
 }
 

@@ -8,7 +8,8 @@
 
 #include <octetra/core/index.hpp>
 
-/// What can be wrong with a mesh, or with a mesh as the refinement of another.
+/// What can be wrong with a mesh, with a mesh as the refinement of another, or with what coarsening
+/// has left of one.
 namespace octetra::verify {
 
 enum class Code : std::uint8_t {
@@ -56,13 +57,20 @@ enum class Code : std::uint8_t {
     needless_bisection,  ///< an edge is bisected that the closure does not mark
     missing_bisection,   ///< an edge is not bisected that the closure marks
     wrong_pattern,       ///< the right edges are bisected, but in a wrong order
+    // of coarsening
+    vertex_not_before,     ///< a vertex that the mesh before has not
+    vertex_went,           ///< a vertex is gone that the rules keep
+    vertex_stayed,         ///< a vertex is still there, and nothing keeps it
+    cell_not_before,       ///< a cell that is neither one of the mesh before nor a union of such
+    too_many_generations,  ///< a cell went back by more steps than were asked for
 };
-inline constexpr std::size_t code_count = static_cast<std::size_t>(Code::wrong_pattern) + 1;
+inline constexpr std::size_t code_count = static_cast<std::size_t>(Code::too_many_generations) + 1;
 
 /// The code as it stands in reports: its name above.
 [[nodiscard]] std::string_view name(Code code);
 
-enum class Which : std::uint8_t { fine, coarse };  ///< a mesh judged alone counts as fine
+/// A mesh judged alone counts as fine; so does one after coarsening, of which coarse is the input.
+enum class Which : std::uint8_t { fine, coarse, before };
 
 /// Something in a mesh: a tagged entity, vertex or cell by its number, or a face, edge or piece of
 /// a cell by its vertices. Numbers count from 0.

@@ -1,7 +1,9 @@
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <string>
 
+#include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
 #include <octetra/core/error.hpp>
@@ -19,6 +21,7 @@
 #include "commands/mesh_options.hpp"
 #include "commands/number_options.hpp"
 #include "commands/refinement_options.hpp"
+#include "commands/verify/coarsened.hpp"
 #include "verdict/check_progress.hpp"
 #include "verdict/print_verdict.hpp"
 
@@ -34,10 +37,37 @@ struct VerifyCommandOptions {
     std::string maps;
     RefinementOptions refinement;
     bool says_how_refined = false;  ///< even by options that give the default
+    bool says_scheme = false;
+    std::string before;  ///< of coarsening
+    bool outside = false;
 };
 
 /// A report of a million faults helps nobody; they are counted all the same.
 constexpr std::size_t described_of_each_code = 100'000;
+
+/// What is asked of a mesh that was coarsened, but for what the checkpoint is needed for.
+Coarsened coarsened_of(const VerifyCommandOptions& given) {
+    if (given.before.empty()) {
+        if (given.outside) throw InputError("verify: --outside goes with --coarsened-from");
+        return {};
+    }
+    if (!is_checkpoint(given.before)) {
+        throw InputError(
+            fmt::format("--coarsened-from: {} has no history: it takes a .octetra file, as octetra "
+                        "coarsen does",
+                        given.before));
+    }
+    if (!given.second.empty()) {
+        throw InputError("verify: --coarsened-from takes one mesh, the one after, not two");
+    }
+    if (given.says_scheme) {
+        throw InputError("verify: --scheme says how cells were refined, not how they went back");
+    }
+    const RefinementOptions& typed = given.refinement;
+    Coarsened asked{given.before, {typed.selection, given.outside, typed.levels}, {}};
+    asked.selection = parse_coarsening(asked.typed);
+    return asked;
+}
 
 /// What the options ask for beyond the meshes; what the selection needs of the mesh is still to
 /// come.
@@ -45,11 +75,12 @@ verify::VerifyOptions options_of(const VerifyCommandOptions& given) {
     verify::VerifyOptions options{.fast = given.fast,
                                   .min_dihedral = given.min_dihedral,
                                   .kept_per_code = described_of_each_code};
-    if (has_criterion(given.refinement.selection)) {
+    if (given.before.empty() && has_criterion(given.refinement.selection)) {
         options.request = {parse_selection(given.refinement.selection),
                            parse_scheme(given.refinement), given.refinement.levels};
     }
-    if (!given.second.empty() && !can_hold_attributes(given.second)) {
+    const std::string& fine = given.before.empty() ? given.second : given.first;
+    if (!fine.empty() && !can_hold_attributes(fine)) {
         options.attributes_lost = "the format of the fine mesh has no place for them";
     }
     if (given.second.empty() && options.request) {
@@ -58,7 +89,7 @@ verify::VerifyOptions options_of(const VerifyCommandOptions& given) {
     if (given.second.empty() && !given.maps.empty()) {
         throw InputError("verify: --maps can only be checked of COARSE and REFINED");
     }
-    if (!options.request && given.says_how_refined) {
+    if (given.before.empty() && !options.request && given.says_how_refined) {
         throw InputError(
             "verify: --levels, --scheme and --seed say how a selection was refined; give it, too, "
             "as in --all --levels 2");
@@ -140,26 +171,33 @@ verify::Verdict judge_together(const VerifyCommandOptions& given, verify::Verify
 /// Collective.
 bool run(const VerifyCommandOptions& given, const distributed::Communicator& world) {
     verify::VerifyOptions options = options_of(given);
+    const Coarsened coarsened = coarsened_of(given);
     world.on_first([&] {
         if (given.report.empty()) return;
         check_side_file("--report", given.report);
-        check_files_apart({mesh_named("MESH", given.first), mesh_named("REFINED", given.second),
-                           file_named("--maps", given.maps),
-                           file_named("--cells", given.refinement.selection.cells_file)},
-                          {file_named("--report", given.report)});
+        check_files_apart(
+            {mesh_named("MESH", given.first), mesh_named("REFINED", given.second),
+             mesh_named("--coarsened-from", given.before), file_named("--maps", given.maps),
+             file_named("--cells", given.refinement.selection.cells_file)},
+            {file_named("--report", given.report)});
     });
     CheckProgress progress;
     if (world.is_first()) options.progress = progress.listener();
     JudgedFiles judged;
-    const verify::Verdict verdict = world.size() == 1
-                                        ? judge(given, options, judged)
-                                        : judge_together(given, options, judged, world);
+    verify::Verdict verdict;
+    if (!given.before.empty()) {
+        world.on_first([&] { verdict = judge_coarsened(coarsened, given.first, options, judged); });
+    } else if (world.size() == 1) {
+        verdict = judge(given, options, judged);
+    } else {
+        verdict = judge_together(given, options, judged, world);
+    }
     progress.clear();
     world.on_first([&] {
         print_verdict(verdict, judged);
         if (!given.report.empty()) write_text(format_json(verdict, judged), given.report);
     });
-    return verdict.valid();
+    return world.of_first(std::uint64_t{verdict.valid() ? 1U : 0U}) != 0;
 }
 
 }  // namespace
@@ -167,7 +205,8 @@ bool run(const VerifyCommandOptions& given, const distributed::Communicator& wor
 void add_verify(CLI::App& program, const distributed::Communicator& world) {
     auto options = std::make_shared<VerifyCommandOptions>();
     CLI::App* command = program.add_subcommand(
-        "verify", "Judge a mesh, or a mesh as the refinement of another, by exact arithmetic");
+        "verify",
+        "Judge a mesh, or one as the refinement or coarsening of another, by exact arithmetic");
     command->add_option("MESH", options->first, "the mesh; or, with REFINED, the coarse one")
         ->type_name("")
         ->check(names_a_file())
@@ -188,8 +227,16 @@ void add_verify(CLI::App& program, const distributed::Communicator& world) {
                      "check the parents and midpoints that refine --maps has written")
         ->type_name("FILE")
         ->check(names_a_file());
+    command
+        ->add_option("--coarsened-from", options->before,
+                     "is MESH what coarsening leaves of this one, if the cells below may go?")
+        ->type_name("STATE.octetra")
+        ->check(names_a_file());
+    command->add_flag("--outside", options->outside,
+                      "with --coarsened-from: the cells that no criterion below chooses");
     add_refinement_options(*command, options->refinement,
-                           "Is it the 8T-LE refinement of these cells? (as for refine)");
+                           "Is it the 8T-LE refinement of these cells (as for refine); or, with "
+                           "--coarsened-from, might they go (as for coarsen)?");
     command->footer(
         "Exit status: 0 valid; 1 not valid; 2 bad usage, or a file that cannot be read;\n"
         "3 the system failed: memory, disk; 128 + its number: a signal ended a rank, as 137 where\n"
@@ -199,9 +246,13 @@ void add_verify(CLI::App& program, const distributed::Communicator& world) {
         "  octetra refine gear.1.ele --sphere 1,0,0.1,0.3 --levels 2 -o fine.1.ele\n"
         "  octetra verify fine.1.ele\n"
         "  octetra verify gear.1.ele fine.1.ele --sphere 1,0,0.1,0.3 --levels 2\n"
+        "  octetra refine gear.1.ele --all -o fine.octetra\n"
+        "  octetra coarsen fine.octetra --sphere 1,0,0.1,0.3 -o coarser.octetra\n"
+        "  octetra verify coarser.octetra --coarsened-from fine.octetra --sphere 1,0,0.1,0.3\n"
         "  mpirun -n 4 octetra verify gear.1.ele fine.1.ele");
     command->callback([options, command, world] {
         options->says_how_refined = says_how_refined(*command);
+        options->says_scheme = command->count("--scheme") > 0;
         if (!run(*options, world)) throw AnswerIsNo{};
     });
 }

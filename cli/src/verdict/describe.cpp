@@ -17,9 +17,12 @@ std::string_view word_of(verify::Status status) {
     return words[static_cast<std::size_t>(status)];
 }
 
+std::uint64_t first_number(const verify::Entity& entity, const JudgedFiles& judged) {
+    return entity.mesh == verify::Which::fine ? judged.fine_index_base : judged.coarse_index_base;
+}
+
 std::string describe(const verify::Entity& entity, const JudgedFiles& judged) {
-    const bool coarse = entity.mesh == verify::Which::coarse;
-    const std::uint64_t first = coarse ? judged.coarse_index_base : judged.fine_index_base;
+    const std::uint64_t first = first_number(entity, judged);
     std::string text;
     if (entity.vertices.empty()) {
         text = fmt::format("{} {}", kind_of(entity), entity.number + first);
@@ -30,7 +33,8 @@ std::string describe(const verify::Entity& entity, const JudgedFiles& judged) {
         }
         text = fmt::format("{} ({})", kind_of(entity), text);
     }
-    return coarse ? "coarse " + text : text;
+    constexpr std::array<std::string_view, 3> whose{"", "coarse ", "previous "};
+    return std::string(whose[static_cast<std::size_t>(entity.mesh)]) + text;
 }
 
 }  // namespace octetra::cli

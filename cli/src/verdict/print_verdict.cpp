@@ -60,9 +60,10 @@ void print_whose_numbers(const Verdict& verdict, const JudgedFiles& judged) {
     if (verdict.valid() || judged.coarse.empty()) return;
     if (judged.fine_index_base == judged.coarse_index_base) return;
     print(
-        "\nNumbers are those of {}, which counts from {}; of what is called coarse, those of {}, "
+        "\nNumbers are those of {}, which counts from {}; of what is called {}, those of {}, "
         "from {}.\n",
-        judged.fine, judged.fine_index_base, judged.coarse, judged.coarse_index_base);
+        judged.fine, judged.fine_index_base, judged.is_coarsened ? "coarse or previous" : "coarse",
+        judged.coarse, judged.coarse_index_base);
 }
 
 void print_fact(std::string_view what, const std::string& value) {
@@ -127,7 +128,8 @@ void print_verdict(const Verdict& verdict, const JudgedFiles& judged) {
     if (judged.coarse.empty()) {
         print("\n{}: {}\n", judged.fine, answer);
     } else {
-        print("\n{} as a refinement of {}: {}\n", judged.fine, judged.coarse, answer);
+        print("\n{} as {} of {}: {}\n", judged.fine,
+              judged.is_coarsened ? "a coarsening" : "a refinement", judged.coarse, answer);
     }
 }
 

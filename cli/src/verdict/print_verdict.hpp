@@ -13,6 +13,8 @@ struct JudgedFiles {
     std::string coarse;  ///< path; empty if a mesh was judged by itself
     std::uint32_t fine_index_base = 0;
     std::uint32_t coarse_index_base = 0;
+    /// The mesh is to be what coarsening leaves of that in `coarse`, whose input is the coarse one.
+    bool is_coarsened = false;
 };
 
 /// A summary on stdout: checks, what is wrong (the first few of each kind), facts, the answer.

@@ -1,3 +1,6 @@
+#include <array>
+#include <string_view>
+
 #include <nlohmann/json.hpp>
 
 #include "verdict/describe.hpp"
@@ -9,9 +12,9 @@ using Json = nlohmann::ordered_json;
 using verify::Code;
 
 Json json(const verify::Entity& entity, const JudgedFiles& judged) {
-    const bool coarse = entity.mesh == verify::Which::coarse;
-    const std::uint64_t first = coarse ? judged.coarse_index_base : judged.fine_index_base;
-    Json out{{"kind", kind_of(entity)}, {"mesh", coarse ? "coarse" : "fine"}};
+    constexpr std::array<std::string_view, 3> meshes{"fine", "coarse", "before"};
+    const std::uint64_t first = first_number(entity, judged);
+    Json out{{"kind", kind_of(entity)}, {"mesh", meshes[static_cast<std::size_t>(entity.mesh)]}};
     if (entity.vertices.empty()) {
         out["number"] = entity.number + first;
     } else {
@@ -77,6 +80,7 @@ std::string format_json(const verify::Verdict& verdict, const JudgedFiles& judge
     const bool of_refinement = !judged.coarse.empty();
     Json out{{"schema", "octetra-verdict-1"}, {"valid", verdict.valid()}, {"mesh", judged.fine}};
     out["coarse_mesh"] = of_refinement ? Json(judged.coarse) : Json(nullptr);
+    out["coarsened_from"] = judged.is_coarsened ? Json(judged.coarse) : Json(nullptr);
     out["checks"] = Json::array();
     for (const verify::Check& check : verdict.checks) {
         out["checks"].push_back({{"name", check.name},

@@ -1,0 +1,32 @@
+#include "commands/verify/coarsened.hpp"
+
+#include <fmt/format.h>
+
+#include <octetra/core/error.hpp>
+#include <octetra/core/files/checkpoint.hpp>
+
+#include "commands/mesh_options.hpp"
+
+namespace octetra::cli {
+
+verify::Verdict judge_coarsened(const Coarsened& asked, const std::string& after,
+                                const verify::VerifyOptions& options, JudgedFiles& judged) {
+    const Checkpoint before = read_checkpoint(asked.before);
+    verify::CoarseningRequest request{asked.selection, asked.typed.outside, asked.typed.levels};
+    complete_selection(
+        request.may_go, asked.typed.selection,
+        {!before.input.regions.empty(), before.input.index_base, before.facts.cells_now});
+    const Mesh mesh = read_as_it_stands(after);
+    judged = {.fine = after,
+              .coarse = asked.before,
+              .fine_index_base = mesh.index_base,
+              .coarse_index_base = before.input.index_base,
+              .is_coarsened = true};
+    try {
+        return verify_coarsening(before.input, before.steps, request, mesh, options);
+    } catch (const InputError& error) {
+        throw InputError(fmt::format("{}: {}", asked.before, error.what()));
+    }
+}
+
+}  // namespace octetra::cli

@@ -3,7 +3,11 @@
 
 Example: tools/read_checkpoint.py state.octetra
 As a module: points, cells, fields = read_checkpoint.read("state.octetra")
+
+Hashes are not checked, as numpy has no XXH3: `octetra info state.octetra` does. Coordinates may be of
+any scale, but not of two that are 1e150 apart.
 """
+import math
 import struct
 import sys
 
@@ -19,6 +23,8 @@ class File:
     def __init__(self, path):
         with open(path, "rb") as file:
             self.bytes = file.read()
+        if len(self.bytes) < 48:
+            raise ValueError(f"{path}: no checkpoint, or cut off")
         magic, version, order = struct.unpack_from("<8sII", self.bytes)
         begin, size, _, end_magic = struct.unpack("<QQQ8s", self.bytes[-32:])
         if (magic, version, order, end_magic) != (MAGIC, 1, 0x01020304, MAGIC):
@@ -75,11 +81,11 @@ def cuts_of(block, step_count):
     return steps
 
 
-def longest_first(points, cell, cut):
+def longest_first(points, cell, cut, scale):
     def key(edge):
         a, b = sorted(tuple(points[cell[i]]) for i in EDGES[edge])
-        x, y, z = (p - q for p, q in zip(a, b))
-        return (x * x + y * y) + z * z, a, b
+        x, y, z = ((p - q) * scale for p, q in zip(a, b))
+        return (x * x + y * y) + z * z, a, b  # each product and sum rounded by itself
     return sorted((e for e in range(6) if cut >> e & 1), key=key, reverse=True)
 
 
@@ -89,9 +95,12 @@ def divide(points, cells, cuts):
                     for cell, cut in zip(cells, cuts) for e in range(6) if cut >> e & 1})
     midpoint = {edge: len(points) + k for k, edge in enumerate(edges)}
     finer = []
+    # A power of two, so that no square overflows, nor underflows.
+    largest = max((abs(c) for point in points for c in point), default=0)
+    scale = 2.0 ** -max(min(math.frexp(largest)[1], 1000), -1000)
     for cell, cut in zip(cells, cuts):
         pieces = [cell]
-        for e in longest_first(points, cell, cut):
+        for e in longest_first(points, cell, cut, scale):
             (i, j), halves = EDGES[e], []
             middle = midpoint[tuple(sorted((cell[i], cell[j])))]
             for piece in pieces:
@@ -136,5 +145,10 @@ def read(path):
 
 
 if __name__ == "__main__":
-    found = read(sys.argv[1])
+    if len(sys.argv) != 2 or sys.argv[1].startswith("-"):
+        sys.exit(__doc__)
+    try:
+        found = read(sys.argv[1])
+    except (OSError, ValueError) as error:
+        sys.exit(f"read_checkpoint: {error}")
     print(f"{len(found[0])} vertices, {len(found[1])} cells, fields: {', '.join(found[2]) or 'none'}")

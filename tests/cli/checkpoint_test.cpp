@@ -96,6 +96,12 @@ TEST_F(Checkpoints, AreReadAndWrittenByOtherSubcommands) {
     expect_same("m2.octetra", "m.octetra");
 }
 
+TEST_F(Checkpoints, KeepTheirHistoryWhenCopied) {
+    run("refine m.ele --sphere 0,0,0,0.4 --levels 2 -o s.octetra");
+    run("convert s.octetra copy.octetra");
+    expect_same("s.octetra", "copy.octetra");
+}
+
 TEST_F(Checkpoints, AreWhatCoarseningTakesAndOthersAreRefused) {
     run("refine m.ele --all -o f.octetra");
     expect_refused("coarsen m.ele --all -o c.octetra",

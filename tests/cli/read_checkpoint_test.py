@@ -50,6 +50,24 @@ class ReadCheckpoint(unittest.TestCase):
         numpy.testing.assert_array_equal(cells, expected_cells)
         self.assertEqual(fields, {})
 
+    def test_finds_the_mesh_at_any_scale(self):
+        self.run_octetra("generate", "random", "60", "-o", "a.mesh")
+        words = (self.path / "a.mesh").read_text().split()
+        at = words.index("Vertices") + 2
+        count = int(words[at - 1])
+        for scale in (1e-300, 1e-160, 1e150):
+            scaled = list(words)
+            for k in range(at, at + 4 * count):
+                if (k - at) % 4 != 3:
+                    scaled[k] = repr(float(words[k]) * scale)
+            (self.path / "b.mesh").write_text("\n".join(scaled) + "\n")
+            self.run_octetra("refine", "b.mesh", "--random", "0.3", "--levels", "2", "-o", "b.octetra")
+            self.run_octetra("convert", "b.octetra", "c.mesh")
+            points, cells, _ = read_checkpoint.read(self.path / "b.octetra")
+            expected_points, expected_cells = mesh_of(self.path / "c.mesh")
+            numpy.testing.assert_array_equal(points, expected_points)
+            numpy.testing.assert_array_equal(cells, expected_cells)
+
     def test_refuses_a_file_that_is_cut_off(self):
         self.run_octetra("generate", "kuhn", "2", "-o", "cube.mesh")
         self.run_octetra("refine", "cube.mesh", "--all", "-o", "a.octetra")

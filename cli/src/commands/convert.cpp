@@ -1,9 +1,12 @@
 #include <memory>
 #include <string>
+#include <vector>
 
 #include <CLI/CLI.hpp>
 
+#include <octetra/core/files/checkpoint.hpp>
 #include <octetra/core/files/places.hpp>
+#include <octetra/distributed/adaptive_mesh.hpp>
 #include <octetra/distributed/communicator.hpp>
 
 #include "commands/commands.hpp"
@@ -19,10 +22,22 @@ struct ConvertOptions {
     bool quiet = false;
 };
 
+/// A checkpoint to a checkpoint, with all that it has.
+void convert_with_history(const ConvertOptions& options) {
+    std::vector<distributed::Field> fields;
+    const auto mesh = distributed::AdaptiveMesh::load(distributed::Communicator(),
+                                                      options.input.path, {}, &fields);
+    mesh.save(options.output, fields);
+    if (!options.quiet) report_written(mesh.collect(), options.output);
+}
+
 void convert(const ConvertOptions& options) {
     check_output(options.output);
     check_files_apart({mesh_named("MESH", options.input.path)},
                       {mesh_to_write("OUT", options.output)});
+    if (is_checkpoint(options.input.path) && is_checkpoint(options.output)) {
+        return convert_with_history(options);
+    }
     const Mesh mesh = read_input(options.input);
     write_output(mesh, options.output);
     if (!options.quiet) report_written(mesh, options.output);

@@ -32,7 +32,11 @@ CheckpointTrailer read_trailer(const InputFile& file) {
     }
     const std::uint64_t table_end = file.size() - sizeof trailer;
     file.read(table_end, &trailer, sizeof trailer);
-    if (trailer.magic != checkpoint_magic) file.fail("the checkpoint is cut off; it has no table");
+    if (trailer.magic != checkpoint_magic) {
+        file.fail(
+            "the checkpoint does not end as one: it is cut off, or was changed; make or copy it "
+            "again");
+    }
     if (trailer.table_begin < sizeof header || trailer.table_begin > table_end ||
         trailer.table_size != table_end - trailer.table_begin) {
         file.fail("the checkpoint's last bytes are wrong: the table is not where they say");

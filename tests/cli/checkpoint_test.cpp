@@ -89,7 +89,9 @@ TEST_F(Checkpoints, AreReadAndWrittenByOtherSubcommands) {
     EXPECT_EQ(test::octetra("partition f.octetra -n 3 -o a.txt", folder).status, 0);
     EXPECT_EQ(test::octetra("partition f.ele -n 3 -o b.txt", folder).status, 0);
     expect_same("a.txt", "b.txt");
-    run("convert m.ele m.octetra");
+    run("generate two-material -o m.octetra");
+    run("convert m.ele copy.octetra");
+    expect_same("copy.octetra", "m.octetra");
     run("refine m.octetra --sphere 0,0,0,0.4 -o again.octetra");
     expect_same("again.octetra", "f.octetra");
     run("coarsen f.octetra --all -o m2.octetra --verify");

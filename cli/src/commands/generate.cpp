@@ -29,7 +29,7 @@ struct GenerateOptions {
 };
 
 void generate(const GenerateOptions& options, const std::function<Mesh()>& make) {
-    check_writable(options.output);
+    check_output(options.output);
     const Mesh mesh = make();
     write_output(mesh, options.output);
     if (!options.quiet) report_written(mesh, options.output);

@@ -65,6 +65,7 @@ void check_cells(const std::vector<GlobalCell>& cells, std::uint32_t index_base,
 /// The lines of a part file that must hold a number each.
 std::vector<std::string_view> lines_with_content(std::string_view text) {
     std::vector<std::string_view> lines;
+    if (text.starts_with("\xef\xbb\xbf")) text.remove_prefix(3);  // as other programs may begin
     while (!text.empty()) {
         std::string_view line = text.substr(0, text.find('\n'));
         text.remove_prefix(std::min(line.size() + 1, text.size()));

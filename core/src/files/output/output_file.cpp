@@ -8,7 +8,6 @@
 #include <cerrno>
 #include <cstring>
 #include <optional>
-#include <ranges>
 #include <utility>
 
 #include <fmt/format.h>
@@ -145,9 +144,10 @@ void OutputFile::commit_all(const std::vector<std::unique_ptr<OutputFile>>& file
     group.agree({});
     if (group.is_first()) deferred.emplace();
     group.on_first([&] {
-        for (const auto& file : std::views::reverse(files)) {
-            file->rename();
-            if (!file->failure_.empty()) throw SystemError(file->failure_);
+        for (auto next = files.rbegin(); next != files.rend(); ++next) {
+            OutputFile& file = **next;
+            file.rename();
+            if (!file.failure_.empty()) throw SystemError(file.failure_);
         }
         rest();
     });

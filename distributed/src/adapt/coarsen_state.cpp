@@ -31,14 +31,11 @@ std::vector<VertexIndex> kept_of(const std::vector<VertexIndex>& shared,
 
 /// Collective. The first level, from 0, that loses a vertex on any process.
 std::size_t first_changed_level(const DistributedMesh& mesh, const CoarserPart& part) {
-    const auto& before = part.vertices_before;
-    std::size_t first_gone = 0;
-    while (first_gone < before.size() && before[first_gone].value() == first_gone) ++first_gone;
-    const auto level = std::ranges::upper_bound(mesh.level_begin, VertexIndex{first_gone}) -
+    const auto level = std::ranges::upper_bound(mesh.level_begin, part.first_gone) -
                        mesh.level_begin.begin();              // all of them where none goes
     const std::size_t level_count = mesh.level_begin.size();  // the same on all processes
     const std::size_t changed = level_count + 1 - static_cast<std::size_t>(level);
-    const bool loses_any = first_gone < mesh.points.size();
+    const bool loses_any = part.first_gone < mesh.points.end_index();
     return level_count - mesh.processes.max(loses_any ? changed : 0);
 }
 

@@ -95,6 +95,8 @@ std::vector<T> by_number(std::vector<T> ordered, const std::vector<I>& before) {
 CoarserPart coarser_vertices(const DistributedMesh& mesh, const KeptVertices& kept) {
     CoarserPart part;
     part.mesh = unchanged_parts(mesh);
+    part.first_gone =
+        VertexIndex{static_cast<std::size_t>(std::ranges::find(kept, 0) - kept.begin())};
     part.vertex_after = numbers_after(kept);
     part.vertices_before = list_of(kept, part.vertex_after.back().value());
     keep_vertices(mesh, part.vertices_before, part.vertex_after, part.mesh);

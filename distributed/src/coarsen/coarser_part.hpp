@@ -17,6 +17,8 @@ struct CoarserPart {
     DistributedMesh mesh;
     /// For each vertex that stays, the number that it had. All ascend still.
     std::vector<VertexIndex> vertices_before;
+    /// The first that goes, or the end: those before it have their numbers still.
+    VertexIndex first_gone;
     /// For each vertex of before, the number that it has, or would have if it stayed; and the end.
     IndexVector<VertexIndex, VertexIndex> vertex_after;
     Succession cells;

@@ -19,10 +19,10 @@ std::vector<VertexIndex> gone_of(const KeptVertices& kept) {
 }
 
 /// Vertices older than the first that goes have their numbers still.
-void renumber(auto& list, const CoarserPart& part, VertexIndex first_gone) {
+void renumber(auto& list, const CoarserPart& part) {
     for (auto& vertices : list) {
         for (VertexIndex& v : vertices) {
-            if (v >= first_gone) v = part.vertex_after[v];
+            if (v >= part.first_gone) v = part.vertex_after[v];
         }
     }
 }
@@ -79,13 +79,10 @@ void IncrementalCoarsening::commit(CoarserPart& part) noexcept {
     adjacency_->new_cells.clear();
     adjacency_->cell_to_note.resize(mesh.cells.size());
 
-    std::size_t same = 0;
+    renumber(mesh.cells, part);
+    renumber(mesh.facets, part);
+    renumber(mesh.edges, part);
     const auto& before = part.vertices_before;
-    while (same < before.size() && before[same].value() == same) ++same;
-    const VertexIndex first_gone{same};
-    renumber(mesh.cells, part, first_gone);
-    renumber(mesh.facets, part, first_gone);
-    renumber(mesh.edges, part, first_gone);
     adjacency_->cells.keep_vertices(before);
     adjacency_->facets.keep_vertices(before);
     adjacency_->edges.keep_vertices(before);

@@ -133,11 +133,13 @@ private:
         DistributedMesh mesh = distribute(world_, input_, ranks_);
         for (const Selection& step : of.steps) (void)refine(mesh, step, {.levels = 1});
         restore_canonical_order(mesh);
-        std::vector<CutRuns> steps;
-        print("read steps off the mesh", seconds_of(world_, [&] { steps = steps_of(mesh); }));
+        CutRoots cuts;
+        print("read steps off the mesh", seconds_of(world_, [&] {
+                  cuts = cut_roots_of(steps_of(mesh), mesh.cell_ancestors.first);
+              }));
         print("replay", seconds_of(
                             world_, [&] { return distribute(world_, input_, ranks_); },
-                            [&](DistributedMesh& again) { replay(again, steps); }));
+                            [&](DistributedMesh& again) { replay(again, cuts, of.steps.size()); }));
     }
 
     const Communicator& world_;

@@ -10,12 +10,12 @@
 #include <octetra/distributed/profile.hpp>
 
 #include "adapt/mesh_state.hpp"
-#include "checkpoint/cut_marks.hpp"
 #include "checkpoint/load.hpp"
 #include "checkpoint/load_fields.hpp"
-#include "checkpoint/root_cuts.hpp"
 #include "checkpoint/save.hpp"
 #include "comm/local_failure.hpp"
+#include "history/cut_marks.hpp"
+#include "history/cut_roots.hpp"
 #include "history/steps_of.hpp"
 #include "level/incremental/adjacency.hpp"
 
@@ -53,17 +53,7 @@ void redo(AdaptiveMesh::State& state, CutRoots cuts, const CheckpointFacts& fact
     for (std::size_t t = 0; t < facts.steps.size(); ++t) {
         const bool all = processes.max(marks->next_is_uniform(state.mesh) ? 0 : 1) == 0;
         (void)state.refine(
-            [&] {
-                MarkedCells marked = marks->next(state.mesh);
-                if (all)
-                    return MarkedCells{.all = true,
-                                       .cells = {},
-                                       .edges = {},
-                                       .count = marked.count,
-                                       .judged = marked.judged};
-                return marked;
-            },
-            {});
+            [&] { return all ? marks->next_of_all(state.mesh) : marks->next(state.mesh); }, {});
     }
     failure.attempt([&] {
         const CanonicalOrder order(state.mesh);

@@ -11,8 +11,8 @@
 #include <octetra/distributed/profile.hpp>
 
 #include "checkpoint/fetch.hpp"
-#include "checkpoint/root_cuts.hpp"
 #include "comm/local_failure.hpp"
+#include "history/cut_roots.hpp"
 #include "partition/rcb.hpp"
 
 namespace octetra::distributed {

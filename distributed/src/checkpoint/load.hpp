@@ -1,23 +1,13 @@
 #pragma once
 
-#include <vector>
-
 #include <octetra/core/checkpoint_blocks.hpp>
 #include <octetra/distributed/communicator.hpp>
 #include <octetra/distributed/mesh_part.hpp>
 #include <octetra/distributed/partition.hpp>
 
-namespace octetra::distributed {
+#include "history/cut_roots.hpp"
 
-/// What steps did to a process's cells of the input, which go by their places.
-struct CutRoots {
-    struct Root {
-        std::uint32_t place = 0;
-        std::uint32_t bytes = 0;
-    };
-    std::vector<Root> roots;          ///< those that were cut at all
-    std::vector<std::uint8_t> bytes;  ///< what was done to one, and then the next: see RootBytes
-};
+namespace octetra::distributed {
 
 /// What a process has of a checkpoint.
 struct LoadedPart {

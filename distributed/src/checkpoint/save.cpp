@@ -12,8 +12,8 @@
 #include <octetra/core/files/places.hpp>
 #include <octetra/distributed/profile.hpp>
 
-#include "checkpoint/root_cuts.hpp"
 #include "comm/local_failure.hpp"
+#include "history/cut_roots.hpp"
 #include "numbering/canonical_runs.hpp"
 #include "output/canonical_slices.hpp"
 #include "output/slices.hpp"

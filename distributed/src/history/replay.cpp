@@ -1,39 +1,27 @@
 #include "history/replay.hpp"
 
+#include <optional>
+#include <utility>
+
+#include "comm/local_failure.hpp"
+
 namespace octetra::distributed {
-namespace {
 
-/// The cells that a step cuts, and the edges.
-MarkedCells marked_by(const CutRuns& step) {
-    MarkedCells marked;
-    std::size_t cell = 0;
-    for_each_run(step, [&](Cut cut, std::uint64_t count) {
-        const std::size_t end = cell + count;
-        if (cut == 0) {
-            cell = end;
-            return;
-        }
-        marked.edges.insert(marked.edges.end(), count, edges_of(cut));
-        for (; cell < end; ++cell) marked.cells.push_back(CellIndex{cell});
-    });
-    marked.count = marked.cells.size();
-    return marked;
-}
-
-}  // namespace
-
-PlannedLevel plan_step(DistributedMesh& mesh, const CutRuns& step, const Tuning& tuning,
-                       int level) {
+PlannedLevel plan_step(DistributedMesh& mesh, CutMarks& history, const Tuning& tuning, int level) {
     const auto mark = [&] {
-        restore_canonical_order(mesh);
-        return marked_by(step);
+        return history.next_is_uniform(mesh) ? history.next_of_all(mesh) : history.next(mesh);
     };
     return plan_closed_level(mesh, mark, tuning, level);
 }
 
-void replay(DistributedMesh& mesh, std::span<const CutRuns> steps, const Tuning& tuning) {
-    int level = 0;
-    for (const CutRuns& step : steps) plan_step(mesh, step, tuning, ++level).commit();
+void replay(DistributedMesh& mesh, CutRoots history, std::size_t step_count, const Tuning& tuning) {
+    LocalFailure failure;
+    std::optional<CutMarks> marks;
+    failure.attempt([&] { marks.emplace(std::move(history)); });
+    failure.agree(mesh.processes);
+    for (std::size_t t = 0; t < step_count; ++t) {
+        plan_step(mesh, *marks, tuning, static_cast<int>(t) + 1).commit();
+    }
 }
 
 }  // namespace octetra::distributed

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include <octetra/core/cut_runs.hpp>
@@ -13,6 +14,16 @@ namespace octetra::distributed {
 /// What all steps did to one root: for each step the number of bytes, and runs; no bytes where all
 /// its cells stayed whole. Empty for a root that was never cut.
 using RootBytes = std::span<const std::uint8_t>;
+
+/// What steps did to a process's roots, which go by their places.
+struct CutRoots {
+    struct Root {
+        std::uint32_t place = 0;
+        std::uint32_t bytes = 0;
+    };
+    std::vector<Root> roots;          ///< those that were cut at all
+    std::vector<std::uint8_t> bytes;  ///< what was done to one, and then the next: see RootBytes
+};
 
 /// Steps apart by root. `Runs` has at_end() and next(), as CutReader has.
 template <class Runs>
@@ -114,5 +125,29 @@ private:
     std::vector<CutRuns> steps_;
     std::uint64_t whole_ = 0;
 };
+
+/// Steps over all cells of a part, apart by its roots; those of root r are first[r] .. first[r+1]-1
+/// after the last step, as an AncestorMap has it.
+[[nodiscard]] inline CutRoots cut_roots_of(std::span<const CutRuns> steps,
+                                           std::span<const std::uint32_t> first) {
+    std::vector<CutReader> readers;
+    readers.reserve(steps.size());
+    for (const CutRuns& step : steps) readers.emplace_back(step.bytes());
+    RootsApart<CutReader> apart(std::move(readers));
+    CutRoots cuts;
+    std::uint64_t whole = 0;
+    for (std::size_t r = 0; r + 1 < first.size(); ++r) {
+        if (first[r + 1] - first[r] == 1) {
+            ++whole;
+            continue;
+        }
+        apart.skip_whole(std::exchange(whole, 0));
+        const std::size_t before = cuts.bytes.size();
+        (void)apart.append_next(cuts.bytes);
+        cuts.roots.push_back({static_cast<std::uint32_t>(r),
+                              static_cast<std::uint32_t>(cuts.bytes.size() - before)});
+    }
+    return cuts;
+}
 
 }  // namespace octetra::distributed

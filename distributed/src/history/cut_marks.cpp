@@ -1,6 +1,5 @@
-#include "checkpoint/cut_marks.hpp"
+#include "history/cut_marks.hpp"
 
-#include <span>
 #include <utility>
 
 #include <fmt/format.h>
@@ -73,17 +72,22 @@ bool CutMarks::next_is_uniform(const DistributedMesh& mesh) const {
     return true;
 }
 
+std::span<const std::uint8_t> CutMarks::take(std::size_t k) {
+    const auto all = std::span<const std::uint8_t>(cuts_.bytes).subspan(at_[k]);
+    auto rest = all;
+    std::uint64_t size = 0;
+    (void)take_number(rest, size);
+    at_[k] += all.size() - rest.size() + size;
+    return rest.first(size);
+}
+
 MarkedCells CutMarks::next(const DistributedMesh& mesh) {
     MarkedCells marked;
     for (std::size_t k = 0; k < cuts_.roots.size(); ++k) {
-        const auto all = std::span(cuts_.bytes).subspan(at_[k]);
-        std::span<const std::uint8_t> bytes = all;
-        std::uint64_t size = 0;
-        (void)take_number(bytes, size);
-        at_[k] += all.size() - bytes.size() + size;
-        if (size == 0) continue;
+        const auto bytes = take(k);
+        if (bytes.empty()) continue;
         Descendants cells(mesh, cuts_.roots[k].place);
-        for (CutReader runs(bytes.first(size)); !runs.at_end();) {
+        for (CutReader runs(bytes); !runs.at_end();) {
             CutRun run = runs.next();
             for (; run.count > 0; --run.count) {
                 if (cells.at_end()) refuse(mesh, cuts_.roots[k].place);
@@ -98,6 +102,15 @@ MarkedCells CutMarks::next(const DistributedMesh& mesh) {
     marked.count = marked.cells.size();
     marked.judged = marked.count;
     return marked;
+}
+
+MarkedCells CutMarks::next_of_all(const DistributedMesh& mesh) {
+    for (std::size_t k = 0; k < cuts_.roots.size(); ++k) (void)take(k);
+    return {.all = true,
+            .cells = {},
+            .edges = {},
+            .count = mesh.cells.size(),
+            .judged = mesh.cells.size()};
 }
 
 }  // namespace octetra::distributed

@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <array>
 #include <cstring>
-#include <map>
 #include <random>
 
 #include <gmock/gmock.h>
@@ -43,27 +42,8 @@ void adapt(AdaptiveMesh& mesh, std::uint64_t seed, int steps) {
     }
 }
 
-/// What is listed again gets the marker that it had, as in files.
-template <class I, std::size_t N>
-void mark_alike(const IndexVector<I, std::array<VertexIndex, N>>& list,
-                IndexVector<I, Marker>& markers) {
-    std::map<std::array<VertexIndex, N>, Marker> known;
-    for (I i{0}; i < list.end_index(); ++i) {
-        auto key = list[i];
-        std::ranges::sort(key);
-        markers[i] = known.try_emplace(key, markers[i]).first->second;
-    }
-}
-
-Mesh marked_lattice(std::size_t n, std::uint64_t seed) {
-    Mesh mesh = test::marked(test::shaken_kuhn(n, 0.2, seed), seed);
-    mark_alike(mesh.facets, mesh.facet_markers);
-    mark_alike(mesh.edges, mesh.edge_markers);
-    return mesh;
-}
-
 /// Its lists of points, cells and cuts take several blocks.
-Mesh input_of(std::uint64_t seed) { return marked_lattice(16, seed); }
+Mesh input_of(std::uint64_t seed) { return test::marked_lattice(16, seed); }
 
 AdaptiveMesh shared_out(const Communicator& processes, Mesh mesh, const std::string& partition) {
     std::vector<int> parts = partition_cells(mesh, processes.size(), parse_partition(partition));
@@ -144,7 +124,7 @@ TEST_P(Checkpoint, LeavesOffWhereTheMeshGoesOn) {
 
 TEST_P(Checkpoint, HasTheReferencesInputAndSteps) {
     const test::SharedFolder folder;
-    const Mesh input = marked_lattice(4, GetParam());
+    const Mesh input = test::marked_lattice(4, GetParam());
     AdaptiveMesh mesh = shared_out(world(), input, "random:3");
     reference::History history{input, {}};
     for (std::uint64_t k = 0; k < 3; ++k) {
@@ -180,7 +160,7 @@ TEST(CheckpointOfAMeshThatIsTheInput, HasNoSteps) {
 
 TEST(CheckpointOfCellsThatAreCutSideBySide, IsLoaded) {
     const test::SharedFolder folder;
-    AdaptiveMesh mesh = shared_out(world(), marked_lattice(8, 1), "block");
+    AdaptiveMesh mesh = shared_out(world(), test::marked_lattice(8, 1), "block");
     for (const double x : {1.0, 1.2, 4.0}) {
         (void)mesh.refine({.spheres = {{{x, 2, 3}, 0.8}}});
         mesh.save(folder / "state.octetra");
@@ -233,7 +213,7 @@ bool is_refused(const std::filesystem::path& path) {
 
 TEST(CheckpointThatIsMadeUp, IsReadOrRefusedByAllRanks) {
     const test::SharedFolder folder;
-    AdaptiveMesh mesh = shared_out(world(), marked_lattice(2, 1), "block");
+    AdaptiveMesh mesh = shared_out(world(), test::marked_lattice(2, 1), "block");
     for (const std::uint64_t seed : {1U, 2U, 3U}) (void)mesh.refine(some(0.1, seed));
     mesh.save(folder / "good.octetra");
     EXPECT_FALSE(is_refused(folder / "good.octetra"));

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <algorithm>
+#include <array>
+#include <map>
 #include <random>
 
 #include "support/meshes.hpp"
@@ -29,6 +32,26 @@ inline Mesh marked(Mesh mesh, std::uint64_t seed) {
         mesh.point_attributes.push_back(static_cast<double>(v));
     }
     mesh.index_base = static_cast<std::uint32_t>(seed % 2);
+    return mesh;
+}
+
+/// What is listed again gets the marker that it had, as in files.
+template <class I, std::size_t N>
+void mark_alike(const IndexVector<I, std::array<VertexIndex, N>>& list,
+                IndexVector<I, Marker>& markers) {
+    std::map<std::array<VertexIndex, N>, Marker> known;
+    for (I i{0}; i < list.end_index(); ++i) {
+        auto key = list[i];
+        std::ranges::sort(key);
+        markers[i] = known.try_emplace(key, markers[i]).first->second;
+    }
+}
+
+/// A lattice with all that a file can say of it.
+inline Mesh marked_lattice(std::size_t n, std::uint64_t seed) {
+    Mesh mesh = marked(shaken_kuhn(n, 0.2, seed), seed);
+    mark_alike(mesh.facets, mesh.facet_markers);
+    mark_alike(mesh.edges, mesh.edge_markers);
     return mesh;
 }
 

@@ -20,6 +20,19 @@ namespace octetra::distributed {
 
 namespace {
 
+/// Calls visit(number, root) for each entity of a list.
+template <class I>
+void for_each_root(const AncestorMap& ancestors, const auto* unordered, std::size_t count,
+                   auto&& visit) {
+    if (unordered != nullptr) {
+        for (I i{0}; i < I{count}; ++i) visit(i.value(), unordered->root_of(i));
+        return;
+    }
+    for (std::uint32_t r = 0; r < ancestors.roots.size(); ++r) {
+        for (std::uint32_t i = ancestors.first[r]; i < ancestors.first[r + 1]; ++i) visit(i, r);
+    }
+}
+
 /// The marker of each entity of a list.
 template <class I>
 std::vector<Marker> all_markers(const AncestorMap& ancestors, const auto* unordered,
@@ -27,16 +40,8 @@ std::vector<Marker> all_markers(const AncestorMap& ancestors, const auto* unorde
     std::vector<Marker> markers;
     if (ancestors.markers.empty()) return markers;
     markers.resize(count);
-    if (unordered != nullptr) {
-        for (I i{0}; i < I{count}; ++i) {
-            markers[i.value()] = ancestors.markers[unordered->root_of(i)];
-        }
-        return markers;
-    }
-    for (std::size_t r = 0; r < ancestors.roots.size(); ++r) {
-        std::fill(markers.begin() + ancestors.first[r], markers.begin() + ancestors.first[r + 1],
-                  ancestors.markers[r]);
-    }
+    for_each_root<I>(ancestors, unordered, count,
+                     [&](std::uint32_t i, std::uint32_t r) { markers[i] = ancestors.markers[r]; });
     return markers;
 }
 
@@ -100,6 +105,25 @@ Adaptation AdaptiveMesh::coarsen(std::span<const CellIndex> may_go) {
 
 Adaptation AdaptiveMesh::coarsen(const Selection& may_go) {
     return coarsen_state(*state_, [&] { return mark_cells(state_->mesh, may_go, false); });
+}
+
+Migration AdaptiveMesh::rebalance(const BalanceOptions& options) {
+    return rebalance_state(*state_, options);
+}
+Migration AdaptiveMesh::migrate(std::span<const int> rank_of_root) {
+    return migrate_state(*state_, rank_of_root);
+}
+
+std::span<const std::uint64_t> AdaptiveMesh::roots() const {
+    return state_->mesh.cell_ancestors.roots;
+}
+std::vector<std::uint32_t> AdaptiveMesh::root_of_cells() const {
+    const DistributedMesh& mesh = state_->mesh;
+    std::vector<std::uint32_t> roots(mesh.cells.size());
+    for_each_root<CellIndex>(mesh.cell_ancestors, mesh.adjacency ? &mesh.adjacency->cells : nullptr,
+                             mesh.cells.size(),
+                             [&](std::uint32_t c, std::uint32_t r) { roots[c] = r; });
+    return roots;
 }
 
 const Communicator& AdaptiveMesh::processes() const { return state_->mesh.processes; }

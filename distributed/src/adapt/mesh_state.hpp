@@ -25,6 +25,10 @@ struct AdaptiveMesh::State {
     /// Collective.
     Adaptation refine(const std::function<MarkedCells()>& mark, const StepOptions& options,
                       const Tuning& tuning = {});
+
+    /// Collective. Numbers the vertices of a planned level, finds who shares them, and commits it.
+    /// Just before, `prepare` may look at the level, and may throw; then nothing has changed.
+    void commit(PlannedLevel& plan, const std::function<void()>& prepare);
 };
 
 /// What a step that changes nothing did.
@@ -34,5 +38,12 @@ struct AdaptiveMesh::State {
 [[nodiscard]] Adaptation coarsen_state(AdaptiveMesh::State& state,
                                        const std::function<MarkedCells()>& mark,
                                        const Tuning& tuning = {});
+
+/// Collective. Each root of this process goes to the process named.
+[[nodiscard]] Migration migrate_state(AdaptiveMesh::State& state,
+                                      std::span<const int> rank_of_root);
+
+/// Collective. Moves roots where processes have too different numbers of cells.
+[[nodiscard]] Migration rebalance_state(AdaptiveMesh::State& state, const BalanceOptions& options);
 
 }  // namespace octetra::distributed

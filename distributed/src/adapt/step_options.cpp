@@ -7,9 +7,11 @@
 #include "comm/local_failure.hpp"
 
 namespace octetra::distributed {
+namespace {
 
-void check_same(const Communicator& processes, const StepOptions& options) {
-    const StepOptions on_first = processes.of_rank(0, options);
+template <class Options>
+void check_all_same(const Communicator& processes, const Options& options) {
+    const Options on_first = processes.of_rank(0, options);
     LocalFailure failure;
     failure.attempt([&] {
         if (options == on_first) return;
@@ -17,6 +19,18 @@ void check_same(const Communicator& processes, const StepOptions& options) {
             fmt::format("rank {}: options of the step are not those of rank 0", processes.rank()));
     });
     failure.agree(processes);
+}
+
+}  // namespace
+
+void check_same(const Communicator& processes, const StepOptions& options) {
+    check_all_same(processes, options);
+}
+
+void check_same(const Communicator& processes, const BalanceOptions& options) {
+    check_all_same(processes, options);
+    if (options.most_over_mean >= 1) return;
+    throw InputError("the most cells that a process may have are at least the mean");
 }
 
 }  // namespace octetra::distributed

@@ -18,6 +18,7 @@
 #include <octetra/distributed/field.hpp>
 #include <octetra/distributed/ghosts.hpp>
 #include <octetra/distributed/mesh_part.hpp>
+#include <octetra/distributed/migration.hpp>
 #include <octetra/distributed/out_of_memory.hpp>
 #include <octetra/distributed/partition.hpp>
 #include <octetra/distributed/sharing.hpp>
@@ -35,9 +36,17 @@ struct StepOptions {
     friend bool operator==(const StepOptions&, const StepOptions&) = default;
 };
 
+/// The same on all processes.
+struct BalanceOptions {
+    /// Cells move where the process that has most has more than so many times the mean.
+    double most_over_mean = 1.1;
+
+    friend bool operator==(const BalanceOptions&, const BalanceOptions&) = default;
+};
+
 /// A tetrahedral mesh in a solver's loop: distributed over the processes of a communicator, refined
 /// again and again, and asked in between. Every process has the cells that it was given and their
-/// descendants; a vertex is on every process that has a cell at it.
+/// descendants, until they are rebalanced; a vertex is on every process that has a cell at it.
 ///
 /// Numbers are local to the process, 32 bits, where nothing else is said; those of type
 /// GlobalVertex, and counts, are of the whole mesh. A vertex keeps its local and its global number
@@ -105,6 +114,21 @@ public:
     /// The same, of cells that are listed, in any order; or that the criteria mark.
     Adaptation coarsen(std::span<const CellIndex> may_go);
     Adaptation coarsen(const Selection& may_go);
+
+    /// Collective. Cells go from processes that have many to those that have few, if the numbers
+    /// are too different and that mends it. A cell of the input moves with all that has become of
+    /// it. Which process has what changes no step to come, and no file. All local numbers change;
+    /// what a program has for vertices and cells the Migration brings along.
+    Migration rebalance(const BalanceOptions& options = {});
+    /// Collective. The same to where a program wants them: `rank_of_root` has the process that is
+    /// to have each of this process's roots().
+    Migration migrate(std::span<const int> rank_of_root);
+    /// The numbers of the cells of the input, the roots, whose descendants this process has;
+    /// ascending.
+    [[nodiscard]] std::span<const std::uint64_t> roots() const;
+    /// Of each cell of this process the place of its root among these. Takes time in proportion to
+    /// the part.
+    [[nodiscard]] std::vector<std::uint32_t> root_of_cells() const;
 
     [[nodiscard]] const Communicator& processes() const;
 

@@ -1,0 +1,120 @@
+#include "migrate/even_parts.hpp"
+
+#include <algorithm>
+#include <tuple>
+
+#include <octetra/core/selection.hpp>
+#include <octetra/distributed/profile.hpp>
+
+#include "history/steps_of.hpp"
+#include "partition/rcb.hpp"
+
+namespace octetra::distributed {
+namespace {
+
+/// How much of a part a process has.
+struct Share {
+    std::uint64_t weight = 0;
+    int part = 0;
+    int rank = 0;
+};
+
+/// One part for each process, the greatest share first.
+std::vector<int> matched(std::vector<Share> shares, std::size_t process_count) {
+    std::ranges::sort(shares, [](const Share& a, const Share& b) {
+        return std::tie(b.weight, a.part, a.rank) < std::tie(a.weight, b.part, b.rank);
+    });
+    std::vector<int> rank_of_part(process_count, -1);
+    std::vector<bool> has_part(process_count, false);
+    const auto give = [&](int part, int rank) {
+        rank_of_part[static_cast<std::size_t>(part)] = rank;
+        has_part[static_cast<std::size_t>(rank)] = true;
+    };
+    for (const Share& share : shares) {
+        const bool is_free = rank_of_part[static_cast<std::size_t>(share.part)] < 0;
+        if (is_free && !has_part[static_cast<std::size_t>(share.rank)]) {
+            give(share.part, share.rank);
+        }
+    }
+    for (std::size_t part = 0; part < process_count; ++part) {
+        if (rank_of_part[part] >= 0) continue;
+        const auto idle = std::ranges::find(has_part, false) - has_part.begin();
+        give(static_cast<int>(part), static_cast<int>(idle));
+    }
+    return rank_of_part;
+}
+
+/// Collective. The most that any process would have.
+std::uint64_t most_after(const Communicator& processes, std::span<const int> ranks,
+                         std::span<const std::uint64_t> weights, LocalFailure& failure) {
+    std::vector<std::uint64_t> loads;
+    failure.attempt([&] {
+        loads.assign(static_cast<std::size_t>(processes.size()), 0);
+        for (std::size_t r = 0; r < ranks.size(); ++r) {
+            loads[static_cast<std::size_t>(ranks[r])] += weights[r];
+        }
+    });
+    if (failure.max_unless_failed(processes, 0) == LocalFailure::somewhere) return 0;
+    processes.sum(std::span(loads));
+    return *std::ranges::max_element(loads);
+}
+
+}  // namespace
+
+std::vector<int> ranks_of_parts(const Communicator& processes, std::span<const int> parts,
+                                std::span<const std::uint64_t> weights, LocalFailure& failure) {
+    std::vector<Share> shares;
+    failure.attempt([&] {
+        std::vector<std::uint64_t> sums(static_cast<std::size_t>(processes.size()), 0);
+        for (std::size_t i = 0; i < parts.size(); ++i) {
+            sums[static_cast<std::size_t>(parts[i])] += weights[i];
+        }
+        for (std::size_t part = 0; part < sums.size(); ++part) {
+            if (sums[part] == 0) continue;
+            shares.push_back({sums[part], static_cast<int>(part), processes.rank()});
+        }
+    });
+    if (failure.max_unless_failed(processes, 0) == LocalFailure::somewhere) return {};
+    std::vector<int> rank_of_part;
+    failure.attempt([&] {
+        const auto gathered = processes.gather(shares);
+        if (!processes.is_first()) return;
+        std::vector<Share> all;
+        for (const auto& of_one : gathered) all.insert(all.end(), of_one.begin(), of_one.end());
+        rank_of_part = matched(std::move(all), gathered.size());
+    });
+    if (failure.max_unless_failed(processes, 0) == LocalFailure::somewhere) return {};
+    failure.attempt([&] { processes.broadcast(rank_of_part); });
+    if (failure.max_unless_failed(processes, 0) == LocalFailure::somewhere) return {};
+    return rank_of_part;
+}
+
+std::optional<std::vector<int>> even_parts(const DistributedMesh& mesh, LocalFailure& failure) {
+    const Communicator& processes = mesh.processes;
+    const Phase phase(processes, "find even parts");
+    std::vector<WeighedPoint> centroids;
+    std::vector<std::uint64_t> weights;
+    failure.attempt([&] {
+        const DistributedMesh input = input_of(mesh);
+        const AncestorMap& roots = mesh.cell_ancestors;
+        for (CellIndex c{0}; c < input.cells.end_index(); ++c) {
+            Corners corners;
+            for (std::size_t k = 0; k < 4; ++k) corners[k] = input.points[input.cells[c][k]];
+            const std::size_t r = c.value();
+            weights.push_back(roots.first[r + 1] - roots.first[r]);
+            centroids.push_back({centroid(corners), roots.roots[r], weights.back()});
+        }
+    });
+    if (failure.max_unless_failed(processes, 0) == LocalFailure::somewhere) return std::nullopt;
+    std::vector<int> ranks = bisect_coordinates(processes, centroids, processes.size(), failure);
+    if (failure.max_unless_failed(processes, 0) == LocalFailure::somewhere) return std::nullopt;
+    const auto rank_of_part = ranks_of_parts(processes, ranks, weights, failure);
+    if (rank_of_part.empty()) return std::nullopt;
+    for (int& rank : ranks) rank = rank_of_part[static_cast<std::size_t>(rank)];
+    const std::uint64_t most = most_after(processes, ranks, weights, failure);
+    if (failure.max_unless_failed(processes, 0) == LocalFailure::somewhere) return std::nullopt;
+    if (most >= processes.max(mesh.cells.size())) return std::nullopt;
+    return ranks;
+}
+
+}  // namespace octetra::distributed

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include <octetra/distributed/distributed_mesh.hpp>
+
+#include "comm/local_failure.hpp"
+
+namespace octetra::distributed {
+
+/// Collective. For each root of this process, of a mesh in canonical order, the process that is to
+/// have it so that all have about as many cells: by recursive coordinate bisection, the parts given
+/// to processes so that much stays where it is. Nothing, on all processes, where the one that has
+/// most would not have fewer, or where a process has failed or fails.
+[[nodiscard]] std::optional<std::vector<int>> even_parts(const DistributedMesh& mesh,
+                                                         LocalFailure& failure);
+
+/// Collective. Gives parts, as many as there are processes, to processes: in descending order of
+/// what a process has of a part. `weights` are those of what this process has, each of the part
+/// that `parts` names. Returns the process of each part, or nothing where one has failed or fails.
+[[nodiscard]] std::vector<int> ranks_of_parts(const Communicator& processes,
+                                              std::span<const int> parts,
+                                              std::span<const std::uint64_t> weights,
+                                              LocalFailure& failure);
+
+}  // namespace octetra::distributed

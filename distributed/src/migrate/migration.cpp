@@ -1,0 +1,153 @@
+#include <octetra/distributed/migration.hpp>
+
+#include <algorithm>
+#include <cstring>
+
+#include <fmt/format.h>
+
+#include <octetra/core/error.hpp>
+
+#include "comm/local_failure.hpp"
+
+namespace octetra::distributed {
+namespace {
+
+using Bytes = std::vector<std::byte>;
+
+/// Collective. Sends pack(message) to each partner, this process among them, and gives what has
+/// come from each to take(). Both may throw.
+void exchange(const Communicator& processes, const std::vector<int>& partners,
+              const Migration::Entities& entities, LocalFailure& failure, auto&& pack,
+              auto&& take) {
+    std::vector<int> others;
+    std::vector<Bytes> outboxes;
+    Bytes own;
+    failure.attempt([&] {
+        for (std::size_t p = 0; p < partners.size(); ++p) {
+            Bytes bytes = pack(entities.messages[p].sent);
+            if (partners[p] == processes.rank()) {
+                own = std::move(bytes);
+            } else {
+                others.push_back(partners[p]);
+                outboxes.push_back(std::move(bytes));
+            }
+        }
+    });
+    failure.agree(processes);
+    failure.attempt([&] {
+        auto inboxes = processes.exchange_with(others, outboxes);
+        outboxes.clear();
+        const auto place = std::ranges::lower_bound(others, processes.rank()) - others.begin();
+        inboxes.insert(inboxes.begin() + place, std::move(own));
+        take(inboxes);
+    });
+    failure.agree(processes);
+}
+
+void check(const Communicator& processes, std::size_t count, std::size_t needed) {
+    if (count == needed) return;
+    throw InputError(
+        fmt::format("rank {}: {} values do not fit the mesh as it was before its cells moved; it "
+                    "takes {}",
+                    processes.rank(), count, needed));
+}
+
+void copy(std::byte* to, const std::byte* from, std::size_t size) {
+    if (size > 0) std::memcpy(to, from, size);
+}
+
+/// Where the list of each entity begins, and where the last ends, if these are their lengths.
+void sum_up(std::vector<std::uint64_t>& lengths) {
+    std::uint64_t end = 0;
+    for (std::uint64_t& length : lengths) end += std::exchange(length, end);
+    lengths.push_back(end);
+}
+
+}  // namespace
+
+void Migration::move_values(const Entities& entities, std::span<const std::byte> values,
+                            std::size_t size, const Allocate& allocate) const {
+    LocalFailure failure;
+    failure.attempt([&] {
+        if (size > 0) check(processes_, values.size() / size, entities.count_before);
+    });
+    const auto pack = [&](const std::vector<std::uint32_t>& sent) {
+        Bytes message(sent.size() * size);
+        for (std::size_t k = 0; k < sent.size(); ++k) {
+            copy(message.data() + k * size, values.data() + sent[k] * size, size);
+        }
+        return message;
+    };
+    const auto take = [&](const std::vector<Bytes>& messages) {
+        std::byte* const after = allocate(entities.count_after);
+        for (std::size_t p = 0; p < messages.size(); ++p) {
+            const auto& received = entities.messages[p].received;
+            for (std::size_t k = 0; k < received.size(); ++k) {
+                if (received[k] == repeated) continue;
+                copy(after + received[k] * size, messages[p].data() + k * size, size);
+            }
+        }
+    };
+    exchange(processes_, partners_, entities, failure, pack, take);
+}
+
+void Migration::move_lists(const Entities& entities, std::span<const std::uint64_t> begin,
+                           std::span<const std::byte> values, std::size_t size,
+                           std::vector<std::uint64_t>& begin_after,
+                           const Allocate& allocate) const {
+    LocalFailure failure;
+    failure.attempt([&] {
+        check(processes_, begin.size(), entities.count_before + 1);
+        if (begin.front() != 0 || !std::ranges::is_sorted(begin)) {
+            throw InputError(
+                fmt::format("rank {}: lists of values begin at 0, and ascend", processes_.rank()));
+        }
+        check(processes_, values.size() / size, begin.back());
+    });
+    // Of each entity the length of its list, and then all lists.
+    const auto pack = [&](const std::vector<std::uint32_t>& sent) {
+        std::size_t length = sent.size() * sizeof(std::uint64_t);
+        for (const std::uint32_t i : sent) length += (begin[i + 1] - begin[i]) * size;
+        Bytes message(length);
+        std::byte* lengths = message.data();
+        std::byte* lists = message.data() + sent.size() * sizeof(std::uint64_t);
+        for (const std::uint32_t i : sent) {
+            const std::uint64_t count = begin[i + 1] - begin[i];
+            copy(lengths, reinterpret_cast<const std::byte*>(&count), sizeof count);
+            lengths += sizeof count;
+            copy(lists, values.data() + begin[i] * size, count * size);
+            lists += count * size;
+        }
+        return message;
+    };
+    const auto length_at = [](const Bytes& message, std::size_t k) {
+        std::uint64_t count = 0;
+        copy(reinterpret_cast<std::byte*>(&count), message.data() + k * sizeof count, sizeof count);
+        return count;
+    };
+    const auto take = [&](const std::vector<Bytes>& messages) {
+        begin_after.assign(entities.count_after, 0);
+        for (std::size_t p = 0; p < messages.size(); ++p) {
+            const auto& received = entities.messages[p].received;
+            for (std::size_t k = 0; k < received.size(); ++k) {
+                if (received[k] != repeated) begin_after[received[k]] = length_at(messages[p], k);
+            }
+        }
+        sum_up(begin_after);
+        std::byte* const after = allocate(begin_after.back());
+        for (std::size_t p = 0; p < messages.size(); ++p) {
+            const auto& received = entities.messages[p].received;
+            const std::byte* lists = messages[p].data() + received.size() * sizeof(std::uint64_t);
+            for (std::size_t k = 0; k < received.size(); ++k) {
+                const std::uint64_t bytes = length_at(messages[p], k) * size;
+                if (received[k] != repeated) {
+                    copy(after + begin_after[received[k]] * size, lists, bytes);
+                }
+                lists += bytes;
+            }
+        }
+    };
+    exchange(processes_, partners_, entities, failure, pack, take);
+}
+
+}  // namespace octetra::distributed

@@ -1,0 +1,119 @@
+#include "migrate/migration_messages.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace octetra::distributed {
+namespace {
+
+using Numbers = std::vector<std::uint32_t>;
+
+/// The processes that this one sends to or receives from, and itself.
+std::vector<int> partners_of(const SideOfMove& before, const SideOfMove& after) {
+    std::vector<int> ranks{before.mesh->processes.rank()};
+    ranks.insert(ranks.end(), before.rank_of_root.begin(), before.rank_of_root.end());
+    ranks.insert(ranks.end(), after.rank_of_root.begin(), after.rank_of_root.end());
+    std::ranges::sort(ranks);
+    ranks.erase(std::unique(ranks.begin(), ranks.end()), ranks.end());
+    return ranks;
+}
+
+/// One side of the messages to all partners.
+class Side {
+public:
+    Side(const SideOfMove& side, const std::vector<int>& partners)
+        : side_(&side), roots_(partners.size()), last_met_(side.mesh->points.size(), none) {
+        for (std::size_t r = 0; r < side.rank_of_root.size(); ++r) {
+            const auto p = std::ranges::lower_bound(partners, side.rank_of_root[r]);
+            roots_[static_cast<std::size_t>(p - partners.begin())].push_back(
+                static_cast<std::uint32_t>(r));
+        }
+    }
+
+    [[nodiscard]] Numbers cells(std::size_t partner) const {
+        Numbers cells;
+        for_each_cell(partner, [&](CellIndex c) {
+            cells.push_back(side_->cells_outside.empty() ? c.value()
+                                                         : side_->cells_outside[c.value()].value());
+        });
+        return cells;
+    }
+    /// The vertices of these cells that are wanted, ascending.
+    [[nodiscard]] Numbers vertices(std::size_t partner, auto&& is_wanted) {
+        Numbers vertices;
+        const auto mark = static_cast<std::uint32_t>(partner);
+        for_each_cell(partner, [&](CellIndex c) {
+            for (const VertexIndex v : side_->mesh->cells[c]) {
+                if (std::exchange(last_met_[v], mark) == mark) continue;
+                if (is_wanted(v)) vertices.push_back(v.value());
+            }
+        });
+        std::ranges::sort(vertices);
+        return vertices;
+    }
+
+private:
+    static constexpr std::uint32_t none = VertexIndex::none_value;
+
+    void for_each_cell(std::size_t partner, auto&& visit) const {
+        const std::vector<std::uint32_t>& first = side_->mesh->cell_ancestors.first;
+        for (const std::uint32_t r : roots_[partner]) {
+            for (CellIndex c{first[r]}; c < CellIndex{first[r + 1]}; ++c) visit(c);
+        }
+    }
+
+    const SideOfMove* side_;
+    std::vector<Numbers> roots_;                        ///< by partner
+    IndexVector<VertexIndex, std::uint32_t> last_met_;  ///< with which partner's cells
+};
+
+/// The vertices that this process has before and after.
+Migration::Message kept_vertices(const SideOfMove& before, const SideOfMove& after) {
+    Migration::Message kept;
+    const auto& numbers = before.numbers->of_vertex;
+    VertexIndex v{0};
+    for (VertexIndex w{0}; w < after.numbers->of_vertex.end_index(); ++w) {  // both ascend
+        const GlobalVertex number = after.numbers->of_vertex[w];
+        while (v < numbers.end_index() && numbers[v] < number) ++v;
+        if (v == numbers.end_index() || numbers[v] != number) continue;
+        kept.sent.push_back(v.value());
+        kept.received.push_back(w.value());
+    }
+    return kept;
+}
+
+}  // namespace
+
+Migration migration_of(const SideOfMove& before, const SideOfMove& after,
+                       const Sharing<VertexIndex>& sharing) {
+    const Communicator& processes = before.mesh->processes;
+    const std::vector<int> partners = partners_of(before, after);
+    Side out(before, partners);
+    Side in(after, partners);
+    Migration::Entities cells{before.mesh->cells.size(), after.mesh->cells.size(), {}};
+    Migration::Entities vertices{before.mesh->points.size(), after.mesh->points.size(), {}};
+    Migration::Message kept = kept_vertices(before, after);
+    IndexVector<VertexIndex, std::uint8_t> is_here;
+    is_here.assign(after.mesh->points.size(), 0);
+    IndexVector<VertexIndex, std::uint8_t> has_come = is_here;
+    for (const std::uint32_t w : kept.received) is_here[VertexIndex{w}] = 1;
+    for (std::size_t p = 0; p < partners.size(); ++p) {
+        cells.messages.push_back({out.cells(p), in.cells(p)});
+        if (partners[p] == processes.rank()) {
+            vertices.messages.push_back(std::move(kept));
+            continue;
+        }
+        const auto has_not = [&](VertexIndex v) {
+            return std::ranges::find(sharing.sharers(v), partners[p]) == sharing.sharers(v).end();
+        };
+        Numbers sent = out.vertices(p, has_not);
+        Numbers received = in.vertices(p, [&](VertexIndex w) { return is_here[w] == 0; });
+        for (std::uint32_t& w : received) {
+            if (std::exchange(has_come[VertexIndex{w}], 1) != 0) w = Migration::repeated;
+        }
+        vertices.messages.push_back({std::move(sent), std::move(received)});
+    }
+    return {processes, partners, std::move(cells), std::move(vertices)};
+}
+
+}  // namespace octetra::distributed

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include <octetra/core/mesh.hpp>
+
+namespace octetra::distributed {
+
+/// What one process sends to another of roots, and of what belongs to them. Vertices go by their
+/// places in the message; numbers are those of the input, and ascend.
+struct RootMessage {
+    struct Root {
+        std::uint64_t number = 0;
+        std::array<std::uint32_t, 4> corners{};
+        Marker region = 0;
+        std::uint32_t cut_bytes = 0;
+    };
+    template <std::size_t N>
+    struct Tagged {
+        std::uint64_t number = 0;
+        std::array<std::uint32_t, N> vertices{};
+        Marker marker = 0;
+    };
+
+    std::vector<Root> roots;
+    std::vector<std::uint8_t> cuts;  ///< see RootBytes
+    std::vector<std::uint64_t> vertices;
+    std::vector<Point> points;
+    std::vector<Marker> point_markers;  ///< or empty
+    std::vector<double> point_attributes;
+    std::vector<Tagged<3>> facets;
+    std::vector<Tagged<2>> edges;
+
+    /// No bytes where there is nothing.
+    [[nodiscard]] std::vector<std::byte> packed() const;
+    [[nodiscard]] static RootMessage unpacked(std::span<const std::byte> bytes);
+};
+
+}  // namespace octetra::distributed

@@ -1,0 +1,252 @@
+#include <algorithm>
+#include <random>
+
+#include <gtest/gtest.h>
+
+#include <octetra/core/error.hpp>
+#include <octetra/core/orientation.hpp>
+#include <octetra/distributed/adaptive_mesh.hpp>
+#include <octetra/distributed/partition.hpp>
+#include <octetra/reference/history.hpp>
+
+#include "distributed/marked_mesh.hpp"
+#include "distributed/seen_mesh.hpp"
+#include "distributed/shared_folder.hpp"
+#include "distributed/world.hpp"
+#include "support/meshes.hpp"
+#include "support/refinement.hpp"
+
+/// AdaptiveMesh::migrate and rebalance, and what they bring along.
+namespace octetra::distributed {
+namespace {
+
+using test::world;
+
+Selection some(double share, std::uint64_t seed) { return {.random = RandomShare{share, seed}}; }
+
+/// Where each root is to go, the same on all processes: to any of the first so many, or as they
+/// come.
+struct Targets {
+    std::uint64_t seed = 0;
+    int ranks = 1;
+
+    [[nodiscard]] int of(std::uint64_t root) const {
+        std::mt19937_64 random(root * 1000003 + seed);
+        return static_cast<int>(random() % static_cast<std::uint64_t>(ranks));
+    }
+    [[nodiscard]] std::vector<int> of(std::span<const std::uint64_t> roots) const {
+        std::vector<int> ranks_of;
+        for (const std::uint64_t root : roots) ranks_of.push_back(of(root));
+        return ranks_of;
+    }
+};
+
+/// Some with ranks that have nothing.
+Targets random_targets(std::mt19937_64& random) {
+    const auto all = static_cast<std::uint64_t>(world().size());
+    return {random(), random() % 2 == 0 ? world().size() : static_cast<int>(random() % all) + 1};
+}
+
+/// A mesh with everything, and with a vertex of no cell.
+Mesh input_of(std::uint64_t seed) {
+    Mesh mesh = test::marked_lattice(4, seed);
+    mesh.points.push_back({9, 9, 9});
+    mesh.point_markers.push_back(7);
+    mesh.point_attributes.insert(mesh.point_attributes.end(), {1.5, 2.5});
+    return mesh;
+}
+
+AdaptiveMesh shared_out(Mesh mesh, const std::string& partition) {
+    std::vector<int> parts = partition_cells(mesh, world().size(), parse_partition(partition));
+    return AdaptiveMesh::distribute(world(), std::move(mesh), parts);
+}
+
+class MigratingMesh : public testing::TestWithParam<std::uint64_t> {};
+
+TEST_P(MigratingMesh, ToAnywhereBeforeEveryStepChangesNoStepAndNoFile) {
+    std::mt19937_64 random(GetParam());
+    const Mesh input = input_of(GetParam());
+    AdaptiveMesh moving = shared_out(input, "random:" + std::to_string(GetParam()));
+    AdaptiveMesh resting = shared_out(input, "block");
+    reference::History history{input, {}};
+    const test::SharedFolder folder;
+    for (int k = 0; k < 7; ++k) {
+        (void)moving.migrate(random_targets(random).of(moving.roots()));
+        constexpr std::array<double, 3> shares{0.002, 0.05, 0.9};
+        const bool refines = k == 0 || random() % 3 != 0;
+        const Selection selection = some(shares[random() % (refines ? 2 : 3)], random());
+        for (AdaptiveMesh* mesh : {&moving, &resting}) {
+            (void)(refines ? mesh->refine(selection) : mesh->coarsen(selection));
+        }
+        const auto marks = marked_cells(reference::replay(history).back(), selection);
+        history = refines ? reference::refined(history, marks, Scheme::eight)
+                          : reference::coarsened(history, marks);
+        const Mesh found = moving.collect();
+        ASSERT_TRUE(found == reference::replay(history).back().mesh || !world().is_first()) << k;
+        EXPECT_EQ(moving.vertex_count(), resting.vertex_count());
+    }
+    (void)moving.migrate(random_targets(random).of(moving.roots()));
+    moving.save(folder / "moved.octetra");
+    resting.save(folder / "rested.octetra");
+    if (!world().is_first()) return;
+    EXPECT_TRUE(test::content_of(folder / "moved.octetra") ==
+                test::content_of(folder / "rested.octetra"));
+}
+
+std::vector<CellVertices> sorted(std::vector<CellVertices> cells) {
+    std::ranges::sort(cells);
+    return cells;
+}
+
+TEST_P(MigratingMesh, IsAsIfItsCellsHadBeenThereFromTheBeginning) {
+    std::mt19937_64 random(GetParam());
+    const Mesh input = input_of(GetParam());
+    const Targets targets = random_targets(random);
+    std::vector<int> parts;
+    for (std::uint64_t c = 0; c < input.cells.size(); ++c) parts.push_back(targets.of(c));
+    AdaptiveMesh moved = shared_out(input, "random:1");
+    AdaptiveMesh there = AdaptiveMesh::distribute(world(), input, parts);
+    for (AdaptiveMesh* mesh : {&moved, &there}) {
+        for (const std::uint64_t k : {0U, 1U, 2U, 3U}) {
+            (void)mesh->refine(some(k == 2 ? 0.3 : 0.004, GetParam() + k));
+        }
+        (void)mesh->coarsen(some(0.8, GetParam()));
+    }
+    EXPECT_EQ(moved.migrate(targets.of(moved.roots())).changed(), world().size() > 1);
+    const test::SeenMesh a(moved);
+    const test::SeenMesh b(there);
+    EXPECT_EQ(std::ranges::equal(moved.roots(), there.roots()), true);
+    EXPECT_EQ(sorted(a.cells), sorted(b.cells));
+    // The vertex of no cell is where it was.
+    const auto has_lone = [](const test::SeenMesh& seen) {
+        return std::ranges::find(seen.points, Point{9, 9, 9}) != seen.points.end();
+    };
+    if (has_lone(a) == has_lone(b)) {
+        EXPECT_EQ(a.points, b.points);
+        EXPECT_EQ(a.numbers, b.numbers);
+        EXPECT_EQ(a.sharing, b.sharing);
+    }
+    EXPECT_EQ(a.whole == b.whole, true);
+    // And a cell's root is what it was made of.
+    const auto roots_of = moved.root_of_cells();
+    std::vector<std::uint32_t> count(moved.roots().size(), 0);
+    for (const std::uint32_t r : roots_of) ++count[r];
+    EXPECT_EQ(std::ranges::count(count, 0U), 0);
+}
+
+/// Values that tell what they are of.
+struct Told {
+    std::vector<Point> corners_of_cells;  ///< four for each
+    std::vector<Point> of_vertices;
+    ValueLists<std::uint64_t> lists_of_cells;
+    ValueLists<std::uint8_t> lists_of_vertices;
+
+    explicit Told(const AdaptiveMesh& mesh) {
+        const auto number = [&](VertexIndex v) {
+            return static_cast<std::uint64_t>(mesh.vertex_numbers()[v.value()]);
+        };
+        of_vertices.assign(mesh.points().begin(), mesh.points().end());
+        for (const CellVertices& cell : mesh.cells()) {
+            for (const VertexIndex v : cell) {
+                corners_of_cells.push_back(mesh.points()[v.value()]);
+                if (number(v) % 3 != 0) lists_of_cells.values.push_back(number(v));
+            }
+            lists_of_cells.begin.push_back(lists_of_cells.values.size());
+        }
+        for (VertexIndex v{0}; v.value() < mesh.points().size(); ++v) {
+            lists_of_vertices.values.insert(lists_of_vertices.values.end(), number(v) % 5,
+                                            static_cast<std::uint8_t>(number(v)));
+            lists_of_vertices.begin.push_back(lists_of_vertices.values.size());
+        }
+    }
+    friend bool operator==(const Told&, const Told&) = default;
+};
+
+TEST_P(MigratingMesh, BringsTheValuesOfCellsAndVerticesAlong) {
+    std::mt19937_64 random(GetParam());
+    AdaptiveMesh mesh = shared_out(input_of(GetParam()), "random:1");
+    for (int k = 0; k < 6; ++k) {
+        (void)mesh.refine(some(k % 2 == 0 ? 0.02 : 0.002, random()));
+        Told told(mesh);
+        const Migration migration = mesh.migrate(random_targets(random).of(mesh.roots()));
+        told.corners_of_cells = migration.cells(std::move(told.corners_of_cells), 4);
+        told.of_vertices = migration.vertices(std::move(told.of_vertices));
+        told.lists_of_cells = migration.cells(std::move(told.lists_of_cells));
+        told.lists_of_vertices = migration.vertices(std::move(told.lists_of_vertices));
+        EXPECT_EQ(told == Told(mesh), true);
+        EXPECT_TRUE(migration.cells(std::vector<double>(), 0).empty());
+    }
+}
+
+TEST_P(MigratingMesh, RefusesValuesThatDoNotFitItOnAllProcesses) {
+    std::mt19937_64 random(GetParam());
+    AdaptiveMesh mesh = shared_out(input_of(GetParam()), "random:1");
+    (void)mesh.refine(some(0.1, GetParam()));
+    const std::size_t count = mesh.cells().size() + (world().is_first() ? 1 : 0);
+    const Migration migration = mesh.migrate(random_targets(random).of(mesh.roots()));
+    if (!migration.changed()) return;
+    EXPECT_THROW((void)migration.cells(std::vector<double>(count)), InputError);
+    ValueLists<int> lists;
+    lists.begin.assign(count + 1, 0);
+    EXPECT_THROW((void)migration.cells(lists), InputError);
+}
+
+INSTANTIATE_TEST_SUITE_P(Seeds, MigratingMesh, testing::Range<std::uint64_t>(0, 6));
+
+TEST(MigratingToWhereNobodyIs, IsRefusedOnAllProcessesAndChangesNothing) {
+    AdaptiveMesh mesh = shared_out(input_of(1), "block");
+    (void)mesh.refine(some(0.1, 1));
+    const test::SeenMesh before(mesh);
+    std::vector<int> ranks(mesh.roots().size(), 0);
+    if (!ranks.empty() && world().rank() == world().size() - 1) ranks.back() = world().size();
+    EXPECT_THROW((void)mesh.migrate(ranks), InputError);
+    ranks.assign(mesh.roots().size() + (world().is_first() ? 1 : 0), 0);
+    EXPECT_THROW((void)mesh.migrate(ranks), InputError);
+    if (world().size() > 1) {
+        const double limit = world().is_first() ? 1.5 : 1.2;
+        EXPECT_THROW((void)mesh.rebalance({.most_over_mean = limit}), InputError);
+    }
+    EXPECT_THROW((void)mesh.rebalance({.most_over_mean = 0.5}), InputError);
+    EXPECT_TRUE(before == test::SeenMesh(mesh));
+}
+
+double most_over_mean(const AdaptiveMesh& mesh) {
+    const std::uint64_t count = mesh.cells().size();
+    return static_cast<double>(world().max(count)) * world().size() /
+           static_cast<double>(world().sum(count));
+}
+
+TEST(RebalancingMesh, WithABallRefinedIsEvenAndNotMovedAgain) {
+    AdaptiveMesh mesh = shared_out(test::shaken_kuhn(8, 0.2, 1), "block");
+    for (int k = 0; k < 3; ++k) (void)mesh.refine({.spheres = {{{1, 1, 1}, 2.0}}});
+    const Mesh before = mesh.collect();
+    const double uneven = most_over_mean(mesh);
+    EXPECT_EQ(mesh.rebalance().changed(), world().size() > 1);
+    EXPECT_LE(most_over_mean(mesh), 1.1);
+    EXPECT_TRUE(world().size() == 1 || uneven > 1.3);
+    EXPECT_TRUE(mesh.collect() == before);
+    EXPECT_FALSE(mesh.rebalance().changed());
+}
+
+TEST(RebalancingMesh, LeavesMostCellsWhereTheyAre) {
+    AdaptiveMesh mesh = shared_out(test::shaken_kuhn(8, 0.2, 1), "block");
+    (void)mesh.refine({.spheres = {{{1, 1, 1}, 3.0}}});
+    (void)mesh.rebalance({.most_over_mean = 1});
+    (void)mesh.refine({.spheres = {{{1, 1, 1}, 3.0}}});
+    std::vector<int> ranks(mesh.cells().size(), world().rank());
+    ranks = mesh.rebalance({.most_over_mean = 1}).cells(std::move(ranks));
+    const auto stayed = static_cast<std::uint64_t>(std::ranges::count(ranks, world().rank()));
+    EXPECT_GE(static_cast<double>(world().sum(stayed)),
+              0.6 * static_cast<double>(world().sum(mesh.cells().size())));
+}
+
+TEST(RebalancingMesh, DoesNothingWhereNothingMendsIt) {
+    AdaptiveMesh mesh =
+        shared_out(test::one_cell({{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}}), "block");
+    (void)mesh.refine({.all = true});
+    EXPECT_FALSE(mesh.rebalance().changed());
+    EXPECT_EQ(world().sum(mesh.cells().size()), 8U);
+}
+
+}  // namespace
+}  // namespace octetra::distributed

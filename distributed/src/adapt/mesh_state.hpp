@@ -19,6 +19,7 @@ struct AdaptiveMesh::State {
     Sharing<VertexIndex> sharing;
     int step_count = 0;
 
+    State() = default;
     /// Collective. Of a part that is as the input was.
     explicit State(DistributedMesh part);
 

@@ -1,23 +1,24 @@
 #include <algorithm>
-#include <memory>
 #include <optional>
 #include <utility>
 
 #include <fmt/format.h>
 
 #include <octetra/core/error.hpp>
-#include <octetra/distributed/mesh_part.hpp>
 #include <octetra/distributed/profile.hpp>
 
 #include "adapt/mesh_state.hpp"
 #include "adapt/step_options.hpp"
 #include "comm/local_failure.hpp"
-#include "history/replay.hpp"
 #include "history/steps_of.hpp"
 #include "level/incremental/adjacency.hpp"
+#include "migrate/border.hpp"
 #include "migrate/even_parts.hpp"
+#include "migrate/merge_parts.hpp"
 #include "migrate/migration_messages.hpp"
-#include "migrate/move_roots.hpp"
+#include "setup/find_interfaces.hpp"
+#include "sharing/sharing_builder.hpp"
+#include "sharing/vertex_sharing.hpp"
 
 namespace octetra::distributed {
 namespace {
@@ -36,44 +37,82 @@ void check_ranks(const DistributedMesh& mesh, std::span<const int> rank_of_root)
     }
 }
 
-/// Collective. The part that has come, after all steps.
-std::unique_ptr<AdaptiveMesh::State> state_of(const Communicator& processes, MeshPart input,
-                                              CutRoots cuts, std::size_t step_count) {
-    auto state =
-        std::make_unique<AdaptiveMesh::State>(distribute_parts(processes, std::move(input)));
-    const Phase phase(processes, "replay");
-    LocalFailure failure;
-    std::optional<CutMarks> history;
-    failure.attempt([&] { history.emplace(std::move(cuts)); });
-    failure.agree(processes);
-    for (std::size_t t = 0; t < step_count; ++t) {
-        PlannedLevel plan = plan_step(state->mesh, *history, {}, static_cast<int>(t) + 1);
-        state->commit(plan, [] {});
-    }
-    return state;
+/// Collective. What stays and what comes, as one part that has no interfaces yet.
+MergedPart move_roots(const DistributedMesh& mesh, std::span<const int> rank_of_root,
+                      LocalFailure& failure) {
+    const Communicator& processes = mesh.processes;
+    const Phase phase(processes, "move roots");
+    const HasLists has(mesh);
+    Departures departures;
+    std::vector<std::vector<std::byte>> outboxes;
+    failure.attempt([&] {
+        departures = departures_of(mesh, rank_of_root);
+        outboxes = packed_messages(departures);
+    });
+    MergedPart merged;
+    if (failure.max_unless_failed(processes, 0) == LocalFailure::somewhere) return merged;
+    failure.attempt([&] {
+        std::vector<RootMessage> messages;
+        for (const auto& inbox : processes.all_to_all(outboxes)) {
+            messages.push_back(RootMessage::unpacked(inbox));
+        }
+        outboxes.clear();
+        const Arrivals arrivals =
+            arrivals_of(messages, has, mesh.attributes_per_point, mesh.level_begin.size());
+        messages.clear();
+        merged = merge_parts(mesh, departures, arrivals, has);
+    });
+    return merged;
 }
 
-/// Collective. Of a state in canonical order, where each cell had the number `cells_outside` says.
-Migration migrate_ordered(AdaptiveMesh::State& state, std::span<const CellIndex> cells_outside,
-                          std::span<const int> rank_of_root,
-                          std::unique_ptr<AdaptiveMesh::State>& after) {
-    const DistributedMesh& mesh = state.mesh;
-    LocalFailure failure;
-    CutRoots cuts;
-    failure.attempt([&] { cuts = cut_roots_of(steps_of(mesh), mesh.cell_ancestors.first); });
-    MovedRoots moved = move_roots(mesh, cuts, rank_of_root, failure);
-    failure.agree(mesh.processes);
-    after = state_of(mesh.processes, std::move(moved.input), std::move(moved.cuts),
-                     mesh.level_begin.size());
-    Migration migration;
+/// Collective. Finds interfaces and sharers of a part whose vertices have their numbers.
+void find_border(AdaptiveMesh::State& state, LocalFailure& failure) {
+    const Phase phase(state.mesh.processes, "find border");
+    DistributedMesh input;
+    failure.attempt([&] { input = input_of(state.mesh); });
+    failure.agree(state.mesh.processes);
+    const std::vector<Interface> of_input = find_interfaces(input);
+    state.sharing = find_vertex_sharing(input);
+    SharingBuilder<VertexIndex> shared(state.sharing, state.mesh.processes.rank());
     failure.attempt([&] {
-        const CanonicalOrder order(after->mesh);
-        migration = migration_of(
-            {&mesh, cells_outside, &state.numbers, rank_of_root},
-            {&after->mesh, order.cells_before(), &after->numbers, moved.came_from}, state.sharing);
+        for (BorderWith& border : border_after_steps(state.mesh, of_input)) {
+            shared.share(border.interface.rank, std::move(border.midpoints));
+            state.mesh.interfaces.push_back(std::move(border.interface));
+        }
+        shared.prepare(
+            [&](VertexIndex v) { return static_cast<std::uint64_t>(state.numbers.of_vertex[v]); });
     });
-    failure.agree(mesh.processes);
-    return migration;
+    failure.agree(state.mesh.processes);
+    shared.commit();
+}
+
+/// Collective. The state after a move, of one in canonical order, where each cell had the number
+/// that `cells_outside` says.
+AdaptiveMesh::State state_after(const AdaptiveMesh::State& state,
+                                std::span<const CellIndex> cells_outside,
+                                std::span<const int> rank_of_root, Migration& migration) {
+    const Communicator& processes = state.mesh.processes;
+    LocalFailure failure;
+    MergedPart merged = move_roots(state.mesh, rank_of_root, failure);
+    std::vector<GlobalVertex> numbers;
+    failure.attempt([&] {
+        migration = migration_of({&state.mesh, rank_of_root, cells_outside},
+                                 {&merged.mesh, merged.rank_of_root}, state.sharing,
+                                 std::move(merged.kept_vertices));
+        numbers.assign(state.numbers.of_vertex.begin(), state.numbers.of_vertex.end());
+    });
+    failure.agree(processes);
+    numbers = migration.vertices(std::move(numbers));
+    AdaptiveMesh::State after;
+    after.mesh = std::move(merged.mesh);
+    failure.attempt([&] {
+        after.numbers.of_vertex.assign(numbers.begin(), numbers.end());
+        after.numbers.vertex_count = state.numbers.vertex_count;
+        after.step_count = state.step_count;
+    });
+    failure.agree(processes);
+    find_border(after, failure);
+    return after;
 }
 
 }  // namespace
@@ -90,10 +129,10 @@ Migration migrate_state(AdaptiveMesh::State& state, std::span<const int> rank_of
     std::optional<CanonicalOrder> order;
     failure.attempt([&] { order.emplace(state.mesh); });
     failure.agree(processes);
-    std::unique_ptr<AdaptiveMesh::State> after;
-    Migration migration = migrate_ordered(state, order->cells_before(), rank_of_root, after);
+    Migration migration;
+    AdaptiveMesh::State after = state_after(state, order->cells_before(), rank_of_root, migration);
     order.reset();
-    state = std::move(*after);
+    state = std::move(after);
     return migration;
 }
 

@@ -67,32 +67,16 @@ private:
     IndexVector<VertexIndex, std::uint32_t> last_met_;  ///< with which partner's cells
 };
 
-/// The vertices that this process has before and after.
-Migration::Message kept_vertices(const SideOfMove& before, const SideOfMove& after) {
-    Migration::Message kept;
-    const auto& numbers = before.numbers->of_vertex;
-    VertexIndex v{0};
-    for (VertexIndex w{0}; w < after.numbers->of_vertex.end_index(); ++w) {  // both ascend
-        const GlobalVertex number = after.numbers->of_vertex[w];
-        while (v < numbers.end_index() && numbers[v] < number) ++v;
-        if (v == numbers.end_index() || numbers[v] != number) continue;
-        kept.sent.push_back(v.value());
-        kept.received.push_back(w.value());
-    }
-    return kept;
-}
-
 }  // namespace
 
 Migration migration_of(const SideOfMove& before, const SideOfMove& after,
-                       const Sharing<VertexIndex>& sharing) {
+                       const Sharing<VertexIndex>& sharing, Migration::Message kept) {
     const Communicator& processes = before.mesh->processes;
     const std::vector<int> partners = partners_of(before, after);
     Side out(before, partners);
     Side in(after, partners);
     Migration::Entities cells{before.mesh->cells.size(), after.mesh->cells.size(), {}};
     Migration::Entities vertices{before.mesh->points.size(), after.mesh->points.size(), {}};
-    Migration::Message kept = kept_vertices(before, after);
     IndexVector<VertexIndex, std::uint8_t> is_here;
     is_here.assign(after.mesh->points.size(), 0);
     IndexVector<VertexIndex, std::uint8_t> has_come = is_here;

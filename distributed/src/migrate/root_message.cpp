@@ -24,7 +24,7 @@ RootMessage RootMessage::unpacked(std::span<const std::byte> bytes) {
     RootMessage message;
     message.roots = unpacker.take<Root>();
     message.cuts = unpacker.take<std::uint8_t>();
-    message.vertices = unpacker.take<std::uint64_t>();
+    message.vertices = unpacker.take<GlobalVertex>();
     message.points = unpacker.take<Point>();
     message.point_markers = unpacker.take<Marker>();
     message.point_attributes = unpacker.take<double>();

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include <octetra/core/mesh.hpp>
+#include <octetra/distributed/distributed_mesh.hpp>
 
 namespace octetra::distributed {
 
@@ -28,7 +29,7 @@ struct RootMessage {
 
     std::vector<Root> roots;
     std::vector<std::uint8_t> cuts;  ///< see RootBytes
-    std::vector<std::uint64_t> vertices;
+    std::vector<GlobalVertex> vertices;
     std::vector<Point> points;
     std::vector<Marker> point_markers;  ///< or empty
     std::vector<double> point_attributes;

@@ -76,11 +76,6 @@ Adaptation AdaptiveMesh::State::refine(const std::function<MarkedCells()>& mark,
     PlannedLevel plan = plan_level(mesh, mark, refine_options, tuning, level);
     if (!plan.changes_anything()) return unchanged(mesh);
     Adaptation adaptation;
-    commit(plan, [&] { adaptation = adaptation_of(plan, mesh); });
-    return adaptation;
-}
-
-void AdaptiveMesh::State::commit(PlannedLevel& plan, const std::function<void()>& prepare) {
     NewNumbers new_numbers(numbers);
     SharingBuilder<VertexIndex> shared(sharing, mesh.processes.rank());
     LocalFailure failure;
@@ -95,7 +90,7 @@ void AdaptiveMesh::State::commit(PlannedLevel& plan, const std::function<void()>
         }
         shared.prepare(
             [&](VertexIndex v) { return static_cast<std::uint64_t>(numbers.of_vertex[v]); });
-        prepare();
+        adaptation = adaptation_of(plan, mesh);
     });
     failure.agree(mesh.processes);
 
@@ -103,6 +98,7 @@ void AdaptiveMesh::State::commit(PlannedLevel& plan, const std::function<void()>
     shared.commit();
     new_numbers.keep();
     ++step_count;
+    return adaptation;
 }
 
 }  // namespace octetra::distributed

@@ -26,10 +26,6 @@ struct AdaptiveMesh::State {
     /// Collective.
     Adaptation refine(const std::function<MarkedCells()>& mark, const StepOptions& options,
                       const Tuning& tuning = {});
-
-    /// Collective. Numbers the vertices of a planned level, finds who shares them, and commits it.
-    /// Just before, `prepare` may look at the level, and may throw; then nothing has changed.
-    void commit(PlannedLevel& plan, const std::function<void()>& prepare);
 };
 
 /// What a step that changes nothing did.

@@ -37,19 +37,20 @@ void check_ranks(const DistributedMesh& mesh, std::span<const int> rank_of_root)
     }
 }
 
-/// Collective. What stays and what comes, as one part that has no interfaces yet.
-MergedPart move_roots(const DistributedMesh& mesh, std::span<const int> rank_of_root,
-                      LocalFailure& failure) {
+/// Collective. What stays and what comes, as one part that has no interfaces yet. Nothing where
+/// this process has failed, and on all where one had before.
+std::optional<MergedPart> move_roots(const DistributedMesh& mesh, std::span<const int> rank_of_root,
+                                     LocalFailure& failure) {
     const Communicator& processes = mesh.processes;
     const Phase phase(processes, "move roots");
     const HasLists has(mesh);
-    Departures departures;
+    std::optional<Departures> departures;  // made, even of nothing, it takes memory
+    std::optional<MergedPart> merged;
     std::vector<std::vector<std::byte>> outboxes;
     failure.attempt([&] {
         departures = departures_of(mesh, rank_of_root);
-        outboxes = packed_messages(departures);
+        outboxes = packed_messages(*departures);
     });
-    MergedPart merged;
     if (failure.max_unless_failed(processes, 0) == LocalFailure::somewhere) return merged;
     failure.attempt([&] {
         std::vector<RootMessage> messages;
@@ -60,7 +61,7 @@ MergedPart move_roots(const DistributedMesh& mesh, std::span<const int> rank_of_
         const Arrivals arrivals =
             arrivals_of(messages, has, mesh.attributes_per_point, mesh.level_begin.size());
         messages.clear();
-        merged = merge_parts(mesh, departures, arrivals, has);
+        merged = merge_parts(mesh, *departures, arrivals, has);
     });
     return merged;
 }
@@ -68,11 +69,11 @@ MergedPart move_roots(const DistributedMesh& mesh, std::span<const int> rank_of_
 /// Collective. Finds interfaces and sharers of a part whose vertices have their numbers.
 void find_border(AdaptiveMesh::State& state, LocalFailure& failure) {
     const Phase phase(state.mesh.processes, "find border");
-    DistributedMesh input;
+    std::optional<DistributedMesh> input;
     failure.attempt([&] { input = input_of(state.mesh); });
     failure.agree(state.mesh.processes);
-    const std::vector<Interface> of_input = find_interfaces(input);
-    state.sharing = find_vertex_sharing(input);
+    const std::vector<Interface> of_input = find_interfaces(*input);
+    state.sharing = find_vertex_sharing(*input);
     SharingBuilder<VertexIndex> shared(state.sharing, state.mesh.processes.rank());
     failure.attempt([&] {
         for (BorderWith& border : border_after_steps(state.mesh, of_input)) {
@@ -88,30 +89,33 @@ void find_border(AdaptiveMesh::State& state, LocalFailure& failure) {
 
 /// Collective. The state after a move, of one in canonical order, where each cell had the number
 /// that `cells_outside` says.
-AdaptiveMesh::State state_after(const AdaptiveMesh::State& state,
-                                std::span<const CellIndex> cells_outside,
-                                std::span<const int> rank_of_root, Migration& migration) {
+std::optional<AdaptiveMesh::State> state_after(const AdaptiveMesh::State& state,
+                                               std::span<const CellIndex> cells_outside,
+                                               std::span<const int> rank_of_root,
+                                               Migration& migration) {
     const Communicator& processes = state.mesh.processes;
     LocalFailure failure;
-    MergedPart merged = move_roots(state.mesh, rank_of_root, failure);
+    std::optional<MergedPart> merged = move_roots(state.mesh, rank_of_root, failure);
+    failure.agree(processes);
     std::vector<GlobalVertex> numbers;
     failure.attempt([&] {
         migration = migration_of({&state.mesh, rank_of_root, cells_outside},
-                                 {&merged.mesh, merged.rank_of_root}, state.sharing,
-                                 std::move(merged.kept_vertices));
+                                 {&merged->mesh, merged->rank_of_root}, state.sharing,
+                                 std::move(merged->kept_vertices));
         numbers.assign(state.numbers.of_vertex.begin(), state.numbers.of_vertex.end());
     });
     failure.agree(processes);
     numbers = migration.vertices(std::move(numbers));
-    AdaptiveMesh::State after;
-    after.mesh = std::move(merged.mesh);
+    std::optional<AdaptiveMesh::State> after;
     failure.attempt([&] {
-        after.numbers.of_vertex.assign(numbers.begin(), numbers.end());
-        after.numbers.vertex_count = state.numbers.vertex_count;
-        after.step_count = state.step_count;
+        after.emplace();
+        after->mesh = std::move(merged->mesh);
+        after->numbers.of_vertex.assign(numbers.begin(), numbers.end());
+        after->numbers.vertex_count = state.numbers.vertex_count;
+        after->step_count = state.step_count;
     });
     failure.agree(processes);
-    find_border(after, failure);
+    find_border(*after, failure);
     return after;
 }
 
@@ -130,9 +134,10 @@ Migration migrate_state(AdaptiveMesh::State& state, std::span<const int> rank_of
     failure.attempt([&] { order.emplace(state.mesh); });
     failure.agree(processes);
     Migration migration;
-    AdaptiveMesh::State after = state_after(state, order->cells_before(), rank_of_root, migration);
+    std::optional<AdaptiveMesh::State> after =
+        state_after(state, order->cells_before(), rank_of_root, migration);
     order.reset();
-    state = std::move(after);
+    state = *std::move(after);
     return migration;
 }
 

@@ -64,7 +64,9 @@ std::uint64_t most_after(const Communicator& processes, std::span<const int> ran
 std::vector<int> ranks_of_parts(const Communicator& processes, std::span<const int> parts,
                                 std::span<const std::uint64_t> weights, LocalFailure& failure) {
     std::vector<Share> shares;
+    std::vector<int> rank_of_part;
     failure.attempt([&] {
+        rank_of_part.resize(static_cast<std::size_t>(processes.size()));
         std::vector<std::uint64_t> sums(static_cast<std::size_t>(processes.size()), 0);
         for (std::size_t i = 0; i < parts.size(); ++i) {
             sums[static_cast<std::size_t>(parts[i])] += weights[i];
@@ -75,7 +77,6 @@ std::vector<int> ranks_of_parts(const Communicator& processes, std::span<const i
         }
     });
     if (failure.max_unless_failed(processes, 0) == LocalFailure::somewhere) return {};
-    std::vector<int> rank_of_part;
     failure.attempt([&] {
         const auto gathered = processes.gather(shares);
         if (!processes.is_first()) return;
@@ -84,8 +85,7 @@ std::vector<int> ranks_of_parts(const Communicator& processes, std::span<const i
         rank_of_part = matched(std::move(all), gathered.size());
     });
     if (failure.max_unless_failed(processes, 0) == LocalFailure::somewhere) return {};
-    failure.attempt([&] { processes.broadcast(rank_of_part); });
-    if (failure.max_unless_failed(processes, 0) == LocalFailure::somewhere) return {};
+    processes.broadcast(rank_of_part);  // into memory that is there
     return rank_of_part;
 }
 

@@ -34,8 +34,10 @@ void exchange(const Communicator& processes, const std::vector<int>& partners,
         }
     });
     failure.agree(processes);
+    std::vector<Bytes> inboxes;
+    failure.attempt([&] { inboxes = processes.exchange_with(others, outboxes); });
+    failure.agree(processes);  // a process without memory has sent nothing
     failure.attempt([&] {
-        auto inboxes = processes.exchange_with(others, outboxes);
         outboxes.clear();
         const auto place = std::ranges::lower_bound(others, processes.rank()) - others.begin();
         inboxes.insert(inboxes.begin() + place, std::move(own));

@@ -110,7 +110,7 @@ private:
     [[nodiscard]] ValueLists<T> moved(const Entities& entities, ValueLists<T> lists) const {
         static_assert(std::is_trivially_copyable_v<T> && !std::is_same_v<T, bool>);
         if (!changed_) return lists;
-        ValueLists<T> after;
+        ValueLists<T> after{.begin = {}, .values = {}};  // which takes no memory yet
         move_lists(entities, lists.begin, std::as_bytes(std::span(lists.values)), sizeof(T),
                    after.begin, [&](std::size_t count) {
                        after.values.resize(count);

@@ -1,27 +1,34 @@
 #include "adapt/adaptation.hpp"
 
 #include <cstdint>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
+#include <variant>
 #include <vector>
 
 #include <fmt/format.h>
 
 #include <octetra/core/files/checkpoint.hpp>
+#include <octetra/core/files/maps_files.hpp>
 #include <octetra/core/mesh_source.hpp>
 #include <octetra/distributed/adaptive_mesh.hpp>
 #include <octetra/distributed/profile.hpp>
 #include <octetra/verify/verify.hpp>
 
 #include "adapt/judge_result.hpp"
+#include "adapt/maps_since.hpp"
 #include "adapt/predicted_by_steps.hpp"
 #include "adapt/run_script.hpp"
 #include "adapt/write_result.hpp"
 #include "answer.hpp"
 #include "commands/files_apart.hpp"
+#include "commands/input_check.hpp"
 #include "commands/mesh_options.hpp"
 #include "commands/parallel_options.hpp"
 #include "commands/profile_options.hpp"
+#include "commands/refine/maps_of_all.hpp"
 #include "commands/report_line.hpp"
 #include "commands/share_out.hpp"
 #include "script/check_script.hpp"
@@ -40,12 +47,13 @@ void check_files(const AdaptationOptions& options, const Script& script,
                                  file_named("--partition", partition.path)};
     const std::vector<NamedFiles> lists = files_read_by(script);
     read.insert(read.end(), lists.begin(), lists.end());
-    const std::vector<NamedFiles> written{mesh_to_write("-o", options.output, ranks),
-                                          file_named("--profile", options.profile.profile),
-                                          file_named("--trace", options.profile.trace)};
-    for (const NamedFiles& beside : {written[1], written[2]}) {
+    std::vector<NamedFiles> written{file_named("--maps", options.maps),
+                                    file_named("--profile", options.profile.profile),
+                                    file_named("--trace", options.profile.trace)};
+    for (const NamedFiles& beside : written) {
         for (const auto& file : beside.files) check_side_file(beside.argument, file);
     }
+    written.insert(written.begin(), mesh_to_write("-o", options.output, ranks));
     check_files_apart(read, written);
     check_outputs_of(script, read, written, ranks);
     check_lists_of(script);
@@ -86,6 +94,67 @@ distributed::AdaptiveMesh load(const AdaptationOptions& options,
                                            partition_of(options.parallel));
 }
 
+/// Collective. What a history began with, or the mesh that the first process has read.
+JudgedMesh input_to_judge(const AdaptationOptions& options, const Mesh& mesh,
+                          const distributed::Communicator& world) {
+    const bool has_history = is_checkpoint(options.input.path);
+    Mesh of_history;
+    world.on_first([&] {
+        if (has_history) of_history = read_checkpoint(options.input.path).input;
+    });
+    verify::MeshSlice slice = verify::share_out(has_history ? of_history : mesh, world);
+    const std::uint32_t index_base = slice.lists.index_base;
+    return {options.input.path, index_base, std::move(slice)};
+}
+
+/// Collective. Of the mesh that the first process has read.
+distributed::AdaptiveMesh load_or_share_out(Mesh mesh, const AdaptationOptions& options,
+                                            const Script& script,
+                                            const distributed::Partition& partition,
+                                            const distributed::Communicator& world) {
+    if (is_checkpoint(options.input.path)) {
+        return distributed::in_phase(world, "read", [&] { return load(options, world); });
+    }
+    return distributed::AdaptiveMesh(
+        share_out(std::move(mesh), partition, world,
+                  [&](const Mesh& whole) { return predicted_by_steps(whole, script); }));
+}
+
+/// Collective. The request that the only step is, of the mesh as it was read.
+verify::Request request_of(RefineStep step, const MeshFacts& read,
+                           const distributed::Communicator& world) {
+    world.on_first([&] {
+        complete_selection(step.selection, step.typed.selection,
+                           {read.has_regions, read.index_base, read.cells});
+    });
+    world.broadcast(step.selection.cells);
+    return {step.selection, step.scheme, step.typed.levels};
+}
+
+/// Collective. Does the result keep what it claims?
+bool is_valid(const distributed::AdaptiveMesh& mesh, JudgedMesh coarse,
+              const AdaptationOptions& options, const Script& script, const MeshFacts& read,
+              const CellsSince* since) {
+    const distributed::Communicator& world = mesh.processes();
+    if (options.claim == Claim::coarsens_mesh) {
+        const auto& step = std::get<CoarsenStep>(script.steps.front().step);
+        return is_valid_coarsening(mesh, {options.input.path, step.typed, step.selection},
+                                   options.output);
+    }
+    Judgement judgement{.fine = options.output, .is_coarse_checked = options.check};
+    if (options.claim == Claim::refines_mesh) {
+        judgement.request =
+            request_of(std::get<RefineStep>(script.steps.front().step), read, world);
+    }
+    RefinementMaps maps;
+    if (since != nullptr) {
+        MapsSince source(mesh, *since);
+        maps = maps_of_all(source, world);
+        judgement.maps = &maps;
+    }
+    return is_valid_refinement(mesh, std::move(coarse), judgement);
+}
+
 }  // namespace
 
 void adapt(const AdaptationOptions& options, const Script& script,
@@ -93,45 +162,60 @@ void adapt(const AdaptationOptions& options, const Script& script,
     const distributed::Partition partition = partition_of(options.parallel);
     const distributed::StepOptions steps{.synchronisation = synchronisation_of(options.parallel),
                                          .max_cells = options.max_cells};
-    const bool has_history = is_checkpoint(options.input.path);
     Stopwatch watch;
     Mesh mesh;
-    MeshFacts input;  // on the first process
+    MeshFacts read;  // on the first process
     distributed::in_phase(world, "read", [&] {
         world.on_first([&] {
             check_files(options, script, partition, world.size());
-            if (has_history) {
-                input = facts_of_checkpoint(options.input.path);
+            if (is_checkpoint(options.input.path)) {
+                read = facts_of_checkpoint(options.input.path);
             } else {
                 mesh = read_input(options.input);
-                input = WholeMesh(mesh).facts();
+                read = WholeMesh(mesh).facts();
             }
-            check_regions_of(script, input);
+            check_regions_of(script, read);
         });
     });
-    verify::MeshSlice coarse;
+    JudgedMesh coarse;
+    if (options.verify && options.claim == Claim::refines_input) {
+        coarse = input_to_judge(options, mesh, world);
+    }
+    auto adaptive = load_or_share_out(std::move(mesh), options, script, partition, world);
+    const auto report = [&](std::string_view doing) {
+        const std::uint64_t cells = world.sum(adaptive.cells().size());
+        if (!world.is_first()) return;
+        report_line(options.quiet, doing, adaptive.vertex_count(), cells, watch.lap());
+    };
+    report(fmt::format("read {}", options.input.path));
+    if (options.check) {
+        check_input(mesh_to_judge(adaptive, {}).slice, options.input.path, world);
+        report(fmt::format("checked {}", options.input.path));
+    }
+    if (options.verify && options.claim == Claim::refines_mesh) {
+        coarse = mesh_to_judge(adaptive, options.input.path);
+    }
+    std::optional<CellsSince> since;
+    if (!options.maps.empty()) since.emplace(adaptive);
+    const auto follow = [&](const distributed::Adaptation& step) {
+        if (since) since->follow(step);
+    };
+    run_script(adaptive, script, {read, steps, follow, options.quiet}, watch);
     if (options.verify) {
-        Mesh input_of_history;
-        world.on_first([&] {
-            if (has_history) input_of_history = read_checkpoint(options.input.path).input;
-        });
-        coarse = verify::share_out(has_history ? input_of_history : mesh, world);
+        if (!is_valid(adaptive, std::move(coarse), options, script, read,
+                      since ? &*since : nullptr)) {
+            write_profile(world, options.profile, options.quiet);
+            throw AnswerIsNo{};
+        }
+        report("verified");
     }
-    auto adaptive =
-        has_history ? distributed::in_phase(world, "read", [&] { return load(options, world); })
-                    : distributed::AdaptiveMesh(share_out(
-                          std::move(mesh), partition, world,
-                          [&](const Mesh& whole) { return predicted_by_steps(whole, script); }));
-    if (world.is_first()) {
-        report_line(options.quiet, fmt::format("read {}", options.input.path), input.vertices,
-                    input.cells, watch.lap());
+    write_and_report(adaptive, options, watch);
+    if (since) {
+        const distributed::Phase phase(world, "write");
+        MapsSince source(adaptive, *since);
+        write_maps(source, options.maps);
     }
-    run_script(adaptive, script, {input, steps, options.quiet}, watch);
-    const Judgement judgement{.fine = options.output, .coarse = options.input.path};
-    const bool valid = !options.verify || is_valid_result(adaptive, std::move(coarse), judgement);
-    if (valid) write_and_report(adaptive, options, watch);
     write_profile(world, options.profile, options.quiet);
-    if (!valid) throw AnswerIsNo{};
 }
 
 }  // namespace octetra::cli

@@ -13,6 +13,13 @@
 
 namespace octetra::cli {
 
+/// What --verify asks of the result.
+enum class Claim {
+    refines_input,  ///< a refinement of MESH, or of what its history began with
+    refines_mesh,   ///< of MESH, as it was read, the one that the only step asks for
+    coarsens_mesh,  ///< the coarsening of MESH that the only step asks for
+};
+
 /// What the commands that adapt a mesh by steps have in common, as it was typed.
 struct AdaptationOptions {
     InputOptions input;
@@ -20,7 +27,10 @@ struct AdaptationOptions {
     ParallelOptions parallel;
     ProfileOptions profile;
     std::uint64_t max_cells = std::numeric_limits<std::uint64_t>::max();
+    std::string maps;    ///< of MESH, as it was read; goes with refinement alone
+    bool check = false;  ///< judge MESH, as it was read
     bool verify = false;
+    Claim claim = Claim::refines_input;
     bool quiet = false;
 };
 

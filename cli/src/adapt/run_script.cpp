@@ -58,14 +58,14 @@ public:
         const int levels = step.typed.levels;
         distributed::StepOptions options = run_->options;
         options.scheme = step.scheme;
-        const int done = refine(*mesh_, step, options, level_progress(run_->quiet, levels));
+        const int done = refine(*mesh_, step, options, followers(levels));
         return {levels_done("refined", done), idle_levels(done, levels, "no cell was marked")};
     }
 
     Done operator()(CoarsenStep step) {
         complete(step.selection, step.typed.selection);
         const int levels = step.typed.levels;
-        const int done = coarsen(*mesh_, step, level_progress(run_->quiet, levels));
+        const int done = coarsen(*mesh_, step, followers(levels));
         return {levels_done("coarsened", done), idle_levels(done, levels, "no vertex could go")};
     }
 
@@ -74,6 +74,10 @@ public:
     }
 
 private:
+    [[nodiscard]] Followers followers(int levels) const {
+        return {level_progress(run_->quiet, levels), run_->on_step};
+    }
+
     /// Collective.
     void complete(Selection& selection, const SelectionOptions& typed) const {
         const std::uint64_t cells = counts_of(*mesh_).cells;

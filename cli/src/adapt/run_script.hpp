@@ -1,5 +1,7 @@
 #pragma once
 
+#include <functional>
+
 #include <octetra/core/mesh_source.hpp>
 #include <octetra/distributed/adaptive_mesh.hpp>
 
@@ -11,6 +13,7 @@ namespace octetra::cli {
 struct ScriptRun {
     MeshFacts input;  ///< of the mesh before the first step
     distributed::StepOptions options;
+    std::function<void(const distributed::Adaptation&)> on_step = {};  ///< of each level
     bool quiet = false;
 };
 

@@ -13,12 +13,14 @@ namespace {
 using distributed::Adaptation;
 using distributed::AdaptiveMesh;
 
-/// Calls change(), a collective step, at most so often, until it changes nothing.
-int repeat(AdaptiveMesh& mesh, int levels, const OnLevel& on_level, auto&& change) {
+/// Takes a step, which is collective, at most so often, until it changes nothing.
+int repeat(AdaptiveMesh& mesh, int levels, const Followers& followers, auto&& take_step) {
     for (int level = 1; level <= levels; ++level) {
-        if (!change()) return level - 1;
+        const Adaptation step = take_step();
+        if (!step.changed) return level - 1;
+        if (followers.on_step) followers.on_step(step);
         const std::uint64_t cells = mesh.processes().sum(mesh.cells().size());
-        if (on_level && mesh.processes().is_first()) on_level(level, cells);
+        if (followers.on_level && mesh.processes().is_first()) followers.on_level(level, cells);
     }
     return levels;
 }
@@ -42,31 +44,31 @@ std::vector<std::uint8_t> may_go(const AdaptiveMesh& mesh, const CoarsenStep& st
 }  // namespace
 
 int refine(AdaptiveMesh& mesh, const RefineStep& step, const distributed::StepOptions& options,
-           const OnLevel& on_level) {
+           const Followers& followers) {
     if (step.selection.cells.empty()) {
-        return repeat(mesh, step.typed.levels, on_level,
-                      [&] { return mesh.refine(step.selection, options).changed; });
+        return repeat(mesh, step.typed.levels, followers,
+                      [&] { return mesh.refine(step.selection, options); });
     }
     std::vector<std::uint8_t> listed;
     if (step.typed.levels > 0) listed = listed_cells(mesh, step.selection.cells);
-    return repeat(mesh, step.typed.levels, on_level, [&] {
+    return repeat(mesh, step.typed.levels, followers, [&] {
         std::vector<std::uint8_t> marked = listed;
         add_marked_cells(mesh, step.selection, marked);
-        const Adaptation done = mesh.refine(std::span<const std::uint8_t>(marked), options);
+        Adaptation done = mesh.refine(std::span<const std::uint8_t>(marked), options);
         std::vector<std::uint8_t> descendants;
         descendants.reserve(mesh.cells().size());
         for (const std::uint32_t parent : done.cells.parents()) {
             descendants.push_back(listed[parent]);
         }
         listed = std::move(descendants);
-        return done.changed;
+        return done;
     });
 }
 
-int coarsen(AdaptiveMesh& mesh, const CoarsenStep& step, const OnLevel& on_level) {
-    return repeat(mesh, step.typed.levels, on_level, [&] {
+int coarsen(AdaptiveMesh& mesh, const CoarsenStep& step, const Followers& followers) {
+    return repeat(mesh, step.typed.levels, followers, [&] {
         const std::vector<std::uint8_t> marked = may_go(mesh, step);
-        return mesh.coarsen(std::span<const std::uint8_t>(marked)).changed;
+        return mesh.coarsen(std::span<const std::uint8_t>(marked));
     });
 }
 

@@ -11,15 +11,19 @@
 /// Steps as the library makes them. The lists of cells of their selections are complete.
 namespace octetra::cli {
 
-using OnLevel = std::function<void(int level, std::uint64_t cells)>;
+/// Who is told of each level that changed anything; functions may be empty.
+struct Followers {
+    std::function<void(int level, std::uint64_t cells)> on_level;  ///< on the first process
+    std::function<void(const distributed::Adaptation&)> on_step;   ///< on all; collective
+};
 
 /// Collective. Repeats marking and refining so often as the step says; what octetra refine does to
 /// a mesh that has the same cells. A list of cells marks their descendants at later levels. Returns
-/// how many levels changed anything. `on_level`, which may be empty, is told on the first process.
+/// how many levels changed anything.
 int refine(distributed::AdaptiveMesh& mesh, const RefineStep& step,
-           const distributed::StepOptions& options, const OnLevel& on_level);
+           const distributed::StepOptions& options, const Followers& followers);
 
 /// Collective. Repeats marking and coarsening. Returns how many levels changed anything.
-int coarsen(distributed::AdaptiveMesh& mesh, const CoarsenStep& step, const OnLevel& on_level);
+int coarsen(distributed::AdaptiveMesh& mesh, const CoarsenStep& step, const Followers& followers);
 
 }  // namespace octetra::cli

@@ -27,10 +27,12 @@ void coarsen(const CoarsenOptions& options, const distributed::Communicator& wor
                         "file, as octetra refine or adapt with -o FILE.octetra writes",
                         input));
     }
+    AdaptationOptions adaptation = options.adaptation;
+    adaptation.claim = Claim::coarsens_mesh;
     const Script one_step{
         {},
         {{0, "coarsen", CoarsenStep{options.coarsening, parse_coarsening(options.coarsening)}}}};
-    adapt(options.adaptation, one_step, measured(world, options.adaptation.profile));
+    adapt(adaptation, one_step, measured(world, options.adaptation.profile));
 }
 
 }  // namespace
@@ -53,7 +55,7 @@ void add_coarsen(CLI::App& program, const distributed::Communicator& world) {
     add_profile_options(*command, options->adaptation.profile);
     command->add_flag(
         "--verify", options->adaptation.verify,
-        "judge the result as a refinement of the history's input, and write it if it is valid");
+        "judge the result as octetra verify --coarsened-from does, and write it if it is valid");
     command->add_flag("--quiet", options->adaptation.quiet, "print nothing but notes and errors");
     command->footer(
         "Example:\n"

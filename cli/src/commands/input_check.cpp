@@ -1,6 +1,8 @@
 #include "commands/input_check.hpp"
 
+#include <cstdint>
 #include <cstdio>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -11,6 +13,21 @@
 #include "verdict/print_verdict.hpp"
 
 namespace octetra::cli {
+namespace {
+
+/// Throws InputError where the mesh is not valid, on all processes.
+void refuse_unless_valid(const verify::Verdict& verdict, const JudgedFiles& judged,
+                         const distributed::Communicator& world) {
+    if (verdict.valid()) return;
+    if (world.is_first()) {
+        print_verdict(verdict, judged);
+        std::fflush(stdout);
+    }
+    throw InputError(
+        fmt::format("{}: --check finds the mesh not valid; nothing was written", judged.fine));
+}
+
+}  // namespace
 
 void check_input(const Mesh& mesh, const std::string& path,
                  const distributed::Communicator& world) {
@@ -18,13 +35,15 @@ void check_input(const Mesh& mesh, const std::string& path,
     const verify::Verdict verdict =
         world.size() == 1 ? verify::verify_mesh(mesh)
                           : verify::verify_mesh(verify::share_out(mesh, world), world);
-    if (verdict.valid()) return;
-    if (world.is_first()) {
-        print_verdict(verdict, {.fine = path, .fine_index_base = mesh.index_base});
-        std::fflush(stdout);
-    }
-    throw InputError(
-        fmt::format("{}: --check finds the mesh not valid; nothing was written", path));
+    refuse_unless_valid(verdict, {.fine = path, .fine_index_base = mesh.index_base}, world);
+}
+
+void check_input(verify::MeshSlice mesh, const std::string& path,
+                 const distributed::Communicator& world) {
+    const distributed::Phase phase(world, "check");
+    const std::uint32_t index_base = mesh.lists.index_base;
+    const verify::Verdict verdict = verify::verify_mesh(std::move(mesh), world);
+    refuse_unless_valid(verdict, {.fine = path, .fine_index_base = index_base}, world);
 }
 
 }  // namespace octetra::cli

@@ -4,11 +4,16 @@
 
 #include <octetra/core/mesh.hpp>
 #include <octetra/distributed/communicator.hpp>
+#include <octetra/verify/mesh_slice.hpp>
 
 namespace octetra::cli {
 
 /// Collective. All processes judge the mesh, which the first one has read from `path`, as
 /// `octetra verify` does. If it is not valid, says why on stdout, and throws InputError on all.
 void check_input(const Mesh& mesh, const std::string& path, const distributed::Communicator& world);
+
+/// Collective. The same of a mesh in several memories.
+void check_input(verify::MeshSlice mesh, const std::string& path,
+                 const distributed::Communicator& world);
 
 }  // namespace octetra::cli

@@ -205,13 +205,11 @@ void check_outputs(const RefineOptions& options, const Plan& plan, int ranks) {
 /// Of a mesh with its history, or into one: as a step of octetra adapt.
 void refine_with_history(const RefineOptions& options, const Plan& plan,
                          const distributed::Communicator& all) {
-    const auto refuse = [](std::string_view option, std::string_view instead) {
-        throw InputError(fmt::format("{} does not go with .octetra files; {}", option, instead));
-    };
-    if (plan.engine == Engine::reference) refuse("--engine reference", "leave it out");
-    if (!options.maps.empty()) refuse("--maps", "write another format, of a mesh without history");
-    if (options.check) refuse("--check", "octetra verify judges a mesh");
-    if (options.verify) refuse("--verify", "octetra adapt --verify judges its result");
+    if (plan.engine == Engine::reference) {
+        throw InputError(
+            "--engine reference knows no history, so it does not go with .octetra files: leave it "
+            "out; the other engine makes the same mesh");
+    }
     const Script one_step{
         {}, {{0, "refine", RefineStep{options.refinement, plan.selection, plan.scheme}}}};
     adapt({.input = options.input,
@@ -219,7 +217,10 @@ void refine_with_history(const RefineOptions& options, const Plan& plan,
            .parallel = options.parallel,
            .profile = options.profile,
            .max_cells = options.max_cells,
-           .verify = false,
+           .maps = options.maps,
+           .check = options.check,
+           .verify = options.verify,
+           .claim = Claim::refines_mesh,
            .quiet = options.quiet},
           one_step, measured(all, options.profile));
 }

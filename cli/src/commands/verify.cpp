@@ -186,7 +186,10 @@ bool run(const VerifyCommandOptions& given, const distributed::Communicator& wor
     JudgedFiles judged;
     verify::Verdict verdict;
     if (!given.before.empty()) {
-        world.on_first([&] { verdict = judge_coarsened(coarsened, given.first, options, judged); });
+        world.on_first([&] {
+            verdict = judge_coarsened(coarsened, read_as_it_stands(given.first), given.first,
+                                      options, judged);
+        });
     } else if (world.size() == 1) {
         verdict = judge(given, options, judged);
     } else {

@@ -9,21 +9,20 @@
 
 namespace octetra::cli {
 
-verify::Verdict judge_coarsened(const Coarsened& asked, const std::string& after,
+verify::Verdict judge_coarsened(const Coarsened& asked, const Mesh& after, const std::string& name,
                                 const verify::VerifyOptions& options, JudgedFiles& judged) {
     const Checkpoint before = read_checkpoint(asked.before);
     verify::CoarseningRequest request{asked.selection, asked.typed.outside, asked.typed.levels};
     complete_selection(
         request.may_go, asked.typed.selection,
         {!before.input.regions.empty(), before.input.index_base, before.facts.cells_now});
-    const Mesh mesh = read_as_it_stands(after);
-    judged = {.fine = after,
+    judged = {.fine = name,
               .coarse = asked.before,
-              .fine_index_base = mesh.index_base,
+              .fine_index_base = after.index_base,
               .coarse_index_base = before.input.index_base,
               .is_coarsened = true};
     try {
-        return verify_coarsening(before.input, before.steps, request, mesh, options);
+        return verify_coarsening(before.input, before.steps, request, after, options);
     } catch (const InputError& error) {
         throw InputError(fmt::format("{}: {}", asked.before, error.what()));
     }

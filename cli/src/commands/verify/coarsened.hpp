@@ -17,8 +17,10 @@ struct Coarsened {
     Selection selection;  ///< but for the cell list, which the checkpoint is needed for
 };
 
-/// Judges the mesh file `after`. Not collective: this process reads both files. Throws InputError.
-[[nodiscard]] verify::Verdict judge_coarsened(const Coarsened& asked, const std::string& after,
+/// Judges the mesh `after`, which is called so. Not collective: this process reads the checkpoint.
+/// Throws InputError.
+[[nodiscard]] verify::Verdict judge_coarsened(const Coarsened& asked, const Mesh& after,
+                                              const std::string& name,
                                               const verify::VerifyOptions& options,
                                               JudgedFiles& judged);
 

@@ -17,6 +17,7 @@
 #include <octetra/distributed/profile.hpp>
 #include <octetra/verify/verify.hpp>
 
+#include "adapt/carried_fields.hpp"
 #include "adapt/judge_result.hpp"
 #include "adapt/maps_since.hpp"
 #include "adapt/predicted_by_steps.hpp"
@@ -60,24 +61,20 @@ void check_files(const AdaptationOptions& options, const Script& script,
 }
 
 /// Collective.
-void write_and_report(const distributed::AdaptiveMesh& mesh, const AdaptationOptions& options,
-                      Stopwatch& watch) {
-    const std::string lost = write_result(mesh, options.output);
+void write_and_report(const distributed::AdaptiveMesh& mesh,
+                      const std::vector<distributed::Field>& fields,
+                      const AdaptationOptions& options, Stopwatch& watch) {
+    const std::vector<std::string> lost = write_result(mesh, fields, options.output);
     const std::uint64_t cells = mesh.processes().sum(mesh.cells().size());
     if (!mesh.processes().is_first()) return;
-    if (!lost.empty()) note(lost);
+    for (const std::string& what : lost) note(what);
     report_line(options.quiet, fmt::format("wrote {}", options.output), mesh.vertex_count(), cells,
                 watch.lap());
 }
 
-/// Collective. Tells on the first process what is known of the mesh before it is there.
+/// Tells what is known of the mesh before it is there.
 MeshFacts facts_of_checkpoint(const std::string& path) {
     const CheckpointFacts facts = read_checkpoint_facts(path);
-    if (!facts.fields.empty()) {
-        note(fmt::format("the {} field{} of {} do{} not come along", facts.fields.size(),
-                         facts.fields.size() == 1 ? "" : "s", path,
-                         facts.fields.size() == 1 ? "es" : ""));
-    }
     return {.vertices = facts.vertices_now,
             .cells = facts.cells_now,
             .index_base = facts.index_base,
@@ -86,12 +83,12 @@ MeshFacts facts_of_checkpoint(const std::string& path) {
 
 /// Collective. By rcb unless another method is asked for: then no process has all of the input.
 distributed::AdaptiveMesh load(const AdaptationOptions& options,
-                               const distributed::Communicator& world) {
-    if (!options.parallel.partition) {
-        return distributed::AdaptiveMesh::load(world, options.input.path);
-    }
-    return distributed::AdaptiveMesh::load(world, options.input.path,
-                                           partition_of(options.parallel));
+                               const distributed::Communicator& world,
+                               std::vector<distributed::Field>& fields) {
+    const distributed::Partition rcb{.method = distributed::PartitionMethod::rcb};
+    const bool is_given = options.parallel.partition.has_value();
+    return distributed::AdaptiveMesh::load(
+        world, options.input.path, is_given ? partition_of(options.parallel) : rcb, &fields);
 }
 
 /// Collective. What a history began with, or the mesh that the first process has read.
@@ -107,13 +104,13 @@ JudgedMesh input_to_judge(const AdaptationOptions& options, const Mesh& mesh,
     return {options.input.path, index_base, std::move(slice)};
 }
 
-/// Collective. Of the mesh that the first process has read.
-distributed::AdaptiveMesh load_or_share_out(Mesh mesh, const AdaptationOptions& options,
-                                            const Script& script,
+/// Collective. Of the mesh that the first process has read, or of a checkpoint, with its fields.
+distributed::AdaptiveMesh load_or_share_out(Mesh mesh, std::vector<distributed::Field>& fields,
+                                            const AdaptationOptions& options, const Script& script,
                                             const distributed::Partition& partition,
                                             const distributed::Communicator& world) {
     if (is_checkpoint(options.input.path)) {
-        return distributed::in_phase(world, "read", [&] { return load(options, world); });
+        return distributed::in_phase(world, "read", [&] { return load(options, world, fields); });
     }
     return distributed::AdaptiveMesh(
         share_out(std::move(mesh), partition, world,
@@ -181,7 +178,8 @@ void adapt(const AdaptationOptions& options, const Script& script,
     if (options.verify && options.claim == Claim::refines_input) {
         coarse = input_to_judge(options, mesh, world);
     }
-    auto adaptive = load_or_share_out(std::move(mesh), options, script, partition, world);
+    std::vector<distributed::Field> fields;
+    auto adaptive = load_or_share_out(std::move(mesh), fields, options, script, partition, world);
     const auto report = [&](std::string_view doing) {
         const std::uint64_t cells = world.sum(adaptive.cells().size());
         if (!world.is_first()) return;
@@ -199,8 +197,11 @@ void adapt(const AdaptationOptions& options, const Script& script,
     if (!options.maps.empty()) since.emplace(adaptive);
     const auto follow = [&](const distributed::Adaptation& step) {
         if (since) since->follow(step);
+        for (const std::string& dropped : carry_fields(fields, step, world)) {
+            if (world.is_first()) note(dropped);
+        }
     };
-    run_script(adaptive, script, {read, steps, follow, options.quiet}, watch);
+    run_script(adaptive, script, {read, steps, follow, &fields, options.quiet}, watch);
     if (options.verify) {
         if (!is_valid(adaptive, std::move(coarse), options, script, read,
                       since ? &*since : nullptr)) {
@@ -209,7 +210,7 @@ void adapt(const AdaptationOptions& options, const Script& script,
         }
         report("verified");
     }
-    write_and_report(adaptive, options, watch);
+    write_and_report(adaptive, fields, options, watch);
     if (since) {
         const distributed::Phase phase(world, "write");
         MapsSince source(adaptive, *since);

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -30,10 +31,10 @@ Counts counts_of(const AdaptiveMesh& mesh) {
     return {mesh.vertex_count(), mesh.processes().sum(mesh.cells().size())};
 }
 
-/// What a step did: "refined, 2 levels", and a remark, if there is one to make.
+/// What a step did: "refined, 2 levels", and remarks.
 struct Done {
     std::string what;
-    std::string remark = {};
+    std::vector<std::string> remarks = {};
     bool changes_mesh = true;
 };
 
@@ -42,11 +43,11 @@ std::string levels_done(std::string_view done, int levels) {
 }
 
 /// Why fewer levels than were asked for changed anything.
-std::string idle_levels(int done, int levels, std::string_view reason) {
-    if (levels == 0) return "--levels 0: the mesh stays as it is";
+std::vector<std::string> idle_levels(int done, int levels, std::string_view reason) {
+    if (levels == 0) return {"--levels 0: the mesh stays as it is"};
     if (done == levels) return {};
-    if (done == 0) return fmt::format("{}: the mesh stays as it is", reason);
-    return fmt::format("{} any more after level {} of {}", reason, done, levels);
+    if (done == 0) return {fmt::format("{}: the mesh stays as it is", reason)};
+    return {fmt::format("{} any more after level {} of {}", reason, done, levels)};
 }
 
 class Runner {
@@ -70,7 +71,8 @@ public:
     }
 
     Done operator()(const WriteStep& step) {
-        return {fmt::format("wrote {}", step.path), write_result(*mesh_, step.path), false};
+        return {fmt::format("wrote {}", step.path), write_result(*mesh_, *run_->fields, step.path),
+                false};
     }
 
 private:
@@ -113,7 +115,9 @@ void run_script(AdaptiveMesh& mesh, const Script& script, const ScriptRun& run, 
                     : fmt::format("{}:{} {}", script.path.native(), step.line, done.what);
             report_line(run.quiet, doing, after.vertices, after.cells, watch.lap(),
                         done.changes_mesh ? was : "");
-            if (!done.remark.empty()) note(wrong_line(script, step, done.remark).what());
+            for (const std::string& remark : done.remarks) {
+                note(wrong_line(script, step, remark).what());
+            }
         }
         before = after;
     }

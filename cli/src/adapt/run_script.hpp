@@ -1,9 +1,11 @@
 #pragma once
 
 #include <functional>
+#include <vector>
 
 #include <octetra/core/mesh_source.hpp>
 #include <octetra/distributed/adaptive_mesh.hpp>
+#include <octetra/distributed/field.hpp>
 
 #include "script/read_script.hpp"
 #include "stopwatch.hpp"
@@ -14,6 +16,8 @@ struct ScriptRun {
     MeshFacts input;  ///< of the mesh before the first step
     distributed::StepOptions options;
     std::function<void(const distributed::Adaptation&)> on_step = {};  ///< of each level
+    /// Those of the mesh as it is whenever a step writes it; on_step() sees to that.
+    const std::vector<distributed::Field>* fields = nullptr;
     bool quiet = false;
 };
 

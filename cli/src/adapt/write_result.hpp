@@ -1,14 +1,17 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include <octetra/distributed/adaptive_mesh.hpp>
+#include <octetra/distributed/field.hpp>
 
 namespace octetra::cli {
 
-/// Collective. Writes the mesh as the extension says. Returns what the format cannot hold, in a
-/// sentence, or nothing.
-[[nodiscard]] std::string write_result(const distributed::AdaptiveMesh& mesh,
-                                       const std::string& path);
+/// Collective. Writes the mesh, and its fields, as the extension says. Returns what the format
+/// cannot hold, in a sentence each.
+[[nodiscard]] std::vector<std::string> write_result(const distributed::AdaptiveMesh& mesh,
+                                                    const std::vector<distributed::Field>& fields,
+                                                    const std::string& path);
 
 }  // namespace octetra::cli

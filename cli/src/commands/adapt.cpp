@@ -52,6 +52,8 @@ void add_adapt(CLI::App& program, const distributed::Communicator& world) {
         "  write FILE                                      the same, in any format\n"
         "--cells takes the numbers that a file written just before the step has, from 0 or 1 as\n"
         "MESH. Names have no blanks. All lines are checked before the first step is run.\n"
+        "Fields of a .octetra go along: midpoints get means, pieces copies, cells that become one\n"
+        "means; whole numbers that have no mean are dropped, with a note.\n"
         "Exit status: 0 done; 1 --verify finds the result not valid, and OUT is not written;\n"
         "2 bad usage or bad input; 3 the system failed: memory, disk; 128 + its number: a signal\n"
         "ended a rank, as 137 where it was killed.\n"

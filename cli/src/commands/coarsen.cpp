@@ -58,6 +58,8 @@ void add_coarsen(CLI::App& program, const distributed::Communicator& world) {
         "judge the result as octetra verify --coarsened-from does, and write it if it is valid");
     command->add_flag("--quiet", options->adaptation.quiet, "print nothing but notes and errors");
     command->footer(
+        "Fields of MESH go along: cells that become one give it their mean; whole numbers that\n"
+        "differ are dropped, with a note.\n"
         "Example:\n"
         "  octetra generate kuhn 8 -o cube.mesh\n"
         "  octetra refine cube.mesh --sphere 0,0,0,0.5 --levels 2 -o fine.octetra\n"

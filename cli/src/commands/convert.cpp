@@ -9,6 +9,7 @@
 #include <octetra/distributed/adaptive_mesh.hpp>
 #include <octetra/distributed/communicator.hpp>
 
+#include "adapt/carried_fields.hpp"
 #include "commands/commands.hpp"
 #include "commands/files_apart.hpp"
 #include "commands/mesh_options.hpp"
@@ -31,6 +32,14 @@ void convert_with_history(const ConvertOptions& options) {
     if (!options.quiet) report_written(mesh.collect(), options.output);
 }
 
+void note_lost_fields(const ConvertOptions& options) {
+    std::vector<std::string> names;
+    for (const FieldFacts& field : read_checkpoint_facts(options.input.path).fields) {
+        names.push_back(field.name);
+    }
+    if (!names.empty()) note(lost_fields(names, options.output));
+}
+
 void convert(const ConvertOptions& options) {
     check_output(options.output);
     check_files_apart({mesh_named("MESH", options.input.path)},
@@ -38,6 +47,7 @@ void convert(const ConvertOptions& options) {
     if (is_checkpoint(options.input.path) && is_checkpoint(options.output)) {
         return convert_with_history(options);
     }
+    if (is_checkpoint(options.input.path)) note_lost_fields(options);
     const Mesh mesh = read_input(options.input);
     write_output(mesh, options.output);
     if (!options.quiet) report_written(mesh, options.output);

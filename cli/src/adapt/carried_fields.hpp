@@ -1,0 +1,28 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <octetra/distributed/adaptation.hpp>
+#include <octetra/distributed/communicator.hpp>
+#include <octetra/distributed/field.hpp>
+
+namespace octetra::cli {
+
+/// Collective. Carries the fields of a checkpoint over a step:
+///  - on vertices, to a midpoint the mean of the edge's ends. Whole numbers have none: such a field
+///    is dropped by a step of refinement;
+///  - on cells, to each piece of a cell its value. Pieces that become one give it their value where
+///    all have the same, else their mean, the same on any number of processes. Of whole numbers
+///    there is no mean: a field where such pieces differ is dropped.
+/// What is dropped is dropped on all processes. Returns the names of those fields and why, in a
+/// sentence each; nothing if all were carried.
+[[nodiscard]] std::vector<std::string> carry_fields(std::vector<distributed::Field>& fields,
+                                                    const distributed::Adaptation& step,
+                                                    const distributed::Communicator& world);
+
+/// Says that these fields, of which there are some, are not in a file of another format.
+[[nodiscard]] std::string lost_fields(const std::vector<std::string>& names,
+                                      const std::string& path);
+
+}  // namespace octetra::cli

@@ -1,6 +1,11 @@
+#include <algorithm>
 #include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
 #include <new>
 #include <optional>
+#include <string>
 #include <utility>
 
 #include <fmt/format.h>
@@ -14,6 +19,7 @@
 
 #include "distributed/marked_mesh.hpp"
 #include "distributed/seen_mesh.hpp"
+#include "distributed/shared_folder.hpp"
 #include "distributed/world.hpp"
 
 /// Where one process has no memory, at whatever place of a step, all processes hear of it, and the
@@ -198,6 +204,59 @@ TEST(FailingAllocations, OfMarkingByIndicatorsAreThrownOnAllProcesses) {
         };
     });
     EXPECT_GE(failures, 3U);
+}
+
+/// A small mesh, of which saving takes few allocations.
+AdaptiveMesh to_save() {
+    const Mesh whole = test::marked(test::shaken_kuhn(3, 0.2, 1), 1);
+    const Partition in_blocks{.method = PartitionMethod::block};
+    AdaptiveMesh mesh = AdaptiveMesh::distribute(
+        test::world(), whole, partition_cells(whole, test::world().size(), in_blocks));
+    for (std::size_t k = 0; k < 2; ++k) (void)mesh.refine(steps[k]);
+    return mesh;
+}
+
+std::string content_if_there(const std::filesystem::path& path) {
+    return std::filesystem::exists(path) ? test::content_of(path) : std::string("none");
+}
+
+/// Is there a file that was not completed?
+bool leaves_unfinished(const test::SharedFolder& folder) {
+    const std::filesystem::directory_iterator files((folder / ".").parent_path());
+    return std::any_of(begin(files), end(files),
+                       [](const auto& file) { return file.path().extension() == ".tmp"; });
+}
+
+/// Where a file was, and where none was.
+TEST(FailingAllocations, OfSavingLeaveTheMeshAsItWasAndTheOldFileOrNone) {
+    const Communicator& world = test::world();
+    const test::SharedFolder folder;
+    AdaptiveMesh mesh = to_save();
+    const std::vector<Field> fields{
+        {"u", FieldOn::vertices, 2, std::vector<double>(2 * mesh.points().size(), 1.5)},
+        {"n", FieldOn::cells, 1, std::vector<std::int32_t>(mesh.cells().size(), 7)}};
+    mesh.save(folder / "good.octetra", fields);
+    const std::string good = test::content_of(folder / "good.octetra");
+    const test::SeenMesh before(mesh);
+    long failures = 0;
+    for (const std::string old : {"none", "old"}) {
+        for (int rank = 0; rank < world.size(); ++rank) {
+            const std::filesystem::path place = folder / (old + std::to_string(rank) + ".octetra");
+            if (world.is_first() && old != "none") std::ofstream(place) << old;
+            for (long allocations = 0;; ++allocations) {
+                (void)world.max(0);  // all have seen what the last one left
+                const bool done = done_with(allocations, rank, [&] { mesh.save(place, fields); });
+                const std::uint64_t done_on = world.sum(done ? 1 : 0);
+                ASSERT_EQ(done_on, done ? static_cast<std::uint64_t>(world.size()) : 0U);
+                ASSERT_TRUE(content_if_there(place) == (done ? good : old)) << allocations;
+                ASSERT_FALSE(leaves_unfinished(folder)) << allocations;
+                if (done) break;
+                ++failures;
+            }
+            EXPECT_TRUE(before == test::SeenMesh(mesh)) << "rank " << rank;
+        }
+    }
+    EXPECT_GE(failures, 300);
 }
 
 /// Messages that are cut into pieces, and of which one process can keep nothing.

@@ -12,7 +12,7 @@
 #include <octetra/core/files/places.hpp>
 #include <octetra/distributed/profile.hpp>
 
-#include "comm/local_failure.hpp"
+#include "comm/all_or_none.hpp"
 #include "history/cut_roots.hpp"
 #include "numbering/canonical_runs.hpp"
 #include "output/canonical_slices.hpp"
@@ -250,17 +250,13 @@ private:
     const CanonicalRuns* cells_;
 };
 
-}  // namespace
-
-void save(const SavedMesh& saved, std::span<const Field> fields,
-          const std::filesystem::path& path) {
+/// Collective. A process may fail anywhere in it.
+void write_checkpoint(const SavedMesh& saved, std::span<const Field> fields,
+                      const std::filesystem::path& path) {
     const Communicator& processes = saved.mesh->processes;
-    const Phase phase(processes, "save");
-    LocalFailure failure;
-    failure.attempt([&] { check_sizes(saved, fields); });
-    failure.agree(processes);
+    check_sizes(saved, fields);
     check_same(processes, fields);
-    processes.on_first([&] { check_place(path); });
+    if (processes.is_first()) check_place(path);
 
     CanonicalSlices input(*saved.input);
     const CanonicalRuns cells = canonical_runs(processes, saved.mesh->cell_ancestors);
@@ -273,6 +269,15 @@ void save(const SavedMesh& saved, std::span<const Field> fields,
                    fields[f].values);
     }
     writer.commit();
+}
+
+}  // namespace
+
+void save(const SavedMesh& saved, std::span<const Field> fields,
+          const std::filesystem::path& path) {
+    const Communicator& processes = saved.mesh->processes;
+    const Phase phase(processes, "save");
+    all_or_none(processes, [&] { write_checkpoint(saved, fields, path); });
 }
 
 }  // namespace octetra::distributed

@@ -12,6 +12,7 @@
 
 #include <octetra/distributed/mpi.hpp>
 
+#include "comm/all_or_none.hpp"
 #include "comm/common_lock.hpp"
 #include "profile/recorder.hpp"
 
@@ -33,6 +34,7 @@ struct Communicator::Mpi {
     // For a process that has no memory at the time: what it throws away, and its empty messages.
     std::unique_ptr<std::byte[]> unwanted{new std::byte[most_bytes]};
     std::unique_ptr<MPI_Request[]> requests;
+    mutable bool is_watched = false;  ///< by Watch, on all processes
 
     explicit Mpi(MPI_Comm original) {
         MPI_Comm_dup(original, &comm);
@@ -85,23 +87,47 @@ Communicator Communicator::with_profile(std::shared_ptr<Profile> profile) const 
     return same;
 }
 
+Communicator::Watch::Watch(const Communicator& processes) : processes_(&processes) {
+    if (processes.mpi_) processes.mpi_->is_watched = true;
+}
+
+Communicator::Watch::~Watch() {
+    if (processes_->mpi_) processes_->mpi_->is_watched = false;
+}
+
+void Communicator::Watch::answer(bool has_failed) const noexcept {
+    if (!processes_->mpi_) return;
+    // Not measured, which may take memory.
+    (void)reduced(has_failed ? 1 : 0, MPI_MAX, processes_->mpi_->comm, nullptr);
+}
+
+void Communicator::ask_whether_all_work() const {
+    if (!mpi_ || !mpi_->is_watched) return;
+    if (reduced(0, MPI_MAX, mpi_->comm, profile()) != 0) throw OthersFailed();
+}
+
 std::uint64_t Communicator::sum(std::uint64_t number) const {
+    ask_whether_all_work();
     return mpi_ ? reduced(number, MPI_SUM, mpi_->comm, profile()) : number;
 }
 
 void Communicator::sum(std::span<std::uint64_t> numbers) const {
+    ask_whether_all_work();
     if (mpi_) reduce(numbers, MPI_SUM, mpi_->comm, profile());
 }
 
 void Communicator::max(std::span<std::uint64_t> numbers) const {
+    ask_whether_all_work();
     if (mpi_) reduce(numbers, MPI_MAX, mpi_->comm, profile());
 }
 
 std::uint64_t Communicator::max(std::uint64_t number) const {
+    ask_whether_all_work();
     return mpi_ ? reduced(number, MPI_MAX, mpi_->comm, profile()) : number;
 }
 
 std::uint64_t Communicator::sum_before(std::uint64_t number) const {
+    ask_whether_all_work();
     if (!mpi_) return 0;
     const Communication communication(profile(), "reduction");
     communication.count_collective(sizeof number);
@@ -116,6 +142,7 @@ std::span<const int> Communicator::every_rank() const {
 }
 
 std::size_t Communicator::broadcast_size(std::size_t size) const {
+    ask_whether_all_work();
     if (!mpi_) return size;
     const Communication communication(profile(), "broadcast");
     std::uint64_t number = size;
@@ -125,6 +152,7 @@ std::size_t Communicator::broadcast_size(std::size_t size) const {
 }
 
 void Communicator::broadcast_bytes(void* data, std::size_t size, int root) const {
+    ask_whether_all_work();
     if (!mpi_) return;
     constexpr std::size_t most = std::size_t{1} << 30U;  // MPI's counts are ints
     const Communication communication(profile(), "broadcast");

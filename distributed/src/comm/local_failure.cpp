@@ -15,6 +15,7 @@ enum class Kind : std::uint8_t { out_of_memory, bad_input, system_failed };
 /// A failure that can be sent, by a process that may have no memory.
 struct Words {
     Kind kind = Kind::out_of_memory;
+    int rank = 0;                   ///< that has no memory
     std::array<char, 4096> what{};  ///< ends with a zero
 
     void take(Kind of, const char* text) {
@@ -23,11 +24,14 @@ struct Words {
     }
 };
 
-Words words_of(const std::exception_ptr& failure) {
-    Words words;
+/// Of the process `rank`, which may have heard of it from another.
+Words words_of(const std::exception_ptr& failure, int rank) {
+    Words words{.rank = rank};
     if (!failure) return words;
     try {
         std::rethrow_exception(failure);
+    } catch (const OutOfMemory& error) {
+        words.rank = error.rank();
     } catch (const std::bad_alloc&) {
     } catch (const InputError& error) {
         words.take(Kind::bad_input, error.what());
@@ -46,9 +50,10 @@ void LocalFailure::agree(const Communicator& processes) const {
     const auto rank = static_cast<std::uint64_t>(processes.rank());
     const std::uint64_t lowest = size - processes.max(found() ? size - rank : 0);
     if (lowest == size) return;
-    const Words words = processes.of_rank(static_cast<int>(lowest), words_of(failure_));
+    const Words words =
+        processes.of_rank(static_cast<int>(lowest), words_of(failure_, processes.rank()));
     switch (words.kind) {
-        case Kind::out_of_memory: throw OutOfMemory(static_cast<int>(lowest));
+        case Kind::out_of_memory: throw OutOfMemory(words.rank);
         case Kind::bad_input: throw InputError(words.what.data());
         case Kind::system_failed: throw SystemError(words.what.data());
     }

@@ -42,9 +42,8 @@ void pass_on_permissions(const struct stat& old, int file) {
     (void)::fchmod(file, mode);
 }
 
-/// Some file systems cannot, and then need not.
-void sync_folder_of(const std::filesystem::path& file) {
-    const std::filesystem::path folder = file.has_parent_path() ? file.parent_path() : ".";
+/// Some file systems cannot, and then need not. Needs no memory.
+void sync_folder(const std::filesystem::path& folder) {
     const int opened = ::open(folder.c_str(), O_RDONLY | O_CLOEXEC | O_DIRECTORY);
     if (opened < 0) return;
     (void)::fsync(opened);
@@ -155,8 +154,10 @@ void OutputFile::commit_all(const std::vector<std::unique_ptr<OutputFile>>& file
 }
 
 void OutputFile::rename() {
+    // Nothing must fail once the file has its place.
+    const std::filesystem::path folder = place_.has_parent_path() ? place_.parent_path() : ".";
     if (::rename(temporary_.c_str(), place_.c_str()) != 0) return fail("cannot be put in place");
-    if (is_synced_) sync_folder_of(place_);
+    if (is_synced_) sync_folder(folder);
 }
 
 /// One process alone writes what it has; one of a group keeps it until its turn.

@@ -25,7 +25,7 @@ class Profile;  // see octetra/distributed/profile.hpp
 ///
 /// A process that has no memory for a message takes its part in the exchange all the same, and only
 /// then throws std::bad_alloc: no other waits for it. All others must be told by whoever called;
-/// see LocalFailure in src/comm.
+/// see LocalFailure and all_or_none() in src/comm.
 class Communicator final : public ProcessGroup {
 public:
     /// This process alone.
@@ -40,7 +40,9 @@ public:
 
     // As ProcessGroup says, without sending to all what only a sum is wanted of.
     [[nodiscard]] std::vector<Bytes> exchange(std::vector<Bytes> to_each) const override {
-        return all_to_all(to_each);
+        std::vector<Bytes> come = all_to_all(to_each);
+        ask_whether_all_work();  // else what has come may be nothing
+        return come;
     }
     using ProcessGroup::sum;
     [[nodiscard]] std::uint64_t sum(std::uint64_t number) const override;
@@ -115,7 +117,8 @@ public:
         return std::move(send_and_receive<T>(if_first(), to_each, every_rank().first(1)).front());
     }
 
-    struct Mpi;  // wraps an MPI communicator; see octetra/distributed/mpi.hpp
+    class Watch;  // see all_or_none() in src/comm
+    struct Mpi;   // wraps an MPI communicator; see octetra/distributed/mpi.hpp
     explicit Communicator(std::shared_ptr<const Mpi> mpi);
 
 private:
@@ -125,6 +128,8 @@ private:
     [[nodiscard]] std::span<const int> if_first() const {
         return is_first() ? every_rank() : std::span<const int>{};
     }
+    /// The first thing in every collective function.
+    void ask_whether_all_work() const;
     [[nodiscard]] std::size_t broadcast_size(std::size_t size) const;
     void broadcast_bytes(void* data, std::size_t size, int root) const;
     /// outboxes[i] goes to rank receivers[i]; the result's [i] came from senders[i].
@@ -133,6 +138,7 @@ private:
         std::span<const int> receivers, std::span<const std::vector<T>> outboxes,
         std::span<const int> senders) const {
         static_assert(std::is_trivially_copyable_v<T>);
+        ask_whether_all_work();
         std::vector<std::span<const std::byte>> bytes;
         std::vector<std::vector<T>> inboxes;
         try {

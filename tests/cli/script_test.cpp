@@ -63,7 +63,19 @@ const std::vector<WrongLine> wrong_lines{
      "--max-volume"},
     {"refine --levels 2 --sphere 0,0,0,1 --spere 1",
      "refine has no option --spere; did you mean --sphere?"},
-    {"refine --all -o x.mesh", "refine has no option -o"},
+    {"refine --all -o x.mesh",
+     "refine has no option -o; -o is for the command octetra adapt, not for a step: a line save "
+     "FILE.octetra or write FILE writes the mesh"},
+    {"coarsen --all --partition=rcb",
+     "coarsen has no option --partition; --partition is for the command octetra adapt, not for a "
+     "step"},
+    {"write a#b.vtu",
+     "a: a mesh to write is named by its extension: .ele or .node (TetGen), .mesh (Medit), .vtu or "
+     ".pvtu (VTK); # begins a comment, also within a word"},
+    {"save a#b.octetra",
+     "save writes .octetra files, not a; write takes the other formats; # begins a comment, also "
+     "within a word"},
+    {"save a  # b", "save writes .octetra files, not a; write takes the other formats"},
     {"refine --all --help", "refine has no option --help"},
     {"refine --all --outside", "refine has no option --outside"},
     {"coarsen --all --scheme 4t", "coarsen has no option --scheme; did you mean --sphere?"},
@@ -122,6 +134,50 @@ TEST_F(Script, IsNotWrittenOverNorAreItsLists) {
               "octetra: --profile would write over s.txt of --script; choose another name\n");
 }
 
+/// By way of standard input and of a pipe, which can be read once.
+TEST_F(Script, MayComeThroughAPipe) {
+    const std::string script =
+        "\xef\xbb\xbf# near\r\nrefine --sphere 0,0,0,0.7 --levels 2 # twice\r\n\n"
+        "\t coarsen --all\nsave s.octetra";
+    ASSERT_EQ(adapt(script, "-o plain.mesh").status, 0);
+    const auto piped = [&](const std::string& ending) {
+        return test::run_program(
+            {"sh", "-c", "cat s.txt | " OCTETRA_PROGRAM " adapt m.mesh " + ending}, folder.path());
+    };
+    for (const std::string from : {"-", "/dev/stdin"}) {
+        const auto run = piped("-o piped.mesh --script " + from);
+        EXPECT_EQ(run.status, 0) << run.err;
+        EXPECT_EQ(test::content_of(folder / "piped.mesh"), test::content_of(folder / "plain.mesh"));
+        EXPECT_THAT(run.out, HasSubstr((from == "-" ? "stdin" : from) + ":2 refined, 2 levels"));
+    }
+    (void)folder.write("s.txt", "\n\nrefien\n");
+    EXPECT_THAT(piped("-o no.mesh --script -").err, HasSubstr("octetra: stdin:3: a step begins"));
+    (void)folder.write("s.txt", "# nothing");
+    EXPECT_EQ(piped("-o no.mesh --script -").err,
+              "octetra: stdin:1: there is no step in this file\n");
+}
+
+/// A message about a level says which one it is here, where the mesh has steps behind it.
+TEST_F(Script, HasItsLevelsNamedAlsoBehindAHistory) {
+    const auto behind =
+        adapt("refine --all\nrefine --all --levels 9\n", "--max-cells 5000 -o n.mesh");
+    EXPECT_EQ(behind.err,
+              "octetra: s.txt:2: level 3 would make 24576 cells, more than the 5000 allowed: mark "
+              "fewer cells or levels, or allow more (levels count all steps that have made this "
+              "mesh; this is level 2 of 9 here)\n");
+    const auto first = adapt("refine --all --levels 9\n", "--max-cells 5000 -o n.mesh");
+    EXPECT_EQ(first.err,
+              "octetra: s.txt:1: level 3 would make 24576 cells, more than the 5000 allowed: mark "
+              "fewer cells or levels, or allow more\n");
+}
+
+TEST_F(Script, SaysWhetherNothingWasMarkedOrNothingCouldGo) {
+    EXPECT_EQ(adapt("refine --all\ncoarsen --sphere 9,9,9,1\n").err,
+              "octetra: note: s.txt:2: no cell was marked: the mesh stays as it is\n");
+    EXPECT_EQ(adapt("refine --all\ncoarsen --all --levels 2\n").err,
+              "octetra: note: s.txt:2: no vertex could go any more after level 1 of 2\n");
+}
+
 TEST_F(Script, WithoutAStepIsRefused) {
     EXPECT_EQ(adapt("").err, "octetra: s.txt:1: the file is empty\n");
     EXPECT_EQ(adapt("\n# nothing\n").err, "octetra: s.txt:1: there is no step in this file\n");
@@ -156,7 +212,8 @@ TEST_F(Script, HasTheLineNamedThatFailsWhenItIsRunAndKeepsWhatWasWrittenBefore) 
     EXPECT_EQ(too_many.status, 2);
     EXPECT_EQ(too_many.err,
               "octetra: s.txt:3: level 2 would make 3072 cells, more than the 400 allowed: mark "
-              "fewer cells or levels, or allow more\n");
+              "fewer cells or levels, or allow more (levels count all steps that have made this "
+              "mesh; this is level 1 of 1 here)\n");
     EXPECT_TRUE(fs::exists(folder / "one.mesh"));
     EXPECT_FALSE(fs::exists(folder / "out.mesh"));
     (void)folder.write("cells.txt", "48\n49\n");

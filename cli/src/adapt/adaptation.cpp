@@ -44,7 +44,7 @@ void check_files(const AdaptationOptions& options, const Script& script,
                  const distributed::Partition& partition, int ranks) {
     check_output(options.output, ranks);
     std::vector<NamedFiles> read{mesh_named("MESH", options.input.path),
-                                 file_named("--script", script.path),
+                                 file_named("--script", script.is_piped ? "" : script.path),
                                  file_named("--partition", partition.path)};
     const std::vector<NamedFiles> lists = files_read_by(script);
     read.insert(read.end(), lists.begin(), lists.end());
@@ -201,7 +201,14 @@ void adapt(const AdaptationOptions& options, const Script& script,
             if (world.is_first()) note(dropped);
         }
     };
-    run_script(adaptive, script, {read, steps, follow, &fields, options.quiet}, watch);
+    run_script(adaptive, script,
+               {.input = read,
+                .has_steps = is_checkpoint(options.input.path),
+                .options = steps,
+                .on_step = follow,
+                .fields = &fields,
+                .quiet = options.quiet},
+               watch);
     if (options.verify) {
         if (!is_valid(adaptive, std::move(coarse), options, script, read,
                       since ? &*since : nullptr)) {

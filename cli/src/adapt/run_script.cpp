@@ -52,7 +52,8 @@ std::vector<std::string> idle_levels(int done, int levels, std::string_view reas
 
 class Runner {
 public:
-    Runner(AdaptiveMesh& mesh, const ScriptRun& run) : mesh_(&mesh), run_(&run) {}
+    Runner(AdaptiveMesh& mesh, const ScriptRun& run, bool is_refined_before)
+        : mesh_(&mesh), run_(&run), is_refined_before_(is_refined_before) {}
 
     Done operator()(RefineStep step) {
         complete(step.selection, step.typed.selection);
@@ -66,8 +67,11 @@ public:
     Done operator()(CoarsenStep step) {
         complete(step.selection, step.typed.selection);
         const int levels = step.typed.levels;
-        const int done = coarsen(*mesh_, step, followers(levels));
-        return {levels_done("coarsened", done), idle_levels(done, levels, "no vertex could go")};
+        bool is_any_marked = false;
+        const int done = coarsen(*mesh_, step, followers(levels), is_any_marked);
+        return {
+            levels_done("coarsened", done),
+            idle_levels(done, levels, is_any_marked ? "no vertex could go" : "no cell was marked")};
     }
 
     Done operator()(const WriteStep& step) {
@@ -77,7 +81,7 @@ public:
 
 private:
     [[nodiscard]] Followers followers(int levels) const {
-        return {level_progress(run_->quiet, levels), run_->on_step};
+        return {level_progress(run_->quiet, levels), run_->on_step, is_refined_before_};
     }
 
     /// Collective.
@@ -92,16 +96,18 @@ private:
 
     AdaptiveMesh* mesh_;
     const ScriptRun* run_;
+    bool is_refined_before_;
 };
 
 }  // namespace
 
 void run_script(AdaptiveMesh& mesh, const Script& script, const ScriptRun& run, Stopwatch& watch) {
     Counts before = counts_of(mesh);
+    bool is_refined = run.has_steps;
     for (const ScriptStep& step : script.steps) {
         Done done;
         try {
-            done = std::visit(Runner(mesh, run), step.step);
+            done = std::visit(Runner(mesh, run, is_refined), step.step);
         } catch (const InputError& error) {
             throw wrong_line(script, step, error.what());
         }
@@ -119,6 +125,7 @@ void run_script(AdaptiveMesh& mesh, const Script& script, const ScriptRun& run, 
                 note(wrong_line(script, step, remark).what());
             }
         }
+        is_refined = is_refined || after.cells != before.cells;
         before = after;
     }
 }

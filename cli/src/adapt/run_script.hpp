@@ -13,7 +13,8 @@
 namespace octetra::cli {
 
 struct ScriptRun {
-    MeshFacts input;  ///< of the mesh before the first step
+    MeshFacts input;         ///< of the mesh before the first step
+    bool has_steps = false;  ///< has it steps behind it already?
     distributed::StepOptions options;
     std::function<void(const distributed::Adaptation&)> on_step = {};  ///< of each level
     /// Those of the mesh as it is whenever a step writes it; on_step() sees to that.

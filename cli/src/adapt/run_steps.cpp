@@ -1,9 +1,15 @@
 #include "adapt/run_steps.hpp"
 
+#include <algorithm>
 #include <cstdint>
+#include <iterator>
 #include <span>
 #include <utility>
 #include <vector>
+
+#include <fmt/format.h>
+
+#include <octetra/core/error.hpp>
 
 #include "adapt/marked_cells.hpp"
 
@@ -13,10 +19,23 @@ namespace {
 using distributed::Adaptation;
 using distributed::AdaptiveMesh;
 
+/// What is wrong with a step tells its level as the engine counts, from what the history began
+/// with.
+Adaptation naming_the_level(int level, int levels, const Followers& followers, auto&& take_step) {
+    try {
+        return take_step();
+    } catch (const InputError& error) {
+        if (!followers.is_refined_before) throw;
+        throw InputError(fmt::format(
+            "{} (levels count all steps that have made this mesh; this is level {} of {} here)",
+            error.what(), level, levels));
+    }
+}
+
 /// Takes a step, which is collective, at most so often, until it changes nothing.
 int repeat(AdaptiveMesh& mesh, int levels, const Followers& followers, auto&& take_step) {
     for (int level = 1; level <= levels; ++level) {
-        const Adaptation step = take_step();
+        const Adaptation step = naming_the_level(level, levels, followers, take_step);
         if (!step.changed) return level - 1;
         if (followers.on_step) followers.on_step(step);
         const std::uint64_t cells = mesh.processes().sum(mesh.cells().size());
@@ -65,9 +84,12 @@ int refine(AdaptiveMesh& mesh, const RefineStep& step, const distributed::StepOp
     });
 }
 
-int coarsen(AdaptiveMesh& mesh, const CoarsenStep& step, const Followers& followers) {
+int coarsen(AdaptiveMesh& mesh, const CoarsenStep& step, const Followers& followers,
+            bool& is_any_marked) {
     return repeat(mesh, step.typed.levels, followers, [&] {
         const std::vector<std::uint8_t> marked = may_go(mesh, step);
+        const bool marks_here = std::ranges::count(marked, 0) < std::ssize(marked);
+        is_any_marked = mesh.processes().max(marks_here ? 1 : 0) == 1;
         return mesh.coarsen(std::span<const std::uint8_t>(marked));
     });
 }

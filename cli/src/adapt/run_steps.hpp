@@ -15,6 +15,7 @@ namespace octetra::cli {
 struct Followers {
     std::function<void(int level, std::uint64_t cells)> on_level;  ///< on the first process
     std::function<void(const distributed::Adaptation&)> on_step;   ///< on all; collective
+    bool is_refined_before = false;  ///< had the mesh steps behind it already?
 };
 
 /// Collective. Repeats marking and refining so often as the step says; what octetra refine does to
@@ -23,7 +24,9 @@ struct Followers {
 int refine(distributed::AdaptiveMesh& mesh, const RefineStep& step,
            const distributed::StepOptions& options, const Followers& followers);
 
-/// Collective. Repeats marking and coarsening. Returns how many levels changed anything.
-int coarsen(distributed::AdaptiveMesh& mesh, const CoarsenStep& step, const Followers& followers);
+/// Collective. Repeats marking and coarsening. Returns how many levels changed anything, and
+/// whether the last one marked any cell at all.
+int coarsen(distributed::AdaptiveMesh& mesh, const CoarsenStep& step, const Followers& followers,
+            bool& is_any_marked);
 
 }  // namespace octetra::cli

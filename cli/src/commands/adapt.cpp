@@ -25,8 +25,9 @@ void add_adapt(CLI::App& program, const distributed::Communicator& world) {
         "adapt", "Refine and coarsen a mesh, step by step, as a script says");
     add_input_options(*command, options->adaptation.input);
     command
-        ->add_option("--script", options->script,
-                     "the steps, one a line, in the order in which they are done")
+        ->add_option(
+            "--script", options->script,
+            "the steps, one a line, in the order in which they are done; - for standard input")
         ->type_name("FILE")
         ->check(names_a_file())
         ->required();

@@ -31,6 +31,7 @@ void coarsen(const CoarsenOptions& options, const distributed::Communicator& wor
     adaptation.claim = Claim::coarsens_mesh;
     const Script one_step{
         {},
+        false,
         {{0, "coarsen", CoarsenStep{options.coarsening, parse_coarsening(options.coarsening)}}}};
     adapt(adaptation, one_step, measured(world, options.adaptation.profile));
 }

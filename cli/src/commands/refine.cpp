@@ -211,7 +211,7 @@ void refine_with_history(const RefineOptions& options, const Plan& plan,
             "out; the other engine makes the same mesh");
     }
     const Script one_step{
-        {}, {{0, "refine", RefineStep{options.refinement, plan.selection, plan.scheme}}}};
+        {}, false, {{0, "refine", RefineStep{options.refinement, plan.selection, plan.scheme}}}};
     adapt({.input = options.input,
            .output = options.output,
            .parallel = options.parallel,

@@ -30,7 +30,7 @@ void check_each(const Script& script, auto&& check) {
         try {
             check(step);
         } catch (const InputError& error) {
-            throw wrong_line(script, step, error.what());
+            throw wrong_line(script, step, error.what() + hint_of_comment(script.path, step.line));
         }
     }
 }

@@ -30,13 +30,29 @@ std::vector<std::string> words_of(std::string_view line) {
     return words;
 }
 
+/// A hint for who writes an option into a line that belongs beside the script.
+std::string options_of_adapt(const std::vector<std::string>& words) {
+    constexpr std::array<std::string_view, 11> options{
+        "-o",        "--output", "--partition", "--sync",   "--max-cells",      "--verify",
+        "--profile", "--trace",  "--quiet",     "--script", "--fix-orientation"};
+    for (const std::string& word : words) {
+        const std::string_view name = std::string_view(word).substr(0, word.find('='));
+        if (std::ranges::find(options, name) == options.end()) continue;
+        return fmt::format("; {} is for the command octetra adapt, not for a step{}", name,
+                           name == "-o" || name == "--output"
+                               ? ": a line save FILE.octetra or write FILE writes the mesh"
+                               : "");
+    }
+    return {};
+}
+
 /// The options of a step, as those of a subcommand. CLI11 takes words from the last to the first.
 void parse_words(CLI::App& command, std::vector<std::string> words) {
     std::ranges::reverse(words);
     try {
-        command.parse(std::move(words));
+        command.parse(words);
     } catch (const CLI::ParseError& error) {
-        throw InputError(usage_fault(command, error));
+        throw InputError(usage_fault(command, error) + options_of_adapt(words));
     }
 }
 

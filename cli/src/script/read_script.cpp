@@ -1,6 +1,8 @@
 #include "script/read_script.hpp"
 
 #include <algorithm>
+#include <fstream>
+#include <iostream>
 #include <utility>
 
 #include <fmt/format.h>
@@ -12,13 +14,52 @@
 namespace octetra::cli {
 namespace {
 
+constexpr std::string_view standard_input = "-";
+
+/// The lines as they are, from what cannot be read twice, or from a file.
+std::vector<TextLine> raw_lines(std::istream& in) {
+    std::vector<TextLine> lines;
+    std::uint64_t number = 0;
+    for (std::string text; std::getline(in, text);) lines.push_back({++number, text});
+    constexpr std::string_view byte_order_mark = "\xef\xbb\xbf";
+    if (!lines.empty() && lines.front().text.starts_with(byte_order_mark)) {
+        lines.front().text.erase(0, byte_order_mark.size());
+    }
+    return lines;
+}
+
+/// As read_lines() does.
+std::vector<TextLine> without_comments(std::vector<TextLine> lines) {
+    constexpr std::string_view blanks = " \t\r";
+    for (TextLine& line : lines) {
+        line.text.erase(std::min(line.text.find('#'), line.text.size()));
+        line.text.erase(line.text.find_last_not_of(blanks) + 1);
+        line.text.erase(0, line.text.find_first_not_of(blanks));
+    }
+    std::erase_if(lines, [](const TextLine& line) { return line.text.empty(); });
+    return lines;
+}
+
+/// Files that can be read again, and then be told apart from those that are written.
+std::vector<TextLine> lines_in(const std::filesystem::path& path) {
+    if (path == standard_input) return without_comments(raw_lines(std::cin));
+    std::error_code error;
+    const auto type = std::filesystem::status(path, error).type();
+    using Type = std::filesystem::file_type;
+    if (type != Type::fifo && type != Type::character && type != Type::socket) {
+        return read_lines(path);
+    }
+    std::ifstream in(path);
+    return without_comments(raw_lines(in));
+}
+
 /// Collective. All processes get the lines that the first one has read.
 std::vector<TextLine> lines_of(const std::filesystem::path& path,
                                const distributed::Communicator& world) {
     std::vector<std::uint64_t> numbers;
     std::vector<char> text;
     world.on_first([&] {
-        for (const TextLine& line : read_lines(path)) {
+        for (const TextLine& line : lines_in(path)) {
             numbers.push_back(line.number);
             text.insert(text.end(), line.text.begin(), line.text.end());
             text.push_back('\n');
@@ -43,17 +84,30 @@ InputError wrong_line(const std::filesystem::path& path, std::uint64_t line,
 
 }  // namespace
 
+std::string hint_of_comment(const std::filesystem::path& path, std::uint64_t number) {
+    if (!std::filesystem::is_regular_file(path)) return {};
+    std::ifstream in(path);
+    for (const auto& [at, text] : raw_lines(in)) {
+        const auto comment = text.find('#');
+        if (at != number || comment == 0 || comment == std::string::npos) continue;
+        if (text[comment - 1] == ' ' || text[comment - 1] == '\t') return {};
+        return "; # begins a comment, also within a word";
+    }
+    return {};
+}
+
 Script read_script(const std::filesystem::path& path, const distributed::Communicator& world) {
-    Script script{path, {}};
+    const bool is_piped = path == standard_input;
+    Script script{is_piped ? "stdin" : path, is_piped, {}};
     for (const auto& [number, text] : lines_of(path, world)) {
         try {
             script.steps.push_back(parse_step(text));
             script.steps.back().line = number;
         } catch (const InputError& error) {
-            throw wrong_line(path, number, error.what());
+            throw wrong_line(script.path, number, error.what() + hint_of_comment(path, number));
         }
     }
-    if (script.steps.empty()) throw wrong_line(path, 1, "there is no step in this file");
+    if (script.steps.empty()) throw wrong_line(script.path, 1, "there is no step in this file");
     return script;
 }
 

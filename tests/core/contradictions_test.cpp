@@ -9,8 +9,9 @@
 
 #include <octetra/core/error.hpp>
 #include <octetra/core/files/mesh_files.hpp>
+#include <octetra/core/repeated_cells.hpp>
 
-#include "files/checks/repeated_cells.hpp"
+#include "core/stretches.hpp"
 #include "support/meshes.hpp"
 #include "support/temporary_folder.hpp"
 #include "support/thrown.hpp"
@@ -26,7 +27,7 @@ using testing::HasSubstr;
 CellPair find_repeated(const Mesh& mesh) {
     RepeatedCells repeated(mesh.cells.size());
     for (const CellVertices& cell : mesh.cells) repeated.add(cell);
-    return repeated.find(mesh);
+    return repeated.find(mesh.cells, mesh.points.size());
 }
 
 /// The same by a map of all cells.
@@ -52,6 +53,7 @@ void expect_same_pair(const Mesh& mesh) {
 std::string refusal(const Mesh& mesh, const std::string& name, const ReadOptions& options = {}) {
     const TemporaryFolder folder;
     (void)write_mesh(mesh, folder / name);
+    test::expect_right_stretches(folder / name);
     const std::string message =
         test::thrown_by<InputError>([&] { (void)read_mesh(folder / name, options); });
     return message.substr(std::min(message.size(), folder.path().native().size() + 1));

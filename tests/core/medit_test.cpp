@@ -9,6 +9,7 @@
 #include <octetra/core/error.hpp>
 #include <octetra/core/files/mesh_files.hpp>
 
+#include "core/stretches.hpp"
 #include "support/temporary_folder.hpp"
 #include "support/thrown.hpp"
 
@@ -25,7 +26,9 @@ const std::string good = head + vertices + cells + "End\n";
 
 Mesh read(const std::string& text, const ReadOptions& options = {}) {
     const TemporaryFolder folder;
-    return read_mesh(folder.write("m.mesh", text), options);
+    const auto file = folder.write("m.mesh", text);
+    test::expect_right_stretches(file);
+    return read_mesh(file, options);
 }
 
 struct BadCase {

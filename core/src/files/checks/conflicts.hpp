@@ -7,8 +7,8 @@
 #include <string_view>
 
 #include <octetra/core/mesh.hpp>
+#include <octetra/core/repeated_cells.hpp>
 
-#include "files/checks/repeated_cells.hpp"
 #include "files/checks/tagged_entities.hpp"
 
 /// What error messages say of an entry of a file that contradicts an earlier one.

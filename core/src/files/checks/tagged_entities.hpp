@@ -1,8 +1,7 @@
 #pragma once
 
 #include <octetra/core/mesh.hpp>
-
-#include "files/checks/repeated_cells.hpp"
+#include <octetra/core/repeated_cells.hpp>
 
 namespace octetra {
 

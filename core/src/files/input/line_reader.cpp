@@ -18,7 +18,6 @@ namespace octetra {
 namespace {
 
 /// What some editors put in front of UTF-8.
-constexpr std::string_view byte_order_mark = "\xef\xbb\xbf";
 constexpr std::size_t longest_line = std::size_t{1} << 20U;
 
 std::string_view without_comment_and_line_end(std::string_view raw) {
@@ -35,6 +34,24 @@ std::string_view without_comment_and_line_end(std::string_view raw) {
 }  // namespace
 
 LineReader::LineReader(std::filesystem::path path) : path_(std::move(path)) {
+    open();
+    if (file_size_ == 0) {
+        ::close(file_);
+        throw InputError(fmt::format("{}:1: the file is empty", path_.native()));
+    }
+    buffer_.resize(std::min<std::uint64_t>(longest_line, file_size_ + 1));
+}
+
+LineReader::LineReader(std::filesystem::path path, std::uint64_t begin, std::uint64_t end)
+    : path_(std::move(path)),
+      left_(end - begin),
+      buffer_position_(begin),
+      buffer_(std::min<std::uint64_t>(longest_line, left_ + 1)) {
+    open();
+    (void)::lseek(file_, static_cast<off_t>(begin), SEEK_SET);
+}
+
+void LineReader::open() {
     // O_NONBLOCK: a named pipe must be refused, not waited for.
     file_ = ::open(path_.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
     if (file_ < 0) {
@@ -47,11 +64,6 @@ LineReader::LineReader(std::filesystem::path path) : path_(std::move(path)) {
         throw InputError(fmt::format("{}: is not a file", path_.native()));
     }
     file_size_ = static_cast<std::uint64_t>(status.st_size);
-    if (file_size_ == 0) {
-        ::close(file_);
-        throw InputError(fmt::format("{}:1: the file is empty", path_.native()));
-    }
-    buffer_.resize(std::min<std::uint64_t>(longest_line, file_size_ + 1));
 }
 
 LineReader::~LineReader() { ::close(file_); }
@@ -59,7 +71,7 @@ LineReader::~LineReader() { ::close(file_); }
 bool LineReader::next() {
     std::string_view raw;
     while (next_raw_line(raw)) {
-        if (line_number_ == 0 && raw.starts_with(byte_order_mark)) {
+        if (line_number_ == 0 && line_position_ == 0 && raw.starts_with(byte_order_mark)) {
             raw.remove_prefix(byte_order_mark.size());
         }
         ++line_number_;
@@ -71,6 +83,7 @@ bool LineReader::next() {
 }
 
 bool LineReader::next_raw_line(std::string_view& raw) {
+    line_position_ = next_position();
     std::size_t searched = begin_;
     while (true) {
         const char* start = buffer_.data() + searched;
@@ -98,9 +111,11 @@ void LineReader::fill() {
     }
     if (pending == buffer_.size()) buffer_.resize(longest_line);  // the file has grown meanwhile
     std::memmove(buffer_.data(), buffer_.data() + begin_, pending);
+    buffer_position_ += begin_;
     begin_ = 0;
     end_ = pending;
-    const ssize_t got = ::read(file_, buffer_.data() + end_, buffer_.size() - end_);
+    const std::size_t room = std::min<std::uint64_t>(buffer_.size() - end_, left_);
+    const ssize_t got = ::read(file_, buffer_.data() + end_, room);
     if (got < 0 && errno == EINTR) return;
     if (got < 0) {
         throw SystemError(
@@ -108,6 +123,7 @@ void LineReader::fill() {
     }
     at_end_of_file_ = got == 0;
     end_ += static_cast<std::size_t>(got);
+    left_ -= static_cast<std::uint64_t>(got);
 }
 
 void LineReader::fail(std::string_view what, std::uint64_t line_number) const {

@@ -2,11 +2,15 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <limits>
 #include <string>
 #include <string_view>
 #include <vector>
 
 namespace octetra {
+
+/// A file of UTF-8 may begin with it.
+inline constexpr std::string_view byte_order_mark = "\xef\xbb\xbf";
 
 /// Reads a text file line by line through one buffer, never the whole of it.
 /// Skips blank lines and a UTF-8 byte order mark, cuts off `#` comments; CRLF counts as a line end.
@@ -14,6 +18,9 @@ class LineReader {
 public:
     /// Throws InputError if `path` is not a regular file that can be read.
     explicit LineReader(std::filesystem::path path);
+    /// Reads the bytes begin .. end-1 of the file alone, where lines begin and end. Line numbers
+    /// count from `begin`.
+    LineReader(std::filesystem::path path, std::uint64_t begin, std::uint64_t end);
     ~LineReader();
     LineReader(const LineReader&) = delete;
     LineReader& operator=(const LineReader&) = delete;
@@ -27,6 +34,9 @@ public:
     [[nodiscard]] std::string_view line() const { return line_; }
     /// Its number, counted from 1; after the last line, the number of lines.
     [[nodiscard]] std::uint64_t line_number() const { return line_number_; }
+    /// Where in the file the current line begins, and where what follows it does.
+    [[nodiscard]] std::uint64_t line_position() const { return line_position_; }
+    [[nodiscard]] std::uint64_t next_position() const { return buffer_position_ + begin_; }
     [[nodiscard]] std::uint64_t file_size() const { return file_size_; }
     [[nodiscard]] const std::filesystem::path& path() const { return path_; }
 
@@ -39,12 +49,16 @@ public:
     void check_count(std::uint64_t count, std::size_t fields, std::string_view what) const;
 
 private:
+    void open();
     [[nodiscard]] bool next_raw_line(std::string_view& raw);
     void fill();
 
     std::filesystem::path path_;
     int file_ = -1;
     std::uint64_t file_size_ = 0;
+    std::uint64_t left_ = std::numeric_limits<std::uint64_t>::max();  // bytes to read at most
+    std::uint64_t buffer_position_ = 0;  // of the buffer's beginning, in the file
+    std::uint64_t line_position_ = 0;
     std::vector<char> buffer_;
     std::size_t begin_ = 0;  // of what is not yet handed out
     std::size_t end_ = 0;    // of what was read

@@ -16,6 +16,9 @@ namespace octetra {
 /// Takes everything as it stands; `options` must have only_syntax.
 void stream_medit(const std::filesystem::path& path, MeshSink& sink, const ReadOptions& options);
 
+/// What a reader says of a file without the last keyword.
+[[nodiscard]] std::string note_on_missing_end(const std::filesystem::path& path);
+
 /// Collective. Returns what of the mesh the format cannot hold, in a sentence, or nothing.
 [[nodiscard]] std::string write_medit(MeshSource& mesh, const std::filesystem::path& path);
 

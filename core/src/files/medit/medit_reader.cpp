@@ -8,10 +8,10 @@
 #include <fmt/format.h>
 
 #include <octetra/core/error.hpp>
+#include <octetra/core/repeated_cells.hpp>
 
 #include "files/checks/cell_check.hpp"
 #include "files/checks/conflicts.hpp"
-#include "files/checks/repeated_cells.hpp"
 #include "files/checks/tagged_entities.hpp"
 #include "files/input/fields.hpp"
 #include "files/input/growing_mesh.hpp"
@@ -103,8 +103,7 @@ private:
         const std::string keyword{tokens_.text()};
         if (keyword.empty()) {
             if (vertices_.keyword_line == 0) reader_.fail("there is no section Vertices");
-            options_->note(
-                fmt::format("{}: the file ends without the keyword End", reader_.path().native()));
+            options_->note(note_on_missing_end(reader_.path()));
             return false;
         }
         if (keyword == "End") {
@@ -306,7 +305,8 @@ private:
             options_->note(fmt::format("{}: {} inverted cells were turned round",
                                        reader_.path().native(), check.fixed_count()));
         }
-        if (const CellPair pair = repeated.find(mesh_); !pair.cell.is_none()) {
+        if (const CellPair pair = repeated.find(mesh_.cells, mesh_.points.size());
+            !pair.cell.is_none()) {
             fail_entry(tetrahedra_, pair.cell, "cell",
                        describe_repeated(pair, mesh_, lines_of(tetrahedra_)));
         }
@@ -342,6 +342,10 @@ private:
 };
 
 }  // namespace
+
+std::string note_on_missing_end(const std::filesystem::path& path) {
+    return fmt::format("{}: the file ends without the keyword End", path.native());
+}
 
 Mesh read_medit(const std::filesystem::path& path, const ReadOptions& options) {
     return MeditReader(path, options, nullptr).read();

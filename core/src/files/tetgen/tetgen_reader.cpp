@@ -1,41 +1,26 @@
-#include <array>
 #include <optional>
 #include <string_view>
-#include <system_error>
 #include <utility>
 
 #include <fmt/format.h>
 
 #include <octetra/core/error.hpp>
+#include <octetra/core/repeated_cells.hpp>
 
 #include "files/checks/cell_check.hpp"
 #include "files/checks/conflicts.hpp"
-#include "files/checks/repeated_cells.hpp"
 #include "files/checks/tagged_entities.hpp"
 #include "files/input/fields.hpp"
 #include "files/input/growing_mesh.hpp"
 #include "files/input/line_reader.hpp"
+#include "files/tetgen/lines.hpp"
 #include "files/tetgen/tetgen.hpp"
 
 namespace octetra {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// The numbers of a header line; those that the line leaves out have TetGen's defaults.
-template <std::size_t N>
-std::array<std::uint64_t, N> read_header(LineReader& reader,
-                                         const std::array<std::string_view, N>& names,
-                                         const std::array<std::uint64_t, N>& defaults) {
-    if (!reader.next()) reader.fail("the file ends before its header line");
-    Fields fields(reader);
-    std::array<std::uint64_t, N> values = defaults;
-    for (std::size_t k = 0; k < N && (k == 0 || !fields.at_end()); ++k) {
-        values[k] = fields.unsigned_integer(names[k]);
-    }
-    fields.expect_end(N);
-    return values;
-}
+using namespace tetgen;
 
 /// Reads the rest of the file: `count` lines, each with its number and what read_entry(fields)
 /// takes, `field_count` fields in all; complete() follows each. Returns the first entry's number: 0
@@ -78,110 +63,45 @@ LineOf lines_of(const fs::path& path) {
     return [path](std::uint64_t entry) { return line_of_entry(path, entry); };
 }
 
-/// What files call the vertices of a mesh: `count` numbers from `first`.
-struct NumberedVertices {
-    std::uint64_t first;
-    std::uint64_t count;
-};
-
 NumberedVertices vertex_numbers(const GrowingMesh& growing) {
     return {growing.mesh.index_base, growing.facts().vertices};
 }
 
-[[noreturn]] void refuse_vertex(std::uint64_t number, const LineReader& reader,
-                                NumberedVertices numbers) {
-    reader.fail(fmt::format("there is no vertex {}: the {} vertices are numbered from {}", number,
-                            numbers.count, numbers.first));
-}
-
-VertexIndex read_vertex(Fields& fields, const LineReader& reader, NumberedVertices numbers) {
-    const std::uint64_t number = fields.unsigned_integer("a vertex number");
-    const std::uint64_t index = number - numbers.first;  // wraps round below the first
-    if (index >= numbers.count) refuse_vertex(number, reader, numbers);
-    return VertexIndex{index};
-}
-
 void read_node(const fs::path& path, GrowingMesh& growing) {
     LineReader reader(path);
-    const auto header = read_header<4>(reader,
-                                       {"the number of vertices", "the dimension",
-                                        "the number of attributes per vertex", "the markers flag"},
-                                       {0, 3, 0, 0});
-    const std::uint64_t count = header[0];
-    const std::uint64_t dimension = header[1];
-    const std::uint64_t attributes = header[2];
-    const std::uint64_t markers = header[3];
-    if (dimension != 3) reader.fail(fmt::format("dimension 3 expected, {} found", dimension));
-    if (markers > 1) reader.fail(fmt::format("the markers flag is 0 or 1, not {}", markers));
-    constexpr std::uint64_t most_attributes = 1000;
-    if (attributes > most_attributes) {
-        reader.fail(fmt::format("{} attributes per vertex; at most {} are supported", attributes,
-                                most_attributes));
-    }
-    const std::size_t field_count = 4 + attributes + markers;
-    reader.check_count(count, field_count, "vertices");
-
-    growing.expect_points(count, attributes, markers == 1);
+    const NodeHead head = read_node_head(reader);
+    growing.expect_points(head.count, head.attributes, head.markers == 1);
     Mesh& mesh = growing.mesh;
-    const auto read_point = [&](Fields& fields) {
-        const double x = fields.coordinate("x");
-        const double y = fields.coordinate("y");
-        const double z = fields.coordinate("z");
-        mesh.points.push_back({x, y, z});
-        for (std::uint64_t k = 0; k < attributes; ++k) {
-            mesh.point_attributes.push_back(fields.real("an attribute of the vertex"));
-        }
-        if (markers == 1) mesh.point_markers.push_back(fields.marker("the vertex's marker"));
-    };
-    mesh.index_base = read_entries(reader, count, field_count, std::nullopt, read_point,
-                                   [&] { growing.point_complete(); });
+    mesh.index_base = read_entries(
+        reader, head.count, head.field_count(), std::nullopt,
+        [&](Fields& fields) { read_point(fields, head, mesh); }, [&] { growing.point_complete(); });
     growing.points_complete();
 }
 
 void read_ele(const fs::path& path, const ReadOptions& options, GrowingMesh& growing) {
     LineReader reader(path);
-    const auto header = read_header<3>(reader,
-                                       {"the number of cells", "the number of vertices per cell",
-                                        "the number of attributes per cell"},
-                                       {0, 4, 0});
-    const std::uint64_t count = header[0];
-    const std::uint64_t corners = header[1];
-    const std::uint64_t attributes = header[2];
-    if (corners == 10) {
-        reader.fail(
-            "these are second-order cells (10 vertices each); only those with 4 are "
-            "supported");
-    }
-    if (corners != 4) reader.fail(fmt::format("4 vertices per cell expected, {} found", corners));
-    if (attributes > 1) {
-        reader.fail(fmt::format("{} attributes per cell; only one, the region tag, is supported",
-                                attributes));
-    }
-    const std::size_t field_count = 5 + attributes;
-    reader.check_count(count, field_count, "cells");
-
-    growing.expect(cell_kind, count, attributes == 1);
+    const EleHead head = read_ele_head(reader);
+    growing.expect(cell_kind, head.count, head.attributes == 1);
     const NumberedVertices numbers = vertex_numbers(growing);
     Mesh& mesh = growing.mesh;
     CellCheck check(mesh, options);
-    RepeatedCells repeated(options.only_syntax ? 0 : count);
+    RepeatedCells repeated(options.only_syntax ? 0 : head.count);
     const auto read_cell = [&](Fields& fields) {
-        CellVertices cell;
-        for (VertexIndex& vertex : cell) vertex = read_vertex(fields, reader, numbers);
+        CellVertices cell = read_vertices<4>(fields, reader, numbers);
         const std::string_view wrong = check.judge(cell);
         if (!wrong.empty()) reader.fail(wrong);
         mesh.cells.push_back(cell);
         if (!options.only_syntax) repeated.add(cell);
-        if (attributes == 1) mesh.regions.push_back(fields.marker("the region tag"));
+        read_region(fields, head, mesh);
     };
-    read_entries(reader, count, field_count, mesh.index_base, read_cell,
+    read_entries(reader, head.count, head.field_count(), mesh.index_base, read_cell,
                  [&] { growing.entity_complete(cell_kind); });
     growing.all_complete(cell_kind);
     if (check.fixed_count() > 0) {
         options.note(fmt::format("{}: {} inverted cells were turned round", path.native(),
                                  check.fixed_count()));
     }
-    if (const CellPair pair = repeated.find(mesh); !pair.cell.is_none()) {
+    if (const CellPair pair = repeated.find(mesh.cells, mesh.points.size()); !pair.cell.is_none()) {
         fail_entry(path, pair.cell.value(), describe_repeated(pair, mesh, lines_of(path)));
     }
 }
@@ -191,44 +111,20 @@ template <class I, std::size_t N>
 void read_entities(const fs::path& path, std::string_view name, const EntityKind<I, N>& kind,
                    const ReadOptions& options, GrowingMesh& growing) {
     LineReader reader(path);
-    const auto header =
-        read_header<2>(reader, {"the number of entries", "the markers flag"}, {0, 0});
-    const std::uint64_t count = header[0];
-    const std::uint64_t markers = header[1];
-    if (markers > 1) reader.fail(fmt::format("the markers flag is 0 or 1, not {}", markers));
-    const std::size_t field_count = 1 + N + markers;
-    reader.check_count(count, field_count, "entries");
-
-    growing.expect(kind, count, markers == 1);
+    const ListHead head = read_list_head(reader, N);
+    growing.expect(kind, head.count, head.markers == 1);
     const NumberedVertices numbers = vertex_numbers(growing);
     Mesh& mesh = growing.mesh;
-    // With -nn TetGen adds the cells at each face (two) or edge (one), and tells nobody.
-    constexpr std::size_t adjacent_cells = N == 3 ? 2 : 1;
     std::optional<bool> has_adjacent_cells;  // as the first entry has them
     const auto read_entity = [&](Fields& fields) {
-        std::array<VertexIndex, N> vertices;
-        for (VertexIndex& vertex : vertices) vertex = read_vertex(fields, reader, numbers);
-        for (std::size_t k = 0; k < N; ++k) {
-            if (!options.only_syntax && vertices[k] == vertices[(k + 1) % N]) {
-                reader.fail(fmt::format("the {} has the same vertex twice", name));
-            }
-        }
-        (mesh.*kind.list).push_back(vertices);
-        if (markers == 1) (mesh.*kind.markers).push_back(fields.marker("the marker"));
-        if (!has_adjacent_cells) {
-            has_adjacent_cells = markers == 1 && fields.count_left() == adjacent_cells;
-        }
-        for (std::size_t k = 0; *has_adjacent_cells && k < adjacent_cells; ++k) {
-            (void)fields.marker("an adjacent cell");
-        }
+        read_tagged(fields, reader, name, kind, head, numbers, options.only_syntax, mesh);
+        if (!has_adjacent_cells) has_adjacent_cells = goes_on_with_cells<N>(fields, head);
+        if (*has_adjacent_cells) skip_adjacent_cells<N>(fields);
     };
-    read_entries(reader, count, field_count, mesh.index_base, read_entity,
+    read_entries(reader, head.count, 1 + N + head.markers, mesh.index_base, read_entity,
                  [&] { growing.entity_complete(kind); });
     growing.all_complete(kind);
-    if (has_adjacent_cells == true) {
-        options.note(
-            fmt::format("{}: the adjacent cells of each {} are not kept", path.native(), name));
-    }
+    if (has_adjacent_cells == true) options.note(note_on_adjacent_cells(path, name));
 }
 
 template <class I>
@@ -246,16 +142,6 @@ void check_facets(const Mesh& mesh, const fs::path& face, const fs::path& ele) {
         fail_entry(ele, cell.value(), describe_overlap(wrong, mesh, lines_of(ele)));
     }
     refuse_if_wrong(wrong.tagged, "face", mesh.facet_markers, mesh, face);
-}
-
-fs::path companion(fs::path path, std::string_view extension) {
-    return path.replace_extension(extension);
-}
-
-/// Is there anything of this name? What is there but cannot be read must be opened, to be reported.
-bool is_there(const fs::path& path) {
-    std::error_code ignored;
-    return fs::symlink_status(path, ignored).type() != fs::file_type::not_found;
 }
 
 void require_companion(const fs::path& path, const fs::path& other) {

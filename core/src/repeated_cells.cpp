@@ -1,4 +1,4 @@
-#include "files/checks/repeated_cells.hpp"
+#include <octetra/core/repeated_cells.hpp>
 
 #include <algorithm>
 #include <utility>
@@ -18,7 +18,8 @@ using ByVertices = std::pair<CellVertices, CellIndex>;
 
 RepeatedCells::RepeatedCells(std::uint64_t cell_count) : seen_(cell_count / 4 + 1, 0) {}
 
-CellPair RepeatedCells::find(const Mesh& mesh) {
+CellPair RepeatedCells::find(const IndexVector<CellIndex, CellVertices>& cells,
+                             std::size_t vertex_count) {
     for (std::uint32_t i = count_ - std::min(count_, ahead); i < count_; ++i) {
         look_up(waiting_[i % ahead], i);
     }
@@ -26,15 +27,15 @@ CellPair RepeatedCells::find(const Mesh& mesh) {
     if (suspects_.empty()) return {};
 
     std::vector<ByVertices> suspects;
-    std::vector<bool> is_corner(mesh.points.size(), false);
+    std::vector<bool> is_corner(vertex_count, false);
     for (const CellIndex c : suspects_) {
-        suspects.emplace_back(sorted(mesh.cells[c]), c);
-        for (const VertexIndex v : mesh.cells[c]) is_corner[v.value()] = true;
+        suspects.emplace_back(sorted(cells[c]), c);
+        for (const VertexIndex v : cells[c]) is_corner[v.value()] = true;
     }
     std::ranges::sort(suspects);
     CellPair pair;
-    for (CellIndex c{0}; c < mesh.cells.end_index(); ++c) {
-        const CellVertices& cell = mesh.cells[c];
+    for (CellIndex c{0}; c < cells.end_index(); ++c) {
+        const CellVertices& cell = cells[c];
         if (!std::ranges::all_of(cell, [&](VertexIndex v) { return is_corner[v.value()]; })) {
             continue;
         }

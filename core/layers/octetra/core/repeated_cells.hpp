@@ -8,7 +8,7 @@
 
 namespace octetra {
 
-/// A cell of a file, and an earlier one that cannot be in the mesh with it.
+/// A cell of a mesh, and an earlier one that cannot be in it, too.
 struct CellPair {
     CellIndex cell = CellIndex::none();  ///< none: there is no such pair
     CellIndex earlier = CellIndex::none();
@@ -21,7 +21,7 @@ class RepeatedCells {
 public:
     explicit RepeatedCells(std::uint64_t cell_count);
 
-    /// The next cell of the file.
+    /// The next cell.
     void add(const CellVertices& cell) {
         Waiting& place = waiting_[count_ % ahead];
         if (count_ >= ahead) look_up(place, count_ - ahead);
@@ -30,9 +30,10 @@ public:
         ++count_;
     }
 
-    /// All cells have come, and this is their mesh: the first that has the vertices of an earlier
-    /// one, and the first of these. Numbers of vertices must be in range.
-    [[nodiscard]] CellPair find(const Mesh& mesh);
+    /// All cells have come, and these are they: the first that has the vertices of an earlier one,
+    /// and the first of these. Numbers of vertices must be less than `vertex_count`.
+    [[nodiscard]] CellPair find(const IndexVector<CellIndex, CellVertices>& cells,
+                                std::size_t vertex_count);
 
 private:
     static constexpr std::uint32_t ahead = 8;

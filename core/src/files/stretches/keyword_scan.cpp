@@ -1,0 +1,104 @@
+#include "files/stretches/keyword_scan.hpp"
+
+#include <algorithm>
+#include <cstring>
+#include <stdexcept>
+#include <string_view>
+
+#include "files/input/input_file.hpp"
+#include "files/input/line_reader.hpp"
+#include "files/stretches/shares.hpp"
+
+namespace octetra {
+namespace {
+
+constexpr std::size_t most_keywords = 1000;
+
+bool is_letter(char c) { return (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z'); }
+bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\r'; }
+
+/// Looks through bytes for lines that begin with a letter, if blanks are left out.
+class KeywordScan {
+public:
+    /// `position`: of the first byte in the file, with which a line begins.
+    explicit KeywordScan(std::uint64_t position) : position_(position), line_(position) {}
+
+    void look_through(const char* bytes, std::size_t size) {
+        const char* const end = bytes + size;
+        const bool has_mark =
+            position_ == 0 && std::string_view(bytes, size).starts_with(byte_order_mark);
+        for (const char* at = has_mark ? bytes + byte_order_mark.size() : bytes; at != end;) {
+            if (!is_in_line_) {
+                while (at != end && is_blank(*at)) ++at;
+                if (at == end) break;
+                if (is_letter(*at)) take_line();
+                is_in_line_ = true;
+            }
+            const auto* newline =
+                static_cast<const char*>(std::memchr(at, '\n', static_cast<std::size_t>(end - at)));
+            if (newline == nullptr) break;
+            at = newline + 1;
+            is_in_line_ = false;
+            line_ = position_ + static_cast<std::uint64_t>(at - bytes);
+        }
+        position_ += size;
+    }
+
+    [[nodiscard]] const std::vector<std::uint64_t>& found() const { return found_; }
+
+private:
+    void take_line() {
+        if (found_.size() == most_keywords) throw std::length_error("too many keywords");
+        found_.push_back(line_);
+    }
+
+    std::uint64_t position_;
+    std::uint64_t line_;
+    bool is_in_line_ = false;
+    std::vector<std::uint64_t> found_;
+};
+
+std::vector<std::uint64_t> keywords_in(const std::filesystem::path& path,
+                                       const FileStretch& share) {
+    const InputFile file(path);
+    KeywordScan scan(share.begin);
+    std::vector<char> bytes(std::min<std::uint64_t>(std::uint64_t{1} << 18U, share.size()));
+    for (std::uint64_t at = share.begin; at < share.end; at += bytes.size()) {
+        const auto size = std::min<std::uint64_t>(bytes.size(), share.end - at);
+        file.read(at, bytes.data(), size);
+        scan.look_through(bytes.data(), size);
+    }
+    return scan.found();
+}
+
+}  // namespace
+
+std::optional<std::vector<std::uint64_t>> scan_for_keywords(Progress& progress,
+                                                            const std::filesystem::path& path,
+                                                            std::uint64_t file_size) {
+    const ProcessGroup& group = progress.group();
+    std::vector<ProcessGroup::Bytes> to_each;
+    progress.attempt([&] {
+        const FileStretch share = share_of_lines(path, {0, file_size}, group.rank(), group.size());
+        const std::vector<std::uint64_t> found = keywords_in(path, share);
+        ProcessGroup::Bytes bytes(found.size() * sizeof(std::uint64_t));
+        if (!found.empty()) std::memcpy(bytes.data(), found.data(), bytes.size());
+        to_each.assign(static_cast<std::size_t>(group.size()), bytes);
+    });
+    if (!progress.all_well()) return std::nullopt;
+    std::vector<std::uint64_t> positions;
+    progress.attempt([&] {
+        for (const ProcessGroup::Bytes& bytes : group.exchange(std::move(to_each))) {
+            const std::size_t before = positions.size();
+            positions.resize(before + bytes.size() / sizeof(std::uint64_t));
+            if (!bytes.empty()) {
+                std::memcpy(positions.data() + before, bytes.data(), bytes.size());
+            }
+        }
+        if (positions.size() > most_keywords) throw std::length_error("too many keywords");
+    });
+    if (!progress.all_well()) return std::nullopt;
+    return positions;
+}
+
+}  // namespace octetra

@@ -1,0 +1,271 @@
+#include <algorithm>
+#include <array>
+#include <stdexcept>
+#include <string_view>
+
+#include "files/input/fields.hpp"
+#include "files/input/growing_mesh.hpp"
+#include "files/input/input_file.hpp"
+#include "files/input/line_reader.hpp"
+#include "files/medit/keywords.hpp"
+#include "files/medit/medit.hpp"
+#include "files/stretches/keyword_scan.hpp"
+#include "files/stretches/progress.hpp"
+#include "files/stretches/readers.hpp"
+#include "files/stretches/shares.hpp"
+
+namespace octetra {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// The entries of a section, between its count and the next keyword.
+struct SectionPlan {
+    std::uint64_t count = 0;
+    std::uint64_t is_there = 0;
+    FileStretch bytes;
+};
+
+/// What the first process finds between the keywords.
+struct MeditPlan {
+    SectionPlan vertices;
+    SectionPlan tetrahedra;
+    SectionPlan triangles;
+    SectionPlan edges;
+    std::uint64_t has_end = 0;
+};
+
+[[noreturn]] void leave_it_to_one_process() { throw std::runtime_error("not one entity a line"); }
+
+/// A keyword and the number behind it, which may stand on the next line.
+class SectionHead {
+public:
+    SectionHead(const fs::path& path, std::uint64_t begin, std::uint64_t end)
+        : reader_(path, begin, end), end_(end) {
+        if (!reader_.next()) leave_it_to_one_process();
+        Fields fields(reader_);
+        keyword_ = fields.text();
+        if (keyword_ == "End") {
+            if (!fields.at_end()) leave_it_to_one_process();
+            return;
+        }
+        if (fields.at_end()) {
+            if (!reader_.next()) leave_it_to_one_process();
+            fields = Fields(reader_);
+        }
+        number_ = fields.unsigned_integer("a number");
+        if (!fields.at_end()) leave_it_to_one_process();
+    }
+
+    [[nodiscard]] const std::string& keyword() const { return keyword_; }
+    [[nodiscard]] std::uint64_t number() const { return number_; }
+
+    /// For what has no entries: nothing may follow.
+    void expect_nothing() {
+        if (reader_.next()) leave_it_to_one_process();
+    }
+    void take_entries(SectionPlan& section, std::size_t field_count) const {
+        if (section.is_there == 1) leave_it_to_one_process();
+        reader_.check_count(number_, field_count, "entries");
+        section = {number_, 1, {reader_.next_position(), end_}};
+    }
+
+private:
+    LineReader reader_;
+    std::uint64_t end_;
+    std::string keyword_;
+    std::uint64_t number_ = 0;
+};
+
+bool may_be_empty(const std::string& keyword) {
+    return std::ranges::find(skipped_sections, keyword, &SkippedSection::keyword) !=
+               skipped_sections.end() ||
+           std::ranges::find(other_cell_shapes, keyword) != other_cell_shapes.end();
+}
+
+void plan_section(SectionHead& head, bool is_last, MeditPlan& plan) {
+    if (head.keyword() == "End") {
+        plan.has_end = 1;
+        head.expect_nothing();
+        if (!is_last) leave_it_to_one_process();
+    } else if (head.keyword() == "Dimension") {
+        head.expect_nothing();
+        if (head.number() != 3) leave_it_to_one_process();
+    } else if (head.keyword() == "Vertices") {
+        head.take_entries(plan.vertices, 4);
+    } else if (head.keyword() == "Tetrahedra") {
+        head.take_entries(plan.tetrahedra, 5);
+    } else if (head.keyword() == "Triangles") {
+        head.take_entries(plan.triangles, 4);
+    } else if (head.keyword() == "Edges") {
+        head.take_entries(plan.edges, 3);
+    } else if (may_be_empty(head.keyword()) && head.number() == 0) {
+        head.expect_nothing();
+    } else {
+        leave_it_to_one_process();
+    }
+}
+
+MeditPlan medit_plan(const fs::path& path, const std::vector<std::uint64_t>& keywords,
+                     std::uint64_t file_size) {
+    MeditPlan plan;
+    if (keywords.empty() || LineReader(path, 0, keywords.front()).next()) leave_it_to_one_process();
+    for (std::size_t k = 0; k < keywords.size(); ++k) {
+        const bool is_last = k + 1 == keywords.size();
+        SectionHead head(path, keywords[k], is_last ? file_size : keywords[k + 1]);
+        if (k > 0) {
+            plan_section(head, is_last, plan);
+            continue;
+        }
+        head.expect_nothing();
+        if (head.keyword() != "MeshVersionFormatted" || head.number() < 1 || head.number() > 4) {
+            leave_it_to_one_process();
+        }
+    }
+    if (plan.vertices.is_there == 0) leave_it_to_one_process();
+    return plan;
+}
+
+/// What this process reads of each section.
+class MeditShares {
+public:
+    MeditShares(const fs::path& path, const MeditPlan& plan, const ProcessGroup& group)
+        : path_(&path), plan_(&plan), group_(&group) {}
+
+    void read(Mesh& lists) {
+        read_share(
+            plan_->vertices, 4,
+            [&](std::size_t room) {
+                lists.points.reserve(room);
+                lists.point_markers.reserve(room);
+            },
+            [&](Fields& fields, const LineReader&) {
+                const double x = fields.coordinate("x");
+                const double y = fields.coordinate("y");
+                const double z = fields.coordinate("z");
+                lists.points.push_back({x, y, z});
+                lists.point_markers.push_back(fields.marker("the vertex's reference"));
+            });
+        read_list(plan_->tetrahedra, cell_kind, lists);
+        read_list(plan_->triangles, facet_kind, lists);
+        read_list(plan_->edges, edge_kind, lists);
+    }
+
+    /// Collective. False, on all processes, if entries are more or fewer than announced.
+    [[nodiscard]] bool number(MeshStretch& stretch) const {
+        bool well = true;
+        const auto number = [&](std::size_t read, const SectionPlan& section) {
+            return number_stretch(*group_, read, section.count, well);
+        };
+        const Mesh& lists = stretch.lists;
+        stretch.first_vertex = number(lists.points.size(), plan_->vertices);
+        stretch.first_cell = number(lists.cells.size(), plan_->tetrahedra);
+        stretch.first_facet = number(lists.facets.size(), plan_->triangles);
+        stretch.first_edge = number(lists.edges.size(), plan_->edges);
+        return well;
+    }
+
+private:
+    void read_share(const SectionPlan& section, std::size_t field_count, auto&& make_room,
+                    auto&& read_entry) {
+        if (section.is_there == 0) return;
+        const FileStretch share =
+            share_of_lines(*path_, section.bytes, group_->rank(), group_->size());
+        make_room(room_for(section.count, share.size(), section.bytes.size()));
+        LineReader reader(*path_, share.begin, share.end);
+        while (reader.next()) {
+            Fields fields(reader);
+            read_entry(fields, reader);
+            fields.expect_end(field_count);
+        }
+    }
+
+    template <class I, std::size_t N>
+    void read_list(const SectionPlan& section, const EntityKind<I, N>& kind, Mesh& lists) {
+        auto& list = lists.*kind.list;
+        auto& markers = lists.*kind.markers;
+        const std::uint64_t vertex_count = plan_->vertices.count;
+        const auto read_entry = [&](Fields& fields, const LineReader& reader) {
+            std::array<VertexIndex, N> vertices;
+            for (VertexIndex& vertex : vertices) {
+                const std::uint64_t index = fields.unsigned_integer("a vertex number") - 1;
+                if (index >= vertex_count) reader.fail("there is no such vertex");  // 0 wraps round
+                vertex = VertexIndex{index};
+            }
+            for (std::size_t k = 0; k < N; ++k) {
+                for (std::size_t j = 0; j < k; ++j) {
+                    if (vertices[j] == vertices[k]) reader.fail("the same vertex twice");
+                }
+            }
+            list.push_back(vertices);
+            markers.push_back(fields.marker("the reference"));
+        };
+        read_share(
+            section, N + 1,
+            [&](std::size_t room) {
+                list.reserve(room);
+                markers.reserve(room);
+            },
+            read_entry);
+    }
+
+    const fs::path* path_;
+    const MeditPlan* plan_;
+    const ProcessGroup* group_;
+};
+
+/// Collective. Does any process have a marker that is not 0? Else they are dropped: in this format
+/// zeros say that there are none.
+bool keep_if_any(const ProcessGroup& group, std::vector<Marker>& markers) {
+    const bool any = std::ranges::any_of(markers, [](Marker m) { return m != 0; });
+    if (group.sum(any ? 1 : 0) > 0) return true;
+    std::vector<Marker>().swap(markers);
+    return false;
+}
+
+/// Collective.
+void find_facts(const MeditPlan& plan, const ProcessGroup& group, MeshStretch& stretch) {
+    MeshFacts& facts = stretch.facts;
+    facts.vertices = plan.vertices.count;
+    facts.cells = plan.tetrahedra.count;
+    facts.facets = plan.triangles.count;
+    facts.edges = plan.edges.count;
+    facts.index_base = facts.vertices == 0 ? 0 : 1;
+    facts.first_midpoint = facts.vertices;
+    Mesh& lists = stretch.lists;
+    lists.index_base = facts.index_base;
+    facts.has_point_markers = keep_if_any(group, lists.point_markers);
+    facts.has_regions = keep_if_any(group, lists.regions);
+    facts.has_facet_markers = keep_if_any(group, lists.facet_markers);
+    facts.has_edge_markers = keep_if_any(group, lists.edge_markers);
+}
+
+}  // namespace
+
+std::optional<MeshStretch> read_medit_stretch(const fs::path& path, const ProcessGroup& group) {
+    Progress progress(group);
+    std::uint64_t file_size = 0;
+    progress.attempt([&] {
+        if (group.is_first()) file_size = InputFile(path).size();
+    });
+    if (!take_from_first(progress, file_size)) return std::nullopt;
+    const auto keywords = scan_for_keywords(progress, path, file_size);
+    if (!keywords) return std::nullopt;
+    MeditPlan plan;
+    progress.attempt([&] {
+        if (group.is_first()) plan = medit_plan(path, *keywords, file_size);
+    });
+    if (!take_from_first(progress, plan)) return std::nullopt;
+
+    MeshStretch stretch;
+    MeditShares shares(path, plan, group);
+    progress.attempt([&] {
+        shares.read(stretch.lists);
+        if (plan.has_end == 0) stretch.notes.push_back(note_on_missing_end(path));
+    });
+    if (!progress.all_well() || !shares.number(stretch)) return std::nullopt;
+    find_facts(plan, group, stretch);
+    return stretch;
+}
+
+}  // namespace octetra

@@ -1,0 +1,64 @@
+#pragma once
+
+#include <cstring>
+#include <new>
+#include <type_traits>
+#include <utility>
+
+#include <octetra/core/process_group.hpp>
+
+namespace octetra {
+
+/// Whether processes that read a file together can go on. Work is attempted between two places
+/// where all agree; with an exchange in it, all must enter that whatever has failed before.
+class Progress {
+public:
+    explicit Progress(const ProcessGroup& group) : group_(&group) {}
+
+    [[nodiscard]] const ProcessGroup& group() const { return *group_; }
+
+    /// Does the work, unless something has failed. What exactly, whoever reads the file alone will
+    /// say; only that there is no memory is kept apart.
+    void attempt(auto&& work) noexcept {
+        if (!is_well_) return;
+        try {
+            work();
+        } catch (const std::bad_alloc&) {
+            is_well_ = false;
+            has_no_memory_ = true;
+        } catch (...) {
+            is_well_ = false;
+        }
+    }
+
+    /// Collective. Has nothing failed anywhere? Throws std::bad_alloc if this process has no
+    /// memory.
+    [[nodiscard]] bool all_well() const {
+        const bool well = group_->sum(is_well_ ? 0 : 1) == 0;
+        if (has_no_memory_) throw std::bad_alloc();
+        return well;
+    }
+
+private:
+    const ProcessGroup* group_;
+    bool is_well_ = true;
+    bool has_no_memory_ = false;
+};
+
+/// Collective. Gives all what the first process has, bit by bit. False, on all processes, if
+/// something has failed.
+template <class T>
+[[nodiscard]] bool take_from_first(Progress& progress, T& value) {
+    static_assert(std::is_trivially_copyable_v<T>);
+    ProcessGroup::Bytes bytes;
+    progress.attempt([&] {
+        bytes.resize(sizeof value);
+        std::memcpy(bytes.data(), &value, sizeof value);
+    });
+    if (!progress.all_well()) return false;
+    bytes = progress.group().of_first(std::move(bytes));
+    std::memcpy(&value, bytes.data(), sizeof value);
+    return true;
+}
+
+}  // namespace octetra

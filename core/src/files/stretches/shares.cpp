@@ -1,0 +1,44 @@
+#include "files/stretches/shares.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstring>
+
+#include "files/input/input_file.hpp"
+
+namespace octetra {
+namespace {
+
+/// Where the first line begins that does so at `position` or later.
+std::uint64_t next_line(const InputFile& file, std::uint64_t position, const FileStretch& whole) {
+    if (position <= whole.begin) return whole.begin;
+    std::array<char, 4096> bytes;
+    for (--position; position < whole.end;) {  // the line end before may be the last byte
+        const auto size = std::min<std::uint64_t>(bytes.size(), whole.end - position);
+        file.read(position, bytes.data(), size);
+        if (const void* found = std::memchr(bytes.data(), '\n', size)) {
+            const auto offset = static_cast<const char*>(found) - bytes.data();
+            return position + static_cast<std::uint64_t>(offset) + 1;
+        }
+        position += size;
+    }
+    return whole.end;
+}
+
+}  // namespace
+
+FileStretch share_of_lines(const std::filesystem::path& path, const FileStretch& whole, int rank,
+                           int processes) {
+    const InputFile file(path);
+    const auto count = static_cast<std::uint64_t>(processes);
+    const auto boundary = [&](int r) {
+        const auto shares = static_cast<std::uint64_t>(r);
+        return next_line(
+            file,
+            whole.begin + whole.size() / count * shares + std::min(whole.size() % count, shares),
+            whole);
+    };
+    return {boundary(rank), boundary(rank + 1)};
+}
+
+}  // namespace octetra

@@ -1,0 +1,131 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <string_view>
+
+#include <fmt/format.h>
+
+#include <octetra/core/files/mesh_files.hpp>
+#include <octetra/core/mesh.hpp>
+
+#include "files/input/fields.hpp"
+#include "files/input/growing_mesh.hpp"
+#include "files/input/line_reader.hpp"
+
+/// The lines of TetGen's files: what the first one announces, and what each of the others holds.
+namespace octetra::tetgen {
+
+/// The first line of a `.node` file.
+struct NodeHead {
+    std::uint64_t count = 0;
+    std::uint64_t attributes = 0;
+    std::uint64_t markers = 0;  ///< 1: each vertex has one
+
+    [[nodiscard]] std::size_t field_count() const { return 4 + attributes + markers; }
+};
+
+/// The first line of an `.ele` file.
+struct EleHead {
+    std::uint64_t count = 0;
+    std::uint64_t attributes = 0;  ///< 1: each cell has its region tag
+
+    [[nodiscard]] std::size_t field_count() const { return 5 + attributes; }
+};
+
+/// The first line of a `.face` or `.edge` file.
+struct ListHead {
+    std::uint64_t count = 0;
+    std::uint64_t markers = 0;  ///< 1: each entry has one
+};
+
+/// Each reads the line, and refuses counts that the file cannot hold and what is not supported.
+[[nodiscard]] NodeHead read_node_head(LineReader& reader);
+[[nodiscard]] EleHead read_ele_head(LineReader& reader);
+/// Of entries of so many vertices.
+[[nodiscard]] ListHead read_list_head(LineReader& reader, std::size_t vertices);
+
+/// What files call the vertices of a mesh: `count` numbers from `first`.
+struct NumberedVertices {
+    std::uint64_t first;
+    std::uint64_t count;
+};
+
+[[noreturn]] void refuse_vertex(std::uint64_t number, const LineReader& reader,
+                                NumberedVertices numbers);
+
+[[nodiscard]] inline VertexIndex read_vertex(Fields& fields, const LineReader& reader,
+                                             NumberedVertices numbers) {
+    const std::uint64_t number = fields.unsigned_integer("a vertex number");
+    const std::uint64_t index = number - numbers.first;  // wraps round below the first
+    if (index >= numbers.count) refuse_vertex(number, reader, numbers);
+    return VertexIndex{index};
+}
+
+template <std::size_t N>
+[[nodiscard]] std::array<VertexIndex, N> read_vertices(Fields& fields, const LineReader& reader,
+                                                       NumberedVertices numbers) {
+    std::array<VertexIndex, N> vertices;
+    for (VertexIndex& vertex : vertices) vertex = read_vertex(fields, reader, numbers);
+    return vertices;
+}
+
+inline void read_point(Fields& fields, const NodeHead& head, Mesh& mesh) {
+    const double x = fields.coordinate("x");
+    const double y = fields.coordinate("y");
+    const double z = fields.coordinate("z");
+    mesh.points.push_back({x, y, z});
+    for (std::uint64_t k = 0; k < head.attributes; ++k) {
+        mesh.point_attributes.push_back(fields.real("an attribute of the vertex"));
+    }
+    if (head.markers == 1) mesh.point_markers.push_back(fields.marker("the vertex's marker"));
+}
+
+inline void read_region(Fields& fields, const EleHead& head, Mesh& mesh) {
+    if (head.attributes == 1) mesh.regions.push_back(fields.marker("the region tag"));
+}
+
+/// With -nn TetGen adds the cells at each face (two) or edge (one), and tells nobody.
+template <std::size_t N>
+inline constexpr std::size_t adjacent_cells = N == 3 ? 2 : 1;
+
+/// Reads the vertices and the marker of a facet or edge, which messages call `name`.
+template <class I, std::size_t N>
+void read_tagged(Fields& fields, const LineReader& reader, std::string_view name,
+                 const EntityKind<I, N>& kind, const ListHead& head, NumberedVertices numbers,
+                 bool only_syntax, Mesh& mesh) {
+    const auto vertices = read_vertices<N>(fields, reader, numbers);
+    for (std::size_t k = 0; k < N; ++k) {
+        if (!only_syntax && vertices[k] == vertices[(k + 1) % N]) {
+            reader.fail(fmt::format("the {} has the same vertex twice", name));
+        }
+    }
+    (mesh.*kind.list).push_back(vertices);
+    if (head.markers == 1) (mesh.*kind.markers).push_back(fields.marker("the marker"));
+}
+
+/// Does this line, of which a facet or edge and its marker have been read, go on with as many
+/// fields as there are adjacent cells? So do all, if the first one does.
+template <std::size_t N>
+[[nodiscard]] bool goes_on_with_cells(const Fields& fields, const ListHead& head) {
+    return head.markers == 1 && fields.count_left() == adjacent_cells<N>;
+}
+template <std::size_t N>
+void skip_adjacent_cells(Fields& fields) {
+    for (std::size_t k = 0; k < adjacent_cells<N>; ++k) (void)fields.marker("an adjacent cell");
+}
+
+[[nodiscard]] inline std::string note_on_adjacent_cells(const std::filesystem::path& path,
+                                                        std::string_view name) {
+    return fmt::format("{}: the adjacent cells of each {} are not kept", path.native(), name);
+}
+
+/// `path` with another extension.
+[[nodiscard]] std::filesystem::path companion(std::filesystem::path path,
+                                              std::string_view extension);
+
+/// Is there anything of this name? What is there but cannot be read must be opened, to be reported.
+[[nodiscard]] bool is_there(const std::filesystem::path& path);
+
+}  // namespace octetra::tetgen

@@ -9,6 +9,7 @@
 #include <octetra/core/error.hpp>
 #include <octetra/core/files/mesh_files.hpp>
 #include <octetra/distributed/profile.hpp>
+#include <octetra/distributed/read_parts.hpp>
 
 #include "adapt/marks.hpp"
 #include "adapt/mesh_state.hpp"
@@ -56,13 +57,7 @@ AdaptiveMesh& AdaptiveMesh::operator=(AdaptiveMesh&&) noexcept = default;
 
 AdaptiveMesh AdaptiveMesh::read(const Communicator& processes, const std::filesystem::path& path,
                                 const Partition& partition) {
-    Mesh mesh;
-    std::vector<int> cell_to_rank;
-    processes.on_first([&] {
-        mesh = read_mesh(path);
-        cell_to_rank = partition_cells(mesh, processes.size(), partition);
-    });
-    return distribute(processes, std::move(mesh), cell_to_rank);
+    return AdaptiveMesh(read_parts(processes, path, partition));
 }
 
 AdaptiveMesh AdaptiveMesh::distribute(const Communicator& processes, Mesh mesh,

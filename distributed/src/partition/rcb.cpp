@@ -32,8 +32,12 @@ struct Box {
 
 class Bisection {
 public:
-    Bisection(const Communicator& processes, const std::vector<WeighedPoint>& points, int parts)
-        : processes_(&processes), points_(&points), box_of_(points.size(), 0), boxes_{{0, parts}} {}
+    Bisection(const Communicator& processes, const WeighedPoints& points, int parts)
+        : processes_(&processes),
+          points_(&points),
+          coordinate_(points.count),
+          box_of_(points.count, 0),
+          boxes_{{0, parts}} {}
 
     /// Collective. Cuts every box that is to be more than one part; false if there is none, or a
     /// process has failed.
@@ -44,37 +48,39 @@ public:
         find_targets(failure);
         // First the coordinate, then among equal ones the number.
         find_limits(
-            failure, [&](std::size_t i) { return coordinate(i); }, coordinate_limit_,
-            [](std::size_t) { return true; });
+            failure, points_->count, [](std::size_t i) { return i; },
+            [&](std::size_t i) { return coordinate_[i]; }, coordinate_limit_);
+        failure.attempt([&] { find_equal(); });
         find_limits(
-            failure, [&](std::size_t i) { return (*points_)[i].number; }, number_limit_,
-            [&](std::size_t i) { return coordinate(i) == coordinate_limit_[box_of_[i]]; });
+            failure, equal_.size(), [&](std::size_t k) { return equal_[k]; }, points_->number,
+            number_limit_);
         failure.attempt([&] { divide(); });
         return failure.max_unless_failed(*processes_, 0) != LocalFailure::somewhere;
     }
 
-    [[nodiscard]] std::vector<int> parts() const {
-        std::vector<int> parts;
-        parts.reserve(box_of_.size());
-        for (const std::uint32_t box : box_of_) parts.push_back(boxes_[box].begin);
-        return parts;
+    [[nodiscard]] std::vector<int> parts() && {
+        for (int& box : box_of_) box = boxes_[static_cast<std::size_t>(box)].begin;
+        return std::move(box_of_);
     }
 
 private:
     static constexpr std::size_t digits = 256;
 
-    [[nodiscard]] Key coordinate(std::size_t i) const {
-        return keys_of((*points_)[i].point)[axis_[box_of_[i]]];
+    [[nodiscard]] std::size_t box_of(std::size_t i) const {
+        return static_cast<std::size_t>(box_of_[i]);
+    }
+    [[nodiscard]] std::uint64_t weight(std::size_t i) const {
+        return points_->weights.empty() ? 1 : points_->weights[i];
     }
 
-    /// Collective.
+    /// Collective. The longest extent of each box; and of each point its coordinate there.
     void find_axes(LocalFailure& failure) {
         std::vector<Key> extremes;  // of each box and axis the greatest key and complement
         failure.attempt([&] {
             extremes.assign(6 * boxes_.size(), 0);
-            for (std::size_t i = 0; i < points_->size(); ++i) {
-                const auto keys = keys_of((*points_)[i].point);
-                Key* const box = extremes.data() + std::size_t{6} * box_of_[i];
+            for (std::size_t i = 0; i < points_->count; ++i) {
+                const auto keys = keys_of(points_->point(i));
+                Key* const box = extremes.data() + 6 * box_of(i);
                 for (std::size_t k = 0; k < 3; ++k) {
                     box[2 * k] = std::max(box[2 * k], keys[k]);
                     box[2 * k + 1] = std::max(box[2 * k + 1], ~keys[k]);
@@ -95,6 +101,9 @@ private:
                 axis_.push_back(
                     static_cast<std::size_t>(std::ranges::max_element(extent) - extent.begin()));
             }
+            for (std::size_t i = 0; i < points_->count; ++i) {
+                coordinate_[i] = keys_of(points_->point(i))[axis_[box_of(i)]];
+            }
         });
     }
 
@@ -103,9 +112,7 @@ private:
         std::vector<std::uint64_t> weights;
         failure.attempt([&] {
             weights.assign(boxes_.size(), 0);
-            for (std::size_t i = 0; i < points_->size(); ++i) {
-                weights[box_of_[i]] += (*points_)[i].weight;
-            }
+            for (std::size_t i = 0; i < points_->count; ++i) weights[box_of(i)] += weight(i);
         });
         if (failure.max_unless_failed(*processes_, 0) == LocalFailure::somewhere) return;
         processes_->sum(std::span(weights));
@@ -119,24 +126,32 @@ private:
         });
     }
 
+    /// Points that only their numbers tell from others at the limit.
+    void find_equal() {
+        equal_.clear();
+        for (std::size_t i = 0; i < points_->count; ++i) {
+            if (coordinate_[i] == coordinate_limit_[box_of(i)]) equal_.push_back(i);
+        }
+    }
+
     /// Collective. Of each box the key below which points together have not more than the target,
     /// while with those of the key itself they have, digit by digit. `target_` becomes what is left
-    /// for points of that very key.
-    void find_limits(LocalFailure& failure, auto&& key, std::vector<Key>& limits, auto&& counts) {
+    /// for points of that very key. Looks at `count` points, place(0) .. place(count-1).
+    void find_limits(LocalFailure& failure, std::size_t count, auto&& place, auto&& key,
+                     std::vector<Key>& limits) {
         failure.attempt([&] { limits.assign(boxes_.size(), 0); });
         for (unsigned shift = 64; shift > 0;) {
             shift -= 8;
             std::vector<std::uint64_t> sums;
             failure.attempt([&] {
                 sums.assign(digits * boxes_.size(), 0);
-                for (std::size_t i = 0; i < points_->size(); ++i) {
-                    if (!counts(i)) continue;
+                for (std::size_t j = 0; j < count; ++j) {
+                    const std::size_t i = place(j);
                     const Key k = key(i);
+                    const std::size_t box = box_of(i);
                     const bool same_before =
-                        shift == 56 || k >> (shift + 8) == limits[box_of_[i]] >> (shift + 8);
-                    if (same_before) {
-                        sums[digits * box_of_[i] + (k >> shift & 255U)] += (*points_)[i].weight;
-                    }
+                        shift == 56 || k >> (shift + 8) == limits[box] >> (shift + 8);
+                    if (same_before) sums[digits * box + (k >> shift & 255U)] += weight(i);
                 }
             });
             if (failure.max_unless_failed(*processes_, 0) == LocalFailure::somewhere) return;
@@ -156,9 +171,9 @@ private:
 
     void divide() {
         std::vector<Box> boxes;
-        std::vector<std::uint32_t> first_half(boxes_.size());
+        std::vector<int> first_half(boxes_.size());
         for (std::size_t b = 0; b < boxes_.size(); ++b) {
-            first_half[b] = static_cast<std::uint32_t>(boxes.size());
+            first_half[b] = static_cast<int>(boxes.size());
             const Box& box = boxes_[b];
             if (box.is_part()) {
                 boxes.push_back(box);
@@ -167,40 +182,55 @@ private:
                 boxes.push_back({box.middle(), box.end});
             }
         }
-        for (std::size_t i = 0; i < points_->size(); ++i) {
-            const std::uint32_t b = box_of_[i];
-            const Key c = boxes_[b].is_part() ? 0 : coordinate(i);
+        for (std::size_t i = 0; i < points_->count; ++i) {
+            const std::size_t b = box_of(i);
             const bool is_first =
-                boxes_[b].is_part() || c < coordinate_limit_[b] ||
-                (c == coordinate_limit_[b] && (*points_)[i].number < number_limit_[b]);
-            box_of_[i] = first_half[b] + (is_first ? 0U : 1U);
+                boxes_[b].is_part() || coordinate_[i] < coordinate_limit_[b] ||
+                (coordinate_[i] == coordinate_limit_[b] && points_->number(i) < number_limit_[b]);
+            box_of_[i] = first_half[b] + (is_first ? 0 : 1);
         }
         boxes_ = std::move(boxes);
     }
 
     const Communicator* processes_;
-    const std::vector<WeighedPoint>* points_;
-    std::vector<std::uint32_t> box_of_;
+    const WeighedPoints* points_;
+    std::vector<Key> coordinate_;  // along the axis of the point's box
+    std::vector<int> box_of_;
     std::vector<Box> boxes_;
     std::vector<std::size_t> axis_;
     std::vector<std::uint64_t> target_;
     std::vector<Key> coordinate_limit_;
     std::vector<Key> number_limit_;
+    std::vector<std::size_t> equal_;
 };
 
 }  // namespace
 
-std::vector<int> bisect_coordinates(const Communicator& processes,
-                                    const std::vector<WeighedPoint>& points, int parts,
-                                    LocalFailure& failure) {
+std::vector<int> bisect_coordinates(const Communicator& processes, const WeighedPoints& points,
+                                    int parts, LocalFailure& failure) {
     std::vector<Bisection> bisection;
     failure.attempt([&] { bisection.emplace_back(processes, points, parts); });
     if (failure.max_unless_failed(processes, 0) == LocalFailure::somewhere) return {};
     while (bisection.front().cut_boxes(failure)) {
     }
     std::vector<int> part_of;
-    failure.attempt([&] { part_of = bisection.front().parts(); });
+    failure.attempt([&] { part_of = std::move(bisection.front()).parts(); });
     return part_of;
+}
+
+std::vector<int> bisect_coordinates(const Communicator& processes,
+                                    const std::vector<WeighedPoint>& points, int parts,
+                                    LocalFailure& failure) {
+    WeighedPoints by_place;
+    std::vector<std::uint64_t> weights;
+    failure.attempt([&] {
+        by_place.count = points.size();
+        by_place.point = [&](std::size_t i) { return points[i].point; };
+        by_place.number = [&](std::size_t i) { return points[i].number; };
+        for (const WeighedPoint& point : points) weights.push_back(point.weight);
+        by_place.weights = weights;
+    });
+    return bisect_coordinates(processes, by_place, parts, failure);
 }
 
 }  // namespace octetra::distributed

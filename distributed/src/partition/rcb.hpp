@@ -1,6 +1,9 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <functional>
+#include <span>
 #include <vector>
 
 #include <octetra/core/point.hpp>
@@ -17,6 +20,15 @@ struct WeighedPoint {
     std::uint64_t weight = 1;
 };
 
+/// The same of many, by place, as they are to be had. Kept of them are 12 bytes
+/// for each, and 8 more where coordinates are equal.
+struct WeighedPoints {
+    std::size_t count = 0;
+    std::function<Point(std::size_t)> point;
+    std::function<std::uint64_t(std::size_t)> number;
+    std::span<const std::uint64_t> weights;  ///< or empty: each weighs 1
+};
+
 /// Collective. Recursive coordinate bisection: boxes are cut across their longest extent into two
 /// whose weights are as their numbers of parts, until each is one part. Returns the part, 0 to
 /// parts-1, of each of this process's points. All is done in whole numbers, so the parts are the
@@ -25,6 +37,9 @@ struct WeighedPoint {
 ///
 /// Of each level of the tree, processes exchange 8 sums of 256 numbers for each box. Where a
 /// process has failed or fails, the result is not to be used on any.
+[[nodiscard]] std::vector<int> bisect_coordinates(const Communicator& processes,
+                                                  const WeighedPoints& points, int parts,
+                                                  LocalFailure& failure);
 [[nodiscard]] std::vector<int> bisect_coordinates(const Communicator& processes,
                                                   const std::vector<WeighedPoint>& points,
                                                   int parts, LocalFailure& failure);

@@ -62,7 +62,7 @@ struct BalanceOptions {
 /// Nothing is printed, and no process is ended.
 class AdaptiveMesh {
 public:
-    /// Collective. A mesh from a file, which the first process reads and the partition shares out.
+    /// Collective. A mesh from a file, shared out by the partition; see read_parts().
     [[nodiscard]] static AdaptiveMesh read(const Communicator& processes,
                                            const std::filesystem::path& path,
                                            const Partition& partition = {});

@@ -1,0 +1,194 @@
+#include "setup/distribute_stretch.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include <octetra/core/orientation.hpp>
+#include <octetra/core/repeated_cells.hpp>
+#include <octetra/distributed/profile.hpp>
+
+#include "comm/local_failure.hpp"
+#include "partition/rcb.hpp"
+#include "setup/ancestors_of_roots.hpp"
+#include "setup/find_interfaces.hpp"
+#include "setup/homes.hpp"
+#include "setup/part_vertices.hpp"
+#include "setup/send_cells.hpp"
+#include "setup/sharers.hpp"
+#include "setup/stretch_corners.hpp"
+#include "setup/tagged_sides.hpp"
+
+namespace octetra::distributed {
+namespace {
+
+bool are_positive(const StretchCorners& corners, std::size_t cells) {
+    for (std::size_t i = 0; i < cells; ++i) {
+        const auto [a, b, c, d] = corners.of(i);
+        if (orientation(a, b, c, d) <= 0) return false;
+    }
+    return true;
+}
+
+/// Collective. The parts of this process's cells.
+std::vector<int> parts_of(const Communicator& processes, const MeshStretch& stretch,
+                          const StretchCorners& corners, PartitionMethod method,
+                          LocalFailure& failure) {
+    const std::size_t count = stretch.lists.cells.size();
+    if (method == PartitionMethod::rcb) {
+        return bisect_coordinates(processes,
+                                  {.count = count,
+                                   .point = [&](std::size_t i) { return centroid(corners.of(i)); },
+                                   .number = [&](std::size_t i) { return stretch.first_cell + i; },
+                                   .weights = {}},
+                                  processes.size(), failure);
+    }
+    std::vector<int> parts;
+    failure.attempt([&] {
+        parts.resize(count);
+        const auto size = static_cast<std::uint64_t>(processes.size());
+        for (std::size_t i = 0; i < count; ++i) {
+            parts[i] = static_cast<int>((stretch.first_cell + i) * size / stretch.facts.cells);
+        }
+    });
+    return parts;
+}
+
+/// Of cells by local numbers: have two the same vertices?
+bool has_cell_twice(const IndexVector<CellIndex, CellVertices>& cells, std::size_t vertex_count) {
+    RepeatedCells repeated(cells.size());
+    for (const CellVertices& cell : cells) repeated.add(cell);
+    return !repeated.find(cells, vertex_count).cell.is_none();
+}
+
+/// Collective. Has another process a cell with the vertices of one of this process's? Only cells
+/// all of whose vertices others have can be meant.
+bool has_cell_of_others(const DistributedMesh& mesh, const StretchVertices& vertices,
+                        LocalFailure& failure) {
+    std::vector<std::array<std::uint64_t, 4>> keys;
+    failure.attempt([&] {
+        const auto is_shared = [&](VertexIndex v) { return vertices.is_shared[v.value()] == 1; };
+        for (const CellVertices& cell : mesh.cells) {
+            if (!std::ranges::all_of(cell, is_shared)) continue;
+            auto& key = keys.emplace_back();
+            for (std::size_t k = 0; k < 4; ++k) {
+                key[k] = static_cast<std::uint64_t>(mesh.input_vertices[cell[k].value()]);
+            }
+            std::ranges::sort(key);
+        }
+        std::ranges::sort(keys);
+        keys.erase(std::unique(keys.begin(), keys.end()), keys.end());
+    });
+    return !find_sharers(mesh.processes, keys, failure).empty();
+}
+
+/// Puts a mesh together from stretches, step by step.
+class Assembly {
+public:
+    Assembly(const Communicator& processes, MeshStretch stretch)
+        : processes_(processes), stretch_(std::move(stretch)) {
+        mesh_.processes = processes;
+        mesh_.index_base = stretch_.facts.index_base;
+        mesh_.input_vertex_count = stretch_.facts.vertices;
+        mesh_.input_cell_count = stretch_.facts.cells;
+    }
+
+    /// Collective. Cells go to their parts.
+    void bring_cells(const Homes& homes, PartitionMethod method) {
+        std::vector<int> parts;
+        {
+            const Phase phase(processes_, "partition");
+            const StretchCorners corners(processes_, homes, stretch_, failure_);
+            failure_.attempt([&] {
+                is_sound_ = is_sound_ && are_positive(corners, stretch_.lists.cells.size());
+            });
+            failure_.agree(processes_);
+            parts = parts_of(processes_, stretch_, corners, method, failure_);
+            failure_.agree(processes_);
+        }
+        const Phase phase(processes_, "distribute");
+        CellsOfPart part = send_cells(processes_, stretch_, parts, failure_);
+        stretch_.lists.cells = {};
+        stretch_.lists.regions = {};
+        mesh_.cells = std::move(part.cells);
+        failure_.attempt([&] {
+            mesh_.cell_ancestors =
+                ancestors_of_roots(std::move(part.numbers), std::move(part.regions));
+        });
+        failure_.agree(processes_);
+    }
+
+    /// Collective. Vertices follow the cells, and facets and edges the vertices.
+    void bring_what_is_at_cells(const Homes& homes) {
+        const Phase phase(processes_, "distribute");
+        const StretchVertices vertices =
+            find_vertices(processes_, homes, stretch_, mesh_.cells, failure_);
+        bring_vertices(processes_, vertices, stretch_, mesh_, failure_);
+        for (CellVertices& cell : mesh_.cells) {
+            for (VertexIndex& v : cell) v = vertices.set.place_of(v);
+        }
+        Mesh& lists = stretch_.lists;
+        lists.points = {};
+        lists.point_attributes = {};
+        bring_tagged(homes, vertices, lists.facets, lists.facet_markers, stretch_.first_facet,
+                     stretch_.facts.facets, stretch_.facts.has_facet_markers, cell_faces,
+                     mesh_.facets, mesh_.facet_ancestors);
+        bring_tagged(homes, vertices, lists.edges, lists.edge_markers, stretch_.first_edge,
+                     stretch_.facts.edges, stretch_.facts.has_edge_markers, cell_edges, mesh_.edges,
+                     mesh_.edge_ancestors);
+        failure_.attempt(
+            [&] { is_sound_ = is_sound_ && !has_cell_twice(mesh_.cells, mesh_.points.size()); });
+        if (has_cell_of_others(mesh_, vertices, failure_)) is_sound_ = false;
+        failure_.agree(processes_);
+    }
+
+    /// Collective. Nothing if any process has found something wrong.
+    [[nodiscard]] std::optional<DistributedMesh> finish() && {
+        if (processes_.max(is_sound_ ? 0 : 1) == 1) return std::nullopt;
+        const Phase phase(processes_, "interfaces");
+        mesh_.interfaces = find_interfaces(mesh_);
+        return std::move(mesh_);
+    }
+
+    [[nodiscard]] Homes homes() {
+        return homes_of_stretches(processes_, stretch_.first_vertex, stretch_.facts.vertices,
+                                  failure_);
+    }
+
+private:
+    template <class I, std::size_t N, std::size_t Sides>
+    void bring_tagged(const Homes& homes, const StretchVertices& vertices,
+                      const IndexVector<I, std::array<VertexIndex, N>>& read,
+                      const IndexVector<I, Marker>& markers, std::uint64_t first,
+                      std::uint64_t count, bool has_markers,
+                      const std::array<std::array<std::uint8_t, N>, Sides>& sides,
+                      IndexVector<I, std::array<VertexIndex, N>>& list, AncestorMap& ancestors) {
+        if (count == 0) return;
+        TaggedSides<I, N> tagged(processes_, vertices, failure_);
+        if (!tagged.collect(homes, read, markers, first)) is_sound_ = false;
+        if (!tagged.find_cells(mesh_.cells, sides)) is_sound_ = false;
+        failure_.attempt([&] { tagged.take(has_markers, list, ancestors); });
+        failure_.agree(processes_);
+    }
+
+    Communicator processes_;
+    MeshStretch stretch_;
+    LocalFailure failure_;
+    bool is_sound_ = true;  // as far as this process has seen
+    DistributedMesh mesh_;
+};
+
+}  // namespace
+
+std::optional<DistributedMesh> distribute_stretch(const Communicator& processes,
+                                                  MeshStretch stretch, PartitionMethod method) {
+    Assembly assembly(processes, std::move(stretch));
+    const Homes homes = assembly.homes();
+    assembly.bring_cells(homes, method);
+    assembly.bring_what_is_at_cells(homes);
+    return std::move(assembly).finish();
+}
+
+}  // namespace octetra::distributed

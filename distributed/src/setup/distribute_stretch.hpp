@@ -1,0 +1,26 @@
+#pragma once
+
+#include <optional>
+
+#include <octetra/core/mesh_stretch.hpp>
+#include <octetra/distributed/communicator.hpp>
+#include <octetra/distributed/distributed_mesh.hpp>
+#include <octetra/distributed/partition.hpp>
+
+namespace octetra::distributed {
+
+/// Can cells find their parts by this method while no process has all of them?
+[[nodiscard]] inline bool works_by_stretches(PartitionMethod method) {
+    return method == PartitionMethod::rcb || method == PartitionMethod::block;
+}
+
+/// Collective. Brings what processes have read of a mesh to its parts; no process takes more memory
+/// than in proportion to its stretch and its part, and a sixth of a byte for each vertex of the
+/// mesh. Judges what read_mesh() does: cells are positive, and no two have the same vertices; every
+/// tagged facet and edge is of some cell, of no more than one on each side, and has one marker.
+/// Returns nothing, on all processes, if that does not hold. Throws OutOfMemory.
+[[nodiscard]] std::optional<DistributedMesh> distribute_stretch(const Communicator& processes,
+                                                                MeshStretch stretch,
+                                                                PartitionMethod method);
+
+}  // namespace octetra::distributed

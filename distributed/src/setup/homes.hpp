@@ -1,0 +1,128 @@
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include <octetra/distributed/communicator.hpp>
+
+#include "comm/local_failure.hpp"
+
+namespace octetra::distributed {
+
+/// Which process has read which stretch of a list of a file: its home.
+class Homes {
+public:
+    /// `begins`: number of the first entity of each process, and the number of all.
+    explicit Homes(std::vector<std::uint64_t> begins) : begins_(std::move(begins)) {}
+
+    [[nodiscard]] std::uint64_t begin_of(int rank) const {
+        return begins_[static_cast<std::size_t>(rank)];
+    }
+    [[nodiscard]] std::uint64_t end_of(int rank) const { return begin_of(rank + 1); }
+    [[nodiscard]] int rank_of(std::uint64_t number) const {
+        return static_cast<int>(std::ranges::upper_bound(begins_, number) - begins_.begin()) - 1;
+    }
+
+private:
+    std::vector<std::uint64_t> begins_;
+};
+
+/// The first of the blocks of a list that a process reads, if they are shared out evenly.
+[[nodiscard]] inline std::uint64_t first_block_of(int rank, std::uint64_t blocks, int processes) {
+    const auto r = static_cast<std::uint64_t>(rank);
+    const auto count = static_cast<std::uint64_t>(processes);
+    return blocks / count * r + std::min(blocks % count, r);
+}
+
+/// Whole blocks of a list, shared out evenly.
+[[nodiscard]] inline Homes homes_of_blocks(std::uint64_t count, std::uint64_t block_length,
+                                           int processes) {
+    const std::uint64_t blocks = count / block_length + (count % block_length != 0 ? 1 : 0);
+    std::vector<std::uint64_t> begins;
+    for (int rank = 0; rank <= processes; ++rank) {
+        begins.push_back(std::min(count, first_block_of(rank, blocks, processes) * block_length));
+    }
+    return Homes(std::move(begins));
+}
+
+/// Collective. Stretches of which each process knows where its own begins.
+[[nodiscard]] inline Homes homes_of_stretches(const Communicator& processes, std::uint64_t first,
+                                              std::uint64_t count, LocalFailure& failure) {
+    std::vector<std::uint64_t> begins;
+    failure.attempt([&] {
+        begins.resize(static_cast<std::size_t>(processes.size()) + 1, 0);
+        begins[static_cast<std::size_t>(processes.rank())] = first;
+        begins.back() = processes.is_first() ? count : 0;
+    });
+    failure.agree(processes);
+    processes.sum(std::span(begins));
+    return Homes(std::move(begins));
+}
+
+/// Who wants which entities of a list, each asked for by its number at its home.
+template <class Number = std::uint64_t>
+struct Requests {
+    /// To each home, ascending: and so in the order in which answers come.
+    std::vector<std::vector<Number>> sent;
+    /// From each process.
+    std::vector<std::vector<Number>> received;
+};
+
+/// Collective. `numbers` ascend.
+template <class Number>
+[[nodiscard]] Requests<Number> request(const Communicator& processes, const Homes& homes,
+                                       const std::vector<Number>& numbers, LocalFailure& failure) {
+    Requests<Number> requests;
+    failure.attempt([&] {
+        requests.sent.resize(static_cast<std::size_t>(processes.size()));
+        auto begin = numbers.begin();
+        for (int rank = 0; rank < processes.size(); ++rank) {
+            const auto end = std::partition_point(
+                begin, numbers.end(), [&](Number number) { return number < homes.end_of(rank); });
+            requests.sent[static_cast<std::size_t>(rank)].assign(begin, end);
+            begin = end;
+        }
+    });
+    failure.agree(processes);
+    failure.attempt([&] { requests.received = processes.all_to_all(requests.sent); });
+    return requests;
+}
+
+/// Collective. What was asked for, in the order of the numbers: `components` for each. `home` are
+/// the entities from number `first` on, which this process is the home of.
+template <class T, class Number>
+[[nodiscard]] std::vector<T> fetch(const Communicator& processes, const Requests<Number>& requests,
+                                   const std::vector<T>& home, std::uint64_t first,
+                                   LocalFailure& failure, std::size_t components = 1) {
+    std::vector<std::vector<T>> answers;
+    failure.attempt([&] {
+        answers.resize(requests.received.size());
+        for (std::size_t rank = 0; rank < answers.size(); ++rank) {
+            answers[rank].reserve(requests.received[rank].size() * components);
+            for (const Number number : requests.received[rank]) {
+                const T* const values =
+                    home.data() + static_cast<std::size_t>(number - first) * components;
+                answers[rank].insert(answers[rank].end(), values, values + components);
+            }
+        }
+    });
+    failure.agree(processes);
+    std::vector<T> values;
+    failure.attempt([&] {
+        std::vector<std::vector<T>> come = processes.all_to_all(answers);
+        answers.clear();
+        std::size_t count = 0;
+        for (const auto& answer : come) count += answer.size();
+        values.reserve(count);
+        for (auto& answer : come) {
+            values.insert(values.end(), answer.begin(), answer.end());
+            std::vector<T>().swap(answer);
+        }
+    });
+    return values;
+}
+
+}  // namespace octetra::distributed

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include <octetra/core/mesh_stretch.hpp>
+#include <octetra/distributed/communicator.hpp>
+#include <octetra/distributed/distributed_mesh.hpp>
+
+#include "comm/local_failure.hpp"
+#include "setup/homes.hpp"
+#include "setup/vertex_set.hpp"
+
+namespace octetra::distributed {
+
+/// The vertices of a process's part: those of its cells, and of those of its stretch the ones that
+/// no cell of any process has.
+struct StretchVertices {
+    VertexSet set;
+    Requests<std::uint32_t> requests;     ///< who wants which
+    std::vector<std::uint8_t> is_shared;  ///< of each vertex of the set: has another process it?
+};
+
+/// Collective. Finds the vertices of these cells, which go by their numbers in the whole mesh.
+[[nodiscard]] StretchVertices find_vertices(const Communicator& processes, const Homes& homes,
+                                            const MeshStretch& stretch,
+                                            const IndexVector<CellIndex, CellVertices>& cells,
+                                            LocalFailure& failure);
+
+/// Collective. Brings points, markers and attributes into the mesh.
+void bring_vertices(const Communicator& processes, const StretchVertices& vertices,
+                    const MeshStretch& stretch, DistributedMesh& mesh, LocalFailure& failure);
+
+}  // namespace octetra::distributed

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include <octetra/core/mesh_stretch.hpp>
+#include <octetra/distributed/communicator.hpp>
+
+#include "comm/local_failure.hpp"
+
+namespace octetra::distributed {
+
+/// Cells that have come to their part, in the order of their numbers in the whole mesh.
+struct CellsOfPart {
+    IndexVector<CellIndex, CellVertices> cells;  ///< vertices by numbers in the whole mesh
+    std::vector<std::uint64_t> numbers;
+    std::vector<Marker> regions;  ///< or empty
+};
+
+/// Collective. The cells of all stretches go where `parts` says, one of each cell of this
+/// process's stretch. Little at a time, so that hardly more memory is taken than for what is sent
+/// and what has come.
+[[nodiscard]] CellsOfPart send_cells(const Communicator& processes, const MeshStretch& stretch,
+                                     const std::vector<int>& parts, LocalFailure& failure);
+
+}  // namespace octetra::distributed

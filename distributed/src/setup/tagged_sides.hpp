@@ -1,0 +1,245 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include <octetra/core/mesh.hpp>
+#include <octetra/core/vertex_buckets.hpp>
+#include <octetra/distributed/communicator.hpp>
+#include <octetra/distributed/distributed_mesh.hpp>
+
+#include "comm/local_failure.hpp"
+#include "setup/ancestors_of_roots.hpp"
+#include "setup/homes.hpp"
+#include "setup/part_vertices.hpp"
+
+namespace octetra::distributed {
+
+/// A tagged facet or edge on its way to a process that has a cell at it; vertices go by their
+/// numbers in the whole mesh.
+template <std::size_t N>
+struct TaggedSide {
+    std::array<VertexIndex, N> vertices{};
+    std::uint32_t number = 0;
+    Marker marker = 0;
+
+    [[nodiscard]] VertexIndex lowest() const { return std::ranges::min(vertices); }
+    [[nodiscard]] std::array<VertexIndex, N> sorted() const {
+        auto key = vertices;
+        std::ranges::sort(key);
+        return key;
+    }
+};
+
+/// What a process knows of a side: cells that have it lie on the one side of it, on the other, or
+/// more than one on the same.
+namespace side {
+inline constexpr std::uint8_t even = 1;
+inline constexpr std::uint8_t odd = 2;
+inline constexpr std::uint8_t overlap = 4;
+}  // namespace side
+
+/// On which of the two sides of its face k a positive cell lies, by the order of the face's
+/// vertices, which all processes number in the same order. Of an edge there are no sides.
+inline std::uint8_t cell_side(const FacetVertices& face, std::size_t k) {
+    const auto& [a, b, c] = face;
+    const bool is_even = (a < b) == ((b < c) == (a < c));
+    return is_even == (k % 2 == 0) ? side::even : side::odd;
+}
+inline std::uint8_t cell_side(const EdgeVertices&, std::size_t) { return side::even; }
+
+/// Facets or edges that all processes have read, a stretch each, on their way to the processes that
+/// have cells at them. They meet at the home of their lowest vertex, which knows who has that one.
+template <class I, std::size_t N>
+class TaggedSides {
+public:
+    using Side = TaggedSide<N>;
+    using List = IndexVector<I, std::array<VertexIndex, N>>;
+
+    TaggedSides(const Communicator& processes, const StretchVertices& vertices,
+                LocalFailure& failure)
+        : processes_(&processes), vertices_(&vertices), failure_(&failure) {}
+
+    /// Collective. To the homes: a stretch, of which the first has this number. False if one of
+    /// them is there again with another marker.
+    [[nodiscard]] bool collect(const Homes& homes, const List& list,
+                               const IndexVector<I, Marker>& markers, std::uint64_t first) {
+        std::vector<std::vector<Side>> to_homes;
+        failure_->attempt([&] {
+            to_homes.resize(process_count());
+            for (I i{0}; i < list.end_index(); ++i) {
+                const Side one{list[i], static_cast<std::uint32_t>(first + i.value()),
+                               markers.empty() ? Marker{0} : markers[i]};
+                const int home = homes.rank_of(one.lowest().value());
+                to_homes[static_cast<std::size_t>(home)].push_back(one);
+            }
+        });
+        failure_->agree(*processes_);
+        bool agree = true;
+        failure_->attempt([&] {
+            for (const auto& box : processes_->all_to_all(to_homes)) {
+                at_home_.insert(at_home_.end(), box.begin(), box.end());
+            }
+            std::ranges::sort(at_home_, [](const Side& a, const Side& b) {
+                return std::pair(a.sorted(), a.number) < std::pair(b.sorted(), b.number);
+            });
+            for (std::size_t i = 1; i < at_home_.size(); ++i) {
+                agree = agree && (at_home_[i].marker == at_home_[i - 1].marker ||
+                                  at_home_[i].sorted() != at_home_[i - 1].sorted());
+            }
+        });
+        return agree;
+    }
+
+    /// Collective. To all that have the lowest vertex; these tell what cells they have there, by
+    /// local numbers. False if a side has no cell, or two on the same side of it.
+    template <std::size_t Sides>
+    [[nodiscard]] bool find_cells(const IndexVector<CellIndex, CellVertices>& cells,
+                                  const std::array<std::array<std::uint8_t, N>, Sides>& sides) {
+        std::vector<std::vector<Side>> to_parts;
+        failure_->attempt([&] { to_parts = boxes_to_parts(); });
+        failure_->agree(*processes_);
+        std::vector<std::vector<std::uint8_t>> replies;
+        failure_->attempt([&] {
+            come_ = processes_->all_to_all(to_parts);
+            to_parts.clear();
+            replies = look_at(cells, sides);
+        });
+        failure_->agree(*processes_);
+        std::vector<std::vector<std::uint8_t>> kept_by;
+        bool well = true;
+        failure_->attempt([&] {
+            kept_by = processes_->all_to_all(replies);
+            well = give_to_the_lowest(kept_by);
+        });
+        failure_->agree(*processes_);
+        failure_->attempt([&] { keeps_ = processes_->all_to_all(kept_by); });
+        return well;
+    }
+
+    /// The ones that this process keeps, in the order of their numbers.
+    void take(bool has_markers, List& list, AncestorMap& ancestors) {
+        std::vector<Side> kept;
+        for (std::size_t rank = 0; rank < come_.size(); ++rank) {
+            for (std::size_t i = 0; i < come_[rank].size(); ++i) {
+                if (keeps_[rank][i] != 0) kept.push_back(come_[rank][i]);
+            }
+        }
+        std::ranges::sort(kept, {}, &Side::number);
+        std::vector<std::uint64_t> numbers;
+        std::vector<Marker> markers;
+        list.reserve(kept.size());
+        numbers.reserve(kept.size());
+        for (const Side& one : kept) {
+            list.push_back(places_of(one));
+            numbers.push_back(one.number);
+            if (has_markers) markers.push_back(one.marker);
+        }
+        ancestors = ancestors_of_roots(std::move(numbers), std::move(markers));
+    }
+
+private:
+    [[nodiscard]] std::size_t process_count() const {
+        return static_cast<std::size_t>(processes_->size());
+    }
+
+    /// Calls send(rank, place) for whoever has the lowest vertex of what is at home; for each rank
+    /// in the same order.
+    void for_each_sent(auto&& send) const {
+        for (std::size_t rank = 0; rank < process_count(); ++rank) {
+            std::size_t next = 0;
+            for (const std::uint32_t number : vertices_->requests.received[rank]) {  // ascending
+                while (next < at_home_.size() && at_home_[next].lowest().value() < number) ++next;
+                for (; next < at_home_.size() && at_home_[next].lowest().value() == number;
+                     ++next) {
+                    send(rank, next);
+                }
+            }
+        }
+    }
+
+    [[nodiscard]] std::vector<std::vector<Side>> boxes_to_parts() const {
+        std::vector<std::vector<Side>> boxes(process_count());
+        for_each_sent(
+            [&](std::size_t rank, std::size_t place) { boxes[rank].push_back(at_home_[place]); });
+        return boxes;
+    }
+
+    [[nodiscard]] bool has_all(const Side& one) const {
+        return std::ranges::all_of(one.vertices,
+                                   [&](VertexIndex v) { return vertices_->set.has(v.value()); });
+    }
+    [[nodiscard]] std::array<VertexIndex, N> places_of(const Side& one) const {
+        auto places = one.vertices;
+        for (VertexIndex& v : places) v = vertices_->set.place_of(v);
+        return places;
+    }
+
+    /// What cells there are at each of those that have come.
+    template <std::size_t Sides>
+    [[nodiscard]] std::vector<std::vector<std::uint8_t>> look_at(
+        const IndexVector<CellIndex, CellVertices>& cells,
+        const std::array<std::array<std::uint8_t, N>, Sides>& sides) const {
+        std::vector<std::vector<std::uint8_t>> found;
+        List list;
+        std::vector<std::uint8_t*> found_at;
+        std::vector<bool> is_corner(vertices_->set.size(), false);
+        for (const auto& box : come_) found.emplace_back(box.size(), std::uint8_t{0});
+        for (std::size_t rank = 0; rank < come_.size(); ++rank) {
+            for (std::size_t i = 0; i < come_[rank].size(); ++i) {
+                if (!has_all(come_[rank][i])) continue;
+                list.push_back(places_of(come_[rank][i]));
+                for (const VertexIndex v : list.back()) is_corner[v.value()] = true;
+                found_at.push_back(&found[rank][i]);
+            }
+        }
+        if (list.empty()) return found;
+        const VertexBuckets<I, N> buckets(list, vertices_->set.size());
+        for (const CellVertices& cell : cells) {
+            const auto corners =
+                std::ranges::count_if(cell, [&](VertexIndex v) { return is_corner[v.value()]; });
+            if (corners < std::ptrdiff_t{N}) continue;  // most cells
+            for (std::size_t k = 0; k < Sides; ++k) {
+                std::array<VertexIndex, N> vertices;
+                for (std::size_t j = 0; j < N; ++j) vertices[j] = cell[sides[k][j]];
+                buckets.find(vertices, [&](I i) { meet(*found_at[i.value()], vertices, k); });
+            }
+        }
+        return found;
+    }
+
+    static void meet(std::uint8_t& found, const std::array<VertexIndex, N>& vertices,
+                     std::size_t k) {
+        const std::uint8_t of_cell = cell_side(vertices, k);
+        const bool again = N == 3 && (found & of_cell) != 0;
+        found |= static_cast<std::uint8_t>(of_cell | (again ? side::overlap : 0));
+    }
+
+    /// Of what the parts have found, leaves to each those that it keeps: the lowest rank that has a
+    /// cell there. False if there is none, or cells lie on the same side.
+    [[nodiscard]] bool give_to_the_lowest(std::vector<std::vector<std::uint8_t>>& found) const {
+        std::vector<std::uint8_t> all(at_home_.size(), 0);
+        std::vector<std::size_t> next(process_count(), 0);
+        bool well = true;
+        for_each_sent([&](std::size_t rank, std::size_t place) {
+            std::uint8_t& here = found[rank][next[rank]++];
+            well = well && (here & side::overlap) == 0 && (N == 2 || (here & all[place]) == 0);
+            const bool keeps = here != 0 && all[place] == 0;
+            all[place] |= here;
+            here = keeps ? 1 : 0;
+        });
+        return well && std::ranges::find(all, std::uint8_t{0}) == all.end();
+    }
+
+    const Communicator* processes_;
+    const StretchVertices* vertices_;
+    LocalFailure* failure_;
+    std::vector<Side> at_home_;                     // by their vertices
+    std::vector<std::vector<Side>> come_;           // from each home
+    std::vector<std::vector<std::uint8_t>> keeps_;  // of each of these: is it this process's?
+};
+
+}  // namespace octetra::distributed

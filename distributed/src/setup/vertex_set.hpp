@@ -1,0 +1,111 @@
+#pragma once
+
+#include <algorithm>
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+#include <octetra/core/index.hpp>
+
+namespace octetra::distributed {
+
+/// Vertices by their numbers in a whole mesh that 32 bits number, and the place of each among them
+/// in constant time. Memory: 12 bytes for 64 numbers between the least and the greatest, so at most
+/// a sixth of a byte for each vertex of the whole mesh.
+class VertexSet {
+public:
+    VertexSet() = default;
+
+    /// The vertices of cells, facets or edges.
+    explicit VertexSet(const auto& entities) {
+        std::uint32_t least = std::numeric_limits<std::uint32_t>::max();
+        std::uint32_t greatest = 0;
+        for (const auto& vertices : entities) {
+            for (const VertexIndex v : vertices) {
+                least = std::min(least, v.value());
+                greatest = std::max(greatest, v.value());
+            }
+        }
+        cover(least, greatest);
+        for (const auto& vertices : entities) {
+            for (const VertexIndex v : vertices) bits_[word_of(v.value())] |= bit_of(v.value());
+        }
+        count();
+    }
+
+    /// Adds further vertices.
+    void add(const std::vector<std::uint32_t>& numbers) {
+        if (numbers.empty()) return;
+        const auto [least, greatest] = std::ranges::minmax(numbers);
+        if (size_ == 0) {
+            cover(least, greatest);
+        } else {
+            const VertexSet before = std::move(*this);
+            cover(std::min(least, before.first_), std::max(greatest, before.last()));
+            std::ranges::copy(before.bits_,
+                              bits_.begin() + static_cast<std::ptrdiff_t>(word_of(before.first_)));
+        }
+        for (const std::uint32_t number : numbers) bits_[word_of(number)] |= bit_of(number);
+        count();
+    }
+
+    [[nodiscard]] std::size_t size() const { return size_; }
+
+    [[nodiscard]] bool has(std::uint32_t number) const {
+        const std::size_t word = word_of(number);  // far beyond the end below the first
+        return word < bits_.size() && (bits_[word] & bit_of(number)) != 0;
+    }
+
+    /// How many vertices of the set have lower numbers. This one is in it.
+    [[nodiscard]] VertexIndex place_of(VertexIndex v) const {
+        const std::size_t word = word_of(v.value());
+        const std::uint64_t lower = bits_[word] & (bit_of(v.value()) - 1);
+        return VertexIndex{before_[word] + static_cast<std::size_t>(std::popcount(lower))};
+    }
+
+    /// Ascending.
+    [[nodiscard]] std::vector<std::uint32_t> numbers() const {
+        std::vector<std::uint32_t> numbers;
+        numbers.reserve(size_);
+        for (std::size_t word = 0; word < bits_.size(); ++word) {
+            for (std::uint64_t bits = bits_[word]; bits != 0; bits &= bits - 1) {
+                numbers.push_back(first_ + static_cast<std::uint32_t>(64 * word) +
+                                  static_cast<std::uint32_t>(std::countr_zero(bits)));
+            }
+        }
+        return numbers;
+    }
+
+private:
+    [[nodiscard]] std::size_t word_of(std::uint32_t number) const {
+        return (std::size_t{number} - first_) / 64;
+    }
+    [[nodiscard]] static std::uint64_t bit_of(std::uint32_t number) {
+        return std::uint64_t{1} << (number % 64U);
+    }
+    [[nodiscard]] std::uint32_t last() const {
+        return first_ + static_cast<std::uint32_t>(64 * bits_.size() - 1);
+    }
+    void cover(std::uint32_t least, std::uint32_t greatest) {
+        if (least > greatest) return;
+        first_ = least / 64 * 64;
+        bits_.assign(word_of(greatest) + 1, 0);
+    }
+    void count() {
+        before_.resize(bits_.size());
+        size_ = 0;
+        for (std::size_t word = 0; word < bits_.size(); ++word) {
+            before_[word] = static_cast<std::uint32_t>(size_);
+            size_ += static_cast<std::size_t>(std::popcount(bits_[word]));
+        }
+    }
+
+    std::uint32_t first_ = 0;  // a multiple of 64
+    std::vector<std::uint64_t> bits_;
+    std::vector<std::uint32_t> before_;  // how many there are before each word
+    std::size_t size_ = 0;
+};
+
+}  // namespace octetra::distributed

@@ -1,0 +1,72 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include <octetra/core/error.hpp>
+#include <octetra/core/files/mesh_files.hpp>
+#include <octetra/core/mesh_stretch.hpp>
+#include <octetra/distributed/read_parts.hpp>
+
+#include "distributed/world.hpp"
+#include "setup/distribute_stretch.hpp"
+
+namespace octetra::test {
+
+/// What comes of reading a file: a mesh and notes, or words.
+struct Outcome {
+    Mesh mesh;
+    std::vector<std::string> notes;
+    std::string error;
+
+    friend bool operator==(const Outcome&, const Outcome&) = default;
+};
+
+Outcome outcome_of(auto&& read) {
+    Outcome outcome;
+    try {
+        outcome.mesh = read(
+            ReadOptions{.note = [&](const std::string& note) { outcome.notes.push_back(note); }});
+    } catch (const InputError& error) {
+        outcome.notes.clear();
+        outcome.error = error.what();
+    }
+    return outcome;
+}
+
+/// Collective. Reads a file by one process and by all, each with a part of it: the mesh must be the
+/// same, number by number, or the words, on all processes. Returns whether there is a mesh.
+inline bool expect_one_outcome(const std::filesystem::path& file, const std::string& partition) {
+    const Outcome expected =
+        outcome_of([&](const ReadOptions& options) { return read_mesh(file, options); });
+    const Outcome found = outcome_of([&](const ReadOptions& options) {
+        return distributed::collect(distributed::read_parts(world(), file,
+                                                            distributed::parse_partition(partition),
+                                                            options))
+            .mesh;
+    });
+    EXPECT_EQ(found.error, expected.error) << file;
+    if (world().is_first() && found.error.empty()) {
+        EXPECT_EQ(found.notes, expected.notes) << file;
+        EXPECT_TRUE(found.mesh == expected.mesh) << file;
+    }
+    auto stretch = read_stretch(file, world());
+    if (stretch) {
+        // No other process reads it once more, unless there is something to refuse.
+        const auto method = distributed::parse_partition(partition).method;
+        const auto mesh = distributed::distribute_stretch(world(), std::move(*stretch), method);
+        EXPECT_EQ(mesh.has_value(), expected.error.empty()) << file;
+    }
+    return expected.error.empty();
+}
+
+/// Collective. Is the file in a form that all read together?
+inline bool is_read_together(const std::filesystem::path& file) {
+    return read_stretch(file, world()).has_value();
+}
+
+}  // namespace octetra::test

@@ -12,10 +12,12 @@
 #include <gtest/gtest.h>
 
 #include <octetra/core/error.hpp>
+#include <octetra/core/files/mesh_files.hpp>
 #include <octetra/distributed/adaptive_mesh.hpp>
 #include <octetra/distributed/estimator_marks.hpp>
 #include <octetra/distributed/exchange.hpp>
 #include <octetra/distributed/out_of_memory.hpp>
+#include <octetra/distributed/read_parts.hpp>
 
 #include "distributed/marked_mesh.hpp"
 #include "distributed/seen_mesh.hpp"
@@ -257,6 +259,41 @@ TEST(FailingAllocations, OfSavingLeaveTheMeshAsItWasAndTheOldFileOrNone) {
         }
     }
     EXPECT_GE(failures, 300);
+}
+
+/// Collective. Lets allocations of some work that begins anew each time fail in turn on each of the
+/// processes, the first fifty one after the other, later ones with ever more between them; when
+/// none fails any more, the work is done on all. Returns how many that were.
+std::uint64_t let_each_fail_anew(auto&& work) {
+    const Communicator& world = test::world();
+    std::uint64_t failures = 0;
+    for (int rank = 0; rank < world.size(); ++rank) {
+        for (long allocations = 0;; allocations += 1 + allocations / 50) {
+            const bool done = done_with(allocations, rank, work);
+            const auto done_on = static_cast<int>(world.sum(done ? 1 : 0));
+            EXPECT_EQ(done_on, done ? world.size() : 0) << allocations;
+            if (done_on > 0) break;
+            ++failures;
+        }
+    }
+    return failures;
+}
+
+TEST(FailingAllocations, OfReadingAFileTogetherAreThrownOnAllProcesses) {
+    if (test::world().size() == 1) return;  // which reads alone
+    const test::SharedFolder folder;
+    Mesh mesh = test::marked(test::shaken_kuhn(2, 0.2, 1), 1);
+    for (Marker& marker : mesh.facet_markers) marker = 3;
+    for (Marker& marker : mesh.edge_markers) marker = 4;
+    for (const std::string name : {"m.ele", "m.mesh"}) {
+        const std::filesystem::path file = folder / name;
+        const Partition by_coordinates{.method = PartitionMethod::rcb};
+        const ReadOptions options;
+        test::world().on_first([&] { (void)write_mesh(mesh, file); });
+        const std::uint64_t failures = let_each_fail_anew(
+            [&] { (void)read_parts(test::world(), file, by_coordinates, options); });
+        EXPECT_GE(failures, 100U);
+    }
 }
 
 /// Messages that are cut into pieces, and of which one process can keep nothing.

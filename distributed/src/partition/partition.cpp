@@ -131,14 +131,16 @@ std::uint64_t whole_weight(float weight, float least) {
 std::vector<int> by_coordinates(const Mesh& mesh, int parts, const std::vector<float>& weights) {
     (void)weights_of(mesh.cells.size(), weights, parts);
     const float least = weights.empty() ? 1 : std::ranges::min(weights);
-    std::vector<WeighedPoint> points;
-    points.reserve(mesh.cells.size());
-    for (CellIndex c{0}; c < mesh.cells.end_index(); ++c) {
-        const auto& [a, b, d, e] = mesh.cells[c];
-        const Corners corners{mesh.points[a], mesh.points[b], mesh.points[d], mesh.points[e]};
-        points.push_back({centroid(corners), c.value(),
-                          weights.empty() ? 1 : whole_weight(weights[c.value()], least)});
-    }
+    std::vector<std::uint64_t> whole_weights;
+    for (const float weight : weights) whole_weights.push_back(whole_weight(weight, least));
+    const auto point = [&](std::size_t i) {
+        const auto& [a, b, c, d] = mesh.cells[CellIndex{i}];
+        return centroid({mesh.points[a], mesh.points[b], mesh.points[c], mesh.points[d]});
+    };
+    const WeighedPoints points{.count = mesh.cells.size(),
+                               .point = point,
+                               .number = [](std::size_t i) { return i; },
+                               .weights = whole_weights};
     LocalFailure failure;
     std::vector<int> part = bisect_coordinates(Communicator(), points, parts, failure);
     failure.agree(Communicator());

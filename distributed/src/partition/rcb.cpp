@@ -73,10 +73,12 @@ private:
         return points_->weights.empty() ? 1 : points_->weights[i];
     }
 
-    /// Collective. The longest extent of each box; and of each point its coordinate there.
+    /// Collective. The longest extent of each box; and of each point its coordinate there. Which it
+    /// will be is guessed, as it takes time to have the points once more.
     void find_axes(LocalFailure& failure) {
         std::vector<Key> extremes;  // of each box and axis the greatest key and complement
         failure.attempt([&] {
+            axis_.resize(boxes_.size(), 0);
             extremes.assign(6 * boxes_.size(), 0);
             for (std::size_t i = 0; i < points_->count; ++i) {
                 const auto keys = keys_of(points_->point(i));
@@ -85,12 +87,14 @@ private:
                     box[2 * k] = std::max(box[2 * k], keys[k]);
                     box[2 * k + 1] = std::max(box[2 * k + 1], ~keys[k]);
                 }
+                coordinate_[i] = keys[axis_[box_of(i)]];
             }
         });
         if (failure.max_unless_failed(*processes_, 0) == LocalFailure::somewhere) return;
         processes_->max(std::span(extremes));
         failure.attempt([&] {
-            axis_.clear();
+            const std::vector<std::size_t> guess = axis_;
+            extents_.clear();
             for (std::size_t b = 0; b < boxes_.size(); ++b) {
                 std::array<double, 3> extent{};
                 for (std::size_t k = 0; k < 3; ++k) {
@@ -98,9 +102,10 @@ private:
                     if (pair[0] == 0 && pair[1] == 0) continue;  // an empty box
                     extent[k] = coordinate_of(pair[0]) / 2 - coordinate_of(~pair[1]) / 2;
                 }
-                axis_.push_back(
-                    static_cast<std::size_t>(std::ranges::max_element(extent) - extent.begin()));
+                axis_[b] = longest(extent);
+                extents_.push_back(extent);
             }
+            if (axis_ == guess) return;
             for (std::size_t i = 0; i < points_->count; ++i) {
                 coordinate_[i] = keys_of(points_->point(i))[axis_[box_of(i)]];
             }
@@ -140,19 +145,38 @@ private:
     void find_limits(LocalFailure& failure, std::size_t count, auto&& place, auto&& key,
                      std::vector<Key>& limits) {
         failure.attempt([&] { limits.assign(boxes_.size(), 0); });
+        // Those whose digits up to now are the limit's, once they are few.
+        std::vector<std::size_t> left;
+        std::size_t left_count = count;
         for (unsigned shift = 64; shift > 0;) {
             shift -= 8;
+            const auto has_digits = [&](std::size_t i) {
+                return shift == 56 || key(i) >> (shift + 8) == limits[box_of(i)] >> (shift + 8);
+            };
+            const auto for_each_left = [&](auto&& look_at) {
+                if (left_count == count) {
+                    for (std::size_t j = 0; j < count; ++j) look_at(place(j));
+                } else {
+                    for (const std::size_t i : left) look_at(i);
+                }
+            };
             std::vector<std::uint64_t> sums;
             failure.attempt([&] {
                 sums.assign(digits * boxes_.size(), 0);
-                for (std::size_t j = 0; j < count; ++j) {
-                    const std::size_t i = place(j);
-                    const Key k = key(i);
-                    const std::size_t box = box_of(i);
-                    const bool same_before =
-                        shift == 56 || k >> (shift + 8) == limits[box] >> (shift + 8);
-                    if (same_before) sums[digits * box + (k >> shift & 255U)] += weight(i);
-                }
+                std::size_t found = 0;
+                for_each_left([&](std::size_t i) {
+                    if (!has_digits(i)) return;
+                    ++found;
+                    sums[digits * box_of(i) + (key(i) >> shift & 255U)] += weight(i);
+                });
+                if (found > left_count / 4) return;
+                std::vector<std::size_t> rest;
+                rest.reserve(found);
+                for_each_left([&](std::size_t i) {
+                    if (has_digits(i)) rest.push_back(i);
+                });
+                left = std::move(rest);
+                left_count = found;
             });
             if (failure.max_unless_failed(*processes_, 0) == LocalFailure::somewhere) return;
             processes_->sum(std::span(sums));
@@ -171,13 +195,18 @@ private:
 
     void divide() {
         std::vector<Box> boxes;
+        std::vector<std::size_t> guess;
         std::vector<int> first_half(boxes_.size());
         for (std::size_t b = 0; b < boxes_.size(); ++b) {
             first_half[b] = static_cast<int>(boxes.size());
             const Box& box = boxes_[b];
             if (box.is_part()) {
                 boxes.push_back(box);
+                guess.push_back(axis_[b]);
             } else {
+                auto extent = extents_[b];
+                extent[axis_[b]] /= 2;
+                guess.insert(guess.end(), 2, longest(extent));
                 boxes.push_back({box.begin, box.middle()});
                 boxes.push_back({box.middle(), box.end});
             }
@@ -190,6 +219,11 @@ private:
             box_of_[i] = first_half[b] + (is_first ? 0 : 1);
         }
         boxes_ = std::move(boxes);
+        axis_ = std::move(guess);
+    }
+
+    static std::size_t longest(const std::array<double, 3>& extent) {
+        return static_cast<std::size_t>(std::ranges::max_element(extent) - extent.begin());
     }
 
     const Communicator* processes_;
@@ -198,6 +232,7 @@ private:
     std::vector<int> box_of_;
     std::vector<Box> boxes_;
     std::vector<std::size_t> axis_;
+    std::vector<std::array<double, 3>> extents_;
     std::vector<std::uint64_t> target_;
     std::vector<Key> coordinate_limit_;
     std::vector<Key> number_limit_;

@@ -97,19 +97,20 @@ public:
 
     /// Collective. Cells go to their parts.
     void bring_cells(const Homes& homes, PartitionMethod method) {
+        std::optional<StretchCorners> corners;
         std::vector<int> parts;
-        {
-            const Phase phase(processes_, "partition");
-            const StretchCorners corners(processes_, homes, stretch_, failure_);
+        in_phase(processes_, "partition", [&] {
+            corners.emplace(processes_, homes, stretch_, failure_);
             failure_.attempt([&] {
-                is_sound_ = is_sound_ && are_positive(corners, stretch_.lists.cells.size());
+                is_sound_ = is_sound_ && are_positive(*corners, stretch_.lists.cells.size());
             });
             failure_.agree(processes_);
-            parts = parts_of(processes_, stretch_, corners, method, failure_);
+            parts = parts_of(processes_, stretch_, *corners, method, failure_);
             failure_.agree(processes_);
-        }
+            corners->forget_points();
+        });
         const Phase phase(processes_, "distribute");
-        CellsOfPart part = send_cells(processes_, stretch_, parts, failure_);
+        CellsOfPart part = send_cells(processes_, stretch_, *corners, parts, failure_);
         stretch_.lists.cells = {};
         stretch_.lists.regions = {};
         mesh_.cells = std::move(part.cells);
@@ -123,7 +124,7 @@ public:
     /// Collective. Vertices follow the cells, and facets and edges the vertices.
     void bring_what_is_at_cells(const Homes& homes) {
         const Phase phase(processes_, "distribute");
-        const StretchVertices vertices =
+        StretchVertices vertices =
             find_vertices(processes_, homes, stretch_, mesh_.cells, failure_);
         bring_vertices(processes_, vertices, stretch_, mesh_, failure_);
         for (CellVertices& cell : mesh_.cells) {
@@ -141,6 +142,7 @@ public:
         failure_.attempt(
             [&] { is_sound_ = is_sound_ && !has_cell_twice(mesh_.cells, mesh_.points.size()); });
         if (has_cell_of_others(mesh_, vertices, failure_)) is_sound_ = false;
+        is_shared_ = std::move(vertices.is_shared);
         failure_.agree(processes_);
     }
 
@@ -148,7 +150,7 @@ public:
     [[nodiscard]] std::optional<DistributedMesh> finish() && {
         if (processes_.max(is_sound_ ? 0 : 1) == 1) return std::nullopt;
         const Phase phase(processes_, "interfaces");
-        mesh_.interfaces = find_interfaces(mesh_);
+        mesh_.interfaces = find_interfaces(mesh_, is_shared_);
         return std::move(mesh_);
     }
 
@@ -177,6 +179,7 @@ private:
     MeshStretch stretch_;
     LocalFailure failure_;
     bool is_sound_ = true;  // as far as this process has seen
+    std::vector<std::uint8_t> is_shared_;
     DistributedMesh mesh_;
 };
 
@@ -184,11 +187,14 @@ private:
 
 std::optional<DistributedMesh> distribute_stretch(const Communicator& processes,
                                                   MeshStretch stretch, PartitionMethod method) {
-    Assembly assembly(processes, std::move(stretch));
-    const Homes homes = assembly.homes();
-    assembly.bring_cells(homes, method);
-    assembly.bring_what_is_at_cells(homes);
-    return std::move(assembly).finish();
+    LocalFailure failure;
+    std::optional<Assembly> assembly;
+    failure.attempt([&] { assembly.emplace(processes, std::move(stretch)); });
+    failure.agree(processes);
+    const Homes homes = assembly->homes();
+    assembly->bring_cells(homes, method);
+    assembly->bring_what_is_at_cells(homes);
+    return std::move(*assembly).finish();
 }
 
 }  // namespace octetra::distributed

@@ -12,15 +12,20 @@ namespace {
 class VertexSharers {
 public:
     /// Collective.
-    VertexSharers(const DistributedMesh& mesh, LocalFailure& failure) {
+    VertexSharers(const DistributedMesh& mesh, std::span<const std::uint8_t> may_be_shared,
+                  LocalFailure& failure) {
         std::vector<std::array<std::uint64_t, 1>> keys;
+        std::vector<std::uint32_t> vertex_of;
         failure.attempt([&] {
-            for (const GlobalVertex v : mesh.input_vertices) {
-                keys.push_back({static_cast<std::uint64_t>(v)});
+            for (std::uint32_t v = 0; v < mesh.input_vertices.size(); ++v) {
+                if (!may_be_shared.empty() && may_be_shared[v] == 0) continue;
+                keys.push_back({static_cast<std::uint64_t>(mesh.input_vertices[v])});
+                vertex_of.push_back(v);
             }
         });
         sharers_ = find_sharers(mesh.processes, keys, failure);
         failure.attempt([&] {
+            for (Sharer& s : sharers_) s.key = vertex_of[s.key];  // the order stays
             begin_.assign(mesh.points.size() + 1, 0);
             for (const Sharer& s : sharers_) ++begin_[s.key + 1];
             for (std::size_t v = 1; v < begin_.size(); ++v) begin_[v] += begin_[v - 1];
@@ -99,10 +104,11 @@ void find_shared(const DistributedMesh& mesh, const VertexSharers& sharers,
 
 }  // namespace
 
-std::vector<Interface> find_interfaces(const DistributedMesh& mesh) {
+std::vector<Interface> find_interfaces(const DistributedMesh& mesh,
+                                       std::span<const std::uint8_t> may_be_shared) {
     if (mesh.processes.size() == 1) return {};
     LocalFailure failure;
-    const VertexSharers sharers(mesh, failure);
+    const VertexSharers sharers(mesh, may_be_shared, failure);
     std::map<int, Interface> by_rank;
     find_shared(mesh, sharers, cell_edges, failure,
                 [&](int rank, const EdgeVertices& edge) { by_rank[rank].edges.push_back(edge); });

@@ -62,6 +62,9 @@ private:
     return Homes(std::move(begins));
 }
 
+// All are collective, and throw what LocalFailure::agree() does if a process fails: what comes of
+// them is complete.
+
 /// Who wants which entities of a list, each asked for by its number at its home.
 template <class Number = std::uint64_t>
 struct Requests {
@@ -88,6 +91,7 @@ template <class Number>
     });
     failure.agree(processes);
     failure.attempt([&] { requests.received = processes.all_to_all(requests.sent); });
+    failure.agree(processes);
     return requests;
 }
 
@@ -122,6 +126,7 @@ template <class T, class Number>
             std::vector<T>().swap(answer);
         }
     });
+    failure.agree(processes);
     return values;
 }
 

@@ -49,8 +49,11 @@ DistributedMesh read_parts(const Communicator& processes, const std::filesystem:
     in_phase(processes, "read",
              [&] { processes.on_first([&] { mesh = read_mesh(path, options); }); });
     in_phase(processes, "partition", [&] {
-        processes.on_first(
-            [&] { cell_to_rank = partition_cells(mesh, processes.size(), partition); });
+        processes.on_first([&] {
+            // A part file that does not fit is a mistake on one rank, too.
+            if (processes.size() == 1 && partition.method != PartitionMethod::file) return;
+            cell_to_rank = partition_cells(mesh, processes.size(), partition);
+        });
     });
     return distribute(processes, std::move(mesh), cell_to_rank);
 }

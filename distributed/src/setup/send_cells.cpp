@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "memory/huge_pages.hpp"
+
 namespace octetra::distributed {
 namespace {
 
@@ -20,9 +22,12 @@ std::vector<std::uint64_t> counts_to_come(const Communicator& processes,
         for (const int part : parts) ++to_go[static_cast<std::size_t>(part)].front();
     });
     failure.agree(processes);
+    std::vector<std::vector<std::uint64_t>> to_come;
+    failure.attempt([&] { to_come = processes.all_to_all(to_go); });
+    failure.agree(processes);  // else who has no memory may have sent nothing
     std::vector<std::uint64_t> counts;
     failure.attempt([&] {
-        for (const auto& from_one : processes.all_to_all(to_go)) counts.push_back(from_one.front());
+        for (const auto& from_one : to_come) counts.push_back(from_one.front());
     });
     failure.agree(processes);
     return counts;
@@ -31,7 +36,8 @@ std::vector<std::uint64_t> counts_to_come(const Communicator& processes,
 }  // namespace
 
 CellsOfPart send_cells(const Communicator& processes, const MeshStretch& stretch,
-                       const std::vector<int>& parts, LocalFailure& failure) {
+                       const StretchCorners& corners, const std::vector<int>& parts,
+                       LocalFailure& failure) {
     constexpr std::size_t at_once = std::size_t{1} << 16U;
     CellsOfPart part;
     // The stretches come in the order of the ranks, and each in its own.
@@ -44,6 +50,8 @@ CellsOfPart send_cells(const Communicator& processes, const MeshStretch& stretch
             n = count;
             count += from_one;
         }
+        reserve_in_huge_pages(part.cells, count);
+        reserve_in_huge_pages(part.numbers, count);
         part.cells.resize(count);
         part.numbers.resize(count);
         if (stretch.facts.has_regions) part.regions.resize(count);
@@ -56,10 +64,9 @@ CellsOfPart send_cells(const Communicator& processes, const MeshStretch& stretch
         failure.attempt([&] {
             for (auto& box : boxes) box.clear();
             for (std::size_t i = begin; i < end; ++i) {
-                const CellIndex c{i};
                 boxes[static_cast<std::size_t>(parts[i])].push_back(
-                    {lists.cells[c], static_cast<std::uint32_t>(stretch.first_cell + i),
-                     lists.regions.empty() ? Marker{0} : lists.regions[c]});
+                    {corners.numbers_of(i), static_cast<std::uint32_t>(stretch.first_cell + i),
+                     lists.regions.empty() ? Marker{0} : lists.regions[CellIndex{i}]});
             }
         });
         failure.agree(processes);

@@ -7,6 +7,7 @@
 #include <octetra/distributed/communicator.hpp>
 
 #include "comm/local_failure.hpp"
+#include "setup/stretch_corners.hpp"
 
 namespace octetra::distributed {
 
@@ -18,9 +19,10 @@ struct CellsOfPart {
 };
 
 /// Collective. The cells of all stretches go where `parts` says, one of each cell of this
-/// process's stretch. Little at a time, so that hardly more memory is taken than for what is sent
-/// and what has come.
+/// process's stretch, whose vertices `corners` knows. Little at a time, so that hardly more memory
+/// is taken than for what is sent and what has come.
 [[nodiscard]] CellsOfPart send_cells(const Communicator& processes, const MeshStretch& stretch,
-                                     const std::vector<int>& parts, LocalFailure& failure);
+                                     const StretchCorners& corners, const std::vector<int>& parts,
+                                     LocalFailure& failure);
 
 }  // namespace octetra::distributed

@@ -10,36 +10,49 @@
 
 namespace octetra::distributed {
 
-/// The corners of the cells of a stretch.
+/// The corners of the cells of a stretch. While there is one, these cells have their vertices by
+/// place among all that they have, as looking a place up takes time.
 class StretchCorners {
 public:
     /// Collective. Fetches the points that this process has not read itself.
-    StretchCorners(const Communicator& processes, const Homes& homes, const MeshStretch& stretch,
+    StretchCorners(const Communicator& processes, const Homes& homes, MeshStretch& stretch,
                    LocalFailure& failure)
         : cells_(&stretch.lists.cells) {
-        std::vector<std::uint32_t> numbers;
+        VertexSet vertices;
         failure.attempt([&] {
-            vertices_ = VertexSet(*cells_);
-            numbers = vertices_.numbers();
+            vertices = VertexSet(*cells_);
+            numbers_ = vertices.numbers();
         });
-        const auto requests = request(processes, homes, numbers, failure);
+        const auto requests = request(processes, homes, numbers_, failure);
         const std::vector<Point>& home = stretch.lists.points;
         points_ = fetch(processes, requests, home, stretch.first_vertex, failure);
+        failure.attempt([&] {
+            for (CellVertices& cell : *cells_) {
+                for (VertexIndex& v : cell) v = vertices.place_of(v);
+            }
+        });
     }
 
     /// Of the stretch's cell number i.
     [[nodiscard]] Corners of(std::size_t i) const {
         const auto& [a, b, c, d] = (*cells_)[CellIndex{i}];
-        return {point(a), point(b), point(c), point(d)};
+        return {points_[a.value()], points_[b.value()], points_[c.value()], points_[d.value()]};
     }
+
+    /// The numbers of its vertices in the whole mesh.
+    [[nodiscard]] CellVertices numbers_of(std::size_t i) const {
+        CellVertices numbers;
+        for (std::size_t k = 0; k < 4; ++k) {
+            numbers[k] = VertexIndex{numbers_[(*cells_)[CellIndex{i}][k].value()]};
+        }
+        return numbers;
+    }
+
+    void forget_points() { std::vector<Point>().swap(points_); }
 
 private:
-    [[nodiscard]] const Point& point(VertexIndex v) const {
-        return points_[vertices_.place_of(v).value()];
-    }
-
-    const IndexVector<CellIndex, CellVertices>* cells_;
-    VertexSet vertices_;
+    IndexVector<CellIndex, CellVertices>* cells_;
+    std::vector<std::uint32_t> numbers_;  // of the vertices, by place
     std::vector<Point> points_;
 };
 

@@ -83,13 +83,18 @@ public:
             for (const auto& box : processes_->all_to_all(to_homes)) {
                 at_home_.insert(at_home_.end(), box.begin(), box.end());
             }
-            std::ranges::sort(at_home_, [](const Side& a, const Side& b) {
-                return std::pair(a.sorted(), a.number) < std::pair(b.sorted(), b.number);
-            });
-            for (std::size_t i = 1; i < at_home_.size(); ++i) {
-                agree = agree && (at_home_[i].marker == at_home_[i - 1].marker ||
-                                  at_home_[i].sorted() != at_home_[i - 1].sorted());
+            std::vector<std::pair<std::array<VertexIndex, N>, std::size_t>> order;
+            order.reserve(at_home_.size());
+            for (const Side& one : at_home_) order.emplace_back(one.sorted(), order.size());
+            std::ranges::sort(order);
+            std::vector<Side> sorted;
+            sorted.reserve(at_home_.size());
+            for (std::size_t i = 0; i < order.size(); ++i) {
+                sorted.push_back(at_home_[order[i].second]);
+                agree = agree && (i == 0 || order[i].first != order[i - 1].first ||
+                                  sorted[i].marker == sorted[i - 1].marker);
             }
+            at_home_ = std::move(sorted);
         });
         return agree;
     }
@@ -110,13 +115,13 @@ public:
         });
         failure_->agree(*processes_);
         std::vector<std::vector<std::uint8_t>> kept_by;
+        failure_->attempt([&] { kept_by = processes_->all_to_all(replies); });
+        failure_->agree(*processes_);  // all replies are there
         bool well = true;
-        failure_->attempt([&] {
-            kept_by = processes_->all_to_all(replies);
-            well = give_to_the_lowest(kept_by);
-        });
+        failure_->attempt([&] { well = give_to_the_lowest(kept_by); });
         failure_->agree(*processes_);
         failure_->attempt([&] { keeps_ = processes_->all_to_all(kept_by); });
+        failure_->agree(*processes_);
         return well;
     }
 

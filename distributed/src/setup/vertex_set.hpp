@@ -62,7 +62,7 @@ public:
     [[nodiscard]] VertexIndex place_of(VertexIndex v) const {
         const std::size_t word = word_of(v.value());
         const std::uint64_t lower = bits_[word] & (bit_of(v.value()) - 1);
-        return VertexIndex{before_[word] + static_cast<std::size_t>(std::popcount(lower))};
+        return VertexIndex{before_[word] + ones_of(lower)};
     }
 
     /// Ascending.
@@ -85,6 +85,13 @@ private:
     [[nodiscard]] static std::uint64_t bit_of(std::uint32_t number) {
         return std::uint64_t{1} << (number % 64U);
     }
+    /// std::popcount, which is a call where programs must run on any processor of the kind.
+    [[nodiscard]] static std::size_t ones_of(std::uint64_t bits) {
+        bits -= bits >> 1U & 0x5555555555555555U;
+        bits = (bits & 0x3333333333333333U) + (bits >> 2U & 0x3333333333333333U);
+        bits = (bits + (bits >> 4U)) & 0x0f0f0f0f0f0f0f0fU;
+        return bits * 0x0101010101010101U >> 56U;
+    }
     [[nodiscard]] std::uint32_t last() const {
         return first_ + static_cast<std::uint32_t>(64 * bits_.size() - 1);
     }
@@ -98,7 +105,7 @@ private:
         size_ = 0;
         for (std::size_t word = 0; word < bits_.size(); ++word) {
             before_[word] = static_cast<std::uint32_t>(size_);
-            size_ += static_cast<std::size_t>(std::popcount(bits_[word]));
+            size_ += ones_of(bits_[word]);
         }
     }
 

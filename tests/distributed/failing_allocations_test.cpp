@@ -19,6 +19,7 @@
 #include <octetra/distributed/out_of_memory.hpp>
 #include <octetra/distributed/read_parts.hpp>
 
+#include "checkpoint/load.hpp"
 #include "distributed/marked_mesh.hpp"
 #include "distributed/seen_mesh.hpp"
 #include "distributed/shared_folder.hpp"
@@ -294,6 +295,25 @@ TEST(FailingAllocations, OfReadingAFileTogetherAreThrownOnAllProcesses) {
             [&] { (void)read_parts(test::world(), file, by_coordinates, options); });
         EXPECT_GE(failures, 100U);
     }
+}
+
+TEST(FailingAllocations, OfLoadingACheckpointAreThrownOnAllProcesses) {
+    const test::SharedFolder folder;
+    const std::filesystem::path file = folder / "m.octetra";
+    Mesh whole = test::marked(test::shaken_kuhn(2, 0.2, 1), 1);
+    for (Marker& marker : whole.facet_markers) marker = 3;
+    for (Marker& marker : whole.edge_markers) marker = 4;
+    const std::vector<int> ranks(whole.cells.size(), 0);
+    AdaptiveMesh mesh = AdaptiveMesh::distribute(test::world(), std::move(whole), ranks);
+    (void)mesh.refine(Selection{.random = RandomShare{0.3, 1}});
+    mesh.save(file);
+    const CheckpointReader reader(file);
+    const Partition by_coordinates{.method = PartitionMethod::rcb};
+    const std::uint64_t failures = let_each_fail_anew([&] {
+        LoadedPart part = load_part(test::world(), reader, file, by_coordinates);
+        (void)distribute_parts(test::world(), std::move(part.input));
+    });
+    EXPECT_GE(failures, 100U);
 }
 
 /// Messages that are cut into pieces, and of which one process can keep nothing.

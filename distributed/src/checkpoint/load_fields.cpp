@@ -3,9 +3,9 @@
 #include <cstdint>
 #include <utility>
 
-#include "checkpoint/fetch.hpp"
 #include "comm/local_failure.hpp"
 #include "numbering/canonical_runs.hpp"
+#include "setup/homes.hpp"
 
 namespace octetra::distributed {
 namespace {
@@ -15,23 +15,25 @@ struct Wanted {
     std::vector<std::uint64_t> numbers;  ///< ascending, in the whole mesh
     std::vector<std::uint32_t> local;    ///< and by this process's numbers
     Homes homes;
-    Requests requests;
+    Requests<> requests;
 
     Wanted(const Communicator& processes, std::uint64_t count)
-        : homes(count, block_length, processes.size()) {}
+        : homes(homes_of_blocks(count, block_length, processes.size())) {}
 };
 
 Wanted wanted_vertices(const Communicator& processes, const CanonicalNumbers& numbers) {
+    LocalFailure failure;
     Wanted wanted(processes, numbers.vertex_count);
     for (VertexIndex v{0}; v < numbers.of_vertex.end_index(); ++v) {
         wanted.numbers.push_back(static_cast<std::uint64_t>(numbers.of_vertex[v]));
         wanted.local.push_back(v.value());
     }
-    wanted.requests = request(processes, wanted.homes, wanted.numbers);
+    wanted.requests = request(processes, wanted.homes, wanted.numbers, failure);
     return wanted;
 }
 
 Wanted wanted_cells(const DistributedMesh& mesh, std::span<const CellIndex> cells_before) {
+    LocalFailure failure;
     const CanonicalRuns runs = canonical_runs(mesh.processes, mesh.cell_ancestors);
     Wanted wanted(mesh.processes, runs.count);
     for_each_between(runs, mesh.cell_ancestors, 0, runs.count,
@@ -41,7 +43,7 @@ Wanted wanted_cells(const DistributedMesh& mesh, std::span<const CellIndex> cell
                                                     ? static_cast<std::uint32_t>(place)
                                                     : cells_before[place].value());
                      });
-    wanted.requests = request(mesh.processes, wanted.homes, wanted.numbers);
+    wanted.requests = request(mesh.processes, wanted.homes, wanted.numbers, failure);
     return wanted;
 }
 
@@ -55,7 +57,7 @@ std::vector<T> values_of(const Communicator& processes, const CheckpointReader& 
     const std::uint64_t end = wanted.homes.end_of(processes.rank());
     failure.attempt([&] { home = file.read<T>(field_section(number), begin, end); });
     failure.agree(processes);
-    const auto come = fetch(processes, wanted.requests, home, begin, components);
+    const auto come = fetch(processes, wanted.requests, home, begin, failure, components);
     std::vector<T> values(come.size());
     for (std::size_t i = 0; i < wanted.local.size(); ++i) {
         for (std::size_t k = 0; k < components; ++k) {

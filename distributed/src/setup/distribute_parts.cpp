@@ -209,6 +209,7 @@ std::vector<std::uint8_t> kept(const Communicator& processes, const PartVertices
     });
     const auto sharers = find_sharers(processes, keys, failure);
     const auto agreeing = find_sharers(processes, marked_keys, failure);
+    failure.agree(processes);  // else some may be missing
     std::vector<std::uint8_t> keeps;
     failure.attempt([&] {
         if (sharers != agreeing) {
@@ -297,7 +298,10 @@ DistributedMesh distribute_parts(const Communicator& processes, MeshPart part) {
     failure.agree(processes);
     check_alike(processes, part);
 
-    DistributedMesh mesh;
+    std::optional<DistributedMesh> made;
+    failure.attempt([&] { made.emplace(); });
+    failure.agree(processes);
+    DistributedMesh& mesh = *made;
     mesh.processes = processes;
     mesh.attributes_per_point = part.attributes_per_point;
     mesh.index_base = part.index_base;
@@ -345,7 +349,7 @@ DistributedMesh distribute_parts(const Communicator& processes, MeshPart part) {
     });
     failure.agree(processes);
     mesh.interfaces = find_interfaces(mesh);
-    return mesh;
+    return std::move(mesh);
 }
 
 }  // namespace octetra::distributed

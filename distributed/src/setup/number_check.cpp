@@ -108,8 +108,11 @@ CheckedVertices check_vertices(const Communicator& processes,
         }
     });
     failure.agree(processes);
+    std::vector<std::vector<Listed>> inboxes;
+    failure.attempt([&] { inboxes = processes.all_to_all(outboxes); });
+    failure.agree(processes);  // else a number may seem to be missing
     std::vector<std::vector<std::uint8_t>> answers;
-    failure.attempt([&] { answers = answers_to(processes.all_to_all(outboxes), block); });
+    failure.attempt([&] { answers = answers_to(inboxes, block); });
     failure.agree(processes);
     failure.attempt([&] {
         // Numbers ascend, so the answers come in their order.
@@ -137,9 +140,12 @@ void check_complete(const Communicator& processes, const std::vector<std::uint64
         }
     });
     failure.agree(processes);
+    std::vector<std::vector<std::uint64_t>> inboxes;
+    failure.attempt([&] { inboxes = processes.all_to_all(outboxes); });
+    failure.agree(processes);
     failure.attempt([&] {
         std::vector<bool> met(block.end - block.begin, false);
-        for (const auto& inbox : processes.all_to_all(outboxes)) {
+        for (const auto& inbox : inboxes) {
             for (const std::uint64_t number : inbox) {
                 if (met[number - block.begin]) {
                     throw InputError(fmt::format("{} {} is there twice", what, number));

@@ -1,0 +1,136 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include <octetra/core/checkpoint_blocks.hpp>
+#include <octetra/distributed/communicator.hpp>
+
+#include "comm/local_failure.hpp"
+#include "setup/homes.hpp"
+
+namespace octetra::distributed {
+
+/// A tagged facet or edge on its way to a process that has a cell at it.
+template <std::size_t N>
+struct Tagged {
+    std::uint64_t number = 0;
+    VertexNumbers<N> vertices{};
+    Marker marker = 0;
+};
+
+/// Collective. The facets or edges that this process reads, to the homes of their first vertices.
+template <std::size_t N>
+[[nodiscard]] std::vector<Tagged<N>> send_home(const Communicator& processes,
+                                               const CheckpointReader& file,
+                                               const Homes& vertex_homes, Section section,
+                                               Section markers, LocalFailure& failure) {
+    std::vector<std::vector<Tagged<N>>> to_homes;
+    failure.attempt([&] {
+        const Homes homes =
+            homes_of_blocks(shape_of(file.facts(), section).count, block_length, processes.size());
+        const std::uint64_t begin = homes.begin_of(processes.rank());
+        const std::uint64_t end = homes.end_of(processes.rank());
+        const auto lists = file.read_vertices<N>(section, begin, end);
+        const auto tags = file.read<Marker>(markers, begin, end);
+        to_homes.resize(static_cast<std::size_t>(processes.size()));
+        for (std::size_t i = 0; i < lists.size(); ++i) {
+            const auto home = static_cast<std::size_t>(vertex_homes.rank_of(lists[i][0]));
+            to_homes[home].push_back({begin + i, lists[i], tags.empty() ? Marker{0} : tags[i]});
+        }
+    });
+    failure.agree(processes);
+    std::vector<Tagged<N>> at_home;
+    failure.attempt([&] {
+        for (const auto& box : processes.all_to_all(to_homes)) {
+            at_home.insert(at_home.end(), box.begin(), box.end());
+        }
+        std::ranges::sort(at_home, {}, [](const Tagged<N>& tagged) { return tagged.vertices[0]; });
+    });
+    return at_home;
+}
+
+/// Collective. From there to all that have asked for the first vertex.
+template <std::size_t N>
+[[nodiscard]] std::vector<Tagged<N>> send_to_parts(const Communicator& processes,
+                                                   const Requests<>& requests,
+                                                   const std::vector<Tagged<N>>& at_home,
+                                                   LocalFailure& failure) {
+    std::vector<std::vector<Tagged<N>>> to_parts;
+    failure.attempt([&] {
+        to_parts.resize(static_cast<std::size_t>(processes.size()));
+        for (std::size_t rank = 0; rank < to_parts.size(); ++rank) {
+            auto next = at_home.begin();
+            for (const std::uint64_t number : requests.received[rank]) {  // ascending
+                while (next != at_home.end() && next->vertices[0] < number) ++next;
+                for (auto k = next; k != at_home.end() && k->vertices[0] == number; ++k) {
+                    to_parts[rank].push_back(*k);
+                }
+            }
+        }
+    });
+    failure.agree(processes);
+    std::vector<Tagged<N>> come;
+    failure.attempt([&] {
+        for (const auto& box : processes.all_to_all(to_parts)) {
+            come.insert(come.end(), box.begin(), box.end());
+        }
+    });
+    return come;
+}
+
+/// Those that are sides of cells, which have `corners`, in the order of their numbers.
+template <std::size_t N, std::size_t Sides>
+[[nodiscard]] std::vector<Tagged<N>> sides_among(
+    const std::vector<Tagged<N>>& come, const auto& cells,
+    const std::array<std::array<std::uint8_t, N>, Sides>& sides) {
+    std::vector<std::pair<VertexNumbers<N>, Tagged<N>>> candidates;
+    for (const Tagged<N>& tagged : come) {
+        VertexNumbers<N> key = tagged.vertices;
+        std::ranges::sort(key);
+        candidates.emplace_back(key, tagged);
+    }
+    const auto key_of = [](const auto& candidate) -> const VertexNumbers<N>& {
+        return candidate.first;
+    };
+    std::ranges::sort(candidates, {}, key_of);
+    std::vector<bool> is_side(candidates.size(), false);
+    for (const auto& cell : cells) {
+        if (candidates.empty()) break;
+        for (const auto& side : sides) {
+            VertexNumbers<N> key;
+            for (std::size_t k = 0; k < N; ++k) key[k] = cell.corners[side[k]];
+            std::ranges::sort(key);
+            auto found = std::ranges::lower_bound(candidates, key, {}, key_of);
+            for (; found != candidates.end() && found->first == key; ++found) {
+                is_side[static_cast<std::size_t>(found - candidates.begin())] = true;
+            }
+        }
+    }
+    std::vector<Tagged<N>> tagged;
+    for (std::size_t i = 0; i < candidates.size(); ++i) {
+        if (is_side[i]) tagged.push_back(candidates[i].second);
+    }
+    std::ranges::sort(tagged, {}, &Tagged<N>::number);
+    return tagged;
+}
+
+/// Collective. The facets or edges that are sides of this process's cells. Each goes from who has
+/// read it to the home of one of its vertices, and from there to all that have asked for that one.
+/// Where a process has failed, the result is not to be used on any.
+template <std::size_t N, std::size_t Sides>
+[[nodiscard]] std::vector<Tagged<N>> bring_tagged(
+    const Communicator& processes, const CheckpointReader& file, const Homes& vertex_homes,
+    const Requests<>& requests, const auto& cells, Section section, Section markers,
+    const std::array<std::array<std::uint8_t, N>, Sides>& sides, LocalFailure& failure) {
+    const auto at_home = send_home<N>(processes, file, vertex_homes, section, markers, failure);
+    const auto come = send_to_parts(processes, requests, at_home, failure);
+    std::vector<Tagged<N>> tagged;
+    failure.attempt([&] { tagged = sides_among(come, cells, sides); });
+    return tagged;
+}
+
+}  // namespace octetra::distributed

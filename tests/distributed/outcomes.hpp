@@ -60,6 +60,11 @@ inline bool expect_one_outcome(const std::filesystem::path& file, const std::str
         const auto method = distributed::parse_partition(partition).method;
         const auto mesh = distributed::distribute_stretch(world(), std::move(*stretch), method);
         EXPECT_EQ(mesh.has_value(), expected.error.empty()) << file;
+        if (mesh) {  // nothing is there twice, which collecting would not show
+            EXPECT_EQ(world().sum(mesh->cells.size()), expected.mesh.cells.size()) << file;
+            EXPECT_EQ(world().sum(mesh->facets.size()), expected.mesh.facets.size()) << file;
+            EXPECT_EQ(world().sum(mesh->edges.size()), expected.mesh.edges.size()) << file;
+        }
     }
     return expected.error.empty();
 }

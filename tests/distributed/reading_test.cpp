@@ -10,6 +10,8 @@
 #include <gtest/gtest.h>
 
 #include <octetra/core/files/mesh_files.hpp>
+#include <octetra/distributed/refine.hpp>
+#include <octetra/reference/refine.hpp>
 
 #include "distributed/marked_mesh.hpp"
 #include "distributed/outcomes.hpp"
@@ -137,6 +139,46 @@ TEST(ReadTogether, MeshesWithEverythingAreWhatOneProcessReads) {
             }
         }
     }
+}
+
+TEST(ReadTogether, PartsAreThoseThatOneProcessWouldMake) {
+    const int size = test::world().size();
+    for (const std::string extension : {".ele", ".mesh"}) {
+        const test::SharedFolder folder;
+        files_of(full_mesh(5, 1), extension).write(folder);
+        const fs::path file = folder / ("m" + extension);
+        const Mesh whole = read_mesh(file);
+        for (const std::string& name : partitions) {
+            const auto partition = distributed::parse_partition(name);
+            const auto ranks = distributed::partition_cells(whole, size, partition);
+            std::vector<std::uint64_t> expected;
+            for (std::size_t c = 0; c < ranks.size(); ++c) {
+                if (ranks[c] == test::world().rank()) expected.push_back(c);
+            }
+            const auto part = distributed::read_parts(test::world(), file, partition);
+            EXPECT_EQ(part.cell_ancestors.roots, expected) << extension << name;
+        }
+        (void)test::world().max(0);
+    }
+}
+
+/// Interfaces are no part of what is collected: closure must go from part to part.
+TEST(ReadTogether, MeshesAreRefinedAsTheReferenceRefinesThem) {
+    const Selection selection{.random = RandomShare{0.1, 3}};
+    const test::SharedFolder folder;
+    for (const std::size_t n : {2U, 5U}) {
+        const fs::path file = folder / fmt::format("{}.ele", n);
+        write_on_first([&] { (void)write_mesh(full_mesh(n, 1), file); });
+        const auto expected = reference::refine(read_mesh(file), selection, Scheme::eight, 2).mesh;
+        for (const std::string& partition : partitions) {
+            auto parts = distributed::read_parts(test::world(), file,
+                                                 distributed::parse_partition(partition));
+            distributed::refine(parts, selection, {.levels = 2});
+            const Mesh found = collect(std::move(parts)).mesh;
+            EXPECT_TRUE(!test::world().is_first() || found == expected) << n << partition;
+        }
+    }
+    (void)test::world().max(0);
 }
 
 /// So that every process has many messages of cells.
@@ -279,6 +321,8 @@ std::vector<Case> odd_files() {
         {"not a number", medit(replaced(medit_points, "1 0 0 0", "1 nan 0 0") + cells), false,
          false},
         {"a line that is no number", medit(replaced(medit_points, "1 0 0 0", "nan 0 0 0") + cells),
+         false, false},
+        {"an extra field", medit(replaced(medit_points, "1 0 0 0", "1 0 0 0 5") + cells + "End\n"),
          false, false},
         {"a second section", medit(medit_points + cells + cells + "End\n"), false, false},
         {"no vertices", medit("MeshVersionFormatted 2\nDimension 3\n" + cells + "End\n"), false,

@@ -115,8 +115,8 @@ public:
         stretch_.lists.regions = {};
         mesh_.cells = std::move(part.cells);
         failure_.attempt([&] {
-            mesh_.cell_ancestors =
-                ancestors_of_roots(std::move(part.numbers), std::move(part.regions));
+            mesh_.cell_ancestors = ancestors_of_roots({part.numbers.begin(), part.numbers.end()},
+                                                      std::move(part.regions));
         });
         failure_.agree(processes_);
     }

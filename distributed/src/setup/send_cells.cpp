@@ -38,7 +38,7 @@ std::vector<std::uint64_t> counts_to_come(const Communicator& processes,
 CellsOfPart send_cells(const Communicator& processes, const MeshStretch& stretch,
                        const StretchCorners& corners, const std::vector<int>& parts,
                        LocalFailure& failure) {
-    constexpr std::size_t at_once = std::size_t{1} << 16U;
+    constexpr std::size_t at_once = std::size_t{1} << 15U;
     CellsOfPart part;
     // The stretches come in the order of the ranks, and each in its own.
     std::vector<std::uint64_t> next = counts_to_come(processes, parts, failure);

@@ -14,7 +14,7 @@ namespace octetra::distributed {
 /// Cells that have come to their part, in the order of their numbers in the whole mesh.
 struct CellsOfPart {
     IndexVector<CellIndex, CellVertices> cells;  ///< vertices by numbers in the whole mesh
-    std::vector<std::uint64_t> numbers;
+    std::vector<std::uint32_t> numbers;
     std::vector<Marker> regions;  ///< or empty
 };
 

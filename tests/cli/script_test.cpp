@@ -50,11 +50,11 @@ struct WrongLine {
 
 const std::vector<WrongLine> wrong_lines{
     {"refien --all",
-     "a step begins with one of refine, coarsen, save, write, not 'refien'; did you mean "
+     "a step begins with one of refine, coarsen, rebalance, save, write, not 'refien'; did you "
+     "mean "
      "refine?"},
-    {"--all", "a step begins with one of refine, coarsen, save, write, not '--all'"},
-    {"rebalance",
-     "rebalance is not there yet: cells stay on the ranks that they began on; leave this line out"},
+    {"--all", "a step begins with one of refine, coarsen, rebalance, save, write, not '--all'"},
+    {"rebalance --all", "rebalance takes no options, and here is --all"},
     {"refine",
      "say which cells to refine: --all, --cells, --sphere, --box, --region, --random or "
      "--max-volume"},

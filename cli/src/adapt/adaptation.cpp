@@ -201,11 +201,16 @@ void adapt(const AdaptationOptions& options, const Script& script,
             if (world.is_first()) note(dropped);
         }
     };
+    const auto move_along = [&](const distributed::Migration& move) {
+        if (since) since->follow(move);
+        carry_fields(fields, move);
+    };
     run_script(adaptive, script,
                {.input = read,
                 .has_steps = is_checkpoint(options.input.path),
                 .options = steps,
                 .on_step = follow,
+                .on_move = move_along,
                 .fields = &fields,
                 .quiet = options.quiet},
                watch);

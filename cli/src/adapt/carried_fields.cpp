@@ -133,6 +133,18 @@ std::vector<std::string> carry_fields(std::vector<Field>& fields, const Adaptati
     return dropped;
 }
 
+void carry_fields(std::vector<Field>& fields, const distributed::Migration& move) {
+    for (Field& field : fields) {
+        std::visit(
+            [&](auto& values) {
+                values = field.on == FieldOn::vertices
+                             ? move.vertices(std::move(values), field.components)
+                             : move.cells(std::move(values), field.components);
+            },
+            field.values);
+    }
+}
+
 std::string lost_fields(const std::vector<std::string>& names, const std::string& path) {
     return fmt::format("{} not in {}: .octetra files alone hold fields", named_fields(names), path);
 }

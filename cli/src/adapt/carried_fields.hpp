@@ -6,6 +6,7 @@
 #include <octetra/distributed/adaptation.hpp>
 #include <octetra/distributed/communicator.hpp>
 #include <octetra/distributed/field.hpp>
+#include <octetra/distributed/migration.hpp>
 
 namespace octetra::cli {
 
@@ -20,6 +21,9 @@ namespace octetra::cli {
 [[nodiscard]] std::vector<std::string> carry_fields(std::vector<distributed::Field>& fields,
                                                     const distributed::Adaptation& step,
                                                     const distributed::Communicator& world);
+
+/// Collective. Brings the fields along with cells that went to other processes.
+void carry_fields(std::vector<distributed::Field>& fields, const distributed::Migration& move);
 
 /// Says that these fields, of which there are some, are not in a file of another format.
 [[nodiscard]] std::string lost_fields(const std::vector<std::string>& names,

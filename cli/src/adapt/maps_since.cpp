@@ -11,6 +11,10 @@ namespace octetra::cli {
 CellsSince::CellsSince(const distributed::AdaptiveMesh& mesh)
     : vertices_(mesh.vertex_count()), parents_(cell_numbers(mesh)) {}
 
+void CellsSince::follow(const distributed::Migration& move) {
+    parents_ = move.cells(std::move(parents_));
+}
+
 void CellsSince::follow(const distributed::Adaptation& step) {
     parents_ = step.transfer_cells(std::move(parents_));
 }

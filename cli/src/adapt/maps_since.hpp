@@ -18,6 +18,8 @@ public:
 
     /// Not collective. Follows a step of refinement.
     void follow(const distributed::Adaptation& step);
+    /// Collective. Follows cells that went to other processes.
+    void follow(const distributed::Migration& move);
 
     [[nodiscard]] std::uint64_t vertex_count_before() const { return vertices_; }
     [[nodiscard]] const std::vector<std::uint64_t>& parents() const { return parents_; }

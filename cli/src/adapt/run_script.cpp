@@ -31,6 +31,13 @@ Counts counts_of(const AdaptiveMesh& mesh) {
     return {mesh.vertex_count(), mesh.processes().sum(mesh.cells().size())};
 }
 
+/// Collective. Of the cells of the ranks.
+double most_over_mean(const AdaptiveMesh& mesh) {
+    const std::uint64_t here = mesh.cells().size();
+    const auto all = static_cast<double>(mesh.processes().sum(here));
+    return static_cast<double>(mesh.processes().max(here)) * mesh.processes().size() / all;
+}
+
 /// What a step did: "refined, 2 levels", and remarks.
 struct Done {
     std::string what;
@@ -72,6 +79,21 @@ public:
         return {
             levels_done("coarsened", done),
             idle_levels(done, levels, is_any_marked ? "no vertex could go" : "no cell was marked")};
+    }
+
+    Done operator()(const RebalanceStep&) {
+        const double before = most_over_mean(*mesh_);
+        const distributed::Migration move = mesh_->rebalance();
+        if (!move.changed()) {
+            return {fmt::format("rebalanced, and no cell moved: most/mean cells {:.2f}", before),
+                    {},
+                    false};
+        }
+        if (run_->on_move) run_->on_move(move);
+        return {fmt::format("rebalanced, most/mean cells {:.2f} to {:.2f}", before,
+                            most_over_mean(*mesh_)),
+                {},
+                false};
     }
 
     Done operator()(const WriteStep& step) {

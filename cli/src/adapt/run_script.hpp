@@ -17,7 +17,8 @@ struct ScriptRun {
     bool has_steps = false;  ///< has it steps behind it already?
     distributed::StepOptions options;
     std::function<void(const distributed::Adaptation&)> on_step = {};  ///< of each level
-    /// Those of the mesh as it is whenever a step writes it; on_step() sees to that.
+    std::function<void(const distributed::Migration&)> on_move = {};   ///< of cells between ranks
+    /// Those of the mesh as it is whenever a step writes it; these two see to that.
     const std::vector<distributed::Field>* fields = nullptr;
     bool quiet = false;
 };

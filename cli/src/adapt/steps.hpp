@@ -26,6 +26,8 @@ struct WriteStep {
     std::string path;
 };
 
-using Step = std::variant<RefineStep, CoarsenStep, WriteStep>;
+struct RebalanceStep {};
+
+using Step = std::variant<RefineStep, CoarsenStep, RebalanceStep, WriteStep>;
 
 }  // namespace octetra::cli

@@ -83,6 +83,11 @@ Step parse_coarsen(std::vector<std::string> options) {
     return step;
 }
 
+Step parse_rebalance(const std::vector<std::string>& words) {
+    if (words.empty()) return RebalanceStep{};
+    throw InputError(fmt::format("rebalance takes no options, and here is {}", words.front()));
+}
+
 std::string only_name(const std::vector<std::string>& words, std::string_view word,
                       std::string_view example) {
     if (words.size() == 1) return words.front();
@@ -108,18 +113,14 @@ struct StepWord {
     Step (*parse)(std::vector<std::string> options);
 };
 
-constexpr std::array<StepWord, 4> step_words{
+constexpr std::array<StepWord, 5> step_words{
     {{"refine", parse_refine},
      {"coarsen", parse_coarsen},
+     {"rebalance", [](std::vector<std::string> words) { return parse_rebalance(words); }},
      {"save", [](std::vector<std::string> words) { return parse_save(words); }},
      {"write", [](std::vector<std::string> words) { return parse_write(words); }}}};
 
 [[noreturn]] void refuse_word(const std::string& word) {
-    if (word == "rebalance") {
-        throw InputError(
-            "rebalance is not there yet: cells stay on the ranks that they began on; leave this "
-            "line out");
-    }
     std::vector<std::string> names;
     for (const auto& [name, parse] : step_words) names.emplace_back(name);
     throw InputError(fmt::format("a step begins with one of {}, not '{}'{}", fmt::join(names, ", "),

@@ -208,10 +208,12 @@ TEST_F(CarriedFields, AreTheSameBytesOnAnyNumberOfRanksWhateverTheSteps) {
     add_fields("m.octetra", "s.octetra");
     (void)folder.write("s.txt",
                        "refine --sphere 0.1,0.2,0.3,0.4 --levels 2\n"
+                       "rebalance\n"
                        "refine --random 0.02 --scheme 2t\n"
                        "coarsen --sphere 0.3,0.2,0.3,0.2\n"
                        "save mid.octetra\n"
                        "refine --sphere 0.4,0.2,0.3,0.2 --scheme 4t\n"
+                       "rebalance\n"
                        "coarsen --random 0.8\n"
                        "coarsen --all\n");
     run("adapt s.octetra --script s.txt -o alone.octetra");

@@ -33,9 +33,9 @@ struct MeshStretch {
 /// that are there twice, tagged facets and edges.
 ///
 /// Returns nothing, on all processes, where a check fails, a file cannot be read, or is not in the
-/// form that lends itself to it: an entity on each line, and in a Medit file no sections that are
-/// not kept. What is to be said of the file read_mesh() then says. A process that has no memory
-/// throws std::bad_alloc, and all others get nothing: whoever calls must tell them.
+/// form that lends itself to it, an entity on each line. What is to be said of the file read_mesh()
+/// then says. A process that has no memory throws std::bad_alloc, and all others get nothing:
+/// whoever calls must tell them.
 [[nodiscard]] std::optional<MeshStretch> read_stretch(const std::filesystem::path& path,
                                                       const ProcessGroup& group);
 

@@ -1,6 +1,9 @@
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
+#include <string>
+#include <string_view>
 
 #include <octetra/core/files/mesh_files.hpp>
 #include <octetra/core/files/mesh_sink.hpp>
@@ -16,7 +19,9 @@ namespace octetra {
 /// Takes everything as it stands; `options` must have only_syntax.
 void stream_medit(const std::filesystem::path& path, MeshSink& sink, const ReadOptions& options);
 
-/// What a reader says of a file without the last keyword.
+/// What a reader says of a section that is not kept, and of a file without the last keyword.
+[[nodiscard]] std::string note_on_skipped(const std::filesystem::path& path, std::uint64_t line,
+                                          std::uint64_t count, std::string_view keyword);
 [[nodiscard]] std::string note_on_missing_end(const std::filesystem::path& path);
 
 /// Collective. Returns what of the mesh the format cannot hold, in a sentence, or nothing.

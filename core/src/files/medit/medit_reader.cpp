@@ -140,8 +140,7 @@ private:
                 (void)tokens_.real("a number of this section");
             }
             if (count > 0) {
-                options_->note(fmt::format("{}:{}: the {} entries of {} are not kept",
-                                           reader_.path().native(), line, count, keyword));
+                options_->note(note_on_skipped(reader_.path(), line, count, keyword));
             }
             return;
         }
@@ -342,6 +341,12 @@ private:
 };
 
 }  // namespace
+
+std::string note_on_skipped(const std::filesystem::path& path, std::uint64_t line,
+                            std::uint64_t count, std::string_view keyword) {
+    return fmt::format("{}:{}: the {} entries of {} are not kept", path.native(), line, count,
+                       keyword);
+}
 
 std::string note_on_missing_end(const std::filesystem::path& path) {
     return fmt::format("{}: the file ends without the keyword End", path.native());

@@ -38,28 +38,32 @@ public:
                 static_cast<const char*>(std::memchr(at, '\n', static_cast<std::size_t>(end - at)));
             if (newline == nullptr) break;
             at = newline + 1;
+            ++lines_;
             is_in_line_ = false;
             line_ = position_ + static_cast<std::uint64_t>(at - bytes);
         }
         position_ += size;
     }
 
-    [[nodiscard]] const std::vector<std::uint64_t>& found() const { return found_; }
+    /// What was found, numbered from 0 where the scan began; and how many lines have ended.
+    [[nodiscard]] const std::vector<NumberedLine>& found() const { return found_; }
+    [[nodiscard]] std::uint64_t lines() const { return lines_; }
 
 private:
     void take_line() {
         if (found_.size() == most_keywords) throw std::length_error("too many keywords");
-        found_.push_back(line_);
+        found_.push_back({line_, lines_});
     }
 
     std::uint64_t position_;
     std::uint64_t line_;
     bool is_in_line_ = false;
-    std::vector<std::uint64_t> found_;
+    std::uint64_t lines_ = 0;
+    std::vector<NumberedLine> found_;
 };
 
-std::vector<std::uint64_t> keywords_in(const std::filesystem::path& path,
-                                       const FileStretch& share) {
+/// Those of a share; then how many lines it has, as the number of one more.
+std::vector<NumberedLine> keywords_in(const std::filesystem::path& path, const FileStretch& share) {
     const InputFile file(path);
     KeywordScan scan(share.begin);
     std::vector<char> bytes(std::min<std::uint64_t>(std::uint64_t{1} << 18U, share.size()));
@@ -68,37 +72,42 @@ std::vector<std::uint64_t> keywords_in(const std::filesystem::path& path,
         file.read(at, bytes.data(), size);
         scan.look_through(bytes.data(), size);
     }
-    return scan.found();
+    std::vector<NumberedLine> found = scan.found();
+    found.push_back({share.end, scan.lines()});
+    return found;
 }
 
 }  // namespace
 
-std::optional<std::vector<std::uint64_t>> scan_for_keywords(Progress& progress,
-                                                            const std::filesystem::path& path,
-                                                            std::uint64_t file_size) {
+std::optional<std::vector<NumberedLine>> scan_for_keywords(Progress& progress,
+                                                           const std::filesystem::path& path,
+                                                           std::uint64_t file_size) {
     const ProcessGroup& group = progress.group();
     std::vector<ProcessGroup::Bytes> to_each;
     progress.attempt([&] {
         const FileStretch share = share_of_lines(path, {0, file_size}, group.rank(), group.size());
-        const std::vector<std::uint64_t> found = keywords_in(path, share);
-        ProcessGroup::Bytes bytes(found.size() * sizeof(std::uint64_t));
-        if (!found.empty()) std::memcpy(bytes.data(), found.data(), bytes.size());
+        const std::vector<NumberedLine> found = keywords_in(path, share);
+        ProcessGroup::Bytes bytes(found.size() * sizeof(NumberedLine));
+        std::memcpy(bytes.data(), found.data(), bytes.size());
         to_each.assign(static_cast<std::size_t>(group.size()), bytes);
     });
     if (!progress.all_well()) return std::nullopt;
-    std::vector<std::uint64_t> positions;
+    std::vector<NumberedLine> keywords;
     progress.attempt([&] {
+        std::uint64_t lines_before = 0;
         for (const ProcessGroup::Bytes& bytes : group.exchange(std::move(to_each))) {
-            const std::size_t before = positions.size();
-            positions.resize(before + bytes.size() / sizeof(std::uint64_t));
-            if (!bytes.empty()) {
-                std::memcpy(positions.data() + before, bytes.data(), bytes.size());
+            std::vector<NumberedLine> of_share(bytes.size() / sizeof(NumberedLine));
+            if (of_share.empty()) continue;  // of a process that has failed
+            std::memcpy(of_share.data(), bytes.data(), bytes.size());
+            for (std::size_t k = 0; k + 1 < of_share.size(); ++k) {
+                keywords.push_back({of_share[k].position, lines_before + of_share[k].number + 1});
             }
+            lines_before += of_share.back().number;
         }
-        if (positions.size() > most_keywords) throw std::length_error("too many keywords");
+        if (keywords.size() > most_keywords) throw std::length_error("too many keywords");
     });
     if (!progress.all_well()) return std::nullopt;
-    return positions;
+    return keywords;
 }
 
 }  // namespace octetra

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <array>
+#include <span>
 #include <stdexcept>
 #include <string_view>
 
@@ -26,12 +27,21 @@ struct SectionPlan {
     FileStretch bytes;
 };
 
+/// A section whose entries are read over, as skipped_sections[kind] says.
+struct SkippedPlan {
+    std::uint64_t kind = 0;
+    std::uint64_t keyword_line = 0;
+    SectionPlan section;
+};
+
 /// What the first process finds between the keywords.
 struct MeditPlan {
     SectionPlan vertices;
     SectionPlan tetrahedra;
     SectionPlan triangles;
     SectionPlan edges;
+    std::array<SkippedPlan, 2 * skipped_sections.size()> skipped{};
+    std::uint64_t skipped_count = 0;
     std::uint64_t has_end = 0;
 };
 
@@ -77,13 +87,24 @@ private:
     std::uint64_t number_ = 0;
 };
 
-bool may_be_empty(const std::string& keyword) {
-    return std::ranges::find(skipped_sections, keyword, &SkippedSection::keyword) !=
-               skipped_sections.end() ||
-           std::ranges::find(other_cell_shapes, keyword) != other_cell_shapes.end();
+/// Of what is no list of the mesh.
+void plan_other(SectionHead& head, std::uint64_t keyword_line, MeditPlan& plan) {
+    if (std::ranges::find(other_cell_shapes, head.keyword()) != other_cell_shapes.end()) {
+        if (head.number() != 0) leave_it_to_one_process();
+        return head.expect_nothing();
+    }
+    const auto skipped =
+        std::ranges::find(skipped_sections, head.keyword(), &SkippedSection::keyword);
+    if (skipped == skipped_sections.end() || plan.skipped_count == plan.skipped.size()) {
+        leave_it_to_one_process();
+    }
+    SkippedPlan& one = plan.skipped[plan.skipped_count++];
+    one.kind = static_cast<std::uint64_t>(skipped - skipped_sections.begin());
+    one.keyword_line = keyword_line;
+    head.take_entries(one.section, skipped->numbers_per_entry);
 }
 
-void plan_section(SectionHead& head, bool is_last, MeditPlan& plan) {
+void plan_section(SectionHead& head, std::uint64_t keyword_line, bool is_last, MeditPlan& plan) {
     if (head.keyword() == "End") {
         plan.has_end = 1;
         head.expect_nothing();
@@ -99,22 +120,22 @@ void plan_section(SectionHead& head, bool is_last, MeditPlan& plan) {
         head.take_entries(plan.triangles, 4);
     } else if (head.keyword() == "Edges") {
         head.take_entries(plan.edges, 3);
-    } else if (may_be_empty(head.keyword()) && head.number() == 0) {
-        head.expect_nothing();
     } else {
-        leave_it_to_one_process();
+        plan_other(head, keyword_line, plan);
     }
 }
 
-MeditPlan medit_plan(const fs::path& path, const std::vector<std::uint64_t>& keywords,
+MeditPlan medit_plan(const fs::path& path, const std::vector<NumberedLine>& keywords,
                      std::uint64_t file_size) {
     MeditPlan plan;
-    if (keywords.empty() || LineReader(path, 0, keywords.front()).next()) leave_it_to_one_process();
+    if (keywords.empty() || LineReader(path, 0, keywords.front().position).next())
+        leave_it_to_one_process();
     for (std::size_t k = 0; k < keywords.size(); ++k) {
         const bool is_last = k + 1 == keywords.size();
-        SectionHead head(path, keywords[k], is_last ? file_size : keywords[k + 1]);
+        SectionHead head(path, keywords[k].position,
+                         is_last ? file_size : keywords[k + 1].position);
         if (k > 0) {
-            plan_section(head, is_last, plan);
+            plan_section(head, keywords[k].number, is_last, plan);
             continue;
         }
         head.expect_nothing();
@@ -149,6 +170,7 @@ public:
         read_list(plan_->tetrahedra, cell_kind, lists);
         read_list(plan_->triangles, facet_kind, lists);
         read_list(plan_->edges, edge_kind, lists);
+        for (std::size_t k = 0; k < plan_->skipped_count; ++k) read_over(k);
     }
 
     /// Collective. False, on all processes, if entries are more or fewer than announced.
@@ -162,6 +184,9 @@ public:
         stretch.first_cell = number(lists.cells.size(), plan_->tetrahedra);
         stretch.first_facet = number(lists.facets.size(), plan_->triangles);
         stretch.first_edge = number(lists.edges.size(), plan_->edges);
+        for (std::size_t k = 0; k < plan_->skipped_count; ++k) {
+            (void)number(read_over_[k], plan_->skipped[k].section);
+        }
         return well;
     }
 
@@ -209,9 +234,23 @@ private:
             read_entry);
     }
 
+    void read_over(std::size_t k) {
+        const SkippedPlan& skipped = plan_->skipped[k];
+        const std::size_t numbers = skipped_sections.at(skipped.kind).numbers_per_entry;
+        const auto read_entry = [&](Fields& fields, const LineReader&) {
+            for (std::size_t i = 0; i < numbers; ++i) {
+                (void)fields.real("a number of this section");
+            }
+            ++read_over_[k];
+        };
+        read_share(
+            skipped.section, numbers, [](std::size_t) {}, read_entry);
+    }
+
     const fs::path* path_;
     const MeditPlan* plan_;
     const ProcessGroup* group_;
+    std::array<std::uint64_t, 2 * skipped_sections.size()> read_over_{};  // entries
 };
 
 /// Collective. Does any process have a marker that is not 0? Else they are dropped: in this format
@@ -261,6 +300,11 @@ std::optional<MeshStretch> read_medit_stretch(const fs::path& path, const Proces
     MeditShares shares(path, plan, group);
     progress.attempt([&] {
         shares.read(stretch.lists);
+        for (const SkippedPlan& one : std::span(plan.skipped).first(plan.skipped_count)) {
+            if (one.section.count == 0) continue;
+            stretch.notes.push_back(note_on_skipped(path, one.keyword_line, one.section.count,
+                                                    skipped_sections.at(one.kind).keyword));
+        }
         if (plan.has_end == 0) stretch.notes.push_back(note_on_missing_end(path));
     });
     if (!progress.all_well() || !shares.number(stretch)) return std::nullopt;

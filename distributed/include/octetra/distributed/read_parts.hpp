@@ -12,10 +12,10 @@ namespace octetra::distributed {
 /// rcb and block all processes read together, each an even share of the files and then its part, so
 /// that none has more than these in memory; for the other methods, and for a file that they cannot
 /// read so, the first process reads all of it and shares it out. Such files are those with
-/// something to refuse or, as options may ask, to mend; in the Medit format also those with
-/// entities that do not have a line each, and with sections that are not kept. The words of an
-/// error are read_mesh()'s, on all processes; `options.note` is called on the first. Throws
-/// OutOfMemory where a process has no memory for what it is to read.
+/// something to refuse or, as options may ask, to mend, and in the Medit format those with entities
+/// that do not have a line each. The words of an error are read_mesh()'s, on all processes;
+/// `options.note` is called on the first. Throws OutOfMemory where a process has no memory for what
+/// it is to read.
 [[nodiscard]] DistributedMesh read_parts(const Communicator& processes,
                                          const std::filesystem::path& path,
                                          const Partition& partition,

@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <array>
+#include <new>
 #include <utility>
+
+#include <octetra/distributed/out_of_memory.hpp>
 
 #include "history/replay.hpp"
 #include "setup/ancestors_of_roots.hpp"
@@ -121,6 +124,16 @@ private:
     std::vector<std::vector<VertexIndex>> local_;  ///< of each message, its vertices
 };
 
+/// Of a part whose group is this process alone: where that has no memory, it is not rank 0 of the
+/// group that moves cells.
+void replay_alone(DistributedMesh& part, CutRoots cuts, std::size_t step_count) {
+    try {
+        replay(part, std::move(cuts), step_count);
+    } catch (const OutOfMemory&) {
+        throw std::bad_alloc();
+    }
+}
+
 }  // namespace
 
 Arrivals arrivals_of(const std::vector<RootMessage>& messages, const HasLists& has,
@@ -128,7 +141,7 @@ Arrivals arrivals_of(const std::vector<RootMessage>& messages, const HasLists& h
     Arrivals arrivals;
     arrivals.part.attributes_per_point = attributes_per_point;
     CutRoots cuts = std::move(Assembly(messages, has, arrivals).cuts);
-    replay(arrivals.part, std::move(cuts), step_count);
+    replay_alone(arrivals.part, std::move(cuts), step_count);
     restore_canonical_order(arrivals.part);
     return arrivals;
 }

@@ -4,6 +4,10 @@
 #include <array>
 #include <utility>
 
+#include <fmt/format.h>
+
+#include <octetra/core/error.hpp>
+
 #include "level/known_marker.hpp"
 
 namespace octetra::distributed {
@@ -194,6 +198,18 @@ void merge_lists(const ListSource<I, N>& a, const std::vector<int>& rank_of_a, i
     take_b_before(~std::uint64_t{0});
 }
 
+/// Throws where 32 bits might not number what is together then: what goes away is counted, too.
+void check_countable(const DistributedMesh& before, const DistributedMesh& come) {
+    const std::size_t most = std::max(
+        {before.points.size() + come.points.size(), before.cells.size() + come.cells.size(),
+         before.facets.size() + come.facets.size(), before.edges.size() + come.edges.size()});
+    if (most < VertexIndex::limit) return;
+    throw InputError(
+        fmt::format("rank {}: {} entities of a kind would be too many, with those that "
+                    "stay and those that come",
+                    before.processes.rank(), most));
+}
+
 Migration::Message kept_vertices(const NewNumbers& numbers) {
     Migration::Message kept;
     for (VertexIndex v{0}; v < numbers.end_index(); ++v) {
@@ -208,6 +224,7 @@ Migration::Message kept_vertices(const NewNumbers& numbers) {
 
 MergedPart merge_parts(const DistributedMesh& before, const Departures& departures,
                        const Arrivals& arrivals, const HasLists& has) {
+    check_countable(before, arrivals.part);
     MergedPart merged;
     DistributedMesh& mesh = merged.mesh;
     mesh.processes = before.processes;

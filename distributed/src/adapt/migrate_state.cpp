@@ -16,6 +16,7 @@
 #include "migrate/even_parts.hpp"
 #include "migrate/merge_parts.hpp"
 #include "migrate/migration_messages.hpp"
+#include "migrate/moved_numbers.hpp"
 #include "setup/find_interfaces.hpp"
 #include "sharing/sharing_builder.hpp"
 #include "sharing/vertex_sharing.hpp"
@@ -97,22 +98,22 @@ std::optional<AdaptiveMesh::State> state_after(const AdaptiveMesh::State& state,
     LocalFailure failure;
     std::optional<MergedPart> merged = move_roots(state.mesh, rank_of_root, failure);
     failure.agree(processes);
-    std::vector<GlobalVertex> numbers;
+    MovedEntities moved;
     failure.attempt([&] {
-        migration = migration_of({&state.mesh, rank_of_root, cells_outside},
-                                 {&merged->mesh, merged->rank_of_root}, state.sharing,
-                                 std::move(merged->kept_vertices));
-        numbers.assign(state.numbers.of_vertex.begin(), state.numbers.of_vertex.end());
+        moved = moved_entities({&state.mesh, rank_of_root, cells_outside},
+                               {&merged->mesh, merged->rank_of_root}, state.sharing,
+                               std::move(merged->kept_vertices));
     });
     failure.agree(processes);
-    numbers = migration.vertices(std::move(numbers));
+    auto numbers = moved_numbers(processes, moved, state.numbers.of_vertex);
     std::optional<AdaptiveMesh::State> after;
     failure.attempt([&] {
         after.emplace();
         after->mesh = std::move(merged->mesh);
-        after->numbers.of_vertex.assign(numbers.begin(), numbers.end());
-        after->numbers.vertex_count = state.numbers.vertex_count;
+        after->numbers = {std::move(numbers), state.numbers.vertex_count};
         after->step_count = state.step_count;
+        migration = Migration(processes, std::move(moved.partners), std::move(moved.cells),
+                              std::move(moved.vertices));
     });
     failure.agree(processes);
     find_border(*after, failure);

@@ -8,43 +8,10 @@
 #include <octetra/core/error.hpp>
 
 #include "comm/local_failure.hpp"
+#include "migrate/exchange_entities.hpp"
 
 namespace octetra::distributed {
 namespace {
-
-using Bytes = std::vector<std::byte>;
-
-/// Collective. Sends pack(message) to each partner, this process among them, and gives what has
-/// come from each to take(). Both may throw.
-void exchange(const Communicator& processes, const std::vector<int>& partners,
-              const Migration::Entities& entities, LocalFailure& failure, auto&& pack,
-              auto&& take) {
-    std::vector<int> others;
-    std::vector<Bytes> outboxes;
-    Bytes own;
-    failure.attempt([&] {
-        for (std::size_t p = 0; p < partners.size(); ++p) {
-            Bytes bytes = pack(entities.messages[p].sent);
-            if (partners[p] == processes.rank()) {
-                own = std::move(bytes);
-            } else {
-                others.push_back(partners[p]);
-                outboxes.push_back(std::move(bytes));
-            }
-        }
-    });
-    failure.agree(processes);
-    std::vector<Bytes> inboxes;
-    failure.attempt([&] { inboxes = processes.exchange_with(others, outboxes); });
-    failure.agree(processes);  // a process without memory has sent nothing
-    failure.attempt([&] {
-        outboxes.clear();
-        const auto place = std::ranges::lower_bound(others, processes.rank()) - others.begin();
-        inboxes.insert(inboxes.begin() + place, std::move(own));
-        take(inboxes);
-    });
-    failure.agree(processes);
-}
 
 void check(const Communicator& processes, std::size_t count, std::size_t needed) {
     if (count == needed) return;
@@ -74,13 +41,13 @@ void Migration::move_values(const Entities& entities, std::span<const std::byte>
         if (size > 0) check(processes_, values.size() / size, entities.count_before);
     });
     const auto pack = [&](const std::vector<std::uint32_t>& sent) {
-        Bytes message(sent.size() * size);
+        MessageBytes message(sent.size() * size);
         for (std::size_t k = 0; k < sent.size(); ++k) {
             copy(message.data() + k * size, values.data() + sent[k] * size, size);
         }
         return message;
     };
-    const auto take = [&](const std::vector<Bytes>& messages) {
+    const auto take = [&](const std::vector<MessageBytes>& messages) {
         std::byte* const after = allocate(entities.count_after);
         for (std::size_t p = 0; p < messages.size(); ++p) {
             const auto& received = entities.messages[p].received;
@@ -90,7 +57,7 @@ void Migration::move_values(const Entities& entities, std::span<const std::byte>
             }
         }
     };
-    exchange(processes_, partners_, entities, failure, pack, take);
+    exchange_entities(processes_, partners_, entities, failure, pack, take);
 }
 
 void Migration::move_lists(const Entities& entities, std::span<const std::uint64_t> begin,
@@ -110,7 +77,7 @@ void Migration::move_lists(const Entities& entities, std::span<const std::uint64
     const auto pack = [&](const std::vector<std::uint32_t>& sent) {
         std::size_t length = sent.size() * sizeof(std::uint64_t);
         for (const std::uint32_t i : sent) length += (begin[i + 1] - begin[i]) * size;
-        Bytes message(length);
+        MessageBytes message(length);
         std::byte* lengths = message.data();
         std::byte* lists = message.data() + sent.size() * sizeof(std::uint64_t);
         for (const std::uint32_t i : sent) {
@@ -122,12 +89,12 @@ void Migration::move_lists(const Entities& entities, std::span<const std::uint64
         }
         return message;
     };
-    const auto length_at = [](const Bytes& message, std::size_t k) {
+    const auto length_at = [](const MessageBytes& message, std::size_t k) {
         std::uint64_t count = 0;
         copy(reinterpret_cast<std::byte*>(&count), message.data() + k * sizeof count, sizeof count);
         return count;
     };
-    const auto take = [&](const std::vector<Bytes>& messages) {
+    const auto take = [&](const std::vector<MessageBytes>& messages) {
         begin_after.assign(entities.count_after, 0);
         for (std::size_t p = 0; p < messages.size(); ++p) {
             const auto& received = entities.messages[p].received;
@@ -149,7 +116,7 @@ void Migration::move_lists(const Entities& entities, std::span<const std::uint64
             }
         }
     };
-    exchange(processes_, partners_, entities, failure, pack, take);
+    exchange_entities(processes_, partners_, entities, failure, pack, take);
 }
 
 }  // namespace octetra::distributed

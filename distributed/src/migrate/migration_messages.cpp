@@ -69,8 +69,8 @@ private:
 
 }  // namespace
 
-Migration migration_of(const SideOfMove& before, const SideOfMove& after,
-                       const Sharing<VertexIndex>& sharing, Migration::Message kept) {
+MovedEntities moved_entities(const SideOfMove& before, const SideOfMove& after,
+                             const Sharing<VertexIndex>& sharing, Migration::Message kept) {
     const Communicator& processes = before.mesh->processes;
     const std::vector<int> partners = partners_of(before, after);
     Side out(before, partners);
@@ -97,7 +97,7 @@ Migration migration_of(const SideOfMove& before, const SideOfMove& after,
         }
         vertices.messages.push_back({std::move(sent), std::move(received)});
     }
-    return {processes, partners, std::move(cells), std::move(vertices)};
+    return {partners, std::move(cells), std::move(vertices)};
 }
 
 }  // namespace octetra::distributed

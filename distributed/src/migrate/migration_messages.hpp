@@ -18,11 +18,19 @@ struct SideOfMove {
     std::span<const CellIndex> cells_outside{};
 };
 
+/// Which cells and vertices go along in messages between partners, for a Migration.
+struct MovedEntities {
+    std::vector<int> partners;
+    Migration::Entities cells;
+    Migration::Entities vertices;
+};
+
 /// Which cells and vertices went where: both processes of a move know it without asking, as the
 /// descendants of a root have the same order on both. A vertex goes along with the cells that have
 /// it, but not to a process that has it already: those are `kept`. `sharing` is that of before. Not
 /// collective.
-[[nodiscard]] Migration migration_of(const SideOfMove& before, const SideOfMove& after,
-                                     const Sharing<VertexIndex>& sharing, Migration::Message kept);
+[[nodiscard]] MovedEntities moved_entities(const SideOfMove& before, const SideOfMove& after,
+                                           const Sharing<VertexIndex>& sharing,
+                                           Migration::Message kept);
 
 }  // namespace octetra::distributed

@@ -1,0 +1,48 @@
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <utility>
+#include <vector>
+
+#include <octetra/distributed/migration.hpp>
+
+#include "comm/local_failure.hpp"
+
+namespace octetra::distributed {
+
+using MessageBytes = std::vector<std::byte>;
+
+/// Collective. Sends pack(message) to each partner, this process among them, and gives what has
+/// come from each to take(). Both may throw.
+void exchange_entities(const Communicator& processes, const std::vector<int>& partners,
+                       const Migration::Entities& entities, LocalFailure& failure, auto&& pack,
+                       auto&& take) {
+    std::vector<int> others;
+    std::vector<MessageBytes> outboxes;
+    MessageBytes own;
+    failure.attempt([&] {
+        for (std::size_t p = 0; p < partners.size(); ++p) {
+            MessageBytes bytes = pack(entities.messages[p].sent);
+            if (partners[p] == processes.rank()) {
+                own = std::move(bytes);
+            } else {
+                others.push_back(partners[p]);
+                outboxes.push_back(std::move(bytes));
+            }
+        }
+    });
+    failure.agree(processes);
+    std::vector<MessageBytes> inboxes;
+    failure.attempt([&] { inboxes = processes.exchange_with(others, outboxes); });
+    failure.agree(processes);  // a process without memory has sent nothing
+    failure.attempt([&] {
+        outboxes.clear();
+        const auto place = std::ranges::lower_bound(others, processes.rank()) - others.begin();
+        inboxes.insert(inboxes.begin() + place, std::move(own));
+        take(inboxes);
+    });
+    failure.agree(processes);
+}
+
+}  // namespace octetra::distributed

@@ -46,9 +46,9 @@ private:
 };
 
 /// What this process reads of the cells and their cuts.
-class Share {
+class ShareOfFile {
 public:
-    Share(const Communicator& processes, const CheckpointReader& file) : file_(&file) {
+    ShareOfFile(const Communicator& processes, const CheckpointReader& file) : file_(&file) {
         const int rank = processes.rank();
         const Homes homes = homes_of_blocks(file.facts().cells, block_length, processes.size());
         begin_ = homes.begin_of(rank);
@@ -119,7 +119,7 @@ struct VertexShare {
 };
 
 /// Collective. The parts of this process's share of the cells, by coordinates.
-std::vector<int> parts_by_coordinates(const Communicator& processes, const Share& share,
+std::vector<int> parts_by_coordinates(const Communicator& processes, const ShareOfFile& share,
                                       const VertexShare& vertices, LocalFailure& failure) {
     std::vector<std::uint64_t> numbers;
     failure.attempt([&] { numbers = vertices_of(share.roots); });
@@ -150,7 +150,7 @@ std::vector<int> parts_by_coordinates(const Communicator& processes, const Share
 }
 
 /// Collective. The same, by a method that wants the whole input on the first process.
-std::vector<int> parts_of_whole(const Communicator& processes, const Share& share,
+std::vector<int> parts_of_whole(const Communicator& processes, const ShareOfFile& share,
                                 const std::filesystem::path& path, const Partition& partition) {
     const auto weights = processes.gather(share.weights);
     std::vector<std::vector<int>> parts(weights.size());
@@ -275,7 +275,7 @@ LoadedPart load_part(const Communicator& processes, const CheckpointReader& file
                      const std::filesystem::path& path, const Partition& partition) {
     const Phase phase(processes, "load");
     LocalFailure failure;
-    std::optional<Share> share;
+    std::optional<ShareOfFile> share;
     std::optional<VertexShare> vertices;
     failure.attempt([&] {
         share.emplace(processes, file);

@@ -34,9 +34,10 @@ std::vector<Entry> entries(const std::vector<RootMessage>& messages, auto list, 
 }
 
 /// Puts what is in the messages together, as the input was.
-class Assembly {
+class ArrivalsTogether {
 public:
-    Assembly(const std::vector<RootMessage>& messages, const HasLists& has, Arrivals& arrivals)
+    ArrivalsTogether(const std::vector<RootMessage>& messages, const HasLists& has,
+                     Arrivals& arrivals)
         : messages_(&messages), arrivals_(&arrivals), part_(&arrivals.part) {
         take_vertices();
         take_roots(has.regions);
@@ -140,7 +141,7 @@ Arrivals arrivals_of(const std::vector<RootMessage>& messages, const HasLists& h
                      std::size_t attributes_per_point, std::size_t step_count) {
     Arrivals arrivals;
     arrivals.part.attributes_per_point = attributes_per_point;
-    CutRoots cuts = std::move(Assembly(messages, has, arrivals).cuts);
+    CutRoots cuts = std::move(ArrivalsTogether(messages, has, arrivals).cuts);
     replay_alone(arrivals.part, std::move(cuts), step_count);
     restore_canonical_order(arrivals.part);
     return arrivals;

@@ -13,15 +13,15 @@ namespace octetra::distributed {
 namespace {
 
 /// How much of a part a process has.
-struct Share {
+struct ShareOfPart {
     std::uint64_t weight = 0;
     int part = 0;
     int rank = 0;
 };
 
 /// One part for each process, the greatest share first.
-std::vector<int> matched(std::vector<Share> shares, std::size_t process_count) {
-    std::ranges::sort(shares, [](const Share& a, const Share& b) {
+std::vector<int> matched(std::vector<ShareOfPart> shares, std::size_t process_count) {
+    std::ranges::sort(shares, [](const ShareOfPart& a, const ShareOfPart& b) {
         return std::tie(b.weight, a.part, a.rank) < std::tie(a.weight, b.part, b.rank);
     });
     std::vector<int> rank_of_part(process_count, -1);
@@ -30,7 +30,7 @@ std::vector<int> matched(std::vector<Share> shares, std::size_t process_count) {
         rank_of_part[static_cast<std::size_t>(part)] = rank;
         has_part[static_cast<std::size_t>(rank)] = true;
     };
-    for (const Share& share : shares) {
+    for (const ShareOfPart& share : shares) {
         const bool is_free = rank_of_part[static_cast<std::size_t>(share.part)] < 0;
         if (is_free && !has_part[static_cast<std::size_t>(share.rank)]) {
             give(share.part, share.rank);
@@ -63,7 +63,7 @@ std::uint64_t most_after(const Communicator& processes, std::span<const int> ran
 
 std::vector<int> ranks_of_parts(const Communicator& processes, std::span<const int> parts,
                                 std::span<const std::uint64_t> weights, LocalFailure& failure) {
-    std::vector<Share> shares;
+    std::vector<ShareOfPart> shares;
     std::vector<int> rank_of_part;
     failure.attempt([&] {
         rank_of_part.resize(static_cast<std::size_t>(processes.size()));
@@ -80,7 +80,7 @@ std::vector<int> ranks_of_parts(const Communicator& processes, std::span<const i
     failure.attempt([&] {
         const auto gathered = processes.gather(shares);
         if (!processes.is_first()) return;
-        std::vector<Share> all;
+        std::vector<ShareOfPart> all;
         for (const auto& of_one : gathered) all.insert(all.end(), of_one.begin(), of_one.end());
         rank_of_part = matched(std::move(all), gathered.size());
     });

@@ -13,7 +13,7 @@
 namespace octetra::distributed {
 namespace {
 
-using NewNumbers = IndexVector<VertexIndex, VertexIndex>;
+using NumbersAfter = IndexVector<VertexIndex, VertexIndex>;
 
 /// The vertices of cells that stay, and those that no cell has. Others may stay, too, with cells
 /// that come.
@@ -40,7 +40,7 @@ IndexVector<VertexIndex, std::uint8_t> staying_vertices(const DistributedMesh& b
 struct Source {
     const DistributedMesh* mesh;
     const IndexVector<VertexIndex, std::uint8_t>* stays;  ///< null: all do
-    NewNumbers numbers;                                   ///< none() where it does not stay
+    NumbersAfter numbers;                                 ///< none() where it does not stay
     VertexIndex next{0};
 
     Source(const DistributedMesh& of, const IndexVector<VertexIndex, std::uint8_t>* of_these)
@@ -158,7 +158,7 @@ template <class I, std::size_t N>
 struct ListSource {
     const IndexVector<I, std::array<VertexIndex, N>>* list;
     const AncestorMap* ancestors;
-    const NewNumbers* numbers;
+    const NumbersAfter* numbers;
 
     void append_to(IndexVector<I, std::array<VertexIndex, N>>& result, AncestorMap& merged,
                    std::size_t root, bool has_markers) const {
@@ -210,7 +210,7 @@ void check_countable(const DistributedMesh& before, const DistributedMesh& come)
                     before.processes.rank(), most));
 }
 
-Migration::Message kept_vertices(const NewNumbers& numbers) {
+Migration::Message kept_vertices(const NumbersAfter& numbers) {
     Migration::Message kept;
     for (VertexIndex v{0}; v < numbers.end_index(); ++v) {
         if (numbers[v].is_none()) continue;

@@ -7,7 +7,7 @@
 namespace octetra::distributed {
 namespace {
 
-struct SentCell {
+struct CellToSend {
     CellVertices vertices;
     std::uint32_t number = 0;
     Marker region = 0;
@@ -42,7 +42,7 @@ CellsOfPart send_cells(const Communicator& processes, const MeshStretch& stretch
     CellsOfPart part;
     // The stretches come in the order of the ranks, and each in its own.
     std::vector<std::uint64_t> next = counts_to_come(processes, parts, failure);
-    std::vector<std::vector<SentCell>> boxes;
+    std::vector<std::vector<CellToSend>> boxes;
     failure.attempt([&] {
         std::uint64_t count = 0;
         for (std::uint64_t& n : next) {
@@ -73,7 +73,7 @@ CellsOfPart send_cells(const Communicator& processes, const MeshStretch& stretch
         failure.attempt([&] {
             const auto come = processes.all_to_all(boxes);
             for (std::size_t rank = 0; rank < come.size(); ++rank) {
-                for (const SentCell& cell : come[rank]) {
+                for (const CellToSend& cell : come[rank]) {
                     const std::uint64_t i = next[rank]++;
                     part.cells[CellIndex{i}] = cell.vertices;
                     part.numbers[i] = cell.number;

@@ -289,7 +289,11 @@ TEST(FailingAllocations, OfReadingAFileTogetherAreThrownOnAllProcesses) {
     for (const std::string name : {"m.ele", "m.mesh"}) {
         const std::filesystem::path file = folder / name;
         const Partition by_coordinates{.method = PartitionMethod::rcb};
-        const ReadOptions options;
+        const Selection box{.boxes = {{{0, 0, 0}, {1, 1, 1}}}};
+        const auto weigh = [&](const CellsToWeigh& cells) {
+            return predicted_cells(cells, box, Scheme::eight, 2);
+        };
+        const ReadPartsOptions options{.read = {}, .on_facts = {}, .weigh = weigh};
         test::world().on_first([&] { (void)write_mesh(mesh, file); });
         const std::uint64_t failures = let_each_fail_anew(
             [&] { (void)read_parts(test::world(), file, by_coordinates, options); });

@@ -55,4 +55,12 @@ inline Mesh marked_lattice(std::size_t n, std::uint64_t seed) {
     return mesh;
 }
 
+/// All that a file can hold; what is listed again is so with the same marker.
+inline Mesh full_mesh(std::size_t n, std::uint32_t index_base) {
+    Mesh mesh = marked(shaken_kuhn(n, 0.2, 1), index_base);
+    for (Marker& marker : mesh.facet_markers) marker = 3;
+    for (Marker& marker : mesh.edge_markers) marker = -4;
+    return mesh;
+}
+
 }  // namespace octetra::test

@@ -46,7 +46,7 @@ inline bool expect_one_outcome(const std::filesystem::path& file, const std::str
     const Outcome found = outcome_of([&](const ReadOptions& options) {
         return distributed::collect(distributed::read_parts(world(), file,
                                                             distributed::parse_partition(partition),
-                                                            options))
+                                                            {options, {}, {}}))
             .mesh;
     });
     EXPECT_EQ(found.error, expected.error) << file;
@@ -58,7 +58,7 @@ inline bool expect_one_outcome(const std::filesystem::path& file, const std::str
     if (stretch) {
         // No other process reads it once more, unless there is something to refuse.
         const auto method = distributed::parse_partition(partition).method;
-        const auto mesh = distributed::distribute_stretch(world(), std::move(*stretch), method);
+        const auto mesh = distributed::distribute_stretch(world(), std::move(*stretch), method, {});
         EXPECT_EQ(mesh.has_value(), expected.error.empty()) << file;
         if (mesh) {  // nothing is there twice, which collecting would not show
             EXPECT_EQ(world().sum(mesh->cells.size()), expected.mesh.cells.size()) << file;

@@ -62,14 +62,6 @@ TEST(ReadTogether, EveryBadFileOfTheCorpusIsRefusedInTheWordsOfOneProcess) {
     for (const fs::path& file : files) EXPECT_FALSE(test::expect_one_outcome(file, "rcb")) << file;
 }
 
-/// All that a file can hold; what is listed again is so with the same marker.
-Mesh full_mesh(std::size_t n, std::uint32_t index_base) {
-    Mesh mesh = test::marked(test::shaken_kuhn(n, 0.2, 1), index_base);
-    for (Marker& marker : mesh.facet_markers) marker = 3;
-    for (Marker& marker : mesh.edge_markers) marker = -4;
-    return mesh;
-}
-
 /// Collective. The first process writes the file, as all others see from then on.
 void write_on_first(const auto& write) {
     if (test::world().is_first()) write();
@@ -133,7 +125,7 @@ TEST(ReadTogether, MeshesWithEverythingAreWhatOneProcessReads) {
     for (const std::string extension : {".ele", ".mesh"}) {
         for (const std::uint32_t index_base : {0U, 1U}) {
             for (const std::size_t n : {1U, 2U, 6U}) {
-                const Files files = files_of(full_mesh(n, index_base), extension);
+                const Files files = files_of(test::full_mesh(n, index_base), extension);
                 EXPECT_TRUE(are_read_together(files)) << extension << ' ' << n;
                 EXPECT_TRUE(expect_one_outcome(files)) << extension << ' ' << n;
             }
@@ -143,7 +135,7 @@ TEST(ReadTogether, MeshesWithEverythingAreWhatOneProcessReads) {
 
 /// In a lattice many centroids have the same coordinate, and numbers decide.
 TEST(ReadTogether, PartsAreThoseThatOneProcessWouldMake) {
-    for (const Mesh& mesh : {full_mesh(5, 1), test::kuhn(5, 4, 3)}) {
+    for (const Mesh& mesh : {test::full_mesh(5, 1), test::kuhn(5, 4, 3)}) {
         const test::SharedFolder folder;
         const fs::path file = folder / "m.ele";
         write_on_first([&] { (void)write_mesh(mesh, file); });
@@ -167,7 +159,7 @@ TEST(ReadTogether, MeshesAreRefinedAsTheReferenceRefinesThem) {
     const test::SharedFolder folder;
     for (const std::size_t n : {2U, 5U}) {
         const fs::path file = folder / fmt::format("{}.ele", n);
-        write_on_first([&] { (void)write_mesh(full_mesh(n, 1), file); });
+        write_on_first([&] { (void)write_mesh(test::full_mesh(n, 1), file); });
         const auto expected = reference::refine(read_mesh(file), selection, Scheme::eight, 2).mesh;
         for (const std::string& partition : partitions) {
             auto parts = distributed::read_parts(test::world(), file,
@@ -200,7 +192,7 @@ std::string replaced(std::string text, const std::string& old, const std::string
 /// Forms of the same files that all processes read together.
 TEST(ReadTogether, CommentsBlanksAndLineEndsAreReadOver) {
     for (const std::string extension : {".ele", ".mesh"}) {
-        const Files plain = files_of(full_mesh(2, 1), extension);
+        const Files plain = files_of(test::full_mesh(2, 1), extension);
         const auto with = [&](const auto& change) {
             Files files = plain;
             for (auto& [ending, text] : files.texts) text = change(text);
@@ -384,7 +376,8 @@ TEST(ReadTogether, InvertedCellsAreTurnedRoundIfAskedFor) {
         read([&](const ReadOptions& options) { return read_mesh(folder / "m.ele", options); });
     const test::Outcome found = read([&](const ReadOptions& options) {
         return collect(distributed::read_parts(test::world(), folder / "m.ele",
-                                               distributed::parse_partition("rcb"), options))
+                                               distributed::parse_partition("rcb"),
+                                               {options, {}, {}}))
             .mesh;
     });
     EXPECT_EQ(expected.notes.size(), 1U);
@@ -436,9 +429,9 @@ TEST(ReadTogether, FilesThatWereChangedAtRandomComeToWhatOneProcessMakesOfThem) 
     test::world().broadcast(seed);
     SCOPED_TRACE(fmt::format("OCTETRA_READING_SEED={}", seed.front()));
     std::mt19937_64 random(seed.front());
-    const std::vector<Files> files{files_of(full_mesh(1, 0), ".ele"),
-                                   files_of(full_mesh(1, 1), ".ele"),
-                                   files_of(full_mesh(1, 1), ".mesh")};
+    const std::vector<Files> files{files_of(test::full_mesh(1, 0), ".ele"),
+                                   files_of(test::full_mesh(1, 1), ".ele"),
+                                   files_of(test::full_mesh(1, 1), ".mesh")};
     int meshes = 0;
     // Where there are more processes than cores, each turn takes long.
     const int turns = OCTETRA_SANITIZED ? 100 : test::world().size() > 3 ? 200 : 1000;

@@ -132,7 +132,7 @@ std::vector<int> parts_by_coordinates(const Communicator& processes, const Share
             const auto found = std::ranges::lower_bound(numbers, roots[i].corners[k]);
             corners[k] = points[static_cast<std::size_t>(found - numbers.begin())];
         }
-        return centroid(corners);
+        return place_of(corners);
     };
     std::vector<Point> centroids;
     failure.attempt([&] {

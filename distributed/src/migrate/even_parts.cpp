@@ -102,7 +102,7 @@ std::optional<std::vector<int>> even_parts(const DistributedMesh& mesh, LocalFai
             for (std::size_t k = 0; k < 4; ++k) corners[k] = input.points[input.cells[c][k]];
             const std::size_t r = c.value();
             weights.push_back(roots.first[r + 1] - roots.first[r]);
-            centroids.push_back({centroid(corners), roots.roots[r], weights.back()});
+            centroids.push_back({place_of(corners), roots.roots[r], weights.back()});
         }
     });
     if (failure.max_unless_failed(processes, 0) == LocalFailure::somewhere) return std::nullopt;

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include <octetra/core/error.hpp>
+
 namespace octetra::distributed {
 namespace {
 
@@ -27,6 +29,12 @@ double most_of_a_part(const std::vector<float>& weights, int parts) {
 }
 
 }  // namespace
+
+void check_weights(std::size_t cells, std::span<const float> weights) {
+    const auto is_weight = [](float weight) { return weight > 0 && std::isfinite(weight); };
+    if (weights.size() == cells && std::ranges::all_of(weights, is_weight)) return;
+    throw InputError("a partition takes one weight for each cell, positive and finite");
+}
 
 CellWeights::CellWeights(const std::vector<float>& weights, int parts) : of_cell_(weights.size()) {
     const double most = most_of_a_part(weights, parts);

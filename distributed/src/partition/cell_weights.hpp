@@ -2,11 +2,15 @@
 
 #include <cstdint>
 #include <numeric>
+#include <span>
 #include <vector>
 
 #include <octetra/core/index.hpp>
 
 namespace octetra::distributed {
+
+/// Throws InputError unless there is a weight for each cell, positive and finite.
+void check_weights(std::size_t cells, std::span<const float> weights);
 
 /// What parts are to be equal in, as METIS counts it: a weight of at least 1 for each cell, and in
 /// all so little that METIS, which multiplies it by three in 32 bits, does not overflow.

@@ -97,13 +97,9 @@ std::vector<int> equal_blocks(std::size_t cells, int parts) {
     return part;
 }
 
-/// Throws InputError unless there is one for each cell, positive and finite, or none.
-CellWeights weights_of(std::size_t cells, const std::vector<float>& weights, int parts) {
+CellWeights weights_for_metis(std::size_t cells, const std::vector<float>& weights, int parts) {
     if (weights.empty()) return {};
-    const auto is_weight = [](float weight) { return weight > 0 && std::isfinite(weight); };
-    if (weights.size() != cells || !std::ranges::all_of(weights, is_weight)) {
-        throw InputError("a partition takes one weight for each cell, positive and finite");
-    }
+    check_weights(cells, weights);
     return {weights, parts};
 }
 
@@ -113,7 +109,7 @@ std::vector<int> by_graph(const Mesh& mesh, int parts, PartitionMethod method,
     const std::size_t cells = mesh.cells.size();
     if (parts == 1 || !is_worth_a_cut(mesh, parts)) return equal_blocks(cells, parts);
     check_graph_size(cells);
-    const CellWeights of_cells = weights_of(cells, weights, parts);
+    const CellWeights of_cells = weights_for_metis(cells, weights, parts);
     if (method == PartitionMethod::dual) {
         return partition_graph(face_dual_graph(mesh, of_cells), parts);
     }
@@ -121,26 +117,18 @@ std::vector<int> by_graph(const Mesh& mesh, int parts, PartitionMethod method,
     return partition_graph(lepp_graph(mesh, of_cells, most), parts);
 }
 
-/// Weights as whole numbers, the least of them about a thousand.
-std::uint64_t whole_weight(float weight, float least) {
-    constexpr double most = 0x1p+30;  // the sum of 2^32 of them is to fit
-    return static_cast<std::uint64_t>(
-        std::min(most, 1000.0 * static_cast<double>(weight) / static_cast<double>(least)));
-}
-
 std::vector<int> by_coordinates(const Mesh& mesh, int parts, const std::vector<float>& weights) {
-    (void)weights_of(mesh.cells.size(), weights, parts);
+    if (!weights.empty()) check_weights(mesh.cells.size(), weights);
     const float least = weights.empty() ? 1 : std::ranges::min(weights);
-    std::vector<std::uint64_t> whole_weights;
-    for (const float weight : weights) whole_weights.push_back(whole_weight(weight, least));
+    const std::vector<std::uint64_t> of_points = whole_weights(weights, least);
     const auto point = [&](std::size_t i) {
         const auto& [a, b, c, d] = mesh.cells[CellIndex{i}];
-        return centroid({mesh.points[a], mesh.points[b], mesh.points[c], mesh.points[d]});
+        return place_of({mesh.points[a], mesh.points[b], mesh.points[c], mesh.points[d]});
     };
     const WeighedPoints points{.count = mesh.cells.size(),
                                .point = point,
                                .number = [](std::size_t i) { return i; },
-                               .weights = whole_weights};
+                               .weights = of_points};
     LocalFailure failure;
     std::vector<int> part = bisect_coordinates(Communicator(), points, parts, failure);
     failure.agree(Communicator());

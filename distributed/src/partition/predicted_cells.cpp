@@ -2,9 +2,13 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <utility>
+
+#include "comm/local_failure.hpp"
+#include "mark/selection_bounds.hpp"
 
 namespace octetra::distributed {
 namespace {
@@ -16,11 +20,6 @@ double cells_of_one(Scheme scheme) {
         case Scheme::two: return 2;
     }
     return 1;
-}
-
-Corners corners_of(const Mesh& mesh, CellIndex c) {
-    const auto& [i, j, k, l] = mesh.cells[c];
-    return {mesh.points[i], mesh.points[j], mesh.points[k], mesh.points[l]};
 }
 
 Point middle(const Point& p, const Point& q) {
@@ -49,13 +48,27 @@ std::array<Corners, 8> eighths(const Corners& corners) {
 /// What spheres and boxes mark, by place alone.
 class Bodies {
 public:
-    explicit Bodies(const Selection& selection) {
-        bodies_.spheres = selection.spheres;
-        bodies_.boxes = selection.boxes;
+    /// Takes memory.
+    void take(const Selection& selection) {
+        all_.spheres = selection.spheres;
+        all_.boxes = selection.boxes;
+        for (const Sphere& sphere : selection.spheres) each_.push_back({.spheres = {sphere}});
+        for (const Box& box : selection.boxes) each_.push_back({.boxes = {box}});
     }
-    [[nodiscard]] bool empty() const { return bodies_.spheres.empty() && bodies_.boxes.empty(); }
+    [[nodiscard]] bool may_have_some_of(const Corners& corners) const {
+        return may_be_marked(all_, box_of(corners));
+    }
+    /// Bodies are convex, so it is enough that one has all corners.
+    [[nodiscard]] bool have_all_of(const Corners& corners) const {
+        return std::ranges::any_of(each_, [&](const Selection& body) {
+            return std::ranges::all_of(corners, [&](const Point& p) {
+                return marks(body, {p, p, p, p}, 0, GlobalCell{0});
+            });
+        });
+    }
+    [[nodiscard]] bool empty() const { return each_.empty(); }
     [[nodiscard]] bool have(const Corners& corners) const {
-        return marks(bodies_, corners, 0, GlobalCell{0});
+        return marks(all_, corners, 0, GlobalCell{0});
     }
     /// How much of a cell they have, by 8^depth samples.
     [[nodiscard]] double share_of(const Corners& corners, int depth) const {
@@ -66,46 +79,34 @@ public:
     }
 
 private:
-    Selection bodies_;
+    Selection all_;
+    std::vector<Selection> each_;
 };
 
-/// The cells at which it is worth to look closer: those that the bodies have, and those at these.
-std::vector<CellIndex> cells_near(const Bodies& bodies, const Mesh& mesh) {
-    IndexVector<VertexIndex, std::uint8_t> near(mesh.points.size(), 0);
-    for (CellIndex c{0}; c < mesh.cells.end_index(); ++c) {
-        if (!bodies.have(corners_of(mesh, c))) continue;
-        for (const VertexIndex v : mesh.cells[c]) near[v] = 1;
-    }
-    std::vector<CellIndex> cells;
-    for (CellIndex c{0}; c < mesh.cells.end_index(); ++c) {
-        const auto is_near = [&](VertexIndex v) { return near[v] == 1; };
-        if (std::ranges::any_of(mesh.cells[c], is_near)) cells.push_back(c);
-    }
-    return cells;
-}
-
-/// So many samples of each cell that they are about as many as the mesh has cells.
-int depth_for(std::size_t cells, const Mesh& mesh) {
+/// So many samples of each of `cut` cells that they take less time than the other cells.
+int depth_for(std::uint64_t cut, std::uint64_t cells) {
     constexpr int most = 5;
-    const std::size_t samples = std::max(mesh.cells.size(), std::size_t{1} << 15U);
+    const std::uint64_t samples = std::max(cells / 4, std::uint64_t{1} << 15U);
     int depth = 0;
-    for (std::size_t n = 8 * cells; n <= samples && depth < most; n *= 8) ++depth;
+    for (std::uint64_t n = 8 * cut; n <= samples && depth < most; n *= 8) ++depth;
     return depth;
 }
 
 /// Of several criteria that expect something of a cell, the one that expects most counts.
 class Prediction {
 public:
-    Prediction(const Mesh& mesh, Scheme scheme, int levels)
-        : mesh_(&mesh),
+    Prediction(const CellsToWeigh& cells, Scheme scheme, int levels)
+        : cells_(&cells),
           of_one_(cells_of_one(scheme)),
           levels_(levels),
-          full_(std::min(std::pow(of_one_, levels), most_of_one)),
-          cells_(mesh.cells.size(), 1) {}
+          full_(std::min(std::pow(of_one_, levels), most_of_one)) {}
+
+    /// First: takes memory.
+    void expect_one_of_each() { expected_.assign(cells_->count, 1); }
 
     void add_by_lot(double share) {
         const double of_all = std::pow(1 + share * (of_one_ - 1), levels_);
-        std::ranges::fill(cells_, static_cast<float>(std::min(of_all, full_)));
+        std::ranges::fill(expected_, static_cast<float>(std::min(of_all, full_)));
     }
 
     void add_tagged(const Selection& selection) {
@@ -113,61 +114,113 @@ public:
         Selection by_tag;
         by_tag.cells = selection.cells;
         by_tag.regions = selection.regions;
-        for (CellIndex c{0}; c < mesh_->cells.end_index(); ++c) {
-            const Marker region = mesh_->regions.empty() ? 0 : mesh_->regions[c];
-            if (marks(by_tag, {}, region, GlobalCell{c.value()})) expect(c, full_);
+        for (std::size_t i = 0; i < cells_->count; ++i) {
+            const Marker region = cells_->regions.empty() ? 0 : cells_->regions[i];
+            if (marks(by_tag, {}, region, GlobalCell{cells_->first_number + i})) expect(i, full_);
         }
     }
 
     void add_larger_than(double limit) {
-        for (CellIndex c{0}; c < mesh_->cells.end_index(); ++c) {
-            const double times = volume(corners_of(*mesh_, c)) / limit;
+        for (std::size_t i = 0; i < cells_->count; ++i) {
+            const double times = volume(cells_->corners(i)) / limit;
             double cells = 1;
             while (cells < times && cells < full_) cells *= of_one_;
-            expect(c, cells);
+            expect(i, cells);
         }
     }
 
-    void add_inside(const Bodies& bodies) {
-        if (bodies.empty()) return;
-        const std::vector<CellIndex> near = cells_near(bodies, *mesh_);
-        const int depth = depth_for(near.size(), *mesh_);
-        for (const CellIndex c : near) {
-            expect(c, full_ * bodies.share_of(corners_of(*mesh_, c), depth));
+    /// Leaves it to be found how much of the cells that it returns is inside: the bodies may have
+    /// some of these, and not all.
+    [[nodiscard]] std::vector<std::size_t> add_wholly_inside(const Bodies& bodies) {
+        std::vector<std::size_t> cut;
+        for (std::size_t i = 0; i < cells_->count; ++i) {
+            const Corners corners = cells_->corners(i);
+            if (!bodies.may_have_some_of(corners)) continue;
+            if (bodies.have_all_of(corners)) {
+                expect(i, full_);
+            } else {
+                cut.push_back(i);
+            }
+        }
+        return cut;
+    }
+    void add_partly_inside(const Bodies& bodies, const std::vector<std::size_t>& cut, int depth) {
+        for (const std::size_t i : cut) {
+            expect(i, full_ * bodies.share_of(cells_->corners(i), depth));
         }
     }
 
-    [[nodiscard]] std::vector<float> cells() && {
-        const auto [least, most] = std::ranges::minmax(cells_);
-        if (least == most) return {};
-        return std::move(cells_);
+    /// Collective. Are all processes' numbers the same?
+    [[nodiscard]] bool is_even() const {
+        std::uint64_t most = 0;
+        std::uint64_t most_complement = 0;
+        for (const float cells : expected_) {
+            const std::uint64_t bits = std::bit_cast<std::uint32_t>(cells);  // ordered as positives
+            most = std::max(most, bits);
+            most_complement = std::max(most_complement, complement - bits);
+        }
+        most = cells_->processes.max(most);
+        return most <= complement - cells_->processes.max(most_complement);
     }
+    [[nodiscard]] std::vector<float> expected() && { return std::move(expected_); }
 
 private:
     static constexpr double most_of_one = 1e9;  // no mesh has many more
+    static constexpr std::uint64_t complement = 0xffff'ffff;
 
-    void expect(CellIndex c, double cells) {
-        cells_[c.value()] = std::max(cells_[c.value()], static_cast<float>(std::min(cells, full_)));
+    void expect(std::size_t i, double cells) {
+        expected_[i] = std::max(expected_[i], static_cast<float>(std::min(cells, full_)));
     }
 
-    const Mesh* mesh_;
+    const CellsToWeigh* cells_;
     double of_one_;
     int levels_;
     double full_;  ///< what a cell becomes that is marked in all levels
-    std::vector<float> cells_;
+    std::vector<float> expected_;
 };
 
 }  // namespace
 
+CellsToWeigh cells_to_weigh(const Mesh& mesh) {
+    const auto corners = [&mesh](std::size_t i) -> Corners {
+        const auto& [a, b, c, d] = mesh.cells[CellIndex{i}];
+        return {mesh.points[a], mesh.points[b], mesh.points[c], mesh.points[d]};
+    };
+    return {.processes = {},
+            .count = mesh.cells.size(),
+            .first_number = 0,
+            .corners = corners,
+            .regions = mesh.regions};
+}
+
+std::vector<float> predicted_cells(const CellsToWeigh& cells, const Selection& selection,
+                                   Scheme scheme, int levels) {
+    if (selection.all || levels < 1) return {};
+    LocalFailure failure;
+    Prediction prediction(cells, scheme, levels);
+    Bodies bodies;
+    std::vector<std::size_t> cut;
+    failure.attempt([&] {
+        prediction.expect_one_of_each();
+        if (selection.random) prediction.add_by_lot(selection.random->fraction);
+        prediction.add_tagged(selection);
+        if (selection.max_volume) prediction.add_larger_than(*selection.max_volume);
+        bodies.take(selection);
+        if (!bodies.empty()) cut = prediction.add_wholly_inside(bodies);
+    });
+    failure.agree(cells.processes);
+    if (!bodies.empty()) {
+        std::array<std::uint64_t, 2> counts{cut.size(), cells.count};
+        cells.processes.sum(std::span(counts));
+        prediction.add_partly_inside(bodies, cut, depth_for(counts[0], counts[1]));
+    }
+    if (prediction.is_even()) return {};
+    return std::move(prediction).expected();
+}
+
 std::vector<float> predicted_cells(const Mesh& mesh, const Selection& selection, Scheme scheme,
                                    int levels) {
-    if (selection.all || levels < 1 || mesh.cells.empty()) return {};
-    Prediction prediction(mesh, scheme, levels);
-    if (selection.random) prediction.add_by_lot(selection.random->fraction);
-    prediction.add_tagged(selection);
-    if (selection.max_volume) prediction.add_larger_than(*selection.max_volume);
-    prediction.add_inside(Bodies(selection));
-    return std::move(prediction).cells();
+    return predicted_cells(cells_to_weigh(mesh), selection, scheme, levels);
 }
 
 }  // namespace octetra::distributed

@@ -241,6 +241,16 @@ private:
 
 }  // namespace
 
+std::vector<std::uint64_t> whole_weights(std::span<const float> weights, float least) {
+    constexpr double most = 0x1p+30;  // the sum of 2^32 of them is to fit
+    std::vector<std::uint64_t> whole(weights.size());
+    std::ranges::transform(weights, whole.begin(), [&](float weight) {
+        return static_cast<std::uint64_t>(
+            std::min(most, 1000.0 * static_cast<double>(weight) / static_cast<double>(least)));
+    });
+    return whole;
+}
+
 std::vector<int> bisect_coordinates(const Communicator& processes, const WeighedPoints& points,
                                     int parts, LocalFailure& failure) {
     std::vector<Bisection> bisection;

@@ -7,13 +7,24 @@
 #include <vector>
 
 #include <octetra/core/point.hpp>
+#include <octetra/core/selection.hpp>
 #include <octetra/distributed/communicator.hpp>
 
 #include "comm/local_failure.hpp"
 
 namespace octetra::distributed {
 
-/// What is to be shared out: a cell, as its centroid.
+/// Where a cell is: the mean of its corners, as rounding makes it in their order, which is sooner
+/// found than what is a matter of the corners alone.
+[[nodiscard]] inline Point place_of(const Corners& corners) {
+    const auto mean = [](double a, double b, double c, double d) {
+        return (a / 4 + b / 4) + (c / 4 + d / 4);  // does not overflow
+    };
+    const auto& [a, b, c, d] = corners;
+    return {mean(a.x, b.x, c.x, d.x), mean(a.y, b.y, c.y, d.y), mean(a.z, b.z, c.z, d.z)};
+}
+
+/// What is to be shared out: a cell, as its place.
 struct WeighedPoint {
     Point point;
     std::uint64_t number = 0;  ///< in the whole mesh: decides where points are equal
@@ -28,6 +39,10 @@ struct WeighedPoints {
     std::function<std::uint64_t(std::size_t)> number;
     std::span<const std::uint64_t> weights;  ///< or empty: each weighs 1
 };
+
+/// Weights as whole numbers, the least of all of them, which is `least`, about a thousand. They are
+/// positive and finite; what is more than a million times the least is as much as that.
+[[nodiscard]] std::vector<std::uint64_t> whole_weights(std::span<const float> weights, float least);
 
 /// Collective. Recursive coordinate bisection: boxes are cut across their longest extent into two
 /// whose weights are as their numbers of parts, until each is one part. Returns the part, 0 to

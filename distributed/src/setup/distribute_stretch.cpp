@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cstdint>
 #include <utility>
 #include <vector>
@@ -11,6 +12,7 @@
 #include <octetra/distributed/profile.hpp>
 
 #include "comm/local_failure.hpp"
+#include "partition/cell_weights.hpp"
 #include "partition/rcb.hpp"
 #include "setup/ancestors_of_roots.hpp"
 #include "setup/find_interfaces.hpp"
@@ -32,17 +34,51 @@ bool are_positive(const StretchCorners& corners, std::size_t cells) {
     return true;
 }
 
+using Weigh = std::function<std::vector<float>(const CellsToWeigh&)>;
+
+/// Collective. What rcb is to take the cells of this process's stretch for: empty where they weigh
+/// the same.
+std::vector<std::uint64_t> weights_of(const Communicator& processes, const MeshStretch& stretch,
+                                      const StretchCorners& corners, const Weigh& weigh,
+                                      LocalFailure& failure) {
+    if (!weigh) return {};
+    const std::size_t count = stretch.lists.cells.size();
+    const std::vector<float> weights =
+        weigh({.processes = processes,
+               .count = count,
+               .first_number = stretch.first_cell,
+               .corners = [&](std::size_t i) { return corners.of(i); },
+               .regions = stretch.lists.regions});
+    if (processes.max(weights.empty() ? 0 : 1) == 0) return {};
+    constexpr std::uint64_t complement = 0xffff'ffff;
+    std::uint64_t least = complement;  // by bits, which positive numbers are ordered by
+    failure.attempt([&] {
+        check_weights(count, weights);
+        for (const float weight : weights) {
+            least = std::min<std::uint64_t>(least, std::bit_cast<std::uint32_t>(weight));
+        }
+    });
+    failure.agree(processes);
+    least = complement - processes.max(complement - least);
+    std::vector<std::uint64_t> whole;
+    failure.attempt([&] {
+        whole = whole_weights(weights, std::bit_cast<float>(static_cast<std::uint32_t>(least)));
+    });
+    return whole;
+}
+
 /// Collective. The parts of this process's cells.
 std::vector<int> parts_of(const Communicator& processes, const MeshStretch& stretch,
-                          const StretchCorners& corners, PartitionMethod method,
+                          const StretchCorners& corners, PartitionMethod method, const Weigh& weigh,
                           LocalFailure& failure) {
     const std::size_t count = stretch.lists.cells.size();
     if (method == PartitionMethod::rcb) {
+        const auto weights = weights_of(processes, stretch, corners, weigh, failure);
         return bisect_coordinates(processes,
                                   {.count = count,
-                                   .point = [&](std::size_t i) { return centroid(corners.of(i)); },
+                                   .point = [&](std::size_t i) { return place_of(corners.of(i)); },
                                    .number = [&](std::size_t i) { return stretch.first_cell + i; },
-                                   .weights = {}},
+                                   .weights = weights},
                                   processes.size(), failure);
     }
     std::vector<int> parts;
@@ -96,7 +132,7 @@ public:
     }
 
     /// Collective. Cells go to their parts.
-    void bring_cells(const Homes& homes, PartitionMethod method) {
+    void bring_cells(const Homes& homes, PartitionMethod method, const Weigh& weigh) {
         std::optional<StretchCorners> corners;
         std::vector<int> parts;
         in_phase(processes_, "partition", [&] {
@@ -105,7 +141,7 @@ public:
                 is_sound_ = is_sound_ && are_positive(*corners, stretch_.lists.cells.size());
             });
             failure_.agree(processes_);
-            parts = parts_of(processes_, stretch_, *corners, method, failure_);
+            parts = parts_of(processes_, stretch_, *corners, method, weigh, failure_);
             failure_.agree(processes_);
             corners->forget_points();
         });
@@ -186,13 +222,14 @@ private:
 }  // namespace
 
 std::optional<DistributedMesh> distribute_stretch(const Communicator& processes,
-                                                  MeshStretch stretch, PartitionMethod method) {
+                                                  MeshStretch stretch, PartitionMethod method,
+                                                  const Weigh& weigh) {
     LocalFailure failure;
     std::optional<Assembly> assembly;
     failure.attempt([&] { assembly.emplace(processes, std::move(stretch)); });
     failure.agree(processes);
     const Homes homes = assembly->homes();
-    assembly->bring_cells(homes, method);
+    assembly->bring_cells(homes, method, weigh);
     assembly->bring_what_is_at_cells(homes);
     return std::move(*assembly).finish();
 }

@@ -3,6 +3,7 @@
 #include <optional>
 #include <utility>
 
+#include <octetra/core/error.hpp>
 #include <octetra/core/mesh_stretch.hpp>
 #include <octetra/distributed/profile.hpp>
 
@@ -12,50 +13,77 @@
 namespace octetra::distributed {
 namespace {
 
+/// Collective. Does the caller take such a mesh? What is wrong with it is told when it is known
+/// that nothing is wrong with the file, which one process is to find out.
+bool are_welcome(const MeshFacts& facts, const ReadPartsOptions& options) {
+    if (!options.on_facts) return true;
+    try {
+        options.on_facts(facts);
+    } catch (const InputError&) {
+        return false;
+    }
+    return true;
+}
+
 /// Collective. Nothing, on all processes, if one must read all of it.
 std::optional<DistributedMesh> read_together(const Communicator& processes,
                                              const std::filesystem::path& path,
-                                             PartitionMethod method, const ReadOptions& options) {
+                                             PartitionMethod method,
+                                             const ReadPartsOptions& options) {
     LocalFailure failure;
     std::optional<MeshStretch> stretch;
     {
         const Phase phase(processes, "read");
         failure.attempt([&] { stretch = read_stretch(path, processes); });
         failure.agree(processes);
+        if (!stretch || !are_welcome(stretch->facts, options)) return std::nullopt;
     }
-    if (!stretch) return std::nullopt;
     const std::vector<std::string> notes = std::move(stretch->notes);
-    auto mesh = distribute_stretch(processes, std::move(*stretch), method);
+    auto mesh = distribute_stretch(processes, std::move(*stretch), method, options.weigh);
     if (!mesh) return std::nullopt;
+    const Phase phase(processes, "read");
     failure.attempt([&] {
         for (const std::string& note : notes) {
-            if (processes.is_first()) options.note(note);
+            if (processes.is_first()) options.read.note(note);
         }
     });
     failure.agree(processes);
     return mesh;
 }
 
-}  // namespace
-
-DistributedMesh read_parts(const Communicator& processes, const std::filesystem::path& path,
-                           const Partition& partition, const ReadOptions& options) {
-    if (processes.size() > 1 && works_by_stretches(partition.method) && !options.only_syntax) {
-        auto mesh = read_together(processes, path, partition.method, options);
-        if (mesh) return std::move(*mesh);
-    }
+/// Collective. The first process reads and shares out.
+DistributedMesh read_on_first(const Communicator& processes, const std::filesystem::path& path,
+                              const Partition& partition, const ReadPartsOptions& options) {
     Mesh mesh;
+    in_phase(processes, "read", [&] {
+        processes.on_first([&] { mesh = read_mesh(path, options.read); });
+        if (!options.on_facts) return;
+        const MeshFacts of_first = processes.is_first() ? WholeMesh(mesh).facts() : MeshFacts{};
+        options.on_facts(processes.of_rank(0, of_first));
+    });
     std::vector<int> cell_to_rank;
-    in_phase(processes, "read",
-             [&] { processes.on_first([&] { mesh = read_mesh(path, options); }); });
     in_phase(processes, "partition", [&] {
         processes.on_first([&] {
             // A part file that does not fit is a mistake on one rank, too.
             if (processes.size() == 1 && partition.method != PartitionMethod::file) return;
-            cell_to_rank = partition_cells(mesh, processes.size(), partition);
+            const bool is_weighed = options.weigh && takes_weights(partition);
+            cell_to_rank = partition_cells(
+                mesh, processes.size(), partition,
+                is_weighed ? options.weigh(cells_to_weigh(mesh)) : std::vector<float>{});
         });
     });
     return distribute(processes, std::move(mesh), cell_to_rank);
+}
+
+}  // namespace
+
+DistributedMesh read_parts(const Communicator& processes, const std::filesystem::path& path,
+                           const Partition& partition, const ReadPartsOptions& options) {
+    if (processes.size() > 1 && works_by_stretches(partition.method) && !options.read.only_syntax) {
+        auto mesh = read_together(processes, path, partition.method, options);
+        if (mesh) return std::move(*mesh);
+    }
+    return read_on_first(processes, path, partition, options);
 }
 
 }  // namespace octetra::distributed

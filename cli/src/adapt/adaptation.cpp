@@ -15,6 +15,7 @@
 #include <octetra/core/mesh_source.hpp>
 #include <octetra/distributed/adaptive_mesh.hpp>
 #include <octetra/distributed/profile.hpp>
+#include <octetra/distributed/read_parts.hpp>
 #include <octetra/verify/verify.hpp>
 
 #include "adapt/carried_fields.hpp"
@@ -31,7 +32,6 @@
 #include "commands/profile_options.hpp"
 #include "commands/refine/maps_of_all.hpp"
 #include "commands/report_line.hpp"
-#include "commands/share_out.hpp"
 #include "script/check_script.hpp"
 #include "script/read_script.hpp"
 #include "stopwatch.hpp"
@@ -72,15 +72,6 @@ void write_and_report(const distributed::AdaptiveMesh& mesh,
                 watch.lap());
 }
 
-/// Tells what is known of the mesh before it is there.
-MeshFacts facts_of_checkpoint(const std::string& path) {
-    const CheckpointFacts facts = read_checkpoint_facts(path);
-    return {.vertices = facts.vertices_now,
-            .cells = facts.cells_now,
-            .index_base = facts.index_base,
-            .has_regions = facts.has_regions};
-}
-
 /// Collective. By rcb unless another method is asked for: then no process has all of the input.
 distributed::AdaptiveMesh load(const AdaptationOptions& options,
                                const distributed::Communicator& world,
@@ -91,30 +82,48 @@ distributed::AdaptiveMesh load(const AdaptationOptions& options,
         world, options.input.path, is_given ? partition_of(options.parallel) : rcb, &fields);
 }
 
-/// Collective. What a history began with, or the mesh that the first process has read.
-JudgedMesh input_to_judge(const AdaptationOptions& options, const Mesh& mesh,
-                          const distributed::Communicator& world) {
-    const bool has_history = is_checkpoint(options.input.path);
-    Mesh of_history;
+/// Collective. What is known of a checkpoint before it is loaded, on the first process; its steps
+/// fit it then.
+MeshFacts facts_of_checkpoint(const std::string& path, const Script& script,
+                              const distributed::Communicator& world) {
+    const distributed::Phase phase(world, "read");
+    MeshFacts read;
     world.on_first([&] {
-        if (has_history) of_history = read_checkpoint(options.input.path).input;
+        const CheckpointFacts facts = read_checkpoint_facts(path);
+        read = {.vertices = facts.vertices_now,
+                .cells = facts.cells_now,
+                .index_base = facts.index_base,
+                .has_regions = facts.has_regions};
+        check_regions_of(script, read);
     });
-    verify::MeshSlice slice = verify::share_out(has_history ? of_history : mesh, world);
-    const std::uint32_t index_base = slice.lists.index_base;
-    return {options.input.path, index_base, std::move(slice)};
+    return read;
 }
 
-/// Collective. Of the mesh that the first process has read, or of a checkpoint, with its fields.
-distributed::AdaptiveMesh load_or_share_out(Mesh mesh, std::vector<distributed::Field>& fields,
-                                            const AdaptationOptions& options, const Script& script,
-                                            const distributed::Partition& partition,
-                                            const distributed::Communicator& world) {
-    if (is_checkpoint(options.input.path)) {
-        return distributed::in_phase(world, "read", [&] { return load(options, world, fields); });
-    }
-    return distributed::AdaptiveMesh(
-        share_out(std::move(mesh), partition, world,
-                  [&](const Mesh& whole) { return predicted_by_steps(whole, script); }));
+/// Collective. MESH in parts for the steps to come. `read` gets what is known of it, on the first
+/// process.
+distributed::AdaptiveMesh read_in_parts(const AdaptationOptions& options, const Script& script,
+                                        const distributed::Partition& partition,
+                                        const distributed::Communicator& world, MeshFacts& read) {
+    const auto check = [&](const MeshFacts& facts) {
+        world.on_first([&] { check_regions_of(script, facts); });
+        read = facts;
+    };
+    const auto weigh = [&](const distributed::CellsToWeigh& cells) {
+        return predicted_by_steps(cells, script);
+    };
+    return distributed::AdaptiveMesh(distributed::read_parts(
+        world, options.input.path, partition,
+        {.read = read_options(options.input), .on_facts = check, .weigh = weigh}));
+}
+
+/// Collective. What the result is to be a refinement of: what a history began with, or the mesh.
+JudgedMesh input_to_judge(const distributed::AdaptiveMesh& mesh, const AdaptationOptions& options) {
+    if (!is_checkpoint(options.input.path)) return mesh_to_judge(mesh, options.input.path);
+    Mesh input;
+    mesh.processes().on_first([&] { input = read_checkpoint(options.input.path).input; });
+    verify::MeshSlice slice = verify::share_out(input, mesh.processes());
+    const std::uint32_t index_base = slice.lists.index_base;
+    return {options.input.path, index_base, std::move(slice)};
 }
 
 /// Collective. The request that the only step is, of the mesh as it was read.
@@ -160,26 +169,16 @@ void adapt(const AdaptationOptions& options, const Script& script,
     const distributed::StepOptions steps{.synchronisation = synchronisation_of(options.parallel),
                                          .max_cells = options.max_cells};
     Stopwatch watch;
-    Mesh mesh;
-    MeshFacts read;  // on the first process
     distributed::in_phase(world, "read", [&] {
-        world.on_first([&] {
-            check_files(options, script, partition, world.size());
-            if (is_checkpoint(options.input.path)) {
-                read = facts_of_checkpoint(options.input.path);
-            } else {
-                mesh = read_input(options.input);
-                read = WholeMesh(mesh).facts();
-            }
-            check_regions_of(script, read);
-        });
+        world.on_first([&] { check_files(options, script, partition, world.size()); });
     });
-    JudgedMesh coarse;
-    if (options.verify && options.claim == Claim::refines_input) {
-        coarse = input_to_judge(options, mesh, world);
-    }
+    MeshFacts read;  // on the first process
     std::vector<distributed::Field> fields;
-    auto adaptive = load_or_share_out(std::move(mesh), fields, options, script, partition, world);
+    const bool has_history = is_checkpoint(options.input.path);
+    if (has_history) read = facts_of_checkpoint(options.input.path, script, world);
+    auto adaptive = has_history ? distributed::in_phase(
+                                      world, "read", [&] { return load(options, world, fields); })
+                                : read_in_parts(options, script, partition, world, read);
     const auto report = [&](std::string_view doing) {
         const std::uint64_t cells = world.sum(adaptive.cells().size());
         if (!world.is_first()) return;
@@ -189,6 +188,10 @@ void adapt(const AdaptationOptions& options, const Script& script,
     if (options.check) {
         check_input(mesh_to_judge(adaptive, {}).slice, options.input.path, world);
         report(fmt::format("checked {}", options.input.path));
+    }
+    JudgedMesh coarse;
+    if (options.verify && options.claim == Claim::refines_input) {
+        coarse = input_to_judge(adaptive, options);
     }
     if (options.verify && options.claim == Claim::refines_mesh) {
         coarse = mesh_to_judge(adaptive, options.input.path);
@@ -207,7 +210,7 @@ void adapt(const AdaptationOptions& options, const Script& script,
     };
     run_script(adaptive, script,
                {.input = read,
-                .has_steps = is_checkpoint(options.input.path),
+                .has_steps = has_history,
                 .options = steps,
                 .on_step = follow,
                 .on_move = move_along,

@@ -4,18 +4,17 @@
 #include <cstddef>
 #include <utility>
 
-#include <octetra/distributed/predicted_cells.hpp>
-
 namespace octetra::cli {
 
-std::vector<float> predicted_by_steps(const Mesh& mesh, const Script& script) {
+std::vector<float> predicted_by_steps(const distributed::CellsToWeigh& cells,
+                                      const Script& script) {
     constexpr float most = 1e9F;  // of one step, too
     std::vector<float> product;
     for (const ScriptStep& step : script.steps) {
         const auto* refine = std::get_if<RefineStep>(&step.step);
         if (refine == nullptr) continue;
         std::vector<float> predicted = distributed::predicted_cells(
-            mesh, refine->selection, refine->scheme, refine->typed.levels);
+            cells, refine->selection, refine->scheme, refine->typed.levels);
         if (product.empty()) {
             product = std::move(predicted);
         } else {

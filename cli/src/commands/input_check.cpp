@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include <octetra/core/error.hpp>
+#include <octetra/distributed/canonical_mesh.hpp>
 #include <octetra/distributed/profile.hpp>
 #include <octetra/verify/verify.hpp>
 
@@ -38,12 +39,24 @@ void check_input(const Mesh& mesh, const std::string& path,
     refuse_unless_valid(verdict, {.fine = path, .fine_index_base = mesh.index_base}, world);
 }
 
+void check_input(const distributed::DistributedMesh& parts, const std::string& path) {
+    const distributed::Communicator& world = parts.processes;
+    const distributed::Phase phase(world, "check");
+    if (world.size() > 1) return check_input(slice_of(parts), path, world);
+    check_input(distributed::collect_copy(parts).mesh, path, world);
+}
+
 void check_input(verify::MeshSlice mesh, const std::string& path,
                  const distributed::Communicator& world) {
     const distributed::Phase phase(world, "check");
     const std::uint32_t index_base = mesh.lists.index_base;
     const verify::Verdict verdict = verify::verify_mesh(std::move(mesh), world);
     refuse_unless_valid(verdict, {.fine = path, .fine_index_base = index_base}, world);
+}
+
+verify::MeshSlice slice_of(const distributed::DistributedMesh& parts) {
+    auto whole = distributed::CanonicalMesh::of(parts);
+    return verify::slice_of(whole.whole());
 }
 
 }  // namespace octetra::cli

@@ -85,9 +85,13 @@ Mesh read_as_it_stands(const std::string& path) {
     return read_mesh(path, {.only_syntax = true, .note = note});
 }
 
+ReadOptions read_options(const InputOptions& options) {
+    return {.fix_orientation = options.fix_orientation, .note = note};
+}
+
 Mesh read_input(const InputOptions& options) {
     if (is_checkpoint(options.path)) return load_alone(options.path);
-    return read_mesh(options.path, {.fix_orientation = options.fix_orientation, .note = note});
+    return read_mesh(options.path, read_options(options));
 }
 
 void write_output(const Mesh& mesh, const std::string& path) {

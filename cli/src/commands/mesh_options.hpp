@@ -6,6 +6,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include <octetra/core/files/mesh_files.hpp>
 #include <octetra/core/mesh.hpp>
 
 /// What every subcommand that reads or writes a mesh has in common.
@@ -36,6 +37,8 @@ void check_side_file(std::string_view option, const std::filesystem::path& path)
 /// A remark on stderr that is not an error: "octetra: note: ...".
 void note(std::string_view what);
 
+/// How a mesh is read: what is noted goes to stderr.
+[[nodiscard]] ReadOptions read_options(const InputOptions& options);
 [[nodiscard]] Mesh read_input(const InputOptions& options);
 /// For whoever judges the mesh: of a file, whatever reads as one.
 [[nodiscard]] Mesh read_as_it_stands(const std::string& path);

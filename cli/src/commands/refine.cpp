@@ -21,9 +21,9 @@
 #include <octetra/distributed/partition.hpp>
 #include <octetra/distributed/predicted_cells.hpp>
 #include <octetra/distributed/profile.hpp>
+#include <octetra/distributed/read_parts.hpp>
 #include <octetra/distributed/refine.hpp>
 #include <octetra/reference/refine.hpp>
-#include <octetra/verify/verify.hpp>
 
 #include "adapt/adaptation.hpp"
 #include "answer.hpp"
@@ -40,7 +40,6 @@
 #include "commands/refine/report.hpp"
 #include "commands/refinement_options.hpp"
 #include "commands/report_line.hpp"
-#include "commands/share_out.hpp"
 #include "stopwatch.hpp"
 #include "terminal.hpp"
 
@@ -109,9 +108,34 @@ bool judge_and_write(const Mesh& coarse, const Mesh& fine, const RefinementMaps&
     return valid.front() == 1;
 }
 
+/// Collective. Finishes what the plan wants of the mesh.
+void complete_plan(Plan& plan, const MeshFacts& facts, const RefineOptions& options,
+                   const distributed::Communicator& world) {
+    world.on_first([&] {
+        complete_selection(plan.selection, options.refinement.selection,
+                           {facts.has_regions, facts.index_base, facts.cells});
+    });
+    world.broadcast(plan.selection.cells);
+}
+
 /// Collective; the first process works, the others wait. False if the result is not valid.
-bool refine_by_reference(const Mesh& mesh, const Plan& plan, const RefineOptions& options,
+bool refine_by_reference(Plan plan, const RefineOptions& options,
                          const distributed::Communicator& world, Stopwatch& watch) {
+    Mesh mesh;
+    distributed::in_phase(world, "read", [&] {
+        world.on_first([&] { mesh = read_input(options.input); });
+        complete_plan(plan, WholeMesh(mesh).facts(), options, world);
+    });
+    const auto report_mesh = [&](const char* done) {
+        if (!world.is_first()) return;
+        report(options, fmt::format("{} {}", done, options.input.path), mesh.points.size(),
+               mesh.cells.size(), watch.lap());
+    };
+    report_mesh("read");
+    if (options.check) {
+        check_input(mesh, options.input.path, world);
+        report_mesh("checked");
+    }
     reference::Refinement fine;
     world.on_first([&] {
         const distributed::Phase phase(world, "refine");
@@ -130,18 +154,42 @@ bool refine_by_reference(const Mesh& mesh, const Plan& plan, const RefineOptions
     return judge_and_write(mesh, fine.mesh, fine.maps, plan, options, world, watch);
 }
 
+/// Collective. The mesh in parts, for the refinement that is planned.
+distributed::DistributedMesh read_in_parts(Plan& plan, const RefineOptions& options,
+                                           const distributed::Communicator& world) {
+    const auto complete = [&](const MeshFacts& facts) {
+        complete_plan(plan, facts, options, world);
+    };
+    const auto weigh = [&](const distributed::CellsToWeigh& cells) {
+        return distributed::predicted_cells(cells, plan.selection, plan.scheme,
+                                            options.refinement.levels);
+    };
+    return distributed::read_parts(
+        world, options.input.path, plan.partition,
+        {.read = read_options(options.input), .on_facts = complete, .weigh = weigh});
+}
+
 /// Collective. False, on all processes, if the result is not valid.
-bool refine_distributed(Mesh mesh, const Plan& plan, const RefineOptions& options,
+bool refine_distributed(Plan plan, const RefineOptions& options,
                         const distributed::Communicator& world, Stopwatch& watch) {
+    auto parts = read_in_parts(plan, options, world);
+    const auto report_mesh = [&](const char* done) {
+        if (!world.is_first()) return;
+        report(options, fmt::format("{} {}", done, options.input.path), parts.input_vertex_count,
+               parts.input_cell_count, watch.lap());
+    };
+    report_mesh("read");
+    if (options.check) {
+        check_input(parts, options.input.path);
+        report_mesh("checked");
+    }
     const bool verify_alone = options.verify && world.size() == 1;
     const bool verify_together = options.verify && world.size() > 1;
-    const Mesh coarse = verify_alone ? mesh : Mesh{};
+    const Mesh coarse = verify_alone ? distributed::collect_copy(parts).mesh : Mesh{};
     verify::MeshSlice coarse_slice;
-    if (verify_together) coarse_slice = verify::share_out(mesh, world);
-    auto parts = share_out(std::move(mesh), plan.partition, world, [&](const Mesh& whole) {
-        return distributed::predicted_cells(whole, plan.selection, plan.scheme,
-                                            options.refinement.levels);
-    });
+    if (verify_together) {
+        distributed::in_phase(world, "verify", [&] { coarse_slice = slice_of(parts); });
+    }
     int levels = 0;
     const auto show = level_progress(options.quiet, options.refinement.levels);
     const auto on_level = [&](int level, std::uint64_t cells) {
@@ -232,28 +280,12 @@ void refine(const RefineOptions& options, const distributed::Communicator& all) 
     }
     Stopwatch watch;
     const distributed::Communicator world = measured(all, options.profile);
-    Mesh mesh;
     distributed::in_phase(world, "read", [&] {
-        world.on_first([&] {
-            check_outputs(options, plan, world.size());
-            mesh = read_input(options.input);
-            complete_selection(plan.selection, options.refinement.selection,
-                               {!mesh.regions.empty(), mesh.index_base, mesh.cells.size()});
-            report(options, fmt::format("read {}", options.input.path), mesh.points.size(),
-                   mesh.cells.size(), watch.lap());
-        });
-        world.broadcast(plan.selection.cells);
+        world.on_first([&] { check_outputs(options, plan, world.size()); });
     });
-    if (options.check) {
-        check_input(mesh, options.input.path, world);
-        if (world.is_first()) {
-            report(options, fmt::format("checked {}", options.input.path), mesh.points.size(),
-                   mesh.cells.size(), watch.lap());
-        }
-    }
     const bool done = plan.engine == Engine::reference
-                          ? refine_by_reference(mesh, plan, options, world, watch)
-                          : refine_distributed(std::move(mesh), plan, options, world, watch);
+                          ? refine_by_reference(plan, options, world, watch)
+                          : refine_distributed(plan, options, world, watch);
     write_profile(world, options.profile, options.quiet);
     if (!done) throw AnswerIsNo{};
 }

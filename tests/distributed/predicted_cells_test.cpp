@@ -158,7 +158,7 @@ TEST(Weights, MakePartsEqualInTheirSums) {
     for (const int levels : {1, 4}) {
         const auto weights = predicted_cells(mesh, ball({2, 2, 2}, 1.8), Scheme::eight, levels);
         ASSERT_GT(std::ranges::max(weights), 1);
-        for (const std::string method : {"lepp", "dual"}) {
+        for (const std::string method : {"rcb", "lepp", "dual"}) {
             for (const int parts : {2, 3, 5}) {
                 const auto part = partition_cells(mesh, parts, parse_partition(method), weights);
                 std::vector<double> sums(static_cast<std::size_t>(parts), 0);
@@ -182,15 +182,15 @@ TEST(Weights, OfAnyMagnitudeCountByWhatTheyAreToEachOther) {
     const Mesh mesh = test::shaken_kuhn(8, 0.2, 1);
     std::vector<float> weights(mesh.cells.size());
     for (std::size_t c = 0; c < weights.size(); ++c) weights[c] = c % 3 == 0 ? 5 : 1;
-    const auto expected = partition_cells(mesh, 4, {}, weights);
-    EXPECT_NE(expected, partition_cells(mesh, 4, {})) << "or this would test nothing";
+    const auto expected = partition_cells(mesh, 4, parse_partition("lepp"), weights);
+    EXPECT_NE(expected, partition_cells(mesh, 4, parse_partition("lepp"))) << "or this would test nothing";
     for (const float times : {0x1p-90F, 0x1p-10F, 0x1p40F, 0x1p100F}) {
         std::vector<float> scaled = weights;
         for (float& weight : scaled) weight *= times;
-        EXPECT_EQ(partition_cells(mesh, 4, {}, scaled), expected) << times;
+        EXPECT_EQ(partition_cells(mesh, 4, parse_partition("lepp"), scaled), expected) << times;
     }
     const std::vector<float> even(mesh.cells.size(), 1e30F);
-    EXPECT_THAT(cells_of_parts(partition_cells(mesh, 4, {}, even), 4),
+    EXPECT_THAT(cells_of_parts(partition_cells(mesh, 4, parse_partition("lepp"), even), 4),
                 Each(testing::AllOf(testing::Ge(700), testing::Le(840))));
 }
 

@@ -13,7 +13,7 @@ void add_partition_option(CLI::App& subcommand, ParallelOptions& options,
     subcommand
         .add_option(
             "--partition", options.partition,
-            "which rank gets which cell: lepp, dual, rcb, block, random:SEED, file:PATH [lepp]")
+            "which rank gets which cell: rcb, lepp, dual, block, random:SEED, file:PATH [rcb]")
         ->type_name("METHOD")
         ->group(group);
 }
@@ -29,7 +29,7 @@ void add_synchronisation_option(CLI::App& subcommand, ParallelOptions& options,
 }
 
 distributed::Partition partition_of(const ParallelOptions& options) {
-    return distributed::parse_partition(options.partition.value_or("lepp"));
+    return distributed::parse_partition(options.partition.value_or("rcb"));
 }
 
 distributed::Synchronisation synchronisation_of(const ParallelOptions& options) {

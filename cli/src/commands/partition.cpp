@@ -26,7 +26,7 @@ namespace {
 struct PartitionOptions {
     InputOptions input;
     int parts = 0;
-    std::string method = "lepp";
+    std::string method = "rcb";
     std::string output;
     RefinementOptions refinement;
     bool says_how_refined = false;  ///< even by options that give the default
@@ -123,7 +123,7 @@ void add_partition(CLI::App& program, const distributed::Communicator& world) {
         ->required();
     command
         ->add_option("--partition", options->method,
-                     "lepp, dual, rcb, block, random:SEED or file:PATH [lepp]")
+                     "rcb, lepp, dual, block, random:SEED or file:PATH [rcb]")
         ->type_name("METHOD");
     command->add_option("-o,--output", options->output, "also write each cell's part, a line each")
         ->type_name("FILE")

@@ -12,16 +12,16 @@
 namespace octetra::distributed {
 
 enum class PartitionMethod {
+    rcb,     ///< recursive coordinate bisection of the cells' centroids
     lepp,    ///< METIS on the graph that joins cells through their longest edges (the paper's)
     dual,    ///< METIS on the graph that joins cells through faces
-    rcb,     ///< recursive coordinate bisection of the cells' centroids
     block,   ///< equal shares in the order of the input
     random,  ///< at random
     file,    ///< as a file says
 };
 
 struct Partition {
-    PartitionMethod method = PartitionMethod::lepp;
+    PartitionMethod method = PartitionMethod::rcb;
     std::uint64_t seed = 0;      ///< for random
     std::filesystem::path path;  ///< for file: part numbers from 0, one for each cell, in order
 };
@@ -32,7 +32,7 @@ struct Partition {
            partition.method == PartitionMethod::rcb;
 }
 
-/// "lepp", "dual", "rcb", "block", "random:SEED" or "file:PATH". Throws InputError.
+/// "rcb", "lepp", "dual", "block", "random:SEED" or "file:PATH". Throws InputError.
 [[nodiscard]] Partition parse_partition(const std::string& text);
 
 /// The part, 0 to parts-1, of each cell; parts may be empty. By lepp, dual and rcb, parts are

@@ -171,16 +171,19 @@ TEST_F(Profiled, RunsShareOutWhatIsRefined) {
 }
 
 TEST_F(Profiled, RunsAreSharedOutAsPartitionSays) {
-    const std::string what = "gear.1.ele --sphere 1,0,0.15,0.4 --levels 2 ";
-    const auto said = test::octetra("partition " + what + "-n 3 -o parts.txt", folder);
-    ASSERT_EQ(said.status, 0) << said.err;
-    EXPECT_THAT(said.out, HasSubstr("\ncells expected after refinement "));
-    std::vector<Json> cells;
-    for (const char* partition : {"lepp", "file:parts.txt"}) {
-        ASSERT_EQ(test::octetra_on(3, measured + " --partition " + partition, folder).status, 0);
-        cells.push_back(json("p.json").at("levels").back().at("cells"));
+    const std::string what = "gear.1.ele --sphere 1,0,0.15,0.4 --levels 2 -n 3 -o parts.txt ";
+    for (const std::string method : {"rcb", "lepp"}) {
+        const auto said = test::octetra("partition " + what + "--partition " + method, folder);
+        ASSERT_EQ(said.status, 0) << said.err;
+        EXPECT_THAT(said.out, HasSubstr("\ncells expected after refinement "));
+        std::vector<Json> cells;
+        for (const std::string& partition : {method, std::string("file:parts.txt")}) {
+            const auto run = test::octetra_on(3, measured + " --partition " + partition, folder);
+            ASSERT_EQ(run.status, 0) << run.err;
+            cells.push_back(json("p.json").at("levels").back().at("cells"));
+        }
+        EXPECT_EQ(cells[0], cells[1]) << method;
     }
-    EXPECT_EQ(cells[0], cells[1]);
     const auto unasked = test::octetra("partition gear.1.ele -n 3", folder);
     EXPECT_THAT(unasked.out, Not(HasSubstr("expected")));
 }

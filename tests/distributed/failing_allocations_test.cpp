@@ -18,6 +18,7 @@
 #include <octetra/distributed/exchange.hpp>
 #include <octetra/distributed/out_of_memory.hpp>
 #include <octetra/distributed/read_parts.hpp>
+#include <octetra/distributed/refine.hpp>
 
 #include "checkpoint/load.hpp"
 #include "distributed/marked_mesh.hpp"
@@ -159,6 +160,41 @@ TEST(FailingAllocations, OfRebalancingLeaveTheMeshAsItWasOnAllProcesses) {
         return [&] { (void)mesh.rebalance({.most_over_mean = 1}); };
     });
     EXPECT_TRUE(failures >= 200 || test::world().size() == 1);
+}
+
+TEST(FailingAllocations, OfAStepBeforeWhichCellsMoveLeaveTheMeshAsItWas) {
+    for (const std::size_t step : {1U, 2U}) {
+        const std::uint64_t failures = let_each_fail(step, [&](AdaptiveMesh& mesh) {
+            return [&] { (void)mesh.refine_evenly(steps[step], {.most_over_mean = 1}); };
+        });
+        EXPECT_TRUE(failures >= 200 || test::world().size() == 1);
+    }
+}
+
+/// Of a mesh that is no AdaptiveMesh, which becomes one for the move.
+TEST(FailingAllocations, OfALevelBeforeWhichCellsMoveLeaveTheMeshAsItWas) {
+    const Mesh whole = test::marked(test::shaken_kuhn(4, 0.2, 1), 1);
+    const Partition in_blocks{.method = PartitionMethod::block};
+    const auto parts = partition_cells(whole, test::world().size(), in_blocks);
+    for (int rank = 0; rank < test::world().size(); ++rank) {
+        for (long allocations = 0;; allocations += 1 + allocations / 20) {
+            DistributedMesh mesh = distribute(test::world(), whole, parts);
+            refine(mesh, steps[0], {});
+            const auto level = [&] {
+                refine(mesh, steps[1], {.balance = BalanceOptions{.most_over_mean = 1}});
+            };
+            const std::size_t cells = mesh.cells.size();
+            const bool done = done_with(allocations, rank, level);
+            ASSERT_EQ(test::world().sum(done ? 1 : 0), done ? test::world().size() : 0);
+            EXPECT_TRUE(done || mesh.cells.size() == cells) << allocations;
+            if (!done) refine(mesh, steps[1], {});
+            const Mesh found = collect(std::move(mesh)).mesh;
+            AdaptiveMesh expected = AdaptiveMesh::distribute(test::world(), whole, parts);
+            for (std::size_t k = 0; k < 2; ++k) (void)expected.refine(steps[k]);
+            EXPECT_TRUE(found == expected.collect()) << allocations;
+            if (done) break;
+        }
+    }
 }
 
 TEST(FailingAllocations, OfValuesThatGoAlongAreThrownOnAllProcesses) {

@@ -10,11 +10,10 @@
 #include <octetra/distributed/partition.hpp>
 #include <octetra/reference/history.hpp>
 
-#include "distributed/marked_mesh.hpp"
+#include "distributed/moving_mesh.hpp"
 #include "distributed/seen_mesh.hpp"
 #include "distributed/shared_folder.hpp"
 #include "distributed/world.hpp"
-#include "support/meshes.hpp"
 #include "support/refinement.hpp"
 
 /// AdaptiveMesh::migrate and rebalance, and what they bring along.
@@ -22,8 +21,6 @@ namespace octetra::distributed {
 namespace {
 
 using test::world;
-
-Selection some(double share, std::uint64_t seed) { return {.random = RandomShare{share, seed}}; }
 
 /// Where each root is to go, the same on all processes: to any of the first so many, or as they
 /// come.
@@ -46,20 +43,6 @@ struct Targets {
 Targets random_targets(std::mt19937_64& random) {
     const auto all = static_cast<std::uint64_t>(world().size());
     return {random(), random() % 2 == 0 ? world().size() : static_cast<int>(random() % all) + 1};
-}
-
-/// A mesh with everything, and with a vertex of no cell.
-Mesh input_of(std::uint64_t seed) {
-    Mesh mesh = test::marked_lattice(4, seed);
-    mesh.points.push_back({9, 9, 9});
-    mesh.point_markers.push_back(7);
-    mesh.point_attributes.insert(mesh.point_attributes.end(), {1.5, 2.5});
-    return mesh;
-}
-
-AdaptiveMesh shared_out(Mesh mesh, const std::string& partition) {
-    std::vector<int> parts = partition_cells(mesh, world().size(), parse_partition(partition));
-    return AdaptiveMesh::distribute(world(), std::move(mesh), parts);
 }
 
 class MigratingMesh : public testing::TestWithParam<std::uint64_t> {};
@@ -232,12 +215,6 @@ TEST(MigratingToWhereNobodyIs, IsRefusedOnAllProcessesAndChangesNothing) {
     }
     EXPECT_THROW((void)mesh.rebalance({.most_over_mean = 0.5}), InputError);
     EXPECT_TRUE(before == test::SeenMesh(mesh));
-}
-
-double most_over_mean(const AdaptiveMesh& mesh) {
-    const std::uint64_t count = mesh.cells().size();
-    return static_cast<double>(world().max(count)) * world().size() /
-           static_cast<double>(world().sum(count));
 }
 
 TEST(RebalancingMesh, WithABallRefinedIsEvenAndNotMovedAgain) {

@@ -183,7 +183,8 @@ TEST(Weights, OfAnyMagnitudeCountByWhatTheyAreToEachOther) {
     std::vector<float> weights(mesh.cells.size());
     for (std::size_t c = 0; c < weights.size(); ++c) weights[c] = c % 3 == 0 ? 5 : 1;
     const auto expected = partition_cells(mesh, 4, parse_partition("lepp"), weights);
-    EXPECT_NE(expected, partition_cells(mesh, 4, parse_partition("lepp"))) << "or this would test nothing";
+    EXPECT_NE(expected, partition_cells(mesh, 4, parse_partition("lepp")))
+        << "or this would test nothing";
     for (const float times : {0x1p-90F, 0x1p-10F, 0x1p40F, 0x1p100F}) {
         std::vector<float> scaled = weights;
         for (float& weight : scaled) weight *= times;

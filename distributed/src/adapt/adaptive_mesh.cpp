@@ -90,6 +90,18 @@ Adaptation AdaptiveMesh::refine_edges(std::span<const EdgeVertices> marked,
     return state_->refine([&] { return cells_with_marked_edges(state_->mesh, marked); }, options);
 }
 
+EvenStep AdaptiveMesh::refine_evenly(std::span<const std::uint8_t> marks,
+                                     const BalanceOptions& balance, const StepOptions& options) {
+    return refine_state_evenly(
+        *state_, [&] { return marked_by_bytes(state_->mesh, marks); }, balance, options);
+}
+
+EvenStep AdaptiveMesh::refine_evenly(const Selection& selection, const BalanceOptions& balance,
+                                     const StepOptions& options) {
+    return refine_state_evenly(
+        *state_, [&] { return mark_cells(state_->mesh, selection, false); }, balance, options);
+}
+
 Adaptation AdaptiveMesh::coarsen(std::span<const std::uint8_t> may_go) {
     return coarsen_state(*state_, [&] { return marked_by_bytes(state_->mesh, may_go); });
 }

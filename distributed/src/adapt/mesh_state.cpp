@@ -60,21 +60,28 @@ Adaptation unchanged(const DistributedMesh& mesh) {
             .synchronisation = {}};
 }
 
+RefineOptions level_options(const StepOptions& options) {
+    return {.scheme = options.scheme,
+            .levels = 1,
+            .synchronisation = options.synchronisation,
+            .max_cells = options.max_cells,
+            .on_level = {}};
+}
+
 AdaptiveMesh::State::State(DistributedMesh part)
     : mesh(std::move(part)), numbers(input_numbers(mesh)), sharing(find_vertex_sharing(mesh)) {}
 
 Adaptation AdaptiveMesh::State::refine(const std::function<MarkedCells()>& mark,
                                        const StepOptions& options, const Tuning& tuning) {
     check_same(mesh.processes, options);
-    const RefineOptions refine_options{.scheme = options.scheme,
-                                       .levels = 1,
-                                       .synchronisation = options.synchronisation,
-                                       .max_cells = options.max_cells,
-                                       .on_level = {}};
+    const RefineOptions refine_options = level_options(options);
     const int level = step_count + 1;
     const Phase phase(mesh.processes, "level", level);
     PlannedLevel plan = plan_level(mesh, mark, refine_options, tuning, level);
-    if (!plan.changes_anything()) return unchanged(mesh);
+    return plan.changes_anything() ? take(plan) : unchanged(mesh);
+}
+
+Adaptation AdaptiveMesh::State::take(PlannedLevel& plan) {
     Adaptation adaptation;
     NewNumbers new_numbers(numbers);
     SharingBuilder<VertexIndex> shared(sharing, mesh.processes.rank());

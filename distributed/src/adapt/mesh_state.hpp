@@ -26,10 +26,22 @@ struct AdaptiveMesh::State {
     /// Collective.
     Adaptation refine(const std::function<MarkedCells()>& mark, const StepOptions& options,
                       const Tuning& tuning = {});
+    /// Collective. What a level of this mesh brings, once it is ready to be committed. The level is
+    /// committed then.
+    Adaptation take(PlannedLevel& plan);
 };
+
+[[nodiscard]] RefineOptions level_options(const StepOptions& options);
 
 /// What a step that changes nothing did.
 [[nodiscard]] Adaptation unchanged(const DistributedMesh& mesh);
+
+/// Collective. A step before which roots move, if processes would have too different numbers of
+/// cells.
+[[nodiscard]] EvenStep refine_state_evenly(AdaptiveMesh::State& state,
+                                           const std::function<MarkedCells()>& mark,
+                                           const BalanceOptions& balance,
+                                           const StepOptions& options, const Tuning& tuning = {});
 
 /// Collective. Lets marked cells go back by a generation.
 [[nodiscard]] Adaptation coarsen_state(AdaptiveMesh::State& state,
@@ -39,6 +51,15 @@ struct AdaptiveMesh::State {
 /// Collective. Each root of this process goes to the process named.
 [[nodiscard]] Migration migrate_state(AdaptiveMesh::State& state,
                                       std::span<const int> rank_of_root);
+
+/// Collective. The state with each root of this process at the process named, of one in canonical
+/// order; each cell had the number that `cells_outside` says, or had the same if that is empty.
+[[nodiscard]] std::optional<AdaptiveMesh::State> moved_state(
+    const AdaptiveMesh::State& state, std::span<const CellIndex> cells_outside,
+    std::span<const int> rank_of_root, Migration& migration);
+
+/// Collective. The state of a mesh that has its history and nothing beyond it; in canonical order.
+[[nodiscard]] std::optional<AdaptiveMesh::State> state_of(DistributedMesh& mesh);
 
 /// Collective. Moves roots where processes have too different numbers of cells.
 [[nodiscard]] Migration rebalance_state(AdaptiveMesh::State& state, const BalanceOptions& options);

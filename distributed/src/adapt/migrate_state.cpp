@@ -67,30 +67,38 @@ std::optional<MergedPart> move_roots(const DistributedMesh& mesh, std::span<cons
     return merged;
 }
 
-/// Collective. Finds interfaces and sharers of a part whose vertices have their numbers.
-void find_border(AdaptiveMesh::State& state, LocalFailure& failure) {
-    const Phase phase(state.mesh.processes, "find border");
+/// What a part shares with others.
+struct Border {
+    std::vector<Interface> interfaces;
+    Sharing<VertexIndex> sharing;
+};
+
+/// Collective. Of a part whose vertices have their numbers.
+std::optional<Border> find_border(const DistributedMesh& mesh, const CanonicalNumbers& numbers,
+                                  LocalFailure& failure) {
+    const Phase phase(mesh.processes, "find border");
     std::optional<DistributedMesh> input;
-    failure.attempt([&] { input = input_of(state.mesh); });
-    failure.agree(state.mesh.processes);
+    failure.attempt([&] { input = input_of(mesh); });
+    failure.agree(mesh.processes);
     const std::vector<Interface> of_input = find_interfaces(*input);
-    state.sharing = find_vertex_sharing(*input);
-    SharingBuilder<VertexIndex> shared(state.sharing, state.mesh.processes.rank());
+    std::optional<Border> border(Border{{}, find_vertex_sharing(*input)});
+    SharingBuilder<VertexIndex> shared(border->sharing, mesh.processes.rank());
     failure.attempt([&] {
-        for (BorderWith& border : border_after_steps(state.mesh, of_input)) {
-            shared.share(border.interface.rank, std::move(border.midpoints));
-            state.mesh.interfaces.push_back(std::move(border.interface));
+        for (BorderWith& with : border_after_steps(mesh, of_input)) {
+            shared.share(with.interface.rank, std::move(with.midpoints));
+            border->interfaces.push_back(std::move(with.interface));
         }
         shared.prepare(
-            [&](VertexIndex v) { return static_cast<std::uint64_t>(state.numbers.of_vertex[v]); });
+            [&](VertexIndex v) { return static_cast<std::uint64_t>(numbers.of_vertex[v]); });
     });
-    failure.agree(state.mesh.processes);
+    failure.agree(mesh.processes);
     shared.commit();
+    return border;
 }
 
-/// Collective. The state after a move, of one in canonical order, where each cell had the number
-/// that `cells_outside` says.
-std::optional<AdaptiveMesh::State> state_after(const AdaptiveMesh::State& state,
+}  // namespace
+
+std::optional<AdaptiveMesh::State> moved_state(const AdaptiveMesh::State& state,
                                                std::span<const CellIndex> cells_outside,
                                                std::span<const int> rank_of_root,
                                                Migration& migration) {
@@ -116,11 +124,29 @@ std::optional<AdaptiveMesh::State> state_after(const AdaptiveMesh::State& state,
                               std::move(moved.vertices));
     });
     failure.agree(processes);
-    find_border(*after, failure);
+    std::optional<Border> border = find_border(after->mesh, after->numbers, failure);
+    after->mesh.interfaces = std::move(border->interfaces);
+    after->sharing = std::move(border->sharing);
     return after;
 }
 
-}  // namespace
+std::optional<AdaptiveMesh::State> state_of(DistributedMesh& mesh) {
+    LocalFailure failure;
+    CanonicalNumbers numbers;
+    {
+        const Phase phase(mesh.processes, "number vertices");
+        numbers = canonical_numbers(mesh);
+    }
+    std::optional<Border> border = find_border(mesh, numbers, failure);
+    std::optional<AdaptiveMesh::State> state;
+    failure.attempt([&] { state.emplace(); });
+    failure.agree(mesh.processes);
+    state->numbers = std::move(numbers);
+    state->sharing = std::move(border->sharing);
+    state->step_count = static_cast<int>(mesh.level_begin.size());
+    state->mesh = std::move(mesh);
+    return state;
+}
 
 Migration migrate_state(AdaptiveMesh::State& state, std::span<const int> rank_of_root) {
     const Communicator& processes = state.mesh.processes;
@@ -136,7 +162,7 @@ Migration migrate_state(AdaptiveMesh::State& state, std::span<const int> rank_of
     failure.agree(processes);
     Migration migration;
     std::optional<AdaptiveMesh::State> after =
-        state_after(state, order->cells_before(), rank_of_root, migration);
+        moved_state(state, order->cells_before(), rank_of_root, migration);
     order.reset();
     state = *std::move(after);
     return migration;
@@ -155,7 +181,9 @@ Migration rebalance_state(AdaptiveMesh::State& state, const BalanceOptions& opti
         std::optional<CanonicalOrder> order;
         failure.attempt([&] { order.emplace(state.mesh); });
         failure.agree(processes);
-        ranks = even_parts(state.mesh, failure);
+        std::vector<std::uint64_t> weights;
+        failure.attempt([&] { weights = cells_of_roots(state.mesh); });
+        ranks = even_parts(state.mesh, weights, failure);
         failure.agree(processes);
     }
     return ranks ? migrate_state(state, *ranks) : Migration();

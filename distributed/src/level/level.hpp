@@ -9,6 +9,7 @@
 
 #include "level/closure.hpp"
 #include "level/rounding_failure.hpp"
+#include "mark/marked_cells.hpp"
 #include "pattern/patterns.hpp"
 
 namespace octetra::distributed {
@@ -38,8 +39,12 @@ public:
     /// The marked edges, of marked cells as yet, to be closed together with the other processes.
     [[nodiscard]] virtual Closure& closure() = 0;
 
+    /// Of the closed level: the cells that it bisects, ascending, each with its marked edges.
+    [[nodiscard]] virtual MarkedCells closed_marks() = 0;
+
     /// Appends midpoints to the mesh's vertices.
     virtual void bisect_edges() = 0;
+    /// Of the closed level; may be asked for before anything is bisected.
     [[nodiscard]] virtual std::size_t cell_count_afterwards() = 0;
     /// Into so many. Where a failure is found, the level must not be committed.
     [[nodiscard]] virtual RoundingFailure bisect_cells(std::size_t cell_count) = 0;

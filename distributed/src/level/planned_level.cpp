@@ -41,46 +41,6 @@ void check_allowed(const DistributedMesh& mesh, std::size_t count, const RefineO
     });
 }
 
-/// The marked cells by the numbers that they have in another order, where `before` are those that
-/// they had.
-void renumber(MarkedCells& marked, const std::vector<CellIndex>& before) {
-    if (marked.all || before.empty()) return;
-    constexpr std::uint32_t unmarked = CellIndex::none_value;
-    std::vector<std::uint32_t> place(before.size(), unmarked);  // in the list of marked cells
-    for (std::size_t k = 0; k < marked.cells.size(); ++k) {
-        place[marked.cells[k].value()] = static_cast<std::uint32_t>(k);
-    }
-    MarkedCells renumbered{.count = marked.count, .judged = marked.judged};
-    for (std::size_t c = 0; c < before.size(); ++c) {
-        const std::uint32_t k = place[before[c].value()];
-        if (k == unmarked) continue;
-        renumbered.cells.push_back(CellIndex{c});
-        if (!marked.edges.empty()) renumbered.edges.push_back(marked.edges[k]);
-    }
-    marked = std::move(renumbered);
-}
-
-/// The level with edges of the marked cells marked.
-void begin_level(DistributedMesh& mesh, const RefineOptions& options, const Tuning& tuning,
-                 MarkedCells marked, PlannedLevel& plan) {
-    if (suits_incremental_level(mesh, marked, tuning)) {
-        auto level = std::make_unique<IncrementalLevel>(mesh);
-        const Phase phase(mesh.processes, "select");
-        level->mark(marked, options.scheme);
-        plan.level = std::move(level);
-        return;
-    }
-    if (mesh.adjacency != nullptr) {
-        const Phase phase(mesh.processes, "select");
-        plan.order = std::make_unique<CanonicalOrder>(mesh);
-        renumber(marked, plan.order->cells_before());
-    }
-    auto level = std::make_unique<FullSweepLevel>(mesh, marked, tuning.local_below);
-    const Phase phase(mesh.processes, "select");
-    level->mark(marked, options.scheme);
-    plan.level = std::move(level);
-}
-
 /// Collective. Closes the marked edges; throws on all processes where one has failed.
 SynchronisationCounts close(Level* level, const DistributedMesh& mesh, const RefineOptions& options,
                             LocalFailure& failure) {
@@ -93,8 +53,84 @@ SynchronisationCounts close(Level* level, const DistributedMesh& mesh, const Ref
     return counts.value();
 }
 
-/// Collective. All steps of a closed level but the last.
-void bisect(Level& way, const DistributedMesh& mesh, const RefineOptions& options, int level) {
+template <class I>
+std::vector<std::uint32_t> numbers_of(const std::vector<I>& list) {
+    std::vector<std::uint32_t> numbers(list.size());
+    std::ranges::transform(list, numbers.begin(), &I::value);
+    return numbers;
+}
+
+}  // namespace
+
+ListChanges PlannedLevel::changes() {
+    ListChanges changes = level->changes();
+    if (order == nullptr) return changes;
+    changes.cells.set_order(numbers_of(order->cells_before()));
+    changes.facets.set_order(numbers_of(order->facets_before()));
+    changes.edges.set_order(numbers_of(order->edges_before()));
+    return changes;
+}
+
+MarkedCells renumbered(MarkedCells marked, const std::vector<CellIndex>& before) {
+    if (marked.all || before.empty()) return marked;
+    constexpr std::uint32_t unmarked = CellIndex::none_value;
+    std::vector<std::uint32_t> place(before.size(), unmarked);  // in the list of marked cells
+    for (std::size_t k = 0; k < marked.cells.size(); ++k) {
+        place[marked.cells[k].value()] = static_cast<std::uint32_t>(k);
+    }
+    MarkedCells after{.count = marked.count, .judged = marked.judged};
+    for (std::size_t c = 0; c < before.size(); ++c) {
+        const std::uint32_t k = place[before[c].value()];
+        if (k == unmarked) continue;
+        after.cells.push_back(CellIndex{c});
+        if (!marked.edges.empty()) after.edges.push_back(marked.edges[k]);
+    }
+    return after;
+}
+
+void begin_level(DistributedMesh& mesh, const RefineOptions& options, const Tuning& tuning,
+                 MarkedCells marked, PlannedLevel& plan) {
+    if (suits_incremental_level(mesh, marked, tuning)) {
+        auto level = std::make_unique<IncrementalLevel>(mesh);
+        const Phase phase(mesh.processes, "select");
+        level->mark(marked, options.scheme);
+        plan.level = std::move(level);
+        return;
+    }
+    if (mesh.adjacency != nullptr) {
+        const Phase phase(mesh.processes, "select");
+        plan.order = std::make_unique<CanonicalOrder>(mesh);
+        marked = renumbered(std::move(marked), plan.order->cells_before());
+    }
+    auto level = std::make_unique<FullSweepLevel>(mesh, marked, tuning.local_below);
+    const Phase phase(mesh.processes, "select");
+    level->mark(marked, options.scheme);
+    plan.level = std::move(level);
+}
+
+PlannedLevel close_level(DistributedMesh& mesh, const std::function<MarkedCells()>& mark_cells,
+                         const RefineOptions& options, const Tuning& tuning) {
+    const Communicator& processes = mesh.processes;
+    PlannedLevel plan;
+    LocalFailure failure;
+    MarkedCells marked;
+    failure.attempt([&] {
+        const Phase phase(processes, "select");
+        marked = mark_cells();
+        plan.judged = marked.judged;
+    });
+    const std::uint64_t most = failure.max_unless_failed(processes, marked.count);
+    if (most == LocalFailure::somewhere) failure.agree(processes);
+    if (most == 0) return plan;
+
+    failure.attempt([&] { begin_level(mesh, options, tuning, std::move(marked), plan); });
+    plan.counts = close(plan.level.get(), mesh, options, failure);
+    return plan;
+}
+
+void bisect_level(PlannedLevel& plan, const DistributedMesh& mesh, const RefineOptions& options,
+                  int level) {
+    Level& way = *plan.level;
     LocalFailure failure;
     failure.attempt([&] {
         const Phase phase(mesh.processes, "bisect edges");
@@ -123,53 +159,21 @@ void bisect(Level& way, const DistributedMesh& mesh, const RefineOptions& option
     rounding.agree(mesh, level);
 }
 
-template <class I>
-std::vector<std::uint32_t> numbers_of(const std::vector<I>& list) {
-    std::vector<std::uint32_t> numbers(list.size());
-    std::ranges::transform(list, numbers.begin(), &I::value);
-    return numbers;
-}
-
-}  // namespace
-
-ListChanges PlannedLevel::changes() {
-    ListChanges changes = level->changes();
-    if (order == nullptr) return changes;
-    changes.cells.set_order(numbers_of(order->cells_before()));
-    changes.facets.set_order(numbers_of(order->facets_before()));
-    changes.edges.set_order(numbers_of(order->edges_before()));
-    return changes;
-}
-
 PlannedLevel plan_level(DistributedMesh& mesh, const std::function<MarkedCells()>& mark_cells,
                         const RefineOptions& options, const Tuning& tuning, int level) {
-    const Communicator& processes = mesh.processes;
-    PlannedLevel plan;
-    LocalFailure failure;
-    MarkedCells marked;
-    failure.attempt([&] {
-        const Phase phase(processes, "select");
-        marked = mark_cells();
-        plan.judged = marked.judged;
-    });
-    const std::uint64_t most = failure.max_unless_failed(processes, marked.count);
-    if (most == LocalFailure::somewhere) failure.agree(processes);
-    if (most == 0) return plan;
-
-    failure.attempt([&] { begin_level(mesh, options, tuning, std::move(marked), plan); });
-    plan.counts = close(plan.level.get(), mesh, options, failure);
-    bisect(*plan.level, mesh, options, level);
+    PlannedLevel plan = close_level(mesh, mark_cells, options, tuning);
+    if (plan.changes_anything()) bisect_level(plan, mesh, options, level);
     return plan;
 }
 
 PlannedLevel plan_closed_level(DistributedMesh& mesh,
                                const std::function<MarkedCells()>& mark_cells, const Tuning& tuning,
-                               int level) {
+                               int level, const RefineOptions& options) {
     PlannedLevel plan;
     LocalFailure failure;
-    failure.attempt([&] { begin_level(mesh, {}, tuning, mark_cells(), plan); });
+    failure.attempt([&] { begin_level(mesh, options, tuning, mark_cells(), plan); });
     failure.agree(mesh.processes);
-    bisect(*plan.level, mesh, {}, level);
+    bisect_level(plan, mesh, options, level);
     return plan;
 }
 

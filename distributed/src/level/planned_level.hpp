@@ -28,6 +28,25 @@ struct PlannedLevel {
     }
 };
 
+/// Collective. Marks and closes; nothing is bisected yet. Throws as plan_level() does.
+[[nodiscard]] PlannedLevel close_level(DistributedMesh& mesh,
+                                       const std::function<MarkedCells()>& mark_cells,
+                                       const RefineOptions& options, const Tuning& tuning);
+
+/// The level with edges of the marked cells marked, into `plan`. Where all know them to be closed,
+/// that is a closed level. Not collective.
+void begin_level(DistributedMesh& mesh, const RefineOptions& options, const Tuning& tuning,
+                 MarkedCells marked, PlannedLevel& plan);
+
+/// Collective. Bisects what is closed: then all processes can commit it. Throws as plan_level()
+/// does.
+void bisect_level(PlannedLevel& plan, const DistributedMesh& mesh, const RefineOptions& options,
+                  int level);
+
+/// The marked cells by the numbers that they have in another order, where `before` are those that
+/// they had, or nothing where these are the same. Ascending.
+[[nodiscard]] MarkedCells renumbered(MarkedCells marked, const std::vector<CellIndex>& before);
+
 /// Collective. Plans level number `level`, counted from 1, for messages, of the cells that
 /// `mark_cells` marks on this process. Throws as refine() does; a failure of one process, that of
 /// an allocation among them, is thrown on all, and leaves the mesh as it was.
@@ -40,6 +59,7 @@ struct PlannedLevel {
 /// processes together.
 [[nodiscard]] PlannedLevel plan_closed_level(DistributedMesh& mesh,
                                              const std::function<MarkedCells()>& mark_cells,
-                                             const Tuning& tuning, int level);
+                                             const Tuning& tuning, int level,
+                                             const RefineOptions& options = {});
 
 }  // namespace octetra::distributed

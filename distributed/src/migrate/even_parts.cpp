@@ -89,11 +89,20 @@ std::vector<int> ranks_of_parts(const Communicator& processes, std::span<const i
     return rank_of_part;
 }
 
-std::optional<std::vector<int>> even_parts(const DistributedMesh& mesh, LocalFailure& failure) {
+std::vector<std::uint64_t> cells_of_roots(const DistributedMesh& mesh) {
+    const std::vector<std::uint32_t>& first = mesh.cell_ancestors.first;
+    std::vector<std::uint64_t> counts;
+    for (std::size_t r = 0; r + 1 < first.size(); ++r) counts.push_back(first[r + 1] - first[r]);
+    return counts;
+}
+
+std::optional<std::vector<int>> even_parts(const DistributedMesh& mesh,
+                                           std::span<const std::uint64_t> weights,
+                                           LocalFailure& failure) {
     const Communicator& processes = mesh.processes;
     const Phase phase(processes, "find even parts");
     std::vector<WeighedPoint> centroids;
-    std::vector<std::uint64_t> weights;
+    std::uint64_t weight_here = 0;
     failure.attempt([&] {
         const DistributedMesh input = input_of(mesh);
         const AncestorMap& roots = mesh.cell_ancestors;
@@ -101,8 +110,8 @@ std::optional<std::vector<int>> even_parts(const DistributedMesh& mesh, LocalFai
             Corners corners;
             for (std::size_t k = 0; k < 4; ++k) corners[k] = input.points[input.cells[c][k]];
             const std::size_t r = c.value();
-            weights.push_back(roots.first[r + 1] - roots.first[r]);
-            centroids.push_back({place_of(corners), roots.roots[r], weights.back()});
+            weight_here += weights[r];
+            centroids.push_back({place_of(corners), roots.roots[r], weights[r]});
         }
     });
     if (failure.max_unless_failed(processes, 0) == LocalFailure::somewhere) return std::nullopt;
@@ -113,7 +122,7 @@ std::optional<std::vector<int>> even_parts(const DistributedMesh& mesh, LocalFai
     for (int& rank : ranks) rank = rank_of_part[static_cast<std::size_t>(rank)];
     const std::uint64_t most = most_after(processes, ranks, weights, failure);
     if (failure.max_unless_failed(processes, 0) == LocalFailure::somewhere) return std::nullopt;
-    if (most >= processes.max(mesh.cells.size())) return std::nullopt;
+    if (most >= processes.max(weight_here)) return std::nullopt;
     return ranks;
 }
 

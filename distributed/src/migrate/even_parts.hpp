@@ -12,11 +12,16 @@
 namespace octetra::distributed {
 
 /// Collective. For each root of this process, of a mesh in canonical order, the process that is to
-/// have it so that all have about as many cells: by recursive coordinate bisection, the parts given
-/// to processes so that much stays where it is. Nothing, on all processes, where the one that has
-/// most would not have fewer, or where a process has failed or fails.
+/// have it so that all have about the same weight: by recursive coordinate bisection, the parts
+/// given to processes so that much stays where it is. `weights` are those of this process's roots.
+/// Nothing, on all processes, where the one that has most would not have less, or where a process
+/// has failed or fails.
 [[nodiscard]] std::optional<std::vector<int>> even_parts(const DistributedMesh& mesh,
+                                                         std::span<const std::uint64_t> weights,
                                                          LocalFailure& failure);
+
+/// How many cells each root of this process has become, of a mesh in canonical order.
+[[nodiscard]] std::vector<std::uint64_t> cells_of_roots(const DistributedMesh& mesh);
 
 /// Collective. Gives parts, as many as there are processes, to processes: in descending order of
 /// what a process has of a part. `weights` are those of what this process has, each of the part

@@ -10,10 +10,12 @@
 namespace octetra::distributed {
 namespace {
 
-/// Collective. The vertices that other processes have too, ascending. A midpoint is shared where
-/// its edge was, and its halves are then; what is shared at a single vertex is the input's.
-std::vector<VertexIndex> find_shared_vertices(const DistributedMesh& mesh) {
-    std::vector<VertexIndex> shared = find_vertex_sharing(mesh).shared();
+/// The vertices that other processes have too, ascending. A midpoint is shared where its edge was,
+/// and its halves are then; what is shared at a single vertex is the input's, of which
+/// `input_sharing` tells.
+std::vector<VertexIndex> shared_vertices_of(const DistributedMesh& mesh,
+                                            const Sharing<VertexIndex>& input_sharing) {
+    std::vector<VertexIndex> shared = input_sharing.shared();
     for (const Interface& interface : mesh.interfaces) {
         for (const EdgeVertices& edge : interface.edges) {
             shared.insert(shared.end(), edge.begin(), edge.end());
@@ -70,8 +72,9 @@ CanonicalNumbers canonical_numbers(const DistributedMesh& mesh) {
     LocalFailure failure;
     CanonicalNumbers numbers;
     std::vector<VertexIndex> shared;
-    if (mesh.processes.size() > 1) shared = find_shared_vertices(mesh);
+    const Sharing<VertexIndex> input_sharing = find_vertex_sharing(mesh);
     failure.attempt([&] {
+        if (mesh.processes.size() > 1) shared = shared_vertices_of(mesh, input_sharing);
         numbers = input_numbers(mesh);
         numbers.of_vertex.reserve(mesh.points.size());
     });

@@ -184,8 +184,8 @@ public:
 
     /// Collective. Nothing if any process has found something wrong.
     [[nodiscard]] std::optional<DistributedMesh> finish() && {
-        if (processes_.max(is_sound_ ? 0 : 1) == 1) return std::nullopt;
         const Phase phase(processes_, "interfaces");
+        if (processes_.max(is_sound_ ? 0 : 1) == 1) return std::nullopt;
         mesh_.interfaces = find_interfaces(mesh_, is_shared_);
         return std::move(mesh_);
     }
@@ -226,9 +226,12 @@ std::optional<DistributedMesh> distribute_stretch(const Communicator& processes,
                                                   const Weigh& weigh) {
     LocalFailure failure;
     std::optional<Assembly> assembly;
-    failure.attempt([&] { assembly.emplace(processes, std::move(stretch)); });
-    failure.agree(processes);
-    const Homes homes = assembly->homes();
+    Homes homes;
+    in_phase(processes, "distribute", [&] {
+        failure.attempt([&] { assembly.emplace(processes, std::move(stretch)); });
+        failure.agree(processes);
+        homes = assembly->homes();
+    });
     assembly->bring_cells(homes, method, weigh);
     assembly->bring_what_is_at_cells(homes);
     return std::move(*assembly).finish();

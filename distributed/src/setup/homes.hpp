@@ -15,6 +15,8 @@ namespace octetra::distributed {
 /// Which process has read which stretch of a list of a file: its home.
 class Homes {
 public:
+    Homes() = default;
+
     /// `begins`: number of the first entity of each process, and the number of all.
     explicit Homes(std::vector<std::uint64_t> begins) : begins_(std::move(begins)) {}
 

@@ -12,6 +12,7 @@
 #include <octetra/core/mesh.hpp>
 #include <octetra/core/selection.hpp>
 #include <octetra/distributed/adaptation.hpp>
+#include <octetra/distributed/balance.hpp>
 #include <octetra/distributed/canonical_mesh.hpp>
 #include <octetra/distributed/communicator.hpp>
 #include <octetra/distributed/distributed_mesh.hpp>
@@ -36,12 +37,11 @@ struct StepOptions {
     friend bool operator==(const StepOptions&, const StepOptions&) = default;
 };
 
-/// The same on all processes.
-struct BalanceOptions {
-    /// Cells move where the process that has most has more than so many times the mean.
-    double most_over_mean = 1.1;
-
-    friend bool operator==(const BalanceOptions&, const BalanceOptions&) = default;
+/// What AdaptiveMesh::refine_evenly() did: first cells moved, if they did, and then the step was
+/// taken, by the numbers that they have since.
+struct EvenStep {
+    Migration move;
+    Adaptation step;
 };
 
 /// A tetrahedral mesh in a solver's loop: distributed over the processes of a communicator, refined
@@ -103,6 +103,14 @@ public:
     /// Collective. One step that bisects these edges, each of some cell of this process, and what
     /// closure adds. It is enough that one of the processes which have an edge lists it.
     Adaptation refine_edges(std::span<const EdgeVertices> marked, const StepOptions& options = {});
+
+    /// Collective. The same as refine(), but that cells may move first to where the step leaves all
+    /// processes with about as many: after closure, when it is known how many cells each becomes,
+    /// and before bisection, when there are few to move.
+    EvenStep refine_evenly(std::span<const std::uint8_t> marks, const BalanceOptions& balance = {},
+                           const StepOptions& options = {});
+    EvenStep refine_evenly(const Selection& selection, const BalanceOptions& balance = {},
+                           const StepOptions& options = {});
 
     /// Collective. Takes refinement back where no cell needs it any more. `may_go` has a byte for
     /// each cell of this process: not 0 where the cell may become part of the one that it was

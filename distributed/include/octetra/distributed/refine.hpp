@@ -3,8 +3,10 @@
 #include <cstdint>
 #include <functional>
 #include <limits>
+#include <optional>
 
 #include <octetra/core/selection.hpp>
+#include <octetra/distributed/balance.hpp>
 #include <octetra/distributed/distributed_mesh.hpp>
 
 /// 8T-LE refinement of a distributed mesh: Balman, "Tetrahedral Mesh Refinement in Distributed
@@ -23,6 +25,9 @@ struct RefineOptions {
     Synchronisation synchronisation = Synchronisation::neighbour;
     /// A level that would make more cells than this, of the whole mesh, is not begun.
     std::uint64_t max_cells = std::numeric_limits<std::uint64_t>::max();
+    /// Whether cells move before a level that would leave processes with too different numbers of
+    /// them: see AdaptiveMesh::refine_evenly().
+    std::optional<BalanceOptions> balance = std::nullopt;
     /// Told on the first process, after each level, of the level (from 1) and of the cells that the
     /// whole mesh now has. May be empty.
     std::function<void(int level, std::uint64_t cells)> on_level;

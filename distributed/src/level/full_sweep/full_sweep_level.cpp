@@ -207,6 +207,18 @@ std::size_t FullSweepLevel::cell_count_afterwards() {
     return count;
 }
 
+MarkedCells FullSweepLevel::closed_marks() {
+    if (marked_.empty()) (void)cell_count_afterwards();
+    MarkedCells closed;
+    for (CellIndex c{0}; c < marked_.end_index(); ++c) {
+        if (marked_[c] == 0) continue;
+        closed.cells.push_back(c);
+        closed.edges.push_back(marked_[c]);
+    }
+    closed.count = closed.cells.size();
+    return closed;
+}
+
 RoundingFailure FullSweepLevel::bisect_cells(std::size_t cell_count) {
     return CellBisection(*mesh_, *numbering_, orders_, marked_, midpoints_)
         .run(cell_count, cells_.entities, cells_.first);

@@ -25,6 +25,7 @@ public:
     void mark(const MarkedCells& marked, Scheme scheme);
 
     [[nodiscard]] Closure& closure() override { return closure_; }
+    [[nodiscard]] MarkedCells closed_marks() override;
     void bisect_edges() override;
     [[nodiscard]] std::size_t cell_count_afterwards() override;
     [[nodiscard]] RoundingFailure bisect_cells(std::size_t cell_count) override;

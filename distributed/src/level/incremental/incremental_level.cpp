@@ -99,6 +99,20 @@ std::size_t IncrementalLevel::cell_count_afterwards() {
     return count;
 }
 
+MarkedCells IncrementalLevel::closed_marks() {
+    std::vector<std::pair<CellIndex, EdgeMask>> marks;
+    for (const auto& note : closure_.notes()) {
+        if (note.marked != 0) marks.emplace_back(note.cell, note.marked);
+    }
+    std::ranges::sort(marks);
+    MarkedCells closed{.count = marks.size()};
+    for (const auto& [cell, edges] : marks) {
+        closed.cells.push_back(cell);
+        closed.edges.push_back(edges);
+    }
+    return closed;
+}
+
 RoundingFailure IncrementalLevel::bisect_cells(std::size_t cell_count) {
     std::vector<BadParent> bad;
     new_cells_.reserve(closure_.notes().size() + cell_count - mesh_->cells.size());

@@ -1,0 +1,157 @@
+#include "adapt/even_level.hpp"
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <utility>
+
+#include <octetra/distributed/profile.hpp>
+
+#include "comm/local_failure.hpp"
+#include "migrate/even_parts.hpp"
+#include "pattern/length_order.hpp"
+
+namespace octetra::distributed {
+namespace {
+
+/// Collective. Of the cells that processes have, and will have after the level.
+struct Loads {
+    std::uint64_t most_before = 0;
+    std::uint64_t most = 0;
+    std::uint64_t sum = 0;
+
+    Loads(const DistributedMesh& mesh, std::uint64_t count_afterwards) {
+        std::array<std::uint64_t, 2> greatest{mesh.cells.size(), count_afterwards};
+        mesh.processes.max(std::span(greatest));
+        most_before = greatest[0];
+        most = greatest[1];
+        sum = mesh.processes.sum(count_afterwards);
+    }
+
+    [[nodiscard]] bool are_uneven(const BalanceOptions& balance, int processes) const {
+        const double mean = static_cast<double>(sum) / processes;
+        const double spared = static_cast<double>(most) - mean;
+        if (static_cast<double>(most) <= balance.most_over_mean * mean) return false;
+        return !balance.only_if_it_pays || spared > 2 * static_cast<double>(most_before);
+    }
+};
+
+/// How many cells each root of this process will have become, of a mesh in canonical order.
+std::vector<std::uint64_t> cells_of_roots_after(const DistributedMesh& mesh,
+                                                const MarkedCells& marks) {
+    std::vector<std::uint64_t> counts = cells_of_roots(mesh);
+    const std::vector<std::uint32_t>& first = mesh.cell_ancestors.first;
+    std::size_t root = 0;
+    for (std::size_t k = 0; k < marks.cells.size(); ++k) {
+        const CellIndex c = marks.cells[k];
+        while (first[root + 1] <= c.value()) ++root;
+        const LengthOrder order = length_order(mesh.points, mesh.cells[c]);
+        counts[root] += PatternTable::get().pattern(order, marks.edges[k]).child_count - 1U;
+    }
+    return counts;
+}
+
+/// The edges of each cell that are to be bisected, by the numbers that cells had before they came
+/// into this order.
+std::vector<EdgeMask> masks_of(const MarkedCells& marks, const std::vector<CellIndex>& before,
+                               std::size_t count) {
+    std::vector<EdgeMask> masks(count, 0);
+    for (std::size_t k = 0; k < marks.cells.size(); ++k) {
+        const CellIndex c = marks.cells[k];
+        masks[before.empty() ? c.value() : before[c.value()].value()] = marks.edges[k];
+    }
+    return masks;
+}
+
+MarkedCells marks_of_masks(const std::vector<EdgeMask>& masks) {
+    MarkedCells marks;
+    for (std::size_t c = 0; c < masks.size(); ++c) {
+        if (masks[c] == 0) continue;
+        marks.cells.push_back(CellIndex{c});
+        marks.edges.push_back(masks[c]);
+    }
+    marks.count = marks.cells.size();
+    return marks;
+}
+
+/// The closed marks of a level, which is undone, in the canonical order that the mesh then has.
+UnevenLevel undone(DistributedMesh& mesh, PlannedLevel& plan) {
+    UnevenLevel level;
+    level.marks = plan.level->closed_marks();
+    plan.level.reset();
+    if (plan.order == nullptr && mesh.adjacency != nullptr) {
+        plan.order = std::make_unique<CanonicalOrder>(mesh);
+        level.marks = renumbered(std::move(level.marks), plan.order->cells_before());
+    }
+    level.order = std::move(plan.order);
+    return level;
+}
+
+/// The level of marks that are closed already, of the mesh as it was before it came into order.
+void redo(DistributedMesh& mesh, PlannedLevel& plan, UnevenLevel level,
+          const RefineOptions& options, const Tuning& tuning) {
+    MarkedCells marks = std::move(level.marks);
+    if (level.order != nullptr && !level.order->cells_before().empty()) {
+        for (CellIndex& c : marks.cells) c = level.order->cells_before()[c.value()];
+    }
+    level.order.reset();
+    begin_level(mesh, options, tuning, std::move(marks), plan);
+}
+
+}  // namespace
+
+std::optional<UnevenLevel> uneven_level(DistributedMesh& mesh, PlannedLevel& plan,
+                                        const BalanceOptions& balance, const RefineOptions& options,
+                                        const Tuning& tuning) {
+    const Communicator& processes = mesh.processes;
+    if (processes.size() == 1) return std::nullopt;
+    LocalFailure failure;
+    std::uint64_t count = 0;
+    failure.attempt([&] { count = plan.level->cell_count_afterwards(); });
+    failure.agree(processes);
+    const Loads loads(mesh, count);
+    if (loads.sum > options.max_cells) return std::nullopt;  // bisection will say so
+    if (!loads.are_uneven(balance, processes.size())) return std::nullopt;
+
+    UnevenLevel level;
+    std::vector<std::uint64_t> weights;
+    failure.attempt([&] {
+        level = undone(mesh, plan);
+        weights = cells_of_roots_after(mesh, level.marks);
+    });
+    failure.agree(processes);
+    auto ranks = even_parts(mesh, weights, failure);
+    failure.agree(processes);
+    if (ranks) {
+        level.rank_of_root = *std::move(ranks);
+        return level;
+    }
+    failure.attempt([&] { redo(mesh, plan, std::move(level), options, tuning); });
+    failure.agree(processes);
+    return std::nullopt;
+}
+
+MovedLevel moved_level(const AdaptiveMesh::State& state, const UnevenLevel& level,
+                       const RefineOptions& options, const Tuning& tuning) {
+    const Communicator& processes = state.mesh.processes;
+    const Phase phase(processes, "migrate");
+    static const std::vector<CellIndex> same;
+    const auto& before = level.order == nullptr ? same : level.order->cells_before();
+    MovedLevel moved;
+    LocalFailure failure;
+    std::optional<AdaptiveMesh::State> after =
+        moved_state(state, before, level.rank_of_root, moved.migration);
+    failure.attempt(
+        [&] { moved.state = std::make_unique<AdaptiveMesh::State>(*std::move(after)); });
+    std::vector<EdgeMask> masks;
+    failure.attempt([&] { masks = masks_of(level.marks, before, state.mesh.cells.size()); });
+    failure.agree(processes);
+    masks = moved.migration.cells(std::move(masks));
+    failure.attempt([&] {
+        begin_level(moved.state->mesh, options, tuning, marks_of_masks(masks), moved.plan);
+    });
+    failure.agree(processes);
+    return moved;
+}
+
+}  // namespace octetra::distributed

@@ -1,0 +1,37 @@
+#include <utility>
+
+#include <octetra/distributed/profile.hpp>
+
+#include "adapt/even_level.hpp"
+#include "adapt/mesh_state.hpp"
+#include "adapt/step_options.hpp"
+
+namespace octetra::distributed {
+
+EvenStep refine_state_evenly(AdaptiveMesh::State& state, const std::function<MarkedCells()>& mark,
+                             const BalanceOptions& balance, const StepOptions& options,
+                             const Tuning& tuning) {
+    check_same(state.mesh.processes, options);
+    check_same(state.mesh.processes, balance);
+    const RefineOptions level_of = level_options(options);
+    const int level = state.step_count + 1;
+    const Phase phase(state.mesh.processes, "level", level);
+    PlannedLevel plan = close_level(state.mesh, mark, level_of, tuning);
+    if (!plan.changes_anything()) return {Migration(), unchanged(state.mesh)};
+    const SynchronisationCounts counts = plan.counts;
+    std::optional<UnevenLevel> uneven = uneven_level(state.mesh, plan, balance, level_of, tuning);
+    if (!uneven) {
+        bisect_level(plan, state.mesh, level_of, level);
+        return {Migration(), state.take(plan)};
+    }
+    MovedLevel moved = moved_level(state, *uneven, level_of, tuning);
+    bisect_level(moved.plan, moved.state->mesh, level_of, level);
+    EvenStep done{std::move(moved.migration), moved.state->take(moved.plan)};
+    done.step.synchronisation = counts;
+    moved.plan = {};
+    uneven.reset();
+    state = std::move(*moved.state);
+    return done;
+}
+
+}  // namespace octetra::distributed

@@ -162,8 +162,8 @@ TEST_F(Adapt, WritesTheSameBytesOnAnyNumberOfRanks) {
     run("adapt m.ele --script s.txt -o alone.ele");
     const std::string mid = test::content_of(folder / "mid.vtu");
     for (const int ranks : {1, 2, 3, 4, 7}) {
-        for (const std::string how :
-             {"", "--sync gateway --partition dual", "--partition random:7"}) {
+        for (const std::string how : {"--rebalance 0", "--sync gateway --partition dual",
+                                      "--partition random:7 --rebalance never"}) {
             SCOPED_TRACE(testing::Message() << ranks << " ranks " << how);
             std::filesystem::remove(folder / "mid.vtu");
             expect_done(test::octetra_on(

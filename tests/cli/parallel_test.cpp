@@ -44,7 +44,8 @@ TEST_F(Parallel, WritesTheSameBytesOnAnyNumberOfRanksAndByTheReference) {
     ASSERT_EQ(test::octetra(refine + "-o r.vtu", folder).status, 0);
     for (const int ranks : {1, 2, 3, 4}) {
         for (const std::string how :
-             {"", "--sync gateway --partition dual", "--partition random:7"}) {
+             {"", "--sync gateway --partition dual", "--partition random:7 --rebalance never",
+              "--partition block --rebalance 0"}) {
             const auto run = octetra_on(ranks, refine + how + " -o p.ele --maps p.txt", folder);
             ASSERT_EQ(run.status, 0) << run.err;
             expect_same_files("r", "p");

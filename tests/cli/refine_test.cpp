@@ -239,14 +239,15 @@ TEST(Refine, EndsBeforeALevelThatWouldMakeMoreCellsThanAllowed) {
 TEST(Refine, RefusesOptionsThatTheReferenceHasNoUseFor) {
     const TemporaryFolder folder;
     ASSERT_EQ(test::octetra("generate kuhn 1 -o cube.ele", folder).status, 0);
-    for (const std::string option :
-         {"--sync neighbour", "--sync gateway", "--partition lepp", "--partition file:parts.txt"}) {
+    for (const std::string option : {"--sync neighbour", "--sync gateway", "--partition lepp",
+                                     "--rebalance 0.1", "--partition file:parts.txt"}) {
         const std::string refine = "refine cube.ele --all -o f.ele --engine reference ";
         const auto run = test::octetra(refine + option, folder);
         EXPECT_EQ(run.status, 2) << option;
-        EXPECT_EQ(run.err,
-                  "octetra: --partition and --sync say how ranks share the work; --engine "
-                  "reference works on one\n")
+        EXPECT_EQ(
+            run.err,
+            "octetra: --partition, --sync and --rebalance say how ranks share the work; --engine "
+            "reference works on one\n")
             << option;
         EXPECT_FALSE(std::filesystem::exists(folder / "f.ele"));
     }

@@ -67,7 +67,7 @@ public:
         const int levels = step.typed.levels;
         distributed::StepOptions options = run_->options;
         options.scheme = step.scheme;
-        const int done = refine(*mesh_, step, options, followers(levels));
+        const int done = refine(*mesh_, step, options, run_->balance, followers(levels));
         return {levels_done("refined", done), idle_levels(done, levels, "no cell was marked")};
     }
 
@@ -103,7 +103,8 @@ public:
 
 private:
     [[nodiscard]] Followers followers(int levels) const {
-        return {level_progress(run_->quiet, levels), run_->on_step, is_refined_before_};
+        return {level_progress(run_->quiet, levels), run_->on_step, run_->on_move,
+                is_refined_before_};
     }
 
     /// Collective.

@@ -16,6 +16,7 @@ struct ScriptRun {
     MeshFacts input;         ///< of the mesh before the first step
     bool has_steps = false;  ///< has it steps behind it already?
     distributed::StepOptions options;
+    std::optional<distributed::BalanceOptions> balance;  ///< do cells move before a level?
     std::function<void(const distributed::Adaptation&)> on_step = {};  ///< of each level
     std::function<void(const distributed::Migration&)> on_move = {};   ///< of cells between ranks
     /// Those of the mesh as it is whenever a step writes it; these two see to that.

@@ -63,17 +63,29 @@ std::vector<std::uint8_t> may_go(const AdaptiveMesh& mesh, const CoarsenStep& st
 }  // namespace
 
 int refine(AdaptiveMesh& mesh, const RefineStep& step, const distributed::StepOptions& options,
-           const Followers& followers) {
+           const std::optional<distributed::BalanceOptions>& balance, const Followers& followers) {
+    const auto refine_by = [&](const auto& marks, auto&& follow_move) {
+        if (!balance) return mesh.refine(marks, options);
+        distributed::EvenStep done = mesh.refine_evenly(marks, *balance, options);
+        if (done.move.changed()) {
+            follow_move(done.move);
+            if (followers.on_move) followers.on_move(done.move);
+        }
+        return std::move(done.step);
+    };
     if (step.selection.cells.empty()) {
-        return repeat(mesh, step.typed.levels, followers,
-                      [&] { return mesh.refine(step.selection, options); });
+        return repeat(mesh, step.typed.levels, followers, [&] {
+            return refine_by(step.selection, [](const distributed::Migration&) {});
+        });
     }
     std::vector<std::uint8_t> listed;
     if (step.typed.levels > 0) listed = listed_cells(mesh, step.selection.cells);
     return repeat(mesh, step.typed.levels, followers, [&] {
         std::vector<std::uint8_t> marked = listed;
         add_marked_cells(mesh, step.selection, marked);
-        Adaptation done = mesh.refine(std::span<const std::uint8_t>(marked), options);
+        Adaptation done = refine_by(
+            std::span<const std::uint8_t>(marked),
+            [&](const distributed::Migration& move) { listed = move.cells(std::move(listed)); });
         std::vector<std::uint8_t> descendants;
         descendants.reserve(mesh.cells().size());
         for (const std::uint32_t parent : done.cells.parents()) {

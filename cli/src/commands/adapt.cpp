@@ -38,6 +38,7 @@ void add_adapt(CLI::App& program, const distributed::Communicator& world) {
     const std::string group = "How it is done (the result is the same bytes)";
     add_partition_option(*command, options->adaptation.parallel, group);
     add_synchronisation_option(*command, options->adaptation.parallel, group);
+    add_rebalance_option(*command, options->adaptation.parallel, group);
     add_profile_options(*command, options->adaptation.profile);
     command->add_flag("--verify", options->adaptation.verify,
                       "judge the result as a refinement of MESH, and write OUT if it is valid");

@@ -2,9 +2,13 @@
 
 #include <array>
 
+#include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
+#include <octetra/core/error.hpp>
+
 #include "choice.hpp"
+#include "parse_numbers.hpp"
 
 namespace octetra::cli {
 
@@ -28,6 +32,15 @@ void add_synchronisation_option(CLI::App& subcommand, ParallelOptions& options,
         ->group(group);
 }
 
+void add_rebalance_option(CLI::App& subcommand, ParallelOptions& options,
+                          const std::string& group) {
+    subcommand
+        .add_option("--rebalance", options.rebalance,
+                    "move cells where one rank would have so much above the mean [auto]")
+        ->type_name("auto|never|FRACTION")
+        ->group(group);
+}
+
 distributed::Partition partition_of(const ParallelOptions& options) {
     return distributed::parse_partition(options.partition.value_or("rcb"));
 }
@@ -37,6 +50,19 @@ distributed::Synchronisation synchronisation_of(const ParallelOptions& options) 
     constexpr std::array<Word<Synchronisation>, 2> synchronisations{
         {{"neighbour", Synchronisation::neighbour}, {"gateway", Synchronisation::gateway}}};
     return parse_choice("--sync", options.synchronisation.value_or("neighbour"), synchronisations);
+}
+
+std::optional<distributed::BalanceOptions> balance_of(const ParallelOptions& options) {
+    const std::string word = options.rebalance.value_or("auto");
+    if (word == "auto") return distributed::BalanceOptions{.only_if_it_pays = true};
+    if (word == "never") return std::nullopt;
+    const bool is_number = word.find_first_not_of("0123456789.e+-") == std::string::npos;
+    if (word.empty() || !is_number) {
+        throw InputError(
+            fmt::format("--rebalance takes auto, never or a share from 0 up, not '{}'", word));
+    }
+    const double share = parse_number<double>("--rebalance", word, {0, 1e9, "0 to 1e9"});
+    return distributed::BalanceOptions{.most_over_mean = 1 + share};
 }
 
 }  // namespace octetra::cli

@@ -16,15 +16,19 @@ namespace octetra::cli {
 struct ParallelOptions {
     std::optional<std::string> partition;
     std::optional<std::string> synchronisation;
+    std::optional<std::string> rebalance;
 };
 
-/// Declares --partition and --sync, under the headline `group` of the help.
+/// Declare --partition, --sync and --rebalance, under the headline `group` of the help.
 void add_partition_option(CLI::App& subcommand, ParallelOptions& options, const std::string& group);
 void add_synchronisation_option(CLI::App& subcommand, ParallelOptions& options,
                                 const std::string& group);
+void add_rebalance_option(CLI::App& subcommand, ParallelOptions& options, const std::string& group);
 
 /// What they mean, or the default. Throw InputError.
 [[nodiscard]] distributed::Partition partition_of(const ParallelOptions& options);
 [[nodiscard]] distributed::Synchronisation synchronisation_of(const ParallelOptions& options);
+/// Nothing, where cells are never to move.
+[[nodiscard]] std::optional<distributed::BalanceOptions> balance_of(const ParallelOptions& options);
 
 }  // namespace octetra::cli

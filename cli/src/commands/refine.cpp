@@ -52,15 +52,18 @@ constexpr std::array<Word<Engine>, 2> engines{
 Plan plan_of(const RefineOptions& options) {
     const Engine engine = parse_choice("--engine", options.engine, engines);
     if (engine == Engine::reference &&
-        (options.parallel.partition || options.parallel.synchronisation)) {
+        (options.parallel.partition || options.parallel.synchronisation ||
+         options.parallel.rebalance)) {
         throw InputError(
-            "--partition and --sync say how ranks share the work; --engine reference works on one");
+            "--partition, --sync and --rebalance say how ranks share the work; --engine reference "
+            "works on one");
     }
     return {.selection = parse_selection(options.refinement.selection),
             .scheme = parse_scheme(options.refinement),
             .engine = engine,
             .partition = partition_of(options.parallel),
-            .synchronisation = synchronisation_of(options.parallel)};
+            .synchronisation = synchronisation_of(options.parallel),
+            .balance = balance_of(options.parallel)};
 }
 
 /// Runs an engine; what it finds wrong with the mesh gets the mesh's name in front.
@@ -204,8 +207,12 @@ bool refine_distributed(Plan plan, const RefineOptions& options,
     };
     naming_the_mesh(options, [&] {
         distributed::refine(parts, plan.selection,
-                            {plan.scheme, options.refinement.levels, plan.synchronisation,
-                             options.max_cells, on_level});
+                            {.scheme = plan.scheme,
+                             .levels = options.refinement.levels,
+                             .synchronisation = plan.synchronisation,
+                             .max_cells = options.max_cells,
+                             .balance = plan.balance,
+                             .on_level = on_level});
     });
     if (plan.selection.max_volume) {
         const distributed::Phase phase(world, "select");
@@ -299,6 +306,7 @@ void add_engine_options(CLI::App& command, RefineOptions& options) {
         ->group(group);
     add_partition_option(command, options.parallel, group);
     add_synchronisation_option(command, options.parallel, group);
+    add_rebalance_option(command, options.parallel, group);
 }
 
 }  // namespace

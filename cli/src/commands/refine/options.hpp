@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <string>
 
 #include <octetra/core/selection.hpp>
@@ -24,6 +25,7 @@ struct Plan {
     Engine engine = Engine::distributed;
     distributed::Partition partition;
     distributed::Synchronisation synchronisation = distributed::Synchronisation::neighbour;
+    std::optional<distributed::BalanceOptions> balance;
 };
 
 /// The options of octetra refine, as they were typed.

@@ -138,6 +138,23 @@ TEST(EvenStep, MovesWhereItPaysOnly) {
     EXPECT_LE(most_over_mean(mesh), 1.1);
 }
 
+/// Where one root is too heavy, no shares are better, and the level that was undone is done again.
+TEST(EvenStep, ThatNoOtherSharesHelpIsAPlainOne) {
+    const Selection corner{.spheres = {{{3, 0, 0}, 0.8}}};
+    AdaptiveMesh evenly = shared_out(test::shaken_kuhn(3, 0.2, 1), "block");
+    AdaptiveMesh plainly = shared_out(test::shaken_kuhn(3, 0.2, 1), "block");
+    int undone = 0;
+    for (std::uint64_t k = 0; k < 12; ++k) {
+        const Selection selection = k < 5 ? corner : some(0.0002, k);
+        const auto done = evenly.refine_evenly(selection, always);
+        (void)plainly.refine(selection);
+        const Mesh found = evenly.collect();
+        EXPECT_TRUE(found == plainly.collect()) << k;
+        if (!done.move.changed() && most_over_mean(evenly) > 1.01) ++undone;
+    }
+    EXPECT_TRUE(test::world().size() == 1 || undone > 0);
+}
+
 TEST(EvenStep, ThatIsRefusedLeavesTheMeshAsItWas) {
     // Whole numbers are all that there is: some levels down an edge has no midpoint.
     Mesh whole = test::kuhn(3, 3, 3, 8);

@@ -9,6 +9,7 @@
 #include "distributed/world.hpp"
 #include "level/tuning.hpp"
 #include "support/meshes.hpp"
+#include "support/mpi_counter.hpp"
 
 /// How much synchronisation may send: bounds that hold for every mesh, partition and rank. The
 /// figures are those of the profile, which profile_test.cpp holds against MPI's.
@@ -154,6 +155,33 @@ TEST(Communication, TakesNoMoreRoundsAsTheMeshGrows) {
         // The larger meshes have 8 and 64 times as many cells, and longer paths by chance alone.
         EXPECT_LE(rounds[1], rounds[0] + 1);
         EXPECT_LE(rounds[2], rounds[0] + 1);
+    }
+}
+
+/// One process knows what it has for others, and no process what others have for it.
+TEST(Communication, OfAllWithAllSendsNothingToWhomThereIsNothingFor) {
+    const Communicator& world = test::world();
+    const auto size = static_cast<std::size_t>(world.size());
+    const auto rank = static_cast<std::size_t>(world.rank());
+    for (std::size_t round = 0; round < 50; ++round) {
+        // Every other process has something for the next one, and one of them more than a message.
+        const auto sends = [&](std::size_t r) { return r % 2 == round % 2; };
+        const std::size_t longest = round % 10 == 0 ? 400'000 : 3;
+        std::vector<std::vector<std::uint64_t>> outboxes(size);
+        if (sends(rank)) outboxes[(rank + 1) % size].assign(rank == 0 ? longest : 2, rank + round);
+        const test::MpiCounts before = test::mpi_counts();
+        const auto inboxes = world.all_to_all(outboxes);
+        const test::MpiCounts after = test::mpi_counts();
+        const std::size_t pieces = rank == 0 && longest > 3 ? 5 : 1;  // the size, and four
+        EXPECT_EQ(after.messages - before.messages, size > 1 && sends(rank) ? pieces : 0U);
+        EXPECT_EQ(after.collectives - before.collectives, size > 1 ? 1U : 0U);
+        const std::size_t sender = (rank + size - 1) % size;
+        for (std::size_t r = 0; r < size; ++r) {
+            const std::vector<std::uint64_t> expected(sender == 0 ? longest : 2, sender + round);
+            EXPECT_TRUE(inboxes[r] ==
+                        (r == sender && sends(sender) ? expected : std::vector<std::uint64_t>{}))
+                << r << " to " << rank << " in round " << round;
+        }
     }
 }
 

@@ -26,6 +26,12 @@ int timed(auto&& call) {
     return result;
 }
 
+int message(int count, MPI_Datatype type, auto&& call) {
+    ++counts().messages;
+    counts().bytes += bytes_of(count, type);
+    return timed(call);
+}
+
 int collective(int count, MPI_Datatype type, auto&& call) {
     ++counts().collectives;
     counts().collective_bytes += bytes_of(count, type);
@@ -39,15 +45,26 @@ MpiCounts mpi_counts() { return counts(); }
 }  // namespace octetra::test
 
 using octetra::test::collective;
+using octetra::test::message;
 using octetra::test::timed;
 
 // Those of MPI that the engine calls and that take time.
 
 int MPI_Isend(const void* buffer, int count, MPI_Datatype type, int receiver, int tag,
               MPI_Comm comm, MPI_Request* request) {
-    ++octetra::test::counts().messages;
-    octetra::test::counts().bytes += octetra::test::bytes_of(count, type);
-    return timed([&] { return PMPI_Isend(buffer, count, type, receiver, tag, comm, request); });
+    return message(count, type,
+                   [&] { return PMPI_Isend(buffer, count, type, receiver, tag, comm, request); });
+}
+
+int MPI_Issend(const void* buffer, int count, MPI_Datatype type, int receiver, int tag,
+               MPI_Comm comm, MPI_Request* request) {
+    return message(count, type,
+                   [&] { return PMPI_Issend(buffer, count, type, receiver, tag, comm, request); });
+}
+
+int MPI_Improbe(int sender, int tag, MPI_Comm comm, int* has_come, MPI_Message* message,
+                MPI_Status* status) {
+    return timed([&] { return PMPI_Improbe(sender, tag, comm, has_come, message, status); });
 }
 
 int MPI_Mprobe(int sender, int tag, MPI_Comm comm, MPI_Message* message, MPI_Status* status) {
@@ -61,6 +78,18 @@ int MPI_Mrecv(void* buffer, int count, MPI_Datatype type, MPI_Message* message,
 
 int MPI_Waitall(int count, MPI_Request* requests, MPI_Status* statuses) {
     return timed([&] { return PMPI_Waitall(count, requests, statuses); });
+}
+
+int MPI_Testall(int count, MPI_Request* requests, int* are_over, MPI_Status* statuses) {
+    return timed([&] { return PMPI_Testall(count, requests, are_over, statuses); });
+}
+
+int MPI_Test(MPI_Request* request, int* is_over, MPI_Status* status) {
+    return timed([&] { return PMPI_Test(request, is_over, status); });
+}
+
+int MPI_Ibarrier(MPI_Comm comm, MPI_Request* request) {
+    return collective(0, MPI_BYTE, [&] { return PMPI_Ibarrier(comm, request); });
 }
 
 int MPI_Allreduce(const void* mine, void* result, int count, MPI_Datatype type, MPI_Op operation,

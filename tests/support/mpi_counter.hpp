@@ -17,9 +17,9 @@ struct MpiCounts {
 };
 
 /// The calls that are counted.
-inline constexpr std::array<std::string_view, 7> counted_calls{
-    "MPI_Isend",     "MPI_Mprobe", "MPI_Mrecv", "MPI_Waitall",
-    "MPI_Allreduce", "MPI_Exscan", "MPI_Bcast"};
+inline constexpr std::array<std::string_view, 12> counted_calls{
+    "MPI_Isend",   "MPI_Issend", "MPI_Mprobe",   "MPI_Improbe",   "MPI_Mrecv",  "MPI_Waitall",
+    "MPI_Testall", "MPI_Test",   "MPI_Ibarrier", "MPI_Allreduce", "MPI_Exscan", "MPI_Bcast"};
 
 /// Since the program began.
 [[nodiscard]] MpiCounts mpi_counts();

@@ -1,7 +1,7 @@
 /// To be preloaded (LD_PRELOAD) into a program under mpirun: rank OCTETRA_KILL_RANK kills itself at
-/// its call number OCTETRA_KILL_AT, from 1, of those of MPI that send, wait or are collective. With
-/// 0 it lives, and says on stderr how many calls it made. It stands between the program and MPI
-/// (the profiling interface, PMPI).
+/// its call number OCTETRA_KILL_AT, from 1, of those of MPI that send, wait or are collective, and
+/// are as many however long others take. With 0 it lives, and says on stderr how many calls it
+/// made. It stands between the program and MPI (the profiling interface, PMPI).
 
 #include <mpi.h>
 
@@ -46,6 +46,17 @@ int MPI_Isend(const void* buffer, int count, MPI_Datatype type, int receiver, in
               MPI_Comm comm, MPI_Request* request) {
     victim.call();
     return PMPI_Isend(buffer, count, type, receiver, tag, comm, request);
+}
+
+int MPI_Issend(const void* buffer, int count, MPI_Datatype type, int receiver, int tag,
+               MPI_Comm comm, MPI_Request* request) {
+    victim.call();
+    return PMPI_Issend(buffer, count, type, receiver, tag, comm, request);
+}
+
+int MPI_Ibarrier(MPI_Comm comm, MPI_Request* request) {
+    victim.call();
+    return PMPI_Ibarrier(comm, request);
 }
 
 int MPI_Mprobe(int sender, int tag, MPI_Comm comm, MPI_Message* message, MPI_Status* status) {

@@ -21,6 +21,7 @@ struct HeldSend {
     int receiver;
     int tag;
     MPI_Comm comm;
+    bool is_synchronous;
     std::uint64_t number;
 };
 
@@ -39,8 +40,9 @@ public:
         const bool is_overtaken = send->number < last_released_;
         if (is_overtaken) ++counts_.overtaken;
         last_released_ = std::max(last_released_, send->number);
-        PMPI_Isend(send->buffer, send->count, send->type, receiver, send->tag, send->comm,
-                   &under_way_.emplace_back());
+        (send->is_synchronous ? PMPI_Issend : PMPI_Isend)(send->buffer, send->count, send->type,
+                                                          receiver, send->tag, send->comm,
+                                                          &under_way_.emplace_back());
         held_.erase(send);
     }
 
@@ -51,6 +53,16 @@ public:
         }
         PMPI_Waitall(static_cast<int>(under_way_.size()), under_way_.data(), MPI_STATUSES_IGNORE);
         under_way_.clear();
+    }
+
+    /// Lets one message go, and says whether none is held or under way.
+    bool go_on() {
+        release_one();
+        int are_over = 0;
+        PMPI_Testall(static_cast<int>(under_way_.size()), under_way_.data(), &are_over,
+                     MPI_STATUSES_IGNORE);
+        if (are_over != 0) under_way_.clear();
+        return are_over != 0 && held_.empty();
     }
 
     /// Mostly not; else up to a tenth of a millisecond, rarely a whole one.
@@ -123,8 +135,25 @@ using octetra::test::shuffler;
 
 int MPI_Isend(const void* buffer, int count, MPI_Datatype type, int receiver, int tag,
               MPI_Comm comm, MPI_Request* request) {
-    shuffler().hold({buffer, count, type, receiver, tag, comm, 0});
+    shuffler().hold({buffer, count, type, receiver, tag, comm, false, 0});
     *request = MPI_REQUEST_NULL;  // MPI_Waitall is caught, too, and waits for all that are held
+    return MPI_SUCCESS;
+}
+
+int MPI_Issend(const void* buffer, int count, MPI_Datatype type, int receiver, int tag,
+               MPI_Comm comm, MPI_Request* request) {
+    shuffler().hold({buffer, count, type, receiver, tag, comm, true, 0});
+    *request = MPI_REQUEST_NULL;  // as is MPI_Testall
+    return MPI_SUCCESS;
+}
+
+int MPI_Improbe(int sender, int tag, MPI_Comm comm, int* has_come, MPI_Message* message,
+                MPI_Status* status) {
+    shuffler().maybe_sleep();
+    for (const int candidate : octetra::test::candidates(sender, comm)) {
+        PMPI_Improbe(candidate, tag, comm, has_come, message, status);
+        if (*has_come != 0) break;
+    }
     return MPI_SUCCESS;
 }
 
@@ -144,6 +173,25 @@ int MPI_Mprobe(int sender, int tag, MPI_Comm comm, MPI_Message* message, MPI_Sta
 int MPI_Waitall(int count, MPI_Request* requests, MPI_Status* statuses) {
     shuffler().finish_all();
     return PMPI_Waitall(count, requests, statuses);
+}
+
+int MPI_Testall(int count, MPI_Request* requests, int* are_over, MPI_Status* statuses) {
+    shuffler().maybe_sleep();
+    if (!shuffler().go_on()) {
+        *are_over = 0;
+        return MPI_SUCCESS;
+    }
+    return PMPI_Testall(count, requests, are_over, statuses);
+}
+
+int MPI_Ibarrier(MPI_Comm comm, MPI_Request* request) {
+    octetra::test::meet();
+    return PMPI_Ibarrier(comm, request);
+}
+
+int MPI_Test(MPI_Request* request, int* is_over, MPI_Status* status) {
+    shuffler().maybe_sleep();
+    return PMPI_Test(request, is_over, status);
 }
 
 int MPI_Allreduce(const void* mine, void* result, int count, MPI_Datatype type, MPI_Op operation,

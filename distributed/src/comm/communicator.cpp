@@ -6,59 +6,18 @@
 #include <algorithm>
 #include <array>
 #include <cstdlib>
-#include <exception>
 #include <memory>
-#include <numeric>
 
 #include <octetra/distributed/mpi.hpp>
 
 #include "comm/all_or_none.hpp"
 #include "comm/common_lock.hpp"
+#include "comm/mpi_group.hpp"
 #include "profile/recorder.hpp"
 
 namespace octetra::distributed {
 
 namespace {
-
-/// The most bytes of one MPI message. What a process has no memory for it receives into a buffer of
-/// this size, piece by piece.
-constexpr std::size_t most_bytes = std::size_t{1} << 20U;
-
-}  // namespace
-
-struct Communicator::Mpi {
-    MPI_Comm comm = MPI_COMM_NULL;
-    int rank = 0;
-    int size = 1;
-    std::vector<int> every_rank;
-    // For a process that has no memory at the time: what it throws away, and its empty messages.
-    std::unique_ptr<std::byte[]> unwanted{new std::byte[most_bytes]};
-    std::unique_ptr<MPI_Request[]> requests;
-    mutable bool is_watched = false;  ///< by Watch, on all processes
-
-    explicit Mpi(MPI_Comm original) {
-        MPI_Comm_dup(original, &comm);
-        MPI_Comm_rank(comm, &rank);
-        MPI_Comm_size(comm, &size);
-        every_rank.resize(static_cast<std::size_t>(size));
-        std::iota(every_rank.begin(), every_rank.end(), 0);
-        requests.reset(new MPI_Request[every_rank.size()]);
-    }
-    ~Mpi() {
-        int finalized = 0;
-        MPI_Finalized(&finalized);
-        if (finalized == 0) MPI_Comm_free(&comm);
-    }
-    Mpi(const Mpi&) = delete;
-    Mpi& operator=(const Mpi&) = delete;
-    Mpi(Mpi&&) = delete;
-    Mpi& operator=(Mpi&&) = delete;
-};
-
-namespace {
-
-constexpr int exchange_tag = 1;
-constexpr int size_tag = 2;  ///< of a message that tells how many bytes the next ones bring
 
 void reduce(std::span<std::uint64_t> numbers, MPI_Op operation, MPI_Comm comm, Profile* profile) {
     const Communication communication(profile, "reduction");
@@ -162,144 +121,6 @@ void Communicator::broadcast_bytes(void* data, std::size_t size, int root) const
         MPI_Bcast(static_cast<std::byte*>(data) + offset, static_cast<int>(count), MPI_BYTE, root,
                   mpi_->comm);
     }
-}
-
-namespace {
-
-/// The requests of sends under way, for which there is room from the beginning.
-class Sending {
-public:
-    Sending(MPI_Comm comm, const Communication& communication, std::span<MPI_Request> room)
-        : comm_(comm), communication_(&communication), room_(room) {}
-
-    void send(const void* data, std::size_t size, int receiver, int tag) {
-        communication_->count_message(size);
-        MPI_Isend(data, static_cast<int>(size), MPI_BYTE, receiver, tag, comm_, &room_[count_++]);
-    }
-    void wait() {
-        if (count_ == 0) return;
-        MPI_Waitall(static_cast<int>(count_), room_.data(), MPI_STATUSES_IGNORE);
-    }
-
-private:
-    MPI_Comm comm_;
-    const Communication* communication_;
-    std::span<MPI_Request> room_;
-    std::size_t count_ = 0;
-};
-
-/// How many messages it takes: one, or one that tells the size and then pieces of most_bytes.
-std::size_t message_count(std::span<const std::byte> outbox) {
-    if (outbox.size() <= most_bytes) return 1;
-    return 1 + (outbox.size() + most_bytes - 1) / most_bytes;
-}
-
-/// `size` lives until sending is over.
-void send_all(Sending& sending, std::span<const std::byte> outbox, const std::uint64_t& size,
-              int receiver) {
-    if (size <= most_bytes) return sending.send(outbox.data(), size, receiver, exchange_tag);
-    sending.send(&size, sizeof size, receiver, size_tag);
-    for (std::size_t begin = 0; begin < size; begin += most_bytes) {
-        sending.send(outbox.data() + begin, std::min(size - begin, most_bytes), receiver,
-                     exchange_tag);
-    }
-}
-
-/// A message that has come and is yet to be received.
-struct Arrived {
-    MPI_Message message = MPI_MESSAGE_NULL;
-    std::size_t size = 0;
-    int tag = 0;
-
-    Arrived(MPI_Comm comm, int sender) {
-        MPI_Status status;
-        int count = 0;
-        MPI_Mprobe(sender, MPI_ANY_TAG, comm, &message, &status);
-        MPI_Get_count(&status, MPI_BYTE, &count);
-        size = static_cast<std::size_t>(count);
-        tag = status.MPI_TAG;
-    }
-    void receive(void* place) {
-        MPI_Mrecv(place, static_cast<int>(size), MPI_BYTE, &message, MPI_STATUS_IGNORE);
-    }
-};
-
-/// Receives what send_all() sends to where allocate(size) says, or nowhere where that is null.
-void receive_all(MPI_Comm comm, int sender, std::byte* unwanted, auto&& allocate) {
-    Arrived first(comm, sender);
-    if (first.tag == exchange_tag) {
-        std::byte* const inbox = allocate(first.size);
-        return first.receive(inbox == nullptr ? unwanted : inbox);
-    }
-    std::uint64_t size = 0;
-    first.receive(&size);
-    std::byte* const inbox = allocate(size);
-    for (std::size_t begin = 0; begin < size; begin += most_bytes) {
-        Arrived(comm, sender).receive(inbox == nullptr ? unwanted : inbox + begin);
-    }
-}
-
-}  // namespace
-
-void Communicator::send_and_receive_bytes(std::span<const int> receivers,
-                                          std::span<const std::span<const std::byte>> outboxes,
-                                          std::span<const int> senders, Allocate allocate,
-                                          void* context) const {
-    std::vector<MPI_Request> requests;
-    std::vector<std::uint64_t> sizes;
-    try {
-        std::size_t count = 0;
-        for (const auto& outbox : outboxes) count += message_count(outbox);
-        requests.resize(count);
-        for (const auto& outbox : outboxes) sizes.push_back(outbox.size());
-    } catch (...) {
-        send_and_receive_nothing(receivers, senders);
-        throw;
-    }
-    const Communication communication(mpi_ ? profile() : nullptr, "exchange");
-    Sending sending(mpi_ ? mpi_->comm : MPI_COMM_NULL, communication, requests);
-    std::span<const std::byte> to_itself;
-    for (std::size_t i = 0; i < receivers.size(); ++i) {
-        if (receivers[i] == rank()) {
-            to_itself = outboxes[i];
-        } else {
-            send_all(sending, outboxes[i], sizes[i], receivers[i]);
-        }
-    }
-    std::exception_ptr failure;
-    for (std::size_t i = 0; i < senders.size(); ++i) {
-        const auto inbox_of_size = [&](std::size_t size) -> std::byte* {
-            try {
-                return allocate(context, i, size);
-            } catch (...) {
-                failure = std::current_exception();
-                return nullptr;
-            }
-        };
-        if (senders[i] != rank()) {
-            receive_all(mpi_->comm, senders[i], mpi_->unwanted.get(), inbox_of_size);
-        } else if (std::byte* const inbox = inbox_of_size(to_itself.size()); inbox != nullptr) {
-            std::ranges::copy(to_itself, inbox);
-        }
-    }
-    sending.wait();
-    if (failure) std::rethrow_exception(failure);
-}
-
-void Communicator::send_and_receive_nothing(std::span<const int> receivers,
-                                            std::span<const int> senders) const noexcept {
-    if (!mpi_) return;
-    const Communication communication(profile(), "exchange");
-    Sending sending(mpi_->comm, communication, {mpi_->requests.get(), mpi_->every_rank.size()});
-    for (const int receiver : receivers) {
-        if (receiver != rank()) sending.send(nullptr, 0, receiver, exchange_tag);
-    }
-    for (const int sender : senders) {
-        if (sender == rank()) continue;
-        receive_all(mpi_->comm, sender, mpi_->unwanted.get(),
-                    [](std::size_t) -> std::byte* { return nullptr; });
-    }
-    sending.wait();
 }
 
 Communicator communicator_of(MPI_Comm comm) {

@@ -80,11 +80,28 @@ public:
         return value;
     }
 
-    /// Collective. to_each[r] goes to rank r; the result's [r] came from rank r.
+    /// Collective. to_each[r] goes to rank r; the result's [r] came from rank r. Messages go only
+    /// where there is something to send, and no process need know who has something for it.
     template <class T>
     [[nodiscard]] std::vector<std::vector<T>> all_to_all(
         const std::vector<std::vector<T>>& to_each) const {
-        return send_and_receive<T>(every_rank(), to_each, every_rank());
+        static_assert(std::is_trivially_copyable_v<T>);
+        ask_whether_all_work();
+        std::vector<std::span<const std::byte>> bytes;
+        std::vector<std::vector<T>> inboxes;
+        try {
+            bytes.reserve(to_each.size());
+            for (const auto& outbox : to_each) bytes.push_back(std::as_bytes(std::span(outbox)));
+            inboxes.resize(static_cast<std::size_t>(size()));
+        } catch (...) {
+            const auto nowhere = [](void*, std::size_t, std::size_t) -> std::byte* {
+                return nullptr;
+            };
+            exchange_sparsely({}, nowhere, nullptr);
+            throw;
+        }
+        exchange_sparsely(bytes, &allocate_inbox<T>, &inboxes);
+        return inboxes;
     }
 
     /// Collective among neighbours. outboxes[i] goes to rank neighbours[i]; the result's [i] came
@@ -124,6 +141,13 @@ public:
 private:
     using Allocate = std::byte* (*)(void* context, std::size_t i, std::size_t size);
 
+    /// In inbox i of those that `context` points to.
+    template <class T>
+    static std::byte* allocate_inbox(void* context, std::size_t i, std::size_t size) {
+        std::vector<T>& inbox = (*static_cast<std::vector<std::vector<T>>*>(context))[i];
+        inbox.resize(size / sizeof(T));
+        return reinterpret_cast<std::byte*>(inbox.data());
+    }
     [[nodiscard]] std::span<const int> every_rank() const;
     [[nodiscard]] std::span<const int> if_first() const {
         return is_first() ? every_rank() : std::span<const int>{};
@@ -151,12 +175,7 @@ private:
             send_and_receive_nothing(receivers, senders);
             throw;
         }
-        const auto allocate = [](void* context, std::size_t i, std::size_t size) {
-            std::vector<T>& inbox = (*static_cast<std::vector<std::vector<T>>*>(context))[i];
-            inbox.resize(size / sizeof(T));
-            return reinterpret_cast<std::byte*>(inbox.data());
-        };
-        send_and_receive_bytes(receivers, bytes, senders, allocate, &inboxes);
+        send_and_receive_bytes(receivers, bytes, senders, &allocate_inbox<T>, &inboxes);
         return inboxes;
     }
     /// Throws what allocate() throws, but only when all is sent and received.
@@ -164,6 +183,10 @@ private:
                                 std::span<const std::span<const std::byte>> outboxes,
                                 std::span<const int> senders, Allocate allocate,
                                 void* context) const;
+    /// outboxes[r] goes to rank r, unless it is empty; what has come from there goes to where
+    /// allocate(context, r, size) says. Throws what allocate() throws, but only in the end.
+    void exchange_sparsely(std::span<const std::span<const std::byte>> outboxes, Allocate allocate,
+                           void* context) const;
     /// For a process that cannot do better: needs no memory.
     void send_and_receive_nothing(std::span<const int> receivers,
                                   std::span<const int> senders) const noexcept;

@@ -1,0 +1,105 @@
+#pragma once
+
+#include <mpi.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include "comm/mpi_group.hpp"
+#include "profile/recorder.hpp"
+
+namespace octetra::distributed {
+
+/// How the parts of what one process sends to another are told from each other.
+struct Tags {
+    int whole;  ///< of all that there is, if it is no more than most_bytes
+    int size;   ///< of a message that tells how many bytes the next ones bring, where it is more
+    int piece;  ///< of those next ones: most_bytes each, the last one the rest
+};
+
+/// How many messages it takes.
+inline std::size_t message_count(std::span<const std::byte> outbox) {
+    if (outbox.size() <= most_bytes) return 1;
+    return 1 + (outbox.size() + most_bytes - 1) / most_bytes;
+}
+
+/// The requests of sends under way, for which there is room from the beginning.
+class Sending {
+public:
+    Sending(MPI_Comm comm, const Communication& communication, std::span<MPI_Request> room)
+        : comm_(comm), communication_(&communication), room_(room) {}
+
+    void send(const void* data, std::size_t size, int receiver, int tag) {
+        communication_->count_message(size);
+        MPI_Isend(data, static_cast<int>(size), MPI_BYTE, receiver, tag, comm_, &room_[count_++]);
+    }
+    /// The send is over when the receiver has begun to receive, and no sooner.
+    void send_synchronously(const void* data, std::size_t size, int receiver, int tag) {
+        communication_->count_message(size);
+        MPI_Issend(data, static_cast<int>(size), MPI_BYTE, receiver, tag, comm_, &room_[count_++]);
+    }
+    void wait() {
+        if (count_ == 0) return;
+        MPI_Waitall(static_cast<int>(count_), room_.data(), MPI_STATUSES_IGNORE);
+    }
+    [[nodiscard]] bool are_over() {
+        int is_over = 0;
+        MPI_Testall(static_cast<int>(count_), room_.data(), &is_over, MPI_STATUSES_IGNORE);
+        return is_over != 0;
+    }
+
+private:
+    MPI_Comm comm_;
+    const Communication* communication_;
+    std::span<MPI_Request> room_;
+    std::size_t count_ = 0;
+};
+
+inline void send_pieces(Sending& sending, std::span<const std::byte> outbox, int receiver,
+                        int tag) {
+    for (std::size_t begin = 0; begin < outbox.size(); begin += most_bytes) {
+        const std::size_t size = std::min(outbox.size() - begin, most_bytes);
+        sending.send(outbox.data() + begin, size, receiver, tag);
+    }
+}
+
+/// A message that has come and is yet to be received.
+struct Arrived {
+    MPI_Message message = MPI_MESSAGE_NULL;
+    MPI_Status status;
+
+    [[nodiscard]] std::size_t size() const {
+        int count = 0;
+        MPI_Get_count(&status, MPI_BYTE, &count);
+        return static_cast<std::size_t>(count);
+    }
+    void receive(void* place) {
+        MPI_Mrecv(place, static_cast<int>(size()), MPI_BYTE, &message, MPI_STATUS_IGNORE);
+    }
+};
+
+inline Arrived wait_for_message(MPI_Comm comm, int sender, int tag) {
+    Arrived arrived;
+    MPI_Mprobe(sender, tag, comm, &arrived.message, &arrived.status);
+    return arrived;
+}
+
+/// Receives what `first` begins to where allocate(size) says, or nowhere where that is null.
+inline void receive_from(const Communicator::Mpi& group, Arrived first, const Tags& tags,
+                         auto&& allocate) {
+    const auto place = [&](std::byte* inbox) {
+        return inbox == nullptr ? group.unwanted.get() : inbox;
+    };
+    if (first.status.MPI_TAG == tags.whole) return first.receive(place(allocate(first.size())));
+    std::uint64_t size = 0;
+    first.receive(&size);
+    std::byte* const inbox = allocate(size);
+    for (std::size_t begin = 0; begin < size; begin += most_bytes) {
+        wait_for_message(group.comm, first.status.MPI_SOURCE, tags.piece)
+            .receive(place(inbox == nullptr ? nullptr : inbox + begin));
+    }
+}
+
+}  // namespace octetra::distributed

@@ -19,6 +19,7 @@ public:
     InputFile(InputFile&&) = delete;
     InputFile& operator=(InputFile&&) = delete;
 
+    [[nodiscard]] const std::filesystem::path& path() const { return path_; }
     [[nodiscard]] std::uint64_t size() const { return size_; }
     [[nodiscard]] std::vector<std::byte> read(std::uint64_t position, std::uint64_t size) const;
     void read(std::uint64_t position, void* data, std::uint64_t size) const;

@@ -7,16 +7,11 @@
 
 #include <fmt/format.h>
 
-#include <octetra/core/error.hpp>
-#include <octetra/core/repeated_cells.hpp>
-
-#include "files/checks/cell_check.hpp"
-#include "files/checks/conflicts.hpp"
-#include "files/checks/tagged_entities.hpp"
 #include "files/input/fields.hpp"
 #include "files/input/growing_mesh.hpp"
 #include "files/input/line_reader.hpp"
 #include "files/input/tokens.hpp"
+#include "files/medit/entry_places.hpp"
 #include "files/medit/keywords.hpp"
 #include "files/medit/medit.hpp"
 
@@ -37,7 +32,7 @@ struct Section {
     std::optional<OutOfRange> out_of_range;  ///< looked for while streaming
 };
 
-class MeditReader {
+class MeditReader final : private EntryPlaces {
 public:
     /// Without a sink, reads the mesh into memory.
     MeditReader(const std::filesystem::path& path, const ReadOptions& options, MeshSink* sink,
@@ -52,11 +47,11 @@ public:
         while (read_section()) {
         }
         if (growing_.is_streaming()) {
-            check_streamed<CellIndex>(tetrahedra_, "cell");
-            check_streamed<FacetIndex>(triangles_, "triangle");
-            check_streamed<EdgeIndex>(edges_, "edge");
+            for (const Listed list : {Listed::cells, Listed::facets, Listed::edges}) {
+                check_streamed(list);
+            }
         } else {
-            check_mesh();
+            check_listed(mesh_, *options_, reader_.path(), *this);
         }
         growing_.finish();
         return std::move(mesh_);
@@ -72,21 +67,6 @@ public:
     }
 
 private:
-    void check_mesh() {
-        check_entities(mesh_.cells, tetrahedra_, "cell");
-        check_cells();
-        check_entities(mesh_.facets, triangles_, "triangle");
-        check_entities(mesh_.edges, edges_, "edge");
-        if (options_->only_syntax) return;
-        const WrongFacets wrong = find_wrong_facets(mesh_);
-        if (const CellIndex cell = wrong.overlap.cell; !cell.is_none()) {
-            fail_entry(tetrahedra_, cell, "cell",
-                       describe_overlap(wrong, mesh_, lines_of(tetrahedra_)));
-        }
-        refuse_if_wrong(wrong.tagged, triangles_, "triangle", mesh_.facet_markers);
-        refuse_if_wrong(find_wrong_edge(mesh_), edges_, "edge", mesh_.edge_markers);
-    }
-
     void read_head() {
         if (const std::string_view token = tokens_.text(); token != "MeshVersionFormatted") {
             reader_.fail(
@@ -254,76 +234,36 @@ private:
     // is streamed is looked at as it comes, but an error of syntax further down is reported first,
     // as it is for a mesh in memory.
 
-    [[nodiscard]] std::string no_such_vertex(VertexIndex vertex) const {
-        return fmt::format("there is no vertex {}: the file has {}",
-                           std::uint64_t{vertex.value()} + 1, growing_.facts().vertices);
-    }
-
-    template <class I>
-    void check_streamed(const Section& section, std::string_view name) const {
+    void check_streamed(Listed list) const {
+        const Section& section = section_of(list);
         if (!section.out_of_range) return;
         const auto& [entry, vertex] = *section.out_of_range;
-        fail_entry(section, I{entry}, name, no_such_vertex(vertex));
+        fail_entry(list, entry,
+                   no_such_vertex(std::uint64_t{vertex.value()} + 1, growing_.facts().vertices));
     }
 
-    template <class I>
-    [[noreturn]] void fail_entry(const Section& section, I entry, std::string_view name,
-                                 std::string_view what) const {
-        if (section.consecutive) reader_.fail(what, section.first_line + entry.value());
-        reader_.fail(
-            fmt::format("{} {} of this section: {}", name, std::uint64_t{entry.value()} + 1, what),
-            section.keyword_line);
+    [[nodiscard]] const Section& section_of(Listed list) const {
+        switch (list) {
+            case Listed::cells: return tetrahedra_;
+            case Listed::facets: return triangles_;
+            case Listed::edges: break;
+        }
+        return edges_;
     }
 
-    template <class I, std::size_t N>
-    void check_entities(const IndexVector<I, std::array<VertexIndex, N>>& list,
-                        const Section& section, std::string_view name) {
-        for (I i{0}; i < list.end_index(); ++i) {
-            for (std::size_t k = 0; k < N; ++k) {
-                if (list[i][k] >= mesh_.points.end_index()) {
-                    fail_entry(section, i, name, no_such_vertex(list[i][k]));
-                }
-                for (std::size_t j = 0; j < k; ++j) {
-                    if (list[i][j] != list[i][k] || options_->only_syntax) continue;
-                    fail_entry(section, i, name,
-                               fmt::format("the {} has the same vertex twice", name));
-                }
-            }
-        }
-    }
-
-    void check_cells() {
-        CellCheck check(mesh_, *options_);
-        RepeatedCells repeated(options_->only_syntax ? 0 : mesh_.cells.size());
-        for (CellIndex c{0}; c < mesh_.cells.end_index(); ++c) {
-            const std::string_view wrong = check.judge(mesh_.cells[c]);
-            if (!wrong.empty()) fail_entry(tetrahedra_, c, "cell", wrong);
-            if (!options_->only_syntax) repeated.add(mesh_.cells[c]);
-        }
-        if (check.fixed_count() > 0) {
-            options_->note(fmt::format("{}: {} inverted cells were turned round",
-                                       reader_.path().native(), check.fixed_count()));
-        }
-        if (const CellPair pair = repeated.find(mesh_.cells, mesh_.points.size());
-            !pair.cell.is_none()) {
-            fail_entry(tetrahedra_, pair.cell, "cell",
-                       describe_repeated(pair, mesh_, lines_of(tetrahedra_)));
-        }
+    [[noreturn]] void fail_entry(Listed list, std::uint64_t entry,
+                                 std::string_view what) const override {
+        const Section& section = section_of(list);
+        if (section.consecutive) reader_.fail(what, section.first_line + entry);
+        reader_.fail(fmt::format("{} {} of this section: {}", entry_name(list), entry + 1, what),
+                     section.keyword_line);
     }
 
     /// Lines are known where each entry has its own.
-    static LineOf lines_of(const Section& section) {
-        return [section](std::uint64_t entry) {
+    [[nodiscard]] LineOf lines_of(Listed list) const override {
+        return [section = section_of(list)](std::uint64_t entry) {
             return section.consecutive ? std::optional(section.first_line + entry) : std::nullopt;
         };
-    }
-
-    template <class I>
-    void refuse_if_wrong(const WrongEntry<I>& wrong, const Section& section, std::string_view name,
-                         const IndexVector<I, Marker>& markers) const {
-        if (wrong.entry.is_none()) return;
-        fail_entry(section, wrong.entry, name,
-                   describe_wrong(wrong, name, markers, mesh_, lines_of(section)));
     }
 
     LineReader reader_;

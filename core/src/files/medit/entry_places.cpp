@@ -1,0 +1,108 @@
+#include "files/medit/entry_places.hpp"
+
+#include <fmt/format.h>
+
+#include <octetra/core/repeated_cells.hpp>
+
+#include "files/checks/cell_check.hpp"
+#include "files/checks/tagged_entities.hpp"
+
+namespace octetra {
+namespace {
+
+class MeshCheck {
+public:
+    MeshCheck(Mesh& mesh, const ReadOptions& options, const std::filesystem::path& path,
+              const EntryPlaces& places)
+        : mesh_(&mesh), options_(&options), path_(&path), places_(&places) {}
+
+    void check() {
+        check_vertices(mesh_->cells, Listed::cells);
+        check_cells();
+        check_vertices(mesh_->facets, Listed::facets);
+        check_vertices(mesh_->edges, Listed::edges);
+        if (options_->only_syntax) return;
+        const WrongFacets wrong = find_wrong_facets(*mesh_);
+        if (const CellIndex cell = wrong.overlap.cell; !cell.is_none()) {
+            places_->fail_entry(Listed::cells, cell.value(),
+                                describe_overlap(wrong, *mesh_, places_->lines_of(Listed::cells)));
+        }
+        refuse_if_wrong(wrong.tagged, Listed::facets, mesh_->facet_markers);
+        refuse_if_wrong(find_wrong_edge(*mesh_), Listed::edges, mesh_->edge_markers);
+    }
+
+private:
+    template <class I, std::size_t N>
+    void check_vertices(const IndexVector<I, std::array<VertexIndex, N>>& list, Listed which) {
+        for (I i{0}; i < list.end_index(); ++i) {
+            for (std::size_t k = 0; k < N; ++k) {
+                if (list[i][k] >= mesh_->points.end_index()) {
+                    places_->fail_entry(which, i.value(),
+                                        no_such_vertex(std::uint64_t{list[i][k].value()} + 1,
+                                                       mesh_->points.size()));
+                }
+                for (std::size_t j = 0; j < k; ++j) {
+                    if (list[i][j] != list[i][k] || options_->only_syntax) continue;
+                    places_->fail_entry(
+                        which, i.value(),
+                        fmt::format("the {} has the same vertex twice", entry_name(which)));
+                }
+            }
+        }
+    }
+
+    void check_cells() {
+        CellCheck check(*mesh_, *options_);
+        RepeatedCells repeated(options_->only_syntax ? 0 : mesh_->cells.size());
+        for (CellIndex c{0}; c < mesh_->cells.end_index(); ++c) {
+            const std::string_view wrong = check.judge(mesh_->cells[c]);
+            if (!wrong.empty()) places_->fail_entry(Listed::cells, c.value(), wrong);
+            if (!options_->only_syntax) repeated.add(mesh_->cells[c]);
+        }
+        if (check.fixed_count() > 0) {
+            options_->note(fmt::format("{}: {} inverted cells were turned round", path_->native(),
+                                       check.fixed_count()));
+        }
+        if (const CellPair pair = repeated.find(mesh_->cells, mesh_->points.size());
+            !pair.cell.is_none()) {
+            places_->fail_entry(Listed::cells, pair.cell.value(),
+                                describe_repeated(pair, *mesh_, places_->lines_of(Listed::cells)));
+        }
+    }
+
+    template <class I>
+    void refuse_if_wrong(const WrongEntry<I>& wrong, Listed which,
+                         const IndexVector<I, Marker>& markers) const {
+        if (wrong.entry.is_none()) return;
+        places_->fail_entry(
+            which, wrong.entry.value(),
+            describe_wrong(wrong, entry_name(which), markers, *mesh_, places_->lines_of(which)));
+    }
+
+    Mesh* mesh_;
+    const ReadOptions* options_;
+    const std::filesystem::path* path_;
+    const EntryPlaces* places_;
+};
+
+}  // namespace
+
+std::string_view entry_name(Listed list) {
+    switch (list) {
+        case Listed::cells: return "cell";
+        case Listed::facets: return "triangle";
+        case Listed::edges: break;
+    }
+    return "edge";
+}
+
+std::string no_such_vertex(std::uint64_t number, std::uint64_t vertices) {
+    return fmt::format("there is no vertex {}: the file has {}", number, vertices);
+}
+
+void check_listed(Mesh& mesh, const ReadOptions& options, const std::filesystem::path& path,
+                  const EntryPlaces& places) {
+    MeshCheck(mesh, options, path, places).check();
+}
+
+}  // namespace octetra

@@ -1,0 +1,48 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+#include <octetra/core/files/mesh_files.hpp>
+#include <octetra/core/mesh.hpp>
+
+#include "files/checks/conflicts.hpp"
+
+/// What holds of the entries of a Medit file, text or binary, and how one that is wrong is named.
+namespace octetra {
+
+/// The sections that a mesh is made of beside its vertices.
+enum class Listed { cells, facets, edges };
+
+/// What messages call an entry.
+[[nodiscard]] std::string_view entry_name(Listed list);
+
+/// Where the entries of a file stand. Entries are counted from 0.
+class EntryPlaces {
+public:
+    EntryPlaces() = default;
+    virtual ~EntryPlaces() = default;
+    EntryPlaces(const EntryPlaces&) = delete;
+    EntryPlaces& operator=(const EntryPlaces&) = delete;
+    EntryPlaces(EntryPlaces&&) = delete;
+    EntryPlaces& operator=(EntryPlaces&&) = delete;
+
+    /// Throws InputError that names the entry and says `what`.
+    [[noreturn]] virtual void fail_entry(Listed list, std::uint64_t entry,
+                                         std::string_view what) const = 0;
+    /// The lines of entries, as far as they have some.
+    [[nodiscard]] virtual LineOf lines_of(Listed list) const = 0;
+};
+
+/// "there is no vertex 5: the file has 4"
+[[nodiscard]] std::string no_such_vertex(std::uint64_t number, std::uint64_t vertices);
+
+/// Checks a mesh that was read, as far as the options ask for it: vertex numbers, orientation, what
+/// is listed twice, facets and edges of no cell. Turns inverted cells round if asked to, and notes
+/// how many.
+void check_listed(Mesh& mesh, const ReadOptions& options, const std::filesystem::path& path,
+                  const EntryPlaces& places);
+
+}  // namespace octetra

@@ -38,21 +38,26 @@ void ByteReader::skip(std::uint64_t bytes, std::string_view what) {
     seek(position() + bytes);
 }
 
-void ByteReader::fill() {
+/// Reads on until `wanted` bytes or a full buffer are at hand; at least a few, for who takes number
+/// after number, and not much more, for who takes one here and one there.
+void ByteReader::fill(std::uint64_t wanted) {
+    constexpr std::uint64_t few = std::uint64_t{1} << 16U;
     const std::size_t pending = end_ - begin_;
     std::memmove(buffer_.data(), buffer_.data() + begin_, pending);
     buffer_position_ += begin_;
     begin_ = 0;
     end_ = pending;
     const std::uint64_t from = buffer_position_ + end_;
-    const std::size_t room = std::min<std::uint64_t>(buffer_.size() - end_, size() - from);
-    file_.read(from, buffer_.data() + end_, room);
-    end_ += room;
+    const std::uint64_t room =
+        std::min<std::uint64_t>(std::max(wanted, few), buffer_.size()) - end_;
+    const std::size_t more = std::min(room, size() - from);
+    file_.read(from, buffer_.data() + end_, more);
+    end_ += more;
 }
 
 const std::byte* ByteReader::take_bytes(std::size_t size, std::string_view what) {
     require(size, what);
-    if (end_ - begin_ < size) fill();
+    if (end_ - begin_ < size) fill(size);
     const std::byte* const bytes = buffer_.data() + begin_;
     begin_ += size;
     return bytes;
@@ -61,7 +66,8 @@ const std::byte* ByteReader::take_bytes(std::size_t size, std::string_view what)
 std::span<const std::byte> ByteReader::take_rows(std::uint64_t rows, std::size_t row_size,
                                                  std::string_view what) {
     require(row_size, what);
-    if (end_ - begin_ < row_size) fill();
+    if (end_ - begin_ < row_size)
+        fill(rows > buffer_.size() / row_size ? buffer_.size() : rows * row_size);
     const auto count = std::min<std::uint64_t>(rows, (end_ - begin_) / row_size);
     const std::span bytes(buffer_.data() + begin_, count * row_size);
     begin_ += bytes.size();
@@ -93,7 +99,7 @@ std::string ByteReader::take_line(std::string_view what) {
     };
     const std::byte* last = newline();
     if (last == buffer_.data() + end_) {
-        fill();
+        fill(buffer_.size());
         last = newline();
         if (last == buffer_.data() + end_ && remaining() > end_ - begin_) {
             fail(fmt::format("a line of more than {} bytes where {} should be", buffer_size, what),

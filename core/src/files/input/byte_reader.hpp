@@ -102,7 +102,7 @@ public:
 
 private:
     void require(std::uint64_t bytes, std::string_view what) const;
-    void fill();
+    void fill(std::uint64_t wanted);
     void take_raw(void* place, std::uint64_t size, std::string_view what);
 
     InputFile file_;

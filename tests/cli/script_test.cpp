@@ -70,8 +70,8 @@ const std::vector<WrongLine> wrong_lines{
      "coarsen has no option --partition; --partition is for the command octetra adapt, not for a "
      "step"},
     {"write a#b.vtu",
-     "a: a mesh to write is named by its extension: .ele or .node (TetGen), .mesh (Medit), .vtu or "
-     ".pvtu (VTK); # begins a comment, also within a word"},
+     "a: a mesh to write is named by its extension: .ele or .node (TetGen), .mesh or .meshb "
+     "(Medit), .vtu or .pvtu (VTK); # begins a comment, also within a word"},
     {"save a#b.octetra",
      "save writes .octetra files, not a; write takes the other formats; # begins a comment, also "
      "within a word"},
@@ -102,8 +102,8 @@ const std::vector<WrongLine> wrong_lines{
     {"write \"a b.vtu\"",
      "write takes one word, the name of a file without blanks: write STEP.vtu"},
     {"write step",
-     "step: a mesh to write is named by its extension: .ele or .node (TetGen), .mesh (Medit), .vtu "
-     "or .pvtu (VTK)"},
+     "step: a mesh to write is named by its extension: .ele or .node (TetGen), .mesh or .meshb "
+     "(Medit), .vtu or .pvtu (VTK)"},
     {"write no/step.vtu", "no/step.vtu: there is no folder no; make it first"},
     {"save", "save takes one word, the name of a file without blanks: save STATE.octetra"},
     {"save x.vtu", "save writes .octetra files, not x.vtu; write takes the other formats"},

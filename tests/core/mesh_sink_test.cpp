@@ -10,6 +10,7 @@
 #include <octetra/core/error.hpp>
 #include <octetra/core/files/mesh_files.hpp>
 
+#include "core/meshb_files.hpp"
 #include "support/bits.hpp"
 #include "support/meshes.hpp"
 #include "support/temporary_folder.hpp"
@@ -258,9 +259,11 @@ TEST(StreamedMesh, IsTheOneReadForRandomMeshesInAnyOrderOfSections) {
         const Mesh mesh = random_mesh(seed, size);
         (void)write_mesh(mesh, folder / "a.ele");
         (void)write_mesh(mesh, folder / "a.mesh");
+        (void)write_mesh(mesh, folder / "a.meshb");
         const fs::path shuffled =
             folder.write("b.mesh", shuffled_sections(test::content_of(folder / "a.mesh"), seed));
-        for (const fs::path& file : {folder / "a.ele", folder / "a.mesh", shuffled}) {
+        for (const fs::path& file :
+             {folder / "a.ele", folder / "a.mesh", folder / "a.meshb", shuffled}) {
             Gathered gathered;
             expect_streamed_as_read(file, gathered);
             EXPECT_EQ(gathered.mesh.cells, mesh.cells);
@@ -275,7 +278,7 @@ TEST(StreamedMesh, ComesInFullStretches) {
     mesh.facets.resize(2 * longest, {VertexIndex{0}, VertexIndex{1}, VertexIndex{2}});
     mesh.points.resize(longest + 1);
     const TemporaryFolder folder;
-    for (const std::string name : {"a.ele", "a.mesh"}) {
+    for (const std::string name : {"a.ele", "a.mesh", "a.meshb"}) {
         (void)write_mesh(mesh, folder / name);
         Gathered gathered;
         expect_streamed_as_read(folder / name, gathered);
@@ -342,6 +345,25 @@ TEST(StreamedMesh, StopsBeforeAVertexThatThereIsNotAndNamesItsLine) {
             EXPECT_EQ(gathered.mesh.cells.size(), longest);
             EXPECT_EQ(gathered.mesh.points.size(), 4U);
         }
+    }
+}
+
+TEST(StreamedMesh, OfABinaryFileStopsBeforeAVertexThatThereIsNot) {
+    constexpr std::size_t longest = MeshSink::longest_stretch;
+    const TemporaryFolder folder;
+    for (const bool vertices_first : {true, false}) {
+        test::MeshbFile meshb;
+        meshb.dimension();
+        if (vertices_first) meshb.corner();
+        meshb.section(8, 3 * longest);
+        for (std::size_t c = 0; c < 3 * longest; ++c) {
+            meshb.row({1, 2, 3, c == longest + 5 ? 9 : 4, 0});
+        }
+        if (!vertices_first) meshb.corner();
+        Gathered gathered;
+        expect_streamed_as_read(folder.write("a.meshb", meshb.end().bytes()), gathered);
+        EXPECT_EQ(gathered.mesh.cells.size(), longest);
+        EXPECT_EQ(gathered.mesh.points.size(), 4U);
     }
 }
 
@@ -427,7 +449,7 @@ TEST(StreamedMesh, EndsInWhatTheSinkThrows) {
         }
     };
     const TemporaryFolder folder;
-    for (const std::string name : {"a.ele", "a.mesh"}) {
+    for (const std::string name : {"a.ele", "a.mesh", "a.meshb"}) {
         (void)write_mesh(test::kuhn(1, 1, 1), folder / name);
         Refusing sink;
         EXPECT_THROW(stream_mesh(folder / name, sink), SystemError);

@@ -69,17 +69,21 @@ TEST(RoundTrip, MeditKeepsEverythingButAttributes) {
     Mesh mesh = rich_mesh();
     mesh.index_base = 1;
     EXPECT_EQ(through_file(mesh, "rich.mesh"), mesh);
+    EXPECT_EQ(through_file(mesh, "rich.meshb"), mesh);
 
     mesh.attributes_per_point = 1;
     mesh.point_attributes.assign(mesh.points.size(), 0.5);
     const TemporaryFolder folder;
-    EXPECT_NE(write_mesh(mesh, folder / "a.mesh"), "") << "the loss must be told";
+    const std::string loss = write_mesh(mesh, folder / "a.mesh");
+    EXPECT_NE(loss, "") << "the loss must be told";
+    EXPECT_EQ(write_mesh(mesh, folder / "a.meshb"), loss);
 }
 
 TEST(RoundTrip, CoordinatesKeepEveryBit) {
     Mesh mesh = awkward_numbers();
     EXPECT_EQ(test::bits(through_file(mesh, "a.ele")), test::bits(mesh));
     EXPECT_EQ(test::bits(through_file(mesh, "a.mesh")), test::bits(mesh));
+    EXPECT_EQ(test::bits(through_file(mesh, "a.meshb")), test::bits(mesh));
 }
 
 TEST(RoundTrip, CoordinatesTakeNoMoreDigitsThanTheyNeed) {
@@ -99,12 +103,13 @@ TEST(RoundTrip, ExtremeCoordinatesKeepEveryBit) {
                                        {0.1, -1.0 / 3, 5e-310}}});
     EXPECT_EQ(test::bits(through_file(mesh, "a.ele")), test::bits(mesh));
     EXPECT_EQ(test::bits(through_file(mesh, "a.mesh")), test::bits(mesh));
+    EXPECT_EQ(test::bits(through_file(mesh, "a.meshb")), test::bits(mesh));
 }
 
 TEST(RoundTrip, FilesOfTheSameMeshAreTheSameBytes) {
     const TemporaryFolder folder;
     const Mesh mesh = rich_mesh();
-    for (const std::string extension : {"ele", "mesh"}) {
+    for (const std::string extension : {"ele", "mesh", "meshb"}) {
         (void)write_mesh(mesh, folder / ("a." + extension));
         (void)write_mesh(read_mesh(folder / ("a." + extension)), folder / ("b." + extension));
         EXPECT_EQ(test::content_of(folder / ("a." + extension)),
@@ -120,6 +125,7 @@ TEST(RoundTrip, LongFilesKeepTheirLinesAcrossBuffers) {
     const Mesh mesh = test::kuhn(40, 40, 40, 1.0 / 3);  // 384,000 cells, 9 MB of .ele
     EXPECT_TRUE(through_file(mesh, "a.ele") == mesh);
     Mesh from_medit = through_file(mesh, "a.mesh");
+    EXPECT_TRUE(through_file(mesh, "a.meshb") == from_medit);
     from_medit.index_base = 0;
     EXPECT_TRUE(from_medit == mesh);
 }
@@ -146,6 +152,7 @@ TEST(WriteMaps, NumbersEverythingAsTheMeshFilesDo) {
 TEST(RoundTrip, EmptyMeshesAreMeshes) {
     EXPECT_EQ(through_file(Mesh{}, "a.ele"), Mesh{});
     EXPECT_EQ(through_file(Mesh{}, "a.mesh"), Mesh{});
+    EXPECT_EQ(through_file(Mesh{}, "a.meshb"), Mesh{});
 }
 
 TEST(RoundTrip, TetgenLeavesNoFacesOfAnotherMeshBehind) {

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <filesystem>
 #include <random>
@@ -13,13 +14,14 @@
 #include <octetra/distributed/refine.hpp>
 #include <octetra/reference/refine.hpp>
 
+#include "core/meshb_files.hpp"
 #include "distributed/marked_mesh.hpp"
 #include "distributed/outcomes.hpp"
 #include "distributed/shared_folder.hpp"
 #include "distributed/world.hpp"
 #include "support/temporary_folder.hpp"
 
-/// A text mesh that all processes read together is what one would read, and where it is broken they
+/// A mesh that all processes read together is what one would read, and where it is broken they
 /// say what one would say.
 namespace octetra {
 namespace {
@@ -33,7 +35,7 @@ std::vector<fs::path> meshes_in(const fs::path& folder) {
     std::set<fs::path> files;
     for (const auto& entry : fs::directory_iterator(folder)) {
         fs::path file = entry.path();
-        if (file.extension() == ".mesh") files.insert(file);
+        if (file.extension() == ".mesh" || file.extension() == ".meshb") files.insert(file);
         if (file.extension() != ".ele" && file.extension() != ".node") continue;
         const fs::path ele = fs::path(file).replace_extension(".ele");
         files.insert(fs::exists(ele) ? ele : file);
@@ -68,7 +70,7 @@ void write_on_first(const auto& write) {
     (void)test::world().max(0);
 }
 
-/// A mesh in one file or several, as text.
+/// A mesh in one file or several, and what stands in them.
 struct Files {
     std::string extension;  ///< of the file that is read
     std::vector<std::pair<std::string, std::string>> texts{};
@@ -93,7 +95,7 @@ Files files_of(const Mesh& mesh, const std::string& extension) {
     const test::TemporaryFolder folder;  // of each process
     Files files{extension};
     (void)write_mesh(mesh, folder / ("m" + extension));
-    for (const std::string ending : {".node", ".ele", ".face", ".edge", ".mesh"}) {
+    for (const std::string ending : {".node", ".ele", ".face", ".edge", ".mesh", ".meshb"}) {
         const fs::path file = folder / ("m" + ending);
         if (fs::exists(file)) files.texts.emplace_back(ending, test::content_of(file));
     }
@@ -122,7 +124,7 @@ bool are_read_together(const Files& files) {
 }
 
 TEST(ReadTogether, MeshesWithEverythingAreWhatOneProcessReads) {
-    for (const std::string extension : {".ele", ".mesh"}) {
+    for (const std::string extension : {".ele", ".mesh", ".meshb"}) {
         for (const std::uint32_t index_base : {0U, 1U}) {
             for (const std::size_t n : {1U, 2U, 6U}) {
                 const Files files = files_of(test::full_mesh(n, index_base), extension);
@@ -176,9 +178,11 @@ TEST(ReadTogether, MeshesAreRefinedAsTheReferenceRefinesThem) {
 TEST(ReadTogether, AMeshOfManyCellsIsWhatOneProcessReads) {
     Mesh mesh = test::kuhn(34, 33, 32, 1.0 / 3);
     test::list_boundary(mesh);
-    const Files files = files_of(mesh, ".ele");
-    EXPECT_TRUE(are_read_together(files));
-    EXPECT_TRUE(expect_one_outcome(files));
+    for (const std::string extension : {".ele", ".meshb"}) {
+        const Files files = files_of(mesh, extension);
+        EXPECT_TRUE(are_read_together(files));
+        EXPECT_TRUE(expect_one_outcome(files));
+    }
 }
 
 std::string replaced(std::string text, const std::string& old, const std::string& by) {
@@ -234,6 +238,80 @@ Files tetgen(const std::string& node, const std::string& ele, const std::string&
     return files;
 }
 Files medit(const std::string& text) { return {".mesh", {{".mesh", text}}}; }
+Files meshb(const test::MeshbFile& file) { return {".meshb", {{".meshb", file.bytes()}}}; }
+
+std::vector<Case> odd_binary_files() {
+    const auto start = [](int version = 2, bool swapped = false) {
+        return test::MeshbFile(version, swapped).dimension();
+    };
+    const test::MeshbFile corner = start().corner();
+    const test::MeshbFile cell = test::MeshbFile(corner).cell();
+    const auto with = [](test::MeshbFile file, const auto& more) {
+        more(file);
+        return meshb(file.end());
+    };
+    using F = test::MeshbFile&;
+    return {
+        {"one cell", meshb(cell)},
+        {"of the other byte order", meshb(start(2, true).corner().cell().end())},
+        {"of 32 bits", meshb(start(1).corner().cell().end())},
+        {"of 64 bits", meshb(start(4).corner().cell().end())},
+        {"nothing", meshb(start().section(4, 0).end())},
+        {"no cell", meshb(corner)},
+        {"vertices last", meshb(start().cell().corner().end())},
+        {"sections that are not kept",
+         with(cell, [](F f) { f.section(13, 1).row({3}).keyword(50); })},
+        {"a facet and an edge",
+         with(cell,
+              [](F f) {
+                  f.section(6, 1).row({1, 3, 2, 9}).section(5, 1).row({4, 3, 8});
+              })},
+        {"an inverted cell",
+         with(corner,
+              [](F f) {
+                  f.section(8, 1).row({2, 1, 3, 4, 5});
+              }),
+         false},
+        {"a cell twice",
+         with(corner,
+              [](F f) {
+                  f.section(8, 2).row({1, 2, 3, 4, 5}).row({2, 3, 1, 4, 5});
+              }),
+         false},
+        {"a facet twice, markers differ",
+         with(cell,
+              [](F f) {
+                  f.section(6, 2).row({1, 2, 3, 9}).row({3, 2, 1, 8});
+              }),
+         false},
+        {"a vertex twice",
+         with(corner,
+              [](F f) {
+                  f.section(8, 1).row({1, 2, 3, 3, 5});
+              }),
+         false, false},
+        {"a vertex that there is not",
+         with(corner,
+              [](F f) {
+                  f.section(8, 1).row({1, 2, 3, 5, 5});
+              }),
+         false, false},
+        {"not a number", with(start(), [](F f) { f.section(4, 1).point(0, HUGE_VAL, 0, 0); }),
+         false, false},
+        {"hexahedra", with(cell, [](F f) { f.section(10, 1); }), false, false},
+        {"a count too large",
+         with(cell,
+              [](F f) {
+                  f.section(5, 9).row({1, 2, 3});
+              }),
+         false, false},
+        {"a circle of keywords", meshb(test::MeshbFile(cell).section(5, 0).set_next(8)), false,
+         false},
+        {"no vertices", meshb(start().end()), false, false},
+        {"text", {".meshb", {{".meshb", "MeshVersionFormatted 2\n"}}}, false, false},
+        {"an empty file", {".meshb", {{".meshb", ""}}}, false, false},
+    };
+}
 
 std::vector<Case> odd_files() {
     const std::string two_cells = "2 4 0\n1 1 2 3 4\n2 4 2 3 5\n";
@@ -337,10 +415,12 @@ std::vector<Case> odd_files() {
 }
 
 TEST(ReadTogether, OddFilesComeToWhatOneProcessMakesOfThem) {
-    for (const Case& one : odd_files()) {
-        SCOPED_TRACE(one.name);
-        EXPECT_EQ(are_read_together(one.files), one.together);
-        EXPECT_EQ(expect_one_outcome(one.files), one.is_mesh);
+    for (const auto& cases : {odd_files(), odd_binary_files()}) {
+        for (const Case& one : cases) {
+            SCOPED_TRACE(one.name);
+            EXPECT_EQ(are_read_together(one.files), one.together);
+            EXPECT_EQ(expect_one_outcome(one.files), one.is_mesh);
+        }
     }
 }
 
@@ -355,8 +435,8 @@ TEST(ReadTogether, WhatIsNotThereIsMissedInTheWordsOfOneProcess) {
         test::write_file(folder / "d.node", points);
         test::write_file(folder / "d.ele", one_cell);
     });
-    for (const std::string name :
-         {"a.ele", "a.node", "b.mesh", "c.ele", "d.ele", "e.ele", "e.mesh", "e.vtu", "e"}) {
+    for (const std::string name : {"a.ele", "a.node", "b.mesh", "c.ele", "d.ele", "e.ele", "e.mesh",
+                                   "e.meshb", "e.vtu", "e"}) {
         EXPECT_FALSE(test::expect_one_outcome(folder / name, "rcb")) << name;
     }
     (void)test::world().max(0);
@@ -429,9 +509,9 @@ TEST(ReadTogether, FilesThatWereChangedAtRandomComeToWhatOneProcessMakesOfThem) 
     test::world().broadcast(seed);
     SCOPED_TRACE(fmt::format("OCTETRA_READING_SEED={}", seed.front()));
     std::mt19937_64 random(seed.front());
-    const std::vector<Files> files{files_of(test::full_mesh(1, 0), ".ele"),
-                                   files_of(test::full_mesh(1, 1), ".ele"),
-                                   files_of(test::full_mesh(1, 1), ".mesh")};
+    const std::vector<Files> files{
+        files_of(test::full_mesh(1, 0), ".ele"), files_of(test::full_mesh(1, 1), ".ele"),
+        files_of(test::full_mesh(1, 1), ".mesh"), files_of(test::full_mesh(1, 1), ".meshb")};
     int meshes = 0;
     // Where there are more processes than cores, each turn takes long.
     const int turns = OCTETRA_SANITIZED ? 100 : test::world().size() > 3 ? 200 : 1000;

@@ -61,7 +61,8 @@ void add_convert(CLI::App& program, const distributed::Communicator& world) {
         "convert", "Write a mesh in another format, coordinates bit for bit");
     add_input_options(*command, options->input);
     command
-        ->add_option("OUT", options->output, "where to write: .ele, .mesh, .octetra, .vtu or .pvtu")
+        ->add_option("OUT", options->output,
+                     "where to write: .ele, .mesh, .meshb, .octetra, .vtu or .pvtu")
         ->type_name("")
         ->check(names_a_file())
         ->required();

@@ -15,12 +15,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
-enum class Format { tetgen, medit, vtu, pvtu, unknown };
+enum class Format { tetgen, medit, meshb, vtu, pvtu, unknown };
 
 Format format_of(const fs::path& path) {
     const fs::path extension = path.extension();
     if (extension == ".ele" || extension == ".node") return Format::tetgen;
     if (extension == ".mesh") return Format::medit;
+    if (extension == ".meshb") return Format::meshb;
     if (extension == ".vtu") return Format::vtu;
     if (extension == ".pvtu") return Format::pvtu;
     return Format::unknown;
@@ -29,12 +30,13 @@ Format format_of(const fs::path& path) {
 /// Why a mesh cannot be read from this file, if its format is neither TetGen's nor Medit's.
 [[noreturn]] void refuse_to_read(const fs::path& path) {
     if (format_of(path) != Format::unknown) {
-        throw InputError(fmt::format("{}: {} files are written, not read; read .ele/.node or .mesh",
-                                     path.native(), path.extension().native()));
+        throw InputError(
+            fmt::format("{}: {} files are written, not read; read .ele/.node, .mesh or .meshb",
+                        path.native(), path.extension().native()));
     }
     throw InputError(fmt::format(
         "{}: a mesh to read is named by its extension: .ele or .node (TetGen), .mesh (Medit; "
-        "Gmsh writes it, too: gmsh FILE.msh -save -format mesh)",
+        "Gmsh writes .mesh, too: gmsh FILE.msh -save -format mesh)",
         path.native()));
 }
 
@@ -44,6 +46,7 @@ Mesh read_mesh(const fs::path& path, const ReadOptions& options) {
     const Format format = format_of(path);
     if (format == Format::tetgen) return read_tetgen(path, options);
     if (format == Format::medit) return read_medit(path, options);
+    if (format == Format::meshb) return read_meshb(path, options);
     refuse_to_read(path);
 }
 
@@ -52,6 +55,7 @@ void stream_mesh(const fs::path& path, MeshSink& sink, const ReadOptions& option
     const Format format = format_of(path);
     if (format == Format::tetgen) return stream_tetgen(path, sink, as_it_stands);
     if (format == Format::medit) return stream_medit(path, sink, as_it_stands);
+    if (format == Format::meshb) return stream_meshb(path, sink, as_it_stands);
     refuse_to_read(path);
 }
 
@@ -60,6 +64,7 @@ std::string write_mesh(MeshSource& mesh, const fs::path& path) {
     switch (format_of(path)) {
         case Format::tetgen: write_tetgen(mesh, path); return {};
         case Format::medit: return write_medit(mesh, path);
+        case Format::meshb: return write_meshb(mesh, path);
         case Format::vtu: return write_vtu(mesh, path);
         case Format::pvtu: return write_pieces(mesh, ProcessGroup::alone(), path);
         case Format::unknown: break;
@@ -72,7 +77,10 @@ std::string write_mesh(const Mesh& mesh, const fs::path& path) {
     return write_mesh(source, path);
 }
 
-bool can_hold_attributes(const fs::path& path) { return format_of(path) != Format::medit; }
+bool can_hold_attributes(const fs::path& path) {
+    const Format format = format_of(path);
+    return format != Format::medit && format != Format::meshb;
+}
 
 bool is_in_pieces(const fs::path& path) { return format_of(path) == Format::pvtu; }
 
@@ -85,7 +93,7 @@ void check_writable(const fs::path& path, int pieces) {
     if (format_of(path) == Format::unknown) {
         throw InputError(
             fmt::format("{}: a mesh to write is named by its extension: .ele or .node "
-                        "(TetGen), .mesh (Medit), .vtu or .pvtu (VTK)",
+                        "(TetGen), .mesh or .meshb (Medit), .vtu or .pvtu (VTK)",
                         path.native()));
     }
     check_places(path, pieces);

@@ -33,6 +33,17 @@ std::string shown(std::string_view token) {
     return out + (token.size() > longest ? "...'" : "'");
 }
 
+std::string not_finite(std::string_view what, std::string_view number) {
+    return fmt::format("{} is not finite: {}", what, number);
+}
+
+std::string too_large(std::string_view what, std::string_view number) {
+    return fmt::format(
+        "{} is {}: coordinates must be less than 2^1023, about 8.98e307, or midpoints overflow; "
+        "scale the mesh down",
+        what, number);
+}
+
 std::size_t Fields::count_left() const {
     Fields rest = *this;
     std::size_t count = 0;
@@ -100,7 +111,7 @@ double Fields::real(std::string_view what) {
     const char* const first = next_;
     const double value = number<double>(what, "a number");
     if (!std::isfinite(value)) {
-        reader_->fail(fmt::format("{} is not finite: {}", what, shown(token_at(first, end_))));
+        reader_->fail(not_finite(what, shown(token_at(first, end_))));
     }
     return value;
 }
@@ -109,10 +120,7 @@ double Fields::coordinate(std::string_view what) {
     const char* const first = next_;
     const double value = real(what);
     if (std::abs(value) >= coordinate_limit) {
-        reader_->fail(
-            fmt::format("{} is {}: coordinates must be less than 2^1023, about 8.98e307, "
-                        "or midpoints overflow; scale the mesh down",
-                        what, shown(token_at(first, end_))));
+        reader_->fail(too_large(what, shown(token_at(first, end_))));
     }
     return value;
 }

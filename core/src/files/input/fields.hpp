@@ -11,6 +11,10 @@ namespace octetra {
 /// A token as an error message can show it: quoted, cut short, control characters escaped.
 [[nodiscard]] std::string shown(std::string_view token);
 
+/// What is wrong with a coordinate or another real, `what`, that files show as `number`.
+[[nodiscard]] std::string not_finite(std::string_view what, std::string_view number);
+[[nodiscard]] std::string too_large(std::string_view what, std::string_view number);
+
 /// Takes the fields of one line one after the other. `what` in these calls names the field for the
 /// error message that a missing or malformed one gets, with the line reader's file and line.
 class Fields {

@@ -58,6 +58,10 @@ public:
     void point_complete() {
         if (mesh.points.size() == points_stretch_) tell_points();
     }
+    /// How many points may be appended before point_complete() is called, for who appends several.
+    [[nodiscard]] std::size_t room_for_points() const {
+        return points_stretch_ - mesh.points.size();
+    }
     /// No more points.
     void points_complete() { tell_points(); }
 
@@ -66,6 +70,10 @@ public:
     template <class I, std::size_t N>
     void entity_complete(const EntityKind<I, N>& kind) {
         if ((mesh.*kind.list).size() == entity_stretch_) tell(kind);
+    }
+    template <class I, std::size_t N>
+    [[nodiscard]] std::size_t room_for(const EntityKind<I, N>& kind) const {
+        return entity_stretch_ - (mesh.*kind.list).size();
     }
     /// No more of this kind.
     template <class I, std::size_t N>

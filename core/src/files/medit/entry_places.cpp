@@ -37,9 +37,9 @@ private:
         for (I i{0}; i < list.end_index(); ++i) {
             for (std::size_t k = 0; k < N; ++k) {
                 if (list[i][k] >= mesh_->points.end_index()) {
-                    places_->fail_entry(which, i.value(),
-                                        no_such_vertex(std::uint64_t{list[i][k].value()} + 1,
-                                                       mesh_->points.size()));
+                    places_->fail_entry(
+                        which, i.value(),
+                        no_such_vertex(std::int64_t{list[i][k].value()} + 1, mesh_->points.size()));
                 }
                 for (std::size_t j = 0; j < k; ++j) {
                     if (list[i][j] != list[i][k] || options_->only_syntax) continue;
@@ -96,7 +96,7 @@ std::string_view entry_name(Listed list) {
     return "edge";
 }
 
-std::string no_such_vertex(std::uint64_t number, std::uint64_t vertices) {
+std::string no_such_vertex(std::int64_t number, std::uint64_t vertices) {
     return fmt::format("there is no vertex {}: the file has {}", number, vertices);
 }
 

@@ -37,7 +37,7 @@ public:
 };
 
 /// "there is no vertex 5: the file has 4"
-[[nodiscard]] std::string no_such_vertex(std::uint64_t number, std::uint64_t vertices);
+[[nodiscard]] std::string no_such_vertex(std::int64_t number, std::uint64_t vertices);
 
 /// Checks a mesh that was read, as far as the options ask for it: vertex numbers, orientation, what
 /// is listed twice, facets and edges of no cell. Turns inverted cells round if asked to, and notes

@@ -124,10 +124,12 @@ private:
             }
             return;
         }
-        if (std::ranges::find(second_order_sections, keyword) != second_order_sections.end()) {
+        if (std::ranges::find(second_order_sections, keyword, &MeditKeyword::keyword) !=
+            second_order_sections.end()) {
             reader_.fail(fmt::format("second-order elements ({}) are not supported", keyword));
         }
-        if (std::ranges::find(other_cell_shapes, keyword) != other_cell_shapes.end()) {
+        if (std::ranges::find(other_cell_shapes, keyword, &MeditKeyword::keyword) !=
+            other_cell_shapes.end()) {
             if (tokens_.unsigned_integer("the number of entries") == 0) return;
             reader_.fail(
                 fmt::format("only tetrahedral meshes are supported, and this one has {}", keyword),
@@ -239,7 +241,7 @@ private:
         if (!section.out_of_range) return;
         const auto& [entry, vertex] = *section.out_of_range;
         fail_entry(list, entry,
-                   no_such_vertex(std::uint64_t{vertex.value()} + 1, growing_.facts().vertices));
+                   no_such_vertex(std::int64_t{vertex.value()} + 1, growing_.facts().vertices));
     }
 
     [[nodiscard]] const Section& section_of(Listed list) const {

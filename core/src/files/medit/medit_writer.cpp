@@ -90,7 +90,10 @@ std::string write_medit(MeshSource& mesh, const std::filesystem::path& path) {
     }
     if (group.is_first()) out.put(std::string_view{"End\n"});
     out.commit();
+    return attributes_left_out(facts);
+}
 
+std::string attributes_left_out(const MeshFacts& facts) {
     if (facts.attributes_per_point == 0) return {};
     return fmt::format("Medit's format has no place for the {} attribute(s) of each vertex",
                        facts.attributes_per_point);

@@ -89,7 +89,8 @@ private:
 
 /// Of what is no list of the mesh.
 void plan_other(SectionHead& head, std::uint64_t keyword_line, MeditPlan& plan) {
-    if (std::ranges::find(other_cell_shapes, head.keyword()) != other_cell_shapes.end()) {
+    if (std::ranges::find(other_cell_shapes, head.keyword(), &MeditKeyword::keyword) !=
+        other_cell_shapes.end()) {
         if (head.number() != 0) leave_it_to_one_process();
         return head.expect_nothing();
     }
@@ -253,32 +254,6 @@ private:
     std::array<std::uint64_t, 2 * skipped_sections.size()> read_over_{};  // entries
 };
 
-/// Collective. Does any process have a marker that is not 0? Else they are dropped: in this format
-/// zeros say that there are none.
-bool keep_if_any(const ProcessGroup& group, std::vector<Marker>& markers) {
-    const bool any = std::ranges::any_of(markers, [](Marker m) { return m != 0; });
-    if (group.sum(any ? 1 : 0) > 0) return true;
-    std::vector<Marker>().swap(markers);
-    return false;
-}
-
-/// Collective.
-void find_facts(const MeditPlan& plan, const ProcessGroup& group, MeshStretch& stretch) {
-    MeshFacts& facts = stretch.facts;
-    facts.vertices = plan.vertices.count;
-    facts.cells = plan.tetrahedra.count;
-    facts.facets = plan.triangles.count;
-    facts.edges = plan.edges.count;
-    facts.index_base = facts.vertices == 0 ? 0 : 1;
-    facts.first_midpoint = facts.vertices;
-    Mesh& lists = stretch.lists;
-    lists.index_base = facts.index_base;
-    facts.has_point_markers = keep_if_any(group, lists.point_markers);
-    facts.has_regions = keep_if_any(group, lists.regions);
-    facts.has_facet_markers = keep_if_any(group, lists.facet_markers);
-    facts.has_edge_markers = keep_if_any(group, lists.edge_markers);
-}
-
 }  // namespace
 
 std::optional<MeshStretch> read_medit_stretch(const fs::path& path, const ProcessGroup& group) {
@@ -308,7 +283,11 @@ std::optional<MeshStretch> read_medit_stretch(const fs::path& path, const Proces
         if (plan.has_end == 0) stretch.notes.push_back(note_on_missing_end(path));
     });
     if (!progress.all_well() || !shares.number(stretch)) return std::nullopt;
-    find_facts(plan, group, stretch);
+    settle_medit_facts({.vertices = plan.vertices.count,
+                        .cells = plan.tetrahedra.count,
+                        .facets = plan.triangles.count,
+                        .edges = plan.edges.count},
+                       group, stretch);
     return stretch;
 }
 

@@ -7,6 +7,7 @@ std::optional<MeshStretch> read_stretch(const std::filesystem::path& path,
     const std::filesystem::path extension = path.extension();
     if (extension == ".ele" || extension == ".node") return read_tetgen_stretch(path, group);
     if (extension == ".mesh") return read_medit_stretch(path, group);
+    if (extension == ".meshb") return read_meshb_stretch(path, group);
     return std::nullopt;
 }
 

@@ -1,0 +1,49 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include <octetra/core/mesh.hpp>
+
+#include "files/input/byte_reader.hpp"
+#include "files/input/growing_mesh.hpp"
+#include "files/medit/entry_places.hpp"
+#include "files/medit/meshb_layout.hpp"
+
+namespace octetra {
+
+/// Reads rows of `.meshb` sections, and checks of each number what needs no more than the row:
+/// coordinates can be, vertices are there, references have 32 bits. Throws InputError that names
+/// the row by the byte where it begins.
+class MeshbRows {
+public:
+    /// Both must live as long.
+    MeshbRows(ByteReader& reader, const MeshbLists& lists) : reader_(&reader), lists_(&lists) {
+        reader.swap_bytes(lists.format.swapped);
+    }
+
+    /// Appends rows first .. first+count-1 of the section, with their references.
+    void append_points(std::uint64_t first, std::uint64_t count, Mesh& mesh);
+    template <class I, std::size_t N>
+    void append(const EntityKind<I, N>& kind, std::uint64_t first, std::uint64_t count, Mesh& mesh);
+
+    [[nodiscard]] const MeshbSection& section(Listed list) const;
+    /// Throws InputError that names an entry of a section.
+    [[noreturn]] void fail_entry(Listed list, std::uint64_t entry, std::string_view what) const;
+
+private:
+    template <class Numbers>
+    void append_points_of(std::uint64_t first, std::uint64_t count, Mesh& mesh);
+    template <class Numbers>
+    [[noreturn]] void refuse_point(const std::byte* rows, std::uint64_t first) const;
+    template <class Numbers, class I, std::size_t N>
+    void append_of(const EntityKind<I, N>& kind, std::uint64_t first, std::uint64_t count,
+                   Mesh& mesh);
+    template <class Numbers, std::size_t N>
+    [[noreturn]] void refuse_entity(const std::byte* rows, std::uint64_t first) const;
+
+    ByteReader* reader_;
+    const MeshbLists* lists_;
+};
+
+}  // namespace octetra

@@ -1,0 +1,32 @@
+#include <algorithm>
+
+#include "files/stretches/readers.hpp"
+
+namespace octetra {
+namespace {
+
+/// Collective. Does any process have a marker that is not 0? Else they are dropped: in this format
+/// zeros say that there are none.
+bool keep_if_any(const ProcessGroup& group, std::vector<Marker>& markers) {
+    const bool any = std::ranges::any_of(markers, [](Marker m) { return m != 0; });
+    if (group.sum(any ? 1 : 0) > 0) return true;
+    std::vector<Marker>().swap(markers);
+    return false;
+}
+
+}  // namespace
+
+void settle_medit_facts(const MeshFacts& counts, const ProcessGroup& group, MeshStretch& stretch) {
+    MeshFacts& facts = stretch.facts;
+    facts = counts;
+    facts.index_base = facts.vertices == 0 ? 0 : 1;
+    facts.first_midpoint = facts.vertices;
+    Mesh& lists = stretch.lists;
+    lists.index_base = facts.index_base;
+    facts.has_point_markers = keep_if_any(group, lists.point_markers);
+    facts.has_regions = keep_if_any(group, lists.regions);
+    facts.has_facet_markers = keep_if_any(group, lists.facet_markers);
+    facts.has_edge_markers = keep_if_any(group, lists.edge_markers);
+}
+
+}  // namespace octetra

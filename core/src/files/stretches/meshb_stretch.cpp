@@ -1,0 +1,111 @@
+#include <algorithm>
+#include <cstring>
+#include <stdexcept>
+
+#include "files/input/byte_reader.hpp"
+#include "files/input/growing_mesh.hpp"
+#include "files/medit/meshb_layout.hpp"
+#include "files/medit/meshb_rows.hpp"
+#include "files/stretches/progress.hpp"
+#include "files/stretches/readers.hpp"
+
+namespace octetra {
+namespace {
+
+/// Rows of which this process reads its even share; where they are follows from their number.
+struct RowShare {
+    std::uint64_t first = 0;
+    std::uint64_t count = 0;
+};
+
+RowShare share_of(std::uint64_t count, const ProcessGroup& group) {
+    const auto processes = static_cast<std::uint64_t>(group.size());
+    const auto begin = [&](int rank) {
+        const auto r = static_cast<std::uint64_t>(rank);
+        return count / processes * r + std::min(count % processes, r);
+    };
+    return {begin(group.rank()), begin(group.rank() + 1) - begin(group.rank())};
+}
+
+template <class I, std::size_t N>
+void refuse_repeated_vertices(const IndexVector<I, std::array<VertexIndex, N>>& list) {
+    for (const auto& vertices : list) {
+        bool repeated = false;
+        for (std::size_t k = 0; k < N; ++k) {
+            for (std::size_t j = 0; j < k; ++j) repeated |= vertices[j] == vertices[k];
+        }
+        if (repeated) throw std::runtime_error("the same vertex twice");
+    }
+}
+
+/// This process's shares of all lists.
+void read_shares(const std::filesystem::path& path, const MeshbLists& sections,
+                 const ProcessGroup& group, MeshStretch& stretch) {
+    ByteReader reader(path);
+    MeshbRows rows(reader, sections);
+    Mesh& lists = stretch.lists;
+    const RowShare points = share_of(sections.vertices.count, group);
+    stretch.first_vertex = points.first;
+    lists.points.reserve(points.count);
+    lists.point_markers.reserve(points.count);
+    rows.append_points(points.first, points.count, lists);
+    const auto read = [&](const auto& kind, const MeshbSection& section) {
+        const RowShare share = share_of(section.count, group);
+        (lists.*kind.list).reserve(share.count);
+        (lists.*kind.markers).reserve(share.count);
+        rows.append(kind, share.first, share.count, lists);
+        refuse_repeated_vertices(lists.*kind.list);
+        return share.first;
+    };
+    stretch.first_cell = read(cell_kind, sections.tetrahedra);
+    stretch.first_facet = read(facet_kind, sections.triangles);
+    stretch.first_edge = read(edge_kind, sections.edges);
+}
+
+/// Collective. Notes of the first process, one after the other with zeros between, are all's.
+bool take_notes(Progress& progress, std::vector<std::string>& notes) {
+    ProcessGroup::Bytes bytes;
+    progress.attempt([&] {
+        for (const std::string& note : notes) {
+            for (const char c : note + '\0') bytes.push_back(static_cast<std::byte>(c));
+        }
+    });
+    if (!progress.all_well()) return false;
+    bytes = progress.group().of_first(std::move(bytes));
+    progress.attempt([&] {
+        notes.clear();
+        const auto* const text = reinterpret_cast<const char*>(bytes.data());
+        for (std::size_t at = 0; at < bytes.size(); at += notes.back().size() + 1) {
+            notes.emplace_back(text + at);
+        }
+    });
+    return progress.all_well();
+}
+
+}  // namespace
+
+std::optional<MeshStretch> read_meshb_stretch(const std::filesystem::path& path,
+                                              const ProcessGroup& group) {
+    Progress progress(group);
+    MeshStretch stretch;
+    MeshbLists sections;
+    progress.attempt([&] {
+        if (!group.is_first()) return;
+        ByteReader reader(path);
+        const MeshbLayout layout = read_meshb_layout(reader);
+        sections = layout.lists;
+        stretch.notes = notes_on(path, layout.lists.has_end, layout.skipped);
+    });
+    if (!take_from_first(progress, sections)) return std::nullopt;
+    if (!take_notes(progress, stretch.notes)) return std::nullopt;
+    progress.attempt([&] { read_shares(path, sections, group, stretch); });
+    if (!progress.all_well()) return std::nullopt;
+    settle_medit_facts({.vertices = sections.vertices.count,
+                        .cells = sections.tetrahedra.count,
+                        .facets = sections.triangles.count,
+                        .edges = sections.edges.count},
+                       group, stretch);
+    return stretch;
+}
+
+}  // namespace octetra

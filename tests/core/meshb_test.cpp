@@ -1,0 +1,430 @@
+#include <cstdlib>
+#include <limits>
+#include <ostream>
+#include <random>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <octetra/core/error.hpp>
+#include <octetra/core/files/mesh_files.hpp>
+
+#include "core/meshb_files.hpp"
+#include "core/stretches.hpp"
+#include "files/medit/medit.hpp"
+#include "support/bits.hpp"
+#include "support/meshes.hpp"
+#include "support/tagged_meshes.hpp"
+#include "support/temporary_folder.hpp"
+#include "support/thrown.hpp"
+
+namespace octetra {
+namespace {
+
+using test::MeshbFile;
+using test::TemporaryFolder;
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
+
+MeshbFile meshb_start(int version = 2, bool swapped = false) {
+    return std::move(MeshbFile(version, swapped).dimension());
+}
+MeshbFile corner(int version = 2) { return std::move(meshb_start(version).corner()); }
+
+Mesh read_bytes(const std::string& bytes, const ReadOptions& options = {}) {
+    const TemporaryFolder folder;
+    const auto file = folder.write("m.meshb", bytes);
+    test::expect_right_stretches(file);
+    return read_mesh(file, options);
+}
+
+/// One cell, a triangle and an edge, all with tags, in the words of the text format.
+Mesh tagged_cell() {
+    const TemporaryFolder folder;
+    return read_mesh(folder.write("m.mesh",
+                                  "MeshVersionFormatted 2 Dimension 3 Vertices 4 0 0 0 7 1 0 0 0 "
+                                  "0 1 0 0 0 0 1 -2 Tetrahedra 1 1 2 3 4 5 Triangles 1 1 2 3 -3 "
+                                  "Edges 1 4 1 2147483647 End"));
+}
+
+TEST(MeshbReader, TakesEveryVersionInEitherByteOrder) {
+    for (const int version : {1, 2, 3, 4}) {
+        for (const bool swapped : {false, true}) {
+            SCOPED_TRACE(testing::Message() << "version " << version << ", swapped " << swapped);
+            MeshbFile file = meshb_start(version, swapped);
+            file.corner().cell();
+            file.section(6, 1).row({1, 2, 3, -3}).section(5, 1).row({4, 1, 2147483647}).end();
+            EXPECT_EQ(read_bytes(file.bytes()), tagged_cell());
+        }
+    }
+}
+
+TEST(MeshbReader, TakesSectionsInAnyOrder) {
+    MeshbFile file(3);
+    file.section(5, 1).row({4, 1, 2147483647}).section(6, 1).row({1, 2, 3, -3});
+    file.cell().dimension().corner().end();
+    EXPECT_EQ(read_bytes(file.bytes()), tagged_cell());
+}
+
+TEST(MeshbReader, TakesEveryEndThatProgramsWrite) {
+    const Mesh expected = read_bytes(MeshbFile(corner()).cell().end().bytes());
+    std::string note;
+    const ReadOptions options{.note = [&](const auto& n) { note += n; }};
+    const MeshbFile whole = MeshbFile(corner()).cell().end();
+    const std::string bytes = whole.bytes();
+    EXPECT_EQ(read_bytes(bytes.substr(0, bytes.size() - 4), options), expected);  // no position
+    EXPECT_EQ(read_bytes(MeshbFile(whole).set_next(bytes.size()).bytes(), options), expected);
+    EXPECT_EQ(note, "");
+    EXPECT_EQ(read_bytes(MeshbFile(corner()).cell().bytes(), options),
+              expected);  // the next is at 0
+    EXPECT_THAT(note, HasSubstr("without the keyword End"));
+    note.clear();
+    EXPECT_EQ(read_bytes(bytes.substr(0, bytes.size() - 8), options), expected);  // cut off
+    EXPECT_THAT(note, HasSubstr("without the keyword End"));
+}
+
+TEST(MeshbReader, SkipsWhatItDoesNotKeepAndSaysSo) {
+    MeshbFile file = corner();
+    const std::size_t corners_at = file.size();
+    file.section(13, 2).row({1, 2});
+    const std::size_t box_at = file.size();
+    file.keyword(50).real(0).real(0).real(0).real(1).real(1).real(1);
+    file.section(14, 0)
+        .section(10, 0)
+        .cell()
+        .section(60, 1)
+        .real(0)
+        .real(not_a_number)
+        .real(1)
+        .end();
+    std::vector<std::string> notes;
+    EXPECT_EQ(read_bytes(file.bytes(), {.note = [&](const auto& n) { notes.push_back(n); }}),
+              read_bytes(MeshbFile(corner()).cell().end().bytes()));
+    const auto at = [](std::size_t byte) { return "m.meshb: at byte " + std::to_string(byte); };
+    EXPECT_THAT(notes,
+                ElementsAre(HasSubstr(at(corners_at) + ": the 2 entries of Corners are not kept"),
+                            HasSubstr(at(box_at) + ": the section with keyword 50 is not kept"),
+                            HasSubstr("the 1 entries of Normals are not kept")));
+}
+
+TEST(MeshbReader, DropsReferencesThatAreAllZero) {
+    MeshbFile file = meshb_start();
+    file.section(4, 4);
+    for (const double k : {0.0, 1.0, 2.0, 3.0}) file.point(k == 1, k == 2, k == 3, 0);
+    const Mesh mesh = read_bytes(file.section(8, 1).row({1, 2, 3, 4, 0}).end().bytes());
+    EXPECT_TRUE(mesh.point_markers.empty());
+    EXPECT_TRUE(mesh.regions.empty());
+    EXPECT_EQ(mesh.index_base, 1U);
+}
+
+TEST(MeshbReader, TurnsInvertedCellsRoundWhenAsked) {
+    const std::string bytes = corner().section(8, 1).row({2, 1, 3, 4, 0}).end().bytes();
+    EXPECT_THROW((void)read_bytes(bytes), InputError);
+    EXPECT_EQ(read_bytes(bytes, {.fix_orientation = true}).cells.front(),
+              (CellVertices{VertexIndex{1}, VertexIndex{0}, VertexIndex{3}, VertexIndex{2}}));
+}
+
+struct BadBytes {
+    std::string name;
+    std::string bytes;
+    std::size_t at;  ///< the byte that is named
+    std::string what;
+};
+
+void PrintTo(const BadBytes& test_case, std::ostream* out) { *out << test_case.name; }
+
+class BadMeshbFile : public testing::TestWithParam<BadBytes> {};
+
+TEST_P(BadMeshbFile, IsRefusedByByteAndReason) {
+    const std::string message =
+        test::thrown_by<InputError>([&] { (void)read_bytes(GetParam().bytes); });
+    EXPECT_THAT(message, HasSubstr("/m.meshb: at byte " + std::to_string(GetParam().at) + ": "));
+    EXPECT_THAT(message, HasSubstr(GetParam().what));
+}
+
+/// Puts what `change` adds behind a file, and says that it is wrong `back` bytes before its end.
+BadBytes case_of(const std::string& name, MeshbFile file, const auto& change, std::size_t back,
+                 const std::string& what) {
+    change(file);
+    return {name, file.bytes(), file.size() - back, what};
+}
+
+std::vector<BadBytes> bad_bytes() {
+    const auto bytes_of = [](auto number, auto... numbers) {
+        MeshbFile file;
+        file.put(number);
+        (file.put(numbers), ...);
+        return file.bytes().substr(8);
+    };
+    const MeshbFile cell = MeshbFile(corner()).cell();
+    std::vector<BadBytes> cases{
+        {"Empty", "", 0, "the file ends where the number 1 should be"},
+        {"Text", "MeshVersionFormatted 2\n", 0, "begins with the number 1"},
+        {"OnlyOne", bytes_of(std::int32_t{1}), 4, "ends where the format's version should be"},
+        {"VersionZero", bytes_of(std::int32_t{1}, std::int32_t{0}), 4, "versions 1 to 4, not 0"},
+        {"VersionFive", bytes_of(std::int32_t{1}, std::int32_t{5}), 4, "versions 1 to 4, not 5"},
+        {"OnlyHead", meshb_start().bytes(), 20, "no section Vertices"},
+        {"DimensionTwo", MeshbFile().dimension(2).bytes(), 16, "dimension 3 expected, 2 found"},
+        {"InKeyword", MeshbFile(cell).end().bytes().substr(0, cell.size() + 3), cell.size(),
+         "the file ends where a keyword should be"},
+    };
+    const auto add = [&](const std::string& name, const MeshbFile& file, const auto& change,
+                         std::size_t back, const std::string& what) {
+        cases.push_back(case_of(name, file, change, back, what));
+    };
+    using F = MeshbFile&;
+    // Positions, seen from the file's end: keyword, position and count have 4 bytes each.
+    add(
+        "Unknown", cell, [](F f) { f.section(0, 3); }, 12, "a keyword expected, 0 found");
+    add(
+        "Negative", cell, [](F f) { f.section(-8, 3); }, 12, "a keyword expected, -8 found");
+    add(
+        "FarCode", cell, [](F f) { f.section(70000, 3); }, 12, "a keyword expected, 70000");
+    add(
+        "BehindEnd", cell, [](F f) { f.end().put('x'); }, 1, "bytes behind the keyword End");
+    add(
+        "KeywordBehindEnd", cell, [](F f) { f.end().set_next(8); }, 4, "behind End is said to be");
+    add(
+        "SecondOrder", cell, [](F f) { f.section(30, 0); }, 12, "elements (TetrahedraP2)");
+    add(
+        "Hexahedra", cell, [](F f) { f.section(10, 1); }, 12, "and this one has Hexahedra");
+    add(
+        "ThirdOrder", cell, [](F f) { f.section(96, 1); }, 12, "has cells with keyword 96");
+    add(
+        "TwoSections", cell, [](F f) { f.corner(); }, 124, "vertices; the first is at byte 20");
+    add(
+        "CountHuge", meshb_start(), [](F f) { f.section(4, 2000000000); }, 4, "hold at most 0");
+    add(
+        "CountNegative", meshb_start(), [](F f) { f.section(4, -1); }, 4,
+        "should be from 0, not -1");
+    add(
+        "CountThatOverflows", meshb_start(4), [](F f) { f.section(4, (1LL << 60) + 1); }, 8,
+        "at most 0");
+    add(
+        "CountTooLarge", corner(),
+        [](F f) {
+            f.section(8, 2).row({1, 2, 3, 4, 5});
+        },
+        24, "2 tetrahedra announced, but the 20 bytes that follow hold at most 1");
+    add(
+        "CountTooSmall", corner(),
+        [](F f) {
+            f.section(8, 0).row({1, 2, 3, 4, 5});
+        },
+        24, "0 tetrahedra announced, which end at byte 156, but the next keyword is said to be at");
+    add(
+        "SkippedCountTooLarge", cell, [](F f) { f.section(13, 2).row({1}); }, 8, "hold at most 1");
+    add(
+        "ItselfNext", corner(), [](F f) { f.section(5, 0).set_next(f.keyword_at()); }, 8,
+        "the next keyword is said to be at byte 144, before this one's end");
+    add(
+        "Backwards", corner(), [](F f) { f.section(5, 0).set_next(20); }, 8, "before this one's");
+    add(
+        "BeforeTheFile", corner(), [](F f) { f.section(5, 0).set_next(~std::size_t{0}); }, 8,
+        "said to be at byte -1");
+    add(
+        "BehindTheFile", corner(), [](F f) { f.section(5, 0).set_next(157); }, 8,
+        "said to be at byte 157, but the file has 156");
+    add(
+        "FarBehindTheFile", meshb_start(3),
+        [](F f) { f.section(4, 0).set_next(std::size_t{1} << 62U); }, 12, "but the file has 40");
+    add(
+        "BetweenKeywords", corner(),
+        [](F f) {
+            f.put('x').section(8, 1).row({1, 2, 3, 4, 5});
+        },
+        0, "");
+    cases.back().at = 28;
+    cases.back().what = "which end at byte 144, but the next keyword is said to be at byte 145";
+    // Rows of vertices have 28 bytes, those of cells 20.
+    add(
+        "NaN", meshb_start(), [](F f) { f.section(4, 1).point(0, not_a_number, 0, 0); }, 28,
+        "vertex 1 of this section: y is not finite: nan");
+    add(
+        "Infinite", meshb_start(1), [](F f) { f.section(4, 1).point(HUGE_VAL, 0, 0, 0); }, 16,
+        "x is not finite: inf");
+    add(
+        "BeyondMidpoints", meshb_start(), [](F f) { f.section(4, 1).point(0, 0, -9e307, 0); }, 28,
+        "z is -9e+307: coordinates must be less than 2^1023");
+    add(
+        "FarReference", meshb_start(4), [](F f) { f.section(4, 1).point(0, 0, 0, 1LL << 31U); }, 32,
+        "the vertex's reference should be a whole number of 32 bits, not 2147483648");
+    add(
+        "FarRegion", corner(4),
+        [](F f) {
+            f.section(8, 1).row({1, 2, 3, 4, -(1LL << 31U) - 1});
+        },
+        40, "the reference should be a whole number of 32 bits, not -2147483649");
+    add(
+        "VertexZero", corner(),
+        [](F f) {
+            f.section(8, 1).row({1, 0, 3, 4, 5});
+        },
+        20, "cell 1 of this section: there is no vertex 0");
+    add(
+        "VertexNegative", corner(),
+        [](F f) {
+            f.section(8, 1).row({1, 2, 3, -4, 5});
+        },
+        20, "there is no vertex -4");
+    add(
+        "VertexTooLarge", corner(),
+        [](F f) {
+            f.section(8, 1).row({1, 2, 3, 5, 5});
+        },
+        20, "there is no vertex 5: the file has 4");
+    add(
+        "VertexFar", corner(4),
+        [](F f) {
+            f.section(8, 1).row({1, 2, 3, (1LL << 32U) + 1, 5});
+        },
+        40, "there is no vertex 4294967297");
+    add(
+        "VertexTwice", cell,
+        [](F f) {
+            f.section(6, 2).row({1, 2, 3, 0}).row({1, 3, 3, 0});
+        },
+        16, "triangle 2 of this section: the triangle has the same vertex twice");
+    add(
+        "Inverted", corner(),
+        [](F f) {
+            f.section(8, 1).row({2, 1, 3, 4, 5});
+        },
+        20, "inverted");
+    add(
+        "CellTwice", corner(),
+        [](F f) {
+            f.section(8, 2).row({1, 2, 3, 4, 5}).row({2, 3, 1, 4, 5});
+        },
+        20, "cell 2 has the vertices of cell 1");
+    add(
+        "StrayEdge", cell,
+        [](F f) {
+            f.section(5, 2).row({1, 2, 9}).row({2, 1, 8});
+        },
+        12, "edge 2 with marker 8 is listed already, with marker 9, as edge 1");
+    return cases;
+}
+
+INSTANTIATE_TEST_SUITE_P(, BadMeshbFile, testing::ValuesIn(bad_bytes()),
+                         [](const auto& test_case) { return test_case.param.name; });
+
+/// The first bad entry of several hundred thousand, far behind what a buffer holds.
+TEST(MeshbReader, NamesTheByteOfAnEntryFarBehind) {
+    constexpr std::int64_t count = 100'000;
+    constexpr std::int64_t bad = 77'777;
+    MeshbFile file = meshb_start(4);
+    file.section(4, count);
+    const std::size_t rows_at = file.size();
+    for (std::int64_t v = 0; v < count; ++v) file.point(0, v >= bad ? not_a_number : 1, 0, 0);
+    EXPECT_THAT(test::thrown_by<InputError>([&] { (void)read_bytes(file.end().bytes()); }),
+                HasSubstr("at byte " + std::to_string(rows_at + 32 * bad) + ": vertex " +
+                          std::to_string(bad + 1) + " of this section: y is not"));
+}
+
+TEST(MeshbVersion, IsTheLowestThatHoldsTheMesh) {
+    constexpr std::uint64_t most = 2147483647;
+    EXPECT_EQ(meshb_version({}), 2);
+    // 20 bytes of head, 12 of each section's, 8 of the end.
+    constexpr std::uint64_t vertices = (most - 20 - 2 * 12 - 8) / 28;
+    EXPECT_EQ(meshb_version({.vertices = vertices}), 2);
+    EXPECT_EQ(meshb_version({.vertices = vertices + 1}), 3);
+    EXPECT_EQ(meshb_version({.vertices = most, .cells = most}), 3);
+    EXPECT_EQ(meshb_version({.vertices = most + 1, .cells = 1}), 4);
+    EXPECT_EQ(meshb_version({.vertices = 1, .cells = most + 1}), 4);
+}
+
+Mesh mesh_with_tags() {
+    Mesh mesh = test::shaken_kuhn(5, 0.2, 3);
+    test::list_boundary(mesh);
+    mesh.regions.resize(mesh.cells.size());
+    mesh.edges.append({mesh.cells.front()[0], mesh.cells.front()[1]});
+    mesh.edge_markers.append(9);
+    mesh.regions.back() = std::numeric_limits<Marker>::min();
+    mesh.index_base = 1;
+    return mesh;
+}
+
+TEST(MeshbWriter, WritesEveryVersionSoThatItReadsBackToTheSameBits) {
+    const TemporaryFolder folder;
+    const Mesh mesh = mesh_with_tags();
+    for (const std::int32_t version : {2, 3, 4}) {
+        WholeMesh source(mesh);
+        EXPECT_EQ(write_meshb(source, folder / "a.meshb", version), "");
+        const std::string bytes = test::content_of(folder / "a.meshb");
+        EXPECT_EQ(bytes[0], 1);
+        EXPECT_EQ(bytes[4], version);
+        const Mesh again = read_bytes(bytes);
+        EXPECT_EQ(again, mesh);
+        EXPECT_EQ(test::bits(again), test::bits(mesh));
+    }
+}
+
+TEST(MeshbWriter, WritesTheBytesThatTheFormatAsksFor) {
+    const TemporaryFolder folder;
+    (void)write_mesh(tagged_cell(), folder / "a.meshb");
+    MeshbFile expected = meshb_start();
+    expected.corner().cell().section(6, 1).row({1, 2, 3, -3}).section(5, 1);
+    expected.row({4, 1, 2147483647}).end();
+    EXPECT_EQ(test::content_of(folder / "a.meshb"), expected.bytes());
+}
+
+/// All processes together write what one does, slice by slice.
+TEST(MeshbWriter, WritesTheSameBytesAsTheTextReadBack) {
+    const TemporaryFolder folder;
+    const Mesh mesh = test::kuhn(20, 20, 20, 1.0 / 3);  // several turns of a writer
+    (void)write_mesh(mesh, folder / "a.mesh");
+    (void)write_mesh(mesh, folder / "a.meshb");
+    EXPECT_TRUE(read_mesh(folder / "a.meshb") == read_mesh(folder / "a.mesh"));
+    (void)write_mesh(read_mesh(folder / "a.mesh"), folder / "b.meshb");
+    EXPECT_TRUE(test::content_of(folder / "a.meshb") == test::content_of(folder / "b.meshb"));
+}
+
+std::uint64_t meshb_seed() {
+    const char* const given = std::getenv("OCTETRA_MESHB_SEED");
+    return given != nullptr ? std::strtoull(given, nullptr, 10) : std::random_device()();
+}
+
+/// Bytes that are made others at random, and files that are cut: a mesh or a refusal, the same
+/// however the file is read.
+TEST(MeshbReader, MakesAMeshOrARefusalOfWhateverIsThere) {
+    const std::uint64_t seed = meshb_seed();
+    SCOPED_TRACE(testing::Message() << "OCTETRA_MESHB_SEED=" << seed);
+    std::mt19937_64 random(seed);
+    const TemporaryFolder folder;
+    std::vector<std::string> files;
+    for (const std::int32_t version : {2, 3, 4}) {
+        const Mesh mesh = mesh_with_tags();
+        WholeMesh source(mesh);
+        (void)write_meshb(source, folder / "a.meshb", version);
+        files.push_back(test::content_of(folder / "a.meshb"));
+        files.push_back(MeshbFile(corner(version)).cell().section(13, 1).row({1}).end().bytes());
+    }
+    int meshes = 0;
+    constexpr int turns = OCTETRA_SANITIZED ? 200 : 2000;
+    for (int turn = 0; turn < turns; ++turn) {
+        std::string bytes = files[random() % files.size()];
+        const std::size_t early = random() % 2 == 0 ? bytes.size() : 60;
+        bytes[random() % early] = static_cast<char>(random());
+        if (random() % 4 == 0) bytes.resize(random() % bytes.size());
+        const auto file = folder.write("m.meshb", bytes);
+        try {
+            (void)read_mesh(file);
+            ++meshes;
+        } catch (const InputError& error) {
+            EXPECT_THAT(error.what(), testing::StartsWith(file.native() + ": at byte "));
+        }
+        test::expect_right_stretches(file);
+        if (HasFailure()) FAIL() << "turn " << turn;
+    }
+    EXPECT_GT(meshes, 0);
+    EXPECT_LT(meshes, turns);
+}
+
+}  // namespace
+}  // namespace octetra

@@ -24,6 +24,15 @@ TEST(Convert, ThereAndBackGivesTheSameBytes) {
     EXPECT_EQ(back, read_mesh(folder / "gear.1.ele"));
 }
 
+TEST(Convert, ToABinaryMeditFileAndBackGivesTheSameText) {
+    const TemporaryFolder folder;
+    ASSERT_EQ(test::octetra("generate gear -o gear.mesh", folder).status, 0);
+    ASSERT_EQ(test::octetra("convert gear.mesh gear.meshb", folder).status, 0);
+    ASSERT_EQ(test::octetra("convert gear.meshb back.mesh", folder).status, 0);
+    EXPECT_EQ(test::content_of(folder / "gear.mesh"), test::content_of(folder / "back.mesh"));
+    EXPECT_EQ(test::octetra("compare gear.mesh gear.meshb", folder).status, 0);
+}
+
 TEST(Convert, SaysWhatTheFormatCannotHold) {
     const TemporaryFolder folder;
     ASSERT_EQ(test::octetra("generate kuhn 2 -o cube.ele", folder).status, 0);

@@ -66,6 +66,9 @@ void check_written(const Mesh& mesh, const fs::path& folder, bool only_syntax) {
     (void)write_mesh(mesh, folder / "out.mesh");
     expect_same(read(folder / "out.mesh", options), as_in_medit(mesh),
                 "when written to a Medit file and read");
+    (void)write_mesh(mesh, folder / "out.meshb");
+    expect_same(read(folder / "out.meshb", options), as_in_medit(mesh),
+                "when written to a binary Medit file and read");
 }
 
 void check_mesh(const fs::path& path) {
@@ -97,6 +100,11 @@ void check_tetgen(std::string_view input, const fs::path& folder) {
 void check_medit(std::string_view input, const fs::path& folder) {
     write_file(folder / "in.mesh", input);
     check_mesh(folder / "in.mesh");
+}
+
+void check_meshb(std::string_view input, const fs::path& folder) {
+    write_file(folder / "in.meshb", input);
+    check_mesh(folder / "in.meshb");
 }
 
 }  // namespace octetra::test

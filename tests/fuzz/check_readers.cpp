@@ -101,8 +101,9 @@ bool is_positive(const CellVertices& cell, const Mesh& mesh) {
     return orientation(points[cell[0]], points[cell[1]], points[cell[2]], points[cell[3]]) > 0;
 }
 
-constexpr std::array<NamedCheck, 6> all_checks{{{"tetgen", check_tetgen},
+constexpr std::array<NamedCheck, 7> all_checks{{{"tetgen", check_tetgen},
                                                 {"medit", check_medit},
+                                                {"meshb", check_meshb},
                                                 {"maps", check_maps},
                                                 {"cell_list", check_cell_list},
                                                 {"part_file", check_part_file},
@@ -152,6 +153,16 @@ void check_message(const std::string& message, const std::filesystem::path& fold
     const std::size_t colon = message.find(':', folder.native().size());
     if (colon == std::string::npos) fail();
 
+    constexpr std::string_view at_byte = ": at byte ";
+    if (message.substr(colon).starts_with(at_byte)) {
+        const std::string_view rest = std::string_view(message).substr(colon + at_byte.size());
+        std::uintmax_t byte = 0;
+        const auto [stop, error] = std::from_chars(rest.data(), rest.data() + rest.size(), byte);
+        const std::string_view what = rest.substr(static_cast<std::size_t>(stop - rest.data()));
+        if (error != std::errc{} || !what.starts_with(": ") || what.size() == 2) fail();
+        if (byte > std::filesystem::file_size(message.substr(0, colon))) fail();
+        return;
+    }
     std::size_t line = 0;
     const char* const end = message.data() + message.size();
     const auto [stop, error] = std::from_chars(message.data() + colon + 1, end, line);

@@ -26,6 +26,7 @@ using CheckReader = void (*)(std::string_view input, const std::filesystem::path
 /// place of a file stands for none, and so does what is missing at the end.
 void check_tetgen(std::string_view input, const std::filesystem::path& folder);
 void check_medit(std::string_view input, const std::filesystem::path& folder);
+void check_meshb(std::string_view input, const std::filesystem::path& folder);
 void check_maps(std::string_view input, const std::filesystem::path& folder);
 void check_cell_list(std::string_view input, const std::filesystem::path& folder);
 void check_part_file(std::string_view input, const std::filesystem::path& folder);
@@ -44,9 +45,9 @@ struct NamedCheck {
 /// out are not asked for with it.
 [[nodiscard]] std::string broken_invariant(const Mesh& mesh, bool only_syntax);
 
-/// Throws BrokenPromise unless the message of an InputError is "FILE: ..." or "FILE:LINE: ...", the
-/// file one of `folder`, the line one that it has or the one behind the last, all in one line of
-/// printable characters.
+/// Throws BrokenPromise unless the message of an InputError is "FILE: ...", "FILE:LINE: ..." or
+/// "FILE: at byte N: ...", the file one of `folder`, the line one that it has or the one behind the
+/// last, the byte likewise, all in one line of printable characters.
 void check_message(const std::string& message, const std::filesystem::path& folder);
 
 }  // namespace octetra::test

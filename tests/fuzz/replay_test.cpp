@@ -146,9 +146,13 @@ TEST(Message, ThatNamesNoFileAndLineIsSeen) {
     EXPECT_NO_THROW(check(file + ": cannot be opened"));
     EXPECT_NO_THROW(check(file + ":1: what is wrong"));
     EXPECT_NO_THROW(check(file + ":3: the end is missing"));
+    EXPECT_NO_THROW(check(file + ": at byte 0: what is wrong"));
+    EXPECT_NO_THROW(check(file + ": at byte 8: the end is missing"));
     for (const std::string& wrong :
          {std::string("what is wrong"), file, file + ":0: what", file + ":4: what", file + ":2",
-          file + ":1: a bell \a rings", file + ":1: two\nlines", file + ":1: \xff"}) {
+          file + ": at byte 9: what", file + ": at byte : what", file + ": at byte 1",
+          file + ": at byte 1: ", file + ":1: a bell \a rings", file + ":1: two\nlines",
+          file + ":1: \xff"}) {
         EXPECT_THROW(check(wrong), BrokenPromise) << wrong;
     }
 }

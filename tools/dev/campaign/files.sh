@@ -2,7 +2,7 @@
 # shellcheck shell=bash
 source "$root/tools/dev/common.sh"
 
-readers=(tetgen medit maps cell_list part_file checkpoint)
+readers=(tetgen medit meshb maps cell_list part_file checkpoint)
 
 # Files that readers must cope with, as the fuzzers take them, put into build/fuzz/corpus/NAME/; what
 # earlier runs found there stays.

@@ -27,15 +27,15 @@ struct MeshStretch {
     std::vector<std::string> notes;
 };
 
-/// Collective. Reads a text mesh, of each file every process an even share of the bytes. What of
-/// read_mesh()'s checks needs no more than a line and the counts is done: syntax, counts, numbers
-/// in range, an entity's vertices different. The others are left to who calls: orientation, cells
-/// that are there twice, tagged facets and edges.
+/// Collective. Reads a mesh, of each file every process an even share of the bytes. What of
+/// read_mesh()'s checks needs no more than a line or row and the counts is done: syntax, counts,
+/// numbers in range, an entity's vertices different. The others are left to who calls: orientation,
+/// cells that are there twice, tagged facets and edges.
 ///
 /// Returns nothing, on all processes, where a check fails, a file cannot be read, or is not in the
-/// form that lends itself to it, an entity on each line. What is to be said of the file read_mesh()
-/// then says. A process that has no memory throws std::bad_alloc, and all others get nothing:
-/// whoever calls must tell them.
+/// form that lends itself to it, of text an entity on each line. What is to be said of the file
+/// read_mesh() then says. A process that has no memory throws std::bad_alloc, and all others get
+/// nothing: whoever calls must tell them.
 [[nodiscard]] std::optional<MeshStretch> read_stretch(const std::filesystem::path& path,
                                                       const ProcessGroup& group);
 

@@ -10,7 +10,7 @@
 #include <octetra/core/process_group.hpp>
 
 /// Mesh files, by extension: TetGen `.node/.ele` (with `.face`, `.edge` beside them where present),
-/// Medit `.mesh`; VTK `.vtu` and `.pvtu` are written only.
+/// Medit `.mesh` and `.meshb`; VTK `.vtu` and `.pvtu` are written only.
 namespace octetra {
 
 struct ReadOptions {
@@ -28,7 +28,8 @@ struct ReadOptions {
 /// Reads and checks a mesh; what holds afterwards is written at struct Mesh
 /// (and with ReadOptions::only_syntax, the first line of it but for repeated vertices).
 /// For TetGen, `path` names the `.ele` or the `.node` file; both must be there.
-/// Throws InputError ("FILE:LINE: what is wrong") or SystemError.
+/// Throws InputError ("FILE:LINE: what is wrong", of a binary file "FILE: at byte N: ...") or
+/// SystemError.
 /// Memory beyond the mesh: a buffer of 1 MiB, 2 bytes per cell while cells are read, and 8 bytes
 /// per vertex while facets are checked.
 [[nodiscard]] Mesh read_mesh(const std::filesystem::path& path, const ReadOptions& options = {});
@@ -36,7 +37,7 @@ struct ReadOptions {
 /// Reads a mesh and tells the sink of it, stretch by stretch; checks what read_mesh does with
 /// ReadOptions::only_syntax, and throws the same. Of the options only `note` is looked at.
 /// Memory, however large the mesh: a buffer of 1 MiB and a stretch of each kind; twice that for a
-/// Medit file in which Vertices stand behind what refers to them, which is read twice.
+/// Medit text file in which Vertices stand behind what refers to them, which is read twice.
 void stream_mesh(const std::filesystem::path& path, MeshSink& sink,
                  const ReadOptions& options = {});
 

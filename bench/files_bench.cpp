@@ -90,6 +90,7 @@ BENCHMARK_CAPTURE(write_file, tetgen, "a.ele")->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(write_file, medit, "a.mesh")->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(write_file, meshb, "a.meshb")->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(write_file, vtu, "a.vtu")->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(write_file, vtkhdf, "a.vtkhdf")->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(read_file, tetgen, "a.ele")->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(read_file, medit, "a.mesh")->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(read_file, meshb, "a.meshb")->Unit(benchmark::kMillisecond);

@@ -54,6 +54,7 @@ function(octetra_install_package)
   install(FILES ${PROJECT_BINARY_DIR}/OctetraConfig.cmake
                 ${PROJECT_BINARY_DIR}/OctetraConfigVersion.cmake
                 ${PROJECT_SOURCE_DIR}/cmake/FindMETIS.cmake
+                ${PROJECT_SOURCE_DIR}/cmake/FindSerialHDF5.cmake
           DESTINATION ${octetra_package_dir})
   install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${CMAKE_INSTALL_DATAROOTDIR}/doc/octetra)
 endfunction()

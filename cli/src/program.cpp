@@ -99,7 +99,7 @@ int run(int argc, char** argv) {
         "Refines tetrahedral meshes by longest-edge bisection (8T-LE).\n"
         "Files by extension: .ele/.node (TetGen), .mesh/.meshb (Medit), .octetra (with its "
         "history), "
-        ".vtu and .pvtu (VTK, written only).",
+        ".vtu, .pvtu and .vtkhdf (VTK, written only).",
         "octetra");
     program.set_version_flag("--version", "octetra " OCTETRA_VERSION);
     program.require_subcommand(1);

@@ -162,5 +162,81 @@ TEST(Vtu, OfAnEmptyMeshIsRead) {
     EXPECT_EQ(json::parse(run.out)["cells"], 0);
 }
 
+/// All that VTK reads in two files of one mesh, and in what order does not matter.
+void expect_same_for_vtk(const std::string& a, const std::string& b,
+                         const TemporaryFolder& folder) {
+    for (const std::string what : {"--points ", "--cells ", "--values "}) {
+        const test::Outcome expected = read_by_vtk(what + a, folder);
+        const test::Outcome found = read_by_vtk(what + b, folder);
+        EXPECT_EQ(expected.status, 0) << expected.err;
+        EXPECT_EQ(found.status, 0) << found.err;
+        EXPECT_TRUE(found.out == expected.out) << what;
+        EXPECT_GT(found.out.size(), 1000U) << what;
+    }
+    const json expected = json::parse(read_by_vtk(a, folder).out);
+    const json found = json::parse(read_by_vtk(b, folder).out);
+    for (const std::string key : {"points", "cells", "cell_types", "coordinates_type"}) {
+        EXPECT_EQ(found[key], expected[key]);
+    }
+}
+
+TEST(Vtkhdf, IsToVtkWhatTheVtuIs) {
+    const TemporaryFolder folder;
+    Mesh mesh = test::shaken_kuhn(6, 0.2, 1);
+    mesh.index_base = 1;
+    mesh.attributes_per_point = 2;
+    for (std::size_t v = 0; v < mesh.points.size(); ++v) {
+        mesh.point_markers.append(static_cast<Marker>(v % 5) - 2);
+        mesh.point_attributes.push_back(std::sqrt(static_cast<double>(v)));
+        mesh.point_attributes.push_back(-1e-300 / static_cast<double>(v + 1));
+    }
+    for (std::size_t c = 0; c < mesh.cells.size(); ++c) {
+        mesh.regions.append(static_cast<Marker>(c % 3));
+    }
+    (void)write_mesh(mesh, folder / "a.ele");
+    const std::string refine = "refine a.ele --box 0,0,0,3,3,6 --levels 2 -o ";
+    for (const std::string name : {"b.vtu", "b.vtkhdf"}) {
+        ASSERT_EQ(test::octetra(refine + name, folder).status, 0);
+    }
+    expect_same_for_vtk("b.vtu", "b.vtkhdf", folder);
+    const json found = json::parse(read_by_vtk("b.vtkhdf", folder).out);
+    EXPECT_EQ(found["cell_data"].size(), 2U) << "parent and region";
+    EXPECT_EQ(found["point_data"].size(), 2U) << "attributes and marker";
+
+    const std::string expected = test::content_of(folder / "b.vtkhdf");
+    for (const std::string ranks : {"2", "3"}) {
+        const test::Outcome run =
+            test::run_program(test::words(OCTETRA_SOURCE_DIR "/tests/support/mpirun.sh " + ranks +
+                                          " " OCTETRA_PROGRAM " " + refine + "c.vtkhdf"),
+                              folder.path());
+        ASSERT_EQ(run.status, 0) << run.err;
+        EXPECT_TRUE(test::content_of(folder / "c.vtkhdf") == expected) << ranks;
+    }
+}
+
+TEST(Vtkhdf, HoldsMeshesWithoutTagsAndOfManySlices) {
+    const TemporaryFolder folder;
+    (void)write_mesh(test::kuhn(23, 23, 23, 1.0 / 3), folder / "a.ele");
+    ASSERT_EQ(test::octetra("convert a.ele a.vtu", folder).status, 0);
+    ASSERT_EQ(test::octetra("convert a.ele a.vtkhdf", folder).status, 0);
+    for (const std::string what : {"--points ", "--cells "}) {
+        EXPECT_TRUE(read_by_vtk(what + "a.vtkhdf", folder).out ==
+                    read_by_vtk(what + "a.vtu", folder).out);
+    }
+}
+
+TEST(Vtkhdf, BeyondTheLimitOfAFileEndsInStatus3) {
+    const TemporaryFolder folder;
+    ASSERT_EQ(test::octetra("generate kuhn 4 -o a.ele", folder).status, 0);
+    const auto run =
+        test::run_program({"sh", "-c",
+                           "trap '' XFSZ; ulimit -f 1; exec " + std::string(OCTETRA_PROGRAM) +
+                               " convert a.ele a.vtkhdf --quiet"},
+                          folder.path());
+    EXPECT_EQ(run.status, 3);
+    EXPECT_EQ(run.err, "octetra: a.vtkhdf: writing failed: File too large\n");
+    EXPECT_FALSE(std::filesystem::exists(folder / "a.vtkhdf"));
+}
+
 }  // namespace
 }  // namespace octetra

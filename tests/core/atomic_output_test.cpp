@@ -98,7 +98,7 @@ TEST(WriteMesh, ReportsAFullDiskAndLeavesNothing) {
     // Every write to /dev/full fails with "No space left on device".
     const TemporaryFolder folder;
     const Mesh mesh = test::kuhn(4, 4, 4);
-    for (const std::string extension : {"ele", "mesh", "meshb", "vtu"}) {
+    for (const std::string extension : {"ele", "mesh", "meshb", "vtu", "vtkhdf"}) {
         const auto temporary =
             folder / ("a." + extension + "." + std::to_string(::getpid()) + ".tmp");
         std::filesystem::create_symlink("/dev/full", temporary);

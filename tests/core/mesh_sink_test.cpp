@@ -435,7 +435,7 @@ TEST(StreamedMesh, MayNotLoseVerticesBetweenTwoReadings) {
 }
 
 TEST(StreamedMesh, IsOfAFormatThatCanBeRead) {
-    for (const std::string name : {"a.vtu", "a.pvtu", "a.stl"}) {
+    for (const std::string name : {"a.vtu", "a.pvtu", "a.vtkhdf", "a.stl"}) {
         Gathered gathered;
         expect_streamed_as_read(name, gathered);
         EXPECT_FALSE(gathered.is_finished);

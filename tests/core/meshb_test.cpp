@@ -308,6 +308,9 @@ std::vector<BadBytes> bad_bytes() {
             f.section(5, 2).row({1, 2, 9}).row({2, 1, 8});
         },
         12, "edge 2 with marker 8 is listed already, with marker 9, as edge 1");
+    MeshbFile many = corner();
+    for (int k = 0; k < 1000; ++k) many.section(13, 0);
+    cases.push_back({"ManyKeywords", many.bytes(), 144 + 998 * 12, "more than 1000 keywords"});
     return cases;
 }
 

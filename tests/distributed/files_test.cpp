@@ -133,18 +133,18 @@ protected:
         if (world().is_first()) {
             const auto expected = reference::refine(mesh, selection, Scheme::eight, levels);
             WholeMesh source(expected.mesh, &expected.maps);
-            for (const std::string name : {"r.ele", "r.mesh", "r.meshb", "r.vtu"}) {
+            for (const std::string name : {"r.ele", "r.mesh", "r.meshb", "r.vtu", "r.vtkhdf"}) {
                 (void)write_mesh(source, folder / name);
             }
             write_maps(source, folder / "r.maps");
         }
-        for (const std::string name : {"d.ele", "d.mesh", "d.meshb", "d.vtu"}) {
+        for (const std::string name : {"d.ele", "d.mesh", "d.meshb", "d.vtu", "d.vtkhdf"}) {
             (void)write_mesh(fine, folder / name);
         }
         write_maps(fine.whole(), folder / "d.maps");
         if (!world().is_first()) return;
         for (const std::string extension :
-             {".node", ".ele", ".face", ".edge", ".mesh", ".meshb", ".vtu", ".maps"}) {
+             {".node", ".ele", ".face", ".edge", ".mesh", ".meshb", ".vtu", ".vtkhdf", ".maps"}) {
             if (!std::filesystem::exists(folder / ("r" + extension))) {
                 EXPECT_FALSE(std::filesystem::exists(folder / ("d" + extension))) << extension;
                 continue;

@@ -196,7 +196,7 @@ class Package(unittest.TestCase):
                     self.assertRegex(package, "^(octetra-.*|ompi-cxx)$", file)
         self.build_and_run_examples(
             prefix, "-DCMAKE_BUILD_TYPE=Release",
-            *(f"-DCMAKE_DISABLE_FIND_PACKAGE_{p}=ON" for p in ("fmt", "ZLIB", "METIS")),
+            *(f"-DCMAKE_DISABLE_FIND_PACKAGE_{p}=ON" for p in ("fmt", "ZLIB", "SerialHDF5", "METIS")),
             ranks=(2,))
 
 

@@ -16,7 +16,8 @@ source = pathlib.Path(sys.argv[1])
 lists = (source / "CMakeLists.txt").read_text()
 
 # What Spack calls what find_package() looks for.
-SPACK_NAMES = {"fmt": "fmt", "ZLIB": "zlib-api", "Boost": "boost", "xxHash": "xxhash", "MPI": "mpi", "METIS": "metis",
+SPACK_NAMES = {"fmt": "fmt", "ZLIB": "zlib-api", "SerialHDF5": "hdf5",
+               "Boost": "boost", "xxHash": "xxhash", "MPI": "mpi", "METIS": "metis",
                "CGAL": "cgal", "CLI11": "cli11", "nlohmann_json": "nlohmann-json"}
 
 

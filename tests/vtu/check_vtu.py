@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Reads a .vtu or .pvtu file with VTK, not with Octetra, and prints what VTK found in it, as JSON.
+"""Reads a .vtu, .pvtu or .vtkhdf file with VTK, not with Octetra, and prints what VTK found in it, as JSON.
 
     points, cells     how many
     cell_types        {VTK cell type number: how many cells}; a tetrahedron is 10
@@ -10,7 +10,8 @@
     global_ids        which of the points' arrays numbers them in the whole mesh, or null
     coordinates_type  of the points: "double" unless the writer lost precision
 
---points prints the coordinates instead, one vertex a line, as hexadecimal floats; --cells the
+--values prints the arrays instead, in the order of their names, each a line of the name and a line of
+its values, reals as hexadecimal floats. --points prints the coordinates, one vertex a line, as hexadecimal floats; --cells the
 vertex numbers of each cell, one cell a line. Both are exact, to be compared as text. --by-number
 prints, of a file whose points have a number in the whole mesh as point data `vertex`, a line "p
 number x y z marker" for each different point, and for each cell a line "c number number number number",
@@ -29,6 +30,7 @@ import sys
 
 from vtkmodules.vtkCommonCore import vtkLogger, vtkOutputWindow
 from vtkmodules.vtkCommonDataModel import VTK_TETRA
+from vtkmodules.vtkIOHDF import vtkHDFReader
 from vtkmodules.vtkIOXML import vtkXMLPUnstructuredGridReader, vtkXMLUnstructuredGridReader
 
 
@@ -45,8 +47,9 @@ def read(path):
     vtkOutputWindow.GetInstance().SetDisplayModeToNever()
     vtkLogger.SetStderrVerbosity(vtkLogger.VERBOSITY_OFF)
 
-    pieces = path.endswith(".pvtu")
-    reader = vtkXMLPUnstructuredGridReader() if pieces else vtkXMLUnstructuredGridReader()
+    readers = {".vtu": vtkXMLUnstructuredGridReader, ".pvtu": vtkXMLPUnstructuredGridReader, ".vtkhdf": vtkHDFReader}
+    extension = os.path.splitext(path)[1]
+    reader = readers[extension]()
     # The parser and the reader's other parts complain on their own, through the output window;
     # the reader itself to those who observe it.
     for event in ("ErrorEvent", "WarningEvent"):
@@ -54,7 +57,7 @@ def read(path):
     if not os.path.isfile(path):
         return None, [f"{path}: no such file"]
     if not reader.CanReadFile(path):
-        return None, [f"{path}: VTK does not take it for a .vtu file"]
+        return None, [f"{path}: VTK does not take it for a {extension} file"]
     reader.SetFileName(path)
     reader.Update()
     if reader.GetErrorCode() != 0:
@@ -133,6 +136,19 @@ def name_of(array):
     return array.GetName() if array else None
 
 
+def values(data):
+    """The arrays as lines, whatever their order in the file."""
+    lines = []
+    found = [data.GetArray(i) for i in range(data.GetNumberOfArrays())]
+    for array in sorted(found, key=lambda array: array.GetName()):
+        # Of two types of 64 bits one reader takes this, the other that.
+        lines.append(f"{array.GetName()} {array.GetDataTypeSize()} {array.GetNumberOfComponents()}")
+        rows = memoryview(array).tolist()
+        flat = [x for row in rows for x in (row if isinstance(row, list) else [row])]
+        lines.append(" ".join(x.hex() if isinstance(x, float) else str(x) for x in flat))
+    return lines
+
+
 def summary(grid):
     volumes = list(signed_volumes(grid))
     return {
@@ -150,12 +166,13 @@ def summary(grid):
 
 def main():
     parser = argparse.ArgumentParser(
-        description="Print what VTK reads in a .vtu file, as JSON.",
+        description="Print what VTK reads in a .vtu or .vtkhdf file, as JSON.",
         epilog="example: check_vtu.py fine.vtu --points | sha256sum")
     parser.add_argument("file", metavar="FILE.vtu")
     what = parser.add_mutually_exclusive_group()
     what.add_argument("--points", action="store_true", help="coordinates, as hexadecimal floats")
     what.add_argument("--cells", action="store_true", help="vertex numbers of the cells")
+    what.add_argument("--values", action="store_true", help="of the arrays of points and cells")
     what.add_argument("--by-number", action="store_true", help="by the numbers in the whole mesh")
     options = parser.parse_args()
 
@@ -170,6 +187,8 @@ def main():
     elif options.cells:
         for vertices in connectivity(grid):
             print(*vertices)
+    elif options.values:
+        print(*values(grid.GetPointData()), *values(grid.GetCellData()), sep="\n")
     elif options.by_number:
         print(*by_number(grid), sep="\n")
     else:

@@ -31,7 +31,8 @@ void add_input_options(CLI::App& subcommand, InputOptions& options) {
 void add_output_option(CLI::App& subcommand, std::string& path) {
     subcommand
         .add_option("-o,--output", path,
-                    "where to write: .ele (TetGen), .mesh or .meshb (Medit), .vtu or .pvtu (VTK), "
+                    "where to write: .ele (TetGen), .mesh or .meshb (Medit), .vtu, .pvtu or "
+                    ".vtkhdf (VTK), "
                     ".octetra")
         ->type_name("OUT")
         ->check(names_a_file())
@@ -54,8 +55,9 @@ void check_side_file(std::string_view option, const std::filesystem::path& path)
         throw InputError(
             fmt::format("{}: - names no file; write ./- for one of that name", option));
     }
-    constexpr std::array<std::string_view, 9> mesh_files{
-        ".ele", ".node", ".face", ".edge", ".mesh", ".meshb", ".vtu", ".pvtu", ".octetra"};
+    constexpr std::array<std::string_view, 10> mesh_files{".ele",    ".node",   ".face", ".edge",
+                                                          ".mesh",   ".meshb",  ".vtu",  ".pvtu",
+                                                          ".vtkhdf", ".octetra"};
     if (std::ranges::find(mesh_files, path.extension()) != mesh_files.end()) {
         throw InputError(fmt::format("{}: {} is the name of a mesh file; choose another", option,
                                      path.native()));
@@ -67,7 +69,7 @@ void note(std::string_view what) { tell("note: {}", what); }
 
 void report_written(const Mesh& mesh, const std::string& path) {
     const auto extension = std::filesystem::path(path).extension();
-    const bool holds_facets = extension != ".vtu" && extension != ".pvtu";
+    const bool holds_facets = extension != ".vtu" && extension != ".pvtu" && extension != ".vtkhdf";
     print("wrote {}: {} vertices, {} cells{}\n", path, grouped(mesh.points.size()),
           grouped(mesh.cells.size()),
           holds_facets ? fmt::format(", {} facets", grouped(mesh.facets.size())) : "");

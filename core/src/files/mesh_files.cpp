@@ -15,7 +15,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-enum class Format { tetgen, medit, meshb, vtu, pvtu, unknown };
+enum class Format { tetgen, medit, meshb, vtu, pvtu, vtkhdf, unknown };
 
 Format format_of(const fs::path& path) {
     const fs::path extension = path.extension();
@@ -24,6 +24,7 @@ Format format_of(const fs::path& path) {
     if (extension == ".meshb") return Format::meshb;
     if (extension == ".vtu") return Format::vtu;
     if (extension == ".pvtu") return Format::pvtu;
+    if (extension == ".vtkhdf") return Format::vtkhdf;
     return Format::unknown;
 }
 
@@ -66,6 +67,7 @@ std::string write_mesh(MeshSource& mesh, const fs::path& path) {
         case Format::medit: return write_medit(mesh, path);
         case Format::meshb: return write_meshb(mesh, path);
         case Format::vtu: return write_vtu(mesh, path);
+        case Format::vtkhdf: return write_vtkhdf(mesh, path);
         case Format::pvtu: return write_pieces(mesh, ProcessGroup::alone(), path);
         case Format::unknown: break;
     }
@@ -93,7 +95,7 @@ void check_writable(const fs::path& path, int pieces) {
     if (format_of(path) == Format::unknown) {
         throw InputError(
             fmt::format("{}: a mesh to write is named by its extension: .ele or .node "
-                        "(TetGen), .mesh or .meshb (Medit), .vtu or .pvtu (VTK)",
+                        "(TetGen), .mesh or .meshb (Medit), .vtu, .pvtu or .vtkhdf (VTK)",
                         path.native()));
     }
     check_places(path, pieces);

@@ -8,7 +8,7 @@
 #include "files/output/output_file.hpp"
 #include "files/vtk/vtu_arrays.hpp"
 
-/// VTK's XML formats for unstructured grids.
+/// VTK's formats for unstructured grids: XML and HDF5.
 namespace octetra {
 
 /// Collective. Writes one file `.vtu`: one piece of tetrahedra, arrays appended in binary and
@@ -16,6 +16,11 @@ namespace octetra {
 /// point data `marker`, vertex attributes as `attributes`.
 /// Returns what of the mesh the file does not hold, in a sentence, or nothing.
 [[nodiscard]] std::string write_vtu(MeshSource& mesh, const std::filesystem::path& path);
+
+/// Collective. Writes one file `.vtkhdf`, an HDF5 file of VTK's: the same arrays under the same
+/// names, not compressed, so that each process knows where its own values belong.
+/// Returns what of the mesh the file does not hold, in a sentence, or nothing.
+[[nodiscard]] std::string write_vtkhdf(MeshSource& mesh, const std::filesystem::path& path);
 
 /// Collective in the group; the piece is this process's own. Writes its piece as a file of its own,
 /// `NAME_RANK.vtu` beside `NAME.pvtu`, which names them all; cells carry the `rank` of their piece

@@ -39,6 +39,7 @@ class Octetra(CMakePackage):
     depends_on("cmake@3.25:", type="build")
     depends_on("fmt")
     depends_on("zlib-api")
+    depends_on("hdf5~mpi")
     depends_on("boost")  # headers alone
     depends_on("xxhash")  # headers alone
     with when("+distributed"):

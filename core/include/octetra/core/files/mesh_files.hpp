@@ -10,7 +10,8 @@
 #include <octetra/core/process_group.hpp>
 
 /// Mesh files, by extension: TetGen `.node/.ele` (with `.face`, `.edge` beside them where present),
-/// Medit `.mesh` and `.meshb`; VTK `.vtu` and `.pvtu` are written only.
+/// Medit `.mesh` and `.meshb`; VTK `.vtu`, `.pvtu` and `.vtkhdf` are written
+/// only.
 namespace octetra {
 
 struct ReadOptions {
@@ -45,9 +46,10 @@ void stream_mesh(const std::filesystem::path& path, MeshSink& sink,
 /// not depend on the number of processes. For TetGen, `path` names the `.ele` or the `.node` file,
 /// and `.face`, `.edge` are written (or removed, if they are there from before) as the mesh has
 /// facets and edges. Links are followed, and files that are there keep their permissions. Of maps,
-/// `.vtu` carries the parents, as cell data. All files are complete before the first takes its
-/// final name; where writing fails, none does. Throws InputError for an unknown extension, else
-/// SystemError. Returns what of the mesh this format cannot hold, in a sentence, or nothing.
+/// `.vtu` and `.vtkhdf` carry the parents, as cell data. All files are complete before the first
+/// takes its final name; where writing fails, none does. Throws InputError for an unknown
+/// extension, else SystemError. Returns what of the mesh this format cannot hold, in a sentence, or
+/// nothing.
 [[nodiscard]] std::string write_mesh(MeshSource& mesh, const std::filesystem::path& path);
 
 /// The same of a mesh that this process has all of.

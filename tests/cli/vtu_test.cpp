@@ -156,10 +156,12 @@ TEST(Vtu, HoldsRegionsMarkersAndAttributes) {
 
 TEST(Vtu, OfAnEmptyMeshIsRead) {
     const TemporaryFolder folder;
-    (void)write_mesh(Mesh{}, folder / "a.vtu");
-    const test::Outcome run = read_by_vtk("a.vtu", folder);
-    ASSERT_EQ(run.status, 0) << run.err;
-    EXPECT_EQ(json::parse(run.out)["cells"], 0);
+    for (const std::string name : {"a.vtu", "a.vtkhdf"}) {
+        (void)write_mesh(Mesh{}, folder / name);
+        const test::Outcome run = read_by_vtk(name, folder);
+        ASSERT_EQ(run.status, 0) << run.err;
+        EXPECT_EQ(json::parse(run.out)["cells"], 0);
+    }
 }
 
 /// All that VTK reads in two files of one mesh, and in what order does not matter.

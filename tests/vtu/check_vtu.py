@@ -160,7 +160,7 @@ def summary(grid):
         "point_data": arrays(grid.GetPointData()),
         "cell_data": arrays(grid.GetCellData()),
         "global_ids": name_of(grid.GetPointData().GetGlobalIds()),
-        "coordinates_type": grid.GetPoints().GetData().GetDataTypeAsString(),
+        "coordinates_type": grid.GetPoints().GetData().GetDataTypeAsString() if grid.GetPoints() else None,
     }
 
 

@@ -206,7 +206,7 @@ TEST(Vtkhdf, IsToVtkWhatTheVtuIs) {
     EXPECT_EQ(found["point_data"].size(), 2U) << "attributes and marker";
 
     const std::string expected = test::content_of(folder / "b.vtkhdf");
-    for (const std::string ranks : {"2", "3"}) {
+    for (const std::string ranks : {"2", "3", "4"}) {
         const test::Outcome run =
             test::run_program(test::words(OCTETRA_SOURCE_DIR "/tests/support/mpirun.sh " + ranks +
                                           " " OCTETRA_PROGRAM " " + refine + "c.vtkhdf"),

@@ -71,7 +71,7 @@ def parse_command_line():
         description="Draw meshes side by side, from the same point of view, as a PNG picture.",
         epilog="example, cut open in the middle to show the inside:\n"
                "  tools/render.py coarse.vtu fine.vtu -o picture.png --clip 0.5,0.5,0.5,0,-1,0")
-    parser.add_argument("meshes", metavar="MESH.vtu", nargs="+", help="or .pvtu")
+    parser.add_argument("meshes", metavar="MESH.vtu", nargs="+", help="or .pvtu, .vtkhdf")
     parser.add_argument("-o", "--output", metavar="PICTURE.png", required=True)
     parser.add_argument("--clip", metavar="X,Y,Z,NX,NY,NZ", type=clip_plane,
                         help="remove the cells that lie wholly on the side of the plane through "

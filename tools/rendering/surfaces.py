@@ -7,6 +7,7 @@ from vtkmodules.vtkCommonDataModel import VTK_TETRA, vtkPlane
 from vtkmodules.vtkFiltersExtraction import vtkExtractGeometry
 from vtkmodules.vtkFiltersGeometry import vtkDataSetSurfaceFilter
 from vtkmodules.vtkFiltersVerdict import vtkMeshQuality
+from vtkmodules.vtkIOHDF import vtkHDFReader
 from vtkmodules.vtkIOXML import vtkXMLPUnstructuredGridReader, vtkXMLUnstructuredGridReader
 from vtkmodules.vtkRenderingCore import vtkColorTransferFunction
 
@@ -32,8 +33,8 @@ def read(path):
     note.CallDataType = "string0"
     window = vtkOutputWindow.GetInstance()
     observer = window.AddObserver("ErrorEvent", note)
-    in_pieces = path.endswith(".pvtu")
-    reader = vtkXMLPUnstructuredGridReader() if in_pieces else vtkXMLUnstructuredGridReader()
+    readers = {".pvtu": vtkXMLPUnstructuredGridReader, ".vtkhdf": vtkHDFReader}
+    reader = readers.get(os.path.splitext(path)[1], vtkXMLUnstructuredGridReader)()
     reader.AddObserver("ErrorEvent", note)
     reader.SetFileName(path)
     reader.Update()

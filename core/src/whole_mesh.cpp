@@ -10,14 +10,15 @@ std::uint64_t number_of(CellIndex cell) { return cell.value(); }
 template <std::size_t N>
 VertexNumbers<N> number_of(const std::array<VertexIndex, N>& vertices) {
     VertexNumbers<N> numbers;
-    std::ranges::transform(vertices, numbers.begin(), &VertexIndex::value);
+    for (std::size_t k = 0; k < N; ++k) numbers[k] = vertices[k].value();
     return numbers;
 }
 
 /// The slice of a list, with 64-bit numbers.
 auto numbered(const auto& list, const Window& window, auto& numbers) {
-    numbers.clear();
-    for (const auto& entity : slice(list, window)) numbers.push_back(number_of(entity));
+    const auto entities = slice(list, window);
+    numbers.resize(entities.size());
+    for (std::size_t i = 0; i < entities.size(); ++i) numbers[i] = number_of(entities[i]);
     return std::span(std::as_const(numbers));
 }
 

@@ -83,10 +83,11 @@ int orientation(const Point& a, const Point& b, const Point& c, const Point& d) 
     // Forward error. Every term of the determinant goes through at most 8 roundings (3 differences,
     // 2 products, 3 sums), so |error| <= 8 * 2^-53 * permanent up to higher orders; twice that
     // leaves room for them and for the rounding of the permanent. A product that underflows is off
-    // by at most 2^-1075, and may then be multiplied by a third column entry. Where something
+    // by at most 2^-1075, and may then be multiplied by a third column entry. The bound for that is
+    // larger than it need be: below 2^-1022 arithmetic is slow on many processors. Where something
     // overflows the bound is infinite or not a number, and both comparisons are false.
     constexpr double relative_error = 0x1p-49;
-    constexpr double underflow_error = 0x1p-1070;
+    constexpr double underflow_error = 0x1p-1022;
     const double third_column = std::abs(rows[0][2]) + std::abs(rows[1][2]) + std::abs(rows[2][2]);
     const double bound = relative_error * permanent(rows) + underflow_error * (1 + third_column);
     if (value > bound) return 1;

@@ -62,7 +62,7 @@ void add_convert(CLI::App& program, const distributed::Communicator& world) {
     add_input_options(*command, options->input);
     command
         ->add_option("OUT", options->output,
-                     "where to write: .ele, .mesh, .meshb, .octetra, .vtu, .pvtu or .vtkhdf")
+                     "where to write: .ele, .mesh, .meshb, .msh, .octetra, .vtu, .pvtu or .vtkhdf")
         ->type_name("")
         ->check(names_a_file())
         ->required();

@@ -19,8 +19,9 @@ namespace octetra::cli {
 
 void add_input_options(CLI::App& subcommand, InputOptions& options) {
     subcommand
-        .add_option("MESH", options.path,
-                    "the mesh: .ele or .node (TetGen), .mesh or .meshb (Medit), .octetra")
+        .add_option(
+            "MESH", options.path,
+            "the mesh: .ele or .node (TetGen), .mesh or .meshb (Medit), .msh (Gmsh), .octetra")
         ->type_name("")
         ->check(names_a_file())
         ->required();
@@ -31,9 +32,8 @@ void add_input_options(CLI::App& subcommand, InputOptions& options) {
 void add_output_option(CLI::App& subcommand, std::string& path) {
     subcommand
         .add_option("-o,--output", path,
-                    "where to write: .ele (TetGen), .mesh or .meshb (Medit), .vtu, .pvtu or "
-                    ".vtkhdf (VTK), "
-                    ".octetra")
+                    "where to write: .ele (TetGen), .mesh or .meshb (Medit), .msh (Gmsh), .vtu, "
+                    ".pvtu or .vtkhdf (VTK), .octetra")
         ->type_name("OUT")
         ->check(names_a_file())
         ->required();
@@ -55,9 +55,9 @@ void check_side_file(std::string_view option, const std::filesystem::path& path)
         throw InputError(
             fmt::format("{}: - names no file; write ./- for one of that name", option));
     }
-    constexpr std::array<std::string_view, 10> mesh_files{".ele",    ".node",   ".face", ".edge",
-                                                          ".mesh",   ".meshb",  ".vtu",  ".pvtu",
-                                                          ".vtkhdf", ".octetra"};
+    constexpr std::array<std::string_view, 11> mesh_files{".ele",  ".node",   ".face",   ".edge",
+                                                          ".mesh", ".meshb",  ".msh",    ".vtu",
+                                                          ".pvtu", ".vtkhdf", ".octetra"};
     if (std::ranges::find(mesh_files, path.extension()) != mesh_files.end()) {
         throw InputError(fmt::format("{}: {} is the name of a mesh file; choose another", option,
                                      path.native()));

@@ -5,6 +5,7 @@
 #include <octetra/core/error.hpp>
 #include <octetra/core/files/places.hpp>
 
+#include "files/gmsh/gmsh.hpp"
 #include "files/medit/medit.hpp"
 #include "files/output/places.hpp"
 #include "files/tetgen/tetgen.hpp"
@@ -15,29 +16,31 @@ namespace {
 
 namespace fs = std::filesystem;
 
-enum class Format { tetgen, medit, meshb, vtu, pvtu, vtkhdf, unknown };
+enum class Format { tetgen, medit, meshb, gmsh, vtu, pvtu, vtkhdf, unknown };
 
 Format format_of(const fs::path& path) {
     const fs::path extension = path.extension();
     if (extension == ".ele" || extension == ".node") return Format::tetgen;
     if (extension == ".mesh") return Format::medit;
     if (extension == ".meshb") return Format::meshb;
+    if (extension == ".msh") return Format::gmsh;
     if (extension == ".vtu") return Format::vtu;
     if (extension == ".pvtu") return Format::pvtu;
     if (extension == ".vtkhdf") return Format::vtkhdf;
     return Format::unknown;
 }
 
-/// Why a mesh cannot be read from this file, if its format is neither TetGen's nor Medit's.
+/// Why a mesh cannot be read from this file, if its format is none of those that are read.
 [[noreturn]] void refuse_to_read(const fs::path& path) {
     if (format_of(path) != Format::unknown) {
         throw InputError(
-            fmt::format("{}: {} files are written, not read; read .ele/.node, .mesh or .meshb",
+            fmt::format("{}: {} files are written, not read; read .ele/.node, .mesh, .meshb or "
+                        ".msh",
                         path.native(), path.extension().native()));
     }
     throw InputError(fmt::format(
-        "{}: a mesh to read is named by its extension: .ele or .node (TetGen), .mesh (Medit; "
-        "Gmsh writes .mesh, too: gmsh FILE.msh -save -format mesh)",
+        "{}: a mesh to read is named by its extension: .ele or .node (TetGen), .mesh or .meshb "
+        "(Medit), .msh (Gmsh)",
         path.native()));
 }
 
@@ -48,6 +51,7 @@ Mesh read_mesh(const fs::path& path, const ReadOptions& options) {
     if (format == Format::tetgen) return read_tetgen(path, options);
     if (format == Format::medit) return read_medit(path, options);
     if (format == Format::meshb) return read_meshb(path, options);
+    if (format == Format::gmsh) return read_gmsh(path, options);
     refuse_to_read(path);
 }
 
@@ -57,15 +61,17 @@ void stream_mesh(const fs::path& path, MeshSink& sink, const ReadOptions& option
     if (format == Format::tetgen) return stream_tetgen(path, sink, as_it_stands);
     if (format == Format::medit) return stream_medit(path, sink, as_it_stands);
     if (format == Format::meshb) return stream_meshb(path, sink, as_it_stands);
+    if (format == Format::gmsh) return stream_gmsh(path, sink, as_it_stands);
     refuse_to_read(path);
 }
 
-std::string write_mesh(MeshSource& mesh, const fs::path& path) {
+std::string write_mesh(MeshSource& mesh, const fs::path& path, const WriteOptions& options) {
     mesh.group().on_first([&] { check_writable(path); });
     switch (format_of(path)) {
         case Format::tetgen: write_tetgen(mesh, path); return {};
         case Format::medit: return write_medit(mesh, path);
         case Format::meshb: return write_meshb(mesh, path);
+        case Format::gmsh: return write_gmsh(mesh, path, options.msh);
         case Format::vtu: return write_vtu(mesh, path);
         case Format::vtkhdf: return write_vtkhdf(mesh, path);
         case Format::pvtu: return write_pieces(mesh, ProcessGroup::alone(), path);
@@ -74,14 +80,14 @@ std::string write_mesh(MeshSource& mesh, const fs::path& path) {
     return {};
 }
 
-std::string write_mesh(const Mesh& mesh, const fs::path& path) {
+std::string write_mesh(const Mesh& mesh, const fs::path& path, const WriteOptions& options) {
     WholeMesh source(mesh);
-    return write_mesh(source, path);
+    return write_mesh(source, path, options);
 }
 
 bool can_hold_attributes(const fs::path& path) {
     const Format format = format_of(path);
-    return format != Format::medit && format != Format::meshb;
+    return format != Format::medit && format != Format::meshb && format != Format::gmsh;
 }
 
 bool is_in_pieces(const fs::path& path) { return format_of(path) == Format::pvtu; }
@@ -95,7 +101,8 @@ void check_writable(const fs::path& path, int pieces) {
     if (format_of(path) == Format::unknown) {
         throw InputError(
             fmt::format("{}: a mesh to write is named by its extension: .ele or .node "
-                        "(TetGen), .mesh or .meshb (Medit), .vtu, .pvtu or .vtkhdf (VTK)",
+                        "(TetGen), .mesh or .meshb (Medit), .msh (Gmsh), .vtu, .pvtu or .vtkhdf "
+                        "(VTK)",
                         path.native()));
     }
     check_places(path, pieces);

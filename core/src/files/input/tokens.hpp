@@ -34,15 +34,19 @@ public:
         return fields_.coordinate(what);
     }
 
+    /// Goes to the line that the next token is on. The file must not end before it.
+    void require(std::string_view what) {
+        if (!advance()) reader_->fail(fmt::format("the file ends where {} should be", what));
+    }
+    /// Goes on behind the line on which the reader is, which was not read by tokens.
+    void leave_line() { fields_ = Fields(*reader_, {}); }
+
 private:
     bool advance() {
         if (!fields_.at_end()) return true;
         if (!reader_->next()) return false;
         fields_ = Fields(*reader_);
         return true;
-    }
-    void require(std::string_view what) {
-        if (!advance()) reader_->fail(fmt::format("the file ends where {} should be", what));
     }
 
     LineReader* reader_;

@@ -10,8 +10,7 @@
 #include <octetra/core/process_group.hpp>
 
 /// Mesh files, by extension: TetGen `.node/.ele` (with `.face`, `.edge` beside them where present),
-/// Medit `.mesh` and `.meshb`; VTK `.vtu`, `.pvtu` and `.vtkhdf` are written
-/// only.
+/// Medit `.mesh` and `.meshb`, Gmsh `.msh`; VTK `.vtu`, `.pvtu` and `.vtkhdf` are written only.
 namespace octetra {
 
 struct ReadOptions {
@@ -26,19 +25,31 @@ struct ReadOptions {
     std::function<void(const std::string&)> note = [](const std::string&) {};
 };
 
+/// Which of its kinds a `.msh` file is to be: version 4.1 or 2.2, binary or text.
+struct MshFormat {
+    bool is_2 = false;
+    bool is_text = false;
+};
+
+struct WriteOptions {
+    MshFormat msh;
+};
+
 /// Reads and checks a mesh; what holds afterwards is written at struct Mesh
 /// (and with ReadOptions::only_syntax, the first line of it but for repeated vertices).
 /// For TetGen, `path` names the `.ele` or the `.node` file; both must be there.
 /// Throws InputError ("FILE:LINE: what is wrong", of a binary file "FILE: at byte N: ...") or
 /// SystemError.
 /// Memory beyond the mesh: a buffer of 1 MiB, 2 bytes per cell while cells are read, and 8 bytes
-/// per vertex while facets are checked.
+/// per vertex while facets are checked; for a Gmsh file whose nodes are not numbered one after the
+/// other up to 32 bytes per vertex.
 [[nodiscard]] Mesh read_mesh(const std::filesystem::path& path, const ReadOptions& options = {});
 
 /// Reads a mesh and tells the sink of it, stretch by stretch; checks what read_mesh does with
 /// ReadOptions::only_syntax, and throws the same. Of the options only `note` is looked at.
 /// Memory, however large the mesh: a buffer of 1 MiB and a stretch of each kind; twice that for a
-/// Medit text file in which Vertices stand behind what refers to them, which is read twice.
+/// Medit text file in which Vertices stand behind what refers to them, which is read twice. A Gmsh
+/// file is read twice, too, and takes memory for its nodes' tags where read_mesh() does.
 void stream_mesh(const std::filesystem::path& path, MeshSink& sink,
                  const ReadOptions& options = {});
 
@@ -46,14 +57,17 @@ void stream_mesh(const std::filesystem::path& path, MeshSink& sink,
 /// not depend on the number of processes. For TetGen, `path` names the `.ele` or the `.node` file,
 /// and `.face`, `.edge` are written (or removed, if they are there from before) as the mesh has
 /// facets and edges. Links are followed, and files that are there keep their permissions. Of maps,
-/// `.vtu` and `.vtkhdf` carry the parents, as cell data. All files are complete before the first
-/// takes its final name; where writing fails, none does. Throws InputError for an unknown
-/// extension, else SystemError. Returns what of the mesh this format cannot hold, in a sentence, or
-/// nothing.
-[[nodiscard]] std::string write_mesh(MeshSource& mesh, const std::filesystem::path& path);
+/// `.vtu` and `.vtkhdf` carry the parents, as cell data. Binary `.msh` files of version 2.2 hold at
+/// most 2^31 - 1 nodes and elements; others are refused, by an InputError. All files are complete
+/// before the first takes its final name; where writing fails, none does. Throws InputError for an
+/// unknown extension, else SystemError. Returns what of the mesh this format cannot hold, in a
+/// sentence, or nothing.
+[[nodiscard]] std::string write_mesh(MeshSource& mesh, const std::filesystem::path& path,
+                                     const WriteOptions& options = {});
 
 /// The same of a mesh that this process has all of.
-[[nodiscard]] std::string write_mesh(const Mesh& mesh, const std::filesystem::path& path);
+[[nodiscard]] std::string write_mesh(const Mesh& mesh, const std::filesystem::path& path,
+                                     const WriteOptions& options = {});
 
 /// Can files with this extension hold attributes of vertices?
 [[nodiscard]] bool can_hold_attributes(const std::filesystem::path& path);

@@ -14,11 +14,11 @@ namespace octetra {
 /// Hears a mesh file from stream_mesh(). Of each kind that the file has it is told once how many
 /// are to come and with what, and then they come: exactly as many, in the order of the file, in
 /// stretches of 1 to longest_stretch. Points come before all else, whatever the file's order;
-/// cells, facets and edges follow as the file has them, one kind after the other. Vertices are
-/// numbered from 0, and in range; coordinates are finite. Nothing else is checked
-/// (ReadOptions::only_syntax). Spans are valid during the call. Where the file turns out bad,
-/// nothing further comes and stream_mesh() throws, as it does what a sink throws: what was heard
-/// then is not a mesh.
+/// cells, facets and edges follow as the file has them, one kind after the other or, in `.msh`
+/// files, by turns. Vertices are numbered from 0, and in range; coordinates are finite. Nothing
+/// else is checked (ReadOptions::only_syntax). Spans are valid during the call. Where the file
+/// turns out bad, nothing further comes and stream_mesh() throws, as it does what a sink throws:
+/// what was heard then is not a mesh.
 class MeshSink {
 public:
     /// Of points, fewer come at once the more attributes they have.

@@ -1,0 +1,88 @@
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+#include <fmt/format.h>
+
+#include <octetra/core/point.hpp>
+
+#include "files/input/byte_reader.hpp"
+#include "files/input/fields.hpp"
+
+namespace octetra::gmsh {
+
+/// The numbers of a binary file, in which sections begin and end with a line of text; places are
+/// bytes. Has the functions of TextInput.
+class BinaryInput {
+public:
+    static constexpr std::uint64_t row_step(std::uint64_t bytes) { return bytes; }
+
+    explicit BinaryInput(ByteReader& reader) : reader_(&reader) {}
+
+    [[nodiscard]] std::string section() {
+        std::string line = next_line();
+        if (line.empty()) return {};
+        if (line.size() < 2 || line.front() != '$') {
+            fail_at(fmt::format("a section, $..., expected, {} found", shown(line)), line_begin_);
+        }
+        return line.substr(1);
+    }
+    void end_section(std::string_view name) {
+        const std::string line = next_line();
+        if (line == fmt::format("$End{}", name)) return;
+        if (line.empty()) fail(fmt::format("the file ends where $End{} should be", name));
+        fail_at(fmt::format("$End{} expected, {} found", name, shown(line)), line_begin_);
+    }
+    void skip_section(std::string_view name);
+
+    [[nodiscard]] std::uint64_t begin_row(std::string_view /*what*/) const {
+        return reader_->position();
+    }
+    [[nodiscard]] std::uint64_t number64(std::string_view what) {
+        return reader_->take<std::uint64_t>(what);
+    }
+    [[nodiscard]] std::uint64_t number32(std::string_view what) {
+        const std::int32_t number = integer(what);
+        if (number >= 0) return static_cast<std::uint64_t>(number);
+        fail_at(fmt::format("{} should be a whole number from 0, not {}", what, number),
+                reader_->position() - sizeof number);
+    }
+    [[nodiscard]] std::uint64_t count_line(std::string_view what);
+    [[nodiscard]] std::int32_t integer(std::string_view what) {
+        return reader_->take<std::int32_t>(what);
+    }
+    [[nodiscard]] double coordinate(std::string_view what);
+    void skip_real(std::string_view what) { reader_->skip(sizeof(double), what); }
+    template <std::size_t N>
+    void row(std::array<std::uint64_t, N>& numbers, std::string_view what) {
+        const std::byte* const bytes = reader_->take_bytes(N * sizeof(std::uint64_t), what);
+        for (std::size_t k = 0; k < N; ++k) {
+            numbers[k] =
+                number_at<std::uint64_t>(bytes + k * sizeof(std::uint64_t), reader_->swaps_bytes());
+        }
+    }
+
+    void check_count(std::uint64_t count, std::size_t /*numbers*/, std::size_t bytes,
+                     std::string_view what) const {
+        reader_->check_count(count, bytes, what, reader_->position());
+    }
+    [[noreturn]] void fail(std::string_view what) const { reader_->fail(what); }
+    [[noreturn]] void fail_at(std::string_view what, std::uint64_t place) const {
+        reader_->fail(what, place);
+    }
+    [[nodiscard]] std::string place() const { return reader_->path().native(); }
+    static constexpr bool has_lines = false;
+
+private:
+    /// The next line that holds something; empty at the end of the file.
+    std::string next_line();
+
+    ByteReader* reader_;
+    std::uint64_t line_begin_ = 0;
+};
+
+}  // namespace octetra::gmsh

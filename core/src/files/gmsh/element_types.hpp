@@ -1,0 +1,39 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string_view>
+
+/// The kinds of elements that Gmsh numbers.
+namespace octetra::gmsh {
+
+inline constexpr std::uint64_t line_type = 1;
+inline constexpr std::uint64_t triangle_type = 2;
+inline constexpr std::uint64_t tetrahedron_type = 4;
+
+enum class Shape {
+    point,
+    line,
+    triangle,
+    quadrangle,
+    tetrahedron,
+    hexahedron,
+    prism,
+    pyramid,
+};
+
+struct ElementType {
+    Shape shape;
+    std::uint32_t nodes;
+};
+
+/// What is known of a type; nothing of one whose number of nodes is not known.
+[[nodiscard]] std::optional<ElementType> element_type(std::uint64_t number);
+
+/// "tetrahedra"
+[[nodiscard]] std::string_view plural(Shape shape);
+
+/// Does a cell have this shape, be it a tetrahedron or not?
+[[nodiscard]] inline bool is_solid(Shape shape) { return shape >= Shape::tetrahedron; }
+
+}  // namespace octetra::gmsh

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <cstdint>
+#include <unordered_map>
+
+#include <octetra/core/mesh.hpp>
+
+namespace octetra::gmsh {
+
+/// An entity of the geometry, as `$Entities` or `$PartitionedEntities` has it.
+struct Entity {
+    Marker marker = 0;          ///< the tag of its first physical group; 0: it is in none
+    bool is_interface = false;  ///< lies between partitions: no part of the geometry
+};
+
+/// The entities of a file of version 4.1, by dimension and tag.
+class EntityGroups {
+public:
+    void add(std::int32_t dimension, std::int32_t tag, const Entity& entity, std::uint64_t groups) {
+        entities_[key(dimension, tag)] = entity;
+        if (groups > 1) ++in_several_;
+    }
+    /// One that is not listed is in no group.
+    [[nodiscard]] Entity find(std::int32_t dimension, std::int32_t tag) const {
+        const auto found = entities_.find(key(dimension, tag));
+        return found == entities_.end() ? Entity{} : found->second;
+    }
+    /// How many entities are in more than one group.
+    [[nodiscard]] std::uint64_t in_several() const { return in_several_; }
+
+private:
+    static std::uint64_t key(std::int32_t dimension, std::int32_t tag) {
+        return std::uint64_t{static_cast<std::uint32_t>(dimension)} << 32U |
+               static_cast<std::uint32_t>(tag);
+    }
+
+    std::unordered_map<std::uint64_t, Entity> entities_;
+    std::uint64_t in_several_ = 0;
+};
+
+}  // namespace octetra::gmsh

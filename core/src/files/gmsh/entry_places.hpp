@@ -1,0 +1,36 @@
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <vector>
+
+namespace octetra::gmsh {
+
+/// Where the entries of a list stand in a file: lines of text, or bytes. Entries at equal distances
+/// take no memory.
+class EntryPlaces {
+public:
+    /// The next entry; the one behind it will stand `step` further, probably.
+    void add(std::uint64_t place, std::uint64_t step) {
+        if (runs_.empty() || place != expected_) runs_.push_back({count_, place, step});
+        ++count_;
+        expected_ = place + runs_.back().step;
+    }
+    [[nodiscard]] std::uint64_t of(std::uint64_t entry) const {
+        const auto after = std::ranges::upper_bound(runs_, entry, {}, &Run::first_entry);
+        const Run& run = *std::prev(after);
+        return run.first_place + (entry - run.first_entry) * run.step;
+    }
+
+private:
+    struct Run {
+        std::uint64_t first_entry;
+        std::uint64_t first_place;
+        std::uint64_t step;
+    };
+    std::vector<Run> runs_;
+    std::uint64_t count_ = 0;
+    std::uint64_t expected_ = 0;
+};
+
+}  // namespace octetra::gmsh

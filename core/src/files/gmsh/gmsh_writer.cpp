@@ -1,0 +1,286 @@
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <cstring>
+#include <limits>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include <octetra/core/error.hpp>
+
+#include "files/gmsh/element_types.hpp"
+#include "files/gmsh/gmsh.hpp"
+#include "files/gmsh/marker_runs.hpp"
+#include "files/gmsh/number_output.hpp"
+#include "files/gmsh/points_box.hpp"
+#include "files/output/output_file.hpp"
+#include "files/output/text_slices.hpp"
+
+namespace octetra {
+namespace {
+
+using namespace gmsh;
+
+/// The elements of a kind: lines, triangles or tetrahedra.
+template <std::size_t N>
+struct ElementList {
+    std::uint64_t type;
+    std::uint64_t count;
+    std::span<const VertexNumbers<N>> (MeshSource::*vertices)(const Window&);
+    bool has_markers;
+    std::span<const Marker> (MeshSource::*markers)(const Window&);
+    MarkerRuns runs{};
+    std::uint64_t first_tag = 1;
+
+    [[nodiscard]] std::int32_t dimension() const { return static_cast<std::int32_t>(N) - 1; }
+    /// Entities are numbered from 1, by their markers.
+    [[nodiscard]] std::int32_t entity_of(Marker marker) const {
+        const auto place = std::ranges::lower_bound(runs.markers, marker) - runs.markers.begin();
+        return static_cast<std::int32_t>(place) + 1;
+    }
+};
+
+class GmshFile {
+public:
+    GmshFile(OutputFile& out, MeshSource& mesh, const MshFormat& format)
+        : numbers_(out, format.is_text),
+          out_(&out),
+          mesh_(&mesh),
+          facts_(mesh.facts()),
+          group_(mesh.group()),
+          is_2_(format.is_2) {
+        find_runs(lines_);
+        find_runs(triangles_);
+        find_runs(tetrahedra_);
+        triangles_.first_tag = 1 + lines_.count;
+        tetrahedra_.first_tag = triangles_.first_tag + triangles_.count;
+        // Every node lies on an entity.
+        if (tetrahedra_.runs.markers.empty()) tetrahedra_.runs.markers.push_back(0);
+    }
+
+    void write() {
+        on_first([&] { put_format(); });
+        is_2_ ? write_2() : write_4();
+    }
+
+    /// Has an element a marker that is negative?
+    [[nodiscard]] bool has_negative_markers() const {
+        const auto has = [](const auto& list) {
+            return !list.runs.markers.empty() && list.runs.markers.front() < 0;
+        };
+        return has(lines_) || has(triangles_) || has(tetrahedra_);
+    }
+
+private:
+    /// What is said once is the first process's to say.
+    void on_first(auto&& put) {
+        if (group_.is_first()) put();
+    }
+    void put_all(auto... numbers) { (numbers_.put(numbers), ...); }
+    void put_row(auto... numbers) {
+        put_all(numbers...);
+        numbers_.end_row();
+    }
+    [[nodiscard]] std::uint64_t element_count() const {
+        return lines_.count + triangles_.count + tetrahedra_.count;
+    }
+
+    template <std::size_t N>
+    void find_runs(ElementList<N>& list) {
+        std::function<std::span<const Marker>(const Window&)> markers;
+        if (list.has_markers) {
+            markers = [this, &list](const Window& window) {
+                return (mesh_->*list.markers)(window);
+            };
+        }
+        list.runs = find_marker_runs(list.count, group_, markers);
+    }
+
+    void put_format() {
+        numbers_.put_text(fmt::format("$MeshFormat\n{} {} 8\n", is_2_ ? "2.2" : "4.1",
+                                      numbers_.is_text() ? 0 : 1));
+        if (numbers_.is_text()) return numbers_.put_text("$EndMeshFormat\n");
+        put_row(std::int32_t{1});
+        numbers_.end_section("MeshFormat");
+    }
+
+    // Version 4.1
+
+    void write_4() {
+        const PointsBox box = box_of_points(*mesh_);
+        on_first([&] {
+            numbers_.put_text("$Entities\n");
+            put_row(std::uint64_t{0}, std::uint64_t{lines_.runs.markers.size()},
+                    std::uint64_t{triangles_.runs.markers.size()},
+                    std::uint64_t{tetrahedra_.runs.markers.size()});
+            put_entities(lines_, box);
+            put_entities(triangles_, box);
+            put_entities(tetrahedra_, box);
+            numbers_.end_section("Entities");
+        });
+        write_nodes_4();
+        on_first([&] {
+            numbers_.put_text("$Elements\n");
+            put_row(lines_.runs.count + triangles_.runs.count + tetrahedra_.runs.count,
+                    element_count(), std::uint64_t{element_count() > 0}, element_count());
+        });
+        write_elements_4(lines_);
+        write_elements_4(triangles_);
+        write_elements_4(tetrahedra_);
+        on_first([&] { numbers_.end_section("Elements"); });
+    }
+
+    /// One for each marker; all have the box of the whole mesh.
+    template <std::size_t N>
+    void put_entities(const ElementList<N>& list, const PointsBox& box) {
+        for (const Marker marker : list.runs.markers) {
+            put_all(list.entity_of(marker), box.low.x, box.low.y, box.low.z, box.high.x, box.high.y,
+                    box.high.z);
+            put_all(std::uint64_t{marker != 0});
+            if (marker != 0) numbers_.put(marker);
+            put_row(std::uint64_t{0});  // entities on its boundary
+        }
+    }
+
+    void write_nodes_4() {
+        const std::uint64_t count = facts_.vertices;
+        const std::uint64_t is_any = count > 0 ? 1 : 0;
+        on_first([&] {
+            numbers_.put_text("$Nodes\n");
+            put_row(is_any, count, is_any, count);
+            if (count > 0) put_row(std::int32_t{3}, std::int32_t{1}, std::int32_t{0}, count);
+        });
+        put_list(*out_, count, group_, [&](const Window& window, std::uint64_t first) {
+            const std::uint64_t end = window.end_of(group_.rank());
+            for (std::uint64_t v = first; v < end; ++v) put_row(v + 1);
+        });
+        put_list(*out_, count, group_, [&](const Window& window, std::uint64_t) {
+            for (const Point& p : mesh_->points(window)) put_row(p.x, p.y, p.z);
+        });
+        on_first([&] { numbers_.end_section("Nodes"); });
+    }
+
+    template <std::size_t N>
+    void write_elements_4(const ElementList<N>& list) {
+        auto next = list.runs.here.begin();
+        put_list(*out_, list.count, group_, [&](const Window& window, std::uint64_t number) {
+            for (const VertexNumbers<N>& vertices : (mesh_->*list.vertices)(window)) {
+                if (next != list.runs.here.end() && next->first == number) {
+                    put_row(list.dimension(), list.entity_of(next->marker),
+                            static_cast<std::int32_t>(list.type), next->length);
+                    ++next;
+                }
+                numbers_.put(list.first_tag + number++);
+                for (const std::uint64_t vertex : vertices) numbers_.put(vertex + 1);
+                numbers_.end_row();
+            }
+        });
+    }
+
+    // Version 2.2
+
+    void write_2() {
+        on_first([&] { numbers_.put_text(fmt::format("$Nodes\n{}\n", facts_.vertices)); });
+        put_list(*out_, facts_.vertices, group_, [&](const Window& window, std::uint64_t number) {
+            for (const Point& p : mesh_->points(window)) {
+                put_number_2(++number);
+                put_row(p.x, p.y, p.z);
+            }
+        });
+        on_first([&] {
+            numbers_.end_section("Nodes");
+            numbers_.put_text(fmt::format("$Elements\n{}\n", element_count()));
+        });
+        write_elements_2(lines_);
+        write_elements_2(triangles_);
+        write_elements_2(tetrahedra_);
+        on_first([&] { numbers_.end_section("Elements"); });
+    }
+
+    /// Numbers of version 2 are of 32 bits in binary files.
+    void put_number_2(std::uint64_t number) {
+        numbers_.is_text() ? numbers_.put(number) : numbers_.put(static_cast<std::int32_t>(number));
+    }
+
+    template <std::size_t N>
+    void write_elements_2(const ElementList<N>& list) {
+        const auto type = static_cast<std::int32_t>(list.type);
+        constexpr std::int32_t tags = 2;  // the physical group and the entity
+        on_first([&] {
+            if (numbers_.is_text() || list.count == 0) return;
+            put_row(type, static_cast<std::int32_t>(list.count), tags);
+        });
+        put_list(*out_, list.count, group_, [&](const Window& window, std::uint64_t number) {
+            const auto elements = (mesh_->*list.vertices)(window);
+            std::span<const Marker> markers;
+            if (list.has_markers) markers = (mesh_->*list.markers)(window);
+            for (std::size_t i = 0; i < elements.size(); ++i) {
+                const Marker marker = markers.empty() ? 0 : markers[i];
+                put_number_2(list.first_tag + number++);
+                if (numbers_.is_text()) put_all(type, tags);
+                put_all(marker, list.entity_of(marker));
+                for (const std::uint64_t vertex : elements[i]) put_number_2(vertex + 1);
+                numbers_.end_row();
+            }
+        });
+    }
+
+    NumberOutput numbers_;
+    OutputFile* out_;
+    MeshSource* mesh_;
+    const MeshFacts& facts_;
+    const ProcessGroup& group_;
+    bool is_2_;
+    ElementList<2> lines_{line_type, facts_.edges, &MeshSource::edges, facts_.has_edge_markers,
+                          &MeshSource::edge_markers};
+    ElementList<3> triangles_{triangle_type, facts_.facets, &MeshSource::facets,
+                              facts_.has_facet_markers, &MeshSource::facet_markers};
+    ElementList<4> tetrahedra_{tetrahedron_type, facts_.cells, &MeshSource::cells,
+                               facts_.has_regions, &MeshSource::regions};
+};
+
+/// Binary files of version 2 have numbers of 32 bits.
+void refuse_what_is_too_large(const MeshFacts& facts, const std::filesystem::path& path) {
+    constexpr std::uint64_t most = std::numeric_limits<std::int32_t>::max();
+    if (facts.vertices <= most && facts.cells + facts.facets + facts.edges <= most) return;
+    throw InputError(
+        fmt::format("{}: binary files of version 2.2 number at most {} nodes and elements; write "
+                    "version 4.1",
+                    path.native(), most));
+}
+
+std::string what_is_lost(const MeshFacts& facts, bool has_negative_markers) {
+    std::string lost;
+    const auto add = [&](std::string_view what) {
+        lost += lost.empty() ? "" : "; ";
+        lost += what;
+    };
+    if (facts.attributes_per_point > 0) {
+        add(fmt::format("Gmsh's format has no place for the {} attribute(s) of each vertex",
+                        facts.attributes_per_point));
+    }
+    if (facts.has_point_markers) add("the markers of vertices are not written to .msh files");
+    if (has_negative_markers) {
+        add("Gmsh takes a negative marker for the group of its absolute value, turned round");
+    }
+    return lost;
+}
+
+}  // namespace
+
+std::string write_gmsh(MeshSource& mesh, const std::filesystem::path& path,
+                       const MshFormat& format) {
+    if (format.is_2 && !format.is_text) refuse_what_is_too_large(mesh.facts(), path);
+    OutputFile out(path, mesh.group());
+    GmshFile file(out, mesh, format);
+    file.write();
+    out.commit();
+    return what_is_lost(mesh.facts(), file.has_negative_markers());
+}
+
+}  // namespace octetra

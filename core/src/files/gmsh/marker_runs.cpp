@@ -1,0 +1,131 @@
+#include "files/gmsh/marker_runs.hpp"
+
+#include <algorithm>
+#include <cstring>
+#include <iterator>
+#include <utility>
+
+#include "files/output/text_slices.hpp"
+
+namespace octetra::gmsh {
+namespace {
+
+/// What others need to know of a slice: its first and its last run, which may go on elsewhere.
+struct SliceEnds {
+    std::uint64_t runs = 0;
+    MarkerRun first;
+    MarkerRun last;
+};
+
+template <class T>
+std::vector<std::vector<T>> lists_of_all(const ProcessGroup& group, const std::vector<T>& list) {
+    ProcessGroup::Bytes bytes(list.size() * sizeof(T));
+    if (!list.empty()) std::memcpy(bytes.data(), list.data(), bytes.size());
+    std::vector<ProcessGroup::Bytes> to_each(static_cast<std::size_t>(group.size()), bytes);
+    std::vector<std::vector<T>> lists;
+    for (const ProcessGroup::Bytes& from : group.exchange(std::move(to_each))) {
+        std::vector<T>& other = lists.emplace_back(from.size() / sizeof(T));
+        if (!from.empty()) std::memcpy(other.data(), from.data(), from.size());
+    }
+    return lists;
+}
+
+std::vector<MarkerRun> runs_of_slice(std::span<const Marker> markers, std::uint64_t first) {
+    std::vector<MarkerRun> runs;
+    for (std::size_t i = 0; i < markers.size(); ++i) {
+        if (runs.empty() || runs.back().marker != markers[i]) {
+            runs.push_back({first + i, 0, markers[i]});
+        }
+        ++runs.back().length;
+    }
+    return runs;
+}
+
+/// Joins the runs of slices, in the order of the list.
+class JoinedRuns {
+public:
+    explicit JoinedRuns(const ProcessGroup& group) : group_(&group) {}
+
+    /// Collective. The next slices, one of each process.
+    void add(const std::vector<MarkerRun>& runs) {
+        std::vector<SliceEnds> ends;
+        if (!runs.empty()) ends.push_back({runs.size(), runs.front(), runs.back()});
+        int rank = 0;
+        for (const std::vector<SliceEnds>& of_rank : lists_of_all(*group_, ends)) {
+            const bool is_own = rank++ == group_->rank();
+            for (const SliceEnds& slice : of_rank) join(slice, is_own, runs);
+        }
+    }
+
+    MarkerRuns take() {
+        close();
+        return std::move(found_);
+    }
+
+private:
+    void join(const SliceEnds& slice, bool is_own, const std::vector<MarkerRun>& runs) {
+        const bool goes_on = open_.length > 0 && open_.marker == slice.first.marker;
+        found_.count += slice.runs - (goes_on ? 1 : 0);
+        if (goes_on) open_.length += slice.first.length;
+        if (goes_on && slice.runs == 1) return;
+        close();
+        if (is_own) {
+            found_.here.insert(found_.here.end(), std::next(runs.begin(), goes_on ? 1 : 0),
+                               runs.end());
+        }
+        open_ = slice.last;
+        is_open_here_ = is_own;
+    }
+
+    /// Its length is known: no other slice goes on with it.
+    void close() {
+        if (is_open_here_) found_.here.back().length = open_.length;
+        is_open_here_ = false;
+    }
+
+    const ProcessGroup* group_;
+    MarkerRuns found_;
+    MarkerRun open_;             // the last one up to now
+    bool is_open_here_ = false;  // it began in this process's slice
+};
+
+/// Collective.
+std::vector<Marker> markers_of_all(const ProcessGroup& group, const std::vector<MarkerRun>& runs) {
+    const auto make_set = [](std::vector<Marker>& markers) {
+        std::ranges::sort(markers);
+        markers.erase(std::unique(markers.begin(), markers.end()), markers.end());
+    };
+    std::vector<Marker> markers;
+    for (const MarkerRun& run : runs) markers.push_back(run.marker);
+    make_set(markers);
+    std::vector<Marker> all;
+    for (const auto& of_rank : lists_of_all(group, markers)) {
+        all.insert(all.end(), of_rank.begin(), of_rank.end());
+    }
+    make_set(all);
+    return all;
+}
+
+}  // namespace
+
+MarkerRuns find_marker_runs(std::uint64_t count, const ProcessGroup& group,
+                            const std::function<std::span<const Marker>(const Window&)>& markers) {
+    if (count == 0) return {};
+    if (!markers) {
+        // The one run belongs to who has the first entity.
+        MarkerRuns one{1, {}, {0}};
+        if (group.is_first()) one.here.push_back({0, count, 0});
+        return one;
+    }
+    JoinedRuns joined(group);
+    const std::uint64_t length = lines_of_a_turn(count, group);
+    const std::uint64_t stride = length * static_cast<std::uint64_t>(group.size());
+    for (Window window{0, length, count}; window.begin < count; window.begin += stride) {
+        joined.add(runs_of_slice(markers(window), window.begin_of(group.rank())));
+    }
+    MarkerRuns found = joined.take();
+    found.markers = markers_of_all(group, found.here);
+    return found;
+}
+
+}  // namespace octetra::gmsh

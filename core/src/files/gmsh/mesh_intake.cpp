@@ -1,0 +1,162 @@
+#include "files/gmsh/mesh_intake.hpp"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "files/checks/conflicts.hpp"
+#include "files/checks/tagged_entities.hpp"
+
+namespace octetra::gmsh {
+
+MeshIntake::MeshIntake(GrowingMesh& growing, const ReadOptions& options,
+                       const std::optional<ElementCounts>& counts)
+    : growing_(&growing),
+      options_(&options),
+      expected_(counts),
+      cell_check_(growing.mesh, options) {
+    growing.mesh.index_base = 1;
+}
+
+std::string MeshIntake::describe(const NodeNumbers::Repeated& repeated) {
+    return fmt::format("a second node {}", repeated.tag);
+}
+
+void MeshIntake::expect_elements(std::uint64_t count) {
+    if (growing_->is_streaming()) {
+        const ElementCounts counts = expected_.value_or(ElementCounts{});
+        growing_->expect(edge_kind, counts.edges, true);
+        growing_->expect(facet_kind, counts.facets, true);
+        growing_->expect(cell_kind, counts.cells, true);
+    }
+    if (!options_->only_syntax) repeated_cells_.emplace(count);
+}
+
+template <class I, std::size_t N>
+void MeshIntake::make_room(const EntityKind<I, N>& kind, std::uint64_t count) {
+    if (growing_->is_streaming()) return;
+    auto& list = growing_->mesh.*kind.list;
+    auto& markers = growing_->mesh.*kind.markers;
+    const std::size_t needed = list.size() + count;
+    if (needed <= list.capacity()) return;
+    const std::size_t room = std::max(needed, list.size() + list.size() / 2);
+    list.reserve(room);
+    markers.reserve(room);
+}
+
+template <class I, std::size_t N>
+std::string_view MeshIntake::take(const EntityKind<I, N>& kind,
+                                  std::span<const std::uint64_t, N> tags, Marker marker,
+                                  std::uint64_t place, std::uint64_t step) {
+    std::array<VertexIndex, N> vertices;
+    for (std::size_t k = 0; k < N; ++k) {
+        vertices[k] = nodes_.find(tags[k]);
+        if (vertices[k].is_none()) return wrong_ = fmt::format("there is no node {}", tags[k]);
+    }
+    Taken& of_kind = taken(kind);
+    if (!options_->only_syntax) {
+        if (const std::string_view wrong = judge(vertices); !wrong.empty()) return wrong;
+        of_kind.places.add(place, step);
+    }
+    if (expected_ && of_kind.count == growing_->facts().*kind.count) {
+        return "the file has changed while it was read";
+    }
+    ++of_kind.count;
+    (growing_->mesh.*kind.list).push_back(vertices);
+    (growing_->mesh.*kind.markers).push_back(marker);
+    growing_->entity_complete(kind);
+    return {};
+}
+
+std::string_view MeshIntake::judge(CellVertices& cell) {
+    const std::string_view wrong = cell_check_.judge(cell);
+    if (wrong.empty()) repeated_cells_->add(cell);
+    return wrong;
+}
+
+std::string_view MeshIntake::judge(const FacetVertices& facet) {
+    const auto& [a, b, c] = facet;
+    return a == b || b == c || c == a ? "the triangle has the same vertex twice" : "";
+}
+
+std::string_view MeshIntake::judge(const EdgeVertices& edge) {
+    return edge[0] == edge[1] ? "the line has the same vertex twice" : "";
+}
+
+std::string MeshIntake::refusal(std::uint64_t number) {
+    const auto type = element_type(number);
+    if (!type) return fmt::format("elements of type {} are not known", number);
+    if (type->shape == Shape::tetrahedron && number != tetrahedron_type) {
+        return fmt::format("{}-node tetrahedra (type {}): save with Mesh.ElementOrder = 1",
+                           type->nodes, number);
+    }
+    if (is_solid(type->shape) && number != tetrahedron_type) {
+        return fmt::format("only tetrahedral meshes are supported, and this one has {}",
+                           plural(type->shape));
+    }
+    return {};
+}
+
+void MeshIntake::elements_complete() {
+    growing_->all_complete(edge_kind);
+    growing_->all_complete(facet_kind);
+    growing_->all_complete(cell_kind);
+}
+
+void MeshIntake::check(bool has_lines, const Fail& fail) {
+    if (options_->only_syntax) return;
+    const Mesh& mesh = growing_->mesh;
+    const auto lines_of = [has_lines](const Taken& taken) {
+        return [has_lines, &taken](std::uint64_t entry) {
+            return has_lines ? std::optional(taken.places.of(entry)) : std::nullopt;
+        };
+    };
+    const auto refuse = [&](const auto& wrong, std::string_view name, const auto& markers,
+                            const Taken& of_kind) {
+        if (wrong.entry.is_none()) return;
+        fail(describe_wrong(wrong, name, markers, mesh, lines_of(of_kind)),
+             of_kind.places.of(wrong.entry.value()));
+    };
+    if (repeated_cells_) {
+        const CellPair pair = repeated_cells_->find(mesh.cells, mesh.points.size());
+        if (!pair.cell.is_none()) {
+            fail(describe_repeated(pair, mesh, lines_of(cells_)),
+                 cells_.places.of(pair.cell.value()));
+        }
+    }
+    const WrongFacets wrong = find_wrong_facets(mesh);
+    if (const CellIndex cell = wrong.overlap.cell; !cell.is_none()) {
+        fail(describe_overlap(wrong, mesh, lines_of(cells_)), cells_.places.of(cell.value()));
+    }
+    refuse(wrong.tagged, "triangle", mesh.facet_markers, facets_);
+    refuse(find_wrong_edge(mesh), "line", mesh.edge_markers, edges_);
+}
+
+void MeshIntake::tell_notes(const std::string& path) const {
+    const auto note = [&](std::uint64_t count, std::string_view what) {
+        if (count > 0) options_->note(fmt::format("{}: {} {}", path, count, what));
+    };
+    note(cell_check_.fixed_count(), "inverted cells were turned round");
+    for (const auto& [shape, count] : skipped_) {
+        note(count, fmt::format("elements that are {} are not kept", plural(shape)));
+    }
+    note(interfaces_, "elements between partitions are not kept");
+    note(in_another_group_, "elements are in more physical groups than one: the first is kept");
+}
+
+ElementCounts MeshIntake::counts() const { return {cells_.count, facets_.count, edges_.count}; }
+
+template void MeshIntake::make_room(const EntityKind<CellIndex, 4>&, std::uint64_t);
+template void MeshIntake::make_room(const EntityKind<FacetIndex, 3>&, std::uint64_t);
+template void MeshIntake::make_room(const EntityKind<EdgeIndex, 2>&, std::uint64_t);
+template std::string_view MeshIntake::take(const EntityKind<CellIndex, 4>&,
+                                           std::span<const std::uint64_t, 4>, Marker, std::uint64_t,
+                                           std::uint64_t);
+template std::string_view MeshIntake::take(const EntityKind<FacetIndex, 3>&,
+                                           std::span<const std::uint64_t, 3>, Marker, std::uint64_t,
+                                           std::uint64_t);
+template std::string_view MeshIntake::take(const EntityKind<EdgeIndex, 2>&,
+                                           std::span<const std::uint64_t, 2>, Marker, std::uint64_t,
+                                           std::uint64_t);
+
+}  // namespace octetra::gmsh

@@ -1,0 +1,117 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include <octetra/core/files/mesh_files.hpp>
+#include <octetra/core/mesh.hpp>
+#include <octetra/core/repeated_cells.hpp>
+
+#include "files/checks/cell_check.hpp"
+#include "files/gmsh/element_types.hpp"
+#include "files/gmsh/entry_places.hpp"
+#include "files/gmsh/node_numbers.hpp"
+#include "files/input/growing_mesh.hpp"
+
+namespace octetra::gmsh {
+
+/// How many elements of each kind there are.
+struct ElementCounts {
+    std::uint64_t cells = 0;
+    std::uint64_t facets = 0;
+    std::uint64_t edges = 0;
+
+    friend bool operator==(const ElementCounts&, const ElementCounts&) = default;
+};
+
+/// Makes a mesh of the nodes and elements of a file, whichever version it is: gives tags numbers,
+/// keeps what a mesh is made of, counts what is not kept, and checks. What is wrong with an entry
+/// is returned in words, nothing being right: the caller knows where it stands.
+class MeshIntake {
+public:
+    /// `counts`, of a mesh that is streamed: what will come.
+    MeshIntake(GrowingMesh& growing, const ReadOptions& options,
+               const std::optional<ElementCounts>& counts);
+
+    void expect_nodes(std::uint64_t count) { growing_->expect_points(count, 0, false); }
+    /// Tags and points come in the same order, but not always in turn. `place`: of the tag.
+    void take_tag(std::uint64_t tag, std::uint64_t place, std::uint64_t step) {
+        nodes_.add(tag);
+        node_places_.add(place, step);
+    }
+    void take_point(const Point& point) {
+        growing_->mesh.points.push_back(point);
+        growing_->point_complete();
+    }
+    /// Calls fail(what, place) if a tag is there twice.
+    void nodes_complete(auto&& fail) {
+        growing_->points_complete();
+        if (const auto repeated = nodes_.complete()) {
+            fail(describe(*repeated), node_places_.of(repeated->node));
+        }
+    }
+
+    void expect_elements(std::uint64_t count);
+    /// Makes room for so many more elements of a kind.
+    template <class I, std::size_t N>
+    void make_room(const EntityKind<I, N>& kind, std::uint64_t count);
+    /// An element of one of the kinds of a mesh. `place`: of its row, `step` bytes or lines long.
+    template <class I, std::size_t N>
+    [[nodiscard]] std::string_view take(const EntityKind<I, N>& kind,
+                                        std::span<const std::uint64_t, N> tags, Marker marker,
+                                        std::uint64_t place, std::uint64_t step);
+    /// Count elements that are not kept: of another kind, between partitions, listed again.
+    void skip(Shape shape, std::uint64_t count) { skipped_[shape] += count; }
+    void skip_interface(std::uint64_t count) { interfaces_ += count; }
+    void skip_in_another_group() { ++in_another_group_; }
+    /// Why the file cannot be read if it has elements of this type; else nothing.
+    [[nodiscard]] static std::string refusal(std::uint64_t type);
+    void elements_complete();
+
+    /// Checks what must be seen as a whole. Calls fail(what, place) for what is wrong; `has_lines`:
+    /// places are lines of text, which a message may name beside the one where it stands.
+    using Fail = std::function<void(const std::string& what, std::uint64_t place)>;
+    void check(bool has_lines, const Fail& fail);
+    /// Tells of what was not kept, or was changed, of the file of this name.
+    void tell_notes(const std::string& path) const;
+
+    [[nodiscard]] ElementCounts counts() const;
+
+private:
+    /// What is known of the elements of a kind.
+    struct Taken {
+        std::uint64_t count = 0;
+        EntryPlaces places;
+    };
+    template <class I, std::size_t N>
+    Taken& taken(const EntityKind<I, N>& /*kind*/) {
+        return N == 4 ? cells_ : N == 3 ? facets_ : edges_;
+    }
+    [[nodiscard]] static std::string describe(const NodeNumbers::Repeated& repeated);
+    [[nodiscard]] std::string_view judge(CellVertices& cell);
+    [[nodiscard]] static std::string_view judge(const FacetVertices& facet);
+    [[nodiscard]] static std::string_view judge(const EdgeVertices& edge);
+
+    GrowingMesh* growing_;
+    const ReadOptions* options_;
+    std::optional<ElementCounts> expected_;
+    NodeNumbers nodes_;
+    EntryPlaces node_places_;
+    Taken cells_;
+    Taken facets_;
+    Taken edges_;
+    CellCheck cell_check_;
+    std::optional<RepeatedCells> repeated_cells_;
+    std::map<Shape, std::uint64_t> skipped_;
+    std::uint64_t interfaces_ = 0;
+    std::uint64_t in_another_group_ = 0;
+    std::string wrong_;  // what take() returned
+};
+
+}  // namespace octetra::gmsh

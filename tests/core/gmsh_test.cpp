@@ -165,8 +165,8 @@ TEST(GmshReader, SkipsWhatIsNoPartOfAMeshAndSaysHowMuch) {
         "$NodeData\n$EndNodeData\n");
     EXPECT_EQ(found.mesh, one_cell());
     EXPECT_THAT(found.notes,
-                ElementsAre(EndsWith("m.msh:25: the section $Periodic is not kept"),
-                            EndsWith("m.msh:28: the section $NodeData is not kept"),
+                ElementsAre(EndsWith("m.msh:25: the section 'Periodic' is not kept"),
+                            EndsWith("m.msh:28: the section 'NodeData' is not kept"),
                             EndsWith("m.msh: 2 elements that are points are not kept"),
                             EndsWith("m.msh: 1 elements that are quadrangles are not kept")));
 }
@@ -179,7 +179,7 @@ TEST(GmshReader, SkipsSectionsOfBinaryFilesByTheirEnd) {
             read_with_notes(test::gmsh_binary_4() + "$NodeData\n" + std::string(size, '\0') +
                             "\n$EndNodeData\n$Periodic\n" + "$EndPeriodic\n");
         EXPECT_EQ(found.mesh, one_cell());
-        EXPECT_THAT(found.notes, ElementsAre(HasSubstr("$NodeData"), HasSubstr("$Periodic")));
+        EXPECT_THAT(found.notes, ElementsAre(HasSubstr("'NodeData'"), HasSubstr("'Periodic'")));
     }
 }
 
@@ -197,7 +197,7 @@ TEST(GmshReader, PutsPartitionsTogetherWithoutWhatLiesBetweenThem) {
     EXPECT_THAT(found.mesh.regions, ElementsAre(7, 8));
     EXPECT_THAT(found.mesh.facets, IsEmpty());
     EXPECT_THAT(found.notes,
-                ElementsAre(HasSubstr("$GhostElements is not kept"),
+                ElementsAre(HasSubstr("'GhostElements' is not kept"),
                             EndsWith("m.msh: 1 elements between partitions are not kept")));
 }
 
@@ -262,7 +262,7 @@ INSTANTIATE_TEST_SUITE_P(
         {"Type", "$MeshFormat\n4.1 2 8\n", "2: ", "0 (text) or 1 (binary), not 2"},
         {"SizeOfNumbers", "$MeshFormat\n4.1 1 4\n", "2: ", "numbers of 8 bytes, not 4"},
         {"EndsAtOnce", "$MeshFormat\n", "1: ", "the file ends where its version should be"},
-        {"NoEndOfFormat", "$MeshFormat\n4.1 0 8\n$Nodes\n", "3: ", "$EndMeshFormat expected"},
+        {"NoEndOfFormat", "$MeshFormat\n4.1 0 8\n$Nodes\n", "3: ", "'$EndMeshFormat' expected"},
         {"ByteOrder", test::BinaryBytes().text("$MeshFormat\n4.1 1 8\n").ints({2}),
          " at byte 20: ", "the number 1 should be here, not 2"},
         {"NoNodes", gmsh_head_4, "3: ", "there is no section $Nodes"},
@@ -283,14 +283,14 @@ INSTANTIATE_TEST_SUITE_P(
          "21: ", "$Entities must not stand here"},
         {"EntitiesOf2", gmsh_head_2 + gmsh_entities_4, "4: ", "$Entities must not stand here"},
         {"Parametric", gmsh_head_2 + "$ParametricNodes\n", "4: ", "without Mesh.SaveParametric"},
-        {"StrayEnd", gmsh_head_2 + "$EndNodes\n", "4: ", "$EndNodes ends no section"},
+        {"StrayEnd", gmsh_head_2 + "$EndNodes\n", "4: ", "'$EndNodes' ends no section"},
         {"NoSection", gmsh_head_2 + "Nodes\n", "4: ", "a section, $..., expected, 'Nodes' found"},
         {"NoEndOfSkipped", gmsh_head_2 + "$Periodic\n0\n",
-         "5: ", "ends within the section Periodic"},
+         "5: ", "ends within the section 'Periodic'"},
         {"NoEndOfSkippedBinary", test::gmsh_binary_4() + "$Periodic\n$EndPerio", " at byte ",
-         "ends within the section Periodic"},
+         "ends within the section 'Periodic'"},
         {"WrongEnd", replaced(gmsh_head_2 + gmsh_nodes_2, "$EndNodes", "$EndElements"),
-         "10: ", "$EndNodes expected, '$EndElements' found"},
+         "10: ", "'$EndNodes' expected, '$EndElements' found"},
         {"NoEnd", gmsh_head_2 + "$Nodes\n0\n", "5: ", "the file ends where $EndNodes should be"},
     }),
     named_by_case);

@@ -1,9 +1,11 @@
 #include <algorithm>
+#include <array>
 #include <filesystem>
 #include <functional>
 #include <random>
 #include <vector>
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -230,6 +232,13 @@ Mesh random_mesh(std::uint64_t seed, std::size_t size) {
     return mesh;
 }
 
+void write_all_kinds_of_msh(const Mesh& mesh, const TemporaryFolder& folder) {
+    (void)write_mesh(mesh, folder / "4.msh");
+    (void)write_mesh(mesh, folder / "4t.msh", {.msh = {.is_text = true}});
+    (void)write_mesh(mesh, folder / "2.msh", {.msh = {.is_2 = true}});
+    (void)write_mesh(mesh, folder / "2t.msh", {.msh = {.is_2 = true, .is_text = true}});
+}
+
 /// The sections of a Medit file in another order.
 std::string shuffled_sections(const std::string& file, std::uint64_t seed) {
     std::vector<std::size_t> begins;
@@ -262,8 +271,10 @@ TEST(StreamedMesh, IsTheOneReadForRandomMeshesInAnyOrderOfSections) {
         (void)write_mesh(mesh, folder / "a.meshb");
         const fs::path shuffled =
             folder.write("b.mesh", shuffled_sections(test::content_of(folder / "a.mesh"), seed));
+        write_all_kinds_of_msh(mesh, folder);
         for (const fs::path& file :
-             {folder / "a.ele", folder / "a.mesh", folder / "a.meshb", shuffled}) {
+             {folder / "a.ele", folder / "a.mesh", folder / "a.meshb", shuffled, folder / "4.msh",
+              folder / "4t.msh", folder / "2.msh", folder / "2t.msh"}) {
             Gathered gathered;
             expect_streamed_as_read(file, gathered);
             EXPECT_EQ(gathered.mesh.cells, mesh.cells);
@@ -278,7 +289,7 @@ TEST(StreamedMesh, ComesInFullStretches) {
     mesh.facets.resize(2 * longest, {VertexIndex{0}, VertexIndex{1}, VertexIndex{2}});
     mesh.points.resize(longest + 1);
     const TemporaryFolder folder;
-    for (const std::string name : {"a.ele", "a.mesh", "a.meshb"}) {
+    for (const std::string name : {"a.ele", "a.mesh", "a.meshb", "a.msh"}) {
         (void)write_mesh(mesh, folder / name);
         Gathered gathered;
         expect_streamed_as_read(folder / name, gathered);
@@ -434,6 +445,46 @@ TEST(StreamedMesh, MayNotLoseVerticesBetweenTwoReadings) {
     EXPECT_FALSE(meddler.is_finished);
 }
 
+TEST(StreamedMesh, MayNotGainElementsBetweenTwoReadings) {
+    const TemporaryFolder folder;
+    const std::string nodes = "$Nodes\n4\n1 0 0 0\n2 1 0 0\n3 0 1 0\n4 0 0 1\n$EndNodes\n";
+    std::string padding;
+    for (int i = 0; i < 40000; ++i)
+        padding += "# what fills more than one buffer of the reader ...\n";
+    const fs::path file =
+        folder.write("a.msh", "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n" + nodes + padding +
+                                  "$Elements\n2\n1 4 0 1 2 3 4\n2 2 2 1 1 1 2 3\n$EndElements\n");
+    Meddler meddler(file, "2 2 2 1 1 1 2 3\n", "2 4 1 1 1 2 3 4\n");
+    EXPECT_THAT(test::thrown_by<InputError>([&] { stream_mesh(file, meddler); }),
+                HasSubstr("the file has changed while it was read"));
+    EXPECT_FALSE(meddler.is_finished);
+}
+
+/// Tags of nodes that are not consecutive, kinds that take turns, what is not kept.
+TEST(StreamedMesh, IsTheOneReadOfAGmshFileInNoOrder) {
+    const TemporaryFolder folder;
+    std::mt19937_64 random(5);
+    constexpr std::size_t vertices = 3000;
+    std::vector<std::uint64_t> tags(vertices);
+    for (std::size_t v = 0; v < vertices; ++v) tags[v] = 1 + 1000 * v + random() % 1000;
+    std::ranges::shuffle(tags, random);
+    std::string text = "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n3000\n";
+    for (const std::uint64_t tag : tags) text += fmt::format("{} 1 2 3\n", tag);
+    text += "$EndNodes\n$Periodic\n$EndPeriodic\n$Elements\n60000\n";
+    constexpr std::array<std::size_t, 16> nodes{0, 2, 3, 4, 4, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 1};
+    for (int e = 1; e <= 60000; ++e) {
+        const std::size_t type = std::array<std::size_t, 5>{1, 2, 3, 4, 15}[random() % 5];
+        text += fmt::format("{} {} 2 {} 1", e, type, random() % 3);
+        for (std::size_t k = 0; k < nodes[type]; ++k) {
+            text += fmt::format(" {}", tags[random() % vertices]);
+        }
+        text += "\n";
+    }
+    Gathered gathered;
+    expect_streamed_as_read(folder.write("a.msh", text + "$EndElements\n"), gathered);
+    EXPECT_GT(gathered.mesh.cells.size(), 11000U);
+}
+
 TEST(StreamedMesh, IsOfAFormatThatCanBeRead) {
     for (const std::string name : {"a.vtu", "a.pvtu", "a.vtkhdf", "a.stl"}) {
         Gathered gathered;
@@ -449,7 +500,7 @@ TEST(StreamedMesh, EndsInWhatTheSinkThrows) {
         }
     };
     const TemporaryFolder folder;
-    for (const std::string name : {"a.ele", "a.mesh", "a.meshb"}) {
+    for (const std::string name : {"a.ele", "a.mesh", "a.meshb", "a.msh"}) {
         (void)write_mesh(test::kuhn(1, 1, 1), folder / name);
         Refusing sink;
         EXPECT_THROW(stream_mesh(folder / name, sink), SystemError);

@@ -71,6 +71,23 @@ void check_written(const Mesh& mesh, const fs::path& folder, bool only_syntax) {
                 "when written to a binary Medit file and read");
 }
 
+/// What of a mesh Gmsh's format can hold.
+Mesh as_in_gmsh(Mesh mesh) {
+    mesh.point_markers.clear();
+    return as_in_medit(std::move(mesh));
+}
+
+void check_written_to_msh(const Mesh& mesh, const fs::path& folder, bool only_syntax) {
+    const ReadOptions options{.only_syntax = only_syntax};
+    for (const bool is_2 : {false, true}) {
+        for (const bool is_text : {false, true}) {
+            (void)write_mesh(mesh, folder / "out.msh", {.msh = {is_2, is_text}});
+            expect_same(read(folder / "out.msh", options), as_in_gmsh(mesh),
+                        "when written to a Gmsh file and read");
+        }
+    }
+}
+
 void check_mesh(const fs::path& path) {
     const std::optional<Mesh> mesh = read(path, {});
     const std::optional<Mesh> as_it_stands = read(path, {.only_syntax = true});
@@ -79,7 +96,9 @@ void check_mesh(const fs::path& path) {
         expect_same(as_it_stands, *mesh, "when only syntax is asked for");
         expect_same(turned_round, *mesh, "when inverted cells are turned round");
     }
-    if (as_it_stands) check_written(*as_it_stands, path.parent_path(), !mesh);
+    if (!as_it_stands) return;
+    check_written(*as_it_stands, path.parent_path(), !mesh);
+    check_written_to_msh(*as_it_stands, path.parent_path(), !mesh);
 }
 
 }  // namespace
@@ -105,6 +124,11 @@ void check_medit(std::string_view input, const fs::path& folder) {
 void check_meshb(std::string_view input, const fs::path& folder) {
     write_file(folder / "in.meshb", input);
     check_mesh(folder / "in.meshb");
+}
+
+void check_gmsh(std::string_view input, const fs::path& folder) {
+    write_file(folder / "in.msh", input);
+    check_mesh(folder / "in.msh");
 }
 
 }  // namespace octetra::test

@@ -101,9 +101,10 @@ bool is_positive(const CellVertices& cell, const Mesh& mesh) {
     return orientation(points[cell[0]], points[cell[1]], points[cell[2]], points[cell[3]]) > 0;
 }
 
-constexpr std::array<NamedCheck, 7> all_checks{{{"tetgen", check_tetgen},
+constexpr std::array<NamedCheck, 8> all_checks{{{"tetgen", check_tetgen},
                                                 {"medit", check_medit},
                                                 {"meshb", check_meshb},
+                                                {"gmsh", check_gmsh},
                                                 {"maps", check_maps},
                                                 {"cell_list", check_cell_list},
                                                 {"part_file", check_part_file},

@@ -27,6 +27,7 @@ using CheckReader = void (*)(std::string_view input, const std::filesystem::path
 void check_tetgen(std::string_view input, const std::filesystem::path& folder);
 void check_medit(std::string_view input, const std::filesystem::path& folder);
 void check_meshb(std::string_view input, const std::filesystem::path& folder);
+void check_gmsh(std::string_view input, const std::filesystem::path& folder);
 void check_maps(std::string_view input, const std::filesystem::path& folder);
 void check_cell_list(std::string_view input, const std::filesystem::path& folder);
 void check_part_file(std::string_view input, const std::filesystem::path& folder);

@@ -1,4 +1,6 @@
 #include <algorithm>
+#include <array>
+#include <cstdlib>
 #include <filesystem>
 #include <random>
 #include <string>
@@ -65,6 +67,10 @@ TEST(CorpusFile, IsReadOrRefusedAsItShould) {
             SCOPED_TRACE(file);
             EXPECT_NO_THROW(check_medit(content_of(file), folder.path()));
         }
+        for (const fs::path& file : files_in(meshes, ".msh")) {
+            SCOPED_TRACE(file);
+            EXPECT_NO_THROW(check_gmsh(content_of(file), folder.path()));
+        }
     }
 }
 
@@ -79,6 +85,45 @@ TEST(KeptCheckpoint, IsReadOrRefusedAsItShould) {
         bad[random() % bad.size()] = static_cast<char>(random());
         EXPECT_NO_THROW(check_checkpoint(bad, folder.path())) << "number " << k;
     }
+}
+
+std::uint64_t gmsh_seed() {
+    const char* const given = std::getenv("OCTETRA_GMSH_SEED");
+    return given == nullptr ? std::random_device{}() : std::strtoull(given, nullptr, 10);
+}
+
+/// Bytes made others, taken out, and put in twice. (Numbers that are often somewhere, too.)
+std::string edited(std::string file, std::mt19937_64& random) {
+    constexpr std::array<char, 8> likely{'\0', '\1', '\4', '\xff', '\x7f', '9', '-', '\n'};
+    for (std::uint64_t edits = 1 + random() % 3; edits > 0 && !file.empty(); --edits) {
+        const std::size_t place = random() % file.size();
+        const std::size_t length = 1 + random() % 12;
+        switch (random() % 4) {
+            case 0: file[place] = static_cast<char>(random()); break;
+            case 1: file[place] = likely[random() % likely.size()]; break;
+            case 2: file.erase(place, length); break;
+            default: file.insert(random() % file.size(), file.substr(place, length)); break;
+        }
+    }
+    return file;
+}
+
+/// OCTETRA_GMSH_SEED takes the seed again.
+TEST(EditedGmshFile, IsReadOrRefusedAsItShould) {
+    const TemporaryFolder folder;
+    const std::uint64_t seed = gmsh_seed();
+    SCOPED_TRACE(testing::Message() << "OCTETRA_GMSH_SEED=" << seed);
+    std::mt19937_64 random(seed);
+    std::size_t read = 0;
+    for (const fs::path& file : files_in(corpus / "meshes", ".msh")) {
+        const std::string good = content_of(file);
+        for (int k = 0; k < 150; ++k) {
+            const std::string bad = edited(good, random);
+            ASSERT_NO_THROW(check_gmsh(bad, folder.path())) << file << ", edit " << k;
+            ++read;
+        }
+    }
+    EXPECT_GE(read, 600U);
 }
 
 /// What no reader returns is told apart from what it may.

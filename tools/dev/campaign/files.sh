@@ -2,7 +2,7 @@
 # shellcheck shell=bash
 source "$root/tools/dev/common.sh"
 
-readers=(tetgen medit meshb maps cell_list part_file checkpoint)
+readers=(tetgen medit meshb gmsh maps cell_list part_file checkpoint)
 
 # Files that readers must cope with, as the fuzzers take them, put into build/fuzz/corpus/NAME/; what
 # earlier runs found there stays.
@@ -16,6 +16,9 @@ put_seeds() {
     done
     for file in corpus/meshes/*.mesh corpus/bad/*.mesh; do
         cp "$file" "$into/medit/seed-$(basename "$file")"
+    done
+    for file in corpus/meshes/*.msh corpus/bad/*.msh; do
+        cp "$file" "$into/gmsh/seed-$(basename "$file")"
     done
     for file in corpus/meshes/*.ele corpus/bad/*.ele; do
         base=${file%.ele}

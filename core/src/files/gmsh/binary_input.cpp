@@ -55,7 +55,7 @@ void BinaryInput::skip_section(std::string_view name) {
         }
         reader_->seek(begin + size - (end.size() - 1));  // the end may begin in these bytes
     }
-    reader_->fail(fmt::format("the file ends within the section {}", name));
+    reader_->fail(fmt::format("the file ends within the section {}", shown(name)));
 }
 
 }  // namespace octetra::gmsh

@@ -35,7 +35,9 @@ public:
         const std::string line = next_line();
         if (line == fmt::format("$End{}", name)) return;
         if (line.empty()) fail(fmt::format("the file ends where $End{} should be", name));
-        fail_at(fmt::format("$End{} expected, {} found", name, shown(line)), line_begin_);
+        fail_at(
+            fmt::format("{} expected, {} found", shown(fmt::format("$End{}", name)), shown(line)),
+            line_begin_);
     }
     void skip_section(std::string_view name);
 

@@ -18,6 +18,7 @@
 #include "files/gmsh/sections_2.hpp"
 #include "files/gmsh/sections_4.hpp"
 #include "files/gmsh/text_input.hpp"
+#include "files/input/fields.hpp"
 
 namespace octetra {
 namespace {
@@ -63,13 +64,15 @@ private:
             read_known(name);
             return in_->end_section(name);
         }
-        if (name.starts_with("End")) in_->fail(fmt::format("${} ends no section", name));
+        if (name.starts_with("End"))
+            in_->fail(fmt::format("{} ends no section", shown("$" + name)));
         if (name == "ParametricNodes") {
             in_->fail("nodes with parameters: save without Mesh.SaveParametric");
         }
         const bool is_first = !is_read(name);
         if (is_first && name != "Comments" && name != "PhysicalNames") {
-            options_->note(fmt::format("{}: the section ${} is not kept", in_->place(), name));
+            options_->note(
+                fmt::format("{}: the section {} is not kept", in_->place(), shown(name)));
         }
         if (is_first) read_.push_back(name);
         in_->skip_section(name);

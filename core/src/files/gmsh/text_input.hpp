@@ -35,7 +35,8 @@ public:
         const std::string_view token = tokens_.text();
         if (token == fmt::format("$End{}", name)) return;
         if (token.empty()) reader_->fail(fmt::format("the file ends where $End{} should be", name));
-        reader_->fail(fmt::format("$End{} expected, {} found", name, shown(token)));
+        reader_->fail(
+            fmt::format("{} expected, {} found", shown(fmt::format("$End{}", name)), shown(token)));
     }
     void skip_section(std::string_view name) {
         const std::string end = fmt::format("$End{}", name);
@@ -44,7 +45,7 @@ public:
             tokens_.leave_line();
             return;
         }
-        reader_->fail(fmt::format("the file ends within the section {}", name));
+        reader_->fail(fmt::format("the file ends within the section {}", shown(name)));
     }
 
     /// Where the row is whose first number comes next.

@@ -1,3 +1,7 @@
+#include <string>
+#include <utility>
+#include <vector>
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -10,6 +14,7 @@ namespace {
 
 using test::TemporaryFolder;
 using testing::HasSubstr;
+using testing::StartsWith;
 
 TEST(Convert, ThereAndBackGivesTheSameBytes) {
     const TemporaryFolder folder;
@@ -39,6 +44,27 @@ TEST(Convert, SaysWhatTheFormatCannotHold) {
     const test::Outcome run = test::octetra("convert cube.ele cube.vtu", folder);
     EXPECT_EQ(run.status, 0);
     EXPECT_THAT(run.err, HasSubstr("octetra: note: the .vtu file holds cells only"));
+}
+
+TEST(Convert, WritesTheMshThatIsAskedFor) {
+    const TemporaryFolder folder;
+    ASSERT_EQ(test::octetra("generate kuhn 2 -o cube.mesh", folder).status, 0);
+    for (const auto& [word, head] :
+         std::vector<std::pair<std::string, std::string>>{{"4.1", "4.1 1 8\n"},
+                                                          {"4.1-text", "4.1 0 8\n"},
+                                                          {"2.2", "2.2 1 8\n"},
+                                                          {"2.2-text", "2.2 0 8\n"}}) {
+        ASSERT_EQ(test::octetra("convert cube.mesh a.msh --msh-format " + word, folder).status, 0);
+        EXPECT_THAT(test::content_of(folder / "a.msh"), StartsWith("$MeshFormat\n" + head));
+        ASSERT_EQ(test::octetra("convert a.msh back.mesh", folder).status, 0);
+        EXPECT_EQ(test::content_of(folder / "back.mesh"), test::content_of(folder / "cube.mesh"));
+    }
+    ASSERT_EQ(test::octetra("convert cube.mesh b.msh", folder).status, 0);
+    EXPECT_THAT(test::content_of(folder / "b.msh"), StartsWith("$MeshFormat\n4.1 1 8\n"));
+    EXPECT_EQ(test::octetra("convert cube.mesh a.msh --msh-format 3", folder).err,
+              "octetra: --msh-format takes one of 4.1, 4.1-text, 2.2, 2.2-text, not '3'\n");
+    EXPECT_EQ(test::octetra("convert cube.mesh a.vtu --msh-format 2.2", folder).err,
+              "octetra: --msh-format is of .msh files, and a.vtu is none\n");
 }
 
 TEST(Convert, ToAFullDiskEndsInStatus3) {

@@ -1,15 +1,20 @@
+#include <array>
+#include <filesystem>
 #include <memory>
 #include <string>
 #include <vector>
 
-#include <CLI/CLI.hpp>
+#include <fmt/format.h>
 
+#include <CLI/CLI.hpp>
+#include <octetra/core/error.hpp>
 #include <octetra/core/files/checkpoint.hpp>
 #include <octetra/core/files/places.hpp>
 #include <octetra/distributed/adaptive_mesh.hpp>
 #include <octetra/distributed/communicator.hpp>
 
 #include "adapt/carried_fields.hpp"
+#include "choice.hpp"
 #include "commands/commands.hpp"
 #include "commands/files_apart.hpp"
 #include "commands/mesh_options.hpp"
@@ -20,8 +25,21 @@ namespace {
 struct ConvertOptions {
     InputOptions input;
     std::string output;
+    std::string msh_format;  // empty: as write_mesh() chooses
     bool quiet = false;
 };
+
+/// What --msh-format says. Throws InputError where it says nothing of this output.
+WriteOptions write_options(const ConvertOptions& options) {
+    if (options.msh_format.empty()) return {};
+    constexpr std::array<Word<MshFormat>, 4> words{{{"4.1", {}},
+                                                    {"4.1-text", {.is_text = true}},
+                                                    {"2.2", {.is_2 = true}},
+                                                    {"2.2-text", {.is_2 = true, .is_text = true}}}};
+    const MshFormat format = parse_choice("--msh-format", options.msh_format, words);
+    if (std::filesystem::path(options.output).extension() == ".msh") return {.msh = format};
+    throw InputError(fmt::format("--msh-format is of .msh files, and {} is none", options.output));
+}
 
 /// A checkpoint to a checkpoint, with all that it has.
 void convert_with_history(const ConvertOptions& options) {
@@ -41,6 +59,7 @@ void note_lost_fields(const ConvertOptions& options) {
 }
 
 void convert(const ConvertOptions& options) {
+    const WriteOptions writing = write_options(options);
     check_output(options.output);
     check_files_apart({mesh_named("MESH", options.input.path)},
                       {mesh_to_write("OUT", options.output)});
@@ -49,7 +68,7 @@ void convert(const ConvertOptions& options) {
     }
     if (is_checkpoint(options.input.path)) note_lost_fields(options);
     const Mesh mesh = read_input(options.input);
-    write_output(mesh, options.output);
+    write_output(mesh, options.output, writing);
     if (!options.quiet) report_written(mesh, options.output);
 }
 
@@ -66,11 +85,16 @@ void add_convert(CLI::App& program, const distributed::Communicator& world) {
         ->type_name("")
         ->check(names_a_file())
         ->required();
+    command
+        ->add_option("--msh-format", options->msh_format,
+                     "which .msh: 4.1 or 2.2, binary, or 4.1-text or 2.2-text [4.1]")
+        ->type_name("WORD");
     command->add_flag("--quiet", options->quiet, "print nothing but notes and errors");
     command->footer(
         "Example:\n"
         "  octetra generate torus -o torus.1.ele\n"
-        "  octetra convert torus.1.ele torus.mesh");
+        "  octetra convert torus.1.ele torus.mesh\n"
+        "  octetra convert torus.mesh torus.msh --msh-format 2.2-text");
     command->callback([options, world] { world.on_first([&] { convert(*options); }); });
 }
 

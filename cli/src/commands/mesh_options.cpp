@@ -97,12 +97,12 @@ Mesh read_input(const InputOptions& options) {
     return read_mesh(options.path, read_options(options));
 }
 
-void write_output(const Mesh& mesh, const std::string& path) {
+void write_output(const Mesh& mesh, const std::string& path, const WriteOptions& options) {
     if (is_checkpoint(path)) {
         using distributed::AdaptiveMesh;
         return AdaptiveMesh::distribute(distributed::Communicator(), mesh, {}).save(path);
     }
-    const std::string lost = write_mesh(mesh, path);
+    const std::string lost = write_mesh(mesh, path, options);
     if (!lost.empty()) note(lost);
 }
 

@@ -47,6 +47,6 @@ void note(std::string_view what);
 void report_written(const Mesh& mesh, const std::string& path);
 
 /// Writes the mesh; notes on stderr what the format cannot hold.
-void write_output(const Mesh& mesh, const std::string& path);
+void write_output(const Mesh& mesh, const std::string& path, const WriteOptions& options = {});
 
 }  // namespace octetra::cli

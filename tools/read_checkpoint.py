@@ -33,6 +33,7 @@ class File:
         self.counts = self.numbers(9)
         self.steps = [self.numbers(3) for _ in range(self.numbers(1)[0])]
         self.fields = [self.field() for _ in range(self.numbers(1)[0])]
+        self.group_names = [self.group_name() for _ in range(self.numbers(1)[0] if self.counts[8] & 16 else 0)]
         self.block_begin = 16
 
     def numbers(self, count):
@@ -42,9 +43,17 @@ class File:
 
     def field(self):
         on, kind, components, length = self.numbers(4)
-        name = bytes(self.table[self.next:self.next + length]).decode()
-        self.next += length
+        name = self.text(length)
         return name, on, FIELD_TYPES[kind], components
+
+    def group_name(self):
+        """Of a physical group: its dimension, its tag and the name."""
+        dimension, tag, length = self.numbers(3)
+        return dimension, tag - (tag >> 63 << 64), self.text(length)
+
+    def text(self, length):
+        self.next += length
+        return bytes(self.table[self.next - length:self.next]).decode()
 
     def blocks(self, entities):
         for _ in range(-(-entities // BLOCK)):

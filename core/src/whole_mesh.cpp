@@ -38,7 +38,8 @@ WholeMesh::WholeMesh(const Mesh& mesh, const RefinementMaps* maps)
              .has_regions = !mesh.regions.empty(),
              .has_facet_markers = !mesh.facet_markers.empty(),
              .has_edge_markers = !mesh.edge_markers.empty(),
-             .has_parents = maps != nullptr} {}
+             .has_parents = maps != nullptr,
+             .group_names = SharedGroupNames(mesh.group_names)} {}
 
 std::span<const Point> WholeMesh::points(const Window& w) { return slice(mesh_->points, w); }
 std::span<const Marker> WholeMesh::point_markers(const Window& w) {

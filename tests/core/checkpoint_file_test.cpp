@@ -1,5 +1,6 @@
 #include <random>
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <octetra/core/checkpoint_blocks.hpp>
@@ -59,6 +60,7 @@ Mesh input() {
     for (std::size_t v = 0; v < mesh.points.size(); ++v) {
         mesh.point_attributes.push_back(static_cast<double>(v) / 3);
     }
+    mesh.group_names = {{3, 1, "rock"}, {2, -5, "\"outer\" wall"}, {0, 9, "Größe"}};
     return mesh;
 }
 
@@ -82,7 +84,8 @@ std::filesystem::path write_example(const std::filesystem::path& path) {
                              .vertices_now = 5,
                              .cells_now = cells + 3,
                              .steps = std::vector<StepFacts>(2),
-                             .fields = {{"u", FieldOn::vertices, FieldType::int32, 2}}});
+                             .fields = {{"u", FieldOn::vertices, FieldType::int32, 2}},
+                             .group_names = mesh.group_names});
     writer.put_input(source);
     std::vector<std::byte> block;
     writer.put_section(Section::cuts, [&](const Window&) {
@@ -176,6 +179,35 @@ TEST(CheckpointFile, MadeUpWithRightHashesIsReadOrRefused) {
     }
     EXPECT_GT(read, 0);  // some of these are other meshes
     EXPECT_LT(read, 4000);
+}
+
+/// By another byte in the names of groups, or in what stands before them in the table.
+TEST(CheckpointFile, WithNamesOfGroupsThatNoMeshHasIsRefused) {
+    const test::TemporaryFolder folder;
+    const std::string good = test::content_of(write_example(folder / "a.octetra"));
+    const std::size_t rock = good.find("rock");
+    ASSERT_NE(rock, std::string::npos);
+    const auto edited = [&](std::size_t at, char byte) {
+        std::string bad = good;
+        bad[at] = byte;
+        test::seal(bad);
+        return test::thrown_by<InputError>(
+            [&] { (void)read_checkpoint(folder.write("bad.octetra", bad)); });
+    };
+    using testing::HasSubstr;
+    EXPECT_THAT(edited(rock, '\n'),
+                HasSubstr("the name of group 1 of dimension 3 cannot be shown"));
+    EXPECT_THAT(edited(rock, '\xff'), HasSubstr("cannot be shown"));
+    EXPECT_THAT(edited(rock - 24, 4), HasSubstr("as a dimension"));
+    EXPECT_THAT(edited(rock - 10, 1), HasSubstr("the tag of a group is out of range"));
+    std::string twice = good;
+    const std::size_t size = good.find("Gr\xc3\xb6") - 24;
+    twice[size] = 2;
+    for (std::size_t k = 8; k < 16; ++k) twice[size + k] = k == 8 ? '\xfb' : '\xff';
+    test::seal(twice);
+    EXPECT_THAT(test::thrown_by<InputError>(
+                    [&] { (void)read_checkpoint(folder.write("bad.octetra", twice)); }),
+                HasSubstr("group -5 of dimension 2 has two names"));
 }
 
 TEST(CheckpointFile, ThatIsSomethingElseIsRefused) {

@@ -40,6 +40,11 @@ Mesh rich_mesh() {
     Mesh mesh = test::shaken_kuhn(3, 0.2, 3);
     test::list_boundary(mesh);
     mesh.index_base = 1;
+    mesh.group_names = {{3, 1, "rock # 1"},
+                        {2, -5, "\"outer\" wall"},
+                        {0, 9,
+                         "Stra\xc3\x9f"
+                         "e"}};
     for (CellIndex c{0}; c < mesh.cells.end_index(); ++c) {
         mesh.regions.append(static_cast<Marker>(c.value() / 7 % 3) - 1);
     }
@@ -194,6 +199,22 @@ TEST(GmshWriter, WritesWhatIsSaidOfVersion4) {
     EXPECT_EQ(content_of(folder / "a.msh"), test::gmsh_binary_4());
     EXPECT_EQ(write_mesh(mesh, folder / "a.msh", {.msh = {.is_2 = true}}), "");
     EXPECT_EQ(content_of(folder / "a.msh"), test::gmsh_binary_2());
+}
+
+TEST(GmshWriter, WritesTheNamesOfGroups) {
+    Mesh mesh = test::one_cell(test::cube_corner);
+    mesh.group_names = {{3, 7, "rock # 1"}};
+    const TemporaryFolder folder;
+    for (const MshFormat& format : all_formats) {
+        EXPECT_EQ(write_mesh(mesh, folder / "a.msh", {.msh = format}), "");
+        EXPECT_THAT(content_of(folder / "a.msh"),
+                    HasSubstr("$EndMeshFormat\n$PhysicalNames\n1\n3 7 \"rock # 1\"\n"
+                              "$EndPhysicalNames\n$"));
+    }
+    for (const std::string name : {"a.ele", "a.mesh", "a.vtu"}) {
+        EXPECT_EQ(write_mesh(mesh, folder / name),
+                  "the names of groups are kept in .msh and .octetra files alone");
+    }
 }
 
 TEST(GmshWriter, SaysWhatItCannotHold) {

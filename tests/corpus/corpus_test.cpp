@@ -60,7 +60,9 @@ TEST_P(CorpusMesh, HasTheCountsOfTheManifest) {
 
 TEST_P(CorpusMesh, KeepsEverythingThroughFiles) {
     (void)write_mesh(mesh, folder / "copy.ele");
-    EXPECT_EQ(read_mesh(folder / "copy.ele"), mesh);
+    Mesh unnamed = mesh;
+    unnamed.group_names.clear();
+    EXPECT_EQ(read_mesh(folder / "copy.ele"), unnamed);
     Mesh copy = mesh;
     copy.attributes_per_point = 0;
     copy.point_attributes.clear();

@@ -61,6 +61,14 @@ TEST(Compare, SaysWhereOnlyTheFirstNumberDiffers) {
     EXPECT_FALSE(compare(mesh, other).only_index_base_differs);
 }
 
+TEST(Compare, LooksAtNoNamesOfGroups) {
+    Mesh named = tagged();
+    named.group_names = {{3, 1, "rock"}};
+    EXPECT_EQ(compare(named, tagged()).likeness, Likeness::identical);
+    named.regions.back() += 1;
+    EXPECT_EQ(compare(named, tagged()).likeness, Likeness::different);
+}
+
 TEST(Compare, SeesThroughAnotherNumbering) {
     const Comparison comparison = compare(tagged(), renumbered(tagged()));
     EXPECT_EQ(comparison.likeness, Likeness::up_to_numbering);

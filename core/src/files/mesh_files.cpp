@@ -1,5 +1,7 @@
 #include <octetra/core/files/mesh_files.hpp>
 
+#include <utility>
+
 #include <fmt/format.h>
 
 #include <octetra/core/error.hpp>
@@ -65,7 +67,18 @@ void stream_mesh(const fs::path& path, MeshSink& sink, const ReadOptions& option
     refuse_to_read(path);
 }
 
-std::string write_mesh(MeshSource& mesh, const fs::path& path, const WriteOptions& options) {
+namespace {
+
+/// What is lost in all, where that is `lost` without the names of groups.
+std::string with_names_lost(std::string lost, const MeshFacts& facts) {
+    if (facts.group_names.empty()) return lost;
+    return fmt::format("{}{}the names of groups are kept in .msh and .octetra files alone", lost,
+                       lost.empty() ? "" : "; ");
+}
+
+/// Returns what is lost but for the names of groups.
+std::string write_all_but_names(MeshSource& mesh, const fs::path& path,
+                                const WriteOptions& options) {
     mesh.group().on_first([&] { check_writable(path); });
     switch (format_of(path)) {
         case Format::tetgen: write_tetgen(mesh, path); return {};
@@ -74,10 +87,18 @@ std::string write_mesh(MeshSource& mesh, const fs::path& path, const WriteOption
         case Format::gmsh: return write_gmsh(mesh, path, options.msh);
         case Format::vtu: return write_vtu(mesh, path);
         case Format::vtkhdf: return write_vtkhdf(mesh, path);
-        case Format::pvtu: return write_pieces(mesh, ProcessGroup::alone(), path);
+        case Format::pvtu: return write_pvtu(mesh, ProcessGroup::alone(), path);
         case Format::unknown: break;
     }
     return {};
+}
+
+}  // namespace
+
+std::string write_mesh(MeshSource& mesh, const fs::path& path, const WriteOptions& options) {
+    std::string lost = write_all_but_names(mesh, path, options);
+    if (format_of(path) == Format::gmsh) return lost;
+    return with_names_lost(std::move(lost), mesh.facts());
 }
 
 std::string write_mesh(const Mesh& mesh, const fs::path& path, const WriteOptions& options) {
@@ -94,7 +115,7 @@ bool is_in_pieces(const fs::path& path) { return format_of(path) == Format::pvtu
 
 std::string write_pieces(MeshSource& piece, const ProcessGroup& group, const fs::path& path) {
     group.on_first([&] { check_writable(path, group.size()); });
-    return write_pvtu(piece, group, path);
+    return with_names_lost(write_pvtu(piece, group, path), piece.facts());
 }
 
 void check_writable(const fs::path& path, int pieces) {

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include <octetra/core/group_names.hpp>
 #include <octetra/core/index.hpp>
 #include <octetra/core/point.hpp>
 
@@ -48,6 +49,8 @@ struct Mesh {
 
     IndexVector<EdgeIndex, EdgeVertices> edges;   ///< tagged edges: ridges, wires
     IndexVector<EdgeIndex, Marker> edge_markers;  ///< one per edge, or empty
+
+    std::vector<GroupName> group_names;  ///< as the file lists them; each group once
 
     std::uint32_t index_base = 0;  ///< what files call the first vertex, cell ...: 0 or 1
 

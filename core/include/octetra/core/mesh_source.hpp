@@ -70,6 +70,7 @@ struct MeshFacts {
     bool has_edge_markers = false;
     bool has_parents = false;
     bool has_vertex_numbers = false;
+    SharedGroupNames group_names;
 };
 
 /// A mesh in its canonical order, in slices. All functions but facts() and group() are collective

@@ -42,6 +42,7 @@ Mesh read_input(const CheckpointReader& file) {
     mesh.edges = read_lists<EdgeIndex, 2>(file, Section::edges);
     mesh.edge_markers = read_markers<EdgeIndex>(file, Section::edge_markers);
     mesh.index_base = facts.index_base;
+    mesh.group_names = facts.group_names;
     return mesh;
 }
 

@@ -4,12 +4,14 @@
 #include <limits>
 #include <string>
 #include <string_view>
+#include <utility>
 
 #define XXH_INLINE_ALL
 #include <xxhash.h>
 
 #include <fmt/format.h>
 
+#include <octetra/core/check_group_names.hpp>
 #include <octetra/core/error.hpp>
 
 namespace octetra {
@@ -19,11 +21,13 @@ constexpr std::uint64_t point_markers = 1;
 constexpr std::uint64_t regions = 2;
 constexpr std::uint64_t facet_markers = 4;
 constexpr std::uint64_t edge_markers = 8;
+constexpr std::uint64_t group_names = 16;
 
 std::uint64_t flags_of(const CheckpointFacts& facts) {
     return (facts.has_point_markers ? point_markers : 0U) | (facts.has_regions ? regions : 0U) |
            (facts.has_facet_markers ? facet_markers : 0U) |
-           (facts.has_edge_markers ? edge_markers : 0U);
+           (facts.has_edge_markers ? edge_markers : 0U) |
+           (facts.group_names.empty() ? 0U : group_names);
 }
 
 void put(std::vector<std::byte>& bytes, const void* data, std::size_t size) {
@@ -82,6 +86,29 @@ private:
 /// What no file can hold, so that nothing overflows that is made of it.
 constexpr std::uint64_t most_entities = std::uint64_t{1} << 56U;
 
+void put_group_names(std::vector<std::byte>& bytes, const std::vector<GroupName>& names) {
+    if (names.empty()) return;  // as files were before there were any
+    put(bytes, names.size());
+    for (const GroupName& group : names) {
+        put(bytes, static_cast<std::uint64_t>(group.dimension));
+        put(bytes, static_cast<std::uint64_t>(std::int64_t{group.tag}));
+        put(bytes, group.name.size());
+        put(bytes, group.name.data(), group.name.size());
+    }
+}
+
+void read_group_names(Table& table, std::vector<GroupName>& names) {
+    names.resize(table.count(3 * sizeof(std::uint64_t), "names of groups"));
+    for (GroupName& group : names) {
+        group.dimension = static_cast<std::int32_t>(table.number_to(3, "as a dimension"));
+        const auto tag = static_cast<std::int64_t>(table.number());
+        if (!std::in_range<Marker>(tag)) table.fail("the tag of a group is out of range");
+        group.tag = static_cast<Marker>(tag);
+        group.name = table.text();
+    }
+    if (const std::string wrong = wrong_in(names); !wrong.empty()) table.fail(wrong);
+}
+
 void read_facts(Table& table, CheckpointFacts& facts) {
     for (std::uint64_t* count : {&facts.vertices, &facts.cells, &facts.facets, &facts.edges,
                                  &facts.vertices_now, &facts.cells_now}) {
@@ -89,7 +116,7 @@ void read_facts(Table& table, CheckpointFacts& facts) {
     }
     facts.attributes_per_point = table.number_to(1U << 20U, "attributes of a vertex");
     facts.index_base = static_cast<std::uint32_t>(table.number_to(1, "as the index base"));
-    const std::uint64_t flags = table.number_to(15, "as flags");
+    const std::uint64_t flags = table.number_to(31, "as flags");
     facts.has_point_markers = (flags & point_markers) != 0;
     facts.has_regions = (flags & regions) != 0;
     facts.has_facet_markers = (flags & facet_markers) != 0;
@@ -108,6 +135,7 @@ void read_facts(Table& table, CheckpointFacts& facts) {
         field.name = table.text();
         if (!is_name(field.name)) table.fail("the name of a field cannot be shown");
     }
+    if ((flags & group_names) != 0) read_group_names(table, facts.group_names);
 }
 
 }  // namespace
@@ -143,6 +171,7 @@ std::vector<std::byte> table_of(const CheckpointFacts& facts,
         put(bytes, field.name.size());
         put(bytes, field.name.data(), field.name.size());
     }
+    put_group_names(bytes, facts.group_names);
     put(bytes, blocks.data(), blocks.size() * sizeof(BlockEntry));
     return bytes;
 }

@@ -54,6 +54,7 @@ public:
                 reader_->position() - sizeof number);
     }
     [[nodiscard]] std::uint64_t count_line(std::string_view what);
+    [[nodiscard]] std::string line(std::string_view what) { return reader_->take_line(what); }
     [[nodiscard]] std::int32_t integer(std::string_view what) {
         return reader_->take<std::int32_t>(what);
     }

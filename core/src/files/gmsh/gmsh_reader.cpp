@@ -58,8 +58,8 @@ public:
 
 private:
     void read_section(const std::string& name) {
-        if (name == "Nodes" || name == "Elements" || name == "Entities" ||
-            name == "PartitionedEntities") {
+        if (name == "PhysicalNames" || name == "Nodes" || name == "Elements" ||
+            name == "Entities" || name == "PartitionedEntities") {
             if (is_read(name)) in_->fail(fmt::format("a second section ${}", name));
             read_known(name);
             return in_->end_section(name);
@@ -70,7 +70,7 @@ private:
             in_->fail("nodes with parameters: save without Mesh.SaveParametric");
         }
         const bool is_first = !is_read(name);
-        if (is_first && name != "Comments" && name != "PhysicalNames") {
+        if (is_first && name != "Comments") {
             options_->note(
                 fmt::format("{}: the section {} is not kept", in_->place(), shown(name)));
         }
@@ -85,6 +85,8 @@ private:
             intake_.nodes_complete([this](const std::string& what, std::uint64_t place) {
                 in_->fail_at(what, place);
             });
+        } else if (name == "PhysicalNames") {
+            intake_.take_names(*in_);
         } else if (name == "Elements") {
             if (!is_read("Nodes")) in_->fail("the section $Nodes must come before $Elements");
             is_4_ ? read_elements_4(*in_, groups_, intake_) : Elements2(*in_, intake_).read();

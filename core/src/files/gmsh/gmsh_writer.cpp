@@ -15,6 +15,7 @@
 
 #include "files/gmsh/element_types.hpp"
 #include "files/gmsh/gmsh.hpp"
+#include "files/gmsh/group_names.hpp"
 #include "files/gmsh/marker_runs.hpp"
 #include "files/gmsh/number_output.hpp"
 #include "files/gmsh/points_box.hpp"
@@ -64,7 +65,10 @@ public:
     }
 
     void write() {
-        on_first([&] { put_format(); });
+        on_first([&] {
+            put_format();
+            put_group_names(numbers_, facts_.group_names.list());
+        });
         is_2_ ? write_2() : write_4();
     }
 

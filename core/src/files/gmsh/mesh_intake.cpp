@@ -141,6 +141,7 @@ void MeshIntake::tell_notes(const std::string& path) const {
         note(count, fmt::format("elements that are {} are not kept", plural(shape)));
     }
     note(interfaces_, "elements between partitions are not kept");
+    note(names_left_out_, "names of groups are empty, or no UTF-8 text, and are not kept");
     note(in_another_group_, "elements are in more physical groups than one: the first is kept");
 }
 

@@ -16,6 +16,7 @@
 #include "files/checks/cell_check.hpp"
 #include "files/gmsh/element_types.hpp"
 #include "files/gmsh/entry_places.hpp"
+#include "files/gmsh/group_names.hpp"
 #include "files/gmsh/node_numbers.hpp"
 #include "files/input/growing_mesh.hpp"
 
@@ -38,6 +39,12 @@ public:
     /// `counts`, of a mesh that is streamed: what will come.
     MeshIntake(GrowingMesh& growing, const ReadOptions& options,
                const std::optional<ElementCounts>& counts);
+
+    /// The names of groups.
+    template <class Input>
+    void take_names(Input& in) {
+        names_left_out_ = read_group_names(in, growing_->mesh.group_names);
+    }
 
     void expect_nodes(std::uint64_t count) { growing_->expect_points(count, 0, false); }
     /// Tags and points come in the same order, but not always in turn. `place`: of the tag.
@@ -111,6 +118,7 @@ private:
     std::map<Shape, std::uint64_t> skipped_;
     std::uint64_t interfaces_ = 0;
     std::uint64_t in_another_group_ = 0;
+    std::uint64_t names_left_out_ = 0;
     std::string wrong_;  // what take() returned
 };
 

@@ -64,6 +64,14 @@ public:
     [[nodiscard]] std::uint64_t count_line(std::string_view what) {
         return tokens_.unsigned_integer(what);
     }
+    /// The next line, and all of it: '#' begins no comment there.
+    [[nodiscard]] std::string_view line(std::string_view what) {
+        if (!reader_->next()) {
+            reader_->fail(fmt::format("the file ends where {} should be", what));
+        }
+        tokens_.leave_line();
+        return reader_->full_line();
+    }
     [[nodiscard]] std::int32_t integer(std::string_view what) { return tokens_.marker(what); }
     [[nodiscard]] double coordinate(std::string_view what) { return tokens_.coordinate(what); }
     /// A number that nobody asks for.

@@ -58,6 +58,7 @@ void GrowingMesh::finish() {
     if (is_streaming()) {
         facts_.index_base = mesh.index_base;
         facts_.first_midpoint = facts_.vertices;
+        facts_.group_names = SharedGroupNames(mesh.group_names);
         if (streams_others()) sink_->finish(facts_);
         return;
     }

@@ -76,9 +76,10 @@ bool LineReader::next() {
         }
         ++line_number_;
         line_ = without_comment_and_line_end(raw);
+        full_line_ = raw;
         if (!line_.empty()) return true;
     }
-    line_ = {};
+    line_ = full_line_ = {};
     return false;
 }
 

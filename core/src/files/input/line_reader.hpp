@@ -32,6 +32,8 @@ public:
 
     /// The current line, with neither comment nor line end; valid until next().
     [[nodiscard]] std::string_view line() const { return line_; }
+    /// The same with its comment, and with blanks.
+    [[nodiscard]] std::string_view full_line() const { return full_line_; }
     /// Its number, counted from 1; after the last line, the number of lines.
     [[nodiscard]] std::uint64_t line_number() const { return line_number_; }
     /// Where in the file the current line begins, and where what follows it does.
@@ -64,6 +66,7 @@ private:
     std::size_t end_ = 0;    // of what was read
     bool at_end_of_file_ = false;
     std::string_view line_;
+    std::string_view full_line_;
     std::uint64_t line_number_ = 0;
 };
 

@@ -55,6 +55,7 @@ struct CheckpointFacts {
 
     std::vector<StepFacts> steps;
     std::vector<FieldFacts> fields;
+    std::vector<GroupName> group_names;
 
     friend bool operator==(const CheckpointFacts&, const CheckpointFacts&) = default;
 };

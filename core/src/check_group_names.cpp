@@ -1,0 +1,30 @@
+#include <octetra/core/check_group_names.hpp>
+
+#include <algorithm>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include <octetra/core/checkpoint_blocks.hpp>
+
+namespace octetra {
+
+std::string wrong_in(const std::vector<GroupName>& names) {
+    std::vector<std::pair<std::int32_t, std::int32_t>> groups;
+    for (const GroupName& group : names) {
+        if (group.dimension < 0 || group.dimension > 3) {
+            return fmt::format("a group of dimension {} has a name", group.dimension);
+        }
+        if (group.name.empty() || !is_name(group.name)) {
+            return fmt::format("the name of group {} of dimension {} cannot be shown", group.tag,
+                               group.dimension);
+        }
+        groups.emplace_back(group.dimension, group.tag);
+    }
+    std::ranges::sort(groups);
+    const auto twice = std::ranges::adjacent_find(groups);
+    if (twice == groups.end()) return {};
+    return fmt::format("group {} of dimension {} has two names", twice->second, twice->first);
+}
+
+}  // namespace octetra

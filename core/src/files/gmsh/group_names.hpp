@@ -1,0 +1,53 @@
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include <octetra/core/checkpoint_blocks.hpp>
+#include <octetra/core/mesh.hpp>
+
+#include "files/gmsh/number_output.hpp"
+
+/// The section $PhysicalNames: text in binary files, too.
+namespace octetra::gmsh {
+
+/// A line of it: `2 5 "outer wall"`. Nothing if it is of another form. The name is all between the
+/// first and the last quotation mark.
+[[nodiscard]] std::optional<GroupName> parse_group_name(std::string_view line);
+
+/// Reads the names, each of a group of its own. Those that cannot be shown, or are empty, are left
+/// out; returns how many these are.
+template <class Input>
+std::uint64_t read_group_names(Input& in, std::vector<GroupName>& names) {
+    const std::uint64_t count = in.count_line("the number of names");
+    in.check_count(count, 3, 4, "names");
+    std::uint64_t left_out = 0;
+    std::vector<std::pair<std::int32_t, Marker>> groups;
+    for (std::uint64_t i = 0; i < count; ++i) {
+        auto group = parse_group_name(in.line("the name of a group"));
+        if (!group) {
+            in.fail("the name of a group is a line of its dimension, its tag and \"the name\"");
+        }
+        groups.emplace_back(group->dimension, group->tag);
+        if (group->name.empty() || !is_name(group->name)) {
+            ++left_out;
+        } else {
+            names.push_back(std::move(*group));
+        }
+    }
+    std::ranges::sort(groups);
+    const auto twice = std::ranges::adjacent_find(groups);
+    if (twice == groups.end()) return left_out;
+    in.fail(fmt::format("group {} of dimension {} has two names", twice->second, twice->first));
+}
+
+void put_group_names(NumberOutput& out, const std::vector<GroupName>& names);
+
+}  // namespace octetra::gmsh

@@ -140,6 +140,7 @@ Refinement bisect_mesh(const Refinement& coarse, const std::vector<EdgeVertices>
     const EdgeTable table = number_edges(mesh);
     Refinement fine;
     fine.mesh.index_base = mesh.index_base;
+    fine.mesh.group_names = mesh.group_names;
     fine.maps.first_midpoint = coarse.maps.first_midpoint;
     fine.maps.midpoint_to_edge = coarse.maps.midpoint_to_edge;
     bisect_edges(mesh, table, edges, fine);

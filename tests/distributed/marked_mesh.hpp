@@ -31,6 +31,9 @@ inline Mesh marked(Mesh mesh, std::uint64_t seed) {
         mesh.point_attributes.push_back(static_cast<double>(random()) * 0x1p-60);
         mesh.point_attributes.push_back(static_cast<double>(v));
     }
+    mesh.group_names = {{3, 1, "a region whose name is long enough to need memory"},
+                        {3, 3, "r"},
+                        {2, -4, "\"outer\" wall # 1"}};
     mesh.index_base = static_cast<std::uint32_t>(seed % 2);
     return mesh;
 }

@@ -28,6 +28,7 @@ MeshPart part_of(const Mesh& mesh, const std::function<int(CellIndex)>& rank_of,
     const int rank = test::world().rank();
     MeshPart part;
     part.index_base = mesh.index_base;
+    part.group_names = mesh.group_names;
     part.attributes_per_point = mesh.attributes_per_point;
     const auto numbers = []<std::size_t N>(const std::array<VertexIndex, N>& vertices) {
         std::array<std::uint64_t, N> result{};
@@ -115,6 +116,7 @@ TEST(MeshPart, WithCellNumbersMakesTheMeshThatAFileWouldHave) {
         EXPECT_TRUE(whole.cells == expected.cells);
         EXPECT_TRUE(whole.regions == expected.regions);
         EXPECT_EQ(whole.index_base, expected.index_base);
+        EXPECT_EQ(whole.group_names, expected.group_names);
         EXPECT_EQ(sorted(whole.facets, whole.facet_markers),
                   sorted(expected.facets, expected.facet_markers));
         EXPECT_EQ(sorted(whole.edges, whole.edge_markers),
@@ -191,6 +193,12 @@ TEST(MeshPart, ThatIsWrongOnOneProcessIsRefusedOnAllWithTheSameWords) {
                 HasSubstr("ascend"));
     EXPECT_THAT(refused([](MeshPart& p) { p.cell_numbers.back() = 1000; }), HasSubstr("too large"));
     EXPECT_THAT(refused([](MeshPart& p) { p.index_base = 7; }), HasSubstr("ind"));
+    EXPECT_THAT(refused([](MeshPart& p) { p.group_names[0].dimension = 4; }),
+                HasSubstr("a group of dimension 4 has a name"));
+    EXPECT_THAT(refused([](MeshPart& p) { p.group_names[0].name = "a\nb"; }),
+                HasSubstr("cannot be shown"));
+    EXPECT_THAT(refused([](MeshPart& p) { p.group_names.push_back(p.group_names[0]); }),
+                HasSubstr("has two names"));
     EXPECT_THAT(refused([](MeshPart& p) {
                     p.vertex_numbers.push_back(999);
                     p.points.push_back({1, 2, 3});
@@ -222,6 +230,13 @@ TEST(MeshPart, ThatContradictsAnotherIsRefused) {
                 HasSubstr("vertex 0: ranks 0 and"));
     EXPECT_THAT(refused([&](MeshPart& p) { p.attributes_per_point = 0, p.point_attributes = {}; }),
                 HasSubstr("attributes"));
+    for (const auto& spoil : std::vector<std::function<void(GroupName&)>>{
+             [](GroupName& group) { group.name += 'x'; }, [](GroupName& group) { group.tag += 9; },
+             [](GroupName& group) { group.dimension = 1; }}) {
+        EXPECT_THAT(refused([&](MeshPart& p) { spoil(p.group_names[0]); }),
+                    HasSubstr("different names of groups"));
+    }
+    EXPECT_THAT(refused([](MeshPart& p) { p.group_names = {}; }), HasSubstr("names of groups"));
     EXPECT_THAT(refused([&](MeshPart& p) { p.regions = {}; }), HasSubstr("region tags"));
     EXPECT_THAT(refused([&](MeshPart& p) { p.cell_numbers = {}; }), HasSubstr("cell numbers"));
     EXPECT_THAT(refused([&](MeshPart& p) {

@@ -305,6 +305,7 @@ LoadedPart load_part(const Communicator& processes, const CheckpointReader& file
         take_tagged(edges, facts.has_edge_markers, part.input.edges, part.input.edge_markers,
                     part.input.edge_numbers);
         take_roots(std::move(roots), facts, part);
+        part.input.group_names = facts.group_names;
     });
     failure.agree(processes);
     return part;

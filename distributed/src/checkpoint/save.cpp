@@ -94,7 +94,8 @@ CheckpointFacts facts_of(const SavedMesh& saved, const MeshFacts& input,
                           .vertices_now = saved.numbers->vertex_count,
                           .cells_now = cells_now,
                           .steps = std::vector<StepFacts>(saved.steps.size()),
-                          .fields = {}};
+                          .fields = {},
+                          .group_names = input.group_names.list()};
     std::ranges::transform(fields, std::back_inserter(facts.fields),
                            [](const Field& field) { return facts_of(field); });
     return facts;

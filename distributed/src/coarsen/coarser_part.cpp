@@ -22,6 +22,7 @@ DistributedMesh unchanged_parts(const DistributedMesh& mesh) {
     after.input_vertex_count = mesh.input_vertex_count;
     after.input_cell_count = mesh.input_cell_count;
     after.index_base = mesh.index_base;
+    after.group_names = mesh.group_names;
     return after;
 }
 

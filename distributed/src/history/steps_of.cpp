@@ -135,6 +135,7 @@ DistributedMesh input_of(const DistributedMesh& mesh) {
     input.input_vertex_count = mesh.input_vertex_count;
     input.input_cell_count = mesh.input_cell_count;
     input.index_base = mesh.index_base;
+    input.group_names = mesh.group_names;
     return input;
 }
 

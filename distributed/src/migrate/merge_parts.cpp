@@ -231,6 +231,7 @@ MergedPart merge_parts(const DistributedMesh& before, const Departures& departur
     mesh.input_vertex_count = before.input_vertex_count;
     mesh.input_cell_count = before.input_cell_count;
     mesh.index_base = before.index_base;
+    mesh.group_names = before.group_names;
     const DistributedMesh& come = arrivals.part;
     const auto stays = staying_vertices(before, departures);
     Source a(before, &stays);

@@ -31,7 +31,8 @@ MeshFacts CanonicalSlices::find_facts() const {
             .has_regions = any_has(lists_.cells.ancestors().markers),
             .has_facet_markers = any_has(lists_.facets.ancestors().markers),
             .has_edge_markers = any_has(lists_.edges.ancestors().markers),
-            .has_parents = true};
+            .has_parents = true,
+            .group_names = mesh_->group_names};
 }
 
 /// Calls emit(number, local vertex) for this process's vertices numbered begin .. end-1.

@@ -113,9 +113,11 @@ Collected collect(DistributedMesh mesh) {
     const Phase phase(processes, "collect");
     restore_canonical_order(mesh);
     const std::uint32_t index_base = mesh.index_base;
+    const SharedGroupNames group_names = mesh.group_names;
     const VertexIndex first_midpoint{mesh.input_vertex_count};
     Collected whole = hand_over(std::move(mesh));
     whole.mesh.index_base = index_base;
+    whole.mesh.group_names = group_names.list();
     whole.maps.first_midpoint = first_midpoint;
     return whole;
 }
@@ -124,6 +126,7 @@ Collected collect_copy(const DistributedMesh& mesh) {
     const Phase phase(mesh.processes, "collect");
     Collected whole = gather(mesh);
     whole.mesh.index_base = mesh.index_base;
+    if (mesh.processes.is_first()) whole.mesh.group_names = mesh.group_names.list();
     whole.maps.first_midpoint = VertexIndex{mesh.input_vertex_count};
     return whole;
 }

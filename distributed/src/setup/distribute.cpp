@@ -1,7 +1,9 @@
 #include <algorithm>
 #include <array>
+#include <cstring>
 #include <numeric>
 #include <span>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -25,6 +27,44 @@ struct Facts {
 
 Facts facts_of(const Mesh& mesh) {
     return {mesh.points.size(), mesh.cells.size(), mesh.attributes_per_point, mesh.index_base};
+}
+
+/// Collective. What all get to know of the first process's mesh, in one message.
+std::pair<Facts, std::vector<GroupName>> shared_facts(const Communicator& processes,
+                                                      const Mesh& mesh) {
+    std::vector<char> bytes;
+    const auto put = [&](const void* data, std::size_t size) {
+        const auto* first = static_cast<const char*>(data);
+        bytes.insert(bytes.end(), first, first + size);
+    };
+    struct NameHead {
+        std::int32_t dimension;
+        Marker tag;
+        std::uint64_t length;
+    };
+    const Facts own = facts_of(mesh);
+    put(&own, sizeof own);
+    for (const GroupName& group : mesh.group_names) {
+        const NameHead head{group.dimension, group.tag, group.name.size()};
+        put(&head, sizeof head);
+        put(group.name.data(), group.name.size());
+    }
+    processes.broadcast(bytes);
+
+    std::size_t at = 0;
+    const auto take = [&](void* data, std::size_t size) {
+        std::memcpy(data, bytes.data() + at, size);
+        at += size;
+    };
+    std::pair<Facts, std::vector<GroupName>> shared;
+    take(&shared.first, sizeof shared.first);
+    while (at < bytes.size()) {
+        NameHead head{};
+        take(&head, sizeof head);
+        shared.second.push_back({head.dimension, head.tag, std::string(head.length, '\0')});
+        take(shared.second.back().name.data(), head.length);
+    }
+    return shared;
 }
 
 /// Entities of one kind that go to one process.
@@ -238,9 +278,7 @@ void take_over(Mesh mesh, DistributedMesh& part) {
 DistributedMesh distribute(const Communicator& processes, Mesh mesh,
                            const std::vector<int>& cell_to_rank) {
     const Phase phase(processes, "distribute");
-    std::vector<Facts> shared{facts_of(mesh)};
-    processes.broadcast(shared);
-    const Facts facts = shared.front();
+    auto [facts, group_names] = shared_facts(processes, mesh);
 
     DistributedMesh part;
     part.processes = processes;
@@ -248,6 +286,7 @@ DistributedMesh distribute(const Communicator& processes, Mesh mesh,
     part.input_vertex_count = facts.vertices;
     part.input_cell_count = facts.cells;
     part.index_base = facts.index_base;
+    part.group_names = SharedGroupNames(std::move(group_names));
     if (processes.size() == 1) {
         take_over(std::move(mesh), part);
         return part;

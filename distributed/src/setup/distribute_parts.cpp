@@ -1,12 +1,15 @@
 #include <algorithm>
 #include <bit>
+#include <functional>
 #include <numeric>
 #include <optional>
 #include <ranges>
+#include <string>
 #include <utility>
 
 #include <fmt/format.h>
 
+#include <octetra/core/check_group_names.hpp>
 #include <octetra/core/error.hpp>
 #include <octetra/core/orientation.hpp>
 #include <octetra/core/vertex_buckets.hpp>
@@ -55,6 +58,22 @@ void check_sizes(const Communicator& processes, const MeshPart& part) {
     check_ascent("cell", part.cell_numbers);
     check_ascent("facet", part.facet_numbers);
     check_ascent("edge", part.edge_numbers);
+    const std::string wrong = wrong_in(part.group_names);
+    if (!wrong.empty()) refuse(processes, "{}", wrong);
+}
+
+/// Of equal names the same.
+std::uint64_t hash_of(const std::vector<GroupName>& names) {
+    std::uint64_t hash = names.size();
+    for (const GroupName& group : names) {
+        for (const std::uint64_t part :
+             {static_cast<std::uint64_t>(group.dimension), static_cast<std::uint64_t>(group.tag),
+              std::uint64_t{std::hash<std::string>{}(group.name)}}) {
+            hash = (hash ^ part) * 0x9e3779b97f4a7c15U;
+            hash ^= hash >> 32U;
+        }
+    }
+    return hash;
 }
 
 /// Collective. Refuses a list that some processes have of their entities and others have not, and
@@ -81,6 +100,7 @@ void check_alike(const Communicator& processes, const MeshPart& part) {
     };
     check_same("numbers of attributes", part.attributes_per_point);
     check_same("index bases", part.index_base);
+    check_same("names of groups", hash_of(part.group_names));
     if (processes.max(part.index_base) > 1) throw InputError("the index base is 0 or 1");
 }
 
@@ -299,7 +319,10 @@ DistributedMesh distribute_parts(const Communicator& processes, MeshPart part) {
     check_alike(processes, part);
 
     std::optional<DistributedMesh> made;
-    failure.attempt([&] { made.emplace(); });
+    failure.attempt([&] {
+        made.emplace();
+        made->group_names = SharedGroupNames(std::move(part.group_names));
+    });
     failure.agree(processes);
     DistributedMesh& mesh = *made;
     mesh.processes = processes;

@@ -127,6 +127,7 @@ public:
         : processes_(processes), stretch_(std::move(stretch)) {
         mesh_.processes = processes;
         mesh_.index_base = stretch_.facts.index_base;
+        mesh_.group_names = stretch_.facts.group_names;
         mesh_.input_vertex_count = stretch_.facts.vertices;
         mesh_.input_cell_count = stretch_.facts.cells;
     }

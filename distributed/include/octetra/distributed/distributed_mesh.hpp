@@ -89,6 +89,7 @@ struct DistributedMesh {
     std::uint64_t input_vertex_count = 0;
     std::uint64_t input_cell_count = 0;
     std::uint32_t index_base = 0;
+    SharedGroupNames group_names;
 };
 
 /// Collective. Gives each cell of a mesh that the first process has to the process that

@@ -40,7 +40,8 @@ struct MeshPart {
     std::vector<Marker> edge_markers;  ///< or empty
     std::vector<std::uint64_t> edge_numbers;
 
-    std::uint32_t index_base = 0;  ///< what files are to call the first vertex: 0 or 1
+    std::uint32_t index_base = 0;        ///< what files are to call the first vertex: 0 or 1
+    std::vector<GroupName> group_names;  ///< for files; the same on all processes
 };
 
 /// Collective. The parts as one distributed mesh; cells stay where they are, and as they stand.

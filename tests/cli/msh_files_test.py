@@ -30,6 +30,13 @@ def sections(path):
     return found
 
 
+def names_in(path):
+    """The lines that name groups."""
+    lines = path.read_bytes().split(b"\n")
+    at = lines.index(b"$PhysicalNames") + 2
+    return {line.decode() for line in lines[at:at + int(lines[at - 1])]}
+
+
 def named_by_points(path):
     """The entities of a Medit file by the places of their corners, each with its reference, counted."""
     lists = sections(path)
@@ -85,6 +92,20 @@ class ByGmsh(Case):
         self.gmsh("a.msh", "-save", "-bin", "-format", "msh41", "-o", "b.msh")
         self.run_octetra("convert", "b.msh", "b.mesh")
         self.assertEqual(named_by_points(self.path / "b.mesh"), named_by_points(self.path / "a.mesh"))
+
+
+    def test_keeps_the_names_of_groups(self):
+        """In what is written, and in what Gmsh makes of it."""
+        expected = names_in(self.path / "box.msh")
+        self.assertEqual(len(expected), 7)
+        self.run_octetra("refine", "box.msh", "--sphere", "0,0,0,0.6", "-o", "fine.octetra")
+        for form in FORMATS:
+            for again in ["msh41", "msh22"]:
+                with self.subTest(form + " as " + again):
+                    self.run_octetra("convert", "fine.octetra", "a.msh", "--msh-format", form)
+                    self.assertEqual(names_in(self.path / "a.msh"), expected)
+                    self.gmsh("a.msh", "-save", "-format", again, "-o", "b.msh")
+                    self.assertEqual(names_in(self.path / "b.msh"), expected)
 
 
 class ByMeshio(Case):

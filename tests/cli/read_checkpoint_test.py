@@ -50,6 +50,20 @@ class ReadCheckpoint(unittest.TestCase):
         numpy.testing.assert_array_equal(cells, expected_cells)
         self.assertEqual(fields, {})
 
+    def test_finds_the_names_of_groups(self):
+        box = pathlib.Path(__file__).parents[2] / "corpus" / "meshes" / "gmsh-box-22.msh"
+        text = box.read_text().replace('2 9 "floor and roof"', '2 -9 "St\u00e4be"')
+        (self.path / "box.msh").write_text(text)
+        self.run_octetra("refine", "box.msh", "--all", "-o", "a.octetra")
+        found = read_checkpoint.File(self.path / "a.octetra")
+        self.assertEqual(found.group_names, [(0, 6, "corner"), (1, 5, "ridge"), (2, 3, "floor #1"),
+                                             (2, 4, "interface"), (2, -9, "St\u00e4be"), (3, 2, "air above"), (3, 7, "steel")])
+        self.run_octetra("refine", "box.msh", "--all", "-o", "a.mesh")
+        points, cells, _ = read_checkpoint.read(self.path / "a.octetra")
+        expected_points, expected_cells = mesh_of(self.path / "a.mesh")
+        numpy.testing.assert_array_equal(points, expected_points)
+        numpy.testing.assert_array_equal(cells, expected_cells)
+
     def test_finds_the_mesh_at_any_scale(self):
         self.run_octetra("generate", "random", "60", "-o", "a.mesh")
         words = (self.path / "a.mesh").read_text().split()

@@ -1,0 +1,119 @@
+#include <string>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <octetra/core/files/checkpoint.hpp>
+#include <octetra/core/files/mesh_files.hpp>
+
+#include "cli/octetra_program.hpp"
+
+/// The names of physical groups: through every command, on any number of ranks.
+namespace octetra {
+namespace {
+
+using test::TemporaryFolder;
+using testing::HasSubstr;
+
+const std::vector<GroupName> names_of_box{
+    {0, 6, "corner"},         {1, 5, "ridge"},     {2, 3, "floor #1"}, {2, 4, "interface"},
+    {2, 9, "floor and roof"}, {3, 2, "air above"}, {3, 7, "steel"}};
+
+class GroupNames : public testing::Test {
+protected:
+    GroupNames() {
+        for (const std::string name : {"gmsh-box-22.msh", "gmsh-box-41b.msh"}) {
+            std::filesystem::copy_file(OCTETRA_SOURCE_DIR "/corpus/meshes/" + name, folder / name);
+        }
+    }
+    [[nodiscard]] test::Outcome run(const std::string& arguments, int ranks = 0) const {
+        const std::string command = arguments + " --quiet";
+        auto outcome =
+            ranks == 0 ? test::octetra(command, folder) : test::octetra_on(ranks, command, folder);
+        EXPECT_EQ(outcome.status, 0) << command << "\n" << outcome.err;
+        return outcome;
+    }
+    [[nodiscard]] std::vector<GroupName> names_in(const std::string& file) const {
+        return read_mesh(folder / file).group_names;
+    }
+
+    const TemporaryFolder folder;
+};
+
+TEST_F(GroupNames, AreThoseOfTheInputInEveryFormThatIsWritten) {
+    for (const std::string input : {"gmsh-box-22.msh", "gmsh-box-41b.msh"}) {
+        for (const std::string form : {"4.1", "4.1-text", "2.2", "2.2-text"}) {
+            (void)run("convert " + input + " a.msh --msh-format " + form);
+            EXPECT_EQ(names_in("a.msh"), names_of_box) << input << ' ' << form;
+        }
+    }
+}
+
+TEST_F(GroupNames, StayThroughRefiningOnAnyNumberOfRanks) {
+    const std::string refine = "refine gmsh-box-41b.msh --sphere 0,0,0,0.6 --levels 2 ";
+    (void)run(refine + "--engine reference -o r.msh");
+    EXPECT_EQ(names_in("r.msh"), names_of_box);
+    for (const int ranks : {1, 2, 3, 4}) {
+        for (const std::string how : {"", "--partition rcb", "--verify"}) {
+            (void)run(refine + how + " -o p.msh", ranks);
+            EXPECT_EQ(test::content_of(folder / "r.msh"), test::content_of(folder / "p.msh"))
+                << ranks << " ranks " << how;
+        }
+    }
+}
+
+/// Through a script that refines and coarsens, and through a checkpoint between every two steps.
+TEST_F(GroupNames, StayThroughHistoriesOnAnyNumberOfRanks) {
+    const std::vector<std::string> steps{"refine --sphere 0,0,0,0.6 --levels 2",
+                                         "coarsen --outside --sphere 0,0,0,0.3",
+                                         "refine --region 2"};
+    (void)folder.write("s.txt", steps[0] + "\nsave mid.octetra\n" + steps[1] + "\n" + steps[2]);
+    (void)run("adapt gmsh-box-22.msh --script s.txt -o r.msh");
+    (void)run("adapt gmsh-box-22.msh --script s.txt -o r.octetra");
+    EXPECT_EQ(names_in("r.msh"), names_of_box);
+    EXPECT_EQ(read_checkpoint_facts(folder / "mid.octetra").group_names, names_of_box);
+    const auto expect_same = [&](const std::string& a, const std::string& b, int ranks) {
+        EXPECT_TRUE(test::content_of(folder / a) == test::content_of(folder / b))
+            << a << ' ' << b << ' ' << ranks;
+    };
+    for (const int ranks : {1, 2, 3, 4}) {
+        (void)run("refine gmsh-box-22.msh" + steps[0].substr(6) + " -o 0.octetra", ranks);
+        (void)run("coarsen 0.octetra" + steps[1].substr(7) + " -o 1.octetra", ranks);
+        (void)run("refine 1.octetra" + steps[2].substr(6) + " -o 2.octetra", ranks);
+        (void)run("refine 1.octetra" + steps[2].substr(6) + " -o 2.msh", ranks);
+        expect_same("0.octetra", "mid.octetra", ranks);
+        expect_same("2.octetra", "r.octetra", ranks);
+        expect_same("2.msh", "r.msh", ranks);
+    }
+    (void)run("convert r.octetra c.msh");
+    expect_same("c.msh", "r.msh", 1);
+}
+
+TEST_F(GroupNames, AreSaidOnceToBeLostWhereAFormatHasNoPlaceForThem) {
+    const std::string lost = "the names of groups are kept in .msh and .octetra files alone";
+    for (const std::string output : {"o.ele", "o.mesh", "o.vtu", "o.pvtu"}) {
+        const auto converted = run("convert gmsh-box-41b.msh " + output);
+        EXPECT_EQ(test::occurrences(converted.err, lost), 1U) << converted.err;
+        for (const int ranks : {1, 3}) {
+            const auto refined = run("refine gmsh-box-41b.msh --all -o " + output, ranks);
+            EXPECT_EQ(test::occurrences(refined.err, lost), 1U) << output << '\n' << refined.err;
+        }
+    }
+    for (const std::string output : {"o.msh", "o.octetra"}) {
+        const auto refined = run("refine gmsh-box-41b.msh --all -o " + output, 2);
+        EXPECT_EQ(test::occurrences(refined.err, lost), 0U) << refined.err;
+    }
+    (void)run("convert o.msh bare.mesh");
+    EXPECT_EQ(test::occurrences(run("convert bare.mesh bare.vtu").err, lost), 0U);
+}
+
+/// A mesh whose facets are of one group first, and of another.
+TEST_F(GroupNames, OfGroupsWhoseEntitiesAreOfAnotherOneFirstStay) {
+    const auto converted = run("convert gmsh-box-41b.msh o.msh");
+    EXPECT_THAT(converted.err, HasSubstr("in more physical groups than one: the first is kept"));
+    EXPECT_THAT(names_in("o.msh"), testing::Contains(GroupName{2, 9, "floor and roof"}));
+}
+
+}  // namespace
+}  // namespace octetra

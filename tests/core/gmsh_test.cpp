@@ -173,43 +173,6 @@ TEST(GmshReader, SkipsWhatIsNoPartOfAMeshAndSaysHowMuch) {
                             EndsWith("m.msh: 1 elements that are quadrangles are not kept")));
 }
 
-/// Where the first section of a binary file begins.
-const std::size_t binary_head = test::gmsh_binary_head("4.1").size();
-
-TEST(GmshReader, ReadsTheNamesOfGroups) {
-    const std::string names =
-        "$PhysicalNames\n6\n3 7 \"rock # 1\"\n  2\t-5 \"a \"b\" c\" \n1 1 \"\"\n0 7 \"\xc3\xa9\"\n"
-        "2 8 \"\xe9\"\n2 9 \"a\tb\"\n$EndPhysicalNames\n";
-    Mesh expected = one_cell();
-    expected.group_names = {{3, 7, "rock # 1"}, {2, -5, "a \"b\" c"}, {0, 7, "\xc3\xa9"}};
-    for (const std::string& file : {gmsh_head_2 + names + gmsh_nodes_2 + gmsh_cell_2,
-                                    test::gmsh_binary_4().insert(binary_head, names)}) {
-        const Read found = read_with_notes(file);
-        EXPECT_EQ(found.mesh, expected);
-        EXPECT_THAT(found.notes, ElementsAre(EndsWith("m.msh: 3 names of groups are empty, or no "
-                                                      "UTF-8 text, and are not kept")));
-    }
-}
-
-TEST(GmshReader, ReadsNamesOfGroupsThatAreNoLongerThanALineMayBe) {
-    for (const std::size_t length : {std::size_t{100'000}, std::size_t{2'000'000}}) {
-        Mesh expected = one_cell();
-        expected.group_names = {{3, 7, std::string(length, 'n')}};
-        const std::string names =
-            "$PhysicalNames\n1\n3 7 \"" + expected.group_names[0].name + "\"\n$EndPhysicalNames\n";
-        for (const std::string& file : {gmsh_head_2 + names + gmsh_nodes_2 + gmsh_cell_2,
-                                        test::gmsh_binary_4().insert(binary_head, names)}) {
-            if (length == 100'000) {
-                EXPECT_TRUE(read(file) == expected);
-            } else {
-                const std::string refusal = test::thrown_by<InputError>([&] { (void)read(file); });
-                EXPECT_THAT(refusal, HasSubstr("line"));
-                EXPECT_LT(refusal.size(), 1000U);
-            }
-        }
-    }
-}
-
 /// Also where the end of the section does not fit into what is searched at once.
 TEST(GmshReader, SkipsSectionsOfBinaryFilesByTheirEnd) {
     for (const std::size_t size :
@@ -322,34 +285,6 @@ INSTANTIATE_TEST_SUITE_P(
          "21: ", "$Entities must not stand here"},
         {"EntitiesOf2", gmsh_head_2 + gmsh_entities_4, "4: ", "$Entities must not stand here"},
         {"Parametric", gmsh_head_2 + "$ParametricNodes\n", "4: ", "without Mesh.SaveParametric"},
-        {"NameTwice", gmsh_head_2 + "$PhysicalNames\n2\n3 7 \"a\"\n3 7 \"b\"\n",
-         "7: ", "group 7 of dimension 3 has two names"},
-        {"NameOfNoGroup", gmsh_head_2 + "$PhysicalNames\n1\n7 \"a\"\n",
-         "6: ", "a line of its dimension, its tag and \"the name\""},
-        {"NameOfADimension", gmsh_head_2 + "$PhysicalNames\n1\n4 7 \"a\"\n",
-         "6: ", "a line of its dimension"},
-        {"NameOfANegativeDimension", gmsh_head_2 + "$PhysicalNames\n1\n-3 7 \"a\"\n",
-         "6: ", "a line of its dimension"},
-        {"NameOfAHugeTag", gmsh_head_2 + "$PhysicalNames\n1\n3 2147483648 \"a\"\n",
-         "6: ", "a line of its dimension"},
-        {"NameWithoutQuotes", gmsh_head_2 + "$PhysicalNames\n1\n3 7 rock\n",
-         "6: ", "a line of its dimension"},
-        {"NameTwiceBesideOneLeftOut", gmsh_head_2 + "$PhysicalNames\n2\n3 7 \"\"\n3 7 \"b\"\n",
-         "7: ", "group 7 of dimension 3 has two names"},
-        {"FewerNamesThanAreThere",
-         gmsh_head_2 + "$PhysicalNames\n1\n3 7 \"a\"\n3 8 \"b\"\n$EndPhysicalNames\n",
-         "7: ", "'$EndPhysicalNames' expected"},
-        {"NamesTwice", gmsh_head_2 + "$PhysicalNames\n0\n$EndPhysicalNames\n$PhysicalNames\n",
-         "7: ", "a second section $PhysicalNames"},
-        {"NameWithoutItsEndBinary",
-         test::gmsh_binary_4().insert(binary_head,
-                                      "$PhysicalNames\n1\n3 7 \"a\n$EndPhysicalNames\n"),
-         " at byte ", "a line of its dimension"},
-        {"NameWithoutItsEnd", gmsh_head_2 + "$PhysicalNames\n1\n3 7 \"a\n",
-         "6: ", "a line of its dimension"},
-        {"HugeNames", gmsh_head_2 + "$PhysicalNames\n99999999\n", "5: ", "holds at most"},
-        {"NamesEnd", gmsh_head_2 + "$PhysicalNames\n2\n3 7 \"a\"\n",
-         "6: ", "the file ends where the name of a group should be"},
         {"StrayEnd", gmsh_head_2 + "$EndNodes\n", "4: ", "'$EndNodes' ends no section"},
         {"NoSection", gmsh_head_2 + "Nodes\n", "4: ", "a section, $..., expected, 'Nodes' found"},
         {"NoEndOfSkipped", gmsh_head_2 + "$Periodic\n0\n",

@@ -1,0 +1,136 @@
+#include <string>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <octetra/core/error.hpp>
+#include <octetra/core/files/mesh_files.hpp>
+
+#include "core/gmsh_files.hpp"
+#include "support/meshes.hpp"
+#include "support/temporary_folder.hpp"
+#include "support/thrown.hpp"
+
+/// The names of groups in Gmsh's files.
+namespace octetra {
+namespace {
+
+using test::gmsh_cell_2;
+using test::gmsh_head_2;
+using test::gmsh_nodes_2;
+using testing::ElementsAre;
+using testing::EndsWith;
+using testing::HasSubstr;
+
+struct NamedRead {
+    Mesh mesh;
+    std::vector<std::string> notes;
+};
+
+NamedRead read_named(const std::string& content) {
+    const test::TemporaryFolder folder;
+    NamedRead read;
+    read.mesh = read_mesh(folder.write("m.msh", content),
+                          {.note = [&](const auto& n) { read.notes.push_back(n); }});
+    return read;
+}
+
+/// The one cell of the files in pieces.
+Mesh unnamed_cell() {
+    Mesh mesh = test::one_cell(test::cube_corner);
+    mesh.regions = {7};
+    mesh.index_base = 1;
+    return mesh;
+}
+
+/// Where the first section of a binary file begins.
+const std::size_t binary_head = test::gmsh_binary_head("4.1").size();
+
+TEST(GmshNames, AreReadFromTextAndBinaryFiles) {
+    const std::string names =
+        "$PhysicalNames\n6\n3 7 \"rock # 1\"\n  2\t-5 \"a \"b\" c\" \n1 1 \"\"\n0 7 \"\xc3\xa9\"\n"
+        "2 8 \"\xe9\"\n2 9 \"a\tb\"\n$EndPhysicalNames\n";
+    Mesh expected = unnamed_cell();
+    expected.group_names = {{3, 7, "rock # 1"}, {2, -5, "a \"b\" c"}, {0, 7, "\xc3\xa9"}};
+    for (const std::string& file : {gmsh_head_2 + names + gmsh_nodes_2 + gmsh_cell_2,
+                                    test::gmsh_binary_4().insert(binary_head, names)}) {
+        const NamedRead found = read_named(file);
+        EXPECT_EQ(found.mesh, expected);
+        EXPECT_THAT(found.notes, ElementsAre(EndsWith("m.msh: 3 names of groups are empty, or no "
+                                                      "UTF-8 text, and are not kept")));
+    }
+}
+
+TEST(GmshNames, AreReadIfTheyAreNoLongerThanALineMayBe) {
+    for (const std::size_t length : {std::size_t{100'000}, std::size_t{2'000'000}}) {
+        Mesh expected = unnamed_cell();
+        expected.group_names = {{3, 7, std::string(length, 'n')}};
+        const std::string names =
+            "$PhysicalNames\n1\n3 7 \"" + expected.group_names[0].name + "\"\n$EndPhysicalNames\n";
+        for (const std::string& file : {gmsh_head_2 + names + gmsh_nodes_2 + gmsh_cell_2,
+                                        test::gmsh_binary_4().insert(binary_head, names)}) {
+            if (length == 100'000) {
+                EXPECT_TRUE(read_named(file).mesh == expected);
+            } else {
+                const std::string refusal =
+                    test::thrown_by<InputError>([&] { (void)read_named(file); });
+                EXPECT_THAT(refusal, HasSubstr("line"));
+                EXPECT_LT(refusal.size(), 1000U);
+            }
+        }
+    }
+}
+
+struct BadName {
+    std::string name;
+    std::string content;
+    std::string place;
+    std::string what;
+};
+
+class BadGmshNames : public testing::TestWithParam<BadName> {};
+
+TEST_P(BadGmshNames, AreRefusedByPlaceAndReason) {
+    const auto& [name, content, place, what] = GetParam();
+    const std::string message = test::thrown_by<InputError>([&] { (void)read_named(content); });
+    EXPECT_THAT(message, HasSubstr("/m.msh:" + place));
+    EXPECT_THAT(message, HasSubstr(what));
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Sections, BadGmshNames,
+    testing::ValuesIn(std::vector<BadName>{
+        {"NameTwice", gmsh_head_2 + "$PhysicalNames\n2\n3 7 \"a\"\n3 7 \"b\"\n",
+         "7: ", "group 7 of dimension 3 has two names"},
+        {"NameOfNoGroup", gmsh_head_2 + "$PhysicalNames\n1\n7 \"a\"\n",
+         "6: ", "a line of its dimension, its tag and \"the name\""},
+        {"NameOfADimension", gmsh_head_2 + "$PhysicalNames\n1\n4 7 \"a\"\n",
+         "6: ", "a line of its dimension"},
+        {"NameOfANegativeDimension", gmsh_head_2 + "$PhysicalNames\n1\n-3 7 \"a\"\n",
+         "6: ", "a line of its dimension"},
+        {"NameOfAHugeTag", gmsh_head_2 + "$PhysicalNames\n1\n3 2147483648 \"a\"\n",
+         "6: ", "a line of its dimension"},
+        {"NameWithoutQuotes", gmsh_head_2 + "$PhysicalNames\n1\n3 7 rock\n",
+         "6: ", "a line of its dimension"},
+        {"NameTwiceBesideOneLeftOut", gmsh_head_2 + "$PhysicalNames\n2\n3 7 \"\"\n3 7 \"b\"\n",
+         "7: ", "group 7 of dimension 3 has two names"},
+        {"FewerNamesThanAreThere",
+         gmsh_head_2 + "$PhysicalNames\n1\n3 7 \"a\"\n3 8 \"b\"\n$EndPhysicalNames\n",
+         "7: ", "'$EndPhysicalNames' expected"},
+        {"NamesTwice", gmsh_head_2 + "$PhysicalNames\n0\n$EndPhysicalNames\n$PhysicalNames\n",
+         "7: ", "a second section $PhysicalNames"},
+        {"NameWithoutItsEndBinary",
+         test::gmsh_binary_4().insert(binary_head,
+                                      "$PhysicalNames\n1\n3 7 \"a\n$EndPhysicalNames\n"),
+         " at byte ", "a line of its dimension"},
+        {"NameWithoutItsEnd", gmsh_head_2 + "$PhysicalNames\n1\n3 7 \"a\n",
+         "6: ", "a line of its dimension"},
+        {"HugeNames", gmsh_head_2 + "$PhysicalNames\n99999999\n", "5: ", "holds at most"},
+        {"NamesEnd", gmsh_head_2 + "$PhysicalNames\n2\n3 7 \"a\"\n",
+         "6: ", "the file ends where the name of a group should be"},
+    }),
+    [](const auto& test_case) { return test_case.param.name; });
+
+}  // namespace
+}  // namespace octetra

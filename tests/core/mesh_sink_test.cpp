@@ -80,6 +80,7 @@ public:
         keep_if(facts.has_facet_markers, mesh.facet_markers);
         keep_if(facts.has_edge_markers, mesh.edge_markers);
         mesh.index_base = facts.index_base;
+        mesh.group_names = facts.group_names.list();
         EXPECT_EQ(facts.vertices, mesh.points.size());
         EXPECT_EQ(facts.first_midpoint, mesh.points.size());
         EXPECT_EQ(facts.cells, mesh.cells.size());

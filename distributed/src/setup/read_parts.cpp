@@ -1,5 +1,7 @@
 #include <octetra/distributed/read_parts.hpp>
 
+#include <array>
+#include <cstdint>
 #include <optional>
 #include <utility>
 
@@ -51,6 +53,34 @@ std::optional<DistributedMesh> read_together(const Communicator& processes,
     return mesh;
 }
 
+/// Collective. Of the first process's mesh, which was read: but for names of groups, on all.
+MeshFacts facts_of_first(const Communicator& processes, const Mesh& mesh) {
+    MeshFacts facts = WholeMesh(mesh).facts();
+    struct Numbers {
+        std::array<std::uint64_t, 6> counts;
+        std::uint32_t index_base;
+        std::array<bool, 4> has;
+    };
+    const auto [counts, index_base, has] =
+        processes.of_rank(0, Numbers{{facts.vertices, facts.cells, facts.facets, facts.edges,
+                                      facts.attributes_per_point, facts.first_midpoint},
+                                     facts.index_base,
+                                     {facts.has_point_markers, facts.has_regions,
+                                      facts.has_facet_markers, facts.has_edge_markers}});
+    facts.vertices = counts[0];
+    facts.cells = counts[1];
+    facts.facets = counts[2];
+    facts.edges = counts[3];
+    facts.attributes_per_point = counts[4];
+    facts.first_midpoint = counts[5];
+    facts.index_base = index_base;
+    facts.has_point_markers = has[0];
+    facts.has_regions = has[1];
+    facts.has_facet_markers = has[2];
+    facts.has_edge_markers = has[3];
+    return facts;
+}
+
 /// Collective. The first process reads and shares out.
 DistributedMesh read_on_first(const Communicator& processes, const std::filesystem::path& path,
                               const Partition& partition, const ReadPartsOptions& options) {
@@ -58,8 +88,7 @@ DistributedMesh read_on_first(const Communicator& processes, const std::filesyst
     in_phase(processes, "read", [&] {
         processes.on_first([&] { mesh = read_mesh(path, options.read); });
         if (!options.on_facts) return;
-        const MeshFacts of_first = processes.is_first() ? WholeMesh(mesh).facts() : MeshFacts{};
-        options.on_facts(processes.of_rank(0, of_first));
+        options.on_facts(facts_of_first(processes, mesh));
     });
     std::vector<int> cell_to_rank;
     in_phase(processes, "partition", [&] {

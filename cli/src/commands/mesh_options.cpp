@@ -32,8 +32,7 @@ void add_input_options(CLI::App& subcommand, InputOptions& options) {
 void add_output_option(CLI::App& subcommand, std::string& path) {
     subcommand
         .add_option("-o,--output", path,
-                    "where to write: .ele (TetGen), .mesh or .meshb (Medit), .msh (Gmsh), .vtu, "
-                    ".pvtu or .vtkhdf (VTK), .octetra")
+                    "where to write: .ele, .mesh, .meshb, .msh, .octetra, .vtu, .pvtu or .vtkhdf")
         ->type_name("OUT")
         ->check(names_a_file())
         ->required();

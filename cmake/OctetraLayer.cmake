@@ -20,14 +20,20 @@ function(octetra_compile_options target)
   endif()
 endfunction()
 
-# octetra_layer(<name> [STATIC] SOURCES <file>... HEADERS <file>... [LAYER_HEADERS <file>...]
-#               [LINKS <target>...] [USES <target>...])
+# octetra_layer(<name> [STATIC] SOURCES <file>... HEADERS <file>... [HEADERS_APART <file>...]
+#               [LAYER_HEADERS <file>...] [LINKS <target>...] [USES <target>...])
+# HEADERS are all that there are under include/, but for HEADERS_APART, which the caller installs.
 # LAYER_HEADERS, under layers/, are for other layers and not for users; they ask for the options of
 # octetra_compile_options. LINKS are part of the layer's interface, USES are not. BUILD_SHARED_LIBS
 # decides what kind of library it is; a static one can be linked into a shared one, too. STATIC is a layer
 # that is not installed, whatever the others are: the installed program has it in itself.
 function(octetra_layer name)
-  cmake_parse_arguments(PARSE_ARGV 1 layer "STATIC" "" "SOURCES;HEADERS;LAYER_HEADERS;LINKS;USES")
+  cmake_parse_arguments(PARSE_ARGV 1 layer "STATIC" "" "SOURCES;HEADERS;HEADERS_APART;LAYER_HEADERS;LINKS;USES")
+  file(GLOB_RECURSE headers RELATIVE ${CMAKE_CURRENT_SOURCE_DIR} CONFIGURE_DEPENDS include/*.hpp)
+  list(REMOVE_ITEM headers ${layer_HEADERS} ${layer_HEADERS_APART})
+  if(headers)
+    message(FATAL_ERROR "not among the HEADERS of ${name}, so not installed: ${headers}")
+  endif()
   set(kind "")
   if(layer_STATIC)
     set(kind STATIC)

@@ -295,25 +295,6 @@ double squared_error(const od::AdaptiveMesh& mesh, const std::vector<Vector>& gr
     return sum;
 }
 
-// ---- output -------------------------------------------------------------------------------------
-
-// The mesh and, as attributes of its vertices, u. Makes a second mesh, of this one's parts.
-void write_with(const od::AdaptiveMesh& mesh, const std::vector<double>& u,
-                const std::string& path) {
-    od::MeshPart part;
-    for (const auto number : mesh.vertex_numbers()) {
-        part.vertex_numbers.push_back(static_cast<std::uint64_t>(number));
-    }
-    part.points.assign(mesh.points().begin(), mesh.points().end());
-    part.attributes_per_point = 1;
-    part.point_attributes = u;
-    for (const CellVertices& cell : mesh.cells()) {
-        auto& numbers = part.cells.emplace_back();
-        for (std::size_t k = 0; k < 4; ++k) numbers[k] = part.vertex_numbers[cell[k].value()];
-    }
-    (void)od::AdaptiveMesh::from_parts(mesh.processes(), std::move(part)).write(path);
-}
-
 // ---- the loop -----------------------------------------------------------------------------------
 
 double sum_of(double own) {
@@ -366,7 +347,10 @@ void run(bool adaptive, int steps, const std::string& output) {
         const auto cells = processes.sum(mesh.cells().size());
         const double most = static_cast<double>(processes.max(mesh.cells().size())) *
                             processes.size() / static_cast<double>(cells);
-        if (!output.empty()) write_with(mesh, u, output + "." + std::to_string(step) + ".vtu");
+        if (!output.empty()) {
+            const od::Field field{"u", octetra::FieldOn::vertices, 1, u};
+            (void)mesh.write(output + "." + std::to_string(step) + ".vtu", std::array{field});
+        }
 
         watch.lap();
         if (step < steps) {

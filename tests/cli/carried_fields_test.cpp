@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cstdint>
+#include <filesystem>
 #include <fstream>
 #include <map>
 #include <random>
@@ -10,6 +11,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <octetra/core/error.hpp>
 #include <octetra/distributed/adaptive_mesh.hpp>
 
 #include "cli/octetra_program.hpp"
@@ -23,6 +25,7 @@ using distributed::Communicator;
 using distributed::Field;
 using test::TemporaryFolder;
 using testing::HasSubstr;
+using testing::Not;
 
 struct State {
     AdaptiveMesh mesh;
@@ -235,10 +238,71 @@ TEST_F(CarriedFields, ThatTheFormatCannotHoldAreNamed) {
     EXPECT_EQ(run("refine s.octetra --sphere 9,9,9,1 -o t.mesh").err,
               "octetra: note: no cell was marked: the mesh stays as it is\n"
               "octetra: note: fields 'u', 'v', 'id', 'ID', 'p', 'q', 'n', 'N' are not in t.mesh: "
-              ".octetra files alone hold fields\n");
-    EXPECT_EQ(run("convert s.octetra t.mesh").err,
-              "octetra: note: fields 'u', 'v', 'id', 'ID', 'p', 'q', 'n', 'N' are not in t.mesh: "
-              ".octetra files alone hold fields\n");
+              ".vtu, .pvtu, .vtkhdf and .octetra files hold fields\n");
+    EXPECT_EQ(run("convert s.octetra t.msh").err,
+              "octetra: note: fields 'u', 'v', 'id', 'ID', 'p', 'q', 'n', 'N' are not in t.msh: "
+              ".vtu, .pvtu, .vtkhdf and .octetra files hold fields\n");
+}
+
+/// VTK reads the files, and another program than Octetra the checkpoint that they are held against.
+void expect_fields_in(const TemporaryFolder& folder, const std::string& files) {
+    const auto checked =
+        test::run_program(test::words("/usr/bin/python3 " OCTETRA_SOURCE_DIR
+                                      "/tests/vtu/check_fields.py " OCTETRA_SOURCE_DIR "/tools " +
+                                      files),
+                          folder.path());
+    EXPECT_EQ(checked.status, 0) << checked.out << checked.err;
+}
+
+TEST_F(CarriedFields, AreReadByVtkInItsFormats) {
+    add_fields("m.octetra", "s.octetra");
+    (void)folder.write("s.txt",
+                       "refine --sphere 0.1,0.2,0.3,0.4 --levels 2\n"
+                       "refine --random 0.002\n"  // the order in memory is no longer that of files
+                       "write mid.vtu\nwrite mid.vtkhdf\nwrite mid.pvtu\nsave mid.octetra\n"
+                       "coarsen --all\n");
+    std::string vtu;
+    std::string vtkhdf;
+    for (const int ranks : {0, 2, 3, 4}) {
+        SCOPED_TRACE(ranks);
+        run("adapt s.octetra --script s.txt -o end.vtu", ranks);
+        expect_fields_in(folder, "mid.octetra mid.vtu mid.vtkhdf mid.pvtu");
+        if (ranks == 0) {
+            vtu = test::content_of(folder / "mid.vtu");
+            vtkhdf = test::content_of(folder / "mid.vtkhdf");
+        }
+        EXPECT_TRUE(test::content_of(folder / "mid.vtu") == vtu);
+        EXPECT_TRUE(test::content_of(folder / "mid.vtkhdf") == vtkhdf);
+    }
+    EXPECT_THAT(run("convert mid.octetra c.vtkhdf").err, Not(HasSubstr("field")));
+    run("convert mid.octetra c.pvtu");
+    expect_fields_in(folder, "mid.octetra c.vtkhdf c.pvtu");
+}
+
+/// Names that mean something in XML or HDF5, and those of the mesh's own arrays.
+TEST_F(CarriedFields, OfAnyNameAreReadByVtk) {
+    const AdaptiveMesh mesh = load("m.octetra").mesh;
+    const std::size_t cells = mesh.cells().size();
+    std::vector<Field> fields;
+    for (const std::string name : {"a/b", "<\"&'>", "größe", "vertex", "rank", "parent", ".x"}) {
+        const auto seed = static_cast<unsigned>(fields.size());
+        fields.push_back({name, FieldOn::cells, 2, drawn<double>(2 * cells, seed)});
+    }
+    fields.push_back({"none", FieldOn::vertices, 0, std::vector<double>{}});
+    mesh.save(folder / "s.octetra", fields);
+    for (const std::string extension : {".vtu", ".vtkhdf", ".pvtu"}) {
+        EXPECT_THAT(mesh.write(folder / ("s" + extension), fields), Not(HasSubstr("field")));
+    }
+    fields.pop_back();
+    mesh.save(folder / "s.octetra", fields);
+    expect_fields_in(folder, "s.octetra s.vtu s.vtkhdf s.pvtu");
+}
+
+TEST_F(CarriedFields, ThatDoNotFitAreNotWritten) {
+    const AdaptiveMesh mesh = load("m.octetra").mesh;
+    const std::vector<Field> short_one{{"u", FieldOn::cells, 1, std::vector<double>(3)}};
+    EXPECT_THROW((void)mesh.write(folder / "s.vtu", short_one), InputError);
+    EXPECT_FALSE(std::filesystem::exists(folder / "s.vtu"));
 }
 
 }  // namespace

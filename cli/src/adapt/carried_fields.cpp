@@ -145,8 +145,4 @@ void carry_fields(std::vector<Field>& fields, const distributed::Migration& move
     }
 }
 
-std::string lost_fields(const std::vector<std::string>& names, const std::string& path) {
-    return fmt::format("{} not in {}: .octetra files alone hold fields", named_fields(names), path);
-}
-
 }  // namespace octetra::cli

@@ -25,8 +25,4 @@ namespace octetra::cli {
 /// Collective. Brings the fields along with cells that went to other processes.
 void carry_fields(std::vector<distributed::Field>& fields, const distributed::Migration& move);
 
-/// Says that these fields, of which there are some, are not in a file of another format.
-[[nodiscard]] std::string lost_fields(const std::vector<std::string>& names,
-                                      const std::string& path);
-
 }  // namespace octetra::cli

@@ -5,8 +5,6 @@
 #include <octetra/core/files/checkpoint.hpp>
 #include <octetra/distributed/profile.hpp>
 
-#include "adapt/carried_fields.hpp"
-
 namespace octetra::cli {
 
 std::vector<std::string> write_result(const distributed::AdaptiveMesh& mesh,
@@ -17,16 +15,9 @@ std::vector<std::string> write_result(const distributed::AdaptiveMesh& mesh,
         mesh.save(path, fields);
         return {};
     }
-    std::vector<std::string> lost;
-    if (std::string by_format = mesh.write(path); !by_format.empty()) {
-        lost.push_back(std::move(by_format));
-    }
-    std::vector<std::string> names;
-    for (const distributed::Field& field : fields) names.push_back(field.name);
-    if (!names.empty()) {
-        lost.push_back(lost_fields(names, path));
-    }
-    return lost;
+    std::string lost = mesh.write(path, fields);
+    if (lost.empty()) return {};
+    return {std::move(lost)};
 }
 
 }  // namespace octetra::cli

@@ -9,7 +9,7 @@
 namespace octetra::cli {
 
 /// Collective. Writes the mesh, and its fields, as the extension says. Returns what the format
-/// cannot hold, in a sentence each.
+/// cannot hold, if anything, in a sentence.
 [[nodiscard]] std::vector<std::string> write_result(const distributed::AdaptiveMesh& mesh,
                                                     const std::vector<distributed::Field>& fields,
                                                     const std::string& path);

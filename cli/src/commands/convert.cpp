@@ -13,7 +13,6 @@
 #include <octetra/distributed/adaptive_mesh.hpp>
 #include <octetra/distributed/communicator.hpp>
 
-#include "adapt/carried_fields.hpp"
 #include "choice.hpp"
 #include "commands/commands.hpp"
 #include "commands/files_apart.hpp"
@@ -41,21 +40,18 @@ WriteOptions write_options(const ConvertOptions& options) {
     throw InputError(fmt::format("--msh-format is of .msh files, and {} is none", options.output));
 }
 
-/// A checkpoint to a checkpoint, with all that it has.
-void convert_with_history(const ConvertOptions& options) {
+/// Of a checkpoint, with all that the output can hold of what it has.
+void convert_checkpoint(const ConvertOptions& options, const WriteOptions& writing) {
     std::vector<distributed::Field> fields;
     const auto mesh = distributed::AdaptiveMesh::load(distributed::Communicator(),
                                                       options.input.path, {}, &fields);
-    mesh.save(options.output, fields);
-    if (!options.quiet) report_written(mesh.collect(), options.output);
-}
-
-void note_lost_fields(const ConvertOptions& options) {
-    std::vector<std::string> names;
-    for (const FieldFacts& field : read_checkpoint_facts(options.input.path).fields) {
-        names.push_back(field.name);
+    if (is_checkpoint(options.output)) {
+        mesh.save(options.output, fields);
+    } else {
+        const std::string lost = mesh.write(options.output, fields, writing);
+        if (!lost.empty()) note(lost);
     }
-    if (!names.empty()) note(lost_fields(names, options.output));
+    if (!options.quiet) report_written(mesh.collect(), options.output);
 }
 
 void convert(const ConvertOptions& options) {
@@ -63,10 +59,7 @@ void convert(const ConvertOptions& options) {
     check_output(options.output);
     check_files_apart({mesh_named("MESH", options.input.path)},
                       {mesh_to_write("OUT", options.output)});
-    if (is_checkpoint(options.input.path) && is_checkpoint(options.output)) {
-        return convert_with_history(options);
-    }
-    if (is_checkpoint(options.input.path)) note_lost_fields(options);
+    if (is_checkpoint(options.input.path)) return convert_checkpoint(options, writing);
     const Mesh mesh = read_input(options.input);
     write_output(mesh, options.output, writing);
     if (!options.quiet) report_written(mesh, options.output);

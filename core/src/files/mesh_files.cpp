@@ -69,16 +69,33 @@ void stream_mesh(const fs::path& path, MeshSink& sink, const ReadOptions& option
 
 namespace {
 
-/// What is lost in all, where that is `lost` without the names of groups.
-std::string with_names_lost(std::string lost, const MeshFacts& facts) {
-    if (facts.group_names.empty()) return lost;
-    return fmt::format("{}{}the names of groups are kept in .msh and .octetra files alone", lost,
-                       lost.empty() ? "" : "; ");
+/// One more thing that is lost.
+void add_loss(std::string& lost, std::string_view loss) {
+    lost += lost.empty() ? "" : "; ";
+    lost += loss;
 }
 
-/// Returns what is lost but for the names of groups.
-std::string write_all_but_names(MeshSource& mesh, const fs::path& path,
-                                const WriteOptions& options) {
+/// What is lost in all, where that is `lost` without names of groups and fields.
+std::string all_lost(std::string lost, const MeshSource& mesh, const fs::path& path) {
+    if (!mesh.facts().group_names.empty() && format_of(path) != Format::gmsh) {
+        add_loss(lost, "the names of groups are kept in .msh and .octetra files alone");
+    }
+    if (!mesh.fields().empty() && !can_hold_fields(path)) {
+        std::string names;
+        for (const FieldFacts& field : mesh.fields()) {
+            names += fmt::format("{}'{}'", names.empty() ? "" : ", ", field.name);
+        }
+        add_loss(lost, fmt::format("{} not in {}: .vtu, .pvtu, .vtkhdf and .octetra files hold "
+                                   "fields",
+                                   mesh.fields().size() == 1 ? fmt::format("field {} is", names)
+                                                             : fmt::format("fields {} are", names),
+                                   path.native()));
+    }
+    return lost;
+}
+
+/// Returns what is lost but for the names of groups and fields.
+std::string write_lists(MeshSource& mesh, const fs::path& path, const WriteOptions& options) {
     mesh.group().on_first([&] { check_writable(path); });
     switch (format_of(path)) {
         case Format::tetgen: write_tetgen(mesh, path); return {};
@@ -96,9 +113,7 @@ std::string write_all_but_names(MeshSource& mesh, const fs::path& path,
 }  // namespace
 
 std::string write_mesh(MeshSource& mesh, const fs::path& path, const WriteOptions& options) {
-    std::string lost = write_all_but_names(mesh, path, options);
-    if (format_of(path) == Format::gmsh) return lost;
-    return with_names_lost(std::move(lost), mesh.facts());
+    return all_lost(write_lists(mesh, path, options), mesh, path);
 }
 
 std::string write_mesh(const Mesh& mesh, const fs::path& path, const WriteOptions& options) {
@@ -111,11 +126,16 @@ bool can_hold_attributes(const fs::path& path) {
     return format != Format::medit && format != Format::meshb && format != Format::gmsh;
 }
 
+bool can_hold_fields(const fs::path& path) {
+    const Format format = format_of(path);
+    return format == Format::vtu || format == Format::pvtu || format == Format::vtkhdf;
+}
+
 bool is_in_pieces(const fs::path& path) { return format_of(path) == Format::pvtu; }
 
 std::string write_pieces(MeshSource& piece, const ProcessGroup& group, const fs::path& path) {
     group.on_first([&] { check_writable(path, group.size()); });
-    return with_names_lost(write_pvtu(piece, group, path), piece.facts());
+    return all_lost(write_pvtu(piece, group, path), piece, path);
 }
 
 void check_writable(const fs::path& path, int pieces) {

@@ -1,14 +1,10 @@
 #include "checkpoint/save.hpp"
 
 #include <algorithm>
-#include <set>
 #include <utility>
 #include <vector>
 
-#include <fmt/format.h>
-
 #include <octetra/core/checkpoint_blocks.hpp>
-#include <octetra/core/error.hpp>
 #include <octetra/core/files/places.hpp>
 #include <octetra/distributed/profile.hpp>
 
@@ -16,68 +12,11 @@
 #include "history/cut_roots.hpp"
 #include "numbering/canonical_runs.hpp"
 #include "output/canonical_slices.hpp"
-#include "output/slices.hpp"
+#include "output/check_fields.hpp"
+#include "output/field_slices.hpp"
 
 namespace octetra::distributed {
 namespace {
-
-/// As many as a checkpoint's table may tell of.
-constexpr std::size_t most_components = std::size_t{1} << 20U;
-
-FieldFacts facts_of(const Field& field) {
-    return {.name = field.name,
-            .on = field.on,
-            .type = static_cast<FieldType>(field.values.index()),
-            .components = field.components};
-}
-
-std::size_t value_count(const Field& field) {
-    return std::visit([](const auto& values) { return values.size(); }, field.values);
-}
-
-/// Throws InputError for fields that do not fit this process's part.
-void check_sizes(const SavedMesh& saved, std::span<const Field> fields) {
-    std::set<std::pair<FieldOn, std::string>> names;
-    for (const Field& field : fields) {
-        const bool on_vertices = field.on == FieldOn::vertices;
-        const std::size_t entities =
-            on_vertices ? saved.mesh->points.size() : saved.mesh->cells.size();
-        if (value_count(field) != entities * field.components) {
-            throw InputError(
-                fmt::format("field '{}' has {} values; {} with {} components take {}", field.name,
-                            value_count(field),
-                            fmt::format("{} {}", entities, on_vertices ? "vertices" : "cells"),
-                            field.components, entities * field.components));
-        }
-        if (!is_name(field.name)) {
-            throw InputError("the name of a field is no UTF-8, or has a control character");
-        }
-        if (!names.insert({field.on, field.name}).second) {
-            throw InputError(fmt::format("two fields are called '{}'", field.name));
-        }
-        if (field.components > most_components) {
-            throw InputError(
-                fmt::format("field '{}' has more than {} components", field.name, most_components));
-        }
-    }
-}
-
-/// Collective. Throws InputError where processes have other fields than the first one has.
-void check_same(const Communicator& processes, std::span<const Field> fields) {
-    std::vector<std::uint8_t> told;
-    for (const Field& field : fields) {
-        const FieldFacts facts = facts_of(field);
-        told.push_back(static_cast<std::uint8_t>(facts.on));
-        told.push_back(static_cast<std::uint8_t>(facts.type));
-        append_number(facts.components, told);
-        append_number(facts.name.size(), told);
-        told.insert(told.end(), facts.name.begin(), facts.name.end());
-    }
-    std::vector<std::uint8_t> of_first = told;
-    processes.broadcast(of_first);
-    if (processes.max(of_first == told ? 0 : 1) == 0) return;
-    throw InputError("processes save different fields");
-}
 
 CheckpointFacts facts_of(const SavedMesh& saved, const MeshFacts& input,
                          std::span<const Field> fields, std::uint64_t cells_now) {
@@ -195,67 +134,11 @@ void put_cuts(CheckpointWriter& writer, const SavedMesh& saved) {
     }
 }
 
-/// Collective. Brings values of vertices or cells to slices, and writes them.
-class FieldWriter {
-public:
-    FieldWriter(CheckpointWriter& writer, const SavedMesh& saved, const CanonicalRuns& cells)
-        : writer_(&writer), saved_(&saved), cells_(&cells) {}
-
-    template <class T>
-    void put(std::size_t number, const Field& field, const std::vector<T>& values) {
-        std::vector<T> slice;
-        const int rank = processes().rank();
-        writer_->put_section(field_section(number), [&](const Window& window) {
-            slice.resize((window.end_of(rank) - window.begin_of(rank)) * field.components);
-            for (std::size_t k = 0; k < field.components; ++k) {
-                const auto emit_values = [&](std::uint64_t begin, std::uint64_t end, auto&& emit) {
-                    for_each(field.on, begin, end, [&](std::uint64_t entity, std::size_t local) {
-                        emit(entity, values[local * field.components + k]);
-                    });
-                };
-                bring_to_slices<T>(processes(), window, emit_values,
-                                   [&](std::uint32_t position, const T& value) {
-                                       slice[position * field.components + k] = value;
-                                   });
-            }
-            return std::as_bytes(std::span<const T>(slice));
-        });
-    }
-
-private:
-    [[nodiscard]] const Communicator& processes() const { return saved_->mesh->processes; }
-
-    /// Calls visit(number, local number) for what this process has to tell of begin .. end-1.
-    void for_each(FieldOn on, std::uint64_t begin, std::uint64_t end, auto&& visit) const {
-        if (on == FieldOn::cells) {
-            for_each_between(*cells_, saved_->mesh->cell_ancestors, begin, end,
-                             [&](std::uint64_t number, std::size_t place, std::size_t) {
-                                 visit(number, saved_->cells_before.empty()
-                                                   ? place
-                                                   : saved_->cells_before[place].value());
-                             });
-            return;
-        }
-        const auto& numbers = saved_->numbers->of_vertex;
-        const auto from = std::ranges::lower_bound(numbers, GlobalVertex{begin});
-        for (VertexIndex v{static_cast<std::size_t>(from - numbers.begin())};
-             v < numbers.end_index() && numbers[v] < GlobalVertex{end}; ++v) {
-            if (saved_->sharing->is_owned(v)) {
-                visit(static_cast<std::uint64_t>(numbers[v]), v.value());
-            }
-        }
-    }
-
-    CheckpointWriter* writer_;
-    const SavedMesh* saved_;
-    const CanonicalRuns* cells_;
-};
-
 /// Collective. A process may fail anywhere in it.
 void write_checkpoint(const SavedMesh& saved, std::span<const Field> fields,
                       const std::filesystem::path& path) {
     const Communicator& processes = saved.mesh->processes;
-    check_sizes(saved, fields);
+    check_sizes(*saved.mesh, fields);
     check_same(processes, fields);
     if (processes.is_first()) check_place(path);
 
@@ -264,10 +147,16 @@ void write_checkpoint(const SavedMesh& saved, std::span<const Field> fields,
     CheckpointWriter writer(path, processes, facts_of(saved, input.facts(), fields, cells.count));
     writer.put_input(input);
     put_cuts(writer, saved);
-    FieldWriter field_writer(writer, saved, cells);
+    FieldSlices slices({.fields = fields,
+                        .processes = &processes,
+                        .numbers = saved.numbers,
+                        .sharing = saved.sharing,
+                        .cell_ancestors = &saved.mesh->cell_ancestors,
+                        .cells_before = saved.cells_before,
+                        .cell_runs = &cells});
     for (std::size_t f = 0; f < fields.size(); ++f) {
-        std::visit([&](const auto& values) { field_writer.put(f, fields[f], values); },
-                   fields[f].values);
+        writer.put_section(field_section(f),
+                           [&](const Window& window) { return slices.values(f, window); });
     }
     writer.commit();
 }

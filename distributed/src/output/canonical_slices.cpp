@@ -180,4 +180,22 @@ std::span<const Marker> CanonicalSlices::edge_markers(const Window& window) {
     return bring_markers(window, lists_.edges.ancestors(), edge_runs_, edge_markers_);
 }
 
+void CanonicalSlices::add(std::span<const Field> fields, const Sharing<VertexIndex>& sharing) {
+    fields_.emplace(FieldsOfPart{.fields = fields,
+                                 .processes = &mesh_->processes,
+                                 .numbers = &numbers_,
+                                 .sharing = &sharing,
+                                 .cell_ancestors = &lists_.cells.ancestors(),
+                                 .cells_before = lists_.cells.before(),
+                                 .cell_runs = &cell_runs_});
+}
+
+std::span<const FieldFacts> CanonicalSlices::fields() const {
+    return fields_ ? fields_->facts() : std::span<const FieldFacts>{};
+}
+
+std::span<const std::byte> CanonicalSlices::field_values(std::size_t field, const Window& window) {
+    return fields_->values(field, window);
+}
+
 }  // namespace octetra::distributed

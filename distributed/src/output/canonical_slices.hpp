@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include <octetra/core/mesh_source.hpp>
@@ -7,6 +8,7 @@
 
 #include "numbering/canonical_numbers.hpp"
 #include "numbering/canonical_runs.hpp"
+#include "output/field_slices.hpp"
 #include "output/ordered_lists.hpp"
 
 namespace octetra::distributed {
@@ -16,6 +18,9 @@ class CanonicalSlices final : public MeshSource {
 public:
     /// Collective. Refers to the mesh.
     explicit CanonicalSlices(const DistributedMesh& mesh);
+
+    /// Fields of the mesh go with it from now on. Refers to them.
+    void add(std::span<const Field> fields, const Sharing<VertexIndex>& sharing);
 
     [[nodiscard]] const MeshFacts& facts() const override { return facts_; }
     [[nodiscard]] const ProcessGroup& group() const override { return mesh_->processes; }
@@ -33,6 +38,9 @@ public:
     [[nodiscard]] std::span<const Marker> facet_markers(const Window& window) override;
     [[nodiscard]] std::span<const VertexNumbers<2>> edges(const Window& window) override;
     [[nodiscard]] std::span<const Marker> edge_markers(const Window& window) override;
+    [[nodiscard]] std::span<const FieldFacts> fields() const override;
+    [[nodiscard]] std::span<const std::byte> field_values(std::size_t field,
+                                                          const Window& window) override;
 
 private:
     [[nodiscard]] MeshFacts find_facts() const;
@@ -60,6 +68,7 @@ private:
     CanonicalRuns facet_runs_;
     CanonicalRuns edge_runs_;
     MeshFacts facts_;
+    std::optional<FieldSlices> fields_;
 
     // What was asked for last.
     std::vector<Point> points_;

@@ -1,6 +1,9 @@
 #pragma once
 
 #include <memory>
+#include <span>
+#include <utility>
+#include <vector>
 
 #include <octetra/distributed/distributed_mesh.hpp>
 
@@ -12,12 +15,15 @@ namespace octetra::distributed {
 /// unordered. Refers to the mesh.
 template <class List>
 class OrderedList {
+    using I = decltype(std::declval<const List&>().end_index());
+
 public:
     OrderedList(const List& list, const AncestorMap& ancestors, const auto* unordered)
         : list_(&list), ancestors_(&ancestors) {
         if (unordered == nullptr || unordered->is_ordered()) return;
         auto ordered = unordered->ordered(list, ancestors);
         own_list_ = std::move(ordered.list);
+        before_ = std::move(ordered.before);
         own_ancestors_ = {ancestors.roots, std::move(ordered.first), ancestors.markers};
         list_ = &own_list_;
         ancestors_ = &own_ancestors_;
@@ -30,12 +36,15 @@ public:
 
     [[nodiscard]] const List& list() const { return *list_; }
     [[nodiscard]] const AncestorMap& ancestors() const { return *ancestors_; }
+    /// The number that each entity has in the mesh; empty where it is the same.
+    [[nodiscard]] std::span<const I> before() const { return before_; }
 
 private:
     const List* list_;
     const AncestorMap* ancestors_;
     List own_list_;
     AncestorMap own_ancestors_;
+    std::vector<I> before_;
 };
 
 /// All lists of a mesh, which stays as it is.

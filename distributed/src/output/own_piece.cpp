@@ -1,8 +1,12 @@
 #include "output/own_piece.hpp"
 
 #include <algorithm>
+#include <variant>
+
+#include <octetra/distributed/exchange.hpp>
 
 #include "level/known_marker.hpp"
+#include "output/check_fields.hpp"
 
 namespace octetra::distributed {
 namespace {
@@ -55,6 +59,18 @@ void for_each_root(const AncestorMap& ancestors, const Window& window, auto&& em
         while (ancestors.first[root + 1] <= c) ++root;
         emit(root);
     }
+}
+
+/// Of each entity of a piece, the values that it has under the number before.
+std::vector<std::byte> bytes_in_order(std::span<const std::byte> values, std::size_t entity_size,
+                                      std::span<const CellIndex> before) {
+    if (before.empty()) return {values.begin(), values.end()};
+    std::vector<std::byte> bytes(values.size());
+    for (std::size_t i = 0; i < before.size(); ++i) {
+        std::ranges::copy(values.subspan(before[i].value() * entity_size, entity_size),
+                          bytes.begin() + static_cast<std::ptrdiff_t>(i * entity_size));
+    }
+    return bytes;
 }
 
 }  // namespace
@@ -111,6 +127,31 @@ std::span<const std::uint64_t> OwnPiece::parents(const Window& w) {
         parents_.push_back(lists_->cells.ancestors().roots[root]);
     });
     return parents_;
+}
+
+void OwnPiece::add(std::span<const Field> fields, const Sharing<VertexIndex>& sharing) {
+    for (const Field& field : fields) {
+        field_facts_.push_back(facts_of(field));
+        const std::size_t entity_size = field.components * size_of(field_facts_.back().type);
+        std::visit(
+            [&](const auto& values) {
+                auto agreed = values;
+                const bool on_vertices = field.on == FieldOn::vertices;
+                if (on_vertices) {
+                    update_copies(mesh_->processes, sharing, mesh_->points.size(),
+                                  std::span(agreed), field.components);
+                }
+                field_values_.push_back(bytes_in_order(
+                    std::as_bytes(std::span(agreed)), entity_size,
+                    on_vertices ? std::span<const CellIndex>{} : lists_->cells.before()));
+            },
+            field.values);
+    }
+}
+
+std::span<const std::byte> OwnPiece::field_values(std::size_t field, const Window& window) {
+    const FieldFacts& facts = field_facts_[field];
+    return slice(field_values_[field], window, facts.components * size_of(facts.type));
 }
 
 }  // namespace octetra::distributed

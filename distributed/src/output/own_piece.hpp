@@ -4,6 +4,8 @@
 
 #include <octetra/core/mesh_source.hpp>
 #include <octetra/distributed/distributed_mesh.hpp>
+#include <octetra/distributed/field.hpp>
+#include <octetra/distributed/sharing.hpp>
 
 #include "numbering/canonical_numbers.hpp"
 #include "output/ordered_lists.hpp"
@@ -18,6 +20,9 @@ public:
     OwnPiece(const DistributedMesh& mesh, const OrderedLists& lists,
              const CanonicalNumbers& numbers, const MeshFacts& whole);
 
+    /// Collective. Fields of the mesh go with it from now on; copies get the owners' values.
+    void add(std::span<const Field> fields, const Sharing<VertexIndex>& sharing);
+
     // Not collective:
     [[nodiscard]] const MeshFacts& facts() const override { return facts_; }
     [[nodiscard]] std::span<const Point> points(const Window& window) override;
@@ -27,6 +32,9 @@ public:
     [[nodiscard]] std::span<const VertexNumbers<4>> cells(const Window& window) override;
     [[nodiscard]] std::span<const Marker> regions(const Window& window) override;
     [[nodiscard]] std::span<const std::uint64_t> parents(const Window& window) override;
+    [[nodiscard]] std::span<const FieldFacts> fields() const override { return field_facts_; }
+    [[nodiscard]] std::span<const std::byte> field_values(std::size_t field,
+                                                          const Window& window) override;
 
 private:
     const DistributedMesh* mesh_;
@@ -38,6 +46,8 @@ private:
     std::vector<VertexNumbers<4>> cells_;
     std::vector<Marker> regions_;
     std::vector<std::uint64_t> parents_;
+    std::vector<FieldFacts> field_facts_;
+    std::vector<std::vector<std::byte>> field_values_;  ///< in the order of the piece
 };
 
 }  // namespace octetra::distributed

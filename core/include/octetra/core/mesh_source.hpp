@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include <octetra/core/field.hpp>
 #include <octetra/core/index.hpp>
 #include <octetra/core/maps.hpp>
 #include <octetra/core/mesh.hpp>
@@ -73,10 +74,10 @@ struct MeshFacts {
     SharedGroupNames group_names;
 };
 
-/// A mesh in its canonical order, in slices. All functions but facts() and group() are collective
-/// and return this process's slice of a window; it is valid until the same function is called
-/// again. Vertices are numbered as in the whole mesh. What facts() does not tell of is not asked
-/// for, and need not be overridden.
+/// A mesh in its canonical order, in slices. All functions but facts(), group() and fields() are
+/// collective and return this process's slice of a window; it is valid until the same function is
+/// called again. Vertices are numbered as in the whole mesh. What facts() does not tell of is not
+/// asked for, and need not be overridden.
 class MeshSource {
 public:
     MeshSource() = default;
@@ -113,6 +114,14 @@ public:
     [[nodiscard]] virtual std::span<const Marker> facet_markers(const Window&) { return {}; }
     [[nodiscard]] virtual std::span<const VertexNumbers<2>> edges(const Window&) { return {}; }
     [[nodiscard]] virtual std::span<const Marker> edge_markers(const Window&) { return {}; }
+
+    /// The fields that go with the mesh, and their values on a window of vertices or cells: as many
+    /// bytes for each as FieldFacts tell.
+    [[nodiscard]] virtual std::span<const FieldFacts> fields() const { return {}; }
+    [[nodiscard]] virtual std::span<const std::byte> field_values(std::size_t /*field*/,
+                                                                  const Window& /*window*/) {
+        return {};
+    }
 };
 
 /// A mesh that this process has all of. Refers to the mesh, and to the maps if there are any.

@@ -5,10 +5,6 @@
 
 namespace octetra {
 
-std::size_t size_of(FieldType type) {
-    return type == FieldType::float64 || type == FieldType::int64 ? 8 : 4;
-}
-
 std::size_t vertex_number_size(const CheckpointFacts& facts) {
     return facts.vertices <= (std::uint64_t{1} << 32U) ? 4 : 8;
 }

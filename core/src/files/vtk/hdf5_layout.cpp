@@ -77,6 +77,7 @@ private:
 
 hid_t type_of(std::string_view name) {
     if (name == "Float64") return H5T_IEEE_F64LE;
+    if (name == "Float32") return H5T_IEEE_F32LE;
     if (name == "Int64") return H5T_STD_I64LE;
     if (name == "Int32") return H5T_STD_I32LE;
     return H5T_STD_U8LE;

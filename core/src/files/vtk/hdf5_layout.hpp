@@ -9,8 +9,9 @@ namespace octetra {
 
 /// A dataset that is stored as one stretch of bytes.
 struct Hdf5Dataset {
-    std::string path;       ///< "/GROUP/.../NAME"
-    const char* type = "";  ///< Float64, Int64, Int32 or UInt8, as VTK calls them; little-endian
+    std::string path;  ///< "/GROUP/.../NAME"
+    const char* type =
+        "";  ///< Float64, Float32, Int64, Int32 or UInt8, as VTK calls them; little-endian
     std::vector<std::uint64_t> extents;
 };
 

@@ -17,21 +17,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// File names may have characters that mean something else in XML.
-std::string escaped(const std::string& text) {
-    std::string result;
-    for (const char c : text) {
-        switch (c) {
-            case '&': result += "&amp;"; break;
-            case '<': result += "&lt;"; break;
-            case '>': result += "&gt;"; break;
-            case '"': result += "&quot;"; break;
-            default: result += c;
-        }
-    }
-    return result;
-}
-
 void put_declarations(OutputFile& out, std::string_view element,
                       const std::vector<VtuArray>& arrays, std::string_view attributes = "") {
     out.put(fmt::format("    <{}{}>\n", element, attributes));
@@ -52,7 +37,7 @@ void write_index(const fs::path& path, MeshSource& piece, const VtuData& data, i
     put_declarations(out, "PCellData", data.of_cells);
     for (int rank = 0; rank < pieces; ++rank) {
         out.put(fmt::format("    <Piece Source=\"{}\"/>\n",
-                            escaped(piece_path(path, rank).filename().native())));
+                            xml_escaped(piece_path(path, rank).filename().native())));
     }
     out.put(std::string_view{"  </PUnstructuredGrid>\n</VTKFile>\n"});
     out.commit();

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <bit>
 #include <cstdint>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -40,6 +41,13 @@ Filled number(const std::string& name, std::uint64_t value) {
         {fmt::format("{}/{}", root, name), "Int64", {1}}, {}, {static_cast<std::int64_t>(value)}};
 }
 
+/// HDF5 would take a slash for the end of a group's name, and "." for the group.
+std::string name_in_group(const VtuArray& array) {
+    std::string name = array.name;
+    std::ranges::replace(name, '/', '|');
+    return name == "." || name.empty() ? name + "_field" : name;
+}
+
 /// One piece, as version 1.0 of the format has it.
 std::vector<Filled> all_datasets(MeshSource& mesh) {
     const MeshFacts& facts = mesh.facts();
@@ -57,8 +65,16 @@ std::vector<Filled> all_datasets(MeshSource& mesh) {
     all.back().values = {0};
     add("Types", cells[2]);
     const VtuData data = vtu_data(mesh);
-    for (const VtuArray& array : data.of_points) add("PointData/" + array.name, array);
-    for (const VtuArray& array : data.of_cells) add("CellData/" + array.name, array);
+    const auto add_all = [&](const std::string& group, const std::vector<VtuArray>& arrays) {
+        std::set<std::string> names;
+        for (const VtuArray& array : arrays) {
+            std::string name = name_in_group(array);
+            while (!names.insert(name).second) name += "_field";
+            add(group + name, array);
+        }
+    };
+    add_all("PointData/", data.of_points);
+    add_all("CellData/", data.of_cells);
     return all;
 }
 
@@ -66,7 +82,7 @@ std::vector<Filled> all_datasets(MeshSource& mesh) {
 std::uint64_t entities_of_a_slice(const VtuArray& array, const ProcessGroup& group) {
     constexpr std::uint64_t most_bytes = std::uint64_t{1} << 21U;
     const std::uint64_t share = array.entities / static_cast<std::uint64_t>(group.size()) + 1;
-    return std::min(share, most_bytes / array.entity_size());
+    return std::clamp(most_bytes / array.entity_size(), std::uint64_t{1}, share);
 }
 
 /// Collective.

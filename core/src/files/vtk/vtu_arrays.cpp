@@ -1,5 +1,6 @@
 #include "files/vtk/vtu_arrays.hpp"
 
+#include <algorithm>
 #include <cstring>
 #include <functional>
 #include <span>
@@ -76,6 +77,49 @@ auto numbers_of(const ProcessGroup& group) {
     };
 }
 
+const char* vtk_type_of(FieldType type) {
+    switch (type) {
+        case FieldType::float64: return "Float64";
+        case FieldType::float32: return "Float32";
+        case FieldType::int32: return "Int32";
+        case FieldType::int64: break;
+    }
+    return "Int64";
+}
+
+VtuArray array_of_field(MeshSource& mesh, std::size_t number) {
+    const FieldFacts& field = mesh.fields()[number];
+    const MeshFacts& facts = mesh.facts();
+    return {.name = field.name,
+            .type = vtk_type_of(field.type),
+            .value_size = size_of(field.type),
+            .components = field.components,
+            .values_per_entity = field.components,
+            .entities = field.on == FieldOn::vertices ? facts.vertices : facts.cells,
+            .bytes_of_slice = [&mesh, number](const Window& window, std::vector<char>& out) {
+                const auto bytes = mesh.field_values(number, window);
+                out.resize(bytes.size());
+                if (!bytes.empty()) std::memcpy(out.data(), bytes.data(), bytes.size());
+            }};
+}
+
+/// Behind those that are there.
+void add_field(VtuArray array, std::vector<VtuArray>& arrays) {
+    while (std::ranges::find(arrays, array.name, &VtuArray::name) != arrays.end()) {
+        array.name += "_field";
+    }
+    arrays.push_back(std::move(array));
+}
+
+void add_fields(MeshSource& mesh, VtuData& data) {
+    for (std::size_t f = 0; f < mesh.fields().size(); ++f) {
+        const FieldFacts& field = mesh.fields()[f];
+        if (field.components == 0) continue;
+        add_field(array_of_field(mesh, f),
+                  field.on == FieldOn::vertices ? data.of_points : data.of_cells);
+    }
+}
+
 VtuArray vertex_numbers(MeshSource& piece) {
     const MeshFacts& facts = piece.facts();
     const auto first = std::int64_t{facts.index_base};
@@ -133,7 +177,10 @@ std::vector<VtuArray> vtu_cells(MeshSource& mesh) {
                                 [](const Numbers&, std::size_t) { return vtk_tetra; })};
 }
 
-VtuData vtu_data(MeshSource& mesh) {
+namespace {
+
+/// What the mesh itself has.
+VtuData data_of_mesh(MeshSource& mesh) {
     const MeshFacts& facts = mesh.facts();
     VtuData data;
     if (facts.has_point_markers) {
@@ -162,17 +209,40 @@ VtuData vtu_data(MeshSource& mesh) {
     return data;
 }
 
-VtuData vtu_data_of_piece(MeshSource& piece, int rank) {
-    VtuData data = vtu_data(piece);
-    data.of_points.push_back(vertex_numbers(piece));
-    data.point_attributes = " GlobalIds=\"vertex\"";
-    data.of_cells.push_back(rank_of_cells(piece, rank));
+}  // namespace
+
+VtuData vtu_data(MeshSource& mesh) {
+    VtuData data = data_of_mesh(mesh);
+    add_fields(mesh, data);
     return data;
 }
 
+VtuData vtu_data_of_piece(MeshSource& piece, int rank) {
+    VtuData data = data_of_mesh(piece);
+    data.of_points.push_back(vertex_numbers(piece));
+    data.point_attributes = " GlobalIds=\"vertex\"";
+    data.of_cells.push_back(rank_of_cells(piece, rank));
+    add_fields(piece, data);
+    return data;
+}
+
+std::string xml_escaped(const std::string& text) {
+    std::string result;
+    for (const char c : text) {
+        switch (c) {
+            case '&': result += "&amp;"; break;
+            case '<': result += "&lt;"; break;
+            case '>': result += "&gt;"; break;
+            case '"': result += "&quot;"; break;
+            default: result += c;
+        }
+    }
+    return result;
+}
+
 std::string vtu_attributes(const VtuArray& array) {
-    return fmt::format(R"(type="{}" Name="{}" NumberOfComponents="{}")", array.type, array.name,
-                       array.components);
+    return fmt::format(R"(type="{}" Name="{}" NumberOfComponents="{}")", array.type,
+                       xml_escaped(array.name), array.components);
 }
 
 }  // namespace octetra

@@ -37,10 +37,14 @@ struct VtuData {
 /// connectivity, offsets, types.
 [[nodiscard]] std::vector<VtuArray> vtu_cells(MeshSource& mesh);
 
-/// Markers, attributes, region tags and parents, as far as the mesh has them.
+/// Markers, attributes, region tags and parents, as far as the mesh has them, and its fields. No
+/// two arrays of points, or of cells, have one name: that of a field gets `_field` behind it.
 [[nodiscard]] VtuData vtu_data(MeshSource& mesh);
 /// These, and for a piece of a mesh the numbers of its vertices in the whole, and the piece's rank.
 [[nodiscard]] VtuData vtu_data_of_piece(MeshSource& piece, int rank);
+
+/// What of a name may not stand in XML, in XML's words.
+[[nodiscard]] std::string xml_escaped(const std::string& text);
 
 /// `type="..." Name="..." NumberOfComponents="..."`.
 [[nodiscard]] std::string vtu_attributes(const VtuArray& array);

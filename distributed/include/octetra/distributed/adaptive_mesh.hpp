@@ -9,6 +9,7 @@
 #include <vector>
 
 #include <octetra/core/error.hpp>
+#include <octetra/core/files/mesh_files.hpp>
 #include <octetra/core/mesh.hpp>
 #include <octetra/core/selection.hpp>
 #include <octetra/distributed/adaptation.hpp>
@@ -179,8 +180,12 @@ public:
 
     /// Collective. Writes one file, the same whatever the number of processes and the partition,
     /// or, of a `.pvtu`, each process's part as a piece. Replaces an existing file, also the one
-    /// that the mesh was read from. Returns what the format could not hold.
-    [[nodiscard]] std::string write(const std::filesystem::path& path) const;
+    /// that the mesh was read from. `fields`, values of this mesh's vertices and cells, go into the
+    /// formats of VTK. Returns what the format could not hold. Throws InputError where a field does
+    /// not fit the mesh or the processes have different ones.
+    [[nodiscard]] std::string write(const std::filesystem::path& path,
+                                    std::span<const Field> fields = {},
+                                    const WriteOptions& options = {}) const;
     /// Collective. Writes a checkpoint, `.octetra`: the input, what each step did, and `fields`,
     /// values of this mesh's vertices and cells. The file is the same whatever the number of
     /// processes and the partition. It is written beside its place, brought to the disk, and then

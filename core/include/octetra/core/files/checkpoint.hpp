@@ -6,26 +6,12 @@
 #include <string>
 #include <vector>
 
+#include <octetra/core/field.hpp>
 #include <octetra/core/mesh.hpp>
 
 /// Checkpoints, `.octetra`: a mesh as its input and how each step cut the cells that there were,
 /// with values of vertices and cells. docs/formats.md has the format.
 namespace octetra {
-
-enum class FieldOn : std::uint32_t { vertices, cells };
-enum class FieldType : std::uint32_t { float64, float32, int32, int64 };
-
-[[nodiscard]] std::size_t size_of(FieldType type);
-
-/// Named values of the mesh as it is, `components` for each vertex or cell.
-struct FieldFacts {
-    std::string name;
-    FieldOn on = FieldOn::vertices;
-    FieldType type = FieldType::float64;
-    std::size_t components = 1;
-
-    friend bool operator==(const FieldFacts&, const FieldFacts&) = default;
-};
 
 struct StepFacts {
     std::uint64_t cells_before = 0;

@@ -72,6 +72,9 @@ void stream_mesh(const std::filesystem::path& path, MeshSink& sink,
 /// Can files with this extension hold attributes of vertices?
 [[nodiscard]] bool can_hold_attributes(const std::filesystem::path& path);
 
+/// Can mesh files with this extension hold fields? (Checkpoints, which are written otherwise, can.)
+[[nodiscard]] bool can_hold_fields(const std::filesystem::path& path);
+
 /// Does this file name pieces, one for each process, rather than holding the mesh? (`.pvtu`)
 [[nodiscard]] bool is_in_pieces(const std::filesystem::path& path);
 

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+
+/// Named values on vertices or cells of a mesh, which files have beside it.
+namespace octetra {
+
+enum class FieldOn : std::uint32_t { vertices, cells };
+enum class FieldType : std::uint32_t { float64, float32, int32, int64 };
+
+[[nodiscard]] constexpr std::size_t size_of(FieldType type) {
+    return type == FieldType::float64 || type == FieldType::int64 ? 8 : 4;
+}
+
+/// Named values of the mesh as it is, `components` for each vertex or cell.
+struct FieldFacts {
+    std::string name;
+    FieldOn on = FieldOn::vertices;
+    FieldType type = FieldType::float64;
+    std::size_t components = 1;
+
+    friend bool operator==(const FieldFacts&, const FieldFacts&) = default;
+};
+
+}  // namespace octetra

@@ -15,9 +15,9 @@
 
 #include "files/checks/cell_check.hpp"
 #include "files/gmsh/element_types.hpp"
-#include "files/gmsh/entry_places.hpp"
 #include "files/gmsh/group_names.hpp"
 #include "files/gmsh/node_numbers.hpp"
+#include "files/gmsh/place_runs.hpp"
 #include "files/input/growing_mesh.hpp"
 
 namespace octetra::gmsh {
@@ -94,7 +94,7 @@ private:
     /// What is known of the elements of a kind.
     struct Taken {
         std::uint64_t count = 0;
-        EntryPlaces places;
+        PlaceRuns places;
     };
     template <class I, std::size_t N>
     Taken& taken(const EntityKind<I, N>& /*kind*/) {
@@ -109,7 +109,7 @@ private:
     const ReadOptions* options_;
     std::optional<ElementCounts> expected_;
     NodeNumbers nodes_;
-    EntryPlaces node_places_;
+    PlaceRuns node_places_;
     Taken cells_;
     Taken facets_;
     Taken edges_;

@@ -12,8 +12,6 @@
 namespace octetra {
 namespace {
 
-bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\r'; }
-
 std::string_view token_at(const char* first, const char* end) {
     const char* last = first;
     while (last != end && !is_blank(*last)) ++last;

@@ -8,6 +8,9 @@
 
 namespace octetra {
 
+/// Does this stand between fields, or at the end of a line that Windows wrote?
+[[nodiscard]] constexpr bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\r'; }
+
 /// A token as an error message can show it: quoted, cut short, control characters escaped.
 [[nodiscard]] std::string shown(std::string_view token);
 

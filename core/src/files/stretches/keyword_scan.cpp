@@ -5,6 +5,7 @@
 #include <stdexcept>
 #include <string_view>
 
+#include "files/input/fields.hpp"
 #include "files/input/input_file.hpp"
 #include "files/input/line_reader.hpp"
 #include "files/stretches/shares.hpp"
@@ -15,7 +16,6 @@ namespace {
 constexpr std::size_t most_keywords = 1000;
 
 bool is_letter(char c) { return (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z'); }
-bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\r'; }
 
 /// Looks through bytes for lines that begin with a letter, if blanks are left out.
 class KeywordScan {

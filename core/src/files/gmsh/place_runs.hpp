@@ -8,7 +8,7 @@ namespace octetra::gmsh {
 
 /// Where the entries of a list stand in a file: lines of text, or bytes. Entries at equal distances
 /// take no memory.
-class EntryPlaces {
+class PlaceRuns {
 public:
     /// The next entry; the one behind it will stand `step` further, probably.
     void add(std::uint64_t place, std::uint64_t step) {

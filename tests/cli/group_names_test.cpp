@@ -91,7 +91,7 @@ TEST_F(GroupNames, StayThroughHistoriesOnAnyNumberOfRanks) {
 }
 
 TEST_F(GroupNames, AreSaidOnceToBeLostWhereAFormatHasNoPlaceForThem) {
-    const std::string lost = "the names of groups are kept in .msh and .octetra files alone";
+    const std::string lost = "the names of groups are lost; .msh and .octetra files hold them";
     for (const std::string output : {"o.ele", "o.mesh", "o.vtu", "o.pvtu"}) {
         const auto converted = run("convert gmsh-box-41b.msh " + output);
         EXPECT_EQ(test::occurrences(converted.err, lost), 1U) << converted.err;

@@ -169,12 +169,11 @@ TEST_F(Usage, OfNamesAndWordsIsToldInOneLine) {
     expect_refused(refine + "--engine", "x",
                    "--engine takes one of distributed, reference, not 'x'");
     expect_refused(refine + "--sync", "x", "--sync takes one of neighbour, gateway, not 'x'");
-    for (const std::string word : {"x", "often", "1,5"}) {
-        expect_refused(refine + "--rebalance", word,
-                       "--rebalance takes auto, never or a share from 0 up, not '" + word + "'");
+    for (const std::string word : {"x", "often", "1,5", "1e99", "-1", "nan"}) {
+        expect_refused(
+            refine + "--rebalance", word,
+            "--rebalance takes auto, never or a number from 0 to 1e9, not '" + word + "'");
     }
-    expect_refused(refine + "--rebalance", "1e99",
-                   "--rebalance takes a number from 0 to 1e9, not '1e99'");
     for (const std::string value : {"", "x", "random:", "random:x", "random:1.5", "file:"}) {
         expect_refused(refine + "--partition", value,
                        "--partition takes lepp, dual, rcb, block, random:SEED or file:PATH, not '" +

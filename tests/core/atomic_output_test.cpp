@@ -87,6 +87,10 @@ TEST(WriteMesh, RefusesUnknownExtensionsAndMissingFolders) {
     const Mesh mesh = test::kuhn(1, 1, 1);
     EXPECT_THAT(test::thrown_by<InputError>([&] { (void)write_mesh(mesh, folder / "a.stl"); }),
                 HasSubstr("a.stl: a mesh to write is named by its extension"));
+    EXPECT_THAT(test::thrown_by<InputError>([&] { (void)write_mesh(mesh, folder / "a.octetra"); }),
+                HasSubstr("a.octetra: a checkpoint is written by AdaptiveMesh::save"));
+    EXPECT_THAT(test::thrown_by<InputError>([&] { (void)read_mesh(folder / "a.octetra"); }),
+                HasSubstr("a.octetra: a checkpoint is loaded by AdaptiveMesh::load"));
     EXPECT_THAT(test::thrown_by<InputError>([&] { (void)write_mesh(mesh, folder / "x/a.vtu"); }),
                 HasSubstr("make it first"));
     std::filesystem::create_directory(folder / "d.vtu");

@@ -213,7 +213,7 @@ TEST(GmshWriter, WritesTheNamesOfGroups) {
     }
     for (const std::string name : {"a.ele", "a.mesh", "a.vtu"}) {
         EXPECT_EQ(write_mesh(mesh, folder / name),
-                  "the names of groups are kept in .msh and .octetra files alone");
+                  "the names of groups are lost; .msh and .octetra files hold them");
     }
 }
 

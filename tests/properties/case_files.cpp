@@ -4,6 +4,7 @@
 
 #include <cstdlib>
 #include <stdexcept>
+#include <utility>
 
 #include <octetra/core/files/lists.hpp>
 #include <octetra/core/files/mesh_files.hpp>
@@ -28,6 +29,10 @@ fs::path write_finding(const Finding& finding, const fs::path& folder, const std
     json["law"] = finding.law;
     json["fault"] = finding.fault;
     if (finding.ranks > 0) json["ranks"] = finding.ranks;
+    // Which TetGen's files cannot hold.
+    for (const auto& [dimension, tag, group] : finding.refinement.mesh.group_names) {
+        json["group_names"].push_back({dimension, tag, group});
+    }
     const fs::path file = folder / (name + ".json");
     write_text(json.dump(1) + "\n", file);
     return file;
@@ -37,14 +42,21 @@ Finding read_finding(const fs::path& file) {
     const auto read = [&] {
         try {
             const auto json = nlohmann::json::parse(test::content_of(file));
-            return Finding{json.at("law"), json.at("fault"), case_of(json), json.value("ranks", 0)};
+            Finding finding{json.at("law"), json.at("fault"), case_of(json),
+                            json.value("ranks", 0)};
+            for (const auto& name : json.value("group_names", nlohmann::json::array())) {
+                finding.refinement.mesh.group_names.push_back({name.at(0), name.at(1), name.at(2)});
+            }
+            return finding;
         } catch (const nlohmann::json::exception& error) {
             throw std::invalid_argument(file.string() + ": " + error.what());
         }
     };
     Finding finding = read();
     fs::path mesh = file;
+    auto names = std::move(finding.refinement.mesh.group_names);
     finding.refinement.mesh = read_mesh(mesh.replace_extension(".ele"));
+    finding.refinement.mesh.group_names = std::move(names);
     if (finding.refinement.cell_to_rank.size() != finding.refinement.mesh.cells.size()) {
         throw std::invalid_argument(file.string() + ": cell_to_rank is not one for each cell");
     }

@@ -1,6 +1,7 @@
 #include "commands/parallel_options.hpp"
 
 #include <array>
+#include <charconv>
 
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
@@ -8,7 +9,6 @@
 #include <octetra/core/error.hpp>
 
 #include "choice.hpp"
-#include "parse_numbers.hpp"
 
 namespace octetra::cli {
 
@@ -35,8 +35,9 @@ void add_synchronisation_option(CLI::App& subcommand, ParallelOptions& options,
 void add_rebalance_option(CLI::App& subcommand, ParallelOptions& options,
                           const std::string& group) {
     subcommand
-        .add_option("--rebalance", options.rebalance,
-                    "move cells where one rank would have so much above the mean [auto]")
+        .add_option(
+            "--rebalance", options.rebalance,
+            "when cells move: auto, never, or if a rank would exceed the mean by so much [auto]")
         ->type_name("auto|never|FRACTION")
         ->group(group);
 }
@@ -56,12 +57,13 @@ std::optional<distributed::BalanceOptions> balance_of(const ParallelOptions& opt
     const std::string word = options.rebalance.value_or("auto");
     if (word == "auto") return distributed::BalanceOptions{.only_if_it_pays = true};
     if (word == "never") return std::nullopt;
-    const bool is_number = word.find_first_not_of("0123456789.e+-") == std::string::npos;
-    if (word.empty() || !is_number) {
+    double share = -1;
+    const char* const end = word.data() + word.size();
+    const auto [stop, error] = std::from_chars(word.data(), end, share);
+    if (error != std::errc{} || stop != end || !(share >= 0 && share <= 1e9)) {
         throw InputError(
-            fmt::format("--rebalance takes auto, never or a share from 0 up, not '{}'", word));
+            fmt::format("--rebalance takes auto, never or a number from 0 to 1e9, not '{}'", word));
     }
-    const double share = parse_number<double>("--rebalance", word, {0, 1e9, "0 to 1e9"});
     return distributed::BalanceOptions{.most_over_mean = 1 + share};
 }
 

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <octetra/core/error.hpp>
+#include <octetra/core/files/checkpoint.hpp>
 #include <octetra/core/files/places.hpp>
 
 #include "files/gmsh/gmsh.hpp"
@@ -34,15 +35,19 @@ Format format_of(const fs::path& path) {
 
 /// Why a mesh cannot be read from this file, if its format is none of those that are read.
 [[noreturn]] void refuse_to_read(const fs::path& path) {
+    if (is_checkpoint(path)) {
+        throw InputError(
+            fmt::format("{}: a checkpoint is loaded by AdaptiveMesh::load", path.native()));
+    }
     if (format_of(path) != Format::unknown) {
         throw InputError(
-            fmt::format("{}: {} files are written, not read; read .ele/.node, .mesh, .meshb or "
-                        ".msh",
+            fmt::format("{}: {} files are written, not read; read .ele/.node, .mesh, .meshb, .msh "
+                        "or .octetra",
                         path.native(), path.extension().native()));
     }
     throw InputError(fmt::format(
         "{}: a mesh to read is named by its extension: .ele or .node (TetGen), .mesh or .meshb "
-        "(Medit), .msh (Gmsh)",
+        "(Medit), .msh (Gmsh), .octetra (with its history)",
         path.native()));
 }
 
@@ -78,7 +83,7 @@ void add_loss(std::string& lost, std::string_view loss) {
 /// What is lost in all, where that is `lost` without names of groups and fields.
 std::string all_lost(std::string lost, const MeshSource& mesh, const fs::path& path) {
     if (!mesh.facts().group_names.empty() && format_of(path) != Format::gmsh) {
-        add_loss(lost, "the names of groups are kept in .msh and .octetra files alone");
+        add_loss(lost, "the names of groups are lost; .msh and .octetra files hold them");
     }
     if (!mesh.fields().empty() && !can_hold_fields(path)) {
         std::string names;
@@ -139,11 +144,15 @@ std::string write_pieces(MeshSource& piece, const ProcessGroup& group, const fs:
 }
 
 void check_writable(const fs::path& path, int pieces) {
+    if (is_checkpoint(path)) {
+        throw InputError(
+            fmt::format("{}: a checkpoint is written by AdaptiveMesh::save", path.native()));
+    }
     if (format_of(path) == Format::unknown) {
         throw InputError(
             fmt::format("{}: a mesh to write is named by its extension: .ele or .node "
                         "(TetGen), .mesh or .meshb (Medit), .msh (Gmsh), .vtu, .pvtu or .vtkhdf "
-                        "(VTK)",
+                        "(VTK), .octetra (with its history)",
                         path.native()));
     }
     check_places(path, pieces);

@@ -87,8 +87,10 @@ std::string MeshIntake::refusal(std::uint64_t number) {
     const auto type = element_type(number);
     if (!type) return fmt::format("elements of type {} are not known", number);
     if (type->shape == Shape::tetrahedron && number != tetrahedron_type) {
-        return fmt::format("{}-node tetrahedra (type {}): save with Mesh.ElementOrder = 1",
-                           type->nodes, number);
+        return fmt::format(
+            "only tetrahedra of 4 nodes are supported, and these have {}: mesh again with "
+            "gmsh -3 -order 1, or have a script of Gmsh do Merge, SetOrder 1 and Save",
+            type->nodes);
     }
     if (is_solid(type->shape) && number != tetrahedron_type) {
         return fmt::format("only tetrahedral meshes are supported, and this one has {}",
@@ -117,6 +119,12 @@ void MeshIntake::check(bool has_lines, const Fail& fail) {
         fail(describe_wrong(wrong, name, markers, mesh, lines_of(of_kind)),
              of_kind.places.of(wrong.entry.value()));
     };
+    if (mesh.cells.empty() && !mesh.facets.empty()) {
+        fail(
+            "there are triangles and no tetrahedra: mesh with gmsh -3; where anything is in a "
+            "physical group, the volumes must be in one, too",
+            facets_.places.of(0));
+    }
     if (repeated_cells_) {
         const CellPair pair = repeated_cells_->find(mesh.cells, mesh.points.size());
         if (!pair.cell.is_none()) {

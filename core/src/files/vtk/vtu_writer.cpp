@@ -161,8 +161,8 @@ std::string lists_left_out(const std::filesystem::path& path, std::uint64_t face
         : facets == 0 ? fmt::format("{} tagged edges", edges)
                       : fmt::format("{} tagged facets and {} tagged edges", facets, edges);
     return fmt::format(
-        "the {} file holds cells only, not the {} with their markers; .mesh and .ele "
-        "hold them",
+        "the {} file holds cells only, not the {} with their markers; files of TetGen, Medit and "
+        "Gmsh and .octetra hold them",
         path.extension().native(), what);
 }
 

@@ -373,7 +373,7 @@ INSTANTIATE_TEST_SUITE_P(
 std::string patched(std::string file, std::size_t place, const std::string& bytes) {
     return file.replace(place, bytes.size(), bytes);
 }
-std::string bytes_of(auto number) {
+std::string bytes_of_number(auto number) {
     std::string bytes(sizeof number, '\0');
     std::memcpy(bytes.data(), &number, sizeof number);
     return bytes;
@@ -392,7 +392,7 @@ const std::size_t elements_2 = behind(binary_2, "$Elements\n1\n");
 
 BadCase binary_case(const std::string& name, const std::string& file, std::size_t place,
                     auto number, std::size_t blamed, const std::string& what) {
-    return {name, patched(file, place, bytes_of(number)),
+    return {name, patched(file, place, bytes_of_number(number)),
             " at byte " + std::to_string(blamed) + ": ", what};
 }
 

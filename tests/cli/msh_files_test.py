@@ -9,10 +9,11 @@ import pathlib
 import shutil
 import subprocess
 import sys
-import tempfile
 import unittest
 
-octetra, corpus, reader = sys.argv[1], pathlib.Path(sys.argv[2]), sys.argv[3]
+from program_case import ProgramCase
+
+corpus, reader = pathlib.Path(sys.argv[2]), sys.argv[3]
 FORMATS = ["4.1", "4.1-text", "2.2", "2.2-text"]
 
 
@@ -46,20 +47,15 @@ def named_by_points(path):
             for kind in ["Tetrahedra", "Triangles", "Edges"]}
 
 
-class Case(unittest.TestCase):
+class Case(ProgramCase):
     def setUp(self):
-        self.folder = tempfile.TemporaryDirectory()
-        self.addCleanup(self.folder.cleanup)
-        self.path = pathlib.Path(self.folder.name)
+        super().setUp()
         # Cells of two regions, of which one has no tag, facets of three groups, and two edges.
         text = (corpus / "meshes" / "gmsh-box-41b.msh").read_bytes()
         (self.path / "box.msh").write_bytes(text)
         self.run_octetra("convert", "box.msh", "box.mesh")
         whole = (self.path / "box.mesh").read_text().replace(" -3\n", " 3\n")
         (self.path / "box.mesh").write_text(whole)
-
-    def run_octetra(self, *words):
-        subprocess.run([octetra, *words, "--quiet"], cwd=self.path, check=True, stderr=subprocess.DEVNULL)
 
 
 class ByGmsh(Case):

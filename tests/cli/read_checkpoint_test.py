@@ -3,14 +3,13 @@
 usage: read_checkpoint_test.py OCTETRA TOOLS
 """
 import pathlib
-import subprocess
 import sys
-import tempfile
 import unittest
 
 import numpy
 
-octetra = sys.argv[1]
+from program_case import ProgramCase
+
 sys.path.insert(0, sys.argv[2])
 import read_checkpoint  # noqa: E402
 
@@ -26,15 +25,7 @@ def mesh_of(path):
     return section("Vertices", 3).astype(float), section("Tetrahedra", 4).astype(int) - 1
 
 
-class ReadCheckpoint(unittest.TestCase):
-    def setUp(self):
-        self.folder = tempfile.TemporaryDirectory()
-        self.addCleanup(self.folder.cleanup)
-        self.path = pathlib.Path(self.folder.name)
-
-    def run_octetra(self, *words):
-        subprocess.run([octetra, *words, "--quiet"], cwd=self.path, check=True)
-
+class ReadCheckpoint(ProgramCase):
     def test_finds_the_mesh_that_the_program_finds(self):
         # More than a block of cells, and steps that cut few and many.
         (self.path / "steps.txt").write_text("refine --random 0.2 --seed 3\n"

@@ -2,14 +2,11 @@
 
 usage: read_meshb_test.py OCTETRA
 """
-import pathlib
 import struct
-import subprocess
 import sys
-import tempfile
 import unittest
 
-octetra = sys.argv[1]
+from program_case import ProgramCase
 
 # Code of the keyword, its name in text files, vertex numbers or coordinates of an entry.
 SECTIONS = {4: ("Vertices", 3), 8: ("Tetrahedra", 4), 6: ("Triangles", 3), 5: ("Edges", 2)}
@@ -77,15 +74,7 @@ def read_text(path):
     return sections
 
 
-class Meshb(unittest.TestCase):
-    def setUp(self):
-        self.folder = tempfile.TemporaryDirectory()
-        self.addCleanup(self.folder.cleanup)
-        self.path = pathlib.Path(self.folder.name)
-
-    def run_octetra(self, *words):
-        subprocess.run([octetra, *words, "--quiet"], cwd=self.path, check=True)
-
+class Meshb(ProgramCase):
     def test_written_has_what_the_text_has(self):
         for shape in (["gear"], ["two-material"], ["kuhn", "3"]):
             self.run_octetra("generate", *shape, "-o", "a.mesh")

@@ -6,6 +6,12 @@
 #include <initializer_list>
 #include <string>
 #include <string_view>
+#include <vector>
+
+#include <octetra/core/files/mesh_files.hpp>
+
+#include "core/stretches.hpp"
+#include "support/temporary_folder.hpp"
 
 /// Gmsh files in pieces, for tests that put them together wrongly, too.
 namespace octetra::test {
@@ -93,6 +99,21 @@ inline std::string gmsh_binary_2(bool swapped = false) {
     file.ints({3}).reals({0, 1, 0}).ints({4}).reals({0, 0, 1});
     file.text("\n$EndNodes\n$Elements\n1\n").ints({4, 1, 2, 1, 7, 1, 1, 2, 3, 4});
     return file.text("\n$EndElements\n");
+}
+
+struct GmshRead {
+    Mesh mesh;
+    std::vector<std::string> notes;
+};
+
+/// What such a file is read as, by one process as by several.
+inline GmshRead read_gmsh(const std::string& content) {
+    const TemporaryFolder folder;
+    const auto file = folder.write("m.msh", content);
+    expect_right_stretches(file);
+    GmshRead read;
+    read.mesh = read_mesh(file, {.note = [&](const auto& n) { read.notes.push_back(n); }});
+    return read;
 }
 
 }  // namespace octetra::test

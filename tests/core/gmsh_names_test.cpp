@@ -23,19 +23,6 @@ using testing::ElementsAre;
 using testing::EndsWith;
 using testing::HasSubstr;
 
-struct NamedRead {
-    Mesh mesh;
-    std::vector<std::string> notes;
-};
-
-NamedRead read_named(const std::string& content) {
-    const test::TemporaryFolder folder;
-    NamedRead read;
-    read.mesh = read_mesh(folder.write("m.msh", content),
-                          {.note = [&](const auto& n) { read.notes.push_back(n); }});
-    return read;
-}
-
 /// The one cell of the files in pieces.
 Mesh unnamed_cell() {
     Mesh mesh = test::one_cell(test::cube_corner);
@@ -55,7 +42,7 @@ TEST(GmshNames, AreReadFromTextAndBinaryFiles) {
     expected.group_names = {{3, 7, "rock # 1"}, {2, -5, "a \"b\" c"}, {0, 7, "\xc3\xa9"}};
     for (const std::string& file : {gmsh_head_2 + names + gmsh_nodes_2 + gmsh_cell_2,
                                     test::gmsh_binary_4().insert(binary_head, names)}) {
-        const NamedRead found = read_named(file);
+        const test::GmshRead found = test::read_gmsh(file);
         EXPECT_EQ(found.mesh, expected);
         EXPECT_THAT(found.notes, ElementsAre(EndsWith("m.msh: 3 names of groups are empty, or no "
                                                       "UTF-8 text, and are not kept")));
@@ -71,10 +58,10 @@ TEST(GmshNames, AreReadIfTheyAreNoLongerThanALineMayBe) {
         for (const std::string& file : {gmsh_head_2 + names + gmsh_nodes_2 + gmsh_cell_2,
                                         test::gmsh_binary_4().insert(binary_head, names)}) {
             if (length == 100'000) {
-                EXPECT_TRUE(read_named(file).mesh == expected);
+                EXPECT_TRUE(test::read_gmsh(file).mesh == expected);
             } else {
                 const std::string refusal =
-                    test::thrown_by<InputError>([&] { (void)read_named(file); });
+                    test::thrown_by<InputError>([&] { (void)test::read_gmsh(file); });
                 EXPECT_THAT(refusal, HasSubstr("line"));
                 EXPECT_LT(refusal.size(), 1000U);
             }
@@ -93,7 +80,8 @@ class BadGmshNames : public testing::TestWithParam<BadName> {};
 
 TEST_P(BadGmshNames, AreRefusedByPlaceAndReason) {
     const auto& [name, content, place, what] = GetParam();
-    const std::string message = test::thrown_by<InputError>([&] { (void)read_named(content); });
+    const std::string message =
+        test::thrown_by<InputError>([&] { (void)test::read_gmsh(content); });
     EXPECT_THAT(message, HasSubstr("/m.msh:" + place));
     EXPECT_THAT(message, HasSubstr(what));
 }

@@ -36,20 +36,7 @@ using testing::EndsWith;
 using testing::HasSubstr;
 using testing::IsEmpty;
 
-struct Read {
-    Mesh mesh;
-    std::vector<std::string> notes;
-};
-
-Read read_with_notes(const std::string& content) {
-    const TemporaryFolder folder;
-    const auto file = folder.write("m.msh", content);
-    test::expect_right_stretches(file);
-    Read read;
-    read.mesh = read_mesh(file, {.note = [&](const auto& n) { read.notes.push_back(n); }});
-    return read;
-}
-Mesh read(const std::string& content) { return read_with_notes(content).mesh; }
+Mesh read(const std::string& content) { return test::read_gmsh(content).mesh; }
 
 /// The one cell of the files in pieces.
 Mesh one_cell() {
@@ -112,7 +99,7 @@ TEST(GmshReader, MakesTrianglesFacetsAndLinesEdgesInAnyOrder) {
 }
 
 TEST(GmshReader, TakesTheFirstGroupOfAnEntityAndSaysSo) {
-    const Read found = read_with_notes(
+    const test::GmshRead found = test::read_gmsh(
         gmsh_head_4 + "$Entities\n0 0 1 1\n9 0 0 0 1 1 1 2 -3 8 0\n1 0 0 0 1 1 1 1 7 1 9\n" +
         "$EndEntities\n" + gmsh_nodes_4 +
         "$Elements\n2 2 1 2\n2 9 2 1\n1 1 2 3\n3 1 4 1\n2 1 2 3 4\n$EndElements\n");
@@ -128,7 +115,7 @@ TEST(GmshReader, TakesAnElementOfSeveralGroupsOnceAndSaysSo) {
     const std::string elements =
         "$Elements\n5\n1 4 2 7 1 1 2 3 4\n2 4 2 8 1 1 2 3 4\n3 2 2 3 6 1 2 3\n4 2 2 9 6 2 1 3\n"
         "5 2 2 4 6 3 2 1\n$EndElements\n";
-    const Read found = read_with_notes(gmsh_head_2 + gmsh_nodes_2 + elements);
+    const test::GmshRead found = test::read_gmsh(gmsh_head_2 + gmsh_nodes_2 + elements);
     EXPECT_THAT(found.mesh.regions, ElementsAre(7));
     EXPECT_THAT(found.mesh.facet_markers, ElementsAre(3));
     EXPECT_THAT(found.notes,
@@ -157,7 +144,7 @@ TEST(GmshReader, FindsNodesBySparseTagsInAnyOrder) {
 }
 
 TEST(GmshReader, SkipsWhatIsNoPartOfAMeshAndSaysHowMuch) {
-    const Read found = read_with_notes(
+    const test::GmshRead found = test::read_gmsh(
         gmsh_head_2 + "$Comments\nwhatever\n$EndComments\n$PhysicalNames\n1\n3 7 \"rock # 1\"\n" +
         "$EndPhysicalNames\n" + gmsh_nodes_2 +
         "$Elements\n4\n1 15 2 9 1 1\n2 15 2 9 1 2\n3 3 2 1 1 1 2 3 4\n4 4 1 7 1 2 3 4\n"
@@ -177,8 +164,8 @@ TEST(GmshReader, SkipsWhatIsNoPartOfAMeshAndSaysHowMuch) {
 TEST(GmshReader, SkipsSectionsOfBinaryFilesByTheirEnd) {
     for (const std::size_t size :
          {0U, 1U, 65518U, 65519U, 65520U, 65530U, 65535U, 65536U, 3000000U}) {
-        const Read found =
-            read_with_notes(test::gmsh_binary_4() + "$NodeData\n" + std::string(size, '\0') +
+        const test::GmshRead found =
+            test::read_gmsh(test::gmsh_binary_4() + "$NodeData\n" + std::string(size, '\0') +
                             "\n$EndNodeData\n$Periodic\n" + "$EndPeriodic\n");
         EXPECT_EQ(found.mesh, one_cell());
         EXPECT_THAT(found.notes, ElementsAre(HasSubstr("'NodeData'"), HasSubstr("'Periodic'")));
@@ -186,7 +173,7 @@ TEST(GmshReader, SkipsSectionsOfBinaryFilesByTheirEnd) {
 }
 
 TEST(GmshReader, PutsPartitionsTogetherWithoutWhatLiesBetweenThem) {
-    const Read found = read_with_notes(
+    const test::GmshRead found = test::read_gmsh(
         gmsh_head_4 + gmsh_entities_4 +
         "$PartitionedEntities\n2\n1\n5 1\n0 0 1 2\n"
         "2 3 1 2 1 2 0 0 0 1 1 1 0 0\n"

@@ -82,12 +82,7 @@ TEST(GmshRoundTrip, KeepsGroupsOrderAndEveryBit) {
 }
 
 TEST(GmshRoundTrip, KeepsExtremeCoordinates) {
-    const double largest = std::nextafter(coordinate_limit, 0.0);
-    constexpr double smallest = std::numeric_limits<double>::denorm_min();
-    const Mesh mesh = test::one_cell({{{-0.0, 0, smallest},
-                                       {largest, -smallest, 0},
-                                       {0, 0x1.fffffffffffffp-1022, -largest},
-                                       {0.1, -1.0 / 3, 5e-310}}});
+    const Mesh mesh = test::extreme_cell();
     for (const MshFormat& format : all_formats) {
         EXPECT_EQ(test::bits(through_file(mesh, format)), test::bits(mesh)) << kind_of(format);
     }

@@ -95,12 +95,7 @@ TEST(RoundTrip, CoordinatesTakeNoMoreDigitsThanTheyNeed) {
 }
 
 TEST(RoundTrip, ExtremeCoordinatesKeepEveryBit) {
-    const double largest = std::nextafter(coordinate_limit, 0.0);
-    constexpr double smallest = std::numeric_limits<double>::denorm_min();
-    const Mesh mesh = test::one_cell({{{-0.0, 0, smallest},
-                                       {largest, -smallest, 0},
-                                       {0, 0x1.fffffffffffffp-1022, -largest},
-                                       {0.1, -1.0 / 3, 5e-310}}});
+    const Mesh mesh = test::extreme_cell();
     EXPECT_EQ(test::bits(through_file(mesh, "a.ele")), test::bits(mesh));
     EXPECT_EQ(test::bits(through_file(mesh, "a.mesh")), test::bits(mesh));
     EXPECT_EQ(test::bits(through_file(mesh, "a.meshb")), test::bits(mesh));

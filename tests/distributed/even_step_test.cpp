@@ -29,35 +29,23 @@ class EvenSteps : public testing::TestWithParam<std::uint64_t> {};
 
 TEST_P(EvenSteps, ChangeNoStepAndNoFile) {
     std::mt19937_64 random(GetParam());
-    const Mesh input = input_of(GetParam());
-    AdaptiveMesh moving = shared_out(input, "random:" + std::to_string(GetParam()));
-    AdaptiveMesh resting = shared_out(input, "block");
-    reference::History history{input, {}};
-    const test::SharedFolder folder;
+    MovingAndResting pair(GetParam());
     for (int k = 0; k < 7; ++k) {
         constexpr std::array<double, 4> shares{0.001, 0.004, 0.05, 0.9};
         const bool refines = k == 0 || random() % 4 != 0;
         const Selection selection = some(shares[random() % (refines ? 3 : 4)], random());
         if (refines) {
-            (void)moving.refine_evenly(selection, always);
-            (void)resting.refine(selection);
+            (void)pair.moving.refine_evenly(selection, always);
+            (void)pair.resting.refine(selection);
         } else {
-            (void)moving.coarsen(selection);
-            (void)resting.coarsen(selection);
+            (void)pair.moving.coarsen(selection);
+            (void)pair.resting.coarsen(selection);
         }
-        const auto marks = marked_cells(reference::replay(history).back(), selection);
-        history = refines ? reference::refined(history, marks, Scheme::eight)
-                          : reference::coarsened(history, marks);
-        const Mesh found = moving.collect();
-        ASSERT_TRUE(found == reference::replay(history).back().mesh || !test::world().is_first())
-            << k;
-        EXPECT_EQ(moving.vertex_count(), resting.vertex_count());
+        SCOPED_TRACE(k);
+        pair.expect_step(selection, refines);
+        ASSERT_FALSE(HasFailure());
     }
-    moving.save(folder / "moved.octetra");
-    resting.save(folder / "rested.octetra");
-    if (!test::world().is_first()) return;
-    EXPECT_TRUE(test::content_of(folder / "moved.octetra") ==
-                test::content_of(folder / "rested.octetra"));
+    pair.expect_same_checkpoints();
 }
 
 TEST_P(EvenSteps, OfManyLevelsAreThoseOfTheReference) {

@@ -7,10 +7,15 @@
 
 #include <octetra/distributed/adaptive_mesh.hpp>
 #include <octetra/distributed/partition.hpp>
+#include <octetra/reference/history.hpp>
+
+#include <gtest/gtest.h>
 
 #include "distributed/marked_mesh.hpp"
+#include "distributed/shared_folder.hpp"
 #include "distributed/world.hpp"
 #include "support/meshes.hpp"
+#include "support/refinement.hpp"
 
 /// What tests of cells that move have in common.
 namespace octetra::distributed {
@@ -33,6 +38,38 @@ inline AdaptiveMesh shared_out(Mesh mesh, const std::string& partition) {
         partition_cells(mesh, test::world().size(), parse_partition(partition));
     return AdaptiveMesh::distribute(test::world(), std::move(mesh), parts);
 }
+
+/// One mesh twice, with cells that move in the one and rest in the other, beside the reference.
+struct MovingAndResting {
+    AdaptiveMesh moving;
+    AdaptiveMesh resting;
+    reference::History history;
+
+    explicit MovingAndResting(std::uint64_t seed)
+        : moving(shared_out(input_of(seed), "random:" + std::to_string(seed))),
+          resting(shared_out(input_of(seed), "block")),
+          history{input_of(seed), {}} {}
+
+    /// Collective. After both have done a step: is it the reference's?
+    void expect_step(const Selection& selection, bool refines) {
+        const auto marks = marked_cells(reference::replay(history).back(), selection);
+        history = refines ? reference::refined(history, marks, Scheme::eight)
+                          : reference::coarsened(history, marks);
+        const Mesh found = moving.collect();
+        EXPECT_TRUE(found == reference::replay(history).back().mesh || !test::world().is_first());
+        EXPECT_EQ(moving.vertex_count(), resting.vertex_count());
+    }
+
+    /// Collective.
+    void expect_same_checkpoints() const {
+        const test::SharedFolder folder;
+        moving.save(folder / "moved.octetra");
+        resting.save(folder / "rested.octetra");
+        if (!test::world().is_first()) return;
+        EXPECT_TRUE(test::content_of(folder / "moved.octetra") ==
+                    test::content_of(folder / "rested.octetra"));
+    }
+};
 
 inline double most_over_mean(const AdaptiveMesh& mesh) {
     const std::uint64_t count = mesh.cells().size();

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <limits>
 #include <numeric>
 #include <random>
 #include <vector>
@@ -28,6 +30,16 @@ inline Mesh mesh_of(const std::vector<Point>& points,
 
 inline Mesh one_cell(const std::array<Point, 4>& corners) {
     return mesh_of({corners.begin(), corners.end()}, {{0, 1, 2, 3}});
+}
+
+/// One with the least and the largest coordinates that there are, and some that take all digits.
+inline Mesh extreme_cell() {
+    const double largest = std::nextafter(coordinate_limit, 0.0);
+    constexpr double smallest = std::numeric_limits<double>::denorm_min();
+    return one_cell({{{-0.0, 0, smallest},
+                      {largest, -smallest, 0},
+                      {0, 0x1.fffffffffffffp-1022, -largest},
+                      {0.1, -1.0 / 3, 5e-310}}});
 }
 
 /// nx * ny * nz cubes of side `side`, each of six cells round its diagonal: a lattice full of ties.

@@ -1,0 +1,21 @@
+"""What tests of the program that are written in Python have in common."""
+import pathlib
+import subprocess
+import sys
+import tempfile
+import unittest
+
+octetra = sys.argv[1]
+
+
+class ProgramCase(unittest.TestCase):
+    """The program in a folder of its own, `self.path`."""
+
+    def setUp(self):
+        self.folder = tempfile.TemporaryDirectory()
+        self.addCleanup(self.folder.cleanup)
+        self.path = pathlib.Path(self.folder.name)
+
+    def run_octetra(self, *words):
+        subprocess.run([octetra, *words, "--quiet"], cwd=self.path, check=True,
+                       stderr=subprocess.DEVNULL)

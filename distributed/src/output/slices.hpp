@@ -32,6 +32,7 @@ void bring_to_slices(const Communicator& processes, const Window& window, auto&&
             continue;
         }
         auto& outbox = outboxes[static_cast<std::size_t>(rank)];
+        outbox.reserve((end - begin) / outboxes.size());  // if all have about as many there
         between(begin, end, [&](std::uint64_t number, const T& value) {
             outbox.push_back({static_cast<std::uint32_t>(number - begin), value});
         });

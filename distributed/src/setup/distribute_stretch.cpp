@@ -26,12 +26,24 @@
 namespace octetra::distributed {
 namespace {
 
-bool are_positive(const StretchCorners& corners, std::size_t cells) {
+/// What takes the corners of all cells, whose points are anywhere in memory, in one go.
+struct CellPlaces {
+    std::vector<Point> places;
+    bool are_positive = true;  ///< else not all are found
+};
+CellPlaces find_places(const StretchCorners& corners, std::size_t cells) {
+    CellPlaces found;
+    found.places.resize(cells);
     for (std::size_t i = 0; i < cells; ++i) {
-        const auto [a, b, c, d] = corners.of(i);
-        if (orientation(a, b, c, d) <= 0) return false;
+        const Corners at = corners.of(i);
+        const auto& [a, b, c, d] = at;
+        if (orientation(a, b, c, d) <= 0) {
+            found.are_positive = false;
+            break;
+        }
+        found.places[i] = place_of(at);
     }
-    return true;
+    return found;
 }
 
 using Weigh = std::function<std::vector<float>(const CellsToWeigh&)>;
@@ -67,28 +79,13 @@ std::vector<std::uint64_t> weights_of(const Communicator& processes, const MeshS
     return whole;
 }
 
-/// Collective. The parts of this process's cells.
-std::vector<int> parts_of(const Communicator& processes, const MeshStretch& stretch,
-                          const StretchCorners& corners, PartitionMethod method, const Weigh& weigh,
-                          LocalFailure& failure) {
-    const std::size_t count = stretch.lists.cells.size();
-    if (method == PartitionMethod::rcb) {
-        const auto weights = weights_of(processes, stretch, corners, weigh, failure);
-        return bisect_coordinates(processes,
-                                  {.count = count,
-                                   .point = [&](std::size_t i) { return place_of(corners.of(i)); },
-                                   .number = [&](std::size_t i) { return stretch.first_cell + i; },
-                                   .weights = weights},
-                                  processes.size(), failure);
+/// As even in numbers as can be.
+std::vector<int> parts_by_number(const Communicator& processes, const MeshStretch& stretch) {
+    std::vector<int> parts(stretch.lists.cells.size());
+    const auto size = static_cast<std::uint64_t>(processes.size());
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+        parts[i] = static_cast<int>((stretch.first_cell + i) * size / stretch.facts.cells);
     }
-    std::vector<int> parts;
-    failure.attempt([&] {
-        parts.resize(count);
-        const auto size = static_cast<std::uint64_t>(processes.size());
-        for (std::size_t i = 0; i < count; ++i) {
-            parts[i] = static_cast<int>((stretch.first_cell + i) * size / stretch.facts.cells);
-        }
-    });
     return parts;
 }
 
@@ -138,12 +135,7 @@ public:
         std::vector<int> parts;
         in_phase(processes_, "partition", [&] {
             corners.emplace(processes_, homes, stretch_, failure_);
-            failure_.attempt([&] {
-                is_sound_ = is_sound_ && are_positive(*corners, stretch_.lists.cells.size());
-            });
-            failure_.agree(processes_);
-            parts = parts_of(processes_, stretch_, *corners, method, weigh, failure_);
-            failure_.agree(processes_);
+            parts = find_parts(*corners, method, weigh);
             corners->forget_points();
         });
         const Phase phase(processes_, "distribute");
@@ -197,6 +189,33 @@ public:
     }
 
 private:
+    /// Collective. The parts of this process's cells; finds out whether all are positive.
+    [[nodiscard]] std::vector<int> find_parts(StretchCorners& corners, PartitionMethod method,
+                                              const Weigh& weigh) {
+        CellPlaces found;
+        failure_.attempt([&] {
+            found = find_places(corners, stretch_.lists.cells.size());
+            is_sound_ = is_sound_ && found.are_positive;
+        });
+        failure_.agree(processes_);
+        std::vector<int> parts;
+        if (method == PartitionMethod::rcb) {
+            const auto weights = weights_of(processes_, stretch_, corners, weigh, failure_);
+            corners.forget_points();
+            parts = bisect_coordinates(
+                processes_,
+                {.count = found.places.size(),
+                 .point = [&](std::size_t i) { return found.places[i]; },
+                 .number = [&](std::size_t i) { return stretch_.first_cell + i; },
+                 .weights = weights},
+                processes_.size(), failure_);
+        } else {
+            failure_.attempt([&] { parts = parts_by_number(processes_, stretch_); });
+        }
+        failure_.agree(processes_);
+        return parts;
+    }
+
     template <class I, std::size_t N, std::size_t Sides>
     void bring_tagged(const Homes& homes, const StretchVertices& vertices,
                       const IndexVector<I, std::array<VertexIndex, N>>& read,

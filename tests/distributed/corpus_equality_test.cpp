@@ -134,7 +134,7 @@ TEST_P(CorpusEquality, BySelectorsOfEveryKindOverOneToFourLevels) {
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(, CorpusEquality, testing::ValuesIn(test::corpus_entries("meshes")),
+INSTANTIATE_TEST_SUITE_P(, CorpusEquality, testing::ValuesIn(test::different_meshes()),
                          test::corpus_name);
 
 }  // namespace

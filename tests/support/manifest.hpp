@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <ostream>
@@ -31,6 +32,16 @@ inline std::vector<CorpusEntry> corpus_entries(const std::string& list) {
     std::vector<CorpusEntry> result;
     for (const nlohmann::json& entry : manifest.at(list)) result.push_back({entry});
     return result;
+}
+
+/// Of the meshes one of each: some are there in several formats.
+inline std::vector<CorpusEntry> different_meshes() {
+    std::vector<CorpusEntry> entries = corpus_entries("meshes");
+    std::erase_if(entries, [](const CorpusEntry& entry) {
+        const auto& tags = entry.content["tags"];
+        return std::ranges::find(tags, "same-mesh") != tags.end();
+    });
+    return entries;
 }
 
 /// A test's name from an entry's.

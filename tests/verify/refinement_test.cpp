@@ -32,7 +32,7 @@ using test::codes_of;
 const std::vector<Scheme> schemes{Scheme::eight, Scheme::four, Scheme::two};
 
 std::vector<test::CorpusEntry> entries_with_files() {
-    auto entries = test::corpus_entries("meshes");
+    auto entries = test::different_meshes();
     std::erase_if(entries, [](const auto& entry) { return !entry.content.contains("file"); });
     return entries;
 }

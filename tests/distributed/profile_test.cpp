@@ -1,4 +1,5 @@
 #include <chrono>
+#include <ctime>
 #include <numeric>
 #include <stdexcept>
 #include <thread>
@@ -219,6 +220,24 @@ TEST(Phase, GivesTheInnerPhaseItsTimeAndTheOuterOneTheRest) {
     expect(1, "outer", 2, 0.008);
     expect(2, "inner", 2, 0.008);
     EXPECT_GT(profile.peak_memory_of_rank.front(), 1'000'000U);
+}
+
+TEST(Phase, OfTheProcessorsTimeHasNoneWhileItSleeps) {
+    const Communicator alone =
+        profiled(Communicator(), ProfileDetail::sums, ProfileClock::processor);
+    in_phase(alone, "asleep", [] { sleep_milliseconds(200); });
+    in_phase(alone, "at work", [] {
+        const std::clock_t begin = std::clock();
+        while (std::clock() - begin < CLOCKS_PER_SEC / 100) {
+        }
+    });
+    const GatheredProfile profile = gather_profile(alone);
+    const auto seconds_of = [&](std::size_t i) {
+        return profile.phases[i].of_rank.front().computing_seconds;
+    };
+    ASSERT_EQ(profile.phases.size(), 3U);
+    EXPECT_LT(seconds_of(1), 0.1);
+    EXPECT_GE(seconds_of(2), 0.009);
 }
 
 TEST(Profile, IsGatheredOnlyWhereThereIsOneAndNoPhaseIsOpen) {

@@ -72,9 +72,9 @@ void put_levels(const std::vector<std::vector<Profile::LevelRecord>>& from_each,
 
 }  // namespace
 
-Communicator profiled(const Communicator& processes, ProfileDetail detail) {
+Communicator profiled(const Communicator& processes, ProfileDetail detail, ProfileClock clock) {
     (void)processes.sum(0);  // a barrier
-    return processes.with_profile(std::make_shared<Profile>(detail));
+    return processes.with_profile(std::make_shared<Profile>(detail, clock));
 }
 
 void Phase::begin(const char* name) { profile_->begin_phase(name); }

@@ -1,14 +1,23 @@
 #include "profile/recorder.hpp"
 
 #include <algorithm>
+#include <ctime>
 #include <fstream>
 #include <stdexcept>
 #include <string>
 
 namespace octetra::distributed {
 
-Profile::Profile(ProfileDetail detail) : keeps_spans_(detail == ProfileDetail::spans) {
+Profile::Profile(ProfileDetail detail, ProfileClock clock)
+    : keeps_spans_(detail == ProfileDetail::spans), clock_(clock) {
     open_.push_back({.record = record_of("rest", 0)});
+}
+
+Profile::Nanoseconds Profile::now() const {
+    timespec time{};
+    ::clock_gettime(clock_ == ProfileClock::wall ? CLOCK_MONOTONIC : CLOCK_THREAD_CPUTIME_ID,
+                    &time);
+    return Nanoseconds{time.tv_sec} * 1'000'000'000 + time.tv_nsec;
 }
 
 std::size_t Profile::record_of(std::string_view name, int level) {
@@ -20,11 +29,10 @@ std::size_t Profile::record_of(std::string_view name, int level) {
 }
 
 Profile::Nanoseconds Profile::book() {
-    const auto passed = std::chrono::steady_clock::now() - start_;
-    const Nanoseconds now = std::chrono::nanoseconds(passed).count();
-    (communicates_ ? current().communicating : current().computing) += now - booked_;
-    booked_ = now;
-    return now;
+    const Nanoseconds passed = now() - start_;
+    (communicates_ ? current().communicating : current().computing) += passed - booked_;
+    booked_ = passed;
+    return passed;
 }
 
 void Profile::begin_span(const char* name, Nanoseconds now, bool is_communication) {

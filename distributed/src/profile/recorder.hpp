@@ -1,6 +1,5 @@
 #pragma once
 
-#include <chrono>
 #include <cstdint>
 #include <string_view>
 #include <vector>
@@ -31,7 +30,7 @@ public:
     };
 
     /// Starts the clock, in the phase "rest".
-    explicit Profile(ProfileDetail detail);
+    Profile(ProfileDetail detail, ProfileClock clock);
 
     void begin_phase(const char* name) { begin_phase(name, current().level); }
     void begin_phase(const char* name, int level);
@@ -59,8 +58,11 @@ private:
     Nanoseconds book();
     void begin_span(const char* name, Nanoseconds now, bool is_communication);
 
-    std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+    [[nodiscard]] Nanoseconds now() const;
+
     bool keeps_spans_;
+    ProfileClock clock_;
+    Nanoseconds start_ = now();
     bool communicates_ = false;
     Nanoseconds booked_ = 0;  // all time until then is booked
     std::vector<Record> records_;

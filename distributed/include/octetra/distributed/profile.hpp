@@ -16,9 +16,14 @@ namespace octetra::distributed {
 /// and how long it took.
 enum class ProfileDetail { sums, spans };
 
+/// Seconds as they pass, or those in which a processor works for the calling thread: what a phase
+/// would take a process that has a processor to itself, however many share one now.
+enum class ProfileClock { wall, processor };
+
 /// Collective. The same processes, which from now on measure themselves. The clocks of all start
 /// here, at a barrier. Until the first Phase, and whenever none is open, time counts as "rest".
-[[nodiscard]] Communicator profiled(const Communicator& processes, ProfileDetail detail);
+[[nodiscard]] Communicator profiled(const Communicator& processes, ProfileDetail detail,
+                                    ProfileClock clock = ProfileClock::wall);
 
 /// Time from here to the end of the scope is that of a phase, apart from the time of phases inside
 /// it: so every moment belongs to one phase. Communication by `processes` is counted there too. Not

@@ -1,0 +1,129 @@
+"""What refinement would take on a cluster: a model, fed with what ranks are measured to do on one machine.
+
+usage: scaling measure [--build FOLDER] [--ranks N...]    into bench/scaling/measured.json
+       scaling page                                      from it, docs/scaling.md and docs/scaling.svg
+
+Of each rank are measured the seconds of a processor outside MPI, messages, bytes, and calls in which all take
+part. They are of so many ranks on few cores; the model adds what a network would take.
+"""
+import argparse
+import json
+import pathlib
+import subprocess
+import sys
+import tempfile
+
+from model import HIGH, LOW, Stage, strong_efficiency, weak_efficiency
+from plot import efficiency_plot
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+MEASURED = pathlib.Path(__file__).parent / "measured.json"
+CASES = {"uniform": "all cells, one level",
+         "sphere": "cells at a sphere's surface, two levels",
+         "moving": "the same, then three times coarsened behind and refined ahead as it moves"}
+STAGES = ("reading", "adapting", "writing")
+WEAK_CELLS, STRONG_CELLS = 1e6, 1e9
+RANKS = [16, 64, 256, 1024, 4096, 16384]
+
+
+def measure(build, ranks):
+    program, octetra = build / "bench/bench_scaling", build / "cli/octetra"
+    runs = []
+    with tempfile.TemporaryDirectory() as folder:
+        mesh, out = f"{folder}/in.meshb", f"{folder}/out.meshb"
+        subprocess.run([octetra, "generate", "kuhn", "55", "-o", mesh, "--quiet"], check=True)
+        for case in CASES:
+            for n in ranks:
+                done = subprocess.run([ROOT / "tests/support/mpirun.sh", str(n), program, mesh, case, out],
+                                      check=True, stdout=subprocess.PIPE, text=True)
+                runs.append(json.loads(done.stdout))
+                print(case, n, "ranks", file=sys.stderr)
+    MEASURED.write_text("[" + ",\n ".join(json.dumps(most_of(run)) for run in runs) + "]\n")
+
+
+def most_of(run):
+    """Of the ranks the greatest of everything: the slowest is waited for."""
+    short = {key: run[key] for key in ("case", "ranks", "cells_read", "cells", "most_cells")}
+    short["peak_memory_bytes"] = max(run["peak_memory_bytes"])
+    for stage in STAGES:
+        short[stage] = {key: max(value) if isinstance(value, list) else value
+                        for key, value in run[stage].items()}
+    return short
+
+
+def percent(low, high):
+    return f"{round(100 * low)} to {round(100 * high)} %" if round(100 * low) != round(100 * high) \
+        else f"{round(100 * low)} %"
+
+
+def efficiency_table(stage_of, efficiency, name):
+    rows = ["| | " + " | ".join(f"{n:,}" for n in RANKS) + " |", "|---|" + "---:|" * len(RANKS)]
+    for case in CASES:
+        cells = [percent(efficiency(stage_of(case), n, HIGH), efficiency(stage_of(case), n, LOW)) for n in RANKS]
+        rows.append(f"| {name}{case} | " + " | ".join(cells) + " |")
+    return "\n".join(rows)
+
+
+def measured_table(runs):
+    rows = ["| case | ranks | cells of a rank, most | outside MPI, ms | messages | kB sent | calls of all | "
+            "reading: ms, messages | writing: ms, messages | memory, MB |", "|---|" + "---:|" * 9]
+    for run in runs:
+        adapting = run["adapting"]
+        other = [f"{1000 * run[s]['computing_seconds']:.0f}, {run[s]['messages']:,}" for s in ("reading", "writing")]
+        rows.append(f"| {run['case']} | {run['ranks']} | {run['most_cells']:,} | "
+                    f"{1000 * adapting['computing_seconds']:.0f} | {adapting['messages']:,} | "
+                    f"{adapting['bytes'] / 1000:,.0f} | {adapting['collectives']:,} | {other[0]} | {other[1]} | "
+                    f"{run['peak_memory_bytes'] / 1e6:.0f} |")
+    return "\n".join(rows)
+
+
+def check_table(runs):
+    rows = ["| case | ranks | measured, ms | model, ms |", "|---|---:|---:|---:|"]
+    for run in runs:
+        if run["ranks"] <= 2:
+            rows.append(f"| {run['case']} | {run['ranks']} | {1000 * run['adapting']['wall_seconds']:.0f} | "
+                        f"{1000 * run['adapting']['computing_seconds']:.0f} |")
+    return "\n".join(rows)
+
+
+def page():
+    runs = json.loads(MEASURED.read_text())
+
+    def stage_of(case, stage="adapting"):
+        return Stage([run for run in runs if run["case"] == case], stage)
+
+    def weak(stage, n, network):
+        return weak_efficiency(stage, WEAK_CELLS, n, network)
+
+    def strong(stage, n, network):
+        return strong_efficiency(stage, STRONG_CELLS, n, network)
+
+    text = (pathlib.Path(__file__).parent / "page.md").read_text()
+    for word, table in {
+            "@weak@": efficiency_table(stage_of, weak, ""),
+            "@strong@": efficiency_table(stage_of, strong, ""),
+            "@files@": "\n".join(
+                efficiency_table(lambda case, s=s: stage_of("uniform", s), weak, f"{s} ").split("\n")[2]
+                .replace(" uniform", "") for s in ("reading", "writing")),
+            "@heads@": "\n".join(efficiency_table(stage_of, weak, "").split("\n")[:2]),
+            "@check@": check_table(runs), "@measured@": measured_table(runs)}.items():
+        text = text.replace(word, table)
+    (ROOT / "docs/scaling.md").write_text(text)
+    (ROOT / "docs/scaling.svg").write_text(efficiency_plot(
+        [("weak: a million cells a rank", weak), ("strong: a thousand million cells", strong)],
+        {case: stage_of(case) for case in CASES}, (LOW, HIGH)))
+
+
+def main():
+    parser = argparse.ArgumentParser(prog="scaling", description=__doc__,
+                                     formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("what", choices=["measure", "page"])
+    parser.add_argument("--build", type=pathlib.Path, default=ROOT / "build/release")
+    parser.add_argument("--ranks", type=int, nargs="+", default=[1, 2, 4, 8, 16, 64, 128, 256])
+    chosen = parser.parse_args()
+    if chosen.what == "measure":
+        measure(chosen.build, chosen.ranks)
+    page()
+
+
+main()

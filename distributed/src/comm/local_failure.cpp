@@ -45,6 +45,12 @@ Words words_of(const std::exception_ptr& failure, int rank) {
 
 }  // namespace
 
+void Communicator::on_each(const std::function<void()>& work) const {
+    LocalFailure failure;
+    failure.attempt(work);
+    failure.agree(*this);
+}
+
 void LocalFailure::agree(const Communicator& processes) const {
     const auto size = static_cast<std::uint64_t>(processes.size());
     const auto rank = static_cast<std::uint64_t>(processes.rank());

@@ -45,6 +45,26 @@ struct EvenStep {
     Adaptation step;
 };
 
+/// Of the arrays of a process's part those that somebody still looks at.
+struct ArraysInUse {
+    bool points = false;
+    bool cells = false;
+    bool facets = false;
+    bool edges = false;
+    bool vertex_numbers = false;
+    bool roots = false;
+};
+
+/// The arrays of a process's part as they were; those that were not in use are empty.
+struct ArraysLeft {
+    std::vector<Point> points;
+    std::vector<CellVertices> cells;
+    std::vector<FacetVertices> facets;
+    std::vector<EdgeVertices> edges;
+    std::vector<GlobalVertex> vertex_numbers;
+    std::vector<std::uint64_t> roots;
+};
+
 /// A tetrahedral mesh in a solver's loop: distributed over the processes of a communicator, refined
 /// again and again, and asked in between. Every process has the cells that it was given and their
 /// descendants, until they are rebalanced; a vertex is on every process that has a cell at it.
@@ -152,6 +172,13 @@ public:
     [[nodiscard]] std::vector<Marker> facet_markers() const;
     [[nodiscard]] std::span<const EdgeVertices> edges() const;  ///< tagged ones
     [[nodiscard]] std::vector<Marker> edge_markers() const;
+
+    /// For programs whose views of the part are to stay as they are while the mesh goes on: before
+    /// a step, the mesh takes copies of these arrays to go on with, and gives away those that its
+    /// spans refer to, which are then valid as long as what this returns. Takes time in proportion
+    /// to the arrays. Not collective: where it throws, std::bad_alloc, nothing has changed, and
+    /// Communicator::on_each() lets the other processes know.
+    [[nodiscard]] ArraysLeft leave_arrays(const ArraysInUse& in_use);
 
     /// Of the whole mesh.
     [[nodiscard]] std::uint64_t vertex_count() const;

@@ -3,6 +3,7 @@
 #include <concepts>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <span>
 #include <string>
@@ -63,6 +64,11 @@ public:
     /// Collective. The maximum of one number from each process.
     [[nodiscard]] std::uint64_t max(std::uint64_t number) const;
     void max(std::floating_point auto number) const = delete;
+
+    /// Collective. Runs `work`, in which nothing is collective, on every process. What it throws on
+    /// one is thrown on all, when none waits any more, by the lowest rank's: OutOfMemory, an
+    /// InputError as such, all else as SystemError.
+    void on_each(const std::function<void()>& work) const;
 
     /// Collective. Every process gets the first one's values.
     template <class T>

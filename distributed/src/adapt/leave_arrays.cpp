@@ -1,0 +1,46 @@
+#include <utility>
+
+#include <octetra/distributed/adaptive_mesh.hpp>
+
+#include "adapt/mesh_state.hpp"
+#include "memory/huge_pages.hpp"
+
+namespace octetra::distributed {
+namespace {
+
+/// With as much room, which an engine that has made it relies on.
+template <class T>
+std::vector<T> copy_with_room(const std::vector<T>& list, bool is_wanted) {
+    std::vector<T> copy;
+    if (!is_wanted) return copy;
+    reserve_in_huge_pages(copy, list.capacity());
+    copy.assign(list.begin(), list.end());
+    return copy;
+}
+
+}  // namespace
+
+ArraysLeft AdaptiveMesh::leave_arrays(const ArraysInUse& in_use) {
+    DistributedMesh& mesh = state_->mesh;
+    std::vector<GlobalVertex>& numbers = state_->numbers.of_vertex;
+    std::vector<std::uint64_t>& roots = mesh.cell_ancestors.roots;
+    ArraysLeft left{.points = copy_with_room<Point>(mesh.points, in_use.points),
+                    .cells = copy_with_room<CellVertices>(mesh.cells, in_use.cells),
+                    .facets = copy_with_room<FacetVertices>(mesh.facets, in_use.facets),
+                    .edges = copy_with_room<EdgeVertices>(mesh.edges, in_use.edges),
+                    .vertex_numbers = copy_with_room(numbers, in_use.vertex_numbers),
+                    .roots = copy_with_room(roots, in_use.roots)};
+    // What was copied changes places with the copy, and keeps its place in memory.
+    const auto leave = [](auto& list, auto& copy, bool is_wanted) {
+        if (is_wanted) list.swap(copy);
+    };
+    leave(static_cast<std::vector<Point>&>(mesh.points), left.points, in_use.points);
+    leave(static_cast<std::vector<CellVertices>&>(mesh.cells), left.cells, in_use.cells);
+    leave(static_cast<std::vector<FacetVertices>&>(mesh.facets), left.facets, in_use.facets);
+    leave(static_cast<std::vector<EdgeVertices>&>(mesh.edges), left.edges, in_use.edges);
+    leave(numbers, left.vertex_numbers, in_use.vertex_numbers);
+    leave(roots, left.roots, in_use.roots);
+    return left;
+}
+
+}  // namespace octetra::distributed

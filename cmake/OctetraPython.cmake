@@ -1,0 +1,26 @@
+# What the Python module takes, and where it goes: sets OCTETRA_PYTHON_FOUND and OCTETRA_PYTHON_SITE. In the
+# words of CMake's output, what is missing if something is.
+
+# The system's interpreter, whose packages packages.txt lists, unless -DPython_EXECUTABLE says another.
+if(NOT DEFINED Python_EXECUTABLE AND EXISTS /usr/bin/python3)
+  set(Python_EXECUTABLE /usr/bin/python3)
+endif()
+find_package(Python 3.9 QUIET COMPONENTS Interpreter Development.Module)
+if(Python_FOUND)
+  find_package(pybind11 2.10 CONFIG QUIET)
+endif()
+set(OCTETRA_PYTHON_FOUND OFF)
+if(Python_FOUND AND pybind11_FOUND)
+  set(OCTETRA_PYTHON_FOUND ON)
+  execute_process(COMMAND ${Python_EXECUTABLE} -c "import sysconfig; print(sysconfig.get_path('platlib'))"
+                  OUTPUT_VARIABLE site OUTPUT_STRIP_TRAILING_WHITESPACE)
+  cmake_path(GET site FILENAME site)  # dist-packages with Debian, else site-packages
+  set(OCTETRA_PYTHON_SITE lib/python${Python_VERSION_MAJOR}.${Python_VERSION_MINOR}/${site}
+      CACHE STRING "Where the Python module is installed, below the prefix")
+  message(STATUS "Python module: for ${Python_EXECUTABLE} (${Python_VERSION})")
+elseif(Python_FOUND)
+  message(STATUS "Python module: not built, as there is no pybind11 (Debian: pybind11-dev)")
+else()
+  message(STATUS "Python module: not built, as there are no files to compile for Python with "
+                 "(Debian: python3-dev)")
+endif()

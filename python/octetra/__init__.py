@@ -1,0 +1,31 @@
+"""Octetra: refinement of tetrahedral meshes on the ranks of an MPI communicator.
+
+    import octetra
+
+    mesh = octetra.read("cube.mesh")
+    step = mesh.refine(octetra.mark.sphere(mesh, (0, 0, 0), 0.3))
+    mesh.save("state.octetra")
+
+MPI is that of mpi4py where it is installed. `python3 -m octetra` is the command line.
+"""
+
+from . import mark as mark
+from . import quality as quality
+from ._octetra import (
+    Adaptation as Adaptation,
+    Edges as Edges,
+    Error as Error,
+    Faces as Faces,
+    Ghosts as Ghosts,
+    InputError as InputError,
+    Mesh as Mesh,
+    Migration as Migration,
+    Sharing as Sharing,
+    Succession as Succession,
+    SystemFailure as SystemFailure,
+    Verdict as Verdict,
+    from_arrays as from_arrays,
+    load as load,
+    load_with_fields as load_with_fields,
+    read as read,
+)

@@ -1,0 +1,12 @@
+"""Which cells a step is to refine or coarsen: booleans, one for each cell of this rank."""
+
+from ._octetra.mark import (
+    box as box,
+    doerfler as doerfler,
+    fraction as fraction,
+    larger_than as larger_than,
+    maximum as maximum,
+    random as random,
+    region as region,
+    sphere as sphere,
+)

@@ -1,0 +1,112 @@
+#include "arrays.hpp"
+
+#include <cstring>
+#include <type_traits>
+
+#include <fmt/format.h>
+
+#include <octetra/core/error.hpp>
+#include <octetra/core/mesh.hpp>
+
+namespace octetra::python {
+namespace {
+
+py::array any_array(const py::handle& given) {
+    return py::module_::import("numpy").attr("asarray")(given);
+}
+
+bool is_whole(const py::array& array) {
+    return array.dtype().kind() == 'i' || array.dtype().kind() == 'u';
+}
+
+[[noreturn]] void refuse(const std::string& name, const std::string& wanted,
+                         const py::array& given) {
+    throw InputError(fmt::format("{}: {}; given are {} of shape {}", name, wanted,
+                                 py::str(given.dtype()).cast<std::string>(),
+                                 py::str(given.attr("shape")).cast<std::string>()));
+}
+
+/// The marks of this many cells, none of them set.
+py::array_t<std::uint8_t> no_marks(std::size_t cell_count) {
+    py::array_t<std::uint8_t> marks(static_cast<py::ssize_t>(cell_count));
+    std::memset(marks.mutable_data(), 0, cell_count);
+    return marks;
+}
+
+}  // namespace
+
+py::array array_over(const py::dtype& type, std::vector<py::ssize_t> shape, const void* data,
+                     std::shared_ptr<const void> owner, bool is_writable) {
+    auto kept = std::make_unique<std::shared_ptr<const void>>(std::move(owner));
+    const py::capsule capsule(kept.get(), [](void* pointer) {
+        delete static_cast<std::shared_ptr<const void>*>(pointer);
+    });
+    (void)kept.release();
+    static const double nothing = 0;  // without a place numpy would take memory of its own
+    if (data == nullptr) data = &nothing;
+    py::array array(type, std::move(shape), data, capsule);
+    if (!is_writable) array.attr("setflags")(py::arg("write") = false);
+    return array;
+}
+
+template <class V>
+std::vector<V> values_of(const std::string& name, const py::handle& given) {
+    using Number = typename Numbers<V>::Number;
+    constexpr std::size_t columns = Numbers<V>::count;
+    constexpr bool is_real = std::is_floating_point_v<Number>;
+    if (given.is_none()) return {};
+    const py::array array = any_array(given);
+    const std::string wanted = fmt::format("{} of shape {}", is_real ? "numbers" : "whole numbers",
+                                           columns == 1 ? "(n,)" : fmt::format("(n, {})", columns));
+    if (array.size() == 0) return {};
+    const bool fits_shape =
+        columns == 1 ? array.ndim() == 1 : array.ndim() == 2 && array.shape(1) == columns;
+    if (!fits_shape || !(is_whole(array) || (is_real && array.dtype().kind() == 'f'))) {
+        refuse(name, wanted, array);
+    }
+    const auto numbers = py::array_t<Number, py::array::c_style | py::array::forcecast>(array);
+    if (!is_real && !numbers.attr("__eq__")(array).attr("all")().template cast<bool>()) {
+        refuse(name, fmt::format("numbers that fit into {} bits", 8 * sizeof(Number)), array);
+    }
+    std::vector<V> values(static_cast<std::size_t>(array.shape(0)));
+    static_assert(std::is_trivially_copyable_v<V> && sizeof(V) == columns * sizeof(Number));
+    std::memcpy(static_cast<void*>(values.data()), numbers.data(), values.size() * sizeof(V));
+    return values;
+}
+
+template std::vector<double> values_of(const std::string&, const py::handle&);
+template std::vector<std::int32_t> values_of(const std::string&, const py::handle&);
+template std::vector<std::uint64_t> values_of(const std::string&, const py::handle&);
+template std::vector<Point> values_of(const std::string&, const py::handle&);
+template std::vector<EdgeVertices> values_of(const std::string&, const py::handle&);
+template std::vector<std::array<std::uint64_t, 2>> values_of(const std::string&, const py::handle&);
+template std::vector<std::array<std::uint64_t, 3>> values_of(const std::string&, const py::handle&);
+template std::vector<std::array<std::uint64_t, 4>> values_of(const std::string&, const py::handle&);
+
+py::array_t<std::uint8_t> marks_of(const py::handle& given, std::size_t cell_count) {
+    if (given.is_none()) return no_marks(cell_count);
+    py::array array = any_array(given);
+    const bool is_boolean = array.dtype().kind() == 'b';
+    if (array.size() == 0 && array.ndim() == 1 && cell_count == 0) return no_marks(0);
+    if (array.ndim() != 1 || static_cast<std::size_t>(array.size()) != cell_count ||
+        !(is_boolean || is_whole(array))) {
+        refuse("marks", fmt::format("a boolean or whole number for each of {} cells", cell_count),
+               array);
+    }
+    if (!is_boolean) array = array.attr("__ne__")(0);
+    return py::module_::import("numpy").attr("ascontiguousarray")(array).attr("view")("uint8");
+}
+
+py::array_t<std::uint8_t> marks_of_list(const py::handle& given, std::size_t cell_count) {
+    const auto cells = values_of<std::uint64_t>("cells", given);
+    py::array_t<std::uint8_t> marks = no_marks(cell_count);
+    for (const std::uint64_t cell : cells) {
+        if (cell >= cell_count) {
+            throw InputError(fmt::format("cell {} is marked, and there are {}", cell, cell_count));
+        }
+        marks.mutable_data()[cell] = 1;
+    }
+    return marks;
+}
+
+}  // namespace octetra::python

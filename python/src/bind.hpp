@@ -1,0 +1,27 @@
+#pragma once
+
+#include <memory>
+
+#include <pybind11/pybind11.h>
+
+#include "held_mesh.hpp"
+
+/// The parts of the module octetra._octetra.
+namespace octetra::python {
+
+using MeshClass = py::class_<Mesh, MeshPointer>;
+
+void bind_arrays(MeshClass& mesh);
+void bind_files(py::module_& module, MeshClass& mesh);
+void bind_from_arrays(py::module_& module);
+void bind_steps(py::module_& module, MeshClass& mesh);
+void bind_adaptation(py::module_& module);
+void bind_migration(py::module_& module);
+void bind_marks(py::module_& module);
+void bind_sharing(py::module_& module, MeshClass& mesh);
+void bind_sides(py::module_& module, MeshClass& mesh);
+void bind_ghosts(py::module_& module, MeshClass& mesh);
+void bind_quality(py::module_& module);
+void bind_verify(py::module_& module, MeshClass& mesh);
+
+}  // namespace octetra::python

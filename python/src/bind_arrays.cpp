@@ -1,0 +1,84 @@
+#include "arrays.hpp"
+#include "bind.hpp"
+
+namespace octetra::python {
+namespace {
+
+/// A view of one of the mesh's own arrays.
+auto view_of(Mesh::Array array, auto span_of) {
+    return [=](Mesh& mesh) {
+        const auto span = span_of(mesh.now());
+        return view(span, mesh.hold(array));
+    };
+}
+
+void bind_part(MeshClass& mesh) {
+    using M = od::AdaptiveMesh;
+    mesh.def_property_readonly("points",
+                               view_of(Mesh::points, [](const M& m) { return m.points(); }),
+                               "float64 (vertices, 3): where this rank's vertices are.")
+        .def_property_readonly("cells", view_of(Mesh::cells, [](const M& m) { return m.cells(); }),
+                               "uint32 (cells, 4): the vertices of this rank's cells.")
+        .def_property_readonly("facets",
+                               view_of(Mesh::facets, [](const M& m) { return m.facets(); }),
+                               "uint32 (facets, 3): the vertices of this rank's tagged facets. A "
+                               "facet is on one rank.")
+        .def_property_readonly(
+            "edges", view_of(Mesh::edges, [](const M& m) { return m.edges(); }),
+            "uint32 (edges, 2): the vertices of this rank's tagged edges. An edge is on one rank.")
+        .def_property_readonly(
+            "vertex_numbers",
+            view_of(Mesh::vertex_numbers, [](const M& m) { return m.vertex_numbers(); }),
+            "uint64 (vertices,): their numbers in the whole mesh, in the order of files.")
+        .def_property_readonly(
+            "roots", view_of(Mesh::roots, [](const M& m) { return m.roots(); }),
+            "uint64 (roots,): the numbers of the cells of the input whose descendants this rank "
+            "has, ascending.");
+}
+
+void bind_tags(MeshClass& mesh) {
+    mesh.def_property_readonly(
+            "regions", [](const Mesh& m) { return array_of(m.now().regions()); },
+            "int32 (cells,): region tags, or (0,) where the input has none. Made when asked for.")
+        .def_property_readonly(
+            "facet_markers", [](const Mesh& m) { return array_of(m.now().facet_markers()); },
+            "int32 (facets,), or (0,) where the input has none. Made when asked for.")
+        .def_property_readonly(
+            "edge_markers", [](const Mesh& m) { return array_of(m.now().edge_markers()); },
+            "int32 (edges,), or (0,) where the input has none. Made when asked for.")
+        .def_property_readonly(
+            "root_of_cells", [](const Mesh& m) { return array_of(m.now().root_of_cells()); },
+            "uint32 (cells,): of each cell the place of its root in `roots`. Made when asked for.");
+}
+
+}  // namespace
+
+void bind_arrays(MeshClass& mesh) {
+    bind_part(mesh);
+    bind_tags(mesh);
+    mesh.def_property_readonly(
+            "rank", [](const Mesh& m) { return m.processes().rank(); },
+            "This process's rank in the communicator of the mesh.")
+        .def_property_readonly(
+            "rank_count", [](const Mesh& m) { return m.processes().size(); },
+            "How many ranks the communicator of the mesh has.")
+        .def_property_readonly(
+            "vertex_count", [](const Mesh& m) { return m.now().vertex_count(); },
+            "The vertices of the whole mesh.")
+        .def(
+            "count_cells",
+            [](Mesh& m) {
+                return m.ask([](const od::AdaptiveMesh& now) {
+                    return now.processes().sum(now.cells().size());
+                });
+            },
+            "Collective. The cells of the whole mesh.")
+        .def("__repr__", [](const Mesh& m) {
+            return "<octetra.Mesh: " + std::to_string(m.now().cells().size()) + " cells and " +
+                   std::to_string(m.now().points().size()) + " vertices on rank " +
+                   std::to_string(m.processes().rank()) + " of " +
+                   std::to_string(m.processes().size()) + ">";
+        });
+}
+
+}  // namespace octetra::python

@@ -1,0 +1,118 @@
+#include <filesystem>
+#include <string>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include <pybind11/stl.h>
+#include <pybind11/stl/filesystem.h>
+
+#include <octetra/distributed/partition.hpp>
+
+#include "bind.hpp"
+#include "fields.hpp"
+
+namespace octetra::python {
+namespace {
+
+using Path = std::filesystem::path;
+
+/// What `path` says, a str or an os.PathLike.
+Path path_of(const py::object& given) { return given.cast<Path>(); }
+
+/// Collective. A mesh that make(processes, path, partition) makes without the GIL.
+MeshPointer made(const py::object& comm, const py::object& given, const std::string& method,
+                 auto&& make) {
+    const od::Communicator processes = processes_of(comm);
+    Path path;
+    od::Partition partition;
+    convert_on_each(processes, [&] {
+        path = path_of(given);
+        partition = od::parse_partition(method);
+    });
+    return without_gil([&] { return std::make_shared<Mesh>(make(processes, path, partition)); });
+}
+
+MeshPointer read(const py::object& path, const py::object& comm, const std::string& partition) {
+    return made(comm, path, partition, &od::AdaptiveMesh::read);
+}
+
+MeshPointer load(const py::object& path, const py::object& comm, const std::string& partition,
+                 std::vector<od::Field>* fields) {
+    return made(comm, path, partition,
+                [&](const auto& processes, const auto& from, const auto& by) {
+                    return od::AdaptiveMesh::load(processes, from, by, fields);
+                });
+}
+
+std::tuple<MeshPointer, py::dict, py::dict> load_with_fields(const py::object& path,
+                                                             const py::object& comm,
+                                                             const std::string& partition) {
+    std::vector<od::Field> fields;
+    MeshPointer mesh = load(path, comm, partition, &fields);
+    py::dict on_vertices = dict_of(fields, FieldOn::vertices);
+    return {std::move(mesh), std::move(on_vertices), dict_of(std::move(fields), FieldOn::cells)};
+}
+
+/// Collective. What a mesh writes into a file, with fields.
+auto written(Mesh& mesh, const py::object& given, const py::object& on_vertices,
+             const py::object& on_cells, auto&& write) {
+    Path path;
+    std::vector<od::Field> fields;
+    convert_on_each(mesh.processes(), [&] {
+        path = path_of(given);
+        fields = fields_of(on_vertices, on_cells, mesh.vertex_count(), mesh.cell_count());
+    });
+    return mesh.ask([&](const od::AdaptiveMesh& now) { return write(now, path, fields); });
+}
+
+std::string write(Mesh& mesh, const py::object& path, const py::object& vertex_fields,
+                  const py::object& cell_fields) {
+    return written(mesh, path, vertex_fields, cell_fields,
+                   [](const od::AdaptiveMesh& now, const Path& to, const auto& fields) {
+                       return now.write(to, fields);
+                   });
+}
+
+void save(Mesh& mesh, const py::object& path, const py::object& vertex_fields,
+          const py::object& cell_fields) {
+    written(mesh, path, vertex_fields, cell_fields,
+            [](const od::AdaptiveMesh& now, const Path& to, const auto& fields) {
+                now.save(to, fields);
+            });
+}
+
+}  // namespace
+
+void bind_files(py::module_& module, MeshClass& mesh) {
+    const py::arg path("path");
+    const py::arg_v comm = py::arg("comm") = py::none();
+    const py::arg_v partition = py::arg("partition") = "rcb";
+    module.def("read", &read, path, comm, py::kw_only(), partition,
+               "Collective. A mesh from a file (.ele, .mesh, .meshb, .msh), shared out over the "
+               "ranks of comm, an mpi4py communicator; None means all ranks. partition: 'rcb', "
+               "'lepp', 'dual', 'block', 'random:SEED' or 'file:PATH'.");
+    module.def(
+        "load",
+        [](const py::object& from, const py::object& ranks, const std::string& by) {
+            return load(from, ranks, by, nullptr);
+        },
+        path, comm, py::kw_only(), partition,
+        "Collective. A mesh that save() has written, on any number of ranks, with its history. It "
+        "goes on as if it had never been away.");
+    module.def("load_with_fields", &load_with_fields, path, comm, py::kw_only(), partition,
+               "Collective. The same, and the fields that were saved with it: the mesh, those of "
+               "vertices and those of cells, {name: (n,) or (n, components)}.");
+    const py::arg_v vertex_fields = py::arg("vertex_fields") = py::none();
+    const py::arg_v cell_fields = py::arg("cell_fields") = py::none();
+    mesh.def("write", &write, path, py::kw_only(), vertex_fields, cell_fields,
+             "Collective. Writes a file, the same on any number of ranks; its extension says of "
+             "which format. Fields, {name: values}, go into .vtu, .pvtu and .vtkhdf: float64, "
+             "float32, int32 or int64 of shape (vertices, ...) or (cells, ...). Returns what the "
+             "format could not hold, or ''.")
+        .def("save", &save, path, py::kw_only(), vertex_fields, cell_fields,
+             "Collective. Writes a checkpoint, .octetra: the input, what each step did, and "
+             "fields, as of write(). The same file on any number of ranks.");
+}
+
+}  // namespace octetra::python

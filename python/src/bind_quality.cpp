@@ -1,0 +1,109 @@
+#include <array>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <octetra/quality/mesh_statistics.hpp>
+#include <octetra/quality/shape.hpp>
+
+#include "arrays.hpp"
+#include "bind.hpp"
+
+namespace octetra::python {
+namespace {
+
+/// measure(corners) of each of this rank's cells.
+template <class T>
+py::array of_cells(const Mesh& mesh, T (*measure)(const Corners&)) {
+    const auto points = mesh.now().points();
+    std::vector<T> all;
+    all.reserve(mesh.cell_count());
+    for (const CellVertices& cell : mesh.now().cells()) {
+        Corners corners;
+        for (std::size_t k = 0; k < 4; ++k) corners[k] = points[cell[k].value()];
+        all.push_back(measure(corners));
+    }
+    return array_of(std::move(all));
+}
+
+py::object range(const std::optional<quality::Range>& range) {
+    if (!range) return py::none();
+    return py::make_tuple(range->min, range->max);
+}
+
+py::dict sizes(const std::vector<quality::TagTotal>& totals) {
+    py::dict all;
+    for (const quality::TagTotal& total : totals) {
+        all[py::int_(total.tag)] = py::make_tuple(total.count, total.size);
+    }
+    return all;
+}
+
+py::dict dict_of(const quality::MeshStatistics& found) {
+    py::dict all;
+    all["vertices"] = found.counts.vertices;
+    all["edges"] = found.counts.edges;
+    all["faces"] = found.counts.faces;
+    all["cells"] = found.counts.cells;
+    all["boundary_faces"] = found.counts.boundary_faces;
+    all["components"] = found.counts.components;
+    all["volume"] = found.volume;
+    all["boundary_area"] = found.boundary_area;
+    all["regions"] = sizes(found.regions);
+    all["facet_markers"] = sizes(found.facet_markers);
+    all["edge_length"] = range(found.edge_length);
+    all["cell_volume"] = range(found.cell_volume);
+    all["face_angle"] = range(found.face_angle);
+    all["dihedral_angle"] = range(found.dihedral_angle);
+    all["eta"] =
+        found.eta ? py::object(py::make_tuple(found.eta->min, found.eta->max)) : py::none();
+    return all;
+}
+
+/// Collective. The first process measures the whole mesh, and tells the others.
+py::object statistics(Mesh& mesh) {
+    std::vector<char> told;
+    const py::module_ pickle = py::module_::import("pickle");
+    mesh.ask([&](const od::AdaptiveMesh& now) {
+        const octetra::Mesh whole = now.collect();
+        now.processes().on_first([&] {
+            const auto found = quality::measure(whole);
+            const py::gil_scoped_acquire acquired;
+            const auto bytes = pickle.attr("dumps")(dict_of(found)).cast<std::string>();
+            told.assign(bytes.begin(), bytes.end());
+        });
+        now.processes().broadcast(told);
+    });
+    return pickle.attr("loads")(py::bytes(told.data(), told.size()));
+}
+
+}  // namespace
+
+void bind_quality(py::module_& module) {
+    py::module_ quality = module.def_submodule("quality", "Shapes of cells.");
+    quality.def(
+        "dihedral_angles",
+        [](const Mesh& mesh) { return of_cells(mesh, &quality::dihedral_angles); }, py::arg("mesh"),
+        "float64 (cells, 6): the angles at the edges 01, 02, 03, 12, 13, 23 of this rank's cells, "
+        "in degrees.");
+    quality.def(
+        "mean_ratio", [](const Mesh& mesh) { return of_cells(mesh, &quality::mean_ratio); },
+        py::arg("mesh"),
+        "float64 (cells,): the mean ratio eta of this rank's cells, 1 for a regular tetrahedron, 0 "
+        "for a flat one.");
+    quality.def(
+        "volume",
+        [](const Mesh& mesh) {
+            return of_cells(
+                mesh, +[](const Corners& corners) { return volume(corners); });
+        },
+        py::arg("mesh"), "float64 (cells,): the volumes of this rank's cells.");
+    quality.def(
+        "statistics", &statistics, py::arg("mesh"),
+        "Collective. What `octetra info` tells of the whole mesh, on all ranks; the first "
+        "one must have the memory for it. Ranges are (least, greatest), or None where there "
+        "is no cell; regions and facet_markers are {tag: (count, volume or area)}; angles "
+        "are in degrees.");
+}
+
+}  // namespace octetra::python

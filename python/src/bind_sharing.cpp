@@ -1,0 +1,141 @@
+#include <algorithm>
+#include <functional>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <octetra/distributed/exchange.hpp>
+
+#include "arrays.hpp"
+#include "bind.hpp"
+#include "shared_values.hpp"
+#include "values.hpp"
+
+namespace octetra::python {
+namespace {
+
+/// The rank that owns each entity.
+py::array owners(const SharedEntities& of) {
+    return std::visit(
+        [&]<class I>(const SharedEntities::Pointer<I>& sharing) {
+            std::vector<std::int32_t> all(of.count, sharing->rank());
+            for (const I i : sharing->shared()) all[i.value()] = sharing->owner(i);
+            return array_of(std::move(all));
+        },
+        of.sharing);
+}
+
+py::array shared(const SharedEntities& of) {
+    return std::visit(
+        [](const auto& sharing) { return view(std::span(sharing->shared()), sharing); },
+        of.sharing);
+}
+
+py::array sharers(const SharedEntities& of, std::size_t entity) {
+    return std::visit(
+        [&]<class I>(const SharedEntities::Pointer<I>& sharing) {
+            return view(sharing->sharers(I{entity}), sharing);
+        },
+        of.sharing);
+}
+
+py::dict with_each(const SharedEntities& of) {
+    py::dict all;
+    std::visit(
+        [&](const auto& sharing) {
+            for (const auto& with : sharing->neighbours()) {
+                all[py::int_(with.rank)] = view(std::span(with.entities), sharing);
+            }
+        },
+        of.sharing);
+    return all;
+}
+
+/// Collective. A copy of the values after exchange(sharing, copy, components).
+template <class T>
+py::array exchanged(const SharedEntities& of, const Values& values, auto&& exchange) {
+    return values.like(without_gil([&, copy = values.copy<T>()]() mutable {
+        const std::size_t components = values.bytes() / sizeof(T);
+        std::visit([&](const auto& sharing) { exchange(*sharing, copy, components); }, of.sharing);
+        return std::move(copy);
+    }));
+}
+
+py::array update_copies(const SharedEntities& of, const py::object& given) {
+    std::optional<Values> values;
+    convert_on_each(of.processes, [&] { values = values_for(given, of.count, "entities"); });
+    const auto update = [&](const auto& sharing, auto& copy, std::size_t components) {
+        od::update_copies(of.processes, sharing, of.count, copy, components);
+    };
+    return exchanged<std::byte>(of, *values, update);
+}
+
+enum class Operation { sum, min, max };
+
+Operation operation_of(const std::string& name) {
+    if (name == "sum") return Operation::sum;
+    if (name == "min") return Operation::min;
+    if (name == "max") return Operation::max;
+    throw InputError("operation: 'sum', 'min' or 'max'");
+}
+
+template <class T>
+T combined(Operation operation, T a, T b) {
+    if (operation == Operation::sum) return a + b;
+    return operation == Operation::min ? std::min(a, b) : std::max(a, b);
+}
+
+py::array combine(const SharedEntities& of, const py::object& given, const std::string& name) {
+    std::optional<Values> values;
+    auto operation = Operation::sum;
+    convert_on_each(of.processes, [&] {
+        values = values_for(given, of.count, "entities");
+        with_number_type(values->array, [](auto) {});
+        operation = operation_of(name);
+    });
+    return with_number_type(values->array, [&]<class T>(T) {
+        const auto combine_all = [&](const auto& sharing, auto& copy, std::size_t components) {
+            od::combine_everywhere(
+                of.processes, sharing, of.count, copy,
+                [=](T a, T b) { return combined(operation, a, b); }, components);
+        };
+        return exchanged<T>(of, *values, combine_all);
+    });
+}
+
+}  // namespace
+
+void bind_sharing(py::module_& module, MeshClass& mesh) {
+    py::class_<SharedEntities>(
+        module, "Sharing",
+        "Which vertices, edges or faces of this rank others have, too: a picture of the mesh as it "
+        "was. Each entity has one owner among the ranks that have it.")
+        .def_property_readonly("owners", &owners,
+                               "int32 (n,): the rank that owns each entity. Made when asked for.")
+        .def_property_readonly("shared", &shared,
+                               "uint32 (k,): those that other ranks have, too; ascending.")
+        .def_property_readonly("with_rank", &with_each,
+                               "{rank: uint32 (k,)}: what each other rank has, too; both have it "
+                               "listed in the same order.")
+        .def("sharers", &sharers, py::arg("entity"),
+             "int32 (k,): the other ranks that have this one, ascending.")
+        .def("update_copies", &update_copies, py::arg("values"),
+             "Collective. Values (n, ...) of any numbers, of which every copy has got its owner's: "
+             "a new array.")
+        .def(
+            "combine", &combine, py::arg("values"), py::arg("operation") = "sum",
+            "Collective. Values (n, ...) of float64, float32, int32 or int64, combined over all "
+            "ranks that have an entity, the same on all of them: what assembly needs. A new array. "
+            "operation: 'sum', 'min' or 'max'.");
+    mesh.def_property_readonly(
+        "vertex_sharing",
+        [](const Mesh& m) {
+            using Sharing = od::Sharing<VertexIndex>;
+            return SharedEntities{m.processes(), m.vertex_count(),
+                                  std::make_shared<const Sharing>(m.now().vertex_sharing())};
+        },
+        "Who else has this rank's vertices, and who owns them.");
+}
+
+}  // namespace octetra::python

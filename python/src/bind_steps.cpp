@@ -1,0 +1,155 @@
+#include <limits>
+#include <memory>
+#include <string>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include "arrays.hpp"
+#include "bind.hpp"
+#include "migration.hpp"
+
+namespace octetra::python {
+namespace {
+
+using Adaptation = std::shared_ptr<od::Adaptation>;
+
+/// Marks of cells as Python has them, and what it says beside.
+struct Marked {
+    py::array_t<std::uint8_t> bytes;
+
+    [[nodiscard]] std::span<const std::uint8_t> span() const {
+        return {bytes.data(), static_cast<std::size_t>(bytes.size())};
+    }
+};
+
+Marked marked(const Mesh& mesh, const py::object& marks, const py::object& cells) {
+    if (cells.is_none()) return {marks_of(marks, mesh.cell_count())};
+    if (!marks.is_none()) throw InputError("either marks or cells, not both");
+    return {marks_of_list(cells, mesh.cell_count())};
+}
+
+od::StepOptions step_options(const std::string& scheme, const py::object& max_cells) {
+    od::StepOptions options;
+    if (scheme == "4t") {
+        options.scheme = Scheme::four;
+    } else if (scheme == "2t") {
+        options.scheme = Scheme::two;
+    } else if (scheme != "8t") {
+        throw InputError("scheme: '8t', '4t' or '2t'");
+    }
+    if (!max_cells.is_none()) options.max_cells = max_cells.cast<std::uint64_t>();
+    return options;
+}
+
+Adaptation shared(od::Adaptation step) { return std::make_shared<od::Adaptation>(std::move(step)); }
+
+Adaptation refine(Mesh& mesh, const py::object& marks, const py::object& cells,
+                  const std::string& scheme, const py::object& max_cells) {
+    Marked which;
+    od::StepOptions options;
+    return mesh.change(
+        [&] {
+            which = marked(mesh, marks, cells);
+            options = step_options(scheme, max_cells);
+        },
+        [&](od::AdaptiveMesh& now) { return shared(now.refine(which.span(), options)); });
+}
+
+Adaptation refine_edges(Mesh& mesh, const py::object& given, const std::string& scheme,
+                        const py::object& max_cells) {
+    std::vector<EdgeVertices> edges;
+    od::StepOptions options;
+    return mesh.change(
+        [&] {
+            edges = values_of<EdgeVertices>("edges", given);
+            options = step_options(scheme, max_cells);
+        },
+        [&](od::AdaptiveMesh& now) { return shared(now.refine_edges(edges, options)); });
+}
+
+Adaptation coarsen(Mesh& mesh, const py::object& marks, const py::object& cells) {
+    Marked which;
+    return mesh.change([&] { which = marked(mesh, marks, cells); },
+                       [&](od::AdaptiveMesh& now) { return shared(now.coarsen(which.span())); });
+}
+
+Moved moved(const od::AdaptiveMesh& mesh) {
+    return {mesh.processes(), mesh.cells().size(), mesh.points().size(), {}};
+}
+
+Moved rebalance(Mesh& mesh, double most_over_mean) {
+    return mesh.change([] {},
+                       [&](od::AdaptiveMesh& now) {
+                           Moved move = moved(now);
+                           move.migration = now.rebalance({.most_over_mean = most_over_mean});
+                           return move;
+                       });
+}
+
+Moved migrate(Mesh& mesh, const py::object& given) {
+    std::vector<std::int32_t> ranks;
+    return mesh.change([&] { ranks = values_of<std::int32_t>("rank_of_root", given); },
+                       [&](od::AdaptiveMesh& now) {
+                           Moved move = moved(now);
+                           move.migration = now.migrate(ranks);
+                           return move;
+                       });
+}
+
+std::tuple<Moved, Adaptation> refine_evenly(Mesh& mesh, const py::object& marks,
+                                            const py::object& cells, double most_over_mean,
+                                            const std::string& scheme,
+                                            const py::object& max_cells) {
+    Marked which;
+    od::StepOptions options;
+    return mesh.change(
+        [&] {
+            which = marked(mesh, marks, cells);
+            options = step_options(scheme, max_cells);
+        },
+        [&](od::AdaptiveMesh& now) {
+            Moved move = moved(now);
+            od::EvenStep step = now.refine_evenly(
+                which.span(), od::BalanceOptions{.most_over_mean = most_over_mean}, options);
+            move.migration = std::move(step.move);
+            return std::tuple(std::move(move), shared(std::move(step.step)));
+        });
+}
+
+}  // namespace
+
+void bind_steps(py::module_&, MeshClass& mesh) {
+    const py::arg_v no_marks = py::arg("marks") = py::none();
+    const py::arg_v no_cells = py::arg("cells") = py::none();
+    const py::arg_v scheme = py::arg("scheme") = "8t";
+    const py::arg_v max_cells = py::arg("max_cells") = py::none();
+    const py::arg_v most_over_mean = py::arg("most_over_mean") = 1.1;
+    mesh.def("refine", &refine, no_marks, py::kw_only(), no_cells, scheme, max_cells,
+             "Collective. One step of 8T-LE refinement: of the marked cells and what closure "
+             "adds.\n\n"
+             "marks: (cells,), booleans, or whole numbers of any type of which others than 0 mean "
+             "true; None on a rank that marks nothing. cells, instead: numbers of cells of this "
+             "rank, in any order. scheme: '8t', '4t' or '2t'. A step that would make more than "
+             "max_cells cells of the whole mesh is refused.")
+        .def(
+            "refine_edges", &refine_edges, py::arg("edges"), py::kw_only(), scheme, max_cells,
+            "Collective. One step that bisects these edges, (n, 2) vertices of this rank, and what "
+            "closure adds. It is enough that one of the ranks which have an edge lists it.")
+        .def(
+            "refine_evenly", &refine_evenly, no_marks, py::kw_only(), no_cells, most_over_mean,
+            scheme, max_cells,
+            "Collective. refine(), before which cells move to where the step leaves all ranks with "
+            "about as many. Returns the Migration and the Adaptation, in this order.")
+        .def("coarsen", &coarsen, no_marks, py::kw_only(), no_cells,
+             "Collective. Takes refinement back: marked cells may become part of the one that they "
+             "were bisected from. Marks as of refine().")
+        .def("rebalance", &rebalance, py::kw_only(), most_over_mean,
+             "Collective. Cells go from ranks that have many to those that have few, where one has "
+             "more than most_over_mean times the mean.")
+        .def("migrate", &migrate, py::arg("rank_of_root"),
+             "Collective. The same to where a program wants them: (roots,), the rank that is to "
+             "have each of `roots`.");
+}
+
+}  // namespace octetra::python

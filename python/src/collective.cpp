@@ -1,0 +1,89 @@
+#include "collective.hpp"
+
+#include <cstdint>
+#include <cstring>
+#include <memory>
+#include <new>
+#include <string>
+
+#include <fmt/format.h>
+#include <mpi.h>
+
+#include <octetra/core/error.hpp>
+#include <octetra/distributed/mpi.hpp>
+
+namespace octetra::python {
+namespace {
+
+/// MPI as this module runs it where there is no mpi4py: until the interpreter ends.
+const distributed::Communicator& own_world() {
+    static std::unique_ptr<distributed::MpiSession> session;
+    if (!session) {
+        session = std::make_unique<distributed::MpiSession>(nullptr, nullptr);
+        py::module_::import("atexit").attr("register")(py::cpp_function([] { session.reset(); }));
+    }
+    return session->world();
+}
+
+/// What is wrong, in a line: Python adds where it was raised.
+std::string first_line(const char* text) {
+    const std::string lines = text;
+    return lines.substr(0, lines.find('\n'));
+}
+
+/// The handle that an mpi4py communicator has in it.
+MPI_Comm handle_of(const py::object& mpi, const py::object& comm) {
+    if (!py::isinstance(comm, mpi.attr("Comm"))) {
+        throw py::type_error("comm: a communicator of mpi4py, or None");
+    }
+    char text[MPI_MAX_LIBRARY_VERSION_STRING];
+    int length = 0;
+    MPI_Get_library_version(text, &length);
+    const auto theirs = mpi.attr("Get_library_version")().cast<std::string>();
+    if (std::strcmp(theirs.c_str(), text) != 0 ||  // some count the zero at the end, too
+        mpi.attr("_sizeof")(mpi.attr("Comm")).cast<std::size_t>() != sizeof(MPI_Comm)) {
+        throw SystemError("mpi4py was built with another MPI than octetra");
+    }
+    MPI_Comm handle = MPI_COMM_NULL;
+    const auto address = mpi.attr("_addressof")(comm).cast<std::uintptr_t>();
+    std::memcpy(&handle, reinterpret_cast<const void*>(address), sizeof handle);
+    if (handle == MPI_COMM_NULL) throw InputError("comm: this process is not in it (COMM_NULL)");
+    return handle;
+}
+
+}  // namespace
+
+distributed::Communicator processes_of(const py::object& comm) {
+    py::object mpi;
+    try {
+        mpi = py::module_::import("mpi4py.MPI");
+    } catch (py::error_already_set& error) {
+        if (!error.matches(PyExc_ImportError)) throw;
+        if (!comm.is_none()) throw py::type_error("comm: only None where there is no mpi4py");
+        return own_world();
+    }
+    const py::object given = comm.is_none() ? py::object(mpi.attr("COMM_WORLD")) : comm;
+    const MPI_Comm handle = handle_of(mpi, given);
+    return without_gil([&] { return distributed::communicator_of(handle); });
+}
+
+void convert_on_each(const distributed::Communicator& processes,
+                     const std::function<void()>& convert) {
+    const auto attempt = [&] {
+        const py::gil_scoped_acquire acquired;
+        try {
+            convert();
+        } catch (const std::bad_alloc&) {
+            throw;
+        } catch (py::error_already_set& error) {
+            if (error.matches(PyExc_MemoryError)) throw std::bad_alloc();
+            throw InputError(
+                fmt::format("rank {}: {}", processes.rank(), first_line(error.what())));
+        } catch (const std::exception& error) {
+            throw InputError(fmt::format("rank {}: {}", processes.rank(), error.what()));
+        }
+    };
+    without_gil([&] { processes.on_each(attempt); });
+}
+
+}  // namespace octetra::python

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <utility>
+
+#include <pybind11/pybind11.h>
+
+#include <octetra/distributed/communicator.hpp>
+
+/// How collective functions are called from Python.
+namespace octetra::python {
+
+namespace py = pybind11;
+
+/// The processes of an mpi4py communicator, or this one's: None. Collective.
+[[nodiscard]] distributed::Communicator processes_of(const py::object& comm);
+
+/// Does what waits for other processes, or takes long, without the GIL. The work must touch nothing
+/// of Python.
+auto without_gil(auto&& work) {
+    const py::gil_scoped_release released;
+    return work();
+}
+
+/// Collective. Converts what each rank has passed, with the GIL. Whatever is thrown on one rank, an
+/// exception of Python's too, is thrown on all, as InputError or OutOfMemory, and names the rank.
+void convert_on_each(const distributed::Communicator& processes,
+                     const std::function<void()>& convert);
+
+}  // namespace octetra::python

@@ -1,0 +1,19 @@
+#pragma once
+
+#include <cstddef>
+
+#include <octetra/distributed/migration.hpp>
+
+#include "held_mesh.hpp"
+
+namespace octetra::python {
+
+/// Where cells went, and what values are to fit.
+struct Moved {
+    od::Communicator processes;
+    std::size_t cells_before = 0;
+    std::size_t vertices_before = 0;
+    od::Migration migration;
+};
+
+}  // namespace octetra::python

@@ -1,0 +1,30 @@
+#include "values.hpp"
+
+#include <fmt/format.h>
+
+namespace octetra::python {
+
+py::array Values::like(std::size_t new_count, const void* data,
+                       std::shared_ptr<const void> owner) const {
+    std::vector<py::ssize_t> shape(array.shape(), array.shape() + array.ndim());
+    shape[0] = static_cast<py::ssize_t>(new_count);
+    return array_over(array.dtype(), std::move(shape), data, std::move(owner), true);
+}
+
+Values values_for(const py::handle& given, std::size_t wanted, const std::string& entities) {
+    const py::array array = py::module_::import("numpy").attr("ascontiguousarray")(given);
+    const auto shape = py::str(py::handle(array).attr("shape")).cast<std::string>();
+    if (static_cast<std::size_t>(array.shape(0)) != wanted) {
+        throw InputError(fmt::format("values of shape {} for {} {}", shape, wanted, entities));
+    }
+    if (array.dtype().attr("hasobject").cast<bool>()) {
+        throw InputError("values are numbers, not Python's objects");
+    }
+    std::size_t components = 1;
+    for (py::ssize_t k = 1; k < array.ndim(); ++k) {
+        components *= static_cast<std::size_t>(array.shape(k));
+    }
+    return {array, wanted, components};
+}
+
+}  // namespace octetra::python

@@ -1,0 +1,62 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <pybind11/numpy.h>
+
+#include <octetra/core/error.hpp>
+
+#include "arrays.hpp"
+
+/// Values that a program has for cells or vertices: an array of shape (n,) or (n, ...).
+namespace octetra::python {
+
+struct Values {
+    py::array array;             ///< contiguous
+    std::size_t count = 0;       ///< the n of the shape
+    std::size_t components = 1;  ///< the product of the rest
+
+    /// So many entities' values, with the rest of the shape as it is: an array that can be written
+    /// to, over memory that `owner` keeps.
+    [[nodiscard]] py::array like(std::size_t new_count, const void* data,
+                                 std::shared_ptr<const void> owner) const;
+    [[nodiscard]] std::size_t bytes() const {
+        return components * static_cast<std::size_t>(array.itemsize());
+    }
+    /// A copy, as bytes or as numbers of the array's type.
+    template <class T = std::byte>
+    [[nodiscard]] std::vector<T> copy() const {
+        const auto* data = static_cast<const T*>(array.data());
+        return {data, data + static_cast<std::size_t>(array.nbytes()) / sizeof(T)};
+    }
+    /// The array of what has become of that copy.
+    template <class T>
+    [[nodiscard]] py::array like(std::vector<T> values) const {
+        const std::size_t size = values.size() * sizeof(T);
+        const auto kept = std::make_shared<const std::vector<T>>(std::move(values));
+        return like(bytes() == 0 ? 0 : size / bytes(), kept->data(), kept);
+    }
+};
+
+/// Throws InputError unless there are values for `wanted` of these entities, not Python's objects.
+[[nodiscard]] Values values_for(const py::handle& given, std::size_t wanted,
+                                const std::string& entities);
+
+/// Calls work(T()) with T the type of the numbers: float64, float32, int32 or int64. Throws
+/// InputError for others.
+auto with_number_type(const py::array& array, auto&& work) {
+    const auto is = [&](const py::dtype& type) { return array.dtype().equal(type); };
+    if (is(py::dtype::of<double>())) return work(double());
+    if (is(py::dtype::of<float>())) return work(float());
+    if (is(py::dtype::of<std::int32_t>())) return work(std::int32_t());
+    if (is(py::dtype::of<std::int64_t>())) return work(std::int64_t());
+    throw InputError("values of type " + py::str(array.dtype()).cast<std::string>() +
+                     ": only float64, float32, int32 and int64; astype() makes them so");
+}
+
+}  // namespace octetra::python

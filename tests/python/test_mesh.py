@@ -1,0 +1,128 @@
+"""Meshes from files and arrays, and what they say of themselves."""
+
+import gc
+import sys
+
+import numpy as np
+import pytest
+from conftest import command, near, run_alone, total, world
+
+import octetra
+
+ARRAYS = {"points": (np.float64, 3), "cells": (np.uint32, 4), "facets": (np.uint32, 3),
+          "edges": (np.uint32, 2), "vertex_numbers": (np.uint64, None), "roots": (np.uint64, None)}
+
+
+def test_arrays_have_the_types_and_shapes_that_are_documented(mesh):
+    for name, (kind, columns) in ARRAYS.items():
+        array = getattr(mesh, name)
+        assert array.dtype == kind, name
+        assert array.shape[1:] == (() if columns is None else (columns,)), name
+    assert total(len(mesh.cells)) == mesh.count_cells() == 384
+    assert mesh.vertex_count == 125
+    assert mesh.regions.shape == (0,)
+    assert mesh.facet_markers.shape == (len(mesh.facets),)
+    assert (mesh.rank, mesh.rank_count) == (world.rank, world.size)
+
+
+def test_arrays_are_no_copies_and_cannot_be_written_to(mesh):
+    for name in ARRAYS:
+        array = getattr(mesh, name)
+        same = getattr(mesh, name)
+        assert array.ctypes.data == same.ctypes.data, name
+        assert not array.flags.owndata, name
+        with pytest.raises(ValueError):
+            array[...] = 0
+        with pytest.raises(ValueError):
+            array.setflags(write=True)
+
+
+def test_views_stay_as_they_are_when_the_mesh_moves_on_and_when_it_goes(mesh):
+    seen = []
+
+    def look():
+        for name in ARRAYS:
+            array = getattr(mesh, name)
+            seen.append((name, array, array.copy()))
+
+    for radius in (0.8, 0.3, 0.15, 0.1):
+        look()
+        mesh.refine(near(mesh, radius))
+    mesh.refine(np.ones(len(mesh.cells), bool))
+    look()
+    mesh.coarsen(near(mesh, 0.5))
+    look()
+    mesh.rebalance(most_over_mean=1.0)
+    look()
+    del mesh
+    gc.collect()
+    np.ones(1_000_000)  # takes the place of memory that was given back
+    for name, array, copy in seen:
+        assert np.array_equal(array, copy), name
+
+
+def test_a_view_is_of_the_mesh_as_it_was_and_a_new_one_of_the_mesh_as_it_is(mesh):
+    before = mesh.points
+    step = mesh.refine(np.ones(len(mesh.cells), bool))
+    assert len(before) == step.vertex_count_before < len(mesh.points)
+    assert np.array_equal(before, mesh.points[:len(before)])
+    ends = step.new_vertex_ends
+    assert np.array_equal(mesh.points[len(before):],
+                          (mesh.points[ends[:, 0]] + mesh.points[ends[:, 1]]) / 2)
+
+
+def test_what_arrays_have_come_from_is_the_mesh_of_the_file(folder, cube):
+    whole = octetra.read(cube, world)
+    whole.write(folder / "whole.mesh")
+    again = octetra.from_arrays(
+        whole.points, whole.vertex_numbers[whole.cells], facets=whole.vertex_numbers[whole.facets],
+        facet_markers=whole.facet_markers, vertex_numbers=whole.vertex_numbers,
+        cell_numbers=whole.roots, index_base=1, comm=world)
+    assert np.array_equal(again.cells, whole.cells)
+    facets = [np.sort(m.vertex_numbers[m.facets], axis=1) for m in (whole, again)]
+    assert np.array_equal(*facets)
+    assert np.array_equal(again.facet_markers, whole.facet_markers)
+    for m in (whole, again):
+        m.refine(near(m, 0.4))
+    assert np.array_equal(again.points, whole.points)
+    assert again.verify()
+
+
+def test_one_tetrahedron_is_made_of_lists(folder):
+    mine = world.rank == 0
+    mesh = octetra.from_arrays([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]],
+                               [[0, 1, 2, 3]] if mine else [], regions=[7] if mine else [],
+                               point_attributes=[0, 1, 2, 3])
+    mesh.refine([1] if mine else [])
+    assert mesh.count_cells() == 8
+    assert mesh.regions.tolist() == [7] * (8 if mine else 0)
+    assert mesh.verify()
+
+
+def test_the_communicator_says_which_ranks_have_a_mesh(cube):
+    alone = octetra.read(cube, world.Split(world.rank))
+    assert (alone.rank, alone.rank_count, len(alone.cells)) == (0, 1, 384)
+    with pytest.raises(TypeError):
+        octetra.read(cube, comm=3)
+
+
+WITHOUT_MPI4PY = """
+import sys
+sys.modules["mpi4py"] = None
+import octetra
+mesh = octetra.read(sys.argv[1])
+mesh.refine(octetra.mark.sphere(mesh, (0, 0, 0), 0.5))
+mesh.write(sys.argv[2])
+print(mesh.rank_count)
+"""
+
+
+@pytest.mark.skipif(world.size > 1, reason="starts processes")
+@pytest.mark.parametrize("ranks", (None, 2))
+def test_without_mpi4py_the_module_runs_mpi_itself(folder, cube, ranks, mpirun):
+    words = [sys.executable, "-c", WITHOUT_MPI4PY, cube, folder / "fine.mesh"]
+    if ranks is not None:
+        words = [mpirun, ranks, *words]
+    assert "".join(run_alone(*words).split()) == str(ranks or 1) * (ranks or 1)
+    command("refine", cube, "--sphere", "0,0,0,0.5", "-o", folder / "expected.mesh")
+    assert (folder / "fine.mesh").read_bytes() == (folder / "expected.mesh").read_bytes()

@@ -1,0 +1,186 @@
+"""Steps, what they tell, and that the bytes are the command's."""
+
+import numpy as np
+import pytest
+from conftest import centroids, command, near, total, world
+from mpi4py import MPI
+
+import octetra
+
+
+def same(a, b):
+    return a.read_bytes() == b.read_bytes()
+
+
+def test_bytes_are_those_of_the_command(folder, cube):
+    mesh = octetra.read(cube)
+    for _ in range(2):
+        mesh.refine(octetra.mark.sphere(mesh, (0, 0, 0), 0.5))
+    mesh.write(folder / "fine.mesh")
+    mesh.write(folder / "fine.vtu")
+    mesh.save(folder / "fine.octetra")
+    sphere = ("--sphere", "0,0,0,0.5", "--levels", "2")
+    for end in ("mesh", "octetra"):
+        command("refine", cube, *sphere, "-o", folder / f"expected.{end}")
+        assert same(folder / f"fine.{end}", folder / f"expected.{end}"), end
+    mesh.coarsen(octetra.mark.box(mesh, (0, 0, 0), (0.2, 0.3, 1)))
+    mesh.write(folder / "coarse.mesh")
+    command("coarsen", folder / "expected.octetra", "--box", "0,0,0,0.2,0.3,1", "-o",
+            folder / "expected_coarse.mesh")
+    assert same(folder / "coarse.mesh", folder / "expected_coarse.mesh")
+
+
+@pytest.mark.parametrize("criterion, option", [
+    (lambda m: octetra.mark.box(m, (0, 0, 0), (0.5, 0.5, 0.5)), ("--box", "0,0,0,0.5,0.5,0.5")),
+    (lambda m: octetra.mark.random(m, 0.2, 5), ("--random", "0.2", "--seed", "5")),
+    (lambda m: octetra.mark.larger_than(m, 0.001), ("--max-volume", "0.001")),
+    (lambda m: octetra.mark.region(m, 2), ("--region", "2")),
+])
+def test_criteria_mark_what_those_of_the_command_mark(folder, criterion, option):
+    command("generate", "two-material", "-o", folder / "in.mesh")
+    for scheme in ("8t", "4t", "2t"):
+        mesh = octetra.read(folder / "in.mesh", partition="block")
+        mesh.refine(criterion(mesh), scheme=scheme)
+        mesh.write(folder / "out.mesh")
+        command("refine", folder / "in.mesh", *option, "--scheme", scheme, "-o",
+                folder / "expected.mesh")
+        assert same(folder / "out.mesh", folder / "expected.mesh")
+
+
+@pytest.mark.parametrize("kind", (bool, np.int8, np.uint16, np.int64, list))
+def test_marks_are_booleans_or_whole_numbers_of_any_type(folder, cube, kind):
+    files = []
+    for number, form in enumerate((bool, kind)):
+        mesh = octetra.read(cube)
+        marks = near(mesh, 0.5)
+        if form is list:
+            marks = marks.tolist()
+        elif form is not bool:
+            marks = np.stack([marks.astype(form) * 64, marks.astype(form)], axis=1)[:, 0]  # strided
+        mesh.refine(marks)
+        mesh.write(folder / f"{number}.mesh")
+        files.append(folder / f"{number}.mesh")
+    assert same(*files)
+
+
+def test_cells_that_are_listed_are_marked_and_none_marks_nothing(folder, cube):
+    first, second = octetra.read(cube), octetra.read(cube)
+    marks = near(first, 0.5)
+    first.refine(marks if marks.any() else None)
+    second.refine(cells=np.flatnonzero(marks)[::-1])
+    assert np.array_equal(first.cells, second.cells)
+    assert not first.refine().changed
+
+
+def test_edges_are_bisected(mesh):
+    edges = mesh.number_edges()
+    ends = edges.vertices[edges.numbers == 5]
+    step = mesh.refine_edges(ends)
+    assert step.changed
+    new = step.new_vertex_ends
+    assert all((new == pair).all(axis=1).any() for pair in ends)
+
+
+def test_a_step_tells_what_was_before(mesh):
+    for radius in (0.9, 0.2):
+        cells, points = mesh.cells, mesh.points
+        step = mesh.refine(near(mesh, radius))
+        assert (step.cells.count_before, step.cells.count) == (len(cells), len(mesh.cells))
+        parents = step.cells.parents
+        low, high = points[cells].min(axis=1)[parents], points[cells].max(axis=1)[parents]
+        middle = centroids(mesh)
+        assert ((low <= middle) & (middle <= high)).all()
+    before, points = len(mesh.cells), mesh.points
+    step = mesh.coarsen(np.ones(before, np.uint8))
+    assert step.is_coarser
+    assert step.cells.whole_of.shape == step.cells.halvings.shape == (before,)
+    assert step.cells.whole_of.max(initial=0) < max(1, len(mesh.cells))
+    assert np.array_equal(points[step.vertices_before], mesh.points)
+    with pytest.raises(octetra.InputError):
+        step.cells.parents
+
+
+def volumes(mesh):
+    return octetra.quality.volume(mesh)
+
+
+def test_values_go_along_with_every_step(mesh):
+    def linear(m):
+        return np.stack([m.points @ [1, 2, 3], m.points @ [3, 0, 1]], axis=1)
+
+    u, mass, density = linear(mesh), volumes(mesh), np.full(len(mesh.cells), 3.0, np.float32)
+    for step in (mesh.refine, mesh.refine, mesh.coarsen):
+        told = step(near(mesh, 0.6))
+        u = told.transfer_vertices(u)
+        mass = told.transfer_cells(mass, how="divided")
+        density = told.transfer_cells(density, how="averaged")
+        assert np.allclose(u, linear(mesh)) and u.shape == (len(mesh.points), 2)
+        assert np.allclose(mass, volumes(mesh))
+        assert density.dtype == np.float32 and np.all(density == 3)
+        u += 0.0  # it is the program's own
+    with pytest.raises(ValueError):
+        told.transfer_vertices(np.zeros(told.vertex_count_before + 1))
+    with pytest.raises(octetra.InputError):
+        told.transfer_cells(np.zeros(told.cells.count_before, complex))
+
+
+def test_values_move_with_cells_and_vertices(mesh):
+    mesh.refine(near(mesh, 0.5))
+    tags = mesh.root_of_cells.astype("S5")
+    roots = mesh.roots[mesh.root_of_cells]
+    points, middles = mesh.points.copy(), centroids(mesh)
+    move = mesh.migrate((mesh.roots % np.uint64(world.size)).astype(np.int8))
+    assert move.changed == (world.size > 1)
+    assert np.array_equal(move.vertices(points), mesh.points)
+    assert np.array_equal(move.cells(middles), centroids(mesh))
+    assert np.array_equal(move.cells(roots), mesh.roots[mesh.root_of_cells])
+    assert move.cells(tags).dtype == tags.dtype
+    assert np.all(mesh.roots % np.uint64(world.size) == world.rank)
+
+
+def test_rebalancing_evens_out_the_ranks_and_changes_no_file(folder, cube):
+    mesh, still = octetra.read(cube), octetra.read(cube)
+    for m in (mesh, still):
+        for _ in range(2):
+            m.refine(near(m, 0.5))
+    move = mesh.rebalance()
+    most = world.allreduce(len(mesh.cells), op=MPI.MAX)
+    assert world.size == 1 or (move.changed and most <= 1.2 * total(len(mesh.cells)) / world.size)
+    mesh.write(folder / "moved.mesh")
+    still.write(folder / "still.mesh")
+    assert same(folder / "moved.mesh", folder / "still.mesh")
+
+
+def test_an_even_step_gives_where_cells_went_and_what_it_did(folder, cube):
+    mesh, other = octetra.read(cube), octetra.read(cube)
+    marks = near(mesh, 0.5)
+    points = mesh.points
+    move, step = mesh.refine_evenly(marks, most_over_mean=1.0)
+    other.refine(marks)
+    assert np.allclose(step.transfer_vertices(move.vertices(points)), mesh.points)
+    mesh.write(folder / "even.mesh")
+    other.write(folder / "other.mesh")
+    assert same(folder / "even.mesh", folder / "other.mesh")
+
+
+def test_a_mesh_is_saved_with_fields_and_goes_on(folder, mesh):
+    mesh.refine(near(mesh, 0.5))
+    u, q = mesh.points[:, 0].copy(), centroids(mesh).astype(np.float32)
+    mesh.save(folder / "state.octetra", vertex_fields={"u": u}, cell_fields={"q": q})
+    again, on_vertices, on_cells = octetra.load_with_fields(folder / "state.octetra")
+    assert list(on_vertices) == ["u"] and list(on_cells) == ["q"]
+    assert np.array_equal(on_vertices["u"], again.points[:, 0])
+    assert np.array_equal(on_cells["q"], centroids(again).astype(np.float32))
+    plain = octetra.load(folder / "state.octetra", partition="block")
+    for number, m in enumerate((mesh, again, plain)):
+        m.coarsen(near(m, 0.3))
+        m.write(folder / f"{number}.mesh")
+        assert same(folder / f"{number}.mesh", folder / "0.mesh")
+
+
+def test_fields_are_written_for_vtk(folder, mesh):
+    lost = mesh.write(folder / "mesh.vtu", vertex_fields={"u": mesh.points},
+                      cell_fields={"rank": np.full(len(mesh.cells), 3, np.int32)})
+    assert "tagged facets" in lost
+    text = (folder / "mesh.vtu").read_bytes()
+    assert b'Name="u"' in text and b'Name="rank"' in text

@@ -46,8 +46,9 @@ void bind_succession(py::module_& module) {
     py::class_<od::Succession, Succession>(
         module, "Succession",
         "How this rank's cells, tagged facets or tagged edges became those after a step.")
-        .def_property_readonly("count_before", &od::Succession::count_before)
-        .def_property_readonly("count", &od::Succession::count)
+        .def_property_readonly("count_before", &od::Succession::count_before,
+                               "How many there were.")
+        .def_property_readonly("count", &od::Succession::count, "How many there are.")
         .def_property_readonly("keeps_numbers", &od::Succession::keeps_numbers,
                                "Has all that was not bisected its number still?")
         .def_property_readonly("parents", &parents,
@@ -84,10 +85,13 @@ void bind_adaptation(py::module_& module) {
         .def_readonly("changed", &od::Adaptation::changed,
                       "Did anything change, on any rank? The same on all.")
         .def_property_readonly("is_coarser", &od::Adaptation::is_coarser, "Was this coarsening?")
-        .def_property_readonly("cells", succession(&od::Adaptation::cells))
-        .def_property_readonly("facets", succession(&od::Adaptation::facets), "Tagged ones.")
-        .def_property_readonly("edges", succession(&od::Adaptation::edges), "Tagged ones.")
-        .def_readonly("vertex_count_before", &od::Adaptation::vertex_count_before)
+        .def_property_readonly("cells", succession(&od::Adaptation::cells), "This rank's cells.")
+        .def_property_readonly("facets", succession(&od::Adaptation::facets),
+                               "This rank's tagged facets.")
+        .def_property_readonly("edges", succession(&od::Adaptation::edges),
+                               "This rank's tagged edges.")
+        .def_readonly("vertex_count_before", &od::Adaptation::vertex_count_before,
+                      "This rank's vertices before the step.")
         .def_property_readonly("new_vertex_ends", list(&od::Adaptation::new_vertex_ends),
                                "uint32 (new vertices, 2): the ends of the edge that each halves; "
                                "vertex_count_before is the number of the first.")

@@ -60,7 +60,7 @@ void bind_verify(py::module_& module, MeshClass& mesh) {
     py::class_<ov::Verdict>(module, "Verdict",
                             "What the verifier found, by exact arithmetic; true if the mesh is "
                             "valid. The same on all ranks.")
-        .def_property_readonly("valid", &ov::Verdict::valid)
+        .def_property_readonly("valid", &ov::Verdict::valid, "Is nothing wrong?")
         .def("__bool__", &ov::Verdict::valid)
         .def_property_readonly("checks", &checks,
                                "{name of a check: 'passed', 'failed' or 'skipped'}.")

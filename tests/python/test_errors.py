@@ -1,0 +1,141 @@
+"""What is wrong on one rank is raised on all; collective calls leave the GIL to other threads."""
+
+import threading
+import time
+
+import numpy as np
+import pytest
+from conftest import near, world
+from mpi4py import MPI
+
+import octetra
+
+last = world.rank == world.size - 1
+
+
+def wrong_here(wrong, right):
+    return wrong if last else right
+
+
+def cells_of(mesh):
+    return len(mesh.cells)
+
+
+# The last rank passes something wrong, the others do not.
+CASES = {
+    "marks of another type": lambda m: m.refine(wrong_here([0.5] * cells_of(m), [1] * cells_of(m))),
+    "marks of nothing": lambda m: m.coarsen(wrong_here(object(), None)),
+    "too few marks": lambda m: m.refine(np.ones(cells_of(m) - wrong_here(1, 0), bool)),
+    "a cell that is not there": lambda m: m.refine(cells=wrong_here([10**6], [])),
+    "marks and cells": lambda m: m.refine(wrong_here([1] * cells_of(m), None), cells=[]),
+    "a scheme": lambda m: m.refine(np.ones(cells_of(m)), scheme=wrong_here("3t", "8t")),
+    "too many cells": lambda m: m.refine(np.ones(cells_of(m), bool), max_cells=10),
+    "an edge of no cell": lambda m: m.refine_edges(wrong_here([[0, 10**9]], [])),
+    "an edge of three": lambda m: m.refine_edges(wrong_here([[0, 1, 2]], [])),
+    "another rank": lambda m: m.migrate(np.full(len(m.roots), wrong_here(99, 0))),
+    "negative indicators": lambda m: octetra.mark.doerfler(
+        m, np.full(cells_of(m), wrong_here(-1.0, 1.0))),
+    "too few indicators": lambda m: octetra.mark.maximum(m, np.ones(wrong_here(1, cells_of(m)))),
+    "a path": lambda m: m.write(wrong_here(7, "mesh.vtu")),
+    "an extension": lambda m: m.write("mesh.txt"),
+    "a folder that is not there": lambda m: m.save("/no/such/folder/state.octetra"),
+    "a field of another size": lambda m: m.save(
+        "no.octetra", vertex_fields={"u": np.ones(len(m.points) + wrong_here(1, 0))}),
+    "a field of complex numbers": lambda m: m.write(
+        "no.vtu", cell_fields={"u": np.ones(cells_of(m), wrong_here(complex, float))}),
+    "values of copies": lambda m: m.vertex_sharing.update_copies(np.ones(wrong_here(1, 2))),
+    "an operation": lambda m: m.vertex_sharing.combine(np.ones(len(m.points)),
+                                                       wrong_here("product", "sum")),
+    "values that are objects": lambda m: m.rebalance().cells(
+        np.full(cells_of(m), wrong_here(None, 1))),
+    "values of ghosts": lambda m: m.ghosts().values(np.ones(cells_of(m) + wrong_here(1, 0))),
+    "a kind of ghosts": lambda m: m.ghosts(wrong_here("edge", "face")),
+    "a file that is not there": lambda m: octetra.read(wrong_here("no.mesh", "no.mesh")),
+    "a partition": lambda m: octetra.load("no.octetra", partition=wrong_here("half", "rcb")),
+    "an inverted cell": lambda m: octetra.from_arrays(
+        [[0, 0, 0], [0, 1, 0], [1, 0, 0], [0, 0, 1]], wrong_here([[0, 1, 2, 3]], [])),
+    "points in a plane": lambda m: octetra.from_arrays(np.zeros((4, wrong_here(2, 3))), []),
+    "a number that does not fit": lambda m: octetra.from_arrays(
+        [[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]], [[0, 1, 2, 3]], regions=[wrong_here(2**31, 0)]),
+}
+
+
+@pytest.mark.parametrize("case", CASES)
+def test_what_is_wrong_on_one_rank_is_raised_alike_on_all(mesh, case):
+    points, cells = mesh.points, mesh.cells
+    with pytest.raises(octetra.Error) as raised:
+        CASES[case](mesh)
+    said = world.allgather((type(raised.value), str(raised.value)))
+    assert said == [said[0]] * world.size
+    assert np.array_equal(mesh.points, points) and np.array_equal(mesh.cells, cells)
+    mesh.refine(near(mesh, 0.5))
+    assert mesh.verify()
+
+
+def test_errors_are_also_pythons_own(mesh):
+    assert issubclass(octetra.InputError, ValueError) and issubclass(octetra.InputError, octetra.Error)
+    assert issubclass(octetra.SystemFailure, RuntimeError)
+    assert issubclass(octetra.SystemFailure, octetra.Error)
+    with pytest.raises(octetra.InputError, match=f"rank {world.size - 1}: marks"):
+        mesh.refine(wrong_here([0.5] * cells_of(mesh), [1] * cells_of(mesh)))
+
+
+COLLECTIVE = {
+    "refine": lambda m: m.refine(near(m, 0.5)),
+    "refine_evenly": lambda m: m.refine_evenly(near(m, 0.5)),
+    "coarsen": lambda m: m.coarsen(near(m, 0.5)),
+    "rebalance": lambda m: m.rebalance(),
+    "count_cells": lambda m: m.count_cells(),
+    "verify": lambda m: m.verify(),
+    "write": lambda m: m.write("/dev/null/no.vtu"),
+    "number_edges": lambda m: m.number_edges(),
+    "face_neighbours": lambda m: m.face_neighbours(),
+    "ghosts": lambda m: m.ghosts(),
+    "doerfler": lambda m: octetra.mark.doerfler(m, np.ones(len(m.cells))),
+    "statistics": lambda m: octetra.quality.statistics(m),
+    "combine": lambda m: m.vertex_sharing.combine(np.ones(len(m.points))),
+    "read": lambda m: octetra.read("no.mesh"),
+}
+
+
+@pytest.mark.skipif(world.size == 1 or MPI.Query_thread() < MPI.THREAD_MULTIPLE,
+                    reason="one rank waits for another, by two threads")
+@pytest.mark.parametrize("name", COLLECTIVE)
+def test_other_threads_run_while_a_rank_waits_in_a_collective_call(mesh, name):
+    def call():
+        try:
+            COLLECTIVE[name](mesh)
+        except octetra.Error:
+            assert name in ("write", "read")
+
+    words = world.Dup()
+    if world.rank != 0:
+        words.recv(source=0)  # comes only when rank 0 waits for this one, and has a thread to spare
+        call()
+    else:
+        thread = threading.Thread(target=call)
+        thread.start()
+        time.sleep(0.05)
+        for rank in range(1, world.size):
+            words.send(None, dest=rank)
+        thread.join()
+    words.Free()
+
+
+@pytest.mark.skipif(world.size == 1, reason="one rank waits for another")
+def test_a_mesh_that_a_thread_waits_for_is_refused_to_others(mesh):
+    words = world.Dup()
+    if world.rank != 0:
+        words.recv(source=0)
+        mesh.count_cells()
+    else:
+        thread = threading.Thread(target=mesh.count_cells)
+        thread.start()
+        time.sleep(0.05)
+        with pytest.raises(octetra.SystemFailure, match="another thread"):
+            mesh.points
+        for rank in range(1, world.size):
+            words.send(None, dest=rank)
+        thread.join()
+        assert len(mesh.points)
+    words.Free()

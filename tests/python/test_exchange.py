@@ -1,0 +1,131 @@
+"""What ranks know of each other's vertices, edges, faces and cells; marks by estimators; verdicts."""
+
+import numpy as np
+import pytest
+from conftest import centroids, command, near, total, world
+
+import octetra
+
+
+@pytest.fixture
+def fine(mesh):
+    mesh.refine(near(mesh, 0.5))
+    mesh.rebalance(most_over_mean=1.0)
+    return mesh
+
+
+def test_every_vertex_has_one_owner_and_sharers_agree(fine):
+    sharing = fine.vertex_sharing
+    assert total(int((sharing.owners == world.rank).sum())) == fine.vertex_count
+    for rank in range(world.size):
+        if rank != world.rank:
+            mine = fine.vertex_numbers[sharing.with_rank.get(rank, [])]
+            theirs = world.sendrecv(mine, dest=rank, source=rank)
+            assert np.array_equal(mine, theirs)
+    listed = {rank: set(of.tolist()) for rank, of in sharing.with_rank.items()}
+    for vertex in range(len(fine.points)):
+        sharers = [rank for rank in sorted(listed) if vertex in listed[rank]]
+        assert sharing.sharers(vertex).tolist() == sharers
+        assert (vertex in sharing.shared) == bool(sharers)
+
+
+def test_copies_get_the_values_of_their_owner(fine):
+    sharing = fine.vertex_sharing
+    own = np.where(sharing.owners == world.rank, fine.vertex_numbers, 0)
+    assert np.array_equal(sharing.update_copies(own), fine.vertex_numbers)
+    names = np.array([f"rank {world.rank}"] * len(own))
+    assert sharing.update_copies(names).tolist() == [f"rank {r}" for r in sharing.owners]
+
+
+@pytest.mark.parametrize("kind", (np.float64, np.float32, np.int32, np.int64))
+def test_values_are_combined_over_all_that_have_a_vertex(fine, kind):
+    sharing = fine.vertex_sharing
+    cells_at = np.bincount(fine.cells.ravel(), minlength=len(fine.points))
+    sums = sharing.combine(np.stack([cells_at, 2 * cells_at], axis=1).astype(kind))
+    assert sums.dtype == kind
+    assert total(int(sums[sharing.owners == world.rank, 0].sum())) == 4 * fine.count_cells()
+    assert np.array_equal(2 * sums[:, 0], sums[:, 1])
+    rank = np.full(len(fine.points), world.rank, kind)
+    for operation, choose in (("min", min), ("max", max)):
+        expected = [choose(world.rank, *sharing.sharers(v).tolist()) if len(sharing.sharers(v))
+                    else world.rank for v in range(len(rank))]
+        assert sharing.combine(rank, operation).tolist() == expected
+
+
+def test_edges_and_faces_are_numbered_alike_on_all_ranks(fine):
+    for sides, per_cell, corners in ((fine.number_edges(), 6, 2), (fine.number_faces(), 4, 3)):
+        assert sides.vertices.shape == (len(sides.numbers), corners)
+        assert sides.of_cells.shape == (len(fine.cells), per_cell)
+        sharing = sides.sharing
+        assert total(int((sharing.owners == world.rank).sum())) == sides.count
+        assert np.array_equal(sharing.combine(sides.numbers.astype(np.int64), "max"), sides.numbers)
+        ends = np.sort(fine.vertex_numbers[sides.vertices].astype(np.int64), axis=1)
+        assert np.array_equal(sharing.update_copies(ends), ends)
+        whole = set(map(tuple, np.sort(sides.vertices[sides.of_cells[:, 0]], axis=1).tolist()))
+        first = fine.cells[:, :2] if corners == 2 else fine.cells[:, 1:]
+        assert whole == set(map(tuple, np.sort(first, axis=1).tolist()))
+
+
+def test_neighbours_are_mutual_and_the_boundary_is_where_there_are_none(fine):
+    ranks, cells = fine.face_neighbours()
+    assert ranks.shape == cells.shape == (len(fine.cells), 4)
+    on_boundary = sorted(map(tuple, np.argwhere(ranks == -1).tolist()))
+    assert sorted(map(tuple, np.stack(fine.boundary(), axis=1).tolist())) == on_boundary
+    links = world.allgather([(world.rank, c, int(ranks[c, f]), int(cells[c, f]))
+                             for c, f in np.argwhere(ranks >= 0).tolist()])
+    links = sorted(link for of_rank in links for link in of_rank)
+    assert links == sorted((r2, c2, r1, c1) for r1, c1, r2, c2 in links)
+    assert total(len(on_boundary)) == len(
+        np.unique(np.concatenate(world.allgather(fine.vertex_numbers[np.concatenate(
+            [np.delete(fine.cells[c], f)[None] for c, f in on_boundary] or [np.zeros((0, 3), int)]
+        ).astype(int)])), axis=0))
+
+
+@pytest.mark.parametrize("by", ("face", "vertex"))
+def test_ghosts_are_the_cells_of_others_and_have_their_values(fine, by):
+    ghosts = fine.ghosts(by)
+    points = np.concatenate([fine.points, ghosts.points])
+    middles = points[ghosts.cells].mean(axis=1)
+    assert np.allclose(ghosts.values(centroids(fine)), middles)
+    own = np.stack([np.full(len(fine.cells), world.rank), np.arange(len(fine.cells))], axis=1)
+    assert np.array_equal(ghosts.values(own), np.stack([ghosts.owner_ranks, ghosts.owner_cells], 1))
+    numbers = np.concatenate([fine.vertex_numbers, ghosts.vertex_numbers])
+    assert len(np.unique(numbers)) == len(numbers)
+    ranks, _ = fine.face_neighbours()
+    across = int(((ranks >= 0) & (ranks != world.rank)).sum())
+    assert len(ghosts.cells) <= across if by == "face" else len(ghosts.cells) >= across / 4
+
+
+def test_the_marks_of_an_estimator_are_the_fewest_that_reach_the_share(fine):
+    indicators = np.random.default_rng(world.rank).random(len(fine.cells))
+    everyone = np.sort(np.concatenate(world.allgather(indicators)))[::-1]
+    marks = octetra.mark.doerfler(fine, indicators, 0.3)
+    assert marks.dtype == bool
+    fewest = int(np.searchsorted(np.cumsum(everyone), 0.3 * everyone.sum())) + 1
+    assert total(int(marks.sum())) == fewest
+    assert indicators[marks].min(initial=1) >= everyone[fewest - 1]
+    largest = octetra.mark.maximum(fine, indicators, 0.5)
+    assert np.array_equal(largest, indicators >= 0.5 * everyone[0])
+    part = octetra.mark.fraction(fine, indicators, 0.25)
+    assert total(int(part.sum())) == -(-len(everyone) // 4)
+
+
+def test_shapes_are_measured_as_the_command_does(folder, cube, fine):
+    angles, eta = octetra.quality.dihedral_angles(fine), octetra.quality.mean_ratio(fine)
+    found = octetra.quality.statistics(fine)
+    assert angles.shape == (len(fine.cells), 6)
+    assert world.allreduce(angles.max(), op=max) == found["dihedral_angle"][1]
+    assert world.allreduce(eta.min(), op=min) == found["eta"][0]
+    assert found["cells"] == fine.count_cells() and found["vertices"] == fine.vertex_count
+    assert total(octetra.quality.volume(fine).sum()) == pytest.approx(1) == found["volume"]
+    assert world.allgather(found) == [found] * world.size
+
+
+def test_the_verifier_judges_the_mesh_alone_and_as_a_refinement(folder, cube, fine):
+    assert fine.verify() and fine.verify(cube) and fine.verify(fast=True)
+    assert fine.verify(cube).checks["cover"] == "passed"
+    narrow = fine.verify(min_dihedral=60)
+    assert not narrow.valid and narrow.counts["dihedral_too_small"] > 0
+    other = folder / "other.mesh"
+    command("generate", "kuhn", "3", "-o", other)
+    assert not fine.verify(other)

@@ -1,0 +1,80 @@
+"""python3 -m octetra is the command line, from the build tree and installed; and the tutorial runs."""
+
+import os
+import pathlib
+import shutil
+import subprocess
+import sys
+
+import pytest
+from conftest import PROGRAM, run_alone
+
+import octetra
+
+SOURCE = pathlib.Path(__file__).resolve().parents[2]
+BUILD = pathlib.Path(octetra.__file__).resolve().parents[2]
+
+
+def run(*words, **options):
+    return subprocess.run([str(word) for word in words], capture_output=True, text=True,
+                          check=False, **options)
+
+
+def test_the_command_line_is_that_of_the_program(tmp_path):
+    for words in (["--help"], ["refine", "--all"], ["info", "no.mesh"], ["generate", "kuhn", "2", "-o",
+                  tmp_path / "cube.mesh"], ["verify", tmp_path / "cube.mesh", "--fast"]):
+        by_module, itself = run(sys.executable, "-m", "octetra", *words), run(PROGRAM, *words)
+        assert by_module.returncode == itself.returncode, words
+        if "verify" not in words:  # which tells seconds
+            assert (by_module.stdout, by_module.stderr) == (itself.stdout, itself.stderr), words
+
+
+def test_the_command_line_runs_on_several_ranks(tmp_path, mpirun):
+    run_alone(PROGRAM, "generate", "kuhn", "4", "-o", tmp_path / "cube.mesh")
+    words = ["refine", tmp_path / "cube.mesh", "--sphere", "0,0,0,0.5", "-o"]
+    said = run_alone(mpirun, 2, sys.executable, "-m", "octetra", *words, tmp_path / "two.mesh")
+    assert "2 ranks" in said
+    run_alone(PROGRAM, *words, tmp_path / "one.mesh")
+    assert (tmp_path / "one.mesh").read_bytes() == (tmp_path / "two.mesh").read_bytes()
+
+
+@pytest.fixture
+def site(tmp_path):
+    """Where the module is installed, below tmp_path/prefix."""
+    run_alone("cmake", "--install", BUILD, "--prefix", tmp_path / "prefix", "--component", "python")
+    found = list((tmp_path / "prefix").rglob("octetra/__init__.py"))
+    assert len(found) == 1
+    return found[0].parents[1]
+
+
+def test_the_module_works_where_it_is_installed(site, tmp_path):
+    environment = {**os.environ, "PYTHONPATH": str(site)}
+    test = "import octetra; print(octetra.__file__)"
+    assert run(sys.executable, "-c", test, env=environment).stdout.startswith(str(site))
+    assert {path.name for path in (site / "octetra").iterdir()} >= {"py.typed", "_octetra", "mark.py"}
+    version = [sys.executable, "-m", "octetra", "--version"]
+    nowhere = run(*version, env={**environment, "PATH": "/nowhere"})
+    assert nowhere.returncode == 1 and "no program" in nowhere.stderr
+    (tmp_path / "prefix/bin").mkdir()
+    shutil.copy(PROGRAM, tmp_path / "prefix/bin/octetra")
+    beside = run(*version, env={**environment, "PATH": "/nowhere"})
+    assert beside.stdout == run(PROGRAM, "--version").stdout
+
+
+def test_the_tutorial_makes_the_same_files_on_any_number_of_ranks(tmp_path, mpirun):
+    pytest.importorskip("matplotlib", reason="there is no matplotlib (Debian: python3-matplotlib)")
+    image = pytest.importorskip("matplotlib.image")
+    run_alone(sys.executable, "-m", "octetra", "generate", "gear", "-o", tmp_path / "gear.mesh")
+    tutorial = [sys.executable, SOURCE / "examples/python/tutorial.py", tmp_path / "gear.mesh"]
+    said, files = [], []
+    for ranks in (1, 2):
+        folder = tmp_path / str(ranks)
+        folder.mkdir()
+        words = tutorial if ranks == 1 else [mpirun, ranks, *tutorial]
+        said.append(run_alone("sh", "-c", 'cd "$0" && exec "$@"', folder, *words))
+        files.append([(folder / name).read_bytes() for name in ("tutorial.vtu", "tutorial.octetra")])
+        pixels = image.imread(folder / "angles.png")
+        assert min(pixels.shape[:2]) > 300 and pixels[..., :3].std() > 0.05  # not blank
+    assert (tmp_path / "1/surface.png").stat().st_size > 10_000
+    assert "step 4" in said[0] and said[0] == said[1]
+    assert files[0] == files[1]

@@ -1,7 +1,18 @@
-"""run.py FILE...: these tests by pytest; 77, for ctest to call it skipped, where a package is not there."""
+"""run.py FILE...: these tests by pytest; 77, for ctest to call it skipped, where a package is not there.
+With --gtest_list_tests it names the cases, for tools/claims.py, which asks all test programs so."""
 
+import ast
 import importlib
+import pathlib
 import sys
+
+if sys.argv[-1] == "--gtest_list_tests":
+    for path in map(pathlib.Path, sys.argv[1:-1]):
+        print(path.stem.removeprefix("test_") + ".")
+        for node in ast.parse(path.read_text()).body:
+            if isinstance(node, ast.FunctionDef) and node.name.startswith("test_"):
+                print("  " + node.name)
+    sys.exit()
 
 for package in ("pytest", "numpy", "mpi4py"):
     try:

@@ -1,0 +1,45 @@
+// The same steps as steps.py, in C++: what a step through Python takes beside it.
+//     bench_python_steps MESH uniform|small STEPS
+#include <mpi.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstdint>
+#include <cstdio>
+#include <cstdlib>
+#include <string_view>
+#include <vector>
+
+#include <octetra/distributed/adaptive_mesh.hpp>
+#include <octetra/distributed/mpi.hpp>
+
+namespace {
+
+namespace od = octetra::distributed;
+
+/// All cells, or one of this rank's: of what becomes of it, that which has its number.
+std::vector<std::uint8_t> marks_of(const od::AdaptiveMesh& mesh, bool is_uniform) {
+    std::vector<std::uint8_t> marks(mesh.cells().size(), is_uniform ? 1 : 0);
+    marks[7] = 1;
+    return marks;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    MPI_Init(&argc, &argv);
+    if (argc != 4) return 2;
+    od::AdaptiveMesh mesh = od::AdaptiveMesh::read(od::communicator_of(MPI_COMM_WORLD), argv[1]);
+    for (int step = 0; step < std::atoi(argv[3]); ++step) {
+        const auto marks = marks_of(mesh, std::string_view(argv[2]) == "uniform");
+        const auto marked = std::ranges::count(marks, 1);  // which are in the cache then, as there
+        MPI_Barrier(MPI_COMM_WORLD);
+        const auto begin = std::chrono::steady_clock::now();
+        (void)mesh.refine(marks);
+        const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - begin;
+        if (mesh.processes().is_first()) {
+            std::printf("%.9f %td\n", seconds.count(), static_cast<std::ptrdiff_t>(marked));
+        }
+    }
+    MPI_Finalize();
+}

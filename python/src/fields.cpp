@@ -13,10 +13,12 @@ namespace {
 void append(std::vector<distributed::Field>& fields, const py::object& given, FieldOn on,
             std::size_t count) {
     if (given.is_none()) return;
-    for (const auto& [name, array] : given.cast<py::dict>()) {
-        const Values values = values_for(array, count, on == FieldOn::cells ? "cells" : "vertices");
+    for (const auto& item : given.cast<py::dict>()) {
+        const auto name = item.first.cast<std::string>();
+        const Values values =
+            values_for(item.second, count, on == FieldOn::cells ? "cells" : "vertices");
         with_number_type(values.array, [&]<class T>(T) {
-            fields.push_back({name.cast<std::string>(), on, values.components, values.copy<T>()});
+            fields.push_back({name, on, values.components, values.copy<T>()});
         });
     }
 }

@@ -38,7 +38,7 @@ TEST_P(AdaptiveMeshIn, LeavesArraysInUseAsTheyAreAndGoesOnAsWithout) {
     std::vector<std::function<bool()>> checks;
     const auto look = [&] {
         const auto check = [&](auto span) {
-            checks.push_back([seen = Seen(span)] { return seen.is_as_it_was(); });
+            checks.push_back([seen = Seen{span}] { return seen.is_as_it_was(); });
         };
         check(mesh.points());
         check(mesh.cells());

@@ -23,4 +23,6 @@ for package in ("pytest", "numpy", "mpi4py"):
 
 import pytest
 
-sys.exit(pytest.main(["-q", "--color=no", "--tb=short", "-p", "no:cacheprovider", *sys.argv[1:]]))
+status = pytest.main(["-q", "-rs", "--color=no", "--tb=short", "-p", "no:cacheprovider",
+                      *sys.argv[1:]])
+sys.exit(77 if status == pytest.ExitCode.NO_TESTS_COLLECTED else status)

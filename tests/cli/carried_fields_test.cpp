@@ -235,13 +235,16 @@ TEST_F(CarriedFields, AreTheSameBytesOnAnyNumberOfRanksWhateverTheSteps) {
 
 TEST_F(CarriedFields, ThatTheFormatCannotHoldAreNamed) {
     add_fields("m.octetra", "s.octetra");
-    EXPECT_EQ(run("refine s.octetra --sphere 9,9,9,1 -o t.mesh").err,
-              "octetra: note: no cell was marked: the mesh stays as it is\n"
-              "octetra: note: fields 'u', 'v', 'id', 'ID', 'p', 'q', 'n', 'N' are not in t.mesh: "
-              ".vtu, .pvtu, .vtkhdf and .octetra files hold fields\n");
+    EXPECT_EQ(
+        run("refine s.octetra --sphere 9,9,9,1 -o t.mesh").err,
+        "octetra: note: no cell was marked: the mesh stays as it is\n"
+        "octetra: note: fields 'u', 'v', 'id', 'ID', 'N' are not in t.sol, which holds reals, "
+        "and whole numbers of 32 bits, of 1, 3, 6 or 9 components; fields 'p', 'q', 'n' are in "
+        "t.sol without a name, by the order\n");
     EXPECT_EQ(run("convert s.octetra t.msh").err,
               "octetra: note: fields 'u', 'v', 'id', 'ID', 'p', 'q', 'n', 'N' are not in t.msh: "
-              ".vtu, .pvtu, .vtkhdf and .octetra files hold fields\n");
+              ".vtu, .pvtu, .vtkhdf and .octetra files hold fields, and a .sol or .solb beside a "
+              "Medit mesh\n");
 }
 
 /// VTK reads the files, and another program than Octetra the checkpoint that they are held against.

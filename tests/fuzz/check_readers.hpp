@@ -28,6 +28,9 @@ void check_tetgen(std::string_view input, const std::filesystem::path& folder);
 void check_medit(std::string_view input, const std::filesystem::path& folder);
 void check_meshb(std::string_view input, const std::filesystem::path& folder);
 void check_gmsh(std::string_view input, const std::filesystem::path& folder);
+/// Of a mesh of as many vertices and cells as the file says.
+void check_sol(std::string_view input, const std::filesystem::path& folder);
+void check_solb(std::string_view input, const std::filesystem::path& folder);
 void check_maps(std::string_view input, const std::filesystem::path& folder);
 void check_cell_list(std::string_view input, const std::filesystem::path& folder);
 void check_part_file(std::string_view input, const std::filesystem::path& folder);

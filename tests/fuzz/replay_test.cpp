@@ -108,6 +108,30 @@ std::string edited(std::string file, std::mt19937_64& random) {
     return file;
 }
 
+std::uint64_t sol_seed() {
+    const char* const given = std::getenv("OCTETRA_SOL_SEED");
+    return given == nullptr ? std::random_device{}() : std::strtoull(given, nullptr, 10);
+}
+
+/// As they are, and edited at random.
+TEST(CorpusFields, AreReadOrRefusedAsTheyShould) {
+    const TemporaryFolder folder;
+    const std::uint64_t seed = sol_seed();
+    std::mt19937_64 random(seed);
+    for (const std::string extension : {".sol", ".solb"}) {
+        const CheckReader check = extension == ".sol" ? check_sol : check_solb;
+        for (const fs::path& file : files_in(corpus / "fields", extension)) {
+            SCOPED_TRACE(file);
+            const std::string good = content_of(file);
+            EXPECT_NO_THROW(check(good, folder.path()));
+            for (int k = 0; k < 100; ++k) {
+                EXPECT_NO_THROW(check(edited(good, random), folder.path()))
+                    << "OCTETRA_SOL_SEED=" << seed << ", number " << k;
+            }
+        }
+    }
+}
+
 /// OCTETRA_GMSH_SEED takes the seed again.
 TEST(EditedGmshFile, IsReadOrRefusedAsItShould) {
     const TemporaryFolder folder;

@@ -42,8 +42,9 @@ namespace {
 /// Refuses outputs that cannot be written, or would take the place of an input or of each other.
 void check_files(const AdaptationOptions& options, const Script& script,
                  const distributed::Partition& partition, int ranks) {
-    check_output(options.output, ranks);
+    check_output_with_fields(options.input, options.output, ranks);
     std::vector<NamedFiles> read{mesh_named("MESH", options.input.path),
+                                 file_named("--fields", options.input.fields),
                                  file_named("--script", script.is_piped ? "" : script.path),
                                  file_named("--partition", partition.path)};
     const std::vector<NamedFiles> lists = files_read_by(script);
@@ -54,9 +55,9 @@ void check_files(const AdaptationOptions& options, const Script& script,
     for (const NamedFiles& beside : written) {
         for (const auto& file : beside.files) check_side_file(beside.argument, file);
     }
-    written.insert(written.begin(), mesh_to_write("-o", options.output, ranks));
+    written.insert(written.begin(), output_to_write("-o", options.input, options.output, ranks));
     check_files_apart(read, written);
-    check_outputs_of(script, read, written, ranks);
+    check_outputs_of(script, options.input, read, written, ranks);
     check_lists_of(script);
 }
 
@@ -179,6 +180,7 @@ void adapt(const AdaptationOptions& options, const Script& script,
     auto adaptive = has_history ? distributed::in_phase(
                                       world, "read", [&] { return load(options, world, fields); })
                                 : read_in_parts(options, script, partition, world, read);
+    distributed::in_phase(world, "read", [&] { read_fields(adaptive, options.input, fields); });
     const auto report = [&](std::string_view doing) {
         const std::uint64_t cells = world.sum(adaptive.cells().size());
         if (!world.is_first()) return;

@@ -24,6 +24,7 @@ void add_adapt(CLI::App& program, const distributed::Communicator& world) {
     CLI::App* command = program.add_subcommand(
         "adapt", "Refine and coarsen a mesh, step by step, as a script says");
     add_input_options(*command, options->adaptation.input);
+    add_fields_option(*command, options->adaptation.input);
     command
         ->add_option(
             "--script", options->script,
@@ -57,7 +58,8 @@ void add_adapt(CLI::App& program, const distributed::Communicator& world) {
         "  write FILE                                      the same, in any format\n"
         "--cells takes the numbers that a file written just before the step has, from 0 or 1 as\n"
         "MESH. Names have no blanks. All lines are checked before the first step is run.\n"
-        "Fields of a .octetra go along: midpoints get means, pieces copies, cells that become one\n"
+        "Fields of --fields or a .octetra go along: midpoints get means, pieces copies, cells that "
+        "become one\n"
         "means; whole numbers that have no mean are dropped, with a note.\n"
         "Exit status: 0 done; 1 --verify finds the result not valid, and OUT is not written;\n"
         "2 bad usage or bad input; 3 the system failed: memory, disk; 128 + its number: a signal\n"

@@ -48,6 +48,7 @@ void add_coarsen(CLI::App& program, const distributed::Communicator& world) {
         ->type_name("")
         ->check(names_a_file())
         ->required();
+    add_fields_option(*command, options->adaptation.input);
     add_output_option(*command, options->adaptation.output);
     add_coarsening_options(*command, options->coarsening,
                            "Which cells may go (criteria add up; give at least one)");

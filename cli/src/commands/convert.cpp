@@ -40,11 +40,15 @@ WriteOptions write_options(const ConvertOptions& options) {
     throw InputError(fmt::format("--msh-format is of .msh files, and {} is none", options.output));
 }
 
-/// Of a checkpoint, with all that the output can hold of what it has.
-void convert_checkpoint(const ConvertOptions& options, const WriteOptions& writing) {
+/// Of a mesh with fields, or of a checkpoint, with all that the output can hold of what it has.
+void convert_with_fields(const ConvertOptions& options, const WriteOptions& writing) {
+    using distributed::AdaptiveMesh;
+    const distributed::Communicator alone;
     std::vector<distributed::Field> fields;
-    const auto mesh = distributed::AdaptiveMesh::load(distributed::Communicator(),
-                                                      options.input.path, {}, &fields);
+    const auto mesh = is_checkpoint(options.input.path)
+                          ? AdaptiveMesh::load(alone, options.input.path, {}, &fields)
+                          : AdaptiveMesh::distribute(alone, read_input(options.input), {});
+    read_fields(mesh, options.input, fields);
     if (is_checkpoint(options.output)) {
         mesh.save(options.output, fields);
     } else {
@@ -56,10 +60,13 @@ void convert_checkpoint(const ConvertOptions& options, const WriteOptions& writi
 
 void convert(const ConvertOptions& options) {
     const WriteOptions writing = write_options(options);
-    check_output(options.output);
-    check_files_apart({mesh_named("MESH", options.input.path)},
-                      {mesh_to_write("OUT", options.output)});
-    if (is_checkpoint(options.input.path)) return convert_checkpoint(options, writing);
+    check_output_with_fields(options.input, options.output);
+    check_files_apart(
+        {mesh_named("MESH", options.input.path), file_named("--fields", options.input.fields)},
+        {output_to_write("OUT", options.input, options.output)});
+    if (is_checkpoint(options.input.path) || !options.input.fields.empty()) {
+        return convert_with_fields(options, writing);
+    }
     const Mesh mesh = read_input(options.input);
     write_output(mesh, options.output, writing);
     if (!options.quiet) report_written(mesh, options.output);
@@ -72,6 +79,7 @@ void add_convert(CLI::App& program, const distributed::Communicator& world) {
     CLI::App* command = program.add_subcommand(
         "convert", "Write a mesh in another format, coordinates bit for bit");
     add_input_options(*command, options->input);
+    add_fields_option(*command, options->input);
     command
         ->add_option("OUT", options->output,
                      "where to write: .ele, .mesh, .meshb, .msh, .octetra, .vtu, .pvtu or .vtkhdf")

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <array>
+#include <optional>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -10,7 +12,7 @@
 #include <octetra/core/files/checkpoint.hpp>
 #include <octetra/core/files/mesh_files.hpp>
 #include <octetra/core/files/places.hpp>
-#include <octetra/distributed/adaptive_mesh.hpp>
+#include <octetra/core/files/sol_files.hpp>
 
 #include "grouped.hpp"
 #include "terminal.hpp"
@@ -27,6 +29,54 @@ void add_input_options(CLI::App& subcommand, InputOptions& options) {
         ->required();
     subcommand.add_flag("--fix-orientation", options.fix_orientation,
                         "turn inverted cells round rather than refuse them");
+}
+
+void add_fields_option(CLI::App& subcommand, InputOptions& options) {
+    subcommand
+        .add_option("--fields", options.fields,
+                    "values of MESH's vertices and cells that go along, .sol or .solb (Medit)")
+        ->type_name("FILE")
+        ->check(names_a_file());
+}
+
+namespace {
+
+/// Where fields go beside a Medit mesh, if MESH may have some; else nothing.
+std::optional<std::filesystem::path> fields_beside(const InputOptions& options,
+                                                   const std::filesystem::path& output) {
+    if (options.fields.empty() && !is_checkpoint(options.path)) return {};
+    return sol_beside(output);
+}
+
+}  // namespace
+
+NamedFiles output_to_write(std::string_view argument, const InputOptions& options,
+                           const std::filesystem::path& path, int ranks) {
+    NamedFiles written = mesh_to_write(argument, path, ranks);
+    if (const auto beside = fields_beside(options, path)) written.files.push_back(*beside);
+    return written;
+}
+
+void check_output_with_fields(const InputOptions& options, const std::filesystem::path& output,
+                              int ranks) {
+    check_output(output, ranks);
+    if (!options.fields.empty() && !is_sol(options.fields)) {
+        throw InputError(
+            fmt::format("--fields: {}: files of values end in .sol or .solb", options.fields));
+    }
+    if (const auto beside = fields_beside(options, output)) check_place(*beside);
+}
+
+void read_fields(const distributed::AdaptiveMesh& mesh, const InputOptions& options,
+                 std::vector<distributed::Field>& fields) {
+    if (options.fields.empty()) return;
+    for (distributed::Field& field : mesh.read_fields(options.fields, note)) {
+        const auto is_taken = [&](const distributed::Field& other) {
+            return other.on == field.on && other.name == field.name;
+        };
+        while (std::ranges::any_of(fields, is_taken)) field.name += "_field";
+        fields.push_back(std::move(field));
+    }
 }
 
 void add_output_option(CLI::App& subcommand, std::string& path) {
@@ -54,9 +104,9 @@ void check_side_file(std::string_view option, const std::filesystem::path& path)
         throw InputError(
             fmt::format("{}: - names no file; write ./- for one of that name", option));
     }
-    constexpr std::array<std::string_view, 11> mesh_files{".ele",  ".node",   ".face",   ".edge",
-                                                          ".mesh", ".meshb",  ".msh",    ".vtu",
-                                                          ".pvtu", ".vtkhdf", ".octetra"};
+    constexpr std::array<std::string_view, 13> mesh_files{
+        ".ele",  ".node", ".face", ".edge", ".mesh",   ".meshb",  ".sol",
+        ".solb", ".msh",  ".vtu",  ".pvtu", ".vtkhdf", ".octetra"};
     if (std::ranges::find(mesh_files, path.extension()) != mesh_files.end()) {
         throw InputError(fmt::format("{}: {} is the name of a mesh file; choose another", option,
                                      path.native()));

@@ -3,11 +3,16 @@
 #include <filesystem>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include <CLI/CLI.hpp>
 
 #include <octetra/core/files/mesh_files.hpp>
 #include <octetra/core/mesh.hpp>
+#include <octetra/distributed/adaptive_mesh.hpp>
+#include <octetra/distributed/field.hpp>
+
+#include "commands/files_apart.hpp"
 
 /// What every subcommand that reads or writes a mesh has in common.
 namespace octetra::cli {
@@ -15,10 +20,27 @@ namespace octetra::cli {
 struct InputOptions {
     std::string path;
     bool fix_orientation = false;
+    std::string fields;  ///< a .sol or .solb of MESH; empty: none
 };
 
 /// Declares the positional MESH and --fix-orientation.
 void add_input_options(CLI::App& subcommand, InputOptions& options);
+
+/// Declares --fields FILE.
+void add_fields_option(CLI::App& subcommand, InputOptions& options);
+
+/// All that a mesh written at `path` replaces or removes, and the file of fields beside it, if MESH
+/// may have some.
+[[nodiscard]] NamedFiles output_to_write(std::string_view argument, const InputOptions& options,
+                                         const std::filesystem::path& path, int ranks = 1);
+/// Refuses, before the work, an output and what goes beside it. Throws InputError.
+void check_output_with_fields(const InputOptions& options, const std::filesystem::path& output,
+                              int ranks = 1);
+
+/// Collective. Adds the fields of --fields, if it is given, to those that MESH has. One that would
+/// have the name of another gets `_field` behind its own.
+void read_fields(const distributed::AdaptiveMesh& mesh, const InputOptions& options,
+                 std::vector<distributed::Field>& fields);
 
 /// Declares -o OUT.
 void add_output_option(CLI::App& subcommand, std::string& path);

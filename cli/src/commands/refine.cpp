@@ -257,13 +257,15 @@ void check_outputs(const RefineOptions& options, const Plan& plan, int ranks) {
         {mesh_to_write("-o", options.output, ranks), beside[0], beside[1], beside[2]});
 }
 
-/// Of a mesh with its history, or into one: as a step of octetra adapt.
+/// Of a mesh with its history or with fields, or into a history: as a step of octetra adapt.
 void refine_with_history(const RefineOptions& options, const Plan& plan,
                          const distributed::Communicator& all) {
     if (plan.engine == Engine::reference) {
-        throw InputError(
-            "--engine reference knows no history, so it does not go with .octetra files: leave it "
-            "out; the other engine makes the same mesh");
+        const bool has_fields = !options.input.fields.empty();
+        throw InputError(fmt::format(
+            "--engine reference knows no {}, so it does not go with {}: leave it "
+            "out; the other engine makes the same mesh",
+            has_fields ? "fields" : "history", has_fields ? "--fields" : ".octetra files"));
     }
     const Script one_step{
         {}, false, {{0, "refine", RefineStep{options.refinement, plan.selection, plan.scheme}}}};
@@ -282,7 +284,8 @@ void refine_with_history(const RefineOptions& options, const Plan& plan,
 
 void refine(const RefineOptions& options, const distributed::Communicator& all) {
     Plan plan = plan_of(options);
-    if (is_checkpoint(options.input.path) || is_checkpoint(options.output)) {
+    if (is_checkpoint(options.input.path) || is_checkpoint(options.output) ||
+        !options.input.fields.empty()) {
         return refine_with_history(options, plan, all);
     }
     Stopwatch watch;
@@ -318,6 +321,7 @@ void add_refine(CLI::App& program, const distributed::Communicator& world) {
                                "Refine a mesh where cells are marked, and as far around as "
                                "conformity asks");
     add_input_options(*refine_command, options->input);
+    add_fields_option(*refine_command, options->input);
     add_output_option(*refine_command, options->output);
     add_refinement_options(*refine_command, options->refinement,
                            "Which cells (criteria add up; give at least one)");

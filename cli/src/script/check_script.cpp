@@ -70,15 +70,16 @@ std::vector<NamedFiles> files_read_by(const Script& script) {
     return files;
 }
 
-void check_outputs_of(const Script& script, const std::vector<NamedFiles>& read,
-                      const std::vector<NamedFiles>& written, int ranks) {
+void check_outputs_of(const Script& script, const InputOptions& input,
+                      const std::vector<NamedFiles>& read, const std::vector<NamedFiles>& written,
+                      int ranks) {
     WrittenPlaces places;
     for (const NamedFiles& files : written) places.add(std::string(files.argument), files.files);
     check_each(script, [&](const ScriptStep& step) {
         const auto* write = std::get_if<WriteStep>(&step.step);
         if (write == nullptr) return;
-        check_output(write->path, ranks);
-        const NamedFiles files = mesh_to_write(step.word, write->path, ranks);
+        check_output_with_fields(input, write->path, ranks);
+        const NamedFiles files = output_to_write(step.word, input, write->path, ranks);
         check_files_apart(read, {files});
         for (const auto& file : files.files) {
             if (const auto* other = places.find(file)) {

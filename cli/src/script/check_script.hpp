@@ -5,6 +5,7 @@
 #include <octetra/core/mesh_source.hpp>
 
 #include "commands/files_apart.hpp"
+#include "commands/mesh_options.hpp"
 #include "script/read_script.hpp"
 
 /// What can be known of a script before its first step is run. All throw InputError, which names
@@ -16,9 +17,10 @@ namespace octetra::cli {
 
 /// Refuses a step that writes what cannot be written so by so many ranks, or in the place of what
 /// is read or what another line writes. `read` and `written` are those of the command line, which
-/// are apart.
-void check_outputs_of(const Script& script, const std::vector<NamedFiles>& read,
-                      const std::vector<NamedFiles>& written, int ranks);
+/// are apart; `input` says whether fields go along.
+void check_outputs_of(const Script& script, const InputOptions& input,
+                      const std::vector<NamedFiles>& read, const std::vector<NamedFiles>& written,
+                      int ranks);
 
 /// Refuses a list of cells that cannot be read as numbers.
 void check_lists_of(const Script& script);

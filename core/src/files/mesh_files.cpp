@@ -1,12 +1,16 @@
 #include <octetra/core/files/mesh_files.hpp>
 
+#include <array>
+#include <optional>
 #include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 
 #include <octetra/core/error.hpp>
 #include <octetra/core/files/checkpoint.hpp>
 #include <octetra/core/files/places.hpp>
+#include <octetra/core/files/sol_files.hpp>
 
 #include "files/gmsh/gmsh.hpp"
 #include "files/medit/medit.hpp"
@@ -80,22 +84,56 @@ void add_loss(std::string& lost, std::string_view loss) {
     lost += loss;
 }
 
+/// "field 'a' is", "fields 'a', 'b' are".
+std::string fields_are(const std::vector<FieldFacts>& fields) {
+    std::string names;
+    for (const FieldFacts& field : fields) {
+        names += fmt::format("{}'{}'", names.empty() ? "" : ", ", field.name);
+    }
+    return fields.size() == 1 ? fmt::format("field {} is", names)
+                              : fmt::format("fields {} are", names);
+}
+
+/// Fields that another name will be read for than they have.
+std::vector<FieldFacts> losing_their_names(const std::vector<FieldFacts>& held) {
+    std::vector<FieldFacts> losing;
+    std::array<std::size_t, 2> count{};
+    for (const FieldFacts& field : held) {
+        const std::size_t number = ++count.at(static_cast<std::size_t>(field.on));
+        if (field.name != name_in_sol(number)) losing.push_back(field);
+    }
+    return losing;
+}
+
+void add_lost_fields(std::string& lost, const MeshSource& mesh, const fs::path& path) {
+    if (mesh.fields().empty() || can_hold_fields(path)) return;
+    const std::optional<fs::path> beside = sol_beside(path);
+    std::vector<FieldFacts> held;
+    std::vector<FieldFacts> left_out;
+    for (const FieldFacts& field : mesh.fields()) {
+        (beside && sol_can_hold(field) ? held : left_out).push_back(field);
+    }
+    if (!left_out.empty() && !beside) {
+        add_loss(lost, fmt::format("{} not in {}: .vtu, .pvtu, .vtkhdf and .octetra files hold "
+                                   "fields, and a .sol or .solb beside a Medit mesh",
+                                   fields_are(left_out), path.native()));
+    } else if (!left_out.empty()) {
+        add_loss(lost, fmt::format("{} not in {}, which holds reals, and whole numbers of 32 bits, "
+                                   "of 1, 3, 6 or 9 components",
+                                   fields_are(left_out), beside->native()));
+    }
+    if (const auto losing = losing_their_names(held); !losing.empty()) {
+        add_loss(lost, fmt::format("{} in {} without a name, by the order", fields_are(losing),
+                                   beside->native()));
+    }
+}
+
 /// What is lost in all, where that is `lost` without names of groups and fields.
 std::string all_lost(std::string lost, const MeshSource& mesh, const fs::path& path) {
     if (!mesh.facts().group_names.empty() && format_of(path) != Format::gmsh) {
         add_loss(lost, "the names of groups are lost; .msh and .octetra files hold them");
     }
-    if (!mesh.fields().empty() && !can_hold_fields(path)) {
-        std::string names;
-        for (const FieldFacts& field : mesh.fields()) {
-            names += fmt::format("{}'{}'", names.empty() ? "" : ", ", field.name);
-        }
-        add_loss(lost, fmt::format("{} not in {}: .vtu, .pvtu, .vtkhdf and .octetra files hold "
-                                   "fields",
-                                   mesh.fields().size() == 1 ? fmt::format("field {} is", names)
-                                                             : fmt::format("fields {} are", names),
-                                   path.native()));
-    }
+    add_lost_fields(lost, mesh, path);
     return lost;
 }
 

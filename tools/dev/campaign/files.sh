@@ -2,7 +2,7 @@
 # shellcheck shell=bash
 source "$root/tools/dev/common.sh"
 
-readers=(tetgen medit meshb gmsh maps cell_list part_file checkpoint)
+readers=(tetgen medit meshb gmsh sol solb maps cell_list part_file checkpoint)
 
 # Files that readers must cope with, as the fuzzers take them, put into build/fuzz/corpus/NAME/; what
 # earlier runs found there stays.
@@ -27,6 +27,8 @@ put_seeds() {
             if [[ -e $base.$extension ]]; then cat "$base.$extension"; else printf -- -; fi
         done >"$into/tetgen/seed-$(basename "$base")"
     done
+    cp corpus/fields/*.sol "$into/sol/"
+    cp corpus/fields/*.solb "$into/solb/"
     printf 'cells 3\n0 0\n1 0\n2 1\nmidpoints 2\n5 0 3\n6 1 5\n' >"$into/maps/seed"
     printf '# cells\n1 17 4\n99\n' >"$into/cell_list/seed"
     cp corpus/checkpoints/version-1.octetra "$into/checkpoint/seed"

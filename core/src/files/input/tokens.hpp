@@ -38,6 +38,8 @@ public:
     void require(std::string_view what) {
         if (!advance()) reader_->fail(fmt::format("the file ends where {} should be", what));
     }
+    /// Is no token left on the line of the last one?
+    [[nodiscard]] bool at_line_end() const { return fields_.at_end(); }
     /// Goes on behind the line on which the reader is, which was not read by tokens.
     void leave_line() { fields_ = Fields(*reader_, {}); }
 

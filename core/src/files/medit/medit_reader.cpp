@@ -14,6 +14,7 @@
 #include "files/medit/entry_places.hpp"
 #include "files/medit/keywords.hpp"
 #include "files/medit/medit.hpp"
+#include "files/medit/medit_head.hpp"
 
 namespace octetra {
 namespace {
@@ -43,7 +44,7 @@ public:
 
     /// Returns the mesh, if it is not streamed.
     Mesh read() {
-        read_head();
+        take_medit_head(tokens_, reader_);
         while (read_section()) {
         }
         if (growing_.is_streaming()) {
@@ -60,24 +61,13 @@ public:
     /// Reads all of the file and tells the sink of points, and of nothing else. Returns their
     /// number.
     std::uint64_t read_points() {
-        read_head();
+        take_medit_head(tokens_, reader_);
         while (read_section()) {
         }
         return growing_.facts().vertices;
     }
 
 private:
-    void read_head() {
-        if (const std::string_view token = tokens_.text(); token != "MeshVersionFormatted") {
-            reader_.fail(
-                fmt::format("a Medit file begins with MeshVersionFormatted, not {}", shown(token)));
-        }
-        const std::uint64_t version = tokens_.unsigned_integer("the format's version");
-        if (version < 1 || version > 4) {
-            reader_.fail(fmt::format("the Medit format has versions 1 to 4, not {}", version));
-        }
-    }
-
     /// Reads one section; false at the end.
     bool read_section() {
         const std::string keyword{tokens_.text()};
@@ -92,10 +82,7 @@ private:
             return false;
         }
         if (keyword == "Dimension") {
-            const std::uint64_t dimension = tokens_.unsigned_integer("the dimension");
-            if (dimension != 3) {
-                reader_.fail(fmt::format("dimension 3 expected, {} found", dimension));
-            }
+            take_medit_dimension(tokens_, reader_);
         } else if (keyword == "Vertices") {
             read_vertices();
         } else if (keyword == "Tetrahedra") {

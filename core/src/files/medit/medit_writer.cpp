@@ -1,10 +1,13 @@
 #include <array>
+#include <memory>
 #include <span>
 #include <string_view>
+#include <utility>
 
 #include <fmt/format.h>
 
 #include "files/medit/medit.hpp"
+#include "files/medit/sol_writer.hpp"
 #include "files/output/output_file.hpp"
 #include "files/output/text_slices.hpp"
 
@@ -72,7 +75,8 @@ void write_vertices(OutputFile& out, MeshSource& mesh) {
 std::string write_medit(MeshSource& mesh, const std::filesystem::path& path) {
     const MeshFacts& facts = mesh.facts();
     const ProcessGroup& group = mesh.group();
-    OutputFile out(path, group);
+    auto file = std::make_unique<OutputFile>(path, group);
+    OutputFile& out = *file;
     if (group.is_first()) out.put(std::string_view{"MeshVersionFormatted 2\nDimension 3\n"});
     write_vertices(out, mesh);
     write_section<4>(
@@ -89,7 +93,7 @@ std::string write_medit(MeshSource& mesh, const std::filesystem::path& path) {
                           &MeshSource::edge_markers});
     }
     if (group.is_first()) out.put(std::string_view{"End\n"});
-    out.commit();
+    commit_with_fields(std::move(file), mesh, path);
     return attributes_left_out(facts);
 }
 

@@ -1,51 +1,37 @@
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cstring>
-#include <limits>
+#include <memory>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "files/medit/medit.hpp"
-#include "files/medit/meshb_layout.hpp"
+#include "files/medit/meshb_heads.hpp"
+#include "files/medit/sol_writer.hpp"
 #include "files/output/output_file.hpp"
 #include "files/output/text_slices.hpp"
 
 namespace octetra {
 namespace {
 
-static_assert(std::endian::native == std::endian::little,
-              "what is written is little-endian; another machine has to swap bytes");
-
-constexpr std::uint64_t most_in_32_bits = std::numeric_limits<std::int32_t>::max();
-
-/// The endianness, the version, and the section Dimension.
-std::uint64_t head_size(const MeshbFormat& format) {
-    return 4 + 4 + 4 + format.position_size() + 4;
-}
-
 std::uint64_t file_size(const MeshFacts& facts, const MeshbFormat& format) {
     const std::uint64_t heads = 2U + (facts.facets > 0 ? 1U : 0U) + (facts.edges > 0 ? 1U : 0U);
-    return head_size(format) + heads * format.head_size() + facts.vertices * format.point_size() +
-           facts.cells * format.entity_size(4) + facts.facets * format.entity_size(3) +
-           facts.edges * format.entity_size(2) + 4 + format.position_size();
+    return MeshbHeads::start_size(format) + heads * format.head_size() +
+           facts.vertices * format.point_size() + facts.cells * format.entity_size(4) +
+           facts.facets * format.entity_size(3) + facts.edges * format.entity_size(2) + 4 +
+           format.position_size();
 }
 
 template <class Integer>
 class MeshbWriter {
 public:
     MeshbWriter(OutputFile& out, MeshSource& mesh, std::int32_t version)
-        : out_(&out), mesh_(&mesh), format_{version} {}
+        : out_(&out), mesh_(&mesh), heads_(mesh, out, version) {}
 
     void write() {
         const MeshFacts& facts = mesh_->facts();
-        const auto put_first = [&](auto... numbers) {
-            if (mesh_->group().is_first()) (put(numbers), ...);
-        };
-        put_first(std::int32_t{1}, format_.version, meshb_code::dimension);
-        put_position(head_size(format_));
-        put_first(std::int32_t{3});
-        written_ = head_size(format_);
+        heads_.put_start();
         write_vertices();
         write_list<4>(meshb_code::tetrahedra, facts.cells, &MeshSource::cells, facts.has_regions,
                       &MeshSource::regions);
@@ -57,31 +43,14 @@ public:
             write_list<2>(meshb_code::edges, facts.edges, &MeshSource::edges,
                           facts.has_edge_markers, &MeshSource::edge_markers);
         }
-        put_first(meshb_code::end);
-        put_position(0);
+        heads_.put_end();
     }
 
 private:
-    void put(auto number) { out_->put_bytes(&number, sizeof number); }
-
-    void put_position(std::uint64_t position) {
-        if (!mesh_->group().is_first()) return;
-        if (format_.position_size() == 4) return put(static_cast<std::int32_t>(position));
-        put(static_cast<std::int64_t>(position));
-    }
-
-    /// Where the next section begins follows from the count.
-    void put_head(std::int32_t code, std::uint64_t count, std::size_t row_size) {
-        written_ += format_.head_size() + count * row_size;
-        if (mesh_->group().is_first()) put(code);
-        put_position(written_);
-        if (mesh_->group().is_first()) put(static_cast<Integer>(count));
-    }
-
     void write_vertices() {
         const MeshFacts& facts = mesh_->facts();
         constexpr std::size_t row_size = sizeof(Point) + sizeof(Integer);
-        put_head(meshb_code::vertices, facts.vertices, row_size);
+        heads_.put_section(meshb_code::vertices, facts.vertices, facts.vertices * row_size);
         put_list(*out_, facts.vertices, mesh_->group(), [&](const Window& window, std::uint64_t) {
             const std::span<const Point> points = mesh_->points(window);
             std::span<const Marker> markers;
@@ -104,7 +73,7 @@ private:
                     bool has_markers,
                     std::span<const Marker> (MeshSource::*markers_of)(const Window&)) {
         using Row = std::array<Integer, N + 1>;
-        put_head(code, count, sizeof(Row));
+        heads_.put_section(code, count, count * sizeof(Row));
         put_list(*out_, count, mesh_->group(), [&](const Window& window, std::uint64_t) {
             const auto entities = (mesh_->*vertices)(window);
             std::span<const Marker> markers;
@@ -125,8 +94,7 @@ private:
 
     OutputFile* out_;
     MeshSource* mesh_;
-    MeshbFormat format_;
-    std::uint64_t written_ = 0;  ///< where the next section begins
+    MeshbHeads heads_;
     std::vector<char> rows_;
 };
 
@@ -134,8 +102,7 @@ private:
 
 std::int32_t meshb_version(const MeshFacts& facts) {
     const std::uint64_t most = std::max({facts.vertices, facts.cells, facts.facets, facts.edges});
-    if (most > most_in_32_bits) return 4;
-    return file_size(facts, {.version = 2}) > most_in_32_bits ? 3 : 2;
+    return lowest_meshb_version(most, file_size(facts, {.version = 2}));
 }
 
 std::string write_meshb(MeshSource& mesh, const std::filesystem::path& path) {
@@ -143,13 +110,13 @@ std::string write_meshb(MeshSource& mesh, const std::filesystem::path& path) {
 }
 
 std::string write_meshb(MeshSource& mesh, const std::filesystem::path& path, std::int32_t version) {
-    OutputFile out(path, mesh.group());
+    auto out = std::make_unique<OutputFile>(path, mesh.group());
     if (version == 4) {
-        MeshbWriter<std::int64_t>(out, mesh, version).write();
+        MeshbWriter<std::int64_t>(*out, mesh, version).write();
     } else {
-        MeshbWriter<std::int32_t>(out, mesh, version).write();
+        MeshbWriter<std::int32_t>(*out, mesh, version).write();
     }
-    out.commit();
+    commit_with_fields(std::move(out), mesh, path);
     return attributes_left_out(mesh.facts());
 }
 

@@ -8,24 +8,10 @@
 #include "files/medit/meshb_rows.hpp"
 #include "files/stretches/progress.hpp"
 #include "files/stretches/readers.hpp"
+#include "files/stretches/shares.hpp"
 
 namespace octetra {
 namespace {
-
-/// Rows of which this process reads its even share; where they are follows from their number.
-struct RowShare {
-    std::uint64_t first = 0;
-    std::uint64_t count = 0;
-};
-
-RowShare share_of(std::uint64_t count, const ProcessGroup& group) {
-    const auto processes = static_cast<std::uint64_t>(group.size());
-    const auto begin = [&](int rank) {
-        const auto r = static_cast<std::uint64_t>(rank);
-        return count / processes * r + std::min(count % processes, r);
-    };
-    return {begin(group.rank()), begin(group.rank() + 1) - begin(group.rank())};
-}
 
 template <class I, std::size_t N>
 void refuse_repeated_vertices(const IndexVector<I, std::array<VertexIndex, N>>& list) {
@@ -44,13 +30,13 @@ void read_shares(const std::filesystem::path& path, const MeshbLists& sections,
     ByteReader reader(path);
     MeshbRows rows(reader, sections);
     Mesh& lists = stretch.lists;
-    const RowShare points = share_of(sections.vertices.count, group);
+    const RowShare points = share_of_rows(sections.vertices.count, group);
     stretch.first_vertex = points.first;
     lists.points.reserve(points.count);
     lists.point_markers.reserve(points.count);
     rows.append_points(points.first, points.count, lists);
     const auto read = [&](const auto& kind, const MeshbSection& section) {
-        const RowShare share = share_of(section.count, group);
+        const RowShare share = share_of_rows(section.count, group);
         (lists.*kind.list).reserve(share.count);
         (lists.*kind.markers).reserve(share.count);
         rows.append(kind, share.first, share.count, lists);

@@ -41,4 +41,13 @@ FileStretch share_of_lines(const std::filesystem::path& path, const FileStretch&
     return {boundary(rank), boundary(rank + 1)};
 }
 
+RowShare share_of_rows(std::uint64_t count, const ProcessGroup& group) {
+    const auto processes = static_cast<std::uint64_t>(group.size());
+    const auto begin = [&](int rank) {
+        const auto r = static_cast<std::uint64_t>(rank);
+        return count / processes * r + std::min(count % processes, r);
+    };
+    return {begin(group.rank()), begin(group.rank() + 1) - begin(group.rank())};
+}
+
 }  // namespace octetra

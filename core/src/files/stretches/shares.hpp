@@ -3,6 +3,8 @@
 #include <cstdint>
 #include <filesystem>
 
+#include <octetra/core/process_group.hpp>
+
 namespace octetra {
 
 /// Bytes begin .. end-1 of a file.
@@ -17,5 +19,12 @@ struct FileStretch {
 /// begin in its even share of the bytes. Looks for the ends of lines, and asks nobody.
 [[nodiscard]] FileStretch share_of_lines(const std::filesystem::path& path,
                                          const FileStretch& whole, int rank, int processes);
+
+/// Rows of which this process reads its even share; where they are follows from their number.
+struct RowShare {
+    std::uint64_t first = 0;
+    std::uint64_t count = 0;
+};
+[[nodiscard]] RowShare share_of_rows(std::uint64_t count, const ProcessGroup& group);
 
 }  // namespace octetra

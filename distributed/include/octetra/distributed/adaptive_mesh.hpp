@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <limits>
 #include <memory>
 #include <span>
@@ -205,10 +206,21 @@ public:
     /// Collective. A layer of other processes' cells around this one's.
     [[nodiscard]] GhostLayer ghosts(GhostsBy by) const;
 
+    /// Collective. The fields of a file of Medit's, `.sol` or `.solb`, with values of this mesh's
+    /// vertices and cells in the order of its files; they are called sol_1, sol_2 ... on vertices,
+    /// and likewise on cells. Every process reads a share of the file. On the first, `note` is
+    /// told, in a sentence, of what is in the file and not in the fields. Throws InputError
+    /// ("FILE:LINE: what is wrong", of a binary file "FILE: at byte N: ...") where something is
+    /// wrong with the file, or it is of another mesh.
+    [[nodiscard]] std::vector<Field> read_fields(
+        const std::filesystem::path& path,
+        const std::function<void(const std::string&)>& note = [](const std::string&) {}) const;
+
     /// Collective. Writes one file, the same whatever the number of processes and the partition,
     /// or, of a `.pvtu`, each process's part as a piece. Replaces an existing file, also the one
     /// that the mesh was read from. `fields`, values of this mesh's vertices and cells, go into the
-    /// formats of VTK. Returns what the format could not hold. Throws InputError where a field does
+    /// formats of VTK, and of a Medit mesh into a `.sol` or `.solb` beside it, as far as that holds
+    /// them. Returns what the format could not hold. Throws InputError where a field does
     /// not fit the mesh or the processes have different ones.
     [[nodiscard]] std::string write(const std::filesystem::path& path,
                                     std::span<const Field> fields = {},

@@ -56,12 +56,12 @@ void stream_mesh(const std::filesystem::path& path, MeshSink& sink,
 /// Collective in the mesh's group. Writes a mesh so that it reads back to the same bits, which do
 /// not depend on the number of processes. For TetGen, `path` names the `.ele` or the `.node` file,
 /// and `.face`, `.edge` are written (or removed, if they are there from before) as the mesh has
-/// facets and edges. Links are followed, and files that are there keep their permissions. Of maps,
-/// `.vtu` and `.vtkhdf` carry the parents, as cell data. Binary `.msh` files of version 2.2 hold at
-/// most 2^31 - 1 nodes and elements; others are refused, by an InputError. All files are complete
-/// before the first takes its final name; where writing fails, none does. Throws InputError for an
-/// unknown extension, else SystemError. Returns what of the mesh this format cannot hold, in a
-/// sentence, or nothing.
+/// facets and edges. Links are followed, and files that are there keep their permissions. Fields
+/// of a Medit mesh go into a file beside it. Of maps, `.vtu` and `.vtkhdf` carry the parents, as
+/// cell data. Binary `.msh` files of version 2.2 hold at most 2^31 - 1 nodes and elements; others
+/// are refused, by an InputError. All files are complete before the first takes its final name;
+/// where writing fails, none does. Throws InputError for an unknown extension, else SystemError.
+/// Returns what of the mesh this format cannot hold, in a sentence, or nothing.
 [[nodiscard]] std::string write_mesh(MeshSource& mesh, const std::filesystem::path& path,
                                      const WriteOptions& options = {});
 
@@ -72,7 +72,8 @@ void stream_mesh(const std::filesystem::path& path, MeshSink& sink,
 /// Can files with this extension hold attributes of vertices?
 [[nodiscard]] bool can_hold_attributes(const std::filesystem::path& path);
 
-/// Can mesh files with this extension hold fields? (Checkpoints, which are written otherwise, can.)
+/// Can mesh files with this extension hold fields? (Checkpoints, which are written otherwise, can;
+/// those of a Medit mesh go into a file beside it, see sol_files.hpp.)
 [[nodiscard]] bool can_hold_fields(const std::filesystem::path& path);
 
 /// Does this file name pieces, one for each process, rather than holding the mesh? (`.pvtu`)

@@ -1,0 +1,147 @@
+#include <algorithm>
+#include <stdexcept>
+#include <utility>
+
+#include <octetra/core/sol_fields.hpp>
+
+#include "files/input/byte_reader.hpp"
+#include "files/input/fields.hpp"
+#include "files/input/input_file.hpp"
+#include "files/input/line_reader.hpp"
+#include "files/medit/medit.hpp"
+#include "files/medit/medit_head.hpp"
+#include "files/medit/sol_sections.hpp"
+#include "files/stretches/keyword_scan.hpp"
+#include "files/stretches/progress.hpp"
+#include "files/stretches/shares.hpp"
+
+namespace octetra {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// For files that read_sol() refuses, or that one process has to read.
+[[noreturn]] void leave_values_to_one_process() { throw std::runtime_error("not a row a line"); }
+
+/// A section of a text file, and where its rows are.
+struct TextSection {
+    SolSection head;
+    FileStretch rows;
+};
+
+/// What every process finds at the keywords for itself.
+std::vector<TextSection> sections_of_text(const fs::path& path,
+                                          const std::vector<NumberedLine>& keywords,
+                                          std::uint64_t file_size, const EntityCounts& expected) {
+    std::vector<TextSection> sections;
+    if (keywords.empty() || LineReader(path, 0, keywords.front().position).next()) {
+        leave_values_to_one_process();
+    }
+    bool has_end = false;
+    for (std::size_t k = 0; k < keywords.size(); ++k) {
+        const bool is_last = k + 1 == keywords.size();
+        const std::uint64_t end = is_last ? file_size : keywords[k + 1].position;
+        LineReader reader(path, keywords[k].position, end);
+        Tokens tokens(reader);
+        if (k == 0) {
+            take_medit_head(tokens, reader);
+            if (!tokens.text().empty()) leave_values_to_one_process();
+            continue;
+        }
+        const std::string keyword{tokens.text()};
+        if (const std::size_t found = sol_keyword(keyword); found < kept_sol_keywords) {
+            const auto is_it = [&](const TextSection& one) { return one.head.keyword == found; };
+            if (std::ranges::any_of(sections, is_it)) leave_values_to_one_process();
+            const SolSection head = take_sol_head(tokens, reader, found, expected);
+            if (!tokens.at_line_end()) leave_values_to_one_process();
+            sections.push_back({head, {reader.next_position(), end}});
+            continue;
+        }
+        if (keyword == "Dimension") {
+            take_medit_dimension(tokens, reader);
+        } else if (keyword == "End" && is_last) {
+            has_end = true;
+        } else {
+            leave_values_to_one_process();
+        }
+        if (!tokens.text().empty()) leave_values_to_one_process();
+    }
+    if (!has_end) leave_values_to_one_process();  // there is a note on it
+    return sections;
+}
+
+/// This process's lines of a section.
+std::vector<double> values_of_share(const fs::path& path, const FileStretch& share) {
+    LineReader reader(path, share.begin, share.end);
+    std::vector<double> values;
+    while (reader.next()) {
+        Fields fields(reader);
+        while (!fields.at_end()) values.push_back(take_sol_value(fields, reader));
+    }
+    return values;
+}
+
+/// Collective. Numbers the rows of a list; false, on all processes, if some are not whole, or not
+/// as many as announced.
+bool number_rows(FieldRows& list, const ProcessGroup& group) {
+    const std::size_t width = list.width();
+    const bool are_whole = list.values.size() % width == 0;
+    const std::uint64_t rows = list.values.size() / width;
+    list.first = group.sum_before(rows);
+    const bool well = group.sum(rows) == list.count;
+    return group.sum(are_whole ? 0 : 1) == 0 && well;
+}
+
+/// Collective.
+std::optional<SolFields> read_text_stretch(const fs::path& path, const EntityCounts& expected,
+                                           const ProcessGroup& group) {
+    Progress progress(group);
+    std::uint64_t file_size = 0;
+    progress.attempt([&] { file_size = InputFile(path).size(); });
+    if (!progress.all_well()) return std::nullopt;
+    const auto keywords = scan_for_keywords(progress, path, file_size);
+    if (!keywords) return std::nullopt;
+    SolFields fields;
+    progress.attempt([&] {
+        for (const auto& [head, rows] : sections_of_text(path, *keywords, file_size, expected)) {
+            FieldRows& list = fields.lists.emplace_back(head.without_rows());
+            list.values =
+                values_of_share(path, share_of_lines(path, rows, group.rank(), group.size()));
+        }
+    });
+    if (!progress.all_well()) return std::nullopt;
+    bool well = true;
+    for (FieldRows& list : fields.lists) well = number_rows(list, group) && well;
+    if (!well) return std::nullopt;
+    return fields;
+}
+
+/// Collective.
+std::optional<SolFields> read_binary_stretch(const fs::path& path, const EntityCounts& expected,
+                                             const ProcessGroup& group) {
+    Progress progress(group);
+    SolFields fields;
+    progress.attempt([&] {
+        ByteReader reader(path);
+        SolbLayout layout = read_solb_layout(reader, expected);
+        fields.notes = std::move(layout.notes);
+        for (const SolSection& section : layout.sections) {
+            FieldRows& list = fields.lists.emplace_back(section.without_rows());
+            const RowShare share = share_of_rows(section.count, group);
+            list.first = share.first;
+            list.values = read_solb_rows(reader, layout.format, section, share.first, share.count);
+        }
+    });
+    if (!progress.all_well()) return std::nullopt;
+    return fields;
+}
+
+}  // namespace
+
+std::optional<SolFields> read_sol_stretch(const fs::path& path, const EntityCounts& expected,
+                                          const ProcessGroup& group) {
+    if (path.extension() == ".solb") return read_binary_stretch(path, expected, group);
+    return read_text_stretch(path, expected, group);
+}
+
+}  // namespace octetra

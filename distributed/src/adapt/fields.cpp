@@ -1,0 +1,22 @@
+#include <memory>
+
+#include <octetra/distributed/adaptive_mesh.hpp>
+
+#include "adapt/mesh_state.hpp"
+#include "comm/local_failure.hpp"
+#include "fields/read_fields.hpp"
+#include "level/incremental/adjacency.hpp"
+
+namespace octetra::distributed {
+
+std::vector<Field> AdaptiveMesh::read_fields(
+    const std::filesystem::path& path, const std::function<void(const std::string&)>& note) const {
+    LocalFailure failure;
+    DistributedMesh& mesh = state_->mesh;
+    std::unique_ptr<CanonicalOrder> order;
+    failure.attempt([&] { order = std::make_unique<CanonicalOrder>(mesh); });
+    failure.agree(mesh.processes);
+    return distributed::read_fields(mesh, order->cells_before(), state_->numbers, path, note);
+}
+
+}  // namespace octetra::distributed

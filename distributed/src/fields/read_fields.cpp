@@ -1,0 +1,106 @@
+#include "fields/read_fields.hpp"
+
+#include <cstring>
+#include <optional>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include <octetra/core/error.hpp>
+#include <octetra/core/files/sol_files.hpp>
+#include <octetra/core/sol_fields.hpp>
+
+#include "fields/wanted_values.hpp"
+
+namespace octetra::distributed {
+namespace {
+
+/// Collective. Gives all the lists that the first process has read, without values but there.
+void tell_of_lists(const Communicator& processes, std::vector<FieldRows>& lists) {
+    std::vector<std::uint64_t> told;
+    for (const FieldRows& list : lists) {
+        told.push_back(static_cast<std::uint64_t>(list.on));
+        told.push_back(list.count);
+        told.push_back(list.components.size());
+        told.insert(told.end(), list.components.begin(), list.components.end());
+    }
+    processes.broadcast(told);
+    if (processes.is_first()) return;
+    for (std::size_t at = 0; at < told.size();) {
+        FieldRows list{.on = static_cast<FieldOn>(told[at]), .count = told[at + 1]};
+        const std::uint64_t fields = told[at + 2];
+        at += 3;
+        for (std::uint64_t f = 0; f < fields; ++f) list.components.push_back(told[at++]);
+        list.first = list.count;  // behind all that the first process has
+        lists.push_back(std::move(list));
+    }
+}
+
+/// Collective. Every process reads its share, or else the first one all.
+SolFields read_lists(const Communicator& processes, const std::filesystem::path& path,
+                     const EntityCounts& counts) {
+    if (processes.size() > 1) {
+        LocalFailure failure;
+        std::optional<SolFields> together;
+        failure.attempt([&] { together = read_sol_stretch(path, counts, processes); });
+        failure.agree(processes);
+        if (together) return *std::move(together);
+    }
+    SolFields alone;
+    processes.on_first([&] { alone = read_sol(path, counts); });
+    tell_of_lists(processes, alone.lists);
+    return alone;
+}
+
+/// One field of those whose values stand row by row in `rows`.
+Field field_of_rows(const FieldRows& list, const std::vector<double>& rows, std::size_t number,
+                    std::size_t first_component) {
+    const std::size_t components = list.components[number];
+    const std::size_t width = list.width();
+    std::vector<double> values;
+    values.reserve(rows.size() / width * components);
+    for (std::size_t row = 0; row < rows.size(); row += width) {
+        for (std::size_t k = 0; k < components; ++k) {
+            values.push_back(rows[row + first_component + k]);
+        }
+    }
+    return {name_in_sol(number + 1), list.on, components, std::move(values)};
+}
+
+}  // namespace
+
+std::vector<Field> read_fields(const DistributedMesh& mesh, std::span<const CellIndex> cells_before,
+                               const CanonicalNumbers& numbers, const std::filesystem::path& path,
+                               const std::function<void(const std::string&)>& note) {
+    const Communicator& processes = mesh.processes;
+    if (!is_sol(path)) {
+        throw InputError(fmt::format("{}: files of values end in .sol or .solb", path.native()));
+    }
+    const CanonicalRuns runs = canonical_runs(processes, mesh.cell_ancestors);
+    const SolFields read = read_lists(processes, path, {numbers.vertex_count, runs.count});
+    std::vector<Field> fields;
+    for (const FieldRows& list : read.lists) {
+        LocalFailure failure;
+        Homes homes = homes_of_stretches(processes, list.first, list.count, failure);
+        const WantedValues wanted = ask_for(
+            processes,
+            list.on == FieldOn::vertices ? wanted_vertices(numbers)
+                                         : wanted_cells(runs, mesh.cell_ancestors, cells_before),
+            std::move(homes));
+        const auto rows = fetch_values(processes, wanted, list.values, list.width());
+        std::size_t first_component = 0;
+        failure.attempt([&] {
+            for (std::size_t f = 0; f < list.components.size(); ++f) {
+                fields.push_back(field_of_rows(list, rows, f, first_component));
+                first_component += list.components[f];
+            }
+        });
+        failure.agree(processes);
+    }
+    if (processes.is_first()) {
+        for (const std::string& what : read.notes) note(what);
+    }
+    return fields;
+}
+
+}  // namespace octetra::distributed

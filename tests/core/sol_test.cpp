@@ -1,0 +1,260 @@
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <random>
+#include <string>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <octetra/core/error.hpp>
+#include <octetra/core/sol_fields.hpp>
+
+#include "core/meshb_files.hpp"
+#include "support/temporary_folder.hpp"
+#include "support/thrown.hpp"
+#include "verify/thread_group.hpp"
+
+/// Medit's files of values.
+namespace octetra {
+namespace {
+
+using test::MeshbFile;
+using test::TemporaryFolder;
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+const std::string head = "MeshVersionFormatted 2\nDimension 3\n";
+
+bool same(const FieldRows& a, const FieldRows& b) {
+    return a.on == b.on && a.components == b.components && a.count == b.count &&
+           a.values == b.values;
+}
+
+/// Several processes that read this file together have what one has, or nothing; true for the
+/// former.
+bool is_read_together(const std::filesystem::path& path, const EntityCounts& counts) {
+    bool together = true;
+    for (const int size : {2, 3, 5}) {
+        std::vector<std::optional<SolFields>> shares(static_cast<std::size_t>(size));
+        test::run_together(size, [&](const ProcessGroup& group) {
+            shares[static_cast<std::size_t>(group.rank())] = read_sol_stretch(path, counts, group);
+        });
+        for (const auto& share : shares) EXPECT_EQ(share.has_value(), shares[0].has_value());
+        together = together && shares[0];
+        if (!shares[0]) continue;
+        SolFields whole = *shares[0];
+        for (std::size_t r = 1; r < shares.size(); ++r) {
+            for (std::size_t k = 0; k < whole.lists.size(); ++k) {
+                FieldRows& list = whole.lists[k];
+                const FieldRows& more = shares[r]->lists[k];
+                EXPECT_EQ(more.first * list.width(), list.values.size());
+                list.values.insert(list.values.end(), more.values.begin(), more.values.end());
+            }
+        }
+        const SolFields alone = read_sol(path, counts);
+        EXPECT_TRUE(std::ranges::equal(whole.lists, alone.lists, same)) << size;
+        EXPECT_EQ(whole.notes, alone.notes);
+    }
+    return together;
+}
+
+SolFields read_text(const std::string& sections, const EntityCounts& counts) {
+    const TemporaryFolder folder;
+    const auto file = folder.write("v.sol", head + sections);
+    (void)is_read_together(file, counts);
+    return read_sol(file, counts);
+}
+
+/// "LINE: ..." or "at byte N: ..." of what is refused, by one process; several leave it to that.
+std::string refusal_of(const std::string& name, const std::string& bytes,
+                       const EntityCounts& counts) {
+    const TemporaryFolder folder;
+    const auto file = folder.write(name, bytes);
+    const std::string what = test::thrown_by<InputError>([&] { (void)read_sol(file, counts); });
+    test::run_together(
+        3, [&](const ProcessGroup& group) { EXPECT_FALSE(read_sol_stretch(file, counts, group)); });
+    const auto behind = what.find(name + ":");
+    if (behind == std::string::npos) return what;
+    return what.substr(behind + name.size() + 1);
+}
+
+TEST(SolReader, TakesScalarsVectorsAndTensorsOfVerticesAndCells) {
+    const SolFields read = read_text(
+        "SolAtVertices\n2\n3 1 2 3\n1 2 3 4 5 6 7 8 9 10\n-1 -2e0 -3 -4 -5 -6 -7 -8 -9 -0.5\n"
+        "SolAtTetrahedra\n1\n1 4\n1 2 3 4 5 6 7 8 9\nEnd\n",
+        {2, 1});
+    ASSERT_EQ(read.lists.size(), 2U);
+    EXPECT_EQ(read.lists[0].on, FieldOn::vertices);
+    EXPECT_THAT(read.lists[0].components, ElementsAre(1, 3, 6));
+    EXPECT_THAT(read.lists[0].values, ElementsAre(1, 2, 3, 4, 5, 6, 7, 8, 9, 10, -1, -2, -3, -4, -5,
+                                                  -6, -7, -8, -9, -0.5));
+    EXPECT_EQ(read.lists[1].on, FieldOn::cells);
+    EXPECT_THAT(read.lists[1].values, ElementsAre(1, 2, 3, 4, 5, 6, 7, 8, 9));
+    EXPECT_THAT(read.notes, ElementsAre());
+}
+
+TEST(SolReader, TakesTokensHoweverTheyStandOnLines) {
+    const TemporaryFolder folder;
+    const auto file = folder.write("v.sol",
+                                   "\xef\xbb\xbf# made by hand\r\nMeshVersionFormatted 1 "
+                                   "Dimension\r\n3 SolAtVertices 2 2 1\r\n"
+                                   "1 1 2 3 # of the second\r\n4 End\r\n");
+    EXPECT_FALSE(is_read_together(file, {2, 0}));  // one process reads it
+    EXPECT_THAT(read_sol(file, EntityCounts{2, 0}).lists.at(0).values, ElementsAre(1, 2, 3, 4));
+}
+
+TEST(SolReader, IsSharedByProcessesWhereARowIsOnALine) {
+    std::string text = head + "SolAtVertices\n1000\n2 1 2\n";
+    for (int i = 0; i < 1000; ++i) {
+        text +=
+            std::to_string(i) + " 1." + std::to_string(i) + "  2\t" + std::to_string(3 * i) + "\n";
+    }
+    text += "SolAtTetrahedra\n3\n1 1\n1\n2\n3\nEnd\n";
+    const TemporaryFolder folder;
+    EXPECT_TRUE(is_read_together(folder.write("v.sol", text), {1000, 3}));
+}
+
+TEST(SolReader, NotesWhatIsNotKept) {
+    const SolFields read = read_text(
+        "Time 0.5\nIterations 7\nSolAtTriangles 2 1 1 8 9\nSolAtVertices 1 1 1 5\n", {1, 0});
+    ASSERT_EQ(read.lists.size(), 1U);
+    ASSERT_EQ(read.notes.size(), 4U);
+    EXPECT_THAT(read.notes[0], HasSubstr("v.sol:3: the 1 entries of Time are not kept"));
+    EXPECT_THAT(read.notes[2], HasSubstr("v.sol:5: the 2 entries of SolAtTriangles are not kept"));
+    EXPECT_THAT(read.notes[3], HasSubstr("the file ends without the keyword End"));
+}
+
+TEST(SolReader, NamesTheLineOfTheFirstFault) {
+    const auto refused = [](const std::string& sections, const EntityCounts& counts = {2, 1}) {
+        return refusal_of("v.sol", head + sections, counts);
+    };
+    EXPECT_THAT(refused("SolAtVertices\n3\n1 1\n1\n2\n3\nEnd\n"),
+                testing::StartsWith("4: 3 vertices announced, and the mesh has 2"));
+    EXPECT_THAT(refused("SolAtTetrahedra\n18446744073709551615\n1 1\n1\nEnd\n"),
+                testing::StartsWith("4: 18446744073709551615 tetrahedra announced"));
+    EXPECT_THAT(refused("SolAtVertices\n2\n0\nEnd\n"),
+                testing::StartsWith("5: the number of fields should be from 1 to 1000, not 0"));
+    EXPECT_THAT(refused("SolAtVertices\n2\n99999999999999 1\n"),
+                testing::StartsWith("5: the number of fields should be from 1 to 1000"));
+    EXPECT_THAT(refused("SolAtVertices\n2\n2 1\n5\n1 1\n"),
+                testing::StartsWith("6: the type of a field should be 1, a scalar"));
+    EXPECT_THAT(refused("SolAtVertices\n2\n1 1\n1\nnan\nEnd\n"),
+                testing::StartsWith("7: a value is not finite: 'nan'"));
+    EXPECT_THAT(refused("SolAtVertices\n2\n1 1\n1\n-9e307\nEnd\n"),
+                testing::StartsWith("7: a value is -9e+307: values must be less than 2^1023"));
+    EXPECT_THAT(refused("SolAtVertices\n2\n1 1\n1\nx\nEnd\n"),
+                testing::StartsWith("7: a value should be a number, not 'x'"));
+    EXPECT_THAT(refused("SolAtVertices\n2\n1 1\n1\n"),
+                testing::StartsWith("6: the file ends where a value should be"));
+    EXPECT_THAT(refused("SolAtVertices\n2\n1 1\n1\n2\n3\nEnd\n"),
+                testing::StartsWith("8: a keyword expected, '3' found"));
+    EXPECT_THAT(refused("SolAtVertices\n2\n1 1\n1\n2\nSolAtVertices\n2\n1 1\n1\n2\nEnd\n"),
+                testing::StartsWith("8: a second section SolAtVertices"));
+    EXPECT_THAT(refused("SolAtEdges\n4000000000\n1 1\n"),
+                testing::StartsWith("5: 4000000000 rows of values announced, but a file of"));
+    EXPECT_THAT(refused("End\n5\n"), testing::StartsWith("4: text after the keyword End"));
+    EXPECT_THAT(refused("Dimension 2\n"), testing::StartsWith("3: dimension 3 expected"));
+    EXPECT_THAT(refusal_of("v.sol", "MeshVersionFormatted 7\n", {}),
+                testing::StartsWith("1: the Medit format has versions 1 to 4"));
+    EXPECT_THAT(refusal_of("v.sol", "SolAtVertices\n", {}),
+                testing::StartsWith("1: a Medit file begins with MeshVersionFormatted"));
+}
+
+/// Two vertices with a scalar and a vector, a cell with a scalar.
+MeshbFile two_sections(int version, bool swapped) {
+    MeshbFile file(version, swapped);
+    file.dimension().section(62, 2);
+    file.put<std::int32_t>(2).put<std::int32_t>(1).put<std::int32_t>(2);
+    for (const double value : {1.0, 2.0, 3.0, 4.0, -5.0, 0.5, 0.25, 1e10}) file.real(value);
+    file.section(66, 1).put<std::int32_t>(1).put<std::int32_t>(1).real(7);
+    return file;
+}
+
+TEST(SolbReader, TakesEveryVersionInEitherByteOrder) {
+    for (const int version : {1, 2, 3, 4}) {
+        for (const bool swapped : {false, true}) {
+            SCOPED_TRACE(testing::Message() << version << (swapped ? " swapped" : ""));
+            const TemporaryFolder folder;
+            const auto file = folder.write("v.solb", two_sections(version, swapped).end().bytes());
+            EXPECT_TRUE(is_read_together(file, {2, 1}));
+            const SolFields read = read_sol(file, EntityCounts{2, 1});
+            ASSERT_EQ(read.lists.size(), 2U);
+            EXPECT_THAT(read.lists[0].components, ElementsAre(1, 3));
+            EXPECT_THAT(read.lists[0].values, ElementsAre(1, 2, 3, 4, -5, 0.5, 0.25, 1e10));
+            EXPECT_EQ(read.lists[1].on, FieldOn::cells);
+            EXPECT_THAT(read.lists[1].values, ElementsAre(7));
+            EXPECT_THAT(read.notes, ElementsAre());
+        }
+    }
+}
+
+TEST(SolbReader, NamesTheByteOfTheFirstFault) {
+    const auto refused = [](MeshbFile& file, const EntityCounts& counts = {2, 1}) {
+        return refusal_of("v.solb", file.bytes(), counts);
+    };
+    const auto start = [] { return std::move(MeshbFile(2).dimension()); };  // 20 bytes
+    MeshbFile file = two_sections(2, false).end();
+    EXPECT_THAT(refused(file, {3, 1}), HasSubstr("at byte 28: 2 vertices announced, and the mesh"));
+    EXPECT_THAT(refused(file, {2, 5}), HasSubstr("tetrahedra announced, and the mesh has 5"));
+    file = start();
+    file.section(62, 2).put<std::int32_t>(1001).end();
+    EXPECT_THAT(refused(file), HasSubstr("at byte 32: the number of fields should be from 1 to"));
+    file = start();
+    file.section(62, 2).put<std::int32_t>(-1).end();
+    EXPECT_THAT(refused(file), HasSubstr("at byte 32: the number of fields should be from 1 to"));
+    file = start();
+    file.section(62, 2).put<std::int32_t>(2).put<std::int32_t>(1).put<std::int32_t>(0).end();
+    EXPECT_THAT(refused(file), HasSubstr("at byte 40: the type of a field should be 1, a scalar"));
+    file = start();
+    file.section(62, 1 << 30).put<std::int32_t>(1).put<std::int32_t>(1).real(1).end();
+    EXPECT_THAT(refused(file, {1 << 30, 1}),
+                HasSubstr("at byte 28: 1073741824 rows of values announced, but the 16 bytes"));
+    file = start();
+    file.section(62, 2).put<std::int32_t>(1).put<std::int32_t>(1).real(1).real(2).real(3).end();
+    EXPECT_THAT(refused(file), HasSubstr("at byte 28: 2 rows of values announced, which end at"));
+    file = start();
+    file.section(62, 2).put<std::int32_t>(1).put<std::int32_t>(1).real(1);
+    file.real(std::numeric_limits<double>::quiet_NaN()).end();
+    EXPECT_THAT(refused(file), HasSubstr("at byte 48: a value is not finite: nan"));
+    file = start();
+    file.section(62, 2).put<std::int32_t>(1).put<std::int32_t>(1).real(-1e308).real(1).end();
+    EXPECT_THAT(refused(file), HasSubstr("at byte 40: a value is -1e+308: values must be less"));
+    file = two_sections(2, false);
+    file.section(62, 2).put<std::int32_t>(1).put<std::int32_t>(1).real(1).real(2).end();
+    EXPECT_THAT(refused(file), HasSubstr("a second section SolAtVertices"));
+    file = start();
+    file.keyword(-7).end();
+    EXPECT_THAT(refused(file), HasSubstr("at byte 20: a keyword expected, -7 found"));
+    file = MeshbFile(2);
+    file.dimension(2);
+    EXPECT_THAT(refused(file), HasSubstr("at byte 16: dimension 3 expected, 2 found"));
+    EXPECT_THAT(refusal_of("v.solb", "garbage!", {}), HasSubstr("at byte 0: a binary Medit file"));
+}
+
+/// Whatever one byte is made, and wherever the file ends: read, or refused.
+TEST(SolbReader, ReadsOrRefusesWhatIsChangedInAnyByte) {
+    const std::string good = two_sections(2, false).end().bytes();
+    const TemporaryFolder folder;
+    std::mt19937 random(7);
+    int read = 0;
+    for (std::size_t at = 0; at < good.size(); ++at) {
+        for (const char change : {'\x01', '\x80', static_cast<char>(random() | 1U)}) {
+            std::string bad = good;
+            bad[at] = static_cast<char>(bad[at] ^ change);
+            for (const std::string& bytes : {bad, good.substr(0, at)}) {
+                const auto file = folder.write("v.solb", bytes);
+                try {
+                    read += read_sol(file, EntityCounts{2, 1}).lists.empty() ? 0 : 1;
+                } catch (const InputError&) {
+                    EXPECT_FALSE(read_sol_stretch(file, {2, 1}, ProcessGroup::alone()));
+                }
+            }
+        }
+    }
+    EXPECT_GT(read, 50);  // those of values
+}
+
+}  // namespace
+}  // namespace octetra

@@ -98,7 +98,8 @@ int run(int argc, char** argv) {
     CLI::App program(
         "Refines tetrahedral meshes by longest-edge bisection (8T-LE).\n"
         "Files by extension: .ele/.node (TetGen), .mesh/.meshb (Medit), .msh (Gmsh), .octetra "
-        "(with its history),\n.vtu, .pvtu and .vtkhdf (VTK, written only).",
+        "(with its history),\n.vtu, .pvtu and .vtkhdf (VTK) and .xdmf with .h5 (XDMF), written "
+        "only.",
         "octetra");
     program.set_version_flag("--version", "octetra " OCTETRA_VERSION);
     program.require_subcommand(1);

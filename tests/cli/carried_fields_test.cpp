@@ -241,10 +241,11 @@ TEST_F(CarriedFields, ThatTheFormatCannotHoldAreNamed) {
         "octetra: note: fields 'u', 'v', 'id', 'ID', 'N' are not in t.sol, which holds reals, "
         "and whole numbers of 32 bits, of 1, 3, 6 or 9 components; fields 'p', 'q', 'n' are in "
         "t.sol without a name, by the order\n");
-    EXPECT_EQ(run("convert s.octetra t.msh").err,
-              "octetra: note: fields 'u', 'v', 'id', 'ID', 'p', 'q', 'n', 'N' are not in t.msh: "
-              ".vtu, .pvtu, .vtkhdf and .octetra files hold fields, and a .sol or .solb beside a "
-              "Medit mesh\n");
+    EXPECT_EQ(
+        run("convert s.octetra t.msh").err,
+        "octetra: note: fields 'u', 'v', 'id', 'ID', 'p', 'q', 'n', 'N' are not in t.msh: "
+        ".vtu, .pvtu, .vtkhdf, .xdmf and .octetra files hold fields, and a .sol or .solb beside a "
+        "Medit mesh\n");
 }
 
 /// VTK reads the files, and another program than Octetra the checkpoint that they are held against.

@@ -165,9 +165,9 @@ TEST_F(Inputs, OfOneNameForTwoOutputsAreRefused) {
 
 /// All that the program writes, on one rank and on two.
 TEST_F(Inputs, LeaveOutputsTheirLinksAndPermissions) {
-    const std::vector<std::string> names{"o.node",   "o.ele", "o.face", "o.mesh",  "o.meshb",
-                                         "o.vtkhdf", "o.vtu", "o.pvtu", "o_0.vtu", "maps",
-                                         "profile",  "trace", "report", "parts"};
+    const std::vector<std::string> names{
+        "o.node", "o.ele",  "o.face",  "o.mesh", "o.meshb", "o.vtkhdf", "o.xdmf", "o.h5",
+        "o.vtu",  "o.pvtu", "o_0.vtu", "maps",   "profile", "trace",    "report", "parts"};
     for (const std::string& name : names) {
         (void)folder.write("sub/" + name, "as it was");
         fs::permissions(folder / ("sub/" + name), fs::perms::owner_read | fs::perms::owner_write);
@@ -178,8 +178,8 @@ TEST_F(Inputs, LeaveOutputsTheirLinksAndPermissions) {
         for (const std::string& name : names) (void)folder.write("sub/" + name, "as it was");
         for (const std::string& command :
              {refine + "o.ele --maps maps --profile profile --trace trace", refine + "o.mesh",
-              refine + "o.meshb", refine + "o.vtkhdf", refine + "o.vtu", refine + "o.pvtu",
-              std::string("verify m.1.ele --report report"),
+              refine + "o.meshb", refine + "o.vtkhdf", refine + "o.xdmf", refine + "o.vtu",
+              refine + "o.pvtu", std::string("verify m.1.ele --report report"),
               std::string("partition m.1.ele -n 2 -o parts")}) {
             const auto run = ranks == 1 ? test::octetra(command, folder)
                                         : test::octetra_on(ranks, command, folder);

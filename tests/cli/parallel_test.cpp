@@ -123,7 +123,7 @@ TEST_F(Parallel, ReportsRoundingAsOneProcessDoes) {
 /// No rank may write a file longer than 50 KiB: whichever meets the limit, all end the same way.
 TEST_F(Parallel, EndsInOneMessageWhereARankCannotWriteAndLeavesNothing) {
     for (const std::string output :
-         {"p.ele", "p.mesh", "p.meshb", "p.vtu", "p.pvtu", "p.vtkhdf", "p.octetra"}) {
+         {"p.ele", "p.mesh", "p.meshb", "p.vtu", "p.pvtu", "p.vtkhdf", "p.xdmf", "p.octetra"}) {
         const auto run =
             test::run_program({OCTETRA_SOURCE_DIR "/tests/support/mpirun.sh", "3", "sh", "-c",
                                "ulimit -f 100; exec " + std::string(OCTETRA_PROGRAM) +

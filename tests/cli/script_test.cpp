@@ -71,7 +71,8 @@ const std::vector<WrongLine> wrong_lines{
      "step"},
     {"write a#b.vtu",
      "a: a mesh to write is named by its extension: .ele or .node (TetGen), .mesh or .meshb "
-     "(Medit), .msh (Gmsh), .vtu, .pvtu or .vtkhdf (VTK), .octetra (with its history); # begins a "
+     "(Medit), .msh (Gmsh), .vtu, .pvtu or .vtkhdf (VTK), .xdmf (XDMF and HDF5), .octetra (with "
+     "its history); # begins a "
      "comment, also within a word"},
     {"save a#b.octetra",
      "save writes .octetra files, not a; write takes the other formats; # begins a comment, also "
@@ -104,7 +105,8 @@ const std::vector<WrongLine> wrong_lines{
      "write takes one word, the name of a file without blanks: write STEP.vtu"},
     {"write step",
      "step: a mesh to write is named by its extension: .ele or .node (TetGen), .mesh or .meshb "
-     "(Medit), .msh (Gmsh), .vtu, .pvtu or .vtkhdf (VTK), .octetra (with its history)"},
+     "(Medit), .msh (Gmsh), .vtu, .pvtu or .vtkhdf (VTK), .xdmf (XDMF and HDF5), .octetra (with "
+     "its history)"},
     {"write no/step.vtu", "no/step.vtu: there is no folder no; make it first"},
     {"save", "save takes one word, the name of a file without blanks: save STATE.octetra"},
     {"save x.vtu", "save writes .octetra files, not x.vtu; write takes the other formats"},

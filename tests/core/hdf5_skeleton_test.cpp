@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include "files/vtk/hdf5_layout.hpp"
+#include "files/hdf5/hdf5_layout.hpp"
 
 /// The part of a VTKHDF file that HDF5 makes, of meshes that no test writes.
 namespace octetra {
@@ -13,12 +13,13 @@ namespace {
 
 TEST(Hdf5Skeleton, IsSmallAndLeavesRoomForValuesOfAnyNumber) {
     constexpr std::uint64_t many = 100'000'000'000;
-    const VtkhdfGroup group{.path = "/A", .type = "B", .version = {1, 0}};
+    const std::vector<Hdf5Group> groups{
+        {"/A", {{"Version", std::vector<std::int64_t>{1, 0}}, {"Type", "B"}}}, {"/A/C"}};
     const std::vector<Hdf5Dataset> datasets{{"/A/none", "Int64", {0}},
                                             {"/A/x", "Float64", {many, 3}},
                                             {"/A/b", "UInt8", {many}},
                                             {"/A/C/i", "Int32", {1}}};
-    const Hdf5Skeleton made = make_hdf5_skeleton(group, {"/A/C"}, datasets);
+    const Hdf5Skeleton made = make_hdf5_skeleton(groups, datasets);
     ASSERT_EQ(made.values_at.size(), 4U);
     EXPECT_EQ(made.values_at[0], 0U);
     std::vector<std::pair<std::uint64_t, std::uint64_t>> stretches{
@@ -37,7 +38,7 @@ TEST(Hdf5Skeleton, IsSmallAndLeavesRoomForValuesOfAnyNumber) {
     }
     EXPECT_EQ(std::string(made.rest.front().bytes.data(), 8), "\x89HDF\r\n\x1a\n");
 
-    const Hdf5Skeleton again = make_hdf5_skeleton(group, {"/A/C"}, datasets);
+    const Hdf5Skeleton again = make_hdf5_skeleton(groups, datasets);
     EXPECT_EQ(again.values_at, made.values_at);
     EXPECT_TRUE(
         std::ranges::equal(again.rest, made.rest, {}, &Hdf5Bytes::bytes, &Hdf5Bytes::bytes));

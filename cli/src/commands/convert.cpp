@@ -82,7 +82,8 @@ void add_convert(CLI::App& program, const distributed::Communicator& world) {
     add_fields_option(*command, options->input);
     command
         ->add_option("OUT", options->output,
-                     "where to write: .ele, .mesh, .meshb, .msh, .octetra, .vtu, .pvtu or .vtkhdf")
+                     "where to write: .ele, .mesh, .meshb, .msh, .octetra, .vtu, .pvtu, .vtkhdf or "
+                     ".xdmf")
         ->type_name("")
         ->check(names_a_file())
         ->required();

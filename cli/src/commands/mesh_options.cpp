@@ -82,7 +82,8 @@ void read_fields(const distributed::AdaptiveMesh& mesh, const InputOptions& opti
 void add_output_option(CLI::App& subcommand, std::string& path) {
     subcommand
         .add_option("-o,--output", path,
-                    "where to write: .ele, .mesh, .meshb, .msh, .octetra, .vtu, .pvtu or .vtkhdf")
+                    "where to write: .ele, .mesh, .meshb, .msh, .octetra, .vtu, .pvtu, .vtkhdf or "
+                    ".xdmf")
         ->type_name("OUT")
         ->check(names_a_file())
         ->required();
@@ -104,9 +105,9 @@ void check_side_file(std::string_view option, const std::filesystem::path& path)
         throw InputError(
             fmt::format("{}: - names no file; write ./- for one of that name", option));
     }
-    constexpr std::array<std::string_view, 13> mesh_files{
-        ".ele",  ".node", ".face", ".edge", ".mesh",   ".meshb",  ".sol",
-        ".solb", ".msh",  ".vtu",  ".pvtu", ".vtkhdf", ".octetra"};
+    constexpr std::array<std::string_view, 15> mesh_files{
+        ".ele", ".node", ".face", ".edge",   ".mesh", ".meshb", ".sol",    ".solb",
+        ".msh", ".vtu",  ".pvtu", ".vtkhdf", ".xdmf", ".h5",    ".octetra"};
     if (std::ranges::find(mesh_files, path.extension()) != mesh_files.end()) {
         throw InputError(fmt::format("{}: {} is the name of a mesh file; choose another", option,
                                      path.native()));

@@ -17,13 +17,14 @@
 #include "files/output/places.hpp"
 #include "files/tetgen/tetgen.hpp"
 #include "files/vtk/vtu.hpp"
+#include "files/xdmf/xdmf.hpp"
 
 namespace octetra {
 namespace {
 
 namespace fs = std::filesystem;
 
-enum class Format { tetgen, medit, meshb, gmsh, vtu, pvtu, vtkhdf, unknown };
+enum class Format { tetgen, medit, meshb, gmsh, vtu, pvtu, vtkhdf, xdmf, unknown };
 
 Format format_of(const fs::path& path) {
     const fs::path extension = path.extension();
@@ -34,6 +35,7 @@ Format format_of(const fs::path& path) {
     if (extension == ".vtu") return Format::vtu;
     if (extension == ".pvtu") return Format::pvtu;
     if (extension == ".vtkhdf") return Format::vtkhdf;
+    if (extension == ".xdmf") return Format::xdmf;
     return Format::unknown;
 }
 
@@ -114,8 +116,8 @@ void add_lost_fields(std::string& lost, const MeshSource& mesh, const fs::path& 
         (beside && sol_can_hold(field) ? held : left_out).push_back(field);
     }
     if (!left_out.empty() && !beside) {
-        add_loss(lost, fmt::format("{} not in {}: .vtu, .pvtu, .vtkhdf and .octetra files hold "
-                                   "fields, and a .sol or .solb beside a Medit mesh",
+        add_loss(lost, fmt::format("{} not in {}: .vtu, .pvtu, .vtkhdf, .xdmf and .octetra files "
+                                   "hold fields, and a .sol or .solb beside a Medit mesh",
                                    fields_are(left_out), path.native()));
     } else if (!left_out.empty()) {
         add_loss(lost, fmt::format("{} not in {}, which holds reals, and whole numbers of 32 bits, "
@@ -147,6 +149,7 @@ std::string write_lists(MeshSource& mesh, const fs::path& path, const WriteOptio
         case Format::gmsh: return write_gmsh(mesh, path, options.msh);
         case Format::vtu: return write_vtu(mesh, path);
         case Format::vtkhdf: return write_vtkhdf(mesh, path);
+        case Format::xdmf: return write_xdmf(mesh, path);
         case Format::pvtu: return write_pvtu(mesh, ProcessGroup::alone(), path);
         case Format::unknown: break;
     }
@@ -171,7 +174,8 @@ bool can_hold_attributes(const fs::path& path) {
 
 bool can_hold_fields(const fs::path& path) {
     const Format format = format_of(path);
-    return format == Format::vtu || format == Format::pvtu || format == Format::vtkhdf;
+    return format == Format::vtu || format == Format::pvtu || format == Format::vtkhdf ||
+           format == Format::xdmf;
 }
 
 bool is_in_pieces(const fs::path& path) { return format_of(path) == Format::pvtu; }
@@ -190,7 +194,7 @@ void check_writable(const fs::path& path, int pieces) {
         throw InputError(
             fmt::format("{}: a mesh to write is named by its extension: .ele or .node "
                         "(TetGen), .mesh or .meshb (Medit), .msh (Gmsh), .vtu, .pvtu or .vtkhdf "
-                        "(VTK), .octetra (with its history)",
+                        "(VTK), .xdmf (XDMF and HDF5), .octetra (with its history)",
                         path.native()));
     }
     check_places(path, pieces);

@@ -105,6 +105,8 @@ fs::path piece_path(const fs::path& path, int rank) {
     return path.parent_path() / fmt::format("{}_{}.vtu", path.stem().native(), rank);
 }
 
+fs::path h5_beside(const fs::path& path) { return fs::path(path).replace_extension(".h5"); }
+
 std::vector<fs::path> lists_read_with(const fs::path& path, std::string_view extension) {
     std::vector<fs::path> lists{fs::path(path).replace_extension(extension)};
     for (const char* const of_mesh : {".node", ".ele"}) {
@@ -117,6 +119,7 @@ std::vector<fs::path> lists_read_with(const fs::path& path, std::string_view ext
 }
 
 std::vector<fs::path> files_of_mesh(const fs::path& path) {
+    if (path.extension() == ".xdmf") return {path, h5_beside(path)};
     if (!is_tetgen(path)) return {path};
     std::vector<fs::path> files;
     for (const char* const extension : {".node", ".ele", ".face", ".edge"}) {

@@ -18,6 +18,9 @@ void check_places(const std::filesystem::path& path, int pieces);
 /// The piece of a `.pvtu` that a rank writes.
 [[nodiscard]] std::filesystem::path piece_path(const std::filesystem::path& path, int rank);
 
+/// The file of values that a `.xdmf` names.
+[[nodiscard]] std::filesystem::path h5_beside(const std::filesystem::path& path);
+
 /// The files with this extension, `.face` or `.edge`, that would be read with a TetGen mesh
 /// written at `path`: the one beside its name and, where its `.node` or `.ele` is a link, the one
 /// beside what that leads to.

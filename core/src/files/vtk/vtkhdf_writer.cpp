@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <bit>
 #include <cstdint>
 #include <set>
 #include <string>
@@ -8,26 +7,15 @@
 
 #include <fmt/format.h>
 
-#include <octetra/core/error.hpp>
-
+#include "files/hdf5/hdf5_writer.hpp"
 #include "files/output/output_file.hpp"
-#include "files/vtk/hdf5_layout.hpp"
 #include "files/vtk/vtu.hpp"
 #include "files/vtk/vtu_arrays.hpp"
 
 namespace octetra {
 namespace {
 
-static_assert(std::endian::native == std::endian::little);
-
 const std::string root = "/VTKHDF";
-
-/// A dataset, and what is written into it: values that come slice by slice, or are there.
-struct Filled {
-    Hdf5Dataset dataset;
-    VtuArray array;
-    std::vector<std::int64_t> values;  ///< these come first
-};
 
 Hdf5Dataset described(const std::string& name, const VtuArray& array) {
     Hdf5Dataset dataset{fmt::format("{}/{}", root, name), array.type, {}};
@@ -36,7 +24,7 @@ Hdf5Dataset described(const std::string& name, const VtuArray& array) {
     return dataset;
 }
 
-Filled number(const std::string& name, std::uint64_t value) {
+FilledDataset number(const std::string& name, std::uint64_t value) {
     return {
         {fmt::format("{}/{}", root, name), "Int64", {1}}, {}, {static_cast<std::int64_t>(value)}};
 }
@@ -49,11 +37,11 @@ std::string name_in_group(const VtuArray& array) {
 }
 
 /// One piece, as version 1.0 of the format has it.
-std::vector<Filled> all_datasets(MeshSource& mesh) {
+std::vector<FilledDataset> all_datasets(MeshSource& mesh) {
     const MeshFacts& facts = mesh.facts();
-    std::vector<Filled> all{number("NumberOfPoints", facts.vertices),
-                            number("NumberOfCells", facts.cells),
-                            number("NumberOfConnectivityIds", 4 * facts.cells)};
+    std::vector<FilledDataset> all{number("NumberOfPoints", facts.vertices),
+                                   number("NumberOfCells", facts.cells),
+                                   number("NumberOfConnectivityIds", 4 * facts.cells)};
     const auto add = [&](const std::string& name, VtuArray array) {
         all.push_back({described(name, array), std::move(array), {}});
     };
@@ -78,64 +66,16 @@ std::vector<Filled> all_datasets(MeshSource& mesh) {
     return all;
 }
 
-/// Large enough that there are few, small enough for a buffer, and of a small array an equal share.
-std::uint64_t entities_of_a_slice(const VtuArray& array, const ProcessGroup& group) {
-    constexpr std::uint64_t most_bytes = std::uint64_t{1} << 21U;
-    const std::uint64_t share = array.entities / static_cast<std::uint64_t>(group.size()) + 1;
-    return std::clamp(most_bytes / array.entity_size(), std::uint64_t{1}, share);
-}
-
-/// Collective.
-void put_values(OutputFile& out, const Filled& filled, std::uint64_t offset,
-                const ProcessGroup& group) {
-    const std::size_t head = filled.values.size() * sizeof(std::int64_t);
-    if (group.is_first() && head > 0) out.overwrite(offset, filled.values.data(), head);
-    const VtuArray& array = filled.array;
-    if (array.entities == 0) return;
-    std::vector<char> bytes;
-    const std::uint64_t length = entities_of_a_slice(array, group);
-    const std::uint64_t stride = length * static_cast<std::uint64_t>(group.size());
-    for (Window window{0, length, array.entities}; window.begin < window.count;
-         window.begin += stride) {
-        array.bytes_of_slice(window, bytes);
-        const std::uint64_t before = window.begin_of(group.rank()) * array.entity_size();
-        out.overwrite(offset + head + before, bytes.data(), bytes.size());
-    }
-}
-
-/// Collective. The first process writes the file without the values, and tells all where each
-/// dataset's belong.
-std::vector<std::uint64_t> put_skeleton(OutputFile& out, const std::filesystem::path& path,
-                                        const std::vector<Filled>& all, const ProcessGroup& group) {
-    std::vector<std::uint64_t> values_at(all.size());
-    group.on_first([&] {
-        std::vector<Hdf5Dataset> datasets;
-        for (const Filled& filled : all) datasets.push_back(filled.dataset);
-        Hdf5Skeleton skeleton;
-        try {
-            skeleton = make_hdf5_skeleton(
-                {.path = root, .type = "UnstructuredGrid", .version = {1, 0}},
-                {root + "/PointData", root + "/CellData", root + "/FieldData"}, datasets);
-        } catch (const SystemError& error) {
-            throw SystemError(fmt::format("{}: writing failed: {}", path.native(), error.what()));
-        }
-        values_at = std::move(skeleton.values_at);
-        for (const auto& [position, bytes] : skeleton.rest) {
-            out.overwrite(position, bytes.data(), bytes.size());
-        }
-    });
-    for (std::uint64_t& position : values_at) position = group.of_first(position);
-    return values_at;
-}
-
 }  // namespace
 
 std::string write_vtkhdf(MeshSource& mesh, const std::filesystem::path& path) {
-    const ProcessGroup& group = mesh.group();
-    OutputFile out(path, group);
-    const std::vector<Filled> all = all_datasets(mesh);
-    const std::vector<std::uint64_t> values_at = put_skeleton(out, path, all, group);
-    for (std::size_t k = 0; k < all.size(); ++k) put_values(out, all[k], values_at[k], group);
+    OutputFile out(path, mesh.group());
+    put_hdf5(out, path,
+             {{root, {{"Version", std::vector<std::int64_t>{1, 0}}, {"Type", "UnstructuredGrid"}}},
+              {root + "/PointData"},
+              {root + "/CellData"},
+              {root + "/FieldData"}},
+             all_datasets(mesh), mesh.group());
     out.commit();
     return lists_left_out(path, mesh.facts().facets, mesh.facts().edges);
 }

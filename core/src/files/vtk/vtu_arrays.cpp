@@ -150,25 +150,47 @@ VtuArray vtu_coordinates(MeshSource& mesh) {
                                [&mesh](const Window& window) { return mesh.points(window); });
 }
 
-std::vector<VtuArray> vtu_cells(MeshSource& mesh) {
-    constexpr std::uint8_t vtk_tetra = 10;
-    const std::uint64_t count = mesh.facts().cells;
-    const auto vertices = [&mesh](const Window& window, std::vector<char>& out) {
-        const auto cells = mesh.cells(window);
-        out.resize(cells.size() * 4 * sizeof(std::int64_t));
+template <std::size_t N>
+VtuArray vtu_connectivity(MeshSource& mesh, std::uint64_t count,
+                          std::span<const VertexNumbers<N>> (MeshSource::*list)(const Window&)) {
+    const auto vertices = [&mesh, list](const Window& window, std::vector<char>& out) {
+        const auto entities = (mesh.*list)(window);
+        out.resize(entities.size() * N * sizeof(std::int64_t));
         char* place = out.data();
-        for (const VertexNumbers<4>& cell : cells) {
-            for (const std::uint64_t vertex : cell) {
+        for (const VertexNumbers<N>& entity : entities) {
+            for (const std::uint64_t vertex : entity) {
                 const auto number = static_cast<std::int64_t>(vertex);
                 std::memcpy(place, &number, sizeof number);
                 place += sizeof number;
             }
         }
     };
-    // A flat list: four values of one component for each cell.
+    // A flat list: N values of one component for each.
     VtuArray connectivity = described<std::int64_t>("connectivity", 1, count, vertices);
-    connectivity.values_per_entity = 4;
-    return {std::move(connectivity),
+    connectivity.values_per_entity = N;
+    return connectivity;
+}
+
+template VtuArray vtu_connectivity<2>(
+    MeshSource&, std::uint64_t, std::span<const VertexNumbers<2>> (MeshSource::*)(const Window&));
+template VtuArray vtu_connectivity<3>(
+    MeshSource&, std::uint64_t, std::span<const VertexNumbers<3>> (MeshSource::*)(const Window&));
+
+VtuArray vtu_markers(MeshSource& mesh, std::uint64_t count, bool has_markers,
+                     std::span<const Marker> (MeshSource::*markers)(const Window&)) {
+    if (has_markers) {
+        return plain_array<Marker>("markers", 1, count, [&mesh, markers](const Window& window) {
+            return (mesh.*markers)(window);
+        });
+    }
+    return array<Marker>("markers", 1, count, numbers_of(mesh.group()),
+                         [](const Numbers&, std::size_t) { return Marker{0}; });
+}
+
+std::vector<VtuArray> vtu_cells(MeshSource& mesh) {
+    constexpr std::uint8_t vtk_tetra = 10;
+    const std::uint64_t count = mesh.facts().cells;
+    return {vtu_connectivity(mesh, count, &MeshSource::cells),
             array<std::int64_t>("offsets", 1, count, numbers_of(mesh.group()),
                                 [](const Numbers& numbers, std::size_t i) {
                                     return static_cast<std::int64_t>(4 * (numbers.first + i + 1));

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -34,6 +35,14 @@ struct VtuData {
 };
 
 [[nodiscard]] VtuArray vtu_coordinates(MeshSource& mesh);
+/// The vertices of all entities of a list, by their numbers from 0.
+template <std::size_t N>
+[[nodiscard]] VtuArray vtu_connectivity(
+    MeshSource& mesh, std::uint64_t count,
+    std::span<const VertexNumbers<N>> (MeshSource::*list)(const Window&));
+/// The markers of all entities of a list: 0 for each, if the mesh has none.
+[[nodiscard]] VtuArray vtu_markers(MeshSource& mesh, std::uint64_t count, bool has_markers,
+                                   std::span<const Marker> (MeshSource::*markers)(const Window&));
 /// connectivity, offsets, types.
 [[nodiscard]] std::vector<VtuArray> vtu_cells(MeshSource& mesh);
 

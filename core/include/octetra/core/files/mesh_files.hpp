@@ -10,7 +10,8 @@
 #include <octetra/core/process_group.hpp>
 
 /// Mesh files, by extension: TetGen `.node/.ele` (with `.face`, `.edge` beside them where present),
-/// Medit `.mesh` and `.meshb`, Gmsh `.msh`; VTK `.vtu`, `.pvtu` and `.vtkhdf` are written only.
+/// Medit `.mesh` and `.meshb`, Gmsh `.msh`; VTK `.vtu`, `.pvtu` and `.vtkhdf`, and XDMF
+/// `.xdmf` with the `.h5` beside it, are written only.
 namespace octetra {
 
 struct ReadOptions {
@@ -57,11 +58,11 @@ void stream_mesh(const std::filesystem::path& path, MeshSink& sink,
 /// not depend on the number of processes. For TetGen, `path` names the `.ele` or the `.node` file,
 /// and `.face`, `.edge` are written (or removed, if they are there from before) as the mesh has
 /// facets and edges. Links are followed, and files that are there keep their permissions. Fields
-/// of a Medit mesh go into a file beside it. Of maps, `.vtu` and `.vtkhdf` carry the parents, as
-/// cell data. Binary `.msh` files of version 2.2 hold at most 2^31 - 1 nodes and elements; others
-/// are refused, by an InputError. All files are complete before the first takes its final name;
-/// where writing fails, none does. Throws InputError for an unknown extension, else SystemError.
-/// Returns what of the mesh this format cannot hold, in a sentence, or nothing.
+/// of a Medit mesh go into a file beside it. Of maps, `.vtu`, `.vtkhdf` and `.xdmf` carry the
+/// parents, as cell data. Binary `.msh` files of version 2.2 hold at most 2^31 - 1 nodes and
+/// elements; others are refused, by an InputError. All files are complete before the first takes
+/// its final name; where writing fails, none does. Throws InputError for an unknown extension, else
+/// SystemError. Returns what of the mesh this format cannot hold, in a sentence, or nothing.
 [[nodiscard]] std::string write_mesh(MeshSource& mesh, const std::filesystem::path& path,
                                      const WriteOptions& options = {});
 

@@ -7,7 +7,7 @@
 namespace octetra {
 
 /// The files that a mesh of this name is, whether they exist or not: `.node`, `.ele`, `.face` and
-/// `.edge` for TetGen, else `path` itself.
+/// `.edge` for TetGen, `.xdmf` and `.h5` for XDMF, else `path` itself.
 [[nodiscard]] std::vector<std::filesystem::path> files_of_mesh(const std::filesystem::path& path);
 
 /// The files that writing a mesh at `path` replaces or removes: its own; for a `.pvtu` its pieces,

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <string>
+#include <variant>
 #include <vector>
 
 /// The skeleton of an HDF5 file: everything but the values.
@@ -15,11 +16,16 @@ struct Hdf5Dataset {
     std::vector<std::uint64_t> extents;
 };
 
-/// The attributes of the group that VTK looks for.
-struct VtkhdfGroup {
+/// An attribute: text, or whole numbers, of which one alone is no list.
+struct Hdf5Attribute {
+    std::string name;
+    std::variant<std::string, std::vector<std::int64_t>> value;
+};
+
+/// A group; those that it is in stand before it.
+struct Hdf5Group {
     std::string path;
-    std::string type;                   ///< attribute Type
-    std::vector<std::int64_t> version;  ///< attribute Version
+    std::vector<Hdf5Attribute> attributes = {};
 };
 
 /// Bytes of a file, and where they stand.
@@ -35,12 +41,11 @@ struct Hdf5Skeleton {
     std::vector<Hdf5Bytes> rest;
 };
 
-/// What HDF5 makes of this group, the groups below it and these datasets. The library writes into
+/// What HDF5 makes of these groups and datasets. The library writes into
 /// memory: so all files are written by one way, and what fails there leaves no file open here. The
 /// same arguments give the same bytes, at any time. Memory: some thousand bytes, whatever the
 /// extents. Throws SystemError, without a file's name.
-[[nodiscard]] Hdf5Skeleton make_hdf5_skeleton(const VtkhdfGroup& group,
-                                              const std::vector<std::string>& groups,
+[[nodiscard]] Hdf5Skeleton make_hdf5_skeleton(const std::vector<Hdf5Group>& groups,
                                               const std::vector<Hdf5Dataset>& datasets);
 
 }  // namespace octetra

@@ -1,4 +1,4 @@
-#include "files/vtk/hdf5_layout.hpp"
+#include "files/hdf5/hdf5_layout.hpp"
 
 #include <hdf5.h>
 #include <sys/mman.h>
@@ -131,7 +131,7 @@ public:
                      H5Gclose);
     }
 
-    void set_attribute(const std::string& group, const char* name, const std::string& text) {
+    void set_attribute(const std::string& group, const std::string& name, const std::string& text) {
         const Handle type = handle(H5Tcopy(H5T_C_S1), H5Tclose);
         check(H5Tset_size(type.id(), text.size()));
         check(H5Tset_strpad(type.id(), H5T_STR_NULLPAD));
@@ -139,10 +139,11 @@ public:
         write_attribute(group, name, type.id(), type.id(), space, text.data());
     }
 
-    void set_attribute(const std::string& group, const char* name,
+    void set_attribute(const std::string& group, const std::string& name,
                        const std::vector<std::int64_t>& numbers) {
         const hsize_t count = numbers.size();
-        const Handle space = handle(H5Screate_simple(1, &count, nullptr), H5Sclose);
+        const Handle space = handle(
+            count == 1 ? H5Screate(H5S_SCALAR) : H5Screate_simple(1, &count, nullptr), H5Sclose);
         write_attribute(group, name, H5T_STD_I64LE, H5T_NATIVE_INT64, space, numbers.data());
     }
 
@@ -180,11 +181,11 @@ private:
         return creation;
     }
 
-    void write_attribute(const std::string& group, const char* name, hid_t type, hid_t in_memory,
-                         const Handle& space, const void* value) {
+    void write_attribute(const std::string& group, const std::string& name, hid_t type,
+                         hid_t in_memory, const Handle& space, const void* value) {
         const Handle attribute =
-            handle(H5Acreate_by_name(file_.id(), group.c_str(), name, type, space.id(), H5P_DEFAULT,
-                                     H5P_DEFAULT, H5P_DEFAULT),
+            handle(H5Acreate_by_name(file_.id(), group.c_str(), name.c_str(), type, space.id(),
+                                     H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),
                    H5Aclose);
         check(H5Awrite(attribute.id(), in_memory, value));
     }
@@ -240,15 +241,18 @@ std::vector<Hdf5Bytes> all_but_values(const MemoryFile& file,
 
 }  // namespace
 
-Hdf5Skeleton make_hdf5_skeleton(const VtkhdfGroup& group, const std::vector<std::string>& groups,
+Hdf5Skeleton make_hdf5_skeleton(const std::vector<Hdf5Group>& groups,
                                 const std::vector<Hdf5Dataset>& datasets) {
     refuse_beyond_limit(datasets);
     const MemoryFile file;
     FileMaker maker(file.path());
-    maker.make_group(group.path);
-    maker.set_attribute(group.path, "Version", group.version);
-    maker.set_attribute(group.path, "Type", group.type);
-    for (const std::string& path : groups) maker.make_group(path);
+    for (const Hdf5Group& group : groups) {
+        maker.make_group(group.path);
+        for (const auto& [name, value] : group.attributes) {
+            std::visit([&](const auto& held) { maker.set_attribute(group.path, name, held); },
+                       value);
+        }
+    }
     Hdf5Skeleton skeleton;
     for (const Hdf5Dataset& dataset : datasets) {
         skeleton.values_at.push_back(maker.make_dataset(dataset));

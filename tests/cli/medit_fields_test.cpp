@@ -129,6 +129,20 @@ TEST_F(MeditFields, ComeBackBitByBitThroughEveryFormatThatHoldsThem) {
     EXPECT_TRUE(std::filesystem::exists(folder / "mid.sol"));
 }
 
+/// Where few cells are refined they have not the order of files any more.
+TEST_F(MeditFields, AreReadByTheNumbersOfAMeshThatWasRefined) {
+    AdaptiveMesh mesh = AdaptiveMesh::read(Communicator(), folder / "m.mesh");
+    (void)mesh.refine(std::vector<CellIndex>{CellIndex{200}});
+    (void)mesh.refine(std::vector<CellIndex>{CellIndex{7}});
+    std::vector<double> corners;
+    for (const CellVertices& cell : mesh.cells())
+        corners.push_back(mesh.points()[cell[1].value()].x);
+    const std::vector<Field> fields{{"sol_1", FieldOn::vertices, 3, by_place(mesh)},
+                                    {"sol_1", FieldOn::cells, 1, corners}};
+    (void)mesh.write(folder / "t.mesh", fields);
+    EXPECT_EQ(mesh.read_fields(folder / "t.sol"), fields);
+}
+
 /// Files that another program has written, of fields that are linear, so that midpoints have them.
 TEST_F(MeditFields, OfEveryVersionAndByteOrderAreRefined) {
     const std::filesystem::path samples = OCTETRA_SOURCE_DIR "/corpus/fields";

@@ -152,6 +152,8 @@ TEST(SolReader, NamesTheLineOfTheFirstFault) {
                 testing::StartsWith("8: a keyword expected, '3' found"));
     EXPECT_THAT(refused("SolAtVertices\n2\n1 1\n1\n2\nSolAtVertices\n2\n1 1\n1\n2\nEnd\n"),
                 testing::StartsWith("8: a second section SolAtVertices"));
+    EXPECT_THAT(refused("SolAtVertices\n2\n1 2\n1 2 3\n4 5 6 7\nEnd\n"),
+                testing::StartsWith("7: a keyword expected, '7' found"));
     EXPECT_THAT(refused("SolAtEdges\n4000000000\n1 1\n"),
                 testing::StartsWith("5: 4000000000 rows of values announced, but a file of"));
     EXPECT_THAT(refused("End\n5\n"), testing::StartsWith("4: text after the keyword End"));

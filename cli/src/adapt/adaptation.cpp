@@ -12,6 +12,7 @@
 
 #include <octetra/core/files/checkpoint.hpp>
 #include <octetra/core/files/maps_files.hpp>
+#include <octetra/core/files/series.hpp>
 #include <octetra/core/mesh_source.hpp>
 #include <octetra/distributed/adaptive_mesh.hpp>
 #include <octetra/distributed/profile.hpp>
@@ -49,17 +50,44 @@ void check_files(const AdaptationOptions& options, const Script& script,
                                  file_named("--partition", partition.path)};
     const std::vector<NamedFiles> lists = files_read_by(script);
     read.insert(read.end(), lists.begin(), lists.end());
+    if (!options.series.empty()) check_series(options.series);
     std::vector<NamedFiles> written{file_named("--maps", options.maps),
                                     file_named("--profile", options.profile.profile),
                                     file_named("--trace", options.profile.trace)};
     for (const NamedFiles& beside : written) {
         for (const auto& file : beside.files) check_side_file(beside.argument, file);
     }
+    written.push_back(file_named("--series", options.series));
     written.insert(written.begin(), output_to_write("-o", options.input, options.output, ranks));
     check_files_apart(read, written);
     check_outputs_of(script, options.input, read, written, ranks);
     check_lists_of(script);
 }
+
+/// Collective. The mesh as it was read and as each step leaves it, one after the other in one file,
+/// if that is asked for. Steps are counted from 1.
+class Series {
+public:
+    Series(const std::string& path, const distributed::Communicator& world) {
+        if (!path.empty()) file_.emplace(path, world);
+    }
+    void append(const distributed::AdaptiveMesh& mesh,
+                const std::vector<distributed::Field>& fields) {
+        if (!file_) return;
+        const distributed::Phase phase(mesh.processes(), "write");
+        mesh.append_to(*file_, steps_++, fields);
+    }
+    void commit(const distributed::Communicator& world) {
+        if (!file_) return;
+        const distributed::Phase phase(world, "write");
+        const std::string lost = file_->commit();
+        if (world.is_first() && !lost.empty()) note(lost);
+    }
+
+private:
+    std::optional<MeshSeries> file_;
+    int steps_ = 0;
+};
 
 /// Collective.
 void write_and_report(const distributed::AdaptiveMesh& mesh,
@@ -210,6 +238,8 @@ void adapt(const AdaptationOptions& options, const Script& script,
         if (since) since->follow(move);
         carry_fields(fields, move);
     };
+    Series series(options.series, world);
+    series.append(adaptive, fields);
     run_script(adaptive, script,
                {.input = read,
                 .has_steps = has_history,
@@ -217,6 +247,7 @@ void adapt(const AdaptationOptions& options, const Script& script,
                 .balance = balance_of(options.parallel),
                 .on_step = follow,
                 .on_move = move_along,
+                .on_changed = [&] { series.append(adaptive, fields); },
                 .fields = &fields,
                 .quiet = options.quiet},
                watch);
@@ -229,6 +260,7 @@ void adapt(const AdaptationOptions& options, const Script& script,
         report("verified");
     }
     write_and_report(adaptive, fields, options, watch);
+    series.commit(world);
     if (since) {
         const distributed::Phase phase(world, "write");
         MapsSince source(adaptive, *since);

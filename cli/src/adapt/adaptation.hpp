@@ -27,6 +27,7 @@ struct AdaptationOptions {
     ParallelOptions parallel;
     ProfileOptions profile;
     std::uint64_t max_cells = std::numeric_limits<std::uint64_t>::max();
+    std::string series;  ///< a .vtkhdf with all steps; empty: none
     std::string maps;    ///< of MESH, as it was read; goes with refinement alone
     bool check = false;  ///< judge MESH, as it was read
     bool verify = false;

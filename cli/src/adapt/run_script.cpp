@@ -134,6 +134,7 @@ void run_script(AdaptiveMesh& mesh, const Script& script, const ScriptRun& run, 
         } catch (const InputError& error) {
             throw wrong_line(script, step, error.what());
         }
+        if (done.changes_mesh && run.on_changed) run.on_changed();
         const Counts after = counts_of(mesh);
         if (mesh.processes().is_first()) {
             const std::string was =

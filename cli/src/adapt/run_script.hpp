@@ -19,6 +19,7 @@ struct ScriptRun {
     std::optional<distributed::BalanceOptions> balance;  ///< do cells move before a level?
     std::function<void(const distributed::Adaptation&)> on_step = {};  ///< of each level
     std::function<void(const distributed::Migration&)> on_move = {};   ///< of cells between ranks
+    std::function<void()> on_changed = {};  ///< after each step of refinement or coarsening
     /// Those of the mesh as it is whenever a step writes it; these two see to that.
     const std::vector<distributed::Field>* fields = nullptr;
     bool quiet = false;

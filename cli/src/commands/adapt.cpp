@@ -33,6 +33,11 @@ void add_adapt(CLI::App& program, const distributed::Communicator& world) {
         ->check(names_a_file())
         ->required();
     add_output_option(*command, options->adaptation.output);
+    command
+        ->add_option("--series", options->adaptation.series,
+                     "also MESH and what each step makes of it, in one file for ParaView: .vtkhdf")
+        ->type_name("FILE")
+        ->check(names_a_file());
     add_number(*command, "--max-cells", options->adaptation.max_cells, whole_numbers_from(1),
                "end in an error before a step that would make more")
         ->type_name("N");

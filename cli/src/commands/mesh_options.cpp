@@ -115,6 +115,13 @@ void check_side_file(std::string_view option, const std::filesystem::path& path)
     check_place(path);
 }
 
+void check_series(const std::filesystem::path& path) {
+    if (path.extension() != ".vtkhdf") {
+        throw InputError(fmt::format("--series: {}: a series is a .vtkhdf file", path.native()));
+    }
+    check_place(path);
+}
+
 void note(std::string_view what) { tell("note: {}", what); }
 
 void report_written(const Mesh& mesh, const std::string& path) {

@@ -53,6 +53,9 @@ void check_output(const std::filesystem::path& path, int ranks = 1);
 /// or would take the place of a mesh. Throws InputError.
 void check_side_file(std::string_view option, const std::filesystem::path& path);
 
+/// Refuses, before the work, a path that no series of meshes can be written at. Throws InputError.
+void check_series(const std::filesystem::path& path);
+
 /// What an option takes that is the name of a file: anything but "".
 [[nodiscard]] CLI::Validator names_a_file();
 

@@ -14,6 +14,7 @@
 
 #include "files/gmsh/gmsh.hpp"
 #include "files/medit/medit.hpp"
+#include "files/output/losses.hpp"
 #include "files/output/places.hpp"
 #include "files/tetgen/tetgen.hpp"
 #include "files/vtk/vtu.hpp"
@@ -80,12 +81,6 @@ void stream_mesh(const fs::path& path, MeshSink& sink, const ReadOptions& option
 
 namespace {
 
-/// One more thing that is lost.
-void add_loss(std::string& lost, std::string_view loss) {
-    lost += lost.empty() ? "" : "; ";
-    lost += loss;
-}
-
 /// "field 'a' is", "fields 'a', 'b' are".
 std::string fields_are(const std::vector<FieldFacts>& fields) {
     std::string names;
@@ -133,7 +128,7 @@ void add_lost_fields(std::string& lost, const MeshSource& mesh, const fs::path& 
 /// What is lost in all, where that is `lost` without names of groups and fields.
 std::string all_lost(std::string lost, const MeshSource& mesh, const fs::path& path) {
     if (!mesh.facts().group_names.empty() && format_of(path) != Format::gmsh) {
-        add_loss(lost, "the names of groups are lost; .msh and .octetra files hold them");
+        add_loss(lost, group_names_are_lost);
     }
     add_lost_fields(lost, mesh, path);
     return lost;

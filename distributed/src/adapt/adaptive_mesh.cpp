@@ -13,7 +13,6 @@
 
 #include "adapt/marks.hpp"
 #include "adapt/mesh_state.hpp"
-#include "output/write_mesh.hpp"
 #include "topology/face_neighbours.hpp"
 #include "topology/find_ghosts.hpp"
 #include "topology/number_sides.hpp"
@@ -178,10 +177,5 @@ GhostLayer AdaptiveMesh::ghosts(GhostsBy by) const {
 
 Mesh AdaptiveMesh::collect() const { return collect_copy(state_->mesh).mesh; }
 CanonicalMesh AdaptiveMesh::canonical() const { return CanonicalMesh::of(state_->mesh); }
-
-std::string AdaptiveMesh::write(const std::filesystem::path& path, std::span<const Field> fields,
-                                const WriteOptions& options) const {
-    return write_mesh(state_->mesh, state_->sharing, fields, path, options);
-}
 
 }  // namespace octetra::distributed

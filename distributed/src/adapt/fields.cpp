@@ -6,6 +6,7 @@
 #include "comm/local_failure.hpp"
 #include "fields/read_fields.hpp"
 #include "level/incremental/adjacency.hpp"
+#include "output/write_mesh.hpp"
 
 namespace octetra::distributed {
 
@@ -17,6 +18,15 @@ std::vector<Field> AdaptiveMesh::read_fields(
     failure.attempt([&] { order = std::make_unique<CanonicalOrder>(mesh); });
     failure.agree(mesh.processes);
     return distributed::read_fields(mesh, order->cells_before(), state_->numbers, path, note);
+}
+
+std::string AdaptiveMesh::write(const std::filesystem::path& path, std::span<const Field> fields,
+                                const WriteOptions& options) const {
+    return write_mesh(state_->mesh, state_->sharing, fields, path, options);
+}
+
+void AdaptiveMesh::append_to(MeshSeries& series, double time, std::span<const Field> fields) const {
+    append_mesh(state_->mesh, state_->sharing, fields, series, time);
 }
 
 }  // namespace octetra::distributed

@@ -10,14 +10,22 @@
 #include "output/own_piece.hpp"
 
 namespace octetra::distributed {
+namespace {
 
-std::string write_mesh(const DistributedMesh& mesh, const Sharing<VertexIndex>& sharing,
-                       std::span<const Field> fields, const std::filesystem::path& path,
-                       const WriteOptions& options) {
+/// Collective.
+void check_fields(const DistributedMesh& mesh, std::span<const Field> fields) {
     LocalFailure failure;
     failure.attempt([&] { check_sizes(mesh, fields); });
     failure.agree(mesh.processes);
     check_same(mesh.processes, fields);
+}
+
+}  // namespace
+
+std::string write_mesh(const DistributedMesh& mesh, const Sharing<VertexIndex>& sharing,
+                       std::span<const Field> fields, const std::filesystem::path& path,
+                       const WriteOptions& options) {
+    check_fields(mesh, fields);
     std::optional<CanonicalSlices> slices;
     in_phase(mesh.processes, "number vertices", [&] { slices.emplace(mesh); });
     if (!is_in_pieces(path)) {
@@ -27,6 +35,15 @@ std::string write_mesh(const DistributedMesh& mesh, const Sharing<VertexIndex>& 
     OwnPiece piece(mesh, slices->lists(), slices->numbers(), slices->facts());
     piece.add(fields, sharing);
     return write_pieces(piece, mesh.processes, path);
+}
+
+void append_mesh(const DistributedMesh& mesh, const Sharing<VertexIndex>& sharing,
+                 std::span<const Field> fields, MeshSeries& series, double time) {
+    check_fields(mesh, fields);
+    std::optional<CanonicalSlices> slices;
+    in_phase(mesh.processes, "number vertices", [&] { slices.emplace(mesh); });
+    slices->add(fields, sharing);
+    series.append(*slices, time);
 }
 
 }  // namespace octetra::distributed

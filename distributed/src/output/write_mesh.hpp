@@ -5,6 +5,7 @@
 #include <string>
 
 #include <octetra/core/files/mesh_files.hpp>
+#include <octetra/core/files/series.hpp>
 #include <octetra/distributed/distributed_mesh.hpp>
 #include <octetra/distributed/field.hpp>
 #include <octetra/distributed/sharing.hpp>
@@ -17,5 +18,9 @@ namespace octetra::distributed {
                                      std::span<const Field> fields,
                                      const std::filesystem::path& path,
                                      const WriteOptions& options);
+
+/// Collective. Appends the mesh with fields to a series; see AdaptiveMesh::append_to().
+void append_mesh(const DistributedMesh& mesh, const Sharing<VertexIndex>& sharing,
+                 std::span<const Field> fields, MeshSeries& series, double time);
 
 }  // namespace octetra::distributed

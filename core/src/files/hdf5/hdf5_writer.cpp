@@ -14,13 +14,6 @@ namespace {
 
 static_assert(std::endian::native == std::endian::little);
 
-/// Large enough that there are few, small enough for a buffer, and of a small array an equal share.
-std::uint64_t entities_of_a_slice(const VtuArray& array, const ProcessGroup& group) {
-    constexpr std::uint64_t most_bytes = std::uint64_t{1} << 21U;
-    const std::uint64_t share = array.entities / static_cast<std::uint64_t>(group.size()) + 1;
-    return std::clamp(most_bytes / array.entity_size(), std::uint64_t{1}, share);
-}
-
 /// Collective.
 void put_values(OutputFile& out, const FilledDataset& filled, std::uint64_t offset,
                 const ProcessGroup& group) {
@@ -28,15 +21,10 @@ void put_values(OutputFile& out, const FilledDataset& filled, std::uint64_t offs
     if (group.is_first() && head > 0) out.overwrite(offset, filled.values.data(), head);
     const VtuArray& array = filled.array;
     if (array.entities == 0) return;
-    std::vector<char> bytes;
-    const std::uint64_t length = entities_of_a_slice(array, group);
-    const std::uint64_t stride = length * static_cast<std::uint64_t>(group.size());
-    for (Window window{0, length, array.entities}; window.begin < window.count;
-         window.begin += stride) {
-        array.bytes_of_slice(window, bytes);
+    for_each_slice(array, group, [&](const Window& window, const std::vector<char>& bytes) {
         const std::uint64_t before = window.begin_of(group.rank()) * array.entity_size();
         out.overwrite(offset + head + before, bytes.data(), bytes.size());
-    }
+    });
 }
 
 /// Collective. The first process writes the file without the values, and tells all where each

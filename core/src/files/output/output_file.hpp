@@ -44,6 +44,9 @@ public:
     void put(std::integral auto number) { put_number(number); }
     void put_bytes(const void* data, std::size_t size);
 
+    /// Where it is until commit().
+    [[nodiscard]] const std::filesystem::path& temporary() const { return temporary_; }
+
     /// Brings what has been put to the file.
     void end_turn();
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <functional>
 #include <span>
@@ -26,6 +27,22 @@ struct VtuArray {
 
     [[nodiscard]] std::size_t entity_size() const { return value_size * values_per_entity; }
 };
+
+/// Collective. Calls take(window, bytes) with this process's slices of an array, large
+/// enough to be few, small enough for a buffer, and of a small array equal shares.
+void for_each_slice(const VtuArray& array, const ProcessGroup& group, auto&& take) {
+    constexpr std::uint64_t most_bytes = std::uint64_t{1} << 21U;
+    const std::uint64_t share = array.entities / static_cast<std::uint64_t>(group.size()) + 1;
+    const std::uint64_t length =
+        std::clamp(most_bytes / array.entity_size(), std::uint64_t{1}, share);
+    const std::uint64_t stride = length * static_cast<std::uint64_t>(group.size());
+    std::vector<char> bytes;
+    for (Window window{0, length, array.entities}; window.begin < window.count;
+         window.begin += stride) {
+        array.bytes_of_slice(window, bytes);
+        take(static_cast<const Window&>(window), static_cast<const std::vector<char>&>(bytes));
+    }
+}
 
 /// What each point and each cell has beside its place, in the order of the file.
 struct VtuData {

@@ -11,6 +11,7 @@
 
 #include <octetra/core/error.hpp>
 #include <octetra/core/files/mesh_files.hpp>
+#include <octetra/core/files/series.hpp>
 #include <octetra/core/mesh.hpp>
 #include <octetra/core/selection.hpp>
 #include <octetra/distributed/adaptation.hpp>
@@ -225,6 +226,9 @@ public:
     [[nodiscard]] std::string write(const std::filesystem::path& path,
                                     std::span<const Field> fields = {},
                                     const WriteOptions& options = {}) const;
+    /// Collective. Appends the mesh and fields to a series, whose group must be processes(). Throws
+    /// what MeshSeries::append() does, and InputError for fields as write().
+    void append_to(MeshSeries& series, double time, std::span<const Field> fields = {}) const;
     /// Collective. Writes a checkpoint, `.octetra`: the input, what each step did, and `fields`,
     /// values of this mesh's vertices and cells. The file is the same whatever the number of
     /// processes and the partition. It is written beside its place, brought to the disk, and then

@@ -1,0 +1,19 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+
+/// What is said of what a format cannot hold.
+namespace octetra {
+
+/// One more thing that is lost.
+inline void add_loss(std::string& lost, std::string_view loss) {
+    if (loss.empty()) return;
+    lost += lost.empty() ? "" : "; ";
+    lost += loss;
+}
+
+inline constexpr std::string_view group_names_are_lost =
+    "the names of groups are lost; .msh and .octetra files hold them";
+
+}  // namespace octetra

@@ -23,9 +23,6 @@
 #include "files/vtk/vtu.hpp"
 
 namespace octetra {
-namespace {
-
-namespace fs = std::filesystem;
 
 /// An array of a step, as it stands in the file beside.
 struct KeptArray {
@@ -55,6 +52,10 @@ struct KeptStep {
         return found == arrays.end() ? nullptr : &*found;
     }
 };
+
+namespace {
+
+namespace fs = std::filesystem;
 
 /// The rows of one array of all steps, one step after the other.
 class RowsOfSteps {

@@ -53,7 +53,7 @@ private:
     std::vector<std::vector<double>> values_;
 };
 
-bool same_bits(const FieldRows& a, const FieldRows& b) {
+bool same_values(const FieldRows& a, const FieldRows& b) {
     return a.on == b.on && a.components == b.components && a.count == b.count &&
            a.values.size() == b.values.size() &&
            (a.values.empty() ||
@@ -69,7 +69,7 @@ std::optional<SolFields> read(const fs::path& path) {
     }
 }
 
-void check(const fs::path& path) {
+void check_values(const fs::path& path) {
     const std::optional<SolFields> found = read(path);
     if (!found) return;
     EntityCounts counts;
@@ -80,7 +80,7 @@ void check(const fs::path& path) {
         (list.on == FieldOn::vertices ? counts.vertices : counts.cells) = list.count;
     }
     const auto together = read_sol_stretch(path, counts, ProcessGroup::alone());
-    if (together && !std::ranges::equal(together->lists, found->lists, same_bits)) {
+    if (together && !std::ranges::equal(together->lists, found->lists, same_values)) {
         throw BrokenPromise("shares of a file are not what one process reads");
     }
     ReadFields source(*found);
@@ -92,7 +92,7 @@ void check(const fs::path& path) {
         const std::optional<SolFields> again = read(out);
         std::vector<FieldRows> expected = found->lists;
         std::ranges::sort(expected, {}, &FieldRows::on);
-        if (!again || !std::ranges::equal(again->lists, expected, same_bits)) {
+        if (!again || !std::ranges::equal(again->lists, expected, same_values)) {
             throw BrokenPromise("values that are written and read are others");
         }
     }
@@ -102,12 +102,12 @@ void check(const fs::path& path) {
 
 void check_sol(std::string_view input, const fs::path& folder) {
     write_file(folder / "in.sol", input);
-    check(folder / "in.sol");
+    check_values(folder / "in.sol");
 }
 
 void check_solb(std::string_view input, const fs::path& folder) {
     write_file(folder / "in.solb", input);
-    check(folder / "in.solb");
+    check_values(folder / "in.solb");
 }
 
 }  // namespace octetra::test

@@ -53,10 +53,6 @@ struct KeptStep {
     }
 };
 
-namespace {
-
-namespace fs = std::filesystem;
-
 /// The rows of one array of all steps, one step after the other.
 class RowsOfSteps {
 public:
@@ -92,6 +88,10 @@ private:
     std::uint64_t count_ = 0;
     std::vector<Stretch> stretches_;
 };
+
+namespace {
+
+namespace fs = std::filesystem;
 
 FilledDataset numbers(const std::string& name, std::vector<std::int64_t> values,
                       std::vector<std::uint64_t> extents) {

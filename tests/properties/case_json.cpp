@@ -64,7 +64,8 @@ Scheme scheme_of(const std::string& name) {
 }
 
 /// By the numbers of Action.
-constexpr std::array<const char*, 5> actions{"refine", "coarsen", "take back", "again", "reload"};
+constexpr std::array<const char*, 8> actions{"refine", "coarsen",   "take back", "again",
+                                             "reload", "rebalance", "scatter",   "rewrite"};
 
 json json_of(const Step& step) {
     json j{{"action", actions.at(static_cast<std::size_t>(step.action))}};
@@ -73,6 +74,7 @@ json json_of(const Step& step) {
     }
     if (step.action == Action::refine) j["scheme"] = name_of(step.scheme);
     if (step.action == Action::reload) j["ranks"] = step.ranks;
+    if (step.action == Action::rewrite) j["format"] = step.format;
     return j;
 }
 
@@ -82,7 +84,8 @@ Step step_of(const json& j) {
     return {.action = static_cast<Action>(action - actions.begin()),
             .selection = selection_of(j.value("selection", json::object())),
             .scheme = scheme_of(j.value("scheme", "8t")),
-            .ranks = j.value("ranks", 1)};
+            .ranks = j.value("ranks", 1),
+            .format = j.value("format", "")};
 }
 
 }  // namespace

@@ -60,7 +60,7 @@ TEST(Cases, AreHistoriesInWhichEachThingHappensOften) {
     if (!test::world().is_first()) return;
     std::map<std::string, int> counts;
     for (const Case& c : some_histories(300)) {
-        EXPECT_LE(c.steps.size(), 8U);
+        EXPECT_LE(c.steps.size(), 12U);
         for (const std::string& tag : tags_of_history(c, ranks)) ++counts[tag];
     }
     for (const std::string& tag : all_tags_of_histories())

@@ -52,6 +52,9 @@ std::string fault_of_geometry(const Case& /*c*/) {
 std::string fault_of_counts(const Case& /*c*/) { return {}; }
 
 std::string fault_of_steps(const Case& /*c*/) { return {}; }
+std::string fault_of_sharers(const Case& /*c*/) { return {}; }
+std::string fault_of_values(const Case& /*c*/) { return {}; }
+std::string fault_of_moving(const Case& /*c*/) { return {}; }
 std::string fault_of_numbering_in_steps(const Case& /*c*/) { return {}; }
 std::string fault_of_the_way_back(const Case& /*c*/) { return {}; }
 std::string fault_of_survivors(const Case& /*c*/) { return {}; }

@@ -18,6 +18,9 @@ const std::vector<Law>& laws() {
 const std::vector<Law>& history_laws() {
     static const std::vector<Law> all{
         {"every_step_is_the_references", fault_of_steps},
+        {"ranks_know_what_they_share", fault_of_sharers},
+        {"values_go_along", fault_of_values, true},
+        {"moving_cells_changes_nothing", fault_of_moving},
         {"no_step_depends_on_numbering", fault_of_numbering_in_steps},
         {"coarsening_ends_in_the_input", fault_of_the_way_back},
         {"saving_and_loading_change_nothing", fault_of_checkpoints},

@@ -40,6 +40,19 @@ namespace octetra::properties {
 /// rank tells; or both refuse the step in the same words.
 [[nodiscard]] std::string fault_of_steps(const Case& c);
 
+/// After each step, what ranks say of who else has their vertices, edges and faces, who owns them
+/// and which numbers they have is what all cells show.
+[[nodiscard]] std::string fault_of_sharers(const Case& c);
+
+/// Values on vertices and cells go along with every step: a midpoint has the mean of its ends, and
+/// a cell the share of its root's value that it has of its volume; sums stay. For cases drawn
+/// `exact`.
+[[nodiscard]] std::string fault_of_values(const Case& c);
+
+/// With cells moved before every step to ranks drawn at random, nothing is different, nor is the
+/// checkpoint in the end, byte by byte.
+[[nodiscard]] std::string fault_of_moving(const Case& c);
+
 /// With vertices, cells and corners numbered otherwise, each step makes the same mesh.
 [[nodiscard]] std::string fault_of_numbering_in_steps(const Case& c);
 

@@ -5,7 +5,7 @@ build_laws() {
     need build test
     configure release release -DOCTETRA_TESTS=ON
     step "build the laws" cmake --build build/release --parallel "$jobs" \
-        --target test_properties shrink_finding
+        --target test_properties shrink_finding mpi_shuffler
 }
 
 # shrink FILE RANKS SECONDS: makes a kept case smaller; RANKS 0: on as many as it was found on.

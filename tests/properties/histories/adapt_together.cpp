@@ -10,9 +10,12 @@
 #include <octetra/distributed/adaptive_mesh.hpp>
 
 #include "distributed/world.hpp"
+#include "properties/draw.hpp"
 #include "properties/histories/first_ranks.hpp"
 #include "properties/histories/pasts.hpp"
+#include "properties/histories/rewriting.hpp"
 #include "properties/histories/seen_numbers.hpp"
+#include "properties/histories/seen_sharers.hpp"
 #include "support/refinement.hpp"
 #include "support/temporary_folder.hpp"
 
@@ -21,6 +24,8 @@ namespace {
 
 using distributed::Adaptation;
 using distributed::AdaptiveMesh;
+using distributed::EvenStep;
+using distributed::Migration;
 using distributed::Partition;
 using distributed::PartitionMethod;
 using distributed::StepOptions;
@@ -56,6 +61,29 @@ std::vector<CellIndex> listed(const Marks& marks) {
     return cells;
 }
 
+/// All edges of these cells.
+std::vector<EdgeVertices> edges_of(const AdaptiveMesh& mesh, const Marks& marks) {
+    std::vector<EdgeVertices> edges;
+    for (std::size_t c = 0; c < marks.size(); ++c) {
+        if (marks[c] == 0) continue;
+        const CellVertices& cell = mesh.cells()[c];
+        for (const auto& [i, j] : cell_edges) edges.push_back({cell[i], cell[j]});
+    }
+    return edges;
+}
+
+/// For each root of this process a rank that only the turn and the root decide: now and then all
+/// that there are, else the first few.
+std::vector<int> drawn_ranks(const AdaptiveMesh& mesh, std::uint64_t turn) {
+    const auto ranks = static_cast<std::size_t>(mesh.processes().size());
+    const std::size_t used = 1 + Draw(turn).below(ranks);
+    std::vector<int> rank_of_root;
+    for (const std::uint64_t root : mesh.roots()) {
+        rank_of_root.push_back(static_cast<int>(Draw(turn ^ (root << 20U)).below(used)));
+    }
+    return rank_of_root;
+}
+
 /// A rank's part of the mesh that a history makes; nothing on ranks that have none of it.
 class Part {
 public:
@@ -65,12 +93,11 @@ public:
         world.broadcast(input);
         std::vector<int> cell_to_rank = c.cell_to_rank;
         for (int& rank : cell_to_rank) rank %= world.size();
-        mesh_ =
-            std::make_unique<AdaptiveMesh>(AdaptiveMesh::distribute(world, c.mesh, cell_to_rank));
-        pasts_ = first_pasts(*mesh_, input);
+        begin(AdaptiveMesh::distribute(world, c.mesh, cell_to_rank), input);
     }
 
     [[nodiscard]] const AdaptiveMesh* mesh() const { return mesh_.get(); }
+    [[nodiscard]] const CarriedValues& values() const { return values_; }
     [[nodiscard]] const std::string& fault() const { return fault_; }
 
     /// Did it change anything?
@@ -87,6 +114,10 @@ public:
                     .changed;
             case Action::take_back:
                 return last ? take_back(*last, turn) : coarsen(none(), nullptr, turn).changed;
+            case Action::rebalance:
+                take(mesh_->rebalance({.most_over_mean = turn % 2 == 0 ? 1.02 : 1.3}));
+                return false;
+            case Action::scatter: take(mesh_->migrate(drawn_ranks(*mesh_, turn))); return false;
             default: break;
         }
         if (!taken_back) return refine(none(), Scheme::eight, nullptr, turn);
@@ -97,43 +128,94 @@ public:
     void reload(const std::filesystem::path& file, int ranks, std::uint64_t turn) {
         last_.reset();
         taken_back_.reset();
-        if (mesh_) mesh_->save(file, fields_of(pasts_));
+        if (mesh_) {
+            std::vector<distributed::Field> fields = fields_of(pasts_);
+            for (auto& field : fields_of(values_)) fields.push_back(std::move(field));
+            mesh_->save(file, fields);
+        }
         (void)test::world().sum(0);  // those that have no part wait for the file
         mesh_.reset();
         const distributed::Communicator group = first_ranks(ranks);
         if (test::world().rank() >= std::min(ranks, test::world().size())) return;
-        constexpr std::array methods{PartitionMethod::rcb, PartitionMethod::random,
-                                     PartitionMethod::dual, PartitionMethod::lepp};
-        const Partition partition{.method = methods[turn % 4], .seed = turn, .path = {}};
         std::vector<distributed::Field> fields;
-        mesh_ = std::make_unique<AdaptiveMesh>(AdaptiveMesh::load(group, file, partition, &fields));
+        mesh_ = std::make_unique<AdaptiveMesh>(
+            AdaptiveMesh::load(group, file, drawn_partition(turn), &fields));
         pasts_ = pasts_of(fields);
+        values_ = values_of(fields);
+    }
+
+    /// Writes the mesh, and goes on with what is read, by the ranks that have a part.
+    void rewrite(const std::filesystem::path& folder, const Format& format, std::uint64_t turn) {
+        last_.reset();
+        taken_back_.reset();
+        const auto file = folder / ("rewritten" + format.extension);
+        (void)mesh_->write(file, {}, format.options);
+        const Mesh read = read_mesh(file);
+        begin(AdaptiveMesh::read(mesh_->processes(), file, drawn_partition(turn)),
+              {read.cells.begin(), read.cells.end()});
     }
 
 private:
+    /// A mesh that nothing was done to.
+    void begin(AdaptiveMesh mesh, const std::vector<CellVertices>& input) {
+        mesh_ = std::make_unique<AdaptiveMesh>(std::move(mesh));
+        pasts_ = first_pasts(*mesh_, input);
+        values_ = first_values(*mesh_, pasts_);
+    }
+
+    static Partition drawn_partition(std::uint64_t turn) {
+        constexpr std::array methods{PartitionMethod::rcb, PartitionMethod::random,
+                                     PartitionMethod::dual, PartitionMethod::lepp};
+        return {.method = methods[turn % 4], .seed = turn, .path = {}};
+    }
+
     [[nodiscard]] Marks none() const { return Marks(mesh_->cells().size(), 0); }
 
     /// What an Adaptation tells must be of the cells that there are.
-    void take(Pasts pasts) {
+    void take(Pasts pasts, CarriedValues values) {
         pasts_ = std::move(pasts);
+        values_ = std::move(values);
         if (pasts_.size() == mesh_->cells().size()) return;
         if (fault_.empty()) fault_ = "a step told of another number of cells than there are";
         pasts_.resize(mesh_->cells().size());
     }
 
-    /// By the selection, where it is given; else by bytes or a list.
-    bool refine(const Marks& marks, Scheme scheme, const Selection* selection, std::uint64_t turn) {
+    void take(const Migration& move) { take(moved(pasts_, move), moved(std::move(values_), move)); }
+
+    /// By the selection, where it is given; else by bytes, a list or, where that is the same,
+    /// edges.
+    Adaptation refined_by(const Marks& marks, const StepOptions& options,
+                          const Selection* selection, std::uint64_t turn) {
+        if (selection != nullptr) return mesh_->refine(*selection, options);
+        if (turn % 5 == 0 && options.scheme == Scheme::eight) {
+            return mesh_->refine_edges(edges_of(*mesh_, marks), options);
+        }
+        if (turn % 3 == 1) return mesh_->refine(marks, options);
+        return mesh_->refine(listed(marks), options);
+    }
+
+    bool refine(Marks marks, Scheme scheme, const Selection* selection, std::uint64_t turn) {
         const StepOptions options{.scheme = scheme,
                                   .synchronisation = case_->synchronisation,
                                   .max_cells = most_cells_of_a_history};
-        const Adaptation step = selection != nullptr ? mesh_->refine(*selection, options)
-                                : turn % 3 == 1      ? mesh_->refine(marks, options)
-                                                     : mesh_->refine(listed(marks), options);
-        Marked last{marks, scheme, step.cells.parents(), Marks(step.cells.count(), 0)};
+        Adaptation step;
+        if (turn % 7 == 0) {
+            constexpr distributed::BalanceOptions balance{.most_over_mean = 1.1};
+            EvenStep even = selection != nullptr
+                                ? mesh_->refine_evenly(*selection, balance, options)
+                                : mesh_->refine_evenly(marks, balance, options);
+            marks = even.move.cells(std::move(marks));
+            pasts_ = moved(pasts_, even.move);
+            values_ = moved(std::move(values_), even.move);
+            step = std::move(even.step);
+        } else {
+            step = refined_by(marks, options, selection, turn);
+        }
+        Marked last{std::move(marks), scheme, step.cells.parents(), Marks(step.cells.count(), 0)};
         step.cells.for_each_new([&](std::size_t number, std::size_t, unsigned halvings) {
             if (halvings > 0) last.made[number] = 1;
         });
-        take(refined(pasts_, step));
+        take(refined(pasts_, step), after_step(std::move(values_), step));
         last_ = std::move(last);
         return step.changed;
     }
@@ -142,7 +224,7 @@ private:
         Adaptation step = selection != nullptr ? mesh_->coarsen(*selection)
                           : turn % 3 == 1      ? mesh_->coarsen(may_go)
                                                : mesh_->coarsen(listed(may_go));
-        take(coarsened(pasts_, step, may_go, &fault_));
+        take(coarsened(pasts_, step, may_go, &fault_), after_step(std::move(values_), step));
         return step;
     }
 
@@ -160,10 +242,23 @@ private:
     const Case* case_;
     std::unique_ptr<AdaptiveMesh> mesh_;
     Pasts pasts_;
+    CarriedValues values_;
     std::string fault_;
     std::optional<Marked> last_;        ///< if the step before refined
     std::optional<Marked> taken_back_;  ///< if the step before took that back
 };
+
+/// Collective among the mesh's processes. Adds what the first one sees of the mesh after a step.
+void look_at(const Part& part, bool at_sharers_too, Stage& stage, Adapted& adapted) {
+    const AdaptiveMesh& mesh = *part.mesh();
+    stage.mesh = mesh.collect();
+    const auto note = [](std::string& first, const std::string& fault) {
+        if (first.empty()) first = fault;
+    };
+    note(adapted.fault_of_numbers, fault_of_seen_numbers(mesh, stage.mesh));
+    if (at_sharers_too) note(adapted.fault_of_sharers, fault_of_seen_sharers(mesh));
+    adapted.values.push_back(of_the_whole(part.values(), mesh, stage.mesh));
+}
 
 /// Collective. On the first rank, what some rank says.
 std::string of_any(const std::string& words) {
@@ -185,6 +280,8 @@ Adapted adapt_together(const Case& c, const std::filesystem::path& folder) {
             const auto file = folder / "state.octetra";
             part.reload(file, c.steps[k].ranks, turn);
             if (test::world().is_first()) adapted.checkpoint = test::content_of(file);
+        } else if (c.steps[k].action == Action::rewrite) {
+            if (part.mesh() != nullptr) part.rewrite(folder, format_named(c.steps[k].format), turn);
         } else if (part.mesh() != nullptr) {
             try {
                 stage.changed = part.make(c.steps[k], turn);
@@ -192,11 +289,8 @@ Adapted adapt_together(const Case& c, const std::filesystem::path& folder) {
                 stage.refusal = error.what();
             }
         }
-        if (part.mesh() != nullptr) {
-            stage.mesh = part.mesh()->collect();
-            const std::string fault = fault_of_seen_numbers(*part.mesh(), stage.mesh);
-            if (adapted.fault_of_numbers.empty()) adapted.fault_of_numbers = fault;
-        }
+        // What they share is looked at now and then: it takes longer than the step.
+        if (part.mesh() != nullptr) look_at(part, turn % 4 == 0, stage, adapted);
         adapted.stages.push_back(std::move(stage));
     }
     adapted.fault_of_pasts = of_any(part.fault());

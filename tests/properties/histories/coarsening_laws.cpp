@@ -12,10 +12,6 @@
 namespace octetra::properties {
 namespace {
 
-/// Cases that are drawn exact have coordinates of less than 16 on a grid of 2^-16, and a step
-/// halves that.
-constexpr double grid_scale = 0x1p26;
-
 /// By the ranks and by the reference, which has the history and the marks to it.
 struct Both {
     Adapted adapted;
@@ -46,7 +42,8 @@ const Mesh& mesh_before(const Case& c, const Both& both, std::size_t step) {
 std::optional<test::Int128> exact_volume(const Mesh& mesh) {
     test::Int128 sum = 0;
     for (CellIndex c{0}; c < mesh.cells.end_index(); ++c) {
-        const test::Int128 of_cell = test::exact_volume(test::corners_of(mesh, c), grid_scale);
+        const test::Int128 of_cell =
+            test::exact_volume(test::corners_of(mesh, c), exact_grid_scale);
         if (of_cell <= 0) return {};
         sum += of_cell;
     }
@@ -67,7 +64,8 @@ std::string fault_of_survivors(const Case& c) {
     return both.adapted.fault_of_pasts;
 }
 
-std::string fault_of_generations(const Case& c) {
+std::string fault_of_generations(const Case& drawn) {
+    const Case c = of_one_input(drawn);
     const Both both = by_both(c);
     if (!both.fault.empty()) return both.fault;
     for (const std::size_t k : both.coarsenings) {
@@ -75,10 +73,10 @@ std::string fault_of_generations(const Case& c) {
         const auto after = reference::replay(
             reference::coarsened(both.reference.before[k], both.reference.marked[k]));
         const reference::Refinement coarser{both.adapted.stages[k].mesh, after.back().maps};
-        if (!test::refines(before.back(), coarser, grid_scale)) {
+        if (!test::refines(before.back(), coarser, exact_grid_scale)) {
             return "the coarser mesh is not refined by the one before";
         }
-        if (!goes_back_by_one_generation(before, coarser, grid_scale)) {
+        if (!goes_back_by_one_generation(before, coarser, exact_grid_scale)) {
             return "a cell of the coarser mesh is back by two generations";
         }
     }

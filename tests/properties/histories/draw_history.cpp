@@ -9,6 +9,7 @@
 
 #include "properties/draw_case.hpp"
 #include "properties/histories/reference_history.hpp"
+#include "properties/histories/rewriting.hpp"
 
 namespace octetra::properties {
 namespace {
@@ -110,10 +111,10 @@ Case draw_start(Draw& draw, int size, int ranks, bool exact) {
 Case draw_history(Draw& draw, int size, int ranks, bool exact) {
     Case c = draw_start(draw, size, ranks, exact);
     const std::size_t cells = adapted_by_reference(c).stages.back().mesh.cells.size();
-    for (int left = draw.between(0, 6); left > 0; --left) {
+    for (int left = draw.between(0, 6 + size / 25); left > 0; --left) {
         const bool has_refined = c.steps.back().action == Action::refine;
         const bool has_taken_back = c.steps.back().action == Action::take_back;
-        const std::size_t kind = draw.below(20);
+        const std::size_t kind = draw.below(24);
         if (has_taken_back && kind < 12) {
             c.steps.push_back({.action = Action::again});
         } else if (has_refined && kind < 2) {
@@ -123,8 +124,13 @@ Case draw_history(Draw& draw, int size, int ranks, bool exact) {
         } else if (kind < 17) {
             c.steps.push_back(
                 {.action = Action::coarsen, .selection = cells_to_coarsen(c.mesh, draw)});
-        } else {
+        } else if (kind < 20) {
             c.steps.push_back({.action = Action::reload, .ranks = draw.between(1, ranks)});
+        } else if (kind < 23) {
+            c.steps.push_back({.action = draw.chance(0.6) ? Action::scatter : Action::rebalance});
+        } else {
+            c.steps.push_back({.action = Action::rewrite,
+                               .format = formats()[draw.below(formats().size())].name});
         }
     }
     return c;
@@ -141,7 +147,11 @@ const std::vector<std::string>& all_tags_of_histories() {
                                                "taken back and again",
                                                "refused for size",
                                                "refinement refused for rounding",
-                                               "coarsening refused for rounding"};
+                                               "coarsening refused for rounding",
+                                               "moved",
+                                               "changed after moving",
+                                               "written and read",
+                                               "changed after reading"};
     return tags;
 }
 
@@ -169,6 +179,10 @@ std::vector<std::string> tags_of_history(const Case& c, int ranks) {
         is[8] = is[8] || by_size;
         is[9] = is[9] || (refines && !refusal.empty() && !by_size);
         is[10] = is[10] || (coarsens && !refusal.empty());
+        is[12] = is[12] || (is[11] && changed);
+        is[11] = is[11] || action == Action::scatter || action == Action::rebalance;
+        is[14] = is[14] || (is[13] && changed);
+        is[13] = is[13] || action == Action::rewrite;
         cells = mesh.cells.size();
         points = mesh.points.size();
     }

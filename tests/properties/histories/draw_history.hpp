@@ -5,7 +5,7 @@
 
 namespace octetra::properties {
 
-/// A history of 2 to 8 steps for up to `ranks` ranks, the first of which refines; its mesh is the
+/// A history of 2 to 12 steps for up to `ranks` ranks, the first of which refines; its mesh is the
 /// larger the greater `size` (0 to 100). `exact`: by draw_exact_mesh.
 [[nodiscard]] Case draw_history(Draw& draw, int size, int ranks, bool exact);
 

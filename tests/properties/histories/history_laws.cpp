@@ -40,6 +40,10 @@ bool is_the_same(const Mesh& a, const Mesh& b) { return a == b && test::bits(a) 
 
 bool reloads(const Step& step) { return step.action == Action::reload; }
 
+bool moves(const Step& step) {
+    return step.action == Action::rebalance || step.action == Action::scatter;
+}
+
 }  // namespace
 
 std::string fault_of_steps(const Case& c) {
@@ -48,7 +52,59 @@ std::string fault_of_steps(const Case& c) {
     return fault.empty() ? adapted.fault_of_numbers : fault;
 }
 
-std::string fault_of_the_way_back(const Case& c) {
+std::string fault_of_sharers(const Case& c) { return adapted_by_all(c).fault_of_sharers; }
+
+std::string fault_of_values(const Case& c) {
+    const Adapted adapted = adapted_by_all(c);
+    const ReferenceHistory expected = adapted_by_reference(c);
+    const Mesh* input = &c.mesh;
+    for (std::size_t k = 0; k < c.steps.size(); ++k) {
+        const Mesh& mesh = expected.stages[k].mesh;
+        if (c.steps[k].action == Action::rewrite) input = &mesh;
+        if (!(adapted.stages[k].mesh.cells == mesh.cells)) return in_step(k, "the cells differ");
+        const std::string fault =
+            fault_of_values_on(mesh, expected.maps[k], *input, adapted.values[k], exact_grid_scale);
+        if (!fault.empty()) return in_step(k, fault);
+    }
+    return {};
+}
+
+std::string fault_of_moving(const Case& c) {
+    Case resting = c;
+    // Where cells have moved it is not known any more what the step before made.
+    std::erase_if(resting.steps, [](const Step& step) {
+        return step.action == Action::take_back || step.action == Action::again;
+    });
+    std::erase_if(resting.steps, moves);
+    Case moving = resting;
+    moving.steps.clear();
+    Draw draw(c.seed);
+    for (const Step& step : resting.steps) {
+        moving.steps.push_back({.action = draw.chance(0.7) ? Action::scatter : Action::rebalance});
+        moving.steps.push_back(step);
+    }
+    for (Case* each : {&moving, &resting}) each->steps.push_back({.action = Action::reload});
+    const Adapted moved = adapted_by_all(moving);
+    const Adapted rested = adapted_by_all(resting);
+
+    std::vector<Stage> others;
+    for (std::size_t k = 0; k < moving.steps.size(); ++k) {
+        const Stage& stage = moved.stages[k];
+        if (!moves(moving.steps[k])) {
+            others.push_back(stage);
+        } else if (!is_the_same(stage.mesh, k == 0 ? c.mesh : moved.stages[k - 1].mesh)) {
+            return in_step(k, "moving makes another mesh");
+        }
+    }
+    const std::string fault = first_difference(others, rested.stages);
+    if (!fault.empty()) return "without moving: " + fault;
+    return moved.checkpoint == rested.checkpoint
+               ? ""
+               : "without moving the checkpoint in the end has other bytes";
+}
+
+std::string fault_of_the_way_back(const Case& drawn) {
+    const Case c = of_one_input(drawn);
     const auto refinements = std::ranges::count_if(c.steps, [](const Step& step) {
         return step.action == Action::refine || step.action == Action::again;
     });

@@ -87,6 +87,27 @@ Pasts coarsened(const Pasts& pasts, const Adaptation& step, std::span<const std:
     return after;
 }
 
+Pasts moved(const Pasts& pasts, const distributed::Migration& move) {
+    std::vector<std::uint64_t> roots;
+    distributed::ValueLists<int> halvings;
+    for (const Past& past : pasts) {
+        roots.push_back(past.root);
+        halvings.values.insert(halvings.values.end(), past.halvings.begin(), past.halvings.end());
+        halvings.begin.push_back(halvings.values.size());
+    }
+    roots = move.cells(std::move(roots));
+    halvings = move.cells(std::move(halvings));
+    Pasts after;
+    for (std::size_t c = 0; c < roots.size(); ++c) {
+        const auto at = [&](std::uint64_t place) {
+            return halvings.values.begin() + static_cast<std::ptrdiff_t>(place);
+        };
+        after.push_back(
+            {.root = roots[c], .halvings = {at(halvings.begin[c]), at(halvings.begin[c + 1])}});
+    }
+    return after;
+}
+
 std::vector<Field> fields_of(const Pasts& pasts) {
     std::vector<std::int64_t> roots;
     std::vector<std::int32_t> halvings;

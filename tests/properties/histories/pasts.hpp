@@ -36,8 +36,12 @@ using Pasts = std::vector<Past>;
 [[nodiscard]] Pasts coarsened(const Pasts& pasts, const distributed::Adaptation& step,
                               std::span<const std::uint8_t> may_go, std::string* fault);
 
+/// Collective. Of the cells as they are after they have moved.
+[[nodiscard]] Pasts moved(const Pasts& pasts, const distributed::Migration& move);
+
 /// To save with the mesh.
 [[nodiscard]] std::vector<distributed::Field> fields_of(const Pasts& pasts);
+/// The first two.
 [[nodiscard]] Pasts pasts_of(const std::vector<distributed::Field>& fields);
 
 }  // namespace octetra::properties

@@ -6,6 +6,8 @@
 
 #include <octetra/core/error.hpp>
 
+#include "properties/histories/rewriting.hpp"
+
 namespace octetra::properties {
 namespace {
 
@@ -50,7 +52,7 @@ public:
         try {
             const History next = after(step, all.marked.back());
             present_ = reference::replay(next).back();
-            stage.changed = next.steps != history_.steps;
+            stage.changed = next.steps != history_.steps && step.action != Action::rewrite;
             history_ = next;
         } catch (const InputError& error) {
             stage.refusal = error.what();
@@ -58,6 +60,7 @@ public:
             taken_back_.reset();
         }
         stage.mesh = present_.mesh;
+        all.maps.push_back(present_.maps);
         all.stages.push_back(std::move(stage));
     }
 
@@ -86,7 +89,10 @@ private:
         const auto last = std::exchange(last_, {});
         const auto taken_back = std::exchange(taken_back_, {});
         switch (step.action) {
-            case Action::reload: return history_;
+            case Action::reload:
+            case Action::rebalance:
+            case Action::scatter: return history_;
+            case Action::rewrite: return {rewritten(present_.mesh, format_named(step.format)), {}};
             case Action::coarsen: return reference::coarsened(history_, marked);
             case Action::take_back:
                 taken_back_ = last;

@@ -21,6 +21,7 @@ struct ReferenceHistory {
     std::vector<Stage> stages;
     std::vector<reference::History> before;
     std::vector<reference::CellMarks> marked;  ///< cells that were to be refined, or may go
+    std::vector<RefinementMaps> maps;          ///< of the mesh after it, from its input
 };
 
 [[nodiscard]] ReferenceHistory adapted_by_reference(const Case& c);

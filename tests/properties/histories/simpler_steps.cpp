@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <functional>
 
+#include "properties/histories/rewriting.hpp"
+
 namespace octetra::properties {
 namespace {
 
@@ -54,6 +56,9 @@ std::vector<std::vector<Step>> simpler_steps(const std::vector<Step>& steps) {
         }
         if (steps[k].scheme != Scheme::eight) with(k, [](Step& s) { s.scheme = Scheme::eight; });
         if (steps[k].ranks > 1) with(k, [](Step& s) { s.ranks = 1; });
+        if (steps[k].action == Action::rewrite && steps[k].format != simplest_format) {
+            with(k, [](Step& s) { s.format = simplest_format; });
+        }
     }
     return results;
 }

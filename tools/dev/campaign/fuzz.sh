@@ -3,16 +3,24 @@
 source "$root/tools/dev/common.sh"
 source "$root/tools/dev/laws.sh"
 
-# fuzz_for MINUTES SEED: rounds of random cases, each with the next seed, on 1 to 4 ranks in turn and now and
-# then on 7, until the time is over or a law is broken.
+# fuzz_for MINUTES SEED: rounds of random cases, each with the next seed, on 1 to 5 ranks in turn and now and
+# then on 7, every other with messages late and in disorder, until the time is over or a law is broken.
 fuzz_for() {
-    local end=$((SECONDS + 60 * $1)) seed=$2 round=0 ranks
-    local -r ranks_in_turn=(1 2 3 4 2 3 4 7)
+    local end=$((SECONDS + 60 * $1)) seed=$2 round=0 ranks weather weather_options
+    local -r ranks_in_turn=(1 2 3 4 5 2 3 7)
+    local -r cases=60 laws=$(build/release/tests/properties/test_properties --gtest_filter='*Laws.*' \
+        --gtest_list_tests | grep -c '^  ')
     try_laws
     while ((SECONDS < end)); do
         ranks=${ranks_in_turn[round % 8]}
-        say "${bold}round $((round + 1)): seed $seed, $ranks ranks$plain"
-        RC_PARAMS="seed=$seed max_success=60" tests/support/mpirun.sh "$ranks" \
+        weather='' weather_options=()
+        if ((ranks > 1 && round / 8 % 2 == 1)); then
+            weather=', messages in disorder'
+            weather_options=(-x "LD_PRELOAD=$PWD/build/release/tests/properties/libmpi_shuffler.so"
+                -x "OCTETRA_SHUFFLE_SEED=$seed")
+        fi
+        say "${bold}round $((round + 1)): seed $seed, $ranks ranks$weather$plain"
+        RC_PARAMS="seed=$seed max_success=$cases" tests/support/mpirun.sh "$ranks" "${weather_options[@]}" \
             build/release/tests/properties/test_properties --gtest_brief=1 --gtest_filter='*Laws.*' || {
             shrink_what_died
             say "A law was broken. What broke it is in corpus/regression/; ./dev test replays it."
@@ -20,7 +28,7 @@ fuzz_for() {
         }
         ((++round, ++seed))
     done
-    say "$round rounds, and no law was broken"
+    say "$round rounds, $((round * cases * laws)) cases, and no law was broken"
 }
 
 minutes=5 seed=$((RANDOM * 32768 + RANDOM + 1))

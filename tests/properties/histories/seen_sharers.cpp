@@ -1,0 +1,242 @@
+#include "properties/histories/seen_sharers.hpp"
+
+#include <algorithm>
+#include <array>
+#include <compare>
+#include <cstdint>
+#include <map>
+#include <set>
+#include <utility>
+#include <vector>
+
+namespace octetra::properties {
+
+using distributed::AdaptiveMesh;
+using distributed::Communicator;
+using distributed::Sharing;
+
+namespace {
+
+/// A vertex, edge or face by the global numbers of its vertices, ascending; 0 behind them.
+using Entity = std::array<std::uint64_t, 3>;
+using EntitySet = std::set<Entity>;
+
+/// What a process says of an entity that it has.
+struct Said {
+    Entity entity;
+    std::uint64_t number;
+    int owner;
+    std::vector<int> sharers;
+};
+
+/// What it says that it shares with another one, in their order.
+struct SaidShared {
+    int rank;
+    std::vector<Entity> entities, owned, received;
+};
+
+struct OfProcess {
+    EntitySet has;
+    std::vector<Said> said;
+    std::vector<SaidShared> shared;
+};
+
+/// Words of 64 bits, to be sent and taken apart again.
+class Letter {
+public:
+    Letter() = default;
+    explicit Letter(std::vector<std::uint64_t> words) : words_(std::move(words)) {}
+
+    void add(std::uint64_t word) { words_.push_back(word); }
+    void add(const Entity& entity) { words_.insert(words_.end(), entity.begin(), entity.end()); }
+    void add(const std::vector<Entity>& entities) {
+        add(entities.size());
+        for (const Entity& entity : entities) add(entity);
+    }
+    [[nodiscard]] std::uint64_t next() { return words_.at(at_++); }
+    [[nodiscard]] int next_rank() { return static_cast<int>(next()); }
+    [[nodiscard]] Entity next_entity() { return {next(), next(), next()}; }
+    [[nodiscard]] std::vector<Entity> next_entities() {
+        std::vector<Entity> entities(next());
+        for (Entity& entity : entities) entity = next_entity();
+        return entities;
+    }
+    [[nodiscard]] const std::vector<std::uint64_t>& words() const { return words_; }
+
+private:
+    std::vector<std::uint64_t> words_;
+    std::size_t at_ = 0;
+};
+
+Entity entity_of(const AdaptiveMesh& mesh, const auto& vertices) {
+    Entity entity{};
+    std::ranges::transform(vertices, entity.begin(), [&](VertexIndex v) {
+        return static_cast<std::uint64_t>(mesh.vertex_numbers()[v.value()]);
+    });
+    std::ranges::sort(entity.begin(), entity.begin() + std::ssize(vertices));
+    return entity;
+}
+
+/// What this process has of a kind, and says of it. `entities` by their local numbers, and
+/// `numbers`.
+template <class I>
+Letter letter_of(const std::vector<Entity>& entities, const std::vector<std::uint64_t>& numbers,
+                 const Sharing<I>& sharing, const EntitySet& has) {
+    Letter letter;
+    letter.add(std::vector<Entity>(has.begin(), has.end()));
+    letter.add(entities.size());
+    for (std::size_t i = 0; i < entities.size(); ++i) {
+        letter.add(entities[i]);
+        letter.add(numbers[i]);
+        letter.add(static_cast<std::uint64_t>(sharing.owner(I{i})));
+        letter.add(sharing.sharers(I{i}).size());
+        for (const int rank : sharing.sharers(I{i})) letter.add(static_cast<std::uint64_t>(rank));
+    }
+    letter.add(sharing.neighbours().size());
+    for (const auto& neighbour : sharing.neighbours()) {
+        letter.add(static_cast<std::uint64_t>(neighbour.rank));
+        for (const auto* list : {&neighbour.entities, &neighbour.owned, &neighbour.received}) {
+            std::vector<Entity> listed;
+            for (const I i : *list) listed.push_back(entities[i.value()]);
+            letter.add(listed);
+        }
+    }
+    return letter;
+}
+
+OfProcess opened(Letter letter) {
+    OfProcess process;
+    const auto has = letter.next_entities();
+    process.has = {has.begin(), has.end()};
+    for (std::uint64_t left = letter.next(); left > 0; --left) {
+        Said& said = process.said.emplace_back(
+            Said{letter.next_entity(), letter.next(), letter.next_rank(), {}});
+        for (std::uint64_t sharers = letter.next(); sharers > 0; --sharers) {
+            said.sharers.push_back(letter.next_rank());
+        }
+    }
+    for (std::uint64_t left = letter.next(); left > 0; --left) {
+        SaidShared shared{letter.next_rank(), {}, {}, {}};
+        for (auto* list : {&shared.entities, &shared.owned, &shared.received}) {
+            *list = letter.next_entities();
+        }
+        process.shared.push_back(std::move(shared));
+    }
+    return process;
+}
+
+/// What they say of single entities.
+std::string fault_of_said(const std::vector<OfProcess>& processes) {
+    std::map<Entity, std::vector<int>> ranks_of;
+    for (std::size_t r = 0; r < processes.size(); ++r) {
+        for (const Entity& entity : processes[r].has)
+            ranks_of[entity].push_back(static_cast<int>(r));
+    }
+    std::map<Entity, std::pair<std::uint64_t, int>> number_and_owner;
+    for (std::size_t r = 0; r < processes.size(); ++r) {
+        if (processes[r].said.size() != processes[r].has.size())
+            return "a rank lists too many or few";
+        for (const Said& said : processes[r].said) {
+            const auto found = ranks_of.find(said.entity);
+            if (found == ranks_of.end()) return "a rank has what no cell has";
+            std::vector<int> others = found->second;
+            if (std::erase(others, static_cast<int>(r)) != 1)
+                return "a rank has what none of its cells has";
+            if (said.sharers != others) return "a rank is wrong about who else has something";
+            if (std::ranges::find(found->second, said.owner) == found->second.end()) {
+                return "the owner of something does not have it";
+            }
+            const std::pair told(said.number, said.owner);
+            if (number_and_owner.emplace(said.entity, told).first->second != told) {
+                return "two ranks have different numbers, or owners, of the same";
+            }
+        }
+    }
+    std::uint64_t next = 0;  // by the numbers of vertices, which are those of the whole mesh
+    for (const auto& [entity, told] : number_and_owner) {
+        const bool is_vertex = entity[1] == 0 && entity[2] == 0;
+        if (!is_vertex && told.first != next++) return "numbers do not follow those of vertices";
+    }
+    return {};
+}
+
+/// What they say of pairs of ranks.
+std::string fault_of_shared(const std::vector<OfProcess>& processes) {
+    for (std::size_t r = 0; r < processes.size(); ++r) {
+        std::size_t shared_with_any = 0;
+        for (const SaidShared& here : processes[r].shared) {
+            const auto& other = processes.at(static_cast<std::size_t>(here.rank));
+            const auto there =
+                std::ranges::find(other.shared, static_cast<int>(r), &SaidShared::rank);
+            if (there == other.shared.end()) return "a rank shares with one that does not with it";
+            if (there->entities != here.entities || there->received != here.owned) {
+                return "two ranks list in different orders what they share";
+            }
+            EntitySet common;
+            std::ranges::set_intersection(processes[r].has, other.has,
+                                          std::inserter(common, common.end()));
+            if (EntitySet(here.entities.begin(), here.entities.end()) != common ||
+                here.entities.size() != common.size()) {
+                return "what two ranks share is not all that both have";
+            }
+            shared_with_any += common.size();
+        }
+        std::size_t expected = 0;
+        for (const Said& said : processes[r].said) expected += said.sharers.size();
+        if (shared_with_any != expected) return "a rank misses one that it shares with";
+    }
+    return {};
+}
+
+/// Collective. On the first process, the fault.
+std::string judged(const Communicator& group, const Letter& letter) {
+    std::vector<OfProcess> processes;
+    for (const auto& words : group.gather(letter.words())) {
+        processes.push_back(opened(Letter(words)));
+    }
+    const std::string fault = fault_of_said(processes);
+    return fault.empty() ? fault_of_shared(processes) : fault;
+}
+
+std::string fault_of_vertices(const AdaptiveMesh& mesh) {
+    std::vector<Entity> entities;
+    std::vector<std::uint64_t> numbers;
+    for (std::size_t v = 0; v < mesh.points().size(); ++v) {
+        entities.push_back(entity_of(mesh, std::array{VertexIndex{v}}));
+        numbers.push_back(entities.back()[0]);
+    }
+    // Vertices of no cell are on some rank, too.
+    const EntitySet has(entities.begin(), entities.end());
+    return judged(mesh.processes(), letter_of(entities, numbers, mesh.vertex_sharing(), has));
+}
+
+template <std::size_t N, std::size_t PerCell>
+std::string fault_of_sides(const AdaptiveMesh& mesh, const auto& sides,
+                           const std::array<std::array<std::uint8_t, N>, PerCell>& places) {
+    EntitySet has;
+    for (const CellVertices& cell : mesh.cells()) {
+        for (const auto& side : places) {
+            std::array<VertexIndex, N> vertices;
+            std::ranges::transform(side, vertices.begin(), [&](auto place) { return cell[place]; });
+            has.insert(entity_of(mesh, vertices));
+        }
+    }
+    std::vector<Entity> entities;
+    for (const auto& vertices : sides.vertices) entities.push_back(entity_of(mesh, vertices));
+    return judged(
+        mesh.processes(),
+        letter_of(entities, {sides.numbers.begin(), sides.numbers.end()}, sides.sharing, has));
+}
+
+}  // namespace
+
+std::string fault_of_seen_sharers(const AdaptiveMesh& mesh) {
+    const std::string of_vertices = fault_of_vertices(mesh);
+    const std::string of_edges = fault_of_sides(mesh, mesh.number_edges(), cell_edges);
+    const std::string of_faces = fault_of_sides(mesh, mesh.number_faces(), cell_faces);
+    if (!of_vertices.empty()) return "vertices: " + of_vertices;
+    if (!of_edges.empty()) return "edges: " + of_edges;
+    return of_faces.empty() ? "" : "faces: " + of_faces;
+}
+
+}  // namespace octetra::properties

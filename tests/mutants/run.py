@@ -6,7 +6,8 @@ The faults stand in the .toml files beside this one, each a [[mutant]] with
   file   of the checkout, in which
   old    stands exactly once, to be replaced by
   new    (a line end at the beginning of either is left out)
-  tests  the test programs that may catch it, cheapest first: NAME runs test_NAME, NAME@3 on 3 ranks.
+  tests  the test programs that may catch it, cheapest first: NAME runs test_NAME, NAME@3 on 3 ranks,
+         NAME@3:FILTER of its cases those.
 
 ./dev campaign mutants puts one after the other into a copy of the checkout, build/mutants/tree, builds what
 has changed and runs these programs. A program catches a mutant when it fails, or does not end in
@@ -60,10 +61,15 @@ def mutated(mutant, folder):
     return content.replace(mutant["old"], mutant["new"])
 
 
+def program_of(test):
+    return re.split("[@:]", test)[0]
+
+
 def check(mutants):
     programs = set()
     for path in (root / "tests").glob("*/CMakeLists.txt"):
-        programs |= set(re.findall(r"^octetra_(?:mpi_)?test\((\w+)", path.read_text(), re.MULTILINE))
+        programs |= set(re.findall(r"^(?:octetra_(?:mpi_)?test\(|add_executable\(test_)(\w+)",
+                                   path.read_text(), re.MULTILINE))
     names = [mutant["name"] for mutant in mutants]
     for name in names:
         if names.count(name) > 1:
@@ -71,7 +77,7 @@ def check(mutants):
     for mutant in mutants:
         mutated(mutant, root)
         for test in mutant["tests"]:
-            if test.split("@")[0] not in programs:
+            if program_of(test) not in programs:
                 die(f"{mutant['name']}: there is no test program {test}")
     print(f"{len(mutants)} mutants fit the sources")
 
@@ -121,7 +127,7 @@ def configure():
 
 def build_programs(tests, jobs):
     """What went wrong, or nothing."""
-    targets = sorted({"test_" + test.split("@")[0] for test in tests})
+    targets = sorted({"test_" + program_of(test) for test in tests})
     command = ["cmake", "--build", build, "--parallel", str(jobs), "--target", *targets]
     done = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
     return done.stdout if done.returncode != 0 else ""
@@ -132,9 +138,12 @@ def build_programs(tests, jobs):
 
 def failure_of(test, seconds):
     """What of a test program fails, or nothing. It is ended at its first failure."""
-    name, _, ranks = test.partition("@")
+    program_and_ranks, _, cases = test.partition(":")
+    name, _, ranks = program_and_ranks.partition("@")
     (program,) = (path for path in build.glob(f"tests/*/test_{name}") if path.is_file())
     command = [program, "--gtest_brief=1", "--gtest_color=no"]
+    if cases:
+        command += [f"--gtest_filter={cases}"]
     if ranks:
         command = [tree / "tests/support/mpirun.sh", ranks, *command]
     environment = os.environ | {"RC_PARAMS": "seed=1"}

@@ -8,7 +8,7 @@ if (($# > 0)) && [[ $1 != -* ]]; then
     shift
 fi
 case $kind in
-    fuzz | files | worlds | mutants | packages | valgrind | foreign | shrink)
+    fuzz | faults | files | worlds | mutants | packages | valgrind | foreign | shrink)
         exec bash "tools/dev/campaign/$kind.sh" "$@"
         ;;
     all) ;;
@@ -28,8 +28,9 @@ turn valgrind
 turn foreign
 turn packages
 turn files --minutes $((minutes / 10))
+turn faults --moments 10 --minutes $((minutes / 10))
 turn fuzz --minutes $((minutes * 3 / 10))
 turn worlds --minutes $((minutes / 10))
-turn mutants --minutes $((minutes * 4 / 10))
+turn mutants --minutes $((minutes * 3 / 10))
 if ((${#failed[@]} > 0)); then die "something was found by: ${failed[*]}"; fi
 say "nothing was found"

@@ -1,0 +1,196 @@
+#!/usr/bin/env python3
+"""What becomes of a command when something fails on one of its ranks.
+
+usage: run.py [--moments N] [--minutes M] [--seconds S] [--only TEXT] [--build FOLDER]
+
+Each command runs on three ranks, again and again, and each time one rank fails at another moment: it is
+killed at a call of MPI, a call that writes a file fails, or an allocation. Whatever the moment: all ranks
+end soon; the exit status says so; what was at the output's place is still there, byte by byte, or the
+complete result is; no other file is left, but by who is killed; one line says why, if anybody can.
+Prints a table, and ends with status 1 where that does not hold.
+"""
+
+import argparse
+import os
+import pathlib
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+import time
+from dataclasses import dataclass, field
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+RANKS = 3
+BEFORE = b"what was there before\n"
+SCRIPT = """refine --sphere 0,0,0,0.6 --levels 2
+rebalance
+coarsen --sphere 0,0,0,0.3
+refine --box 0,0,0,0.4,0.4,0.4
+"""
+
+# What is done, with what, into which files.
+COMMANDS = {
+    "refine a Medit text file": ("refine in.mesh --random 0.3 -o out.mesh", ["out.mesh"]),
+    "refine TetGen files, cells moving": (
+        "refine in.ele --sphere 0,0,0,0.4 --levels 2 --rebalance 0.02 -o out.ele", ["out.node", "out.ele", "out.face"]),
+    "refine a binary Medit file": ("refine in.meshb --all -o out.meshb", ["out.meshb"]),
+    "convert to Gmsh": ("convert in.meshb out.msh", ["out.msh"]),
+    "refine into a .vtu": ("refine in.meshb --all -o out.vtu", ["out.vtu"]),
+    "refine into a .vtkhdf": ("refine in.msh --all -o out.vtkhdf", ["out.vtkhdf"]),
+    "refine into XDMF": ("refine in.meshb --all -o out.xdmf", ["out.xdmf", "out.h5"]),
+    "adapt into a checkpoint": ("adapt in.mesh --script steps.txt -o out.octetra", ["out.octetra"]),
+    "adapt with a series": ("adapt in.mesh --script steps.txt --series out.vtkhdf -o out.mesh",
+                            ["out.vtkhdf", "out.mesh"]),
+    "load a checkpoint and coarsen": ("coarsen in.octetra --all -o out.octetra", ["out.octetra"]),
+    "load a checkpoint and refine": ("refine in.octetra --random 0.2 -o out.octetra", ["out.octetra"]),
+    "verify a refinement": ("verify in.mesh fine.mesh", []),
+}
+KINDS = {"killed": "killed at a call of MPI", "file": "a call for a file fails", "memory": "an allocation fails"}
+
+
+@dataclass
+class Tried:
+    """Of a command and a kind of fault."""
+    calls: list = field(default_factory=list)  # that may fail, of the ranks that were tried
+    moments: int = 0
+    went_on: int = 0  # it did not matter
+    seconds: float = 0.0  # until the last rank ended, at most
+    faults: list = field(default_factory=list)
+
+
+class Bench:
+    """A folder of inputs, in which commands run."""
+
+    def __init__(self, build, folder, seconds):
+        self.program = build / "cli/octetra"
+        self.libraries = {"killed": build / "tests/cli/libmpi_killer.so"}
+        for kind in ("file", "memory"):
+            self.libraries[kind] = build / "tests/faults/libfault_injector.so"
+        self.inputs, self.folder, self.seconds = folder / "inputs", folder / "run", seconds
+        self.inputs.mkdir()
+        (self.inputs / "steps.txt").write_text(SCRIPT)
+        self.prepare("generate kuhn 4 -o in.mesh")
+        for name in ("in.ele", "in.meshb", "in.msh"):
+            self.prepare(f"convert in.mesh {name}")
+        self.prepare("adapt in.mesh --script steps.txt -o in.octetra")
+        self.prepare("refine in.mesh --all -o fine.mesh")
+
+    def prepare(self, arguments):
+        subprocess.run([self.program, *arguments.split(), "--quiet"], cwd=self.inputs, check=True)
+
+    def run(self, arguments, outputs, kind, rank, at):
+        """(status, what was said, seconds); 124 where it does not end."""
+        shutil.rmtree(self.folder, ignore_errors=True)
+        shutil.copytree(self.inputs, self.folder)
+        for output in outputs:
+            (self.folder / output).write_bytes(BEFORE)
+        settings = {"LD_PRELOAD": self.libraries[kind]}
+        if kind == "killed":
+            settings |= {"OCTETRA_KILL_RANK": rank, "OCTETRA_KILL_AT": at}
+        else:
+            settings |= {"OCTETRA_FAULT_KIND": kind, "OCTETRA_FAULT_RANK": rank, "OCTETRA_FAULT_AT": at,
+                         "OCTETRA_FAULT_FOLDER": self.folder}
+        options = [word for name, value in settings.items() for word in ("-x", f"{name}={value}")]
+        command = [ROOT / "tests/support/mpirun.sh", str(RANKS), *options, self.program, *arguments.split()]
+        start = time.monotonic()
+        process = subprocess.Popen(command, cwd=self.folder, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE,
+                                   text=True, errors="replace", start_new_session=True)
+        try:
+            said = process.communicate(timeout=6 * self.seconds)[1]
+        except subprocess.TimeoutExpired:
+            os.killpg(process.pid, 9)
+            return 124, process.communicate()[1], time.monotonic() - start
+        return process.returncode, said, time.monotonic() - start
+
+    def contents(self, outputs):
+        return {output: (self.folder / output).read_bytes() if (self.folder / output).exists() else None
+                for output in outputs}
+
+    def strangers(self, outputs):
+        """Files that are neither inputs nor outputs."""
+        known = {path.name for path in self.inputs.iterdir()} | set(outputs)
+        return sorted(path.name for path in self.folder.iterdir() if path.name not in known)
+
+
+def fault_of(bench, outputs, complete, kind, status, said, seconds):
+    """What should not be, in words, or nothing."""
+    if status == 124:
+        return "does not end"
+    if seconds > bench.seconds:
+        return f"takes {seconds:.1f} s to end"
+    found = bench.contents(outputs)
+    if any(found[output] not in (BEFORE, complete[output]) for output in outputs):
+        return "an output is neither what was there nor complete"
+    if status == 0:
+        return "" if found == complete else "ends as if all were well, without its outputs"
+    if status != {"killed": 137}.get(kind, 3):
+        return f"exit status {status}"
+    if kind == "killed":
+        return ""
+    if bench.strangers(outputs):
+        return f"leaves {' '.join(bench.strangers(outputs))}"
+    messages = re.findall(r"^octetra: (?!note: ).*", said, re.MULTILINE)
+    if len(messages) != 1:
+        return f"says {len(messages)} things"
+    return "" if kind != "memory" or "memory" in messages[0] else f"says {messages[0]}"
+
+
+def moments_of(calls, count):
+    """So many, evenly, of those from 1 to `calls`, the last among them."""
+    return sorted({max(1, round(calls * (k + 1) / count)) for k in range(min(count, calls))})
+
+
+def tried(bench, arguments, outputs, kind, count):
+    result = Tried()
+    for rank, share in ((0, count - count // 2), (RANKS - 1, count // 2)):
+        status, said, _ = bench.run(arguments, outputs, kind, rank, 0)
+        complete = bench.contents(outputs)
+        calls = re.search(r"^calls(?: of MPI)?: (\d+)", said, re.MULTILINE)
+        if status != 0 or not calls:
+            sys.exit(f"without a fault: octetra {arguments}: exit status {status}\n{said}")
+        result.calls.append(int(calls[1]))
+        for at in moments_of(int(calls[1]), share):
+            status, said, seconds = bench.run(arguments, outputs, kind, rank, at)
+            result.moments += 1
+            result.went_on += status == 0
+            result.seconds = max(result.seconds, seconds)
+            fault = fault_of(bench, outputs, complete, kind, status, said, seconds)
+            if fault:
+                result.faults.append(f"octetra {arguments}: {KINDS[kind]}, rank {rank}, {at} of {calls[1]}: {fault}")
+                print(result.faults[-1], "\n  " + said.strip().replace("\n", "\n  "), file=sys.stderr, flush=True)
+    return result
+
+
+def row(name, kind, result):
+    calls = " and ".join(f"{calls:,}" for calls in result.calls)
+    return (f"| {name} | {KINDS[kind]} | {calls} | {result.moments} | {result.went_on} | "
+            f"{result.seconds:.1f} | {len(result.faults)} |")
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--build", type=pathlib.Path, default=ROOT / "build/release")
+    parser.add_argument("--moments", type=int, default=100, help="of each command and kind of fault [100]")
+    parser.add_argument("--minutes", type=float, default=30, help="begin nothing else after so long [30]")
+    parser.add_argument("--seconds", type=float, default=10, help="within which all ranks must end [10]")
+    parser.add_argument("--only", default="", metavar="TEXT", help="commands whose description has it")
+    chosen = parser.parse_args()
+    print("| command | fault | calls that may fail, on the first rank and the last | moments | went on | "
+          "s until all ended, at most | faults |\n|---|---|---:|---:|---:|---:|---:|", flush=True)
+    turns = [(name, kind) for name in COMMANDS if chosen.only in name for kind in KINDS]
+    faults, end = 0, time.monotonic() + 60 * chosen.minutes
+    with tempfile.TemporaryDirectory() as folder:
+        bench = Bench(chosen.build.resolve(), pathlib.Path(folder), chosen.seconds)
+        for name, kind in turns:
+            if time.monotonic() > end:
+                print(f"time is up before: {name}, {KINDS[kind]}; --only TEXT begins there")
+                break
+            result = tried(bench, *COMMANDS[name], kind, chosen.moments)
+            faults += len(result.faults)
+            print(row(name, kind, result), flush=True)
+    sys.exit(1 if faults else 0)
+
+
+main()

@@ -68,8 +68,38 @@ int fail_alone(std::string_view what, const distributed::MpiSession& session) {
     distributed::MpiSession::abort(status);
 }
 
-int parse_and_run(CLI::App& program, int argc, char** argv,
-                  const distributed::Communicator& world) {
+void declare_all(CLI::App& program, const distributed::Communicator& world) {
+    program.description(
+        "Refines tetrahedral meshes by longest-edge bisection (8T-LE).\n"
+        "Files by extension: .ele/.node (TetGen), .mesh/.meshb (Medit), .msh (Gmsh), .octetra "
+        "(with its history),\n.vtu, .pvtu and .vtkhdf (VTK) and .xdmf with .h5 (XDMF), written "
+        "only.");
+    program.set_version_flag("--version", "octetra " OCTETRA_VERSION);
+    program.require_subcommand(1);
+    program.option_defaults()->disable_flag_override();  // --all=3
+    program.get_formatter()->column_width(34);
+    program.footer(
+        "Exit status: 0 done; 1 the answer is no; 2 bad usage or input; 3 the system failed;\n"
+        "128 + its number: a signal ended octetra or, under mpirun, one of its ranks.\n"
+        "Example:\n"
+        "  octetra generate kuhn 8 -o cube.mesh\n"
+        "  octetra refine cube.mesh --sphere 0,0,0,0.3 --levels 2 -o fine.mesh\n"
+        "  octetra verify cube.mesh fine.mesh\n"
+        "  mpirun -n 4 octetra refine cube.mesh --sphere 0,0,0,0.3 --levels 2 -o fine.vtu");
+    add_refine(program, world);
+    add_adapt(program, world);
+    add_coarsen(program, world);
+    add_info(program, world);
+    add_generate(program, world);
+    add_convert(program, world);
+    add_partition(program, world);
+    add_verify(program, world);
+    add_compare(program, world);
+}
+
+int parse_and_run(int argc, char** argv, const distributed::Communicator& world) {
+    CLI::App program("", "octetra");
+    declare_all(program, world);
     auto status = Status::done;
     try {
         program.parse(argc, argv);
@@ -94,37 +124,8 @@ int run(int argc, char** argv) {
     give_back_freed_memory();
     const distributed::MpiSession session(&argc, &argv);
     const distributed::Communicator& world = session.world();
-
-    CLI::App program(
-        "Refines tetrahedral meshes by longest-edge bisection (8T-LE).\n"
-        "Files by extension: .ele/.node (TetGen), .mesh/.meshb (Medit), .msh (Gmsh), .octetra "
-        "(with its history),\n.vtu, .pvtu and .vtkhdf (VTK) and .xdmf with .h5 (XDMF), written "
-        "only.",
-        "octetra");
-    program.set_version_flag("--version", "octetra " OCTETRA_VERSION);
-    program.require_subcommand(1);
-    program.option_defaults()->disable_flag_override();  // --all=3
-    program.get_formatter()->column_width(34);
-    program.footer(
-        "Exit status: 0 done; 1 the answer is no; 2 bad usage or input; 3 the system failed;\n"
-        "128 + its number: a signal ended octetra or, under mpirun, one of its ranks.\n"
-        "Example:\n"
-        "  octetra generate kuhn 8 -o cube.mesh\n"
-        "  octetra refine cube.mesh --sphere 0,0,0,0.3 --levels 2 -o fine.mesh\n"
-        "  octetra verify cube.mesh fine.mesh\n"
-        "  mpirun -n 4 octetra refine cube.mesh --sphere 0,0,0,0.3 --levels 2 -o fine.vtu");
-    add_refine(program, world);
-    add_adapt(program, world);
-    add_coarsen(program, world);
-    add_info(program, world);
-    add_generate(program, world);
-    add_convert(program, world);
-    add_partition(program, world);
-    add_verify(program, world);
-    add_compare(program, world);
-
     try {
-        return parse_and_run(program, argc, argv, world);
+        return parse_and_run(argc, argv, world);
     } catch (const InputError& error) {
         return fail(Status::bad_input, error.what(), world);
     } catch (const SystemError& error) {

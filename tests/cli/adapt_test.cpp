@@ -1,3 +1,5 @@
+#include <array>
+#include <filesystem>
 #include <set>
 #include <sstream>
 #include <string>
@@ -173,6 +175,47 @@ TEST_F(Adapt, WritesTheSameBytesOnAnyNumberOfRanks) {
             }
             EXPECT_TRUE(test::content_of(folder / "mid.vtu") == mid);
         }
+    }
+}
+
+TEST_F(Adapt, WritesTheSameBytesByTheReference) {
+    std::string list;
+    for (int c = 5; c < 60; c += 3) list += std::to_string(c) + "\n";
+    (void)folder.write("c.txt", list);
+    const std::string script =
+        "refine --sphere 0,0,0,0.6 --levels 2\n"
+        "write between.ele\n"
+        "coarsen --sphere 0,0,0,0.35 --levels 2\n"
+        "refine --cells c.txt --levels 2 --scheme 4t\n"
+        "rebalance\n"
+        "coarsen --cells c.txt --outside\n"
+        "coarsen --box 0,0,0,0.5,0.5,0.5\n"
+        "refine --random 0.05\n";
+    for (const std::string mesh : {"kuhn.mesh", "m.ele"}) {
+        expect_done(adapt(mesh, script, "-o d.mesh"));
+        const std::string between = test::content_of(folder / "between.ele");
+        expect_done(adapt(mesh, script, "--engine reference -o r.mesh"));
+        expect_same("d.mesh", "r.mesh");
+        EXPECT_TRUE(test::content_of(folder / "between.ele") == between);
+    }
+}
+
+TEST_F(Adapt, RefusesWhatTheReferenceCannotDo) {
+    const std::string refine = "refine --all\n";
+    run("convert kuhn.mesh kuhn.octetra");
+    for (const auto& [mesh, script, options, words] :
+         std::vector<std::array<std::string, 4>>{
+             {"kuhn.octetra", refine, "-o r.mesh", "saves no history"},
+             {"kuhn.mesh", refine, "-o r.octetra", "saves no history"},
+             {"kuhn.mesh", refine + "save r.octetra\n", "-o r.mesh", "s.txt:2: --engine reference"},
+             {"kuhn.mesh", refine, "-o r.mesh --verify", "do not go with --engine reference"},
+             {"kuhn.mesh", refine, "-o r.mesh --partition rcb", "--engine reference works on one"},
+             {"kuhn.mesh", "refine --region 3\n", "-o r.mesh", "s.txt:1: --region"},
+             {"kuhn.mesh", refine, "-o r.mesh --max-cells 9", "s.txt:1: "}}) {
+        const auto run = adapt(mesh, script, "--engine reference " + options);
+        EXPECT_EQ(run.status, 2);
+        EXPECT_THAT(run.err, HasSubstr(words));
+        EXPECT_FALSE(std::filesystem::exists(folder / "r.mesh"));
     }
 }
 

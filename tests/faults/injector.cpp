@@ -48,8 +48,8 @@ public:
     [[nodiscard]] bool fails() { return is_this_one_ && ++calls_ == fail_at_; }
 
 private:
-    bool is_this_one_ =
-        number_in_environment("OMPI_COMM_WORLD_RANK") == number_in_environment("OCTETRA_FAULT_RANK");
+    bool is_this_one_ = number_in_environment("OMPI_COMM_WORLD_RANK") ==
+                        number_in_environment("OCTETRA_FAULT_RANK");
     int fail_at_ = number_in_environment("OCTETRA_FAULT_AT");
     std::atomic<int> calls_{0};
 };

@@ -139,7 +139,8 @@ def fault_of(bench, outputs, complete, kind, status, said, seconds):
 
 def moments_of(calls, count):
     """So many, evenly, of those from 1 to `calls`, the last among them."""
-    return sorted({max(1, round(calls * (k + 1) / count)) for k in range(min(count, calls))})
+    count = min(count, calls)
+    return [round(calls * (k + 1) / count) for k in range(count)]
 
 
 def tried(bench, arguments, outputs, kind, count):

@@ -11,6 +11,7 @@
 #include <octetra/distributed/profile.hpp>
 
 #include "adapt/run_steps.hpp"
+#include "adapt/step_words.hpp"
 #include "adapt/write_result.hpp"
 #include "commands/mesh_options.hpp"
 #include "commands/report_line.hpp"
@@ -45,18 +46,6 @@ struct Done {
     bool changes_mesh = true;
 };
 
-std::string levels_done(std::string_view done, int levels) {
-    return fmt::format("{}, {} level{}", done, levels, levels == 1 ? "" : "s");
-}
-
-/// Why fewer levels than were asked for changed anything.
-std::vector<std::string> idle_levels(int done, int levels, std::string_view reason) {
-    if (levels == 0) return {"--levels 0: the mesh stays as it is"};
-    if (done == levels) return {};
-    if (done == 0) return {fmt::format("{}: the mesh stays as it is", reason)};
-    return {fmt::format("{} any more after level {} of {}", reason, done, levels)};
-}
-
 class Runner {
 public:
     Runner(AdaptiveMesh& mesh, const ScriptRun& run, bool is_refined_before)
@@ -68,7 +57,7 @@ public:
         distributed::StepOptions options = run_->options;
         options.scheme = step.scheme;
         const int done = refine(*mesh_, step, options, run_->balance, followers(levels));
-        return {levels_done("refined", done), idle_levels(done, levels, "no cell was marked")};
+        return {levels_done("refined", done), idle_levels(done, levels, why_not_finer)};
     }
 
     Done operator()(CoarsenStep step) {
@@ -76,9 +65,8 @@ public:
         const int levels = step.typed.levels;
         bool is_any_marked = false;
         const int done = coarsen(*mesh_, step, followers(levels), is_any_marked);
-        return {
-            levels_done("coarsened", done),
-            idle_levels(done, levels, is_any_marked ? "no vertex could go" : "no cell was marked")};
+        return {levels_done("coarsened", done),
+                idle_levels(done, levels, why_not_coarser(is_any_marked))};
     }
 
     Done operator()(const RebalanceStep&) {

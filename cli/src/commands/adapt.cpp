@@ -3,10 +3,13 @@
 
 #include <CLI/CLI.hpp>
 
+#include <octetra/core/error.hpp>
 #include <octetra/distributed/profile.hpp>
 
+#include "adapt/adapt_by_reference.hpp"
 #include "adapt/adaptation.hpp"
 #include "commands/commands.hpp"
+#include "commands/engine_option.hpp"
 #include "commands/number_options.hpp"
 
 namespace octetra::cli {
@@ -14,8 +17,19 @@ namespace {
 
 struct AdaptOptions {
     std::string script;
+    std::string engine = "distributed";
     AdaptationOptions adaptation;
 };
+
+ReferenceAdaptation for_reference(const AdaptationOptions& options) {
+    if (!options.input.fields.empty() || !options.series.empty() || options.verify ||
+        !options.profile.profile.empty() || !options.profile.trace.empty()) {
+        throw InputError(
+            "--fields, --series, --verify, --profile and --trace do not go with --engine "
+            "reference, which makes the mesh alone");
+    }
+    return {options.input, options.output, options.max_cells, options.quiet};
+}
 
 }  // namespace
 
@@ -42,6 +56,7 @@ void add_adapt(CLI::App& program, const distributed::Communicator& world) {
                "end in an error before a step that would make more")
         ->type_name("N");
     const std::string group = "How it is done (the result is the same bytes)";
+    add_engine_option(*command, options->engine, group);
     add_partition_option(*command, options->adaptation.parallel, group);
     add_synchronisation_option(*command, options->adaptation.parallel, group);
     add_rebalance_option(*command, options->adaptation.parallel, group);
@@ -79,7 +94,10 @@ void add_adapt(CLI::App& program, const distributed::Communicator& world) {
         const distributed::Communicator all = measured(world, options->adaptation.profile);
         const Script script =
             distributed::in_phase(all, "read", [&] { return read_script(options->script, all); });
-        adapt(options->adaptation, script, all);
+        if (parse_engine(options->engine, options->adaptation.parallel) == Engine::distributed) {
+            return adapt(options->adaptation, script, all);
+        }
+        all.on_first([&] { adapt_by_reference(for_reference(options->adaptation), script); });
     });
 }
 

@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <memory>
@@ -27,7 +26,6 @@
 
 #include "adapt/adaptation.hpp"
 #include "answer.hpp"
-#include "choice.hpp"
 #include "commands/commands.hpp"
 #include "commands/files_apart.hpp"
 #include "commands/input_check.hpp"
@@ -46,21 +44,10 @@
 namespace octetra::cli {
 namespace {
 
-constexpr std::array<Word<Engine>, 2> engines{
-    {{"distributed", Engine::distributed}, {"reference", Engine::reference}}};
-
 Plan plan_of(const RefineOptions& options) {
-    const Engine engine = parse_choice("--engine", options.engine, engines);
-    if (engine == Engine::reference &&
-        (options.parallel.partition || options.parallel.synchronisation ||
-         options.parallel.rebalance)) {
-        throw InputError(
-            "--partition, --sync and --rebalance say how ranks share the work; --engine reference "
-            "works on one");
-    }
     return {.selection = parse_selection(options.refinement.selection),
             .scheme = parse_scheme(options.refinement),
-            .engine = engine,
+            .engine = parse_engine(options.engine, options.parallel),
             .partition = partition_of(options.parallel),
             .synchronisation = synchronisation_of(options.parallel),
             .balance = balance_of(options.parallel)};
@@ -302,11 +289,7 @@ void refine(const RefineOptions& options, const distributed::Communicator& all) 
 
 void add_engine_options(CLI::App& command, RefineOptions& options) {
     const std::string group = "How it is done (the result is the same bytes)";
-    command
-        .add_option("--engine", options.engine,
-                    "the fast one, over MPI under mpirun, or the serial reference [distributed]")
-        ->type_name("distributed|reference")
-        ->group(group);
+    add_engine_option(command, options.engine, group);
     add_partition_option(command, options.parallel, group);
     add_synchronisation_option(command, options.parallel, group);
     add_rebalance_option(command, options.parallel, group);

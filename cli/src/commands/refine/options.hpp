@@ -9,14 +9,13 @@
 #include <octetra/distributed/partition.hpp>
 #include <octetra/distributed/refine.hpp>
 
+#include "commands/engine_option.hpp"
 #include "commands/mesh_options.hpp"
 #include "commands/parallel_options.hpp"
 #include "commands/profile_options.hpp"
 #include "commands/refinement_options.hpp"
 
 namespace octetra::cli {
-
-enum class Engine { distributed, reference };
 
 /// What the options mean, once they are known to mean something.
 struct Plan {

@@ -1,0 +1,194 @@
+#include "adapt/adapt_by_reference.hpp"
+
+#include <algorithm>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include <octetra/core/error.hpp>
+#include <octetra/core/files/checkpoint.hpp>
+#include <octetra/reference/history.hpp>
+
+#include "adapt/step_words.hpp"
+#include "commands/report_line.hpp"
+#include "commands/selection_options.hpp"
+#include "script/check_script.hpp"
+#include "stopwatch.hpp"
+
+namespace octetra::cli {
+namespace {
+
+using reference::CellMarks;
+using reference::History;
+using reference::Refinement;
+
+/// Each cell is its own parent.
+Refinement as_input(const Mesh& mesh) {
+    Refinement refinement{mesh, {}};
+    for (CellIndex c{0}; c < mesh.cells.end_index(); ++c) {
+        refinement.maps.cell_to_parent.push_back(c);
+    }
+    return refinement;
+}
+
+bool is_any_marked(const CellMarks& marks) {
+    return std::ranges::any_of(marks, [](char mark) { return mark != 0; });
+}
+
+/// A mesh, and how its input was made into it.
+class AdaptedByReference {
+public:
+    AdaptedByReference(Mesh input, std::uint64_t max_cells)
+        : history_{std::move(input), {}}, mesh_(history_.input), max_cells_(max_cells) {}
+
+    [[nodiscard]] const Mesh& mesh() const { return mesh_; }
+
+    /// How many levels changed anything.
+    int refine(const Selection& selection, Scheme scheme, int levels) {
+        // A list of cells means those of the mesh before the first level, and their descendants.
+        Refinement since = as_input(mesh_);
+        for (int level = 1; level <= levels; ++level) {
+            const CellMarks marks = reference::marked_cells(since, selection);
+            const auto parents = parents_after(marks, scheme);
+            if (!take(reference::refined(history_, marks, scheme))) return level - 1;
+            IndexVector<CellIndex, CellIndex> ancestors;
+            for (const CellIndex parent : parents) {
+                ancestors.push_back(since.maps.cell_to_parent[parent]);
+            }
+            since = {mesh_, {.cell_to_parent = std::move(ancestors)}};
+        }
+        return levels;
+    }
+
+    /// The same. `is_any` gets whether the last level marked any cell.
+    int coarsen(const Selection& selection, bool outside, int levels, bool& is_any) {
+        for (int level = 1; level <= levels; ++level) {
+            CellMarks marks = reference::marked_cells(as_input(mesh_), selection);
+            if (outside) {
+                for (char& mark : marks) mark = mark == 0 ? 1 : 0;
+            }
+            is_any = is_any_marked(marks);
+            if (!take(reference::coarsened(history_, marks))) return level - 1;
+        }
+        return levels;
+    }
+
+private:
+    /// Of each cell of the mesh that refining these makes, which has no more than the cells that
+    /// are allowed.
+    [[nodiscard]] IndexVector<CellIndex, CellIndex> parents_after(const CellMarks& marks,
+                                                                  Scheme scheme) const {
+        Selection listed;
+        for (CellIndex c{0}; c < marks.end_index(); ++c) {
+            if (marks[c] != 0) listed.cells.push_back(GlobalCell{c.value()});
+        }
+        return reference::refine(mesh_, listed, scheme, 1, max_cells_).maps.cell_to_parent;
+    }
+
+    /// Did it change anything?
+    bool take(History next) {
+        if (next.steps == history_.steps) return false;
+        mesh_ = reference::replay(next).back().mesh;
+        history_ = std::move(next);
+        return true;
+    }
+
+    History history_;
+    Mesh mesh_;
+    std::uint64_t max_cells_;
+};
+
+struct DoneByReference {
+    std::string what;
+    std::vector<std::string> remarks = {};
+    bool changes_mesh = true;
+};
+
+/// What a step does.
+class ReferenceRunner {
+public:
+    explicit ReferenceRunner(AdaptedByReference& adapted) : adapted_(&adapted) {}
+
+    DoneByReference operator()(RefineStep step) const {
+        complete(step.selection, step.typed.selection);
+        const int levels = step.typed.levels;
+        const int done = adapted_->refine(step.selection, step.scheme, levels);
+        return {levels_done("refined", done), idle_levels(done, levels, why_not_finer)};
+    }
+    DoneByReference operator()(CoarsenStep step) const {
+        complete(step.selection, step.typed.selection);
+        const int levels = step.typed.levels;
+        bool is_any = false;
+        const int done = adapted_->coarsen(step.selection, step.typed.outside, levels, is_any);
+        return {levels_done("coarsened", done), idle_levels(done, levels, why_not_coarser(is_any))};
+    }
+    DoneByReference operator()(const RebalanceStep&) const {
+        return {"rebalanced: the reference has one rank", {}, false};
+    }
+    DoneByReference operator()(const WriteStep& step) const {
+        write_output(adapted_->mesh(), step.path);
+        return {fmt::format("wrote {}", step.path), {}, false};
+    }
+
+private:
+    void complete(Selection& selection, const SelectionOptions& typed) const {
+        const Mesh& mesh = adapted_->mesh();
+        complete_selection(selection, typed,
+                           {!mesh.regions.empty(), mesh.index_base, mesh.cells.size()});
+    }
+
+    AdaptedByReference* adapted_;
+};
+
+void refuse_histories(const ReferenceAdaptation& options, const Script& script) {
+    constexpr std::string_view reason =
+        "--engine reference saves no history, so it does not go with .octetra files; the other "
+        "engine makes the same mesh";
+    if (is_checkpoint(options.input.path) || is_checkpoint(options.output)) {
+        throw InputError(std::string(reason));
+    }
+    for (const ScriptStep& step : script.steps) {
+        const auto* write = std::get_if<WriteStep>(&step.step);
+        if (write != nullptr && is_checkpoint(write->path)) throw wrong_line(script, step, reason);
+    }
+}
+
+void run(AdaptedByReference& adapted, const Script& script, bool quiet, Stopwatch& watch) {
+    for (const ScriptStep& step : script.steps) {
+        DoneByReference done;
+        try {
+            done = std::visit(ReferenceRunner(adapted), step.step);
+        } catch (const InputError& error) {
+            throw wrong_line(script, step, error.what());
+        }
+        const Mesh& mesh = adapted.mesh();
+        report_line(quiet, fmt::format("{}:{} {}", script.path.native(), step.line, done.what),
+                    mesh.points.size(), mesh.cells.size(), watch.lap());
+        for (const std::string& remark : done.remarks) {
+            note(wrong_line(script, step, remark).what());
+        }
+    }
+}
+
+}  // namespace
+
+void adapt_by_reference(const ReferenceAdaptation& options, const Script& script) {
+    refuse_histories(options, script);
+    check_output(options.output);
+    check_outputs_of(script, options.input, {mesh_named("MESH", options.input.path)},
+                     {output_to_write("-o", options.input, options.output)}, 1);
+    check_lists_of(script);
+    Stopwatch watch;
+    AdaptedByReference adapted(read_input(options.input), options.max_cells);
+    check_regions_of(script, WholeMesh(adapted.mesh()).facts());
+    report_line(options.quiet, fmt::format("read {}", options.input.path),
+                adapted.mesh().points.size(), adapted.mesh().cells.size(), watch.lap());
+    run(adapted, script, options.quiet, watch);
+    write_output(adapted.mesh(), options.output);
+    report_line(options.quiet, fmt::format("wrote {}", options.output),
+                adapted.mesh().points.size(), adapted.mesh().cells.size(), watch.lap());
+}
+
+}  // namespace octetra::cli

@@ -1,0 +1,22 @@
+#include "adapt/step_words.hpp"
+
+#include <fmt/format.h>
+
+namespace octetra::cli {
+
+std::string levels_done(std::string_view done, int levels) {
+    return fmt::format("{}, {} level{}", done, levels, levels == 1 ? "" : "s");
+}
+
+std::vector<std::string> idle_levels(int done, int levels, std::string_view reason) {
+    if (levels == 0) return {"--levels 0: the mesh stays as it is"};
+    if (done == levels) return {};
+    if (done == 0) return {fmt::format("{}: the mesh stays as it is", reason)};
+    return {fmt::format("{} any more after level {} of {}", reason, done, levels)};
+}
+
+std::string_view why_not_coarser(bool is_any_marked) {
+    return is_any_marked ? "no vertex could go" : "no cell was marked";
+}
+
+}  // namespace octetra::cli

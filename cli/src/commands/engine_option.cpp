@@ -1,0 +1,34 @@
+#include "commands/engine_option.hpp"
+
+#include <array>
+
+#include <CLI/CLI.hpp>
+
+#include <octetra/core/error.hpp>
+
+#include "choice.hpp"
+
+namespace octetra::cli {
+
+void add_engine_option(CLI::App& subcommand, std::string& engine, const std::string& group) {
+    subcommand
+        .add_option("--engine", engine,
+                    "the fast one, over MPI under mpirun, or the serial reference [distributed]")
+        ->type_name("distributed|reference")
+        ->group(group);
+}
+
+Engine parse_engine(const std::string& text, const ParallelOptions& parallel) {
+    constexpr std::array<Word<Engine>, 2> engines{
+        {{"distributed", Engine::distributed}, {"reference", Engine::reference}}};
+    const Engine engine = parse_choice("--engine", text, engines);
+    if (engine == Engine::reference &&
+        (parallel.partition || parallel.synchronisation || parallel.rebalance)) {
+        throw InputError(
+            "--partition, --sync and --rebalance say how ranks share the work; --engine reference "
+            "works on one");
+    }
+    return engine;
+}
+
+}  // namespace octetra::cli

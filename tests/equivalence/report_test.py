@@ -39,6 +39,11 @@ fi
 exec "{octetra}" "$@"
 """
 
+GOES_ON_WRONGLY_FROM_CHECKPOINTS = """#!/bin/bash
+"{octetra}" "$@" || exit
+if [[ $1 == adapt && $2 == *.octetra && $OMPI_COMM_WORLD_RANK == 0 ]]; then echo >> end.mesh; fi
+"""
+
 
 class Report(unittest.TestCase):
     def setUp(self):
@@ -76,6 +81,25 @@ class Report(unittest.TestCase):
                               capture_output=True, text=True, check=False)
         self.assertFalse(os.path.exists(out))
         return done.returncode, done.stdout.splitlines(), done.stderr
+
+    def test_compares_loops_step_by_step_and_where_they_are_gone_on_with(self):
+        status, said, report = self.report("loop: gear")
+        loop, = report["loops"]
+        self.assertEqual(status, 0, said)
+        self.assertEqual([run["ranks"] for run in loop["runs"]], [[1], [2], [3], [4], [1, 3], [4, 2], [3, 1]])
+        self.assertEqual(len(loop["cells"]), len(loop["steps"]))
+        self.assertEqual(loop["cells"][-1], loop["input_cells"])
+        self.assertIn("Loops", self.output("index.html"))
+        self.assertIn("| loop: gear | 4 |", self.output("equivalence.md"))
+
+    def test_names_the_loops_that_go_on_wrongly(self):
+        program = self.program(GOES_ON_WRONGLY_FROM_CHECKPOINTS)
+        status, said, report = self.report("loop: gear", program)
+        loop, = report["loops"]
+        self.assertEqual((status, loop["identical"]), (1, False))
+        self.assertEqual([run["ranks"] for run in loop["runs"] if run["differences"]], [[1, 3], [4, 2], [3, 1]])
+        self.assertIn("loop: gear", said)
+        self.assertIn("end.mesh differs", self.output("index.html"))
 
     def test_lists_its_cases_and_runs_nothing(self):
         status, names, _ = self.names("--only", "kuhn-2")

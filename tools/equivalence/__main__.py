@@ -18,6 +18,7 @@ import time
 
 import bench_section
 import cases as all_cases
+import loops as all_loops
 import machine
 import pictures
 from markdown import markdown
@@ -52,9 +53,14 @@ def chosen_cases(options):
     for case in reversed(cases):  # a case stands behind the one that it follows
         if case.name in names and case.after:
             names.add(case.after)
-    if not names:
+    if not names and not chosen_loops(options):
         raise Failure(f"no case has '{options.only}' in its name")
     return [case for case in cases if case.name in names]
+
+
+def chosen_loops(options):
+    loops = all_loops.quick() if options.quick else all_loops.standard()
+    return [loop for loop in loops if options.only is None or options.only in loop.name]
 
 
 def folder_name(case):
@@ -93,6 +99,20 @@ def measure_all(cases, octetra, work, output, with_pictures):
     return measured, drawn
 
 
+def measure_loops(loops, octetra, work):
+    measured = []
+    for number, loop in enumerate(loops, start=1):
+        begin = time.monotonic()
+        place = Place(octetra, os.path.join(work, folder_name(loop)), {})
+        os.mkdir(place.folder)
+        measured.append(all_loops.measure_loop(loop, place))
+        shutil.rmtree(place.folder)
+        good = measured[-1]["identical"] and measured[-1]["valid"]
+        tell(f"[loop {number}/{len(loops)}] {loop.name}: {'identical, valid' if good else 'NOT AS IT SHOULD BE'} "
+             f"({time.monotonic() - begin:.1f} s)")
+    return measured
+
+
 def make_report(options):
     octetra = shutil.which(options.octetra)
     if octetra is None:
@@ -103,8 +123,9 @@ def make_report(options):
     begin = time.monotonic()
     with tempfile.TemporaryDirectory(prefix="equivalence-", dir=output) as work:
         measured, drawn = measure_all(cases, octetra, work, output, not options.no_pictures)
+        loops = measure_loops(chosen_loops(options), octetra, work)
     return {"format": "octetra equivalence", "version": 1, "machine": where,
-            "seconds": time.monotonic() - begin, "cases": measured, "pictures": drawn}
+            "seconds": time.monotonic() - begin, "cases": measured, "loops": loops, "pictures": drawn}
 
 
 def write(path, words):
@@ -116,7 +137,7 @@ def main():
     options = parse_command_line()
     try:
         if options.list:
-            print("\n".join(case.name for case in chosen_cases(options)))
+            print("\n".join(each.name for each in [*chosen_cases(options), *chosen_loops(options)]))
             return 0
         os.makedirs(options.output, exist_ok=True)
         if options.old:
@@ -132,7 +153,7 @@ def main():
     except (Failure, OSError) as failure:
         tell(f"equivalence: {failure}")
         return 2
-    total = totals(report["cases"])
+    total = totals(report)
     print(answer(total)[1])
     return 0 if total["good"] else 1
 

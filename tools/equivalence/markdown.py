@@ -1,5 +1,6 @@
 """The report's tables as Markdown."""
 
+import loop_section
 from machine import known
 from page import answer
 from summary import paper_rows, totals
@@ -37,15 +38,31 @@ def paper_line(case, before, after):
                 growth(*[(0, case[key]["cells"]) for key in ("before", "after")]))
 
 
+def loop_lines(loops):
+    if not loops:
+        return []
+    lines = ["", "Loops of steps; the mesh after every step is compared.", "",
+             "| loop | steps | cells, at most | same bytes, restarts too | input comes back | exact verification "
+             "| reference | 1 rank | 2 ranks |", "|---|---:|---:|---:|---|---|---:|---:|---:|"]
+    for loop in loops:
+        right = sum(run["identical"] for run in loop["runs"])
+        lines.append(line(loop["name"], count(len(loop["steps"])), count(max(loop["cells"])),
+                          f"{right} of {len(loop['runs'])}", "yes" if loop["input_comes_back"] else "**no**",
+                          "valid" if loop["valid"] else "**not valid**", seconds(loop["reference"]["seconds"]),
+                          loop_section.time_of(loop, 1), loop_section.time_of(loop, 2)))
+    return lines
+
+
 def markdown(report):
     machine, cases = report["machine"], report["cases"]
-    lines = ["# Equivalence report", "", answer(totals(cases))[1], "",
+    lines = ["# Equivalence report", "", answer(totals(report))[1], "",
              ", ".join(known(machine)) + f", {machine['load']:.1f} cores busy with other work "
              "when it began.", "",
              "| case | cells before | after | same bytes | exact verification "
              "| rounds / messages, neighbour, 4 ranks | gateway | reference | 1 rank | 2 ranks |",
              "|---|---:|---:|---:|---|---:|---:|---:|---:|---:|",
              *map(case_line, cases)]
+    lines += loop_lines(report.get("loops", []))
     rows = paper_rows(cases)
     if rows:
         lines += ["", "The paper's counts, vertices / cells, beside ours; the meshes are not the "

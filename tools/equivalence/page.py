@@ -6,6 +6,7 @@ import shlex
 from html import escape
 
 import bench_section
+import loop_section
 import plots
 from charts import legend
 from machine import is_busy, known
@@ -76,9 +77,10 @@ def faults(case):
     return lines
 
 
-def faults_section(cases):
-    items = [f"<li><b>{escape(case['name'])}</b>, {escape(line)}</li>"
-             for case in cases for line in faults(case)]
+def faults_section(cases, loops):
+    found = ([(case, line) for case in cases for line in faults(case)]
+             + [(loop, line) for loop in loops for line in loop_section.faults(loop)])
+    items = [f"<li><b>{escape(case['name'])}</b>, {escape(line)}</li>" for case, line in found]
     return f"<h2>What is wrong</h2><ul>{''.join(items)}</ul>" if items else ""
 
 
@@ -172,7 +174,8 @@ def balance_section(cases):
         return ""
     blocks = [balance_figures(case) for case in shown]
     return ("<h2>Cells of each rank</h2><p>Parts are cut before refinement, so that ranks are about "
-            "even in what their cells are expected to become; no cell moves later.</p>"
+            "even in what their cells are expected to become; before a level cells move where a rank would have far too "
+            "many.</p>"
             + legend([("before", "before"), ("after", "after")])
             + "".join(blocks[:1]) + (details(f"{plural(len(blocks) - 1, 'more case')}",
                                              "".join(blocks[1:])) if len(blocks) > 1 else ""))
@@ -259,14 +262,14 @@ def runs_section(cases):
 def page(report, folder, benchmarks=None):
     """The whole page; pictures are taken from `folder`. `benchmarks`: what ./dev bench found, if it
     was run."""
-    cases, machine = report["cases"], report["machine"]
+    cases, machine, loops = report["cases"], report["machine"], report.get("loops", [])
     timed, cores = timed_cases(cases), machine["cores"]
     with open(STYLE, encoding="utf-8") as file:
         style = file.read()
     body = ('<p class="faint">Octetra: equivalence report</p>'
             f"<h1>Does refinement give the same bytes everywhere?</h1>{where(report)}"
-            + verdict(totals(cases)) + faults_section(cases) + load_notice(machine)
-            + cases_section(cases) + picture_section(report, folder) + paper_section(cases)
+            + verdict(totals(report)) + faults_section(cases, loops) + load_notice(machine)
+            + cases_section(cases) + loop_section.section(loops) + picture_section(report, folder) + paper_section(cases)
             + angles_section(cases) + balance_section(cases) + time_section(timed, cores)
             + scaling_section(timed, cores) + bench_section.section(benchmarks)
             + runs_section(cases))

@@ -3,22 +3,26 @@
 from cases import PAPER_COUNTS
 
 
-def totals(cases):
-    """Counts over all cases; `good` is the answer of the report."""
+def totals(report):
+    """Counts over all cases and loops; `good` is the answer of the report."""
+    cases, loops = report["cases"], report.get("loops", [])
     refined = [case for case in cases if case["after"]]
     runs = [run for case in cases for run in case["runs"]]
+    loop_runs = [run for loop in loops for run in loop["runs"]]
     return {
-        "good": all(case["identical"] and case["valid"] for case in cases),
-        "cases": len(cases),
-        "differing": [case["name"] for case in cases if not case["identical"]],
+        "good": all(case["identical"] and case["valid"] for case in [*cases, *loops]),
+        "cases": len(cases) + len(loops),
+        "differing": [case["name"] for case in [*cases, *loops] if not case["identical"]],
         "refined": len(refined),
         "refused": len(cases) - len(refined),
-        "invalid": [case["name"] for case in refined if not case["valid"]],
-        "runs": sum(run["repeats"] for run in runs),
-        "differing_runs": sum(not run["identical"] for run in runs),
+        "invalid": [case["name"] for case in [*refined, *loops] if not case["valid"]],
+        "runs": sum(run["repeats"] for run in runs) + len(loop_runs),
+        "differing_runs": sum(not run["identical"] for run in [*runs, *loop_runs]),
         "bytes": sum(run["repeats"] * file["bytes"] for case in cases for run in case["runs"]
-                     for file in case["reference"]["files"].values()),
-        "most_cells": max((case["after"]["cells"] for case in refined), default=0),
+                     for file in case["reference"]["files"].values())
+                 + sum(len(loop["runs"]) * loop["bytes"] for loop in loops),
+        "most_cells": max([*(case["after"]["cells"] for case in refined),
+                           *(max(loop["cells"]) for loop in loops)], default=0),
         "decisions": sum(sum(case["verdict"]["arithmetic"].values()) for case in refined),
     }
 

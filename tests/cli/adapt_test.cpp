@@ -203,8 +203,7 @@ TEST_F(Adapt, WritesTheSameBytesByTheReference) {
 TEST_F(Adapt, RefusesWhatTheReferenceCannotDo) {
     const std::string refine = "refine --all\n";
     run("convert kuhn.mesh kuhn.octetra");
-    for (const auto& [mesh, script, options, words] :
-         std::vector<std::array<std::string, 4>>{
+    for (const auto& [mesh, script, options, words] : std::vector<std::array<std::string, 4>>{
              {"kuhn.octetra", refine, "-o r.mesh", "saves no history"},
              {"kuhn.mesh", refine, "-o r.octetra", "saves no history"},
              {"kuhn.mesh", refine + "save r.octetra\n", "-o r.mesh", "s.txt:2: --engine reference"},

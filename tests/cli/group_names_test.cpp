@@ -3,6 +3,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include <octetra/core/files/checkpoint.hpp>
 #include <octetra/core/files/mesh_files.hpp>
@@ -60,6 +61,59 @@ TEST_F(GroupNames, StayThroughRefiningOnAnyNumberOfRanks) {
             EXPECT_EQ(test::content_of(folder / "r.msh"), test::content_of(folder / "p.msh"))
                 << ranks << " ranks " << how;
         }
+    }
+}
+
+TEST_F(GroupNames, StandForTheTagsOfRegions) {
+    const std::string mesh = "gmsh-box-41b.msh ";
+    (void)folder.write("tag.txt", "refine --region 7 --levels 2\n");
+    (void)folder.write("name.txt", "refine --region steel --levels 2\n");
+    (void)run("refine " + mesh + "--region 7 --levels 2 -o tag.msh");
+    (void)run("refine " + mesh + "--region 7 --levels 2 -o tag.octetra");
+    (void)run("coarsen tag.octetra --region 7 -o tag-coarser.msh");
+    for (const int ranks : {0, 2, 3}) {
+        for (const std::string& command :
+             {"refine " + mesh + "--region steel --levels 2",
+              "refine " + mesh + "--region steel --levels 2 --engine reference",
+              "adapt " + mesh + "--script name.txt",
+              "adapt " + mesh + "--script name.txt --engine reference"}) {
+            (void)run(command + " -o name.msh", ranks);
+            EXPECT_EQ(test::content_of(folder / "tag.msh"), test::content_of(folder / "name.msh"))
+                << command << ' ' << ranks;
+        }
+        (void)run("coarsen tag.octetra --region steel -o name-coarser.msh", ranks);
+        EXPECT_EQ(test::content_of(folder / "tag-coarser.msh"),
+                  test::content_of(folder / "name-coarser.msh"));
+    }
+    EXPECT_EQ(test::octetra("verify " + mesh + "tag.msh --region steel --levels 2", folder).status,
+              0);
+    EXPECT_EQ(test::octetra("verify " + mesh + "tag.msh --region 2 --levels 2", folder).status, 1);
+}
+
+TEST_F(GroupNames, ThatNoGroupHasAreRefusedWithThoseThereAre) {
+    for (const int ranks : {0, 2}) {
+        const std::string command = "refine gmsh-box-41b.msh --region steal -o x.msh";
+        const auto outcome =
+            ranks == 0 ? test::octetra(command, folder) : test::octetra_on(ranks, command, folder);
+        EXPECT_EQ(outcome.status, 2);
+        EXPECT_THAT(outcome.err, HasSubstr("--region: no group of cells is called 'steal'; there "
+                                           "are air above, steel\n"));
+    }
+    (void)run("generate two-material -o m.ele");
+    const auto outcome = test::octetra("refine m.ele --region steel -o x.msh", folder);
+    EXPECT_EQ(outcome.status, 2);
+    EXPECT_THAT(outcome.err, HasSubstr("no group of cells of this mesh has a name"));
+}
+
+TEST_F(GroupNames, AreShownWithTheMesh) {
+    const auto table = test::octetra("info gmsh-box-41b.msh", folder);
+    EXPECT_THAT(table.out, HasSubstr("\n  7 steel  "));
+    EXPECT_THAT(table.out, HasSubstr("\n  -3 floor #1  "));
+    (void)run("convert gmsh-box-41b.msh m.octetra");
+    for (const std::string mesh : {"gmsh-box-41b.msh", "m.octetra"}) {
+        const auto info = nlohmann::json::parse(test::octetra("info --json " + mesh, folder).out);
+        EXPECT_EQ(info["regions"][1]["name"], "steel");
+        EXPECT_EQ(info["facet_markers"][0]["name"], "floor #1");
     }
 }
 

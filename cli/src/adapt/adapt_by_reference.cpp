@@ -136,7 +136,8 @@ private:
     void complete(Selection& selection, const SelectionOptions& typed) const {
         const Mesh& mesh = adapted_->mesh();
         complete_selection(selection, typed,
-                           {!mesh.regions.empty(), mesh.index_base, mesh.cells.size()});
+                           {!mesh.regions.empty(), mesh.index_base, mesh.cells.size(),
+                            SharedGroupNames(mesh.group_names)});
     }
 
     AdaptedByReference* adapted_;

@@ -122,7 +122,8 @@ MeshFacts facts_of_checkpoint(const std::string& path, const Script& script,
         read = {.vertices = facts.vertices_now,
                 .cells = facts.cells_now,
                 .index_base = facts.index_base,
-                .has_regions = facts.has_regions};
+                .has_regions = facts.has_regions,
+                .group_names = SharedGroupNames(facts.group_names)};
         check_regions_of(script, read);
     });
     return read;
@@ -158,11 +159,8 @@ JudgedMesh input_to_judge(const distributed::AdaptiveMesh& mesh, const Adaptatio
 /// Collective. The request that the only step is, of the mesh as it was read.
 verify::Request request_of(RefineStep step, const MeshFacts& read,
                            const distributed::Communicator& world) {
-    world.on_first([&] {
-        complete_selection(step.selection, step.typed.selection,
-                           {read.has_regions, read.index_base, read.cells});
-    });
-    world.broadcast(step.selection.cells);
+    complete_selection(step.selection, step.typed.selection,
+                       {read.has_regions, read.index_base, read.cells, read.group_names}, world);
     return {step.selection, step.scheme, step.typed.levels};
 }
 

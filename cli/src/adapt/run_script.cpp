@@ -98,11 +98,10 @@ private:
     /// Collective.
     void complete(Selection& selection, const SelectionOptions& typed) const {
         const std::uint64_t cells = counts_of(*mesh_).cells;
-        mesh_->processes().on_first([&] {
-            complete_selection(selection, typed,
-                               {run_->input.has_regions, run_->input.index_base, cells});
-        });
-        mesh_->processes().broadcast(selection.cells);
+        const MeshFacts& input = run_->input;
+        complete_selection(selection, typed,
+                           {input.has_regions, input.index_base, cells, input.group_names},
+                           mesh_->processes());
     }
 
     AdaptiveMesh* mesh_;

@@ -32,13 +32,15 @@ void add_info(CLI::App& program, const distributed::Communicator& world) {
         "  octetra info cube.1.ele --json");
     command->callback([options, world] {
         world.on_first([&] {
-            const quality::MeshStatistics statistics = quality::measure(read_input(options->input));
+            const Mesh mesh = read_input(options->input);
+            const quality::MeshStatistics statistics = quality::measure(mesh);
             if (!is_checkpoint(options->input.path)) {
-                return options->json ? print_json(statistics) : print_table(statistics);
+                return options->json ? print_json(statistics, nullptr, mesh.group_names)
+                                     : print_table(statistics, mesh.group_names);
             }
             const CheckpointFacts facts = read_checkpoint_facts(options->input.path);
-            if (options->json) return print_json(statistics, &facts);
-            print_table(statistics);
+            if (options->json) return print_json(statistics, &facts, mesh.group_names);
+            print_table(statistics, mesh.group_names);
             print_history(facts);
         });
     });

@@ -73,7 +73,8 @@ std::vector<float> weights_of(const Mesh& mesh, const PartitionOptions& options)
     }
     Selection selection = parse_selection(typed);
     complete_selection(selection, typed,
-                       {!mesh.regions.empty(), mesh.index_base, mesh.cells.size()});
+                       {!mesh.regions.empty(), mesh.index_base, mesh.cells.size(),
+                        SharedGroupNames(mesh.group_names)});
     return distributed::predicted_cells(mesh, selection, parse_scheme(options.refinement),
                                         options.refinement.levels);
 }

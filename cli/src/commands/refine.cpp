@@ -101,11 +101,11 @@ bool judge_and_write(const Mesh& coarse, const Mesh& fine, const RefinementMaps&
 /// Collective. Finishes what the plan wants of the mesh.
 void complete_plan(Plan& plan, const MeshFacts& facts, const RefineOptions& options,
                    const distributed::Communicator& world) {
-    world.on_first([&] {
-        complete_selection(plan.selection, options.refinement.selection,
-                           {facts.has_regions, facts.index_base, facts.cells});
-    });
-    world.broadcast(plan.selection.cells);
+    // Perhaps told twice: from what was typed, each time.
+    plan.selection = parse_selection(options.refinement.selection);
+    complete_selection(plan.selection, options.refinement.selection,
+                       {facts.has_regions, facts.index_base, facts.cells, facts.group_names},
+                       world);
 }
 
 /// Collective; the first process works, the others wait. False if the result is not valid.

@@ -40,6 +40,26 @@ Marker parse_tag(const std::string& text) {
     return parse_number<Marker>("--region", text, {Limits::min(), Limits::max(), words});
 }
 
+/// Rather than the name of a group.
+bool is_tag(const std::string& text) {
+    return text.empty() || text.find_first_of("0123456789+-") == 0;
+}
+
+Marker tag_of(const std::string& name, const std::vector<GroupName>& groups) {
+    std::string known;
+    for (const GroupName& group : groups) {
+        if (group.dimension != 3) continue;
+        if (group.name == name) return group.tag;
+        known += (known.empty() ? "" : ", ") + group.name;
+    }
+    if (known.empty()) {
+        throw InputError(fmt::format(
+            "--region: no group of cells of this mesh has a name, and '{}' is no tag", name));
+    }
+    throw InputError(
+        fmt::format("--region: no group of cells is called '{}'; there are {}", name, known));
+}
+
 }  // namespace
 
 void add_selection_options(CLI::App& subcommand, SelectionOptions& options,
@@ -59,7 +79,9 @@ void add_selection_options(CLI::App& subcommand, SelectionOptions& options,
         ->type_name("X0,Y0,Z0,X1,Y1,Z1")
         ->allow_extra_args(false)
         ->group(group);
-    subcommand.add_option("--region", options.regions, "cells with this region tag")
+    subcommand
+        .add_option("--region", options.regions,
+                    "cells with this region tag, or of the group with this name (.msh)")
         ->type_name("TAG")
         ->allow_extra_args(false)
         ->group(group);
@@ -87,7 +109,9 @@ Selection parse_selection(const SelectionOptions& options, std::string_view want
     selection.all = options.all;
     for (const std::string& text : options.spheres) selection.spheres.push_back(parse_sphere(text));
     for (const std::string& text : options.boxes) selection.boxes.push_back(parse_box(text));
-    for (const std::string& text : options.regions) selection.regions.push_back(parse_tag(text));
+    for (const std::string& text : options.regions) {
+        if (is_tag(text)) selection.regions.push_back(parse_tag(text));
+    }
     if (options.random) {
         // No share that anybody means, and one of few digits.
         if (*options.random > 0 && *options.random < std::numeric_limits<double>::min()) {
@@ -117,9 +141,19 @@ void check_regions(const SelectionOptions& options, bool mesh_has_regions) {
 void complete_selection(Selection& selection, const SelectionOptions& options,
                         const SelectableMesh& mesh) {
     check_regions(options, mesh.has_regions);
+    for (const std::string& text : options.regions) {
+        if (!is_tag(text)) selection.regions.push_back(tag_of(text, mesh.group_names.list()));
+    }
     if (!options.cells_file.empty()) {
         selection.cells = read_cell_list(options.cells_file, mesh.index_base, mesh.cells);
     }
+}
+
+void complete_selection(Selection& selection, const SelectionOptions& options,
+                        const SelectableMesh& mesh, const distributed::Communicator& processes) {
+    processes.on_first([&] { complete_selection(selection, options, mesh); });
+    processes.broadcast(selection.cells);
+    processes.broadcast(selection.regions);
 }
 
 }  // namespace octetra::cli

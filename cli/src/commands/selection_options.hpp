@@ -6,8 +6,10 @@
 #include <string_view>
 #include <vector>
 
+#include <octetra/core/group_names.hpp>
 #include <octetra/core/mesh.hpp>
 #include <octetra/core/selection.hpp>
+#include <octetra/distributed/communicator.hpp>
 
 namespace CLI {
 class App;
@@ -34,8 +36,8 @@ void add_selection_options(CLI::App& subcommand, SelectionOptions& options,
 /// Was any cell asked for?
 [[nodiscard]] bool has_criterion(const SelectionOptions& options);
 
-/// What does not need the mesh: at least one criterion, numbers in range. Throws InputError, which
-/// says what the criteria are for.
+/// What does not need the mesh: at least one criterion, numbers in range. Regions that are given by
+/// name are left out. Throws InputError, which says what the criteria are for.
 [[nodiscard]] Selection parse_selection(const SelectionOptions& options,
                                         std::string_view wanted = "which cells to refine");
 
@@ -44,13 +46,19 @@ struct SelectableMesh {
     bool has_regions = false;
     std::uint32_t index_base = 0;
     std::uint64_t cells = 0;
+    SharedGroupNames group_names;
 };
 
 /// Throws InputError if regions are asked for of a mesh that has none.
 void check_regions(const SelectionOptions& options, bool mesh_has_regions);
 
-/// The rest: the cell list, and whether the mesh has what is asked for. Throws InputError.
+/// The rest: the cell list, the tags of regions that are given by name, and whether the mesh has
+/// what is asked for. Throws InputError.
 void complete_selection(Selection& selection, const SelectionOptions& options,
                         const SelectableMesh& mesh);
+
+/// Collective. The same on all processes; the first one reads the list, and knows the mesh.
+void complete_selection(Selection& selection, const SelectionOptions& options,
+                        const SelectableMesh& mesh, const distributed::Communicator& processes);
 
 }  // namespace octetra::cli

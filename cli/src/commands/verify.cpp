@@ -111,7 +111,8 @@ verify::Verdict judge(const VerifyCommandOptions& given, verify::VerifyOptions o
     judged = {given.second, given.first, second.index_base, first.index_base};
     if (options.request) {
         complete_selection(options.request->selection, given.refinement.selection,
-                           {!first.regions.empty(), first.index_base, first.cells.size()});
+                           {!first.regions.empty(), first.index_base, first.cells.size(),
+                            SharedGroupNames(first.group_names)});
     }
     std::optional<RefinementMaps> maps;
     if (!given.maps.empty()) {
@@ -153,11 +154,10 @@ verify::Verdict judge_together(const VerifyCommandOptions& given, verify::Verify
     judged = {given.second, given.first, second.lists.index_base, index_base};
     if (options.request) {
         Selection& selection = options.request->selection;
-        world.on_first([&] {
-            complete_selection(selection, given.refinement.selection,
-                               {!first.lists.regions.empty(), index_base, first.totals.cells});
-        });
-        world.broadcast(selection.cells);
+        complete_selection(selection, given.refinement.selection,
+                           {!first.lists.regions.empty(), index_base, first.totals.cells,
+                            SharedGroupNames(first.lists.group_names)},
+                           world);
     }
     RefinementMaps maps;
     if (!given.maps.empty()) {

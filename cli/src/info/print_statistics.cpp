@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include "grouped.hpp"
+#include "info/name_of_group.hpp"
 #include "terminal.hpp"
 
 namespace octetra::cli {
@@ -151,13 +152,28 @@ void add_adjacency(Table& table, const std::optional<quality::Adjacency>& adjace
     table.row("faces at an edge", shown(adjacency->faces_per_edge));
 }
 
+/// The tag, and behind it as much of its group's name as there is room for.
+std::string named_tag(Marker tag, const std::string* name) {
+    std::string words = fmt::format("{}", tag);
+    if (name == nullptr) return words;
+    constexpr std::size_t room = 27;
+    words += " " + *name;
+    if (words.size() <= room) return words;
+    std::size_t end = room - 3;
+    while (end > 0 && (static_cast<unsigned char>(words[end]) & 0xc0U) == 0x80U) --end;  // UTF-8
+    return words.substr(0, end) + "...";
+}
+
+/// Of the groups of a dimension, `names` has the names.
 void add_tags(Table& table, const std::vector<quality::TagTotal>& totals, const char* title,
-              const char* count, const char* size) {
+              const char* count, const char* size, int dimension,
+              const std::vector<GroupName>& names) {
     if (totals.empty()) return;
     table.heading(title, count, size);
     const std::size_t shown_count = std::min(shown_tags, totals.size());
     for (std::size_t i = 0; i < shown_count; ++i) {
-        table.row(fmt::format("{}", totals[i].tag), shown(totals[i].count), shown(totals[i].size));
+        table.row(named_tag(totals[i].tag, name_of_group(names, dimension, totals[i].tag)),
+                  shown(totals[i].count), shown(totals[i].size));
     }
     if (shown_count < totals.size()) {
         table.row(fmt::format("and {} more; --json has all", grouped(totals.size() - shown_count)));
@@ -166,12 +182,12 @@ void add_tags(Table& table, const std::vector<quality::TagTotal>& totals, const 
 
 }  // namespace
 
-std::string format_table(const quality::MeshStatistics& s) {
+std::string format_table(const quality::MeshStatistics& s, const std::vector<GroupName>& names) {
     Table table;
     add_counts(table, s.counts);
     add_extent(table, s);
-    add_tags(table, s.regions, "Region", "cells", "volume");
-    add_tags(table, s.facet_markers, "Facet marker", "facets", "area");
+    add_tags(table, s.regions, "Region", "cells", "volume", 3, names);
+    add_tags(table, s.facet_markers, "Facet marker", "facets", "area", 2, names);
     add_shapes(table, s);
     add_adjacency(table, s.adjacency);
     table.histogram("Dihedral angle, degrees", s.dihedral_histogram);
@@ -179,8 +195,8 @@ std::string format_table(const quality::MeshStatistics& s) {
     return std::move(table).take();
 }
 
-void print_table(const quality::MeshStatistics& statistics) {
-    print_text(format_table(statistics));
+void print_table(const quality::MeshStatistics& statistics, const std::vector<GroupName>& names) {
+    print_text(format_table(statistics, names));
 }
 
 }  // namespace octetra::cli

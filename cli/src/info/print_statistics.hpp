@@ -1,8 +1,10 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include <octetra/core/files/checkpoint.hpp>
+#include <octetra/core/group_names.hpp>
 #include <octetra/quality/mesh_statistics.hpp>
 
 /// Mesh statistics for people and for programs.
@@ -17,8 +19,10 @@
 ///     bounding_box         {low: [x, y, z], high: [x, y, z]}, or null
 ///     volume               of all cells
 ///     boundary_area        of all faces of exactly one cell
-///     regions              [{tag, cells, volume}, ...] ascending by tag; [] without tags
-///     facet_markers        [{marker, facets, area}, ...] ascending by marker, of tagged facets
+///     regions              [{tag, cells, volume}, ...] ascending by tag; [] without tags; of a
+///                          group that has one also its name
+///     facet_markers        [{marker, facets, area}, ...] ascending by marker, of tagged facets;
+///                          likewise
 ///     edge_length          {min, max}, or null
 ///     cell_volume          {min, max}, or null
 ///     face_angle           {min, max} in degrees, or null
@@ -33,16 +37,18 @@
 namespace octetra::cli {
 
 /// Lines of at most 80 columns, numbers with six significant digits.
-[[nodiscard]] std::string format_table(const quality::MeshStatistics& statistics);
+[[nodiscard]] std::string format_table(const quality::MeshStatistics& statistics,
+                                       const std::vector<GroupName>& names = {});
 
 /// Indented JSON, and a line end; of a checkpoint with what it tells of its history.
 [[nodiscard]] std::string format_json(const quality::MeshStatistics& statistics,
-                                      const CheckpointFacts* checkpoint = nullptr);
+                                      const CheckpointFacts* checkpoint = nullptr,
+                                      const std::vector<GroupName>& names = {});
 
 /// The same, to stdout. Throws std::system_error where that fails.
-void print_table(const quality::MeshStatistics& statistics);
-void print_json(const quality::MeshStatistics& statistics,
-                const CheckpointFacts* checkpoint = nullptr);
+void print_table(const quality::MeshStatistics& statistics, const std::vector<GroupName>& names);
+void print_json(const quality::MeshStatistics& statistics, const CheckpointFacts* checkpoint,
+                const std::vector<GroupName>& names);
 /// The steps and fields of a checkpoint, to stdout.
 void print_history(const CheckpointFacts& facts);
 

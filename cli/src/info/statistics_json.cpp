@@ -4,6 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "info/name_of_group.hpp"
 #include "info/print_statistics.hpp"
 #include "terminal.hpp"
 
@@ -71,23 +72,27 @@ Json json(const std::optional<T>& value) {
 }
 
 Json json(const std::vector<quality::TagTotal>& totals, const char* tag, const char* count,
-          const char* size) {
+          const char* size, int dimension, const std::vector<GroupName>& names) {
     Json out = Json::array();
     for (const quality::TagTotal& total : totals) {
-        out.push_back({{tag, total.tag}, {count, total.count}, {size, total.size}});
+        Json& entry =
+            out.emplace_back(Json{{tag, total.tag}, {count, total.count}, {size, total.size}});
+        const std::string* name = name_of_group(names, dimension, total.tag);
+        if (name != nullptr) entry["name"] = *name;
     }
     return out;
 }
 
 }  // namespace
 
-std::string format_json(const quality::MeshStatistics& s, const CheckpointFacts* checkpoint) {
+std::string format_json(const quality::MeshStatistics& s, const CheckpointFacts* checkpoint,
+                        const std::vector<GroupName>& names) {
     Json out{{"counts", json(s.counts)},
              {"bounding_box", json(s.bounding_box)},
              {"volume", s.volume},
              {"boundary_area", s.boundary_area},
-             {"regions", json(s.regions, "tag", "cells", "volume")},
-             {"facet_markers", json(s.facet_markers, "marker", "facets", "area")},
+             {"regions", json(s.regions, "tag", "cells", "volume", 3, names)},
+             {"facet_markers", json(s.facet_markers, "marker", "facets", "area", 2, names)},
              {"edge_length", json(s.edge_length)},
              {"cell_volume", json(s.cell_volume)},
              {"face_angle", json(s.face_angle)},
@@ -100,8 +105,9 @@ std::string format_json(const quality::MeshStatistics& s, const CheckpointFacts*
     return out.dump(2) + "\n";
 }
 
-void print_json(const quality::MeshStatistics& statistics, const CheckpointFacts* checkpoint) {
-    print_text(format_json(statistics, checkpoint));
+void print_json(const quality::MeshStatistics& statistics, const CheckpointFacts* checkpoint,
+                const std::vector<GroupName>& names) {
+    print_text(format_json(statistics, checkpoint, names));
 }
 
 }  // namespace octetra::cli

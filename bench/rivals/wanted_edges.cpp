@@ -1,0 +1,134 @@
+#include "rivals/wanted_edges.hpp"
+
+#include <algorithm>
+
+namespace octetra::rivals {
+namespace {
+
+EdgeVertices ascending(EdgeVertices edge) {
+    if (edge[1] < edge[0]) std::swap(edge[0], edge[1]);
+    return edge;
+}
+
+bool has(const CellVertices& cell, VertexIndex v) {
+    return cell[0] == v || cell[1] == v || cell[2] == v || cell[3] == v;
+}
+
+}  // namespace
+
+void WantedEdges::follow_paths() {
+    while (!to_want_.empty()) {
+        const CellIndex next = to_want_.back();
+        to_want_.pop_back();
+        want_now(next);
+    }
+}
+
+void WantedEdges::want_now(CellIndex c) {
+    if (graph_->cells[c].longest_is_wanted) return;
+    graph_->find_star(c, star_);
+    const std::uint32_t edge = add(c, part(c));
+    if (edges_[edge].is_shared) asked_.push_back(edges_[edge]);
+}
+
+void WantedEdges::want_in(int part_told, CellIndex c) {
+    const EdgeVertices ends = ascending(graph_->longest_edge_of(c));
+    graph_->find_star(c, star_);
+    for (const StarCell& at : star_.cells) {
+        if (part(at.cell) != part_told) continue;
+        const bool is_longest = ascending(graph_->longest_edge_of(at.cell)) == ends;
+        if (is_longest ? graph_->cells[at.cell].longest_is_wanted : waits_for(at.cell, ends)) {
+            return;  // it has come to want it by itself
+        }
+    }
+    (void)add(c, part_told);
+    follow_paths();
+}
+
+/// The longest edge of a cell, whose star has been found, is wanted by this part.
+std::uint32_t WantedEdges::add(CellIndex c, int by) {
+    const EdgeVertices ends = ascending(graph_->longest_edge_of(c));
+    const std::uint32_t edge = put({.ends = ends, .cell = c, .part = by});
+    for (const StarCell& at : star_.cells) {
+        if (part(at.cell) == by) {
+            meet(edge, at.cell);
+        } else {
+            edges_[edge].is_shared = true;
+        }
+    }
+    check(edge);
+    return edge;
+}
+
+/// A wanted edge and a cell around it: the cell has it as its longest one, or is in its way.
+void WantedEdges::meet(std::uint32_t edge, CellIndex c) {
+    if (ascending(graph_->longest_edge_of(c)) == edges_[edge].ends) {
+        graph_->cells[c].longest_is_wanted = true;
+        return;
+    }
+    wait_for(c, edge);
+    to_want_.push_back(c);
+}
+
+void WantedEdges::check(std::uint32_t edge) {
+    if (edges_[edge].awaited > 0) return;
+    (edges_[edge].is_shared ? ready_ : terminal_).push_back(edge);
+}
+
+void WantedEdges::pass_on(CellIndex one, CellIndex other) {
+    std::uint32_t w = std::exchange(graph_->cells[one].first_waiter, no_waiter);
+    while (w != no_waiter) {
+        const Waiter waiter = waiters_[w];
+        waiters_[w].next = std::exchange(free_waiter_, w);
+        w = waiter.next;
+
+        --edges_[waiter.edge].awaited;
+        const auto [a, b] = edges_[waiter.edge].ends;
+        for (const CellIndex child : {one, other}) {
+            const CellVertices& vertices = graph_->cells[child].vertices;
+            if (has(vertices, a) && has(vertices, b)) meet(waiter.edge, child);
+        }
+        check(waiter.edge);
+    }
+}
+
+bool WantedEdges::waits_for(CellIndex c, const EdgeVertices& ends) const {
+    for (std::uint32_t w = graph_->cells[c].first_waiter; w != no_waiter; w = waiters_[w].next) {
+        if (edges_[waiters_[w].edge].ends == ends) return true;
+    }
+    return false;
+}
+
+void WantedEdges::wait_for(CellIndex c, std::uint32_t edge) {
+    ++edges_[edge].awaited;
+    std::uint32_t w = free_waiter_;
+    if (w == no_waiter) {
+        w = static_cast<std::uint32_t>(waiters_.size());
+        waiters_.emplace_back();
+    } else {
+        free_waiter_ = waiters_[w].next;
+    }
+    waiters_[w] = {edge, std::exchange(graph_->cells[c].first_waiter, w)};
+}
+
+std::uint32_t WantedEdges::put(const Edge& edge) {
+    if (free_edges_.empty()) {
+        edges_.push_back(edge);
+        return static_cast<std::uint32_t>(edges_.size() - 1);
+    }
+    const std::uint32_t place = free_edges_.back();
+    free_edges_.pop_back();
+    edges_[place] = edge;
+    return place;
+}
+
+void WantedEdges::take(std::vector<std::uint32_t>& list, std::vector<Edge>& edges) {
+    edges.clear();
+    for (const std::uint32_t edge : list) {
+        edges.push_back(edges_[edge]);
+        free_edges_.push_back(edge);
+    }
+    list.clear();
+}
+
+}  // namespace octetra::rivals

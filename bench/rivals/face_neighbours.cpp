@@ -12,9 +12,14 @@ namespace {
 
 using Neighbours = IndexVector<CellIndex, std::array<CellIndex, 4>>;
 
+/// Of an edge, whose lower vertex is a.
+std::uint64_t key(VertexIndex a, VertexIndex b) {
+    return std::uint64_t{a.value()} << 32U | b.value();
+}
+
 /// One of a cell, in the bucket of its smallest vertex.
 struct Face {
-    std::array<VertexIndex, 2> rest;  // its other vertices, ascending
+    std::uint64_t rest = 0;  // the key of its other vertices
     CellIndex cell;
     std::uint8_t position = 0;
 };
@@ -36,7 +41,8 @@ struct FaceBuckets {
         for_each_face(mesh, [&](const auto& face, CellIndex, std::size_t) { ++ends[face[0]]; });
         std::exclusive_scan(ends.begin(), ends.end(), ends.begin(), std::size_t{0});
         for_each_face(mesh, [&](const auto& face, CellIndex c, std::size_t position) {
-            faces[ends[face[0]]++] = {{face[1], face[2]}, c, static_cast<std::uint8_t>(position)};
+            faces[ends[face[0]]++] = {key(face[1], face[2]), c,
+                                      static_cast<std::uint8_t>(position)};
         });
     }
 
@@ -51,10 +57,6 @@ private:
 void join(const Face& f, const Face& g, Neighbours& neighbours) {
     neighbours[f.cell][f.position] = g.cell;
     neighbours[g.cell][g.position] = f.cell;
-}
-
-std::uint64_t key(VertexIndex a, VertexIndex b) {
-    return std::uint64_t{a.value()} << 32U | b.value();
 }
 
 /// Where more than two faces of the boundary have an edge, cells at it are in several stars.

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <octetra/core/selection.hpp>
+
 #include "rivals/parts.hpp"
 #include "support/meshes.hpp"
 

@@ -237,5 +237,17 @@ class Programs(unittest.TestCase):
         self.assertIn("no case has nonsense in its name", done.stderr)
 
 
+class Rival(unittest.TestCase):
+    def rivals(self, *arguments):
+        return subprocess.run([sys.executable, os.path.join(ROOT, "bench", "rivals"), *arguments],
+                              stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, check=False)
+
+    def test_has_a_page_made_of_what_was_measured(self):
+        self.assertEqual(self.rivals("check").returncode, 0)
+
+    def test_refuses_what_it_does_not_know(self):
+        self.assertEqual(self.rivals("measure", "--slow").returncode, 2)
+
+
 if __name__ == "__main__":
     unittest.main()

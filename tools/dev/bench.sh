@@ -1,6 +1,16 @@
 # ./dev bench [--quick] [--peers] [--only CASE...] [--repetitions N] [--list]
+# ./dev bench --rival [--quick] [--repetitions N]
 # shellcheck shell=bash
 source "$root/tools/dev/common.sh"
+
+if [[ ${1:-} == --rival ]]; then
+    shift
+    if command -v python3 >/dev/null; then python3 bench/rivals measure --list "$@" >/dev/null || exit 2; fi
+    need build bench
+    configure release release "-DOCTETRA_TESTS=$(on_if_installed test)" -DOCTETRA_BENCH=ON
+    step "build bench_rivals" cmake --build build/release --parallel "$jobs" --target bench_rivals octetra
+    exec python3 bench/rivals measure --build build/release "$@"
+fi
 
 # A full run goes into bench/, to be committed; a quick one says nothing about speed.
 sections=(build bench) peers='' output=bench

@@ -1,0 +1,223 @@
+"""Terminal-edge bisection beside 8T-LE: what each makes of the same meshes for the same goals.
+
+usage: rivals measure [--build FOLDER] [--repetitions N] [--quick]    into bench/rivals/measured.json
+       rivals page                                                    from it, docs/rival.md
+       rivals check                                                   status 1 if the page is another
+
+Every run is a process of its own, which prints a line of JSON (bench/rivals_bench.cpp). Repetitions go in
+turns, so that a busy moment does not meet one method alone; seconds are those of the processor, medians.
+"""
+import argparse
+import json
+import os
+import pathlib
+import statistics
+import subprocess
+import sys
+import tempfile
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+HERE = pathlib.Path(__file__).parent
+MEASURED = HERE / "measured.json"
+METHODS = ("terminal", "8t", "4t", "2t")
+MESHES = {"kuhn": (["kuhn", "16"], "0.5,0.5,0.5,0.2"),
+          "random": (["random", "4000", "--seed", "1"], "0.5,0.5,0.5,0.2"),
+          "gear": (["gear", "--edge", "0.08"], "0.8,0,0.1,0.2")}
+QUICK = {"kuhn": (["kuhn", "4"], "0.5,0.5,0.5,0.3"), "random": (["random", "200", "--seed", "1"], "0.5,0.5,0.5,0.3")}
+#        task, halvings, in the sphere?
+GOALS = (("edge", 1, False), ("edge", 2, False), ("edge", 2, True), ("edge", 3, True),
+         ("once", 1, True), ("volume", 1, True), ("volume", 3, True))
+ON_PARTS = (("edge", 1, False), ("volume", 2, True))
+SECONDS = ("setup_seconds", "marking_seconds", "refining_seconds", "result_seconds")
+
+
+# Huge pages for whatever malloc gives, as octetra's engine asks for by itself.
+ENVIRONMENT = os.environ | {"GLIBC_TUNABLES": "glibc.malloc.hugetlb=1"}
+
+
+def printed(command):
+    done = subprocess.run(command, check=True, stdout=subprocess.PIPE, text=True, env=ENVIRONMENT)
+    return json.loads(done.stdout)
+
+
+def command_of(program, mesh, goal, sphere, method):
+    task, halvings, local = goal
+    where = ["--sphere", sphere] if local else []
+    return [program, mesh, "--method", method, "--task", task, "--halvings", str(halvings), *where]
+
+
+def medians(runs):
+    """Of seconds; all else is the same in every run."""
+    first = dict(runs[0])
+    for key in SECONDS:
+        first[key] = statistics.median(run[key] for run in runs)
+    first["to_target_seconds"] = statistics.median(sum(run[key] for key in SECONDS) for run in runs)
+    return first
+
+
+def measured_goal(program, mesh, goal, sphere, repetitions):
+    runs = {method: [] for method in METHODS}
+    for _ in range(repetitions):
+        for method in METHODS:
+            runs[method].append(printed(command_of(program, mesh, goal, sphere, method)))
+    return {method: medians(list_of) for method, list_of in runs.items()}
+
+
+def on_parts(program, mesh, goal, sphere, parts):
+    made = {}
+    for method in METHODS:
+        command = command_of(program, mesh, goal, sphere, method)
+        made[method] = printed(command + ["--parts", str(parts)] if method == "terminal" else
+                               [ROOT / "tests/support/mpirun.sh", str(parts), *command])
+    return {method: {key: run[key] for key in ("rounds", "messages", "bytes", "cells")}
+            for method, run in made.items()}
+
+
+def lines_of(made):
+    """JSON, a case a line."""
+    def one_a_line(cases):
+        return "[" + ",\n  ".join(json.dumps(case) for case in cases) + "]"
+    return (f'{{"repetitions": {made["repetitions"]}, "load": {made["load"]},\n'
+            f' "cases": {one_a_line(made["cases"])},\n'
+            f' "parts": {one_a_line(made["parts"])}}}\n')
+
+
+def measure(build, repetitions, quick):
+    program, octetra = build / "bench/bench_rivals", build / "cli/octetra"
+    cases, parted, load = [], [], os.getloadavg()[0]
+    with tempfile.TemporaryDirectory() as folder:
+        for name, (shape, sphere) in (QUICK if quick else MESHES).items():
+            mesh = f"{folder}/{name}.meshb"
+            subprocess.run([octetra, "generate", *shape, "-o", mesh, "--quiet"], check=True)
+            for goal in GOALS:
+                made = measured_goal(program, mesh, goal, sphere, repetitions)
+                cases.append({"mesh": name, "goal": goal, "methods": made})
+                print(name, *goal, file=sys.stderr)
+            for goal in ON_PARTS:
+                for parts in (2, 8):
+                    parted.append({"mesh": name, "goal": goal, "parts": parts,
+                                   "methods": on_parts(program, mesh, goal, sphere, parts)})
+    return {"repetitions": repetitions, "load": round(load, 1), "cases": cases, "parts": parted}
+
+
+def name_of(case):
+    task, halvings, local = case["goal"]
+    size = {"edge": f"edges / {2 ** halvings}", "once": "each cut once", "volume": f"volumes / {8 ** halvings}"}
+    return f"{case['mesh']}, {size[task]}{', region' if local else ''}"
+
+
+def table(heads, rows):
+    lines = ["| " + " | ".join(heads) + " |", "|---|" + "---:|" * (len(heads) - 1)]
+    return "\n".join(lines + ["| " + " | ".join(row) + " |" for row in rows])
+
+
+def beside(case, figure, form):
+    """A figure of terminal-edge bisection, and those of the others as so many times it."""
+    methods = case["methods"]
+    own = figure(methods["terminal"])
+    others = [f"{figure(methods[m]) / own:.2f}" if own else f"{figure(methods[m]):,}" for m in METHODS[1:]]
+    return [form(own), *others]
+
+
+def cells_table(cases):
+    rows = []
+    for case in cases:
+        methods = case["methods"]
+        own = methods["terminal"]
+        outside = []
+        if case["goal"][2]:
+            outside = [f"{methods[m]['cells_added_outside']:,}" for m in METHODS]
+        rows.append([name_of(case), f"{own['input_cells']:,}", f"{own['targets']:,}",
+                     *beside(case, lambda run: run["cells"] - run["input_cells"], lambda n: f"{n:,}"),
+                     *(outside or [""] * 4)])
+    return table(["mesh, goal", "cells", "targets", "added: terminal", "8t", "4t", "2t",
+                  "outside: terminal", "8t", "4t", "2t"], rows)
+
+
+def per_cell(run):
+    return 1e9 * run["refining_seconds"] / max(1, run["cells"] - run["input_cells"])
+
+
+def seconds_table(cases):
+    rows = []
+    for case in cases:
+        methods = case["methods"]
+        rows.append([name_of(case), f"{methods['terminal']['rounds']}",
+                     *(f"{methods[m]['levels']}" for m in METHODS[1:]),
+                     *(f"{per_cell(methods[m]):,.0f}" for m in METHODS),
+                     *(f"{1000 * methods[m]['to_target_seconds']:,.1f}" for m in METHODS)])
+    return table(["mesh, goal", "rounds", "levels: 8t", "4t", "2t", "ns a cell: terminal", "8t", "4t", "2t",
+                  "ms to goal: terminal", "8t", "4t", "2t"], rows)
+
+
+def shapes_table(cases):
+    rows = []
+    for case in cases:
+        made = {method: run["shapes"] for method, run in case["methods"].items()}
+        for name, shapes in {"(targets)": case["methods"]["terminal"]["shapes_of_targets"], **made}.items():
+            rows.append([name_of(case) if name == "(targets)" else "", name,
+                         *(f"{a:.1f}" for a in shapes["least_dihedral"]),
+                         *(f"{a:.1f}" for a in shapes["greatest_dihedral"]),
+                         *(f"{r:.2f}" for r in shapes["edge_ratio"])])
+    return table(["mesh, goal", "method", "least dihedral: least", "1 %", "10 %", "50 %", "greatest: 50 %", "90 %",
+                  "99 %", "most", "edge ratio: 50 %", "90 %", "99 %", "most"], rows)
+
+
+def parts_table(cases):
+    rows = []
+    for case in cases:
+        methods = case["methods"]
+        rows.append([name_of(case), str(case["parts"]),
+                     *(f"{methods[m]['rounds']}" for m in METHODS),
+                     *(f"{methods[m]['messages']:,}" for m in METHODS),
+                     *(f"{methods[m]['bytes'] / 1000:,.1f}" for m in METHODS)])
+    return table(["mesh, goal", "parts", "rounds: terminal", "8t", "4t", "2t", "messages: terminal", "8t", "4t", "2t",
+                  "kB: terminal", "8t", "4t", "2t"], rows)
+
+
+def page_text():
+    measured = json.loads(MEASURED.read_text())
+    cases = measured["cases"]
+
+    def with_goals(*goals):
+        return [case for case in cases if tuple(case["goal"]) in goals]
+
+    main_ones = with_goals(("edge", 2, False), ("edge", 3, True), ("once", 1, True), ("volume", 3, True))
+    shaped = [case for case in with_goals(("volume", 3, True)) if case["mesh"] != "kuhn"]
+    parted = [case for case in measured["parts"] if case["parts"] == 8 and case["mesh"] != "kuhn"]
+    text = (HERE / "page.md").read_text()
+    for word, made in {"@cells@": cells_table(main_ones), "@seconds@": seconds_table(main_ones),
+                       "@shapes@": shapes_table(shaped), "@parts@": parts_table(parted),
+                       "@load@": str(measured["load"]),
+                       "@repetitions@": str(measured["repetitions"])}.items():
+        text = text.replace(word, made)
+    return text
+
+
+def main():
+    parser = argparse.ArgumentParser(prog="rivals", description=__doc__,
+                                     formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("what", choices=["measure", "page", "check"])
+    parser.add_argument("--build", type=pathlib.Path, default=ROOT / "build/release")
+    parser.add_argument("--repetitions", type=int, default=5)
+    parser.add_argument("--quick", action="store_true", help="small meshes, once; prints, and writes no file")
+    parser.add_argument("--list", action="store_true", help="only name what would be measured")
+    chosen = parser.parse_args()
+    page = ROOT / "docs/rival.md"
+    if chosen.list:
+        print("\n".join(name_of({"mesh": mesh, "goal": goal}) for mesh in MESHES for goal in GOALS))
+        return 0
+    if chosen.what == "check":
+        return 0 if page.read_text() == page_text() else 1
+    if chosen.what == "measure":
+        made = measure(chosen.build, 1 if chosen.quick else chosen.repetitions, chosen.quick)
+        if chosen.quick:
+            print(cells_table(made["cases"]), parts_table(made["parts"]), sep="\n\n")
+            return 0
+        MEASURED.write_text(lines_of(made))
+    page.write_text(page_text())
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

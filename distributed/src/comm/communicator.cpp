@@ -127,6 +127,10 @@ Communicator communicator_of(MPI_Comm comm) {
     return Communicator(std::make_shared<const Communicator::Mpi>(comm));
 }
 
+MPI_Comm comm_of(const Communicator& processes) {
+    return processes.mpi() == nullptr ? MPI_COMM_SELF : processes.mpi()->comm;
+}
+
 namespace {
 
 /// Did mpirun, or srun, start this process? Starting MPI otherwise would only cost time.

@@ -143,6 +143,7 @@ public:
     class Watch;  // see all_or_none() in src/comm
     struct Mpi;   // wraps an MPI communicator; see octetra/distributed/mpi.hpp
     explicit Communicator(std::shared_ptr<const Mpi> mpi);
+    [[nodiscard]] const Mpi* mpi() const { return mpi_.get(); }  ///< null: this process alone
 
 private:
     using Allocate = std::byte* (*)(void* context, std::size_t i, std::size_t size);

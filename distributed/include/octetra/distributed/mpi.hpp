@@ -10,4 +10,8 @@ namespace octetra::distributed {
 /// the communicator, so that no message of ours meets one of theirs.
 [[nodiscard]] Communicator communicator_of(MPI_Comm comm);
 
+/// The other way: a communicator of MPI with these processes, in their order; MPI_COMM_SELF of a
+/// process that never called MPI. It is theirs: to send messages, duplicate it.
+[[nodiscard]] MPI_Comm comm_of(const Communicator& processes);
+
 }  // namespace octetra::distributed

@@ -2,5 +2,5 @@
 # shellcheck shell=bash
 source "$root/tools/dev/common.sh"
 
-need build test
+need build test adapters
 python3 tests/mutants/run.py --jobs "$jobs" "$@"

@@ -1,0 +1,156 @@
+#include "nodes.hpp"
+
+#include <array>
+#include <cstddef>
+#include <limits>
+#include <span>
+
+#include <octetra/core/error.hpp>
+#include <octetra/distributed/exchange.hpp>
+
+namespace octetra::dolfinx {
+namespace {
+
+namespace od = distributed;
+
+/// What a rank says of a cell to those that have it as a ghost.
+struct SentCell {
+    std::int64_t cell = 0;
+    std::array<std::int64_t, 4> nodes{};  ///< by their numbers in the whole mesh
+    std::array<std::int32_t, 4> owners{};
+};
+
+void check_counts(const od::AdaptiveMesh& mesh, const od::GhostLayer* ghosts) {
+    const std::size_t ghost_cells = ghosts == nullptr ? 0 : ghosts->cells.size();
+    const std::size_t corners = 4 * (mesh.cells().size() + ghost_cells);
+    constexpr std::size_t most = std::numeric_limits<std::int32_t>::max();
+    if (corners > most || mesh.points().size() > most / 2) {
+        throw InputError("a rank has more cells than DOLFINx can number, 536,870,911");
+    }
+}
+
+/// Of this rank's vertices: its own first, then the others' by owner, as the owner lists them.
+void number_vertices(const od::AdaptiveMesh& mesh, Nodes& nodes) {
+    constexpr std::int32_t foreign = -1;
+    nodes.of_vertex.assign(mesh.points().size(), 0);
+    for (const auto& with : mesh.vertex_sharing().neighbours()) {
+        for (const VertexIndex v : with.received) nodes.of_vertex[v.value()] = foreign;
+        if (!with.received.empty()) nodes.numbering.sources.push_back(with.rank);
+        if (!with.owned.empty()) nodes.numbering.destinations.push_back(with.rank);
+    }
+    nodes.vertices.reserve(nodes.of_vertex.size());
+    const auto append = [&](std::size_t vertex) {
+        nodes.of_vertex[vertex] = static_cast<std::int32_t>(nodes.vertices.size());
+        nodes.vertices.emplace_back(vertex);
+    };
+    for (std::size_t v = 0; v < nodes.of_vertex.size(); ++v) {
+        if (nodes.of_vertex[v] != foreign) append(v);
+    }
+    nodes.numbering.own_count = static_cast<std::int32_t>(nodes.vertices.size());
+    for (const auto& with : mesh.vertex_sharing().neighbours()) {
+        for (const VertexIndex v : with.received) {
+            append(v.value());
+            nodes.numbering.owners.push_back(with.rank);
+        }
+    }
+}
+
+/// Collective. Asks the owners for the numbers of their vertices.
+void number_ghosts(const od::AdaptiveMesh& mesh, Nodes& nodes) {
+    Numbering& numbering = nodes.numbering;
+    numbering.first = static_cast<std::int64_t>(
+        mesh.processes().sum_before(static_cast<std::uint64_t>(numbering.own_count)));
+    std::vector<std::int64_t> numbers;
+    mesh.processes().on_each([&] {
+        numbers.reserve(nodes.of_vertex.size());
+        for (const std::int32_t node : nodes.of_vertex) numbers.push_back(numbering.first + node);
+        numbering.ghosts.resize(numbering.owners.size());
+    });
+    od::update_copies(mesh.processes(), mesh.vertex_sharing(), numbers.size(), numbers);
+    const auto own_count = static_cast<std::size_t>(numbering.own_count);
+    for (std::size_t k = 0; k < numbering.ghosts.size(); ++k) {
+        numbering.ghosts[k] = numbers[nodes.vertices[own_count + k].value()];
+    }
+}
+
+SentCell sent_cell(const od::AdaptiveMesh& mesh, const Nodes& nodes, CellIndex cell) {
+    SentCell sent;
+    sent.cell = nodes.cell_numbering.first + static_cast<std::int64_t>(cell.value());
+    for (std::size_t k = 0; k < 4; ++k) {
+        const std::int32_t node = nodes.of_vertex[mesh.cells()[cell.value()][k].value()];
+        const bool is_own = node < nodes.numbering.own_count;
+        const auto ghost = static_cast<std::size_t>(node - nodes.numbering.own_count);
+        sent.nodes[k] = is_own ? nodes.numbering.first + node : nodes.numbering.ghosts[ghost];
+        sent.owners[k] = is_own ? mesh.processes().rank() : nodes.numbering.owners[ghost];
+    }
+    return sent;
+}
+
+/// What has come from other ranks, of all ghost cells in their order, into the numberings.
+void take_cells(const od::AdaptiveMesh& mesh, const od::GhostLayer& ghosts,
+                const std::vector<std::vector<SentCell>>& inboxes, Nodes& nodes) {
+    const std::size_t vertex_count = mesh.points().size();
+    Numbering& numbering = nodes.numbering;
+    const std::size_t known = numbering.ghosts.size();
+    numbering.ghosts.resize(known + ghosts.points.size());
+    numbering.owners.resize(known + ghosts.points.size());
+    nodes.vertices.resize(vertex_count + ghosts.points.size(), VertexIndex::none());
+    nodes.ghost_cells.reserve(4 * ghosts.cells.size());
+    std::size_t at = 0;
+    for (std::size_t i = 0; i < inboxes.size(); ++i) {
+        for (const SentCell& come : inboxes[i]) {
+            nodes.cell_numbering.ghosts.push_back(come.cell);
+            nodes.cell_numbering.owners.push_back(ghosts.exchanges[i].rank);
+            for (std::size_t k = 0; k < 4; ++k) {
+                const std::size_t vertex = ghosts.cells[at][k].value();
+                if (vertex < vertex_count) {
+                    nodes.ghost_cells.push_back(nodes.of_vertex[vertex]);
+                    continue;
+                }
+                nodes.ghost_cells.push_back(static_cast<std::int32_t>(vertex));
+                numbering.ghosts[known + vertex - vertex_count] = come.nodes[k];
+                numbering.owners[known + vertex - vertex_count] = come.owners[k];
+            }
+            ++at;
+        }
+    }
+}
+
+/// Collective. Ghost cells, and the vertices that only they have.
+void number_ghost_cells(const od::AdaptiveMesh& mesh, const od::GhostLayer& ghosts, Nodes& nodes) {
+    std::vector<int> ranks;
+    std::vector<std::vector<SentCell>> outboxes;
+    mesh.processes().on_each([&] {
+        for (const auto& exchange : ghosts.exchanges) {
+            ranks.push_back(exchange.rank);
+            auto& outbox = outboxes.emplace_back();
+            outbox.reserve(exchange.sent.size());
+            for (const CellIndex c : exchange.sent) outbox.push_back(sent_cell(mesh, nodes, c));
+            if (exchange.received > 0) nodes.cell_numbering.sources.push_back(exchange.rank);
+            if (!exchange.sent.empty()) {
+                nodes.cell_numbering.destinations.push_back(exchange.rank);
+            }
+        }
+    });
+    const auto inboxes = mesh.processes().exchange_with(ranks, outboxes);
+    mesh.processes().on_each([&] { take_cells(mesh, ghosts, inboxes, nodes); });
+    nodes.numbering.knows_destinations = false;
+}
+
+}  // namespace
+
+Nodes number_nodes(const od::AdaptiveMesh& mesh, const od::GhostLayer* ghosts) {
+    Nodes nodes;
+    mesh.processes().on_each([&] {
+        check_counts(mesh, ghosts);
+        number_vertices(mesh, nodes);
+        nodes.cell_numbering.own_count = static_cast<std::int32_t>(mesh.cells().size());
+    });
+    number_ghosts(mesh, nodes);
+    nodes.cell_numbering.first =
+        static_cast<std::int64_t>(mesh.processes().sum_before(mesh.cells().size()));
+    if (ghosts != nullptr) number_ghost_cells(mesh, *ghosts, nodes);
+    return nodes;
+}
+
+}  // namespace octetra::dolfinx

@@ -1,0 +1,176 @@
+"""Adaptive finite elements in DOLFINx, refined by Octetra or by DOLFINx itself.
+
+    mpirun -n 4 python3 adaptive_poisson.py --refine octetra --steps 8
+    mpirun -n 4 python3 adaptive_poisson.py --refine dolfinx --steps 8
+
+-laplace u = 0 on the L-shaped prism ((-1, 1)^2 without [0, 1) x (-1, 0]) x (0, 1), where u = r^(2/3)
+sin(2 theta / 3) is given on the sides, and nothing flows through bottom and top: that of
+examples/adaptive_poisson.cpp. The gradient of u is infinite at the edge that points inwards. Solve,
+estimate, mark and refine: the two runs differ in refine_mesh() alone.
+"""
+
+import argparse
+import time
+
+import dolfinx
+import dolfinx.fem.petsc
+import numpy as np
+import ufl
+from mpi4py import MPI
+from petsc4py import PETSc
+
+import octetra
+import octetra.dolfinx
+
+world = MPI.COMM_WORLD
+
+
+# ---- the problem
+
+def solution(x):
+    theta = np.arctan2(x[1], x[0])
+    return np.hypot(x[0], x[1]) ** (2 / 3) * np.sin(2 * np.where(theta < 0, theta + 2 * np.pi, theta) / 3)
+
+
+def gradient(x):
+    theta = ufl.atan_2(x[1], x[0])
+    theta = ufl.conditional(theta < 0, theta + 2 * np.pi, theta)
+    size = 2 / 3 * (x[0] ** 2 + x[1] ** 2) ** (-1 / 6)
+    return ufl.as_vector([-size * ufl.sin(theta / 3), size * ufl.cos(theta / 3), 0])
+
+
+def on_sides(x):
+    outside = np.isclose(np.maximum(np.abs(x[0]), np.abs(x[1])), 1)
+    notch = ((np.isclose(x[0], 0) & (x[1] < 1e-9)) | (np.isclose(x[1], 0) & (x[0] > -1e-9)))
+    return outside | notch
+
+
+def coarse_mesh():
+    """24 cubes of side 1/2, of six cells each, on the first rank; on the others nothing."""
+    if world.rank > 0:
+        return np.empty((0, 3)), np.empty((0, 4), np.int64)
+    corners = np.stack(np.meshgrid(*(range(n) for n in (4, 4, 2)), indexing="ij"), axis=-1).reshape(-1, 3)
+    corners = corners[~((corners[:, 0] >= 2) & (corners[:, 1] < 2))]
+    ways = np.array([[0, 1, 2], [1, 2, 0], [2, 0, 1], [0, 2, 1], [1, 0, 2], [2, 1, 0]])
+    steps = np.eye(3, dtype=int)[ways].cumsum(axis=1)  # from one corner of a cube to the other
+    cells = corners[:, None, None] + np.pad(steps, ((0, 0), (1, 0), (0, 0)))
+    points, numbers = np.unique(cells.reshape(-1, 3), axis=0, return_inverse=True)
+    return points / 2 - [1, 1, 0], numbers.reshape(-1, 4).astype(np.int64)
+
+
+# ---- solve, estimate, mark
+
+def solve(domain):
+    space = dolfinx.fem.FunctionSpace(domain, ("Lagrange", 1))
+    known = dolfinx.fem.Function(space)
+    known.interpolate(solution)
+    fixed = dolfinx.fem.dirichletbc(known, dolfinx.fem.locate_dofs_geometrical(space, on_sides))
+    u, v = ufl.TrialFunction(space), ufl.TestFunction(space)
+    zero = dolfinx.fem.Constant(domain, 0.0)
+    options = {"ksp_type": "cg", "pc_type": "gamg", "ksp_rtol": 1e-10}
+    uh = dolfinx.fem.petsc.LinearProblem(ufl.inner(ufl.grad(u), ufl.grad(v)) * ufl.dx, zero * v * ufl.dx,
+                                         [fixed], petsc_options=options).solve()
+    uh.x.scatter_forward()
+    return uh
+
+
+def estimate(uh):
+    """Squared, of each cell of this rank: jumps of the normal derivative."""
+    domain = uh.function_space.mesh
+    constants = dolfinx.fem.FunctionSpace(domain, ("DG", 0))
+    w = ufl.TestFunction(constants)
+    area, n = ufl.FacetArea(domain), ufl.FacetNormal(domain)
+    z = ufl.SpatialCoordinate(domain)[2]
+    flow = ufl.conditional(ufl.Or(z < 1e-9, z > 1 - 1e-9), ufl.dot(ufl.grad(uh), n), 0)
+    # Of each facet area^(3/2) * jump^2; both cells have half of it.
+    form = (ufl.avg(area) ** 0.5 * ufl.jump(ufl.grad(uh), n) ** 2 * ufl.avg(w) * ufl.dS
+            + area ** 0.5 * flow ** 2 * w * ufl.ds(metadata={"quadrature_degree": 0}))
+    eta = dolfinx.fem.petsc.assemble_vector(dolfinx.fem.form(form))
+    eta.ghostUpdate(addv=PETSc.InsertMode.ADD, mode=PETSc.ScatterMode.REVERSE)
+    unknown_of_cell = constants.dofmap.list.array[:domain.topology.index_map(3).size_local]
+    return eta.array[unknown_of_cell]
+
+
+def mark(eta):
+    """Doerfler: the cells of largest eta that make half of its sum, as few as a threshold can choose."""
+    low, high = 0.0, world.allreduce(eta.max(initial=0), MPI.MAX)
+    half = world.allreduce(eta.sum()) / 2
+    for _ in range(40):
+        middle = (low + high) / 2
+        enough = world.allreduce(eta[eta >= middle].sum()) >= half
+        low, high = (middle, high) if enough else (low, middle)
+    return eta >= low
+
+
+def energy_error(uh):
+    x = ufl.SpatialCoordinate(uh.function_space.mesh)
+    difference = gradient(x) - ufl.grad(uh)
+    form = ufl.inner(difference, difference) * ufl.dx(metadata={"quadrature_degree": 2})
+    return np.sqrt(world.allreduce(dolfinx.fem.assemble_scalar(dolfinx.fem.form(form))))
+
+
+# ---- refine
+
+class RefinedByDolfinx:
+    def __init__(self, domain):
+        self.domain = domain
+
+    def refine(self, marks):
+        self.domain.topology.create_entities(1)
+        edges = dolfinx.mesh.compute_incident_entities(
+            self.domain, np.flatnonzero(marks).astype(np.int32), 3, 1)
+        self.domain = dolfinx.mesh.refine(self.domain, edges, redistribute=True)
+
+
+class RefinedByOctetra:
+    def __init__(self, domain):
+        self.mesh, _ = octetra.dolfinx.from_mesh(domain)
+        self.domain = octetra.dolfinx.to_mesh(self.mesh).mesh  # cell i is cell i of self.mesh
+
+    def refine(self, marks):
+        self.mesh.refine_evenly(marks)
+        self.domain = octetra.dolfinx.to_mesh(self.mesh).mesh
+
+
+# ---- the loop
+
+def say(text):
+    if world.rank == 0:
+        print(text, flush=True)
+
+
+def main():
+    parser = argparse.ArgumentParser()
+    parser.add_argument("--refine", choices=("octetra", "dolfinx"), default="octetra")
+    parser.add_argument("--steps", type=int, default=6)
+    options = parser.parse_args()
+    points, cells = coarse_mesh()
+    domain = dolfinx.mesh.create_mesh(world, cells, points,
+                                      ufl.Mesh(ufl.VectorElement("Lagrange", "tetrahedron", 1)))
+    kind = RefinedByOctetra if options.refine == "octetra" else RefinedByDolfinx
+    refined = kind(domain)
+    say(f"{'cells':>10} {'unknowns':>10} {'H1 error':>10} {'estimator':>10} {'rate':>7} {'most/mean':>9} "
+        f"{'mesh, s':>8} {'all, s':>8}")
+    mesh_seconds, begin, last = 0.0, time.perf_counter(), None
+    for step in range(options.steps + 1):
+        uh = solve(refined.domain)
+        eta = estimate(uh)
+        counts = world.allgather(len(eta))
+        unknowns = uh.function_space.dofmap.index_map.size_global
+        error, sum_of_eta = energy_error(uh), world.allreduce(eta.sum())
+        rate = np.log(error / last[0]) / np.log(unknowns / last[1]) if last else 0
+        last = error, unknowns
+        say(f"{sum(counts):10} {unknowns:10} {error:10.6f} {np.sqrt(sum_of_eta):10.6f} {rate:7.3f} "
+            f"{max(counts) * world.size / sum(counts):9.2f} {mesh_seconds:8.3f} "
+            f"{time.perf_counter() - begin:8.2f}")
+        if step < options.steps:
+            marks = mark(eta)
+            world.Barrier()
+            start = time.perf_counter()
+            refined.refine(marks)
+            world.Barrier()
+            mesh_seconds += time.perf_counter() - start
+
+
+if __name__ == "__main__":
+    main()

@@ -19,6 +19,7 @@ from ._octetra import (
     Ghosts as Ghosts,
     InputError as InputError,
     Mesh as Mesh,
+    MeshSeries as MeshSeries,
     Migration as Migration,
     Sharing as Sharing,
     Succession as Succession,

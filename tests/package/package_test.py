@@ -111,8 +111,27 @@ class Package(unittest.TestCase):
         loops = [run(mpirun, n, built / "adaptive_loop", self.mesh, 3, self.folder / "front.mesh")
                  + (self.folder / "front.mesh").read_text() for n in ranks]
         self.assertEqual(loops, [loops[0]] * len(ranks))
+        self.check_fronts(built / "moving_front", ranks)
         if (built / "adaptive_poisson").exists():  # where PETSc is installed
             self.check_rates(built / "adaptive_poisson", [n for n in ranks if n < 4])
+
+    def check_fronts(self, program, ranks):
+        """The same meshes on any number of ranks, and from the example in Python; no heat is lost."""
+        runs = [(f"cpp.{n}", (mpirun, n, program)) for n in ranks]
+        if (build / "python/octetra").exists():
+            runs.append(("python", ("/usr/bin/env", f"PYTHONPATH={build / 'python'}", sys.executable,
+                                    source / "examples/python/moving_front.py")))
+        cells, meshes = [], []
+        for name, command in runs:
+            lines = run(*command, self.mesh, 4, name, cwd=self.folder).splitlines()
+            self.assertEqual(len(lines), 6)
+            self.assertEqual(lines[-1], "no heat came or went but by rounding")
+            self.assertTrue(all(float(line.split()[-1]) < 1e-12 for line in lines[1:-1]), lines)
+            self.assertTrue((self.folder / f"{name}.vtkhdf").exists())
+            cells.append([line.split()[:2] for line in lines])
+            meshes.append((self.folder / f"{name}.mesh").read_bytes())
+        self.assertEqual(cells, [cells[0]] * len(runs))
+        self.assertEqual(meshes, [meshes[0]] * len(runs))
 
     def check_rates(self, program, ranks):
         """In theory, of the error against unknowns: -2/9 on uniform meshes, -1/3 on adaptive ones."""

@@ -24,7 +24,7 @@ def run(*words, cwd):
 
 def test_stubs_are_of_what_is_there(tmp_path):
     allowed = tmp_path / "allowed.txt"
-    # No class has a constructor; that which pybind11 gives them says so.
+    # Few classes have a constructor; that which pybind11 gives the others says so.
     names = [r"octetra\.(_octetra\.)?\w+\.__init__"]
     if (package / "dolfinx.py").exists() and importlib.util.find_spec("dolfinx") is None:
         names.append(r"octetra\.dolfinx")  # built with DOLFINx's headers, and there is nothing to import

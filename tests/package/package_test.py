@@ -112,6 +112,8 @@ class Package(unittest.TestCase):
                  + (self.folder / "front.mesh").read_text() for n in ranks]
         self.assertEqual(loops, [loops[0]] * len(ranks))
         self.check_fronts(built / "moving_front", ranks)
+        if (built / "petsc_plex").exists():  # where PETSc is installed
+            self.check_solutions(built / "petsc_plex", ranks)
         if (built / "adaptive_poisson").exists():  # where PETSc is installed
             self.check_rates(built / "adaptive_poisson", [n for n in ranks if n < 4])
 
@@ -132,6 +134,15 @@ class Package(unittest.TestCase):
             meshes.append((self.folder / f"{name}.mesh").read_bytes())
         self.assertEqual(cells, [cells[0]] * len(runs))
         self.assertEqual(meshes, [meshes[0]] * len(runs))
+
+    def check_solutions(self, program, ranks):
+        """The same table on any number of ranks; every mesh has all functions of those before."""
+        tables = [run(mpirun, n, program, self.mesh, 2) for n in ranks]
+        self.assertEqual(tables, [tables[0]] * len(tables))
+        rows = [line.split() for line in tables[0].splitlines()[1:]]
+        self.assertEqual(rows[0][:2], ["384", "27"])
+        integrals = [float(row[2]) for row in rows]
+        self.assertEqual(integrals, sorted(set(integrals)))
 
     def check_rates(self, program, ranks):
         """In theory, of the error against unknowns: -2/9 on uniform meshes, -1/3 on adaptive ones."""
@@ -206,13 +217,13 @@ class Package(unittest.TestCase):
         follow(block("export PKG_CONFIG_PATH") + "./loop cube.mesh 5 front.vtu", loop)
         self.assertEqual((loop / "front.vtu").read_bytes(), by_cmake)
 
-        # Shared libraries ask their users for MPI alone. They compute what static ones do, so one
-        # number of ranks is enough.
+        # Shared libraries ask their users for MPI alone, and that for PETSc for PETSc. They compute what
+        # static ones do, so one number of ranks is enough.
         prefix = self.moved(prefix)
         for file in prefix.rglob("*.pc"):
             for kind in ("--print-requires", "--print-requires-private"):
                 for package in run("pkg-config", kind, file).split():
-                    self.assertRegex(package, "^(octetra-.*|ompi-cxx)$", file)
+                    self.assertRegex(package, "^(octetra-.*|ompi-cxx|PETSc)$", file)
         self.build_and_run_examples(
             prefix, "-DCMAKE_BUILD_TYPE=Release",
             *(f"-DCMAKE_DISABLE_FIND_PACKAGE_{p}=ON" for p in ("fmt", "ZLIB", "SerialHDF5", "METIS")),

@@ -1,0 +1,29 @@
+#include "check_petsc.hpp"
+
+#include <new>
+
+#include <fmt/format.h>
+
+#include <octetra/core/error.hpp>
+
+namespace octetra::petsc {
+
+void check(PetscErrorCode code) {
+    if (code == 0) return;
+    if (code == PETSC_ERR_MEM) throw std::bad_alloc();
+    const char* kind = nullptr;
+    char* words = nullptr;
+    (void)PetscErrorMessage(code, &kind, &words);
+    throw SystemError(fmt::format("PETSc: {} ({})", words == nullptr ? "" : words,
+                                  kind == nullptr ? "unknown error" : kind));
+}
+
+void check_initialised() {
+    PetscBool is_initialised = PETSC_FALSE;
+    (void)PetscInitialized(&is_initialised);
+    if (is_initialised == PETSC_FALSE) {
+        throw InputError("PETSc is not initialised: call PetscInitialize() first");
+    }
+}
+
+}  // namespace octetra::petsc

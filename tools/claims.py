@@ -94,9 +94,12 @@ def tests_of(build):
             continue
         names.add(plain(name))
         names.add(re.sub(r"\.\d+_ranks$", "", name))
-        if command and command[0].endswith("/mpirun.sh"):  # MPIRUN RANKS PROGRAM ARGUMENTS...
-            if pathlib.Path(command[2]).exists():
-                programs.add((name.split(".")[0], command[0], "1", *command[2:]))
+        if command and command[0].endswith("/mpirun.sh"):  # MPIRUN RANKS [-x VARIABLE] PROGRAM ARGUMENTS...
+            program = command[2:]
+            while program[0] == "-x":
+                program = program[2:]
+            if pathlib.Path(program[0]).exists():
+                programs.add((name.split(".")[0], command[0], "1", *program))
             else:
                 missing.add(name.split(".")[1])
     for folder, *program in sorted(programs):

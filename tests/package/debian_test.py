@@ -139,7 +139,7 @@ class Packages(unittest.TestCase):
                         for header in (source / layer / "include").rglob("*.hpp")}
         cmake = f"{self.libraries}/cmake/Octetra"
         expected = headers | {f"{cmake}/OctetraConfig.cmake", f"{cmake}/OctetraConfigVersion.cmake",
-                              f"{cmake}/FindMETIS.cmake"}
+                              f"{cmake}/FindMETIS.cmake", f"{cmake}/FindSerialHDF5.cmake"}
         for layer in layers:
             expected |= {f"{self.libraries}/liboctetra_{layer}.so",
                          f"{self.libraries}/pkgconfig/octetra-{layer}.pc",

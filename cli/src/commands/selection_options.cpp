@@ -42,7 +42,7 @@ Marker parse_tag(const std::string& text) {
 
 /// Rather than the name of a group.
 bool is_tag(const std::string& text) {
-    return text.empty() || text.find_first_of("0123456789+-") == 0;
+    return text.empty() || text.find_first_of("0123456789+- ") == 0;
 }
 
 Marker tag_of(const std::string& name, const std::vector<GroupName>& groups) {

@@ -441,7 +441,18 @@ def test_what_is_wrong_is_raised_alike_on_all_ranks(composite):
     tags = cpp_tags(now.mesh, 2, np.array([10**8 if last else 0], np.int32), np.array([1], np.int32))
     with pytest.raises(octetra.InputError, match="no such facet"):
         od.from_mesh(now.mesh, None, tags)
-    composite.refine(near(composite, 0.5))
+    tags = cpp_tags(now.mesh, 3, np.array([10**8 if last else 0], np.int32), np.array([1], np.int32))
+    with pytest.raises(octetra.InputError, match="no such cell"):
+        od.from_mesh(now.mesh, tags)
+    with pytest.raises(octetra.InputError, match="vertices are wanted"):
+        od.function(np.ones(3 if last else len(composite.points)), now)
+    other = od.to_mesh(octetra.from_arrays(composite.points, composite.cells, comm=MPI.COMM_SELF))
+    with pytest.raises(octetra.InputError, match="not that of this handover"):
+        od.vertex_values(od.function(np.ones(len(composite.points)), now), other)
+    coarse = now
+    step = composite.refine(np.ones(len(composite.cells), bool))
+    with pytest.raises(octetra.InputError, match="did not lead"):
+        od.parents(step, od.to_mesh(composite), coarse)
     step = composite.coarsen(np.ones(len(composite.cells), bool))
     with pytest.raises(octetra.InputError, match="coarsening"):
         od.parents(step, now, od.to_mesh(composite))

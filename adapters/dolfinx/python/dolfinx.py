@@ -16,6 +16,7 @@ import dolfinx.fem  # type: ignore[import]
 import dolfinx.mesh  # type: ignore[import]
 import numpy as np
 import ufl  # type: ignore[import]
+from mpi4py import MPI
 from numpy.typing import ArrayLike, NDArray
 
 from . import _dolfinx, _octetra
@@ -59,6 +60,7 @@ def from_mesh(mesh: Any, cell_tags: Any = None, facet_tags: Any = None) -> Tuple
     marked facets. The order of cells and vertices is that in which create_mesh() was given them, if the
     mesh still tells; so what is written does not depend on the number of ranks.
     """
+    _check(mesh.comm, _fault_of_cell_tags(mesh, cell_tags))
     made, cells, vertices = _dolfinx.from_mesh(mesh._mesh, _arrays(cell_tags), _arrays(facet_tags))
     return made, Handover(mesh, cell_tags, facet_tags, cells, vertices)
 
@@ -66,6 +68,7 @@ def from_mesh(mesh: Any, cell_tags: Any = None, facet_tags: Any = None) -> Tuple
 def vertex_values(u: Any, handover: Handover) -> NDArray[Any]:
     """Collective. Of a function u, piecewise linear (Lagrange, degree 1) on handover.mesh, the values at the
     vertices of the octetra.Mesh: (vertices,), or (vertices, k) of one with k components."""
+    _check(handover.mesh.comm, _fault_of_space(u.function_space, handover))
     u.x.scatter_forward()
     nodes, has_vertex = _nodes(handover)
     size = u.function_space.dofmap.bs
@@ -80,12 +83,16 @@ def function(values: ArrayLike, handover: Handover, space: Any = None) -> Any:
     """Collective. The function with these values at the vertices of the octetra.Mesh, of shape (vertices,) or
     (vertices, k): in `space`, of degree 1 on handover.mesh, or in a new one."""
     values = np.asarray(values)
+    nodes, has_vertex = _nodes(handover)
+    fault = _fault_of_space(space, handover) if space is not None else ""
+    if values.ndim not in (1, 2) or len(values) != len(nodes):
+        fault = f"values for {len(nodes)} vertices are wanted, and these have the shape {values.shape}"
+    _check(handover.mesh.comm, fault)
     if space is None:
         linear = ("Lagrange", 1)
         space = (dolfinx.fem.FunctionSpace(handover.mesh, linear) if values.ndim == 1 else
                  dolfinx.fem.VectorFunctionSpace(handover.mesh, linear, values.shape[1]))
     made = dolfinx.fem.Function(space)
-    nodes, has_vertex = _nodes(handover)
     of_dofs = made.x.array.reshape(-1, space.dofmap.bs)
     of_nodes = values.reshape(len(values), -1)[handover.vertices[has_vertex]]
     of_dofs[_dofs_of_nodes(space, handover)[nodes]] = of_nodes
@@ -106,6 +113,8 @@ def parents(step: _octetra.Adaptation, before: Handover,
     Facet i is opposite corner i. Of one step of refinement. This is what DOLFINx's refinement tells, too."""
     if step.is_coarser:
         raise _octetra.InputError("parents: of refinement, and this step was coarsening")
+    if (step.vertex_count_before, len(step.cells.parents)) != (len(_nodes(before)[0]), len(after.cells)):
+        raise _octetra.InputError("parents: the step did not lead from the one mesh to the other")
     dolfinx_cell = np.empty(len(before.cells), np.int32)
     dolfinx_cell[before.cells] = np.arange(len(before.cells))
     cells = dolfinx_cell[step.cells.parents][after.cells]
@@ -122,6 +131,27 @@ def parents(step: _octetra.Adaptation, before: Handover,
         misses = ~between[:, [k for k in range(4) if k != facet]].any(axis=1)
         facets[:, facet] = np.where(misses.any(axis=1), misses.argmax(axis=1), -1)
     return cells, facets
+
+
+def _check(comm: Any, fault: str) -> None:
+    """Collective. Raises what is wrong on any rank, that of the lowest, on all."""
+    first = comm.allreduce(comm.size if fault == "" else comm.rank, MPI.MIN)
+    if first < comm.size:
+        raise _octetra.InputError(f"rank {first}: " + comm.bcast(fault, root=first))
+
+
+def _fault_of_space(space: Any, handover: Handover) -> str:
+    of_space, own = space.mesh.geometry.x, handover.mesh.geometry.x
+    is_same = of_space.shape == own.shape and of_space.ctypes.data == own.ctypes.data
+    return "" if is_same else "the function's mesh is not that of this handover"
+
+
+def _fault_of_cell_tags(mesh: Any, tags: Any) -> str:
+    if tags is None or tags.dim != 3 or len(tags.indices) == 0:
+        return ""
+    cells = mesh.topology.index_map(3)
+    count, last = cells.size_local + cells.num_ghosts, tags.indices.max()
+    return "" if last < count else f"tags of cells up to number {last}, and the mesh has {count}: no such cell"
 
 
 def _tags(mesh: Any, dimension: int, arrays: Any) -> Any:

@@ -7,7 +7,8 @@ Each command runs on three ranks, again and again, and each time one rank fails 
 killed at a call of MPI, a call that writes a file fails, or an allocation. Whatever the moment: all ranks
 end soon; the exit status says so; what was at the output's place is still there, byte by byte, or the
 complete result is; no other file is left, but by who is killed; one line says why, if anybody can.
-Prints a table, and ends with status 1 where that does not hold.
+Prints a table, and ends with status 1 where that does not hold, and not when the same moment is tried again
+either: how Open MPI ends the other ranks is a race, which now and then ends otherwise.
 """
 
 import argparse
@@ -57,6 +58,7 @@ class Tried:
     moments: int = 0
     went_on: int = 0  # it did not matter
     seconds: float = 0.0  # until the last rank ended, at most
+    once: int = 0  # faults that did not come again
     faults: list = field(default_factory=list)
 
 
@@ -98,7 +100,7 @@ class Bench:
         process = subprocess.Popen(command, cwd=self.folder, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE,
                                    text=True, errors="replace", start_new_session=True)
         try:
-            said = process.communicate(timeout=6 * self.seconds)[1]
+            said = process.communicate(timeout=2 * self.seconds)[1]
         except subprocess.TimeoutExpired:
             os.killpg(process.pid, 9)
             return 124, process.communicate()[1], time.monotonic() - start
@@ -153,21 +155,26 @@ def tried(bench, arguments, outputs, kind, count):
             sys.exit(f"without a fault: octetra {arguments}: exit status {status}\n{said}")
         result.calls.append(int(calls[1]))
         for at in moments_of(int(calls[1]), share):
-            status, said, seconds = bench.run(arguments, outputs, kind, rank, at)
             result.moments += 1
+            for attempt in range(2):
+                status, said, seconds = bench.run(arguments, outputs, kind, rank, at)
+                fault = fault_of(bench, outputs, complete, kind, status, said, seconds)
+                if not fault:
+                    result.once += attempt
+                    break
+                words = f"octetra {arguments}: {KINDS[kind]}, rank {rank}, {at} of {calls[1]}: {fault}"
+                print(words, "\n  " + said.strip().replace("\n", "\n  "), file=sys.stderr, flush=True)
+            else:
+                result.faults.append(words)
             result.went_on += status == 0
             result.seconds = max(result.seconds, seconds)
-            fault = fault_of(bench, outputs, complete, kind, status, said, seconds)
-            if fault:
-                result.faults.append(f"octetra {arguments}: {KINDS[kind]}, rank {rank}, {at} of {calls[1]}: {fault}")
-                print(result.faults[-1], "\n  " + said.strip().replace("\n", "\n  "), file=sys.stderr, flush=True)
     return result
 
 
 def row(name, kind, result):
     calls = " and ".join(f"{calls:,}" for calls in result.calls)
     return (f"| {name} | {KINDS[kind]} | {calls} | {result.moments} | {result.went_on} | "
-            f"{result.seconds:.1f} | {len(result.faults)} |")
+            f"{result.seconds:.1f} | {result.once} | {len(result.faults)} |")
 
 
 def main():
@@ -179,7 +186,7 @@ def main():
     parser.add_argument("--only", default="", metavar="TEXT", help="commands whose description has it")
     chosen = parser.parse_args()
     print("| command | fault | calls that may fail, on the first rank and the last | moments | went on | "
-          "s until all ended, at most | faults |\n|---|---|---:|---:|---:|---:|---:|", flush=True)
+          "s until all ended, at most | faults once | faults |\n|---|---|---:|---:|---:|---:|---:|---:|", flush=True)
     turns = [(name, kind) for name in COMMANDS if chosen.only in name for kind in KINDS]
     faults, end = 0, time.monotonic() + 60 * chosen.minutes
     with tempfile.TemporaryDirectory() as folder:

@@ -24,3 +24,23 @@ else()
   message(STATUS "Python module: not built, as there are no files to compile for Python with "
                  "(Debian: python3-dev)")
 endif()
+
+# octetra_python_extension(<target> <name> SOURCES ... LINKS ... FILES ...): a compiled part of the module beside
+# octetra_python, for an adapter, with what Python files stand in the folder of the caller.
+function(octetra_python_extension target name)
+  cmake_parse_arguments(extension "" "" "SOURCES;LINKS;FILES" ${ARGN})
+  pybind11_add_module(${target} MODULE NO_EXTRAS ${extension_SOURCES})
+  target_include_directories(${target} PRIVATE ${PROJECT_SOURCE_DIR}/python/src)
+  target_link_libraries(${target} PRIVATE ${extension_LINKS} fmt::fmt)
+  octetra_compile_options(${target})
+  get_target_property(run_path octetra_python INSTALL_RPATH)
+  set_target_properties(${target} PROPERTIES
+    OUTPUT_NAME ${name} LIBRARY_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/python/octetra
+    CXX_VISIBILITY_PRESET hidden INSTALL_RPATH "${run_path}")
+  install(TARGETS ${target} LIBRARY DESTINATION ${OCTETRA_PYTHON_SITE}/octetra COMPONENT python)
+  foreach(file IN LISTS extension_FILES)
+    cmake_path(GET file FILENAME file_name)
+    configure_file(${file} ${PROJECT_BINARY_DIR}/python/octetra/${file_name} COPYONLY)
+    install(FILES ${file} DESTINATION ${OCTETRA_PYTHON_SITE}/octetra COMPONENT python)
+  endforeach()
+endfunction()

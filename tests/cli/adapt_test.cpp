@@ -218,6 +218,16 @@ TEST_F(Adapt, RefusesWhatTheReferenceCannotDo) {
     }
 }
 
+TEST_F(Adapt, WritesOverNothingThatItReadsByEitherEngine) {
+    for (const std::string engine : {"distributed", "reference"}) {
+        (void)folder.write("list.mesh", "3\n");
+        const auto run = adapt("kuhn.mesh", "refine --cells list.mesh\nwrite list.mesh\n",
+                               "-o r.mesh --engine " + engine);
+        EXPECT_EQ(run.status, 2) << engine;
+        EXPECT_EQ(test::content_of(folder / "list.mesh"), "3\n") << engine;
+    }
+}
+
 TEST_F(Adapt, EndsInOneMessageOnSeveralRanks) {
     const std::vector<std::pair<std::string, std::string>> failures{
         {"refien --all\n", "octetra: s.txt:1: a step begins with one of"},

@@ -11,7 +11,9 @@
 #include <octetra/core/files/checkpoint.hpp>
 #include <octetra/reference/history.hpp>
 
+#include "adapt/check_files.hpp"
 #include "adapt/step_words.hpp"
+#include "commands/mesh_options.hpp"
 #include "commands/report_line.hpp"
 #include "commands/selection_options.hpp"
 #include "script/check_script.hpp"
@@ -100,34 +102,28 @@ private:
     std::uint64_t max_cells_;
 };
 
-struct DoneByReference {
-    std::string what;
-    std::vector<std::string> remarks = {};
-    bool changes_mesh = true;
-};
-
 /// What a step does.
 class ReferenceRunner {
 public:
     explicit ReferenceRunner(AdaptedByReference& adapted) : adapted_(&adapted) {}
 
-    DoneByReference operator()(RefineStep step) const {
+    StepDone operator()(RefineStep step) const {
         complete(step.selection, step.typed.selection);
         const int levels = step.typed.levels;
         const int done = adapted_->refine(step.selection, step.scheme, levels);
         return {levels_done("refined", done), idle_levels(done, levels, why_not_finer)};
     }
-    DoneByReference operator()(CoarsenStep step) const {
+    StepDone operator()(CoarsenStep step) const {
         complete(step.selection, step.typed.selection);
         const int levels = step.typed.levels;
         bool is_any = false;
         const int done = adapted_->coarsen(step.selection, step.typed.outside, levels, is_any);
         return {levels_done("coarsened", done), idle_levels(done, levels, why_not_coarser(is_any))};
     }
-    DoneByReference operator()(const RebalanceStep&) const {
+    StepDone operator()(const RebalanceStep&) const {
         return {"rebalanced: the reference has one rank", {}, false};
     }
-    DoneByReference operator()(const WriteStep& step) const {
+    StepDone operator()(const WriteStep& step) const {
         write_output(adapted_->mesh(), step.path);
         return {fmt::format("wrote {}", step.path), {}, false};
     }
@@ -143,7 +139,13 @@ private:
     AdaptedByReference* adapted_;
 };
 
-void refuse_histories(const ReferenceAdaptation& options, const Script& script) {
+void refuse_what_the_reference_lacks(const AdaptationOptions& options, const Script& script) {
+    if (!options.input.fields.empty() || !options.series.empty() || options.verify ||
+        !options.profile.profile.empty() || !options.profile.trace.empty()) {
+        throw InputError(
+            "--fields, --series, --verify, --profile and --trace do not go with --engine "
+            "reference, which makes the mesh alone");
+    }
     constexpr std::string_view reason =
         "--engine reference saves no history, so it does not go with .octetra files; the other "
         "engine makes the same mesh";
@@ -158,7 +160,7 @@ void refuse_histories(const ReferenceAdaptation& options, const Script& script) 
 
 void run(AdaptedByReference& adapted, const Script& script, bool quiet, Stopwatch& watch) {
     for (const ScriptStep& step : script.steps) {
-        DoneByReference done;
+        StepDone done;
         try {
             done = std::visit(ReferenceRunner(adapted), step.step);
         } catch (const InputError& error) {
@@ -175,12 +177,9 @@ void run(AdaptedByReference& adapted, const Script& script, bool quiet, Stopwatc
 
 }  // namespace
 
-void adapt_by_reference(const ReferenceAdaptation& options, const Script& script) {
-    refuse_histories(options, script);
-    check_output(options.output);
-    check_outputs_of(script, options.input, {mesh_named("MESH", options.input.path)},
-                     {output_to_write("-o", options.input, options.output)}, 1);
-    check_lists_of(script);
+void adapt_by_reference(const AdaptationOptions& options, const Script& script) {
+    refuse_what_the_reference_lacks(options, script);
+    check_files(options, script, {}, 1);
     Stopwatch watch;
     AdaptedByReference adapted(read_input(options.input), options.max_cells);
     check_regions_of(script, WholeMesh(adapted.mesh()).facts());

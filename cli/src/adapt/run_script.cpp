@@ -39,19 +39,12 @@ double most_over_mean(const AdaptiveMesh& mesh) {
     return static_cast<double>(mesh.processes().max(here)) * mesh.processes().size() / all;
 }
 
-/// What a step did: "refined, 2 levels", and remarks.
-struct Done {
-    std::string what;
-    std::vector<std::string> remarks = {};
-    bool changes_mesh = true;
-};
-
 class Runner {
 public:
     Runner(AdaptiveMesh& mesh, const ScriptRun& run, bool is_refined_before)
         : mesh_(&mesh), run_(&run), is_refined_before_(is_refined_before) {}
 
-    Done operator()(RefineStep step) {
+    StepDone operator()(RefineStep step) {
         complete(step.selection, step.typed.selection);
         const int levels = step.typed.levels;
         distributed::StepOptions options = run_->options;
@@ -60,7 +53,7 @@ public:
         return {levels_done("refined", done), idle_levels(done, levels, why_not_finer)};
     }
 
-    Done operator()(CoarsenStep step) {
+    StepDone operator()(CoarsenStep step) {
         complete(step.selection, step.typed.selection);
         const int levels = step.typed.levels;
         bool is_any_marked = false;
@@ -69,7 +62,7 @@ public:
                 idle_levels(done, levels, why_not_coarser(is_any_marked))};
     }
 
-    Done operator()(const RebalanceStep&) {
+    StepDone operator()(const RebalanceStep&) {
         const double before = most_over_mean(*mesh_);
         const distributed::Migration move = mesh_->rebalance();
         if (!move.changed()) {
@@ -84,7 +77,7 @@ public:
                 false};
     }
 
-    Done operator()(const WriteStep& step) {
+    StepDone operator()(const WriteStep& step) {
         return {fmt::format("wrote {}", step.path), write_result(*mesh_, *run_->fields, step.path),
                 false};
     }
@@ -115,7 +108,7 @@ void run_script(AdaptiveMesh& mesh, const Script& script, const ScriptRun& run, 
     Counts before = counts_of(mesh);
     bool is_refined = run.has_steps;
     for (const ScriptStep& step : script.steps) {
-        Done done;
+        StepDone done;
         try {
             done = std::visit(Runner(mesh, run, is_refined), step.step);
         } catch (const InputError& error) {

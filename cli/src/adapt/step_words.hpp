@@ -7,6 +7,12 @@
 /// What is said of a step that is done.
 namespace octetra::cli {
 
+struct StepDone {
+    std::string what;  ///< "refined, 2 levels"
+    std::vector<std::string> remarks = {};
+    bool changes_mesh = true;
+};
+
 /// "refined, 2 levels"
 [[nodiscard]] std::string levels_done(std::string_view done, int levels);
 

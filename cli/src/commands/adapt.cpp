@@ -3,7 +3,6 @@
 
 #include <CLI/CLI.hpp>
 
-#include <octetra/core/error.hpp>
 #include <octetra/distributed/profile.hpp>
 
 #include "adapt/adapt_by_reference.hpp"
@@ -20,16 +19,6 @@ struct AdaptOptions {
     std::string engine = "distributed";
     AdaptationOptions adaptation;
 };
-
-ReferenceAdaptation for_reference(const AdaptationOptions& options) {
-    if (!options.input.fields.empty() || !options.series.empty() || options.verify ||
-        !options.profile.profile.empty() || !options.profile.trace.empty()) {
-        throw InputError(
-            "--fields, --series, --verify, --profile and --trace do not go with --engine "
-            "reference, which makes the mesh alone");
-    }
-    return {options.input, options.output, options.max_cells, options.quiet};
-}
 
 }  // namespace
 
@@ -97,7 +86,7 @@ void add_adapt(CLI::App& program, const distributed::Communicator& world) {
         if (parse_engine(options->engine, options->adaptation.parallel) == Engine::distributed) {
             return adapt(options->adaptation, script, all);
         }
-        all.on_first([&] { adapt_by_reference(for_reference(options->adaptation), script); });
+        all.on_first([&] { adapt_by_reference(options->adaptation, script); });
     });
 }
 

@@ -101,8 +101,6 @@ bool judge_and_write(const Mesh& coarse, const Mesh& fine, const RefinementMaps&
 /// Collective. Finishes what the plan wants of the mesh.
 void complete_plan(Plan& plan, const MeshFacts& facts, const RefineOptions& options,
                    const distributed::Communicator& world) {
-    // Perhaps told twice: from what was typed, each time.
-    plan.selection = parse_selection(options.refinement.selection);
     complete_selection(plan.selection, options.refinement.selection,
                        {facts.has_regions, facts.index_base, facts.cells, facts.group_names},
                        world);

@@ -141,8 +141,10 @@ void check_regions(const SelectionOptions& options, bool mesh_has_regions) {
 void complete_selection(Selection& selection, const SelectionOptions& options,
                         const SelectableMesh& mesh) {
     check_regions(options, mesh.has_regions);
+    selection.regions.clear();
     for (const std::string& text : options.regions) {
-        if (!is_tag(text)) selection.regions.push_back(tag_of(text, mesh.group_names.list()));
+        selection.regions.push_back(is_tag(text) ? parse_tag(text)
+                                                 : tag_of(text, mesh.group_names.list()));
     }
     if (!options.cells_file.empty()) {
         selection.cells = read_cell_list(options.cells_file, mesh.index_base, mesh.cells);

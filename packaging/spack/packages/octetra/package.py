@@ -62,6 +62,8 @@ class Octetra(CMakePackage):
             self.define_from_variant("OCTETRA_VERIFY", "verify"),
             self.define_from_variant("OCTETRA_CLI", "cli"),
             self.define_from_variant("OCTETRA_TETGEN", "tetgen"),
+            self.define("OCTETRA_PYTHON_MODULE", False),
+            self.define("OCTETRA_DOLFINX", False),
             self.define("OCTETRA_PETSC", False),
             self.define("OCTETRA_TESTS", False),  # they need RapidCheck, which Spack does not have
             self.define("OCTETRA_BENCH", False),

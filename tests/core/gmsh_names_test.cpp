@@ -81,7 +81,7 @@ class BadGmshNames : public testing::TestWithParam<BadName> {};
 TEST_P(BadGmshNames, AreRefusedByPlaceAndReason) {
     const auto& [name, content, place, what] = GetParam();
     const std::string message =
-        test::thrown_by<InputError>([&] { (void)test::read_gmsh(content); });
+        test::thrown_by<InputError>([&, &content = content] { (void)test::read_gmsh(content); });
     EXPECT_THAT(message, HasSubstr("/m.msh:" + place));
     EXPECT_THAT(message, HasSubstr(what));
 }

@@ -229,7 +229,8 @@ class BadGmshFile : public testing::TestWithParam<BadCase> {};
 
 TEST_P(BadGmshFile, IsRefusedByPlaceAndReason) {
     const auto& [name, content, place, what] = GetParam();
-    const std::string message = test::thrown_by<InputError>([&] { (void)read(content); });
+    const std::string message =
+        test::thrown_by<InputError>([&, &content = content] { (void)read(content); });
     EXPECT_THAT(message, HasSubstr("/m.msh:" + place));
     EXPECT_THAT(message, HasSubstr(what));
 }

@@ -22,7 +22,7 @@ TEST(ChildProcess, EndsWhenItsParentIsKilled) {
     ASSERT_GE(parent, 0);
     if (parent == 0) {
         ::close(read_end);
-        (void)run_in_child([&](ToParent&) {
+        (void)run_in_child([&, write_end = write_end](ToParent&) {
             if (::write(write_end, "!", 1) != 1) return 1;
             constexpr unsigned much_longer_than_the_test_waits = 300;
             ::sleep(much_longer_than_the_test_waits);

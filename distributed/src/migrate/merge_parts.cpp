@@ -172,6 +172,9 @@ struct ListSource {
         if (has_markers) merged.markers.push_back(ancestors->markers[root]);
     }
 };
+template <class I, std::size_t N>
+ListSource(const IndexVector<I, std::array<VertexIndex, N>>*, const AncestorMap*,
+           const NumbersAfter*) -> ListSource<I, N>;
 
 /// Merges what stays of one list with another, root by root. Calls taken(root of b, or its count)
 /// for each.

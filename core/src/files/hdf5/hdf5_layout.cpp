@@ -249,7 +249,8 @@ Hdf5Skeleton make_hdf5_skeleton(const std::vector<Hdf5Group>& groups,
     for (const Hdf5Group& group : groups) {
         maker.make_group(group.path);
         for (const auto& [name, value] : group.attributes) {
-            std::visit([&](const auto& held) { maker.set_attribute(group.path, name, held); },
+            std::visit([&, &name = name](
+                           const auto& held) { maker.set_attribute(group.path, name, held); },
                        value);
         }
     }

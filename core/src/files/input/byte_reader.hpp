@@ -26,14 +26,16 @@ template <BinaryNumber T>
 [[nodiscard]] T number_at(const std::byte* bytes, bool swapped) {
     T value;
     std::memcpy(&value, bytes, sizeof value);
-    if (!swapped || sizeof value == 1) return value;
+    if (!swapped) return value;
     const auto reversed = [](auto bits, auto reverse, T number) {
         std::memcpy(&bits, &number, sizeof bits);
         bits = reverse(bits);
         std::memcpy(&number, &bits, sizeof bits);
         return number;
     };
-    if constexpr (sizeof(T) == 2) {
+    if constexpr (sizeof(T) == 1) {
+        return value;
+    } else if constexpr (sizeof(T) == 2) {
         return reversed(
             std::uint16_t{}, [](auto b) { return __builtin_bswap16(b); }, value);
     } else if constexpr (sizeof(T) == 4) {

@@ -59,16 +59,16 @@ bool is_reference(Integer reference) {
 /// Are all rows good? Whatever they hold, points and markers are set.
 template <class Numbers>
 bool take_points(const std::byte* row, std::span<Point> points, Marker* marker) {
-    bool good = true;
+    unsigned good = 1;  // no branch for each row
     for (Point& point : points) {
         point = {Numbers::real(row, 0), Numbers::real(row, 1), Numbers::real(row, 2)};
         const auto reference = Numbers::point_reference(row);
-        good &= can_be_coordinate(point.x) & can_be_coordinate(point.y) &
-                can_be_coordinate(point.z) & is_reference(reference);
+        good &= unsigned{can_be_coordinate(point.x)} & unsigned{can_be_coordinate(point.y)} &
+                unsigned{can_be_coordinate(point.z)} & unsigned{is_reference(reference)};
         *marker++ = static_cast<Marker>(reference);
         row += Numbers::point_size;
     }
-    return good;
+    return good != 0;
 }
 
 /// Likewise, of a file that has so many vertices.

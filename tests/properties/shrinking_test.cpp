@@ -16,9 +16,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// 12 cells, many of them marked; that rank has some.
+/// 6 cells, most of them marked; that rank has some.
 Case some_case(int rank = 1) {
-    Case c{.kind = "a lattice", .mesh = generator::kuhn(1, 1, 2, {1, 1, 1}), .levels = 2};
+    Case c{.kind = "a lattice", .mesh = generator::kuhn(1, 1, 1, {1, 1, 1}), .levels = 2};
     c.mesh.regions.assign(c.mesh.cells.size(), Marker{5});
     c.selection.random = RandomShare{0.8, 1};
     for (std::size_t i = 0; i < c.mesh.cells.size(); ++i) {

@@ -5,7 +5,8 @@ source "$root/tools/dev/common.sh"
 preset=${1:-release} sections=(build)
 if (($# > 1)); then bad_usage "build takes the name of one preset"; fi
 case $preset in
-    release | debug | asan-ubsan) ;;
+    release | debug) ;;
+    asan-ubsan) sections+=(sanitizers) ;;
     clang) sections+=(tidy) ;;
     *) bad_usage "build: no such preset: $preset" ;;
 esac

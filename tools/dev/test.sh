@@ -107,7 +107,7 @@ if [[ -n $quick ]]; then
     exit
 fi
 
-need build test adapters format valgrind
+need build test adapters readers sanitizers format valgrind
 if [[ -n $regex ]]; then note_unknown_test "$regex"; fi
 if build_and_test release "-DOCTETRA_BENCH=$(on_if_installed bench)" \
     "-DOCTETRA_PEERS=$(on_if_installed peers)"; then

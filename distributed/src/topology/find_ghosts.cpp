@@ -6,9 +6,9 @@
 #include <fmt/format.h>
 
 #include <octetra/core/error.hpp>
+#include <octetra/core/vertex_buckets.hpp>
 
 #include "comm/local_failure.hpp"
-#include "topology/face_neighbours.hpp"
 
 namespace octetra::distributed {
 namespace {
@@ -39,19 +39,27 @@ std::vector<GhostLayer::Exchange> seen_by_vertex(const DistributedMesh& mesh,
     return exchanges;
 }
 
-std::vector<GhostLayer::Exchange> seen_by_face(const DistributedMesh& mesh,
-                                               const FaceNeighbours& neighbours) {
+/// The same, of cells with a face in common. Of all the faces of a part only those that it shares
+/// are looked for.
+std::vector<GhostLayer::Exchange> seen_by_face(const DistributedMesh& mesh) {
     std::vector<GhostLayer::Exchange> exchanges;
+    IndexVector<FacetIndex, FacetVertices> faces;
+    std::vector<std::size_t> exchange_of_face;
     for (const Interface& interface : mesh.interfaces) {
+        for (const FacetVertices& face : interface.faces) {
+            faces.push_back(face);
+            exchange_of_face.push_back(exchanges.size());
+        }
         exchanges.push_back({.rank = interface.rank, .sent = {}});
     }
-    for (CellIndex c{0}; c < neighbours.end_index(); ++c) {
-        for (const FaceNeighbour& neighbour : neighbours[c]) {
-            if (neighbour.is_boundary() || neighbour.rank == mesh.processes.rank()) continue;
-            auto& sent =
-                std::ranges::lower_bound(exchanges, neighbour.rank, {}, &GhostLayer::Exchange::rank)
-                    ->sent;
-            if (sent.empty() || sent.back() != c) sent.push_back(c);
+    const VertexBuckets<FacetIndex, 3> shared(faces, mesh.points.size());
+    for (CellIndex c{0}; c < mesh.cells.end_index(); ++c) {
+        const CellVertices& cell = mesh.cells[c];
+        for (const auto& [i, j, k] : cell_faces) {
+            shared.find({cell[i], cell[j], cell[k]}, [&](FacetIndex face) {
+                auto& sent = exchanges[exchange_of_face[face.value()]].sent;
+                if (sent.empty() || sent.back() != c) sent.push_back(c);
+            });
         }
     }
     return exchanges;
@@ -110,8 +118,6 @@ GhostLayer find_ghosts(const DistributedMesh& mesh, const CanonicalNumbers& numb
                        const std::function<std::vector<Marker>()>& regions, GhostsBy by) {
     const Communicator& processes = mesh.processes;
     const bool with_regions = processes.max(mesh.cell_ancestors.markers.empty() ? 0 : 1) == 1;
-    FaceNeighbours neighbours;
-    if (by == GhostsBy::face) neighbours = find_face_neighbours(mesh);
     GhostLayer layer;
     layer.own_cell_count = mesh.cells.size();
     std::vector<int> ranks;
@@ -119,8 +125,7 @@ GhostLayer find_ghosts(const DistributedMesh& mesh, const CanonicalNumbers& numb
     LocalFailure failure;
     failure.attempt([&] {
         const std::vector<Marker> tags = regions();
-        layer.exchanges =
-            by == GhostsBy::face ? seen_by_face(mesh, neighbours) : seen_by_vertex(mesh, sharing);
+        layer.exchanges = by == GhostsBy::face ? seen_by_face(mesh) : seen_by_vertex(mesh, sharing);
         for (const GhostLayer::Exchange& exchange : layer.exchanges) {
             ranks.push_back(exchange.rank);
             auto& outbox = outboxes.emplace_back();

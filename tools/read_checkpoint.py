@@ -2,7 +2,7 @@
 """Reads a checkpoint of Octetra: the mesh as it is, and its fields. docs/formats.md has the format.
 
 Example: tools/read_checkpoint.py state.octetra
-As a module: points, cells, fields = read_checkpoint.read("state.octetra")
+As a module: points, cells, on_vertices, on_cells = read_checkpoint.read("state.octetra")
 
 Hashes are not checked, as numpy has no XXH3: `octetra info state.octetra` does. Coordinates may be of
 any scale, but not of two that are 1e150 apart.
@@ -124,7 +124,7 @@ def divide(points, cells, cuts):
 
 
 def read(path):
-    """Points (n x 3), cells (m x 4) and fields by name, on vertices or on cells."""
+    """Points (n x 3), cells (m x 4), and fields by name, those on vertices and those on cells."""
     file = File(path)
     vertices, cell_count, facets, edges, vertices_now, cells_now, attributes, _, flags = file.counts
     kind = "<u4" if vertices <= 1 << 32 else "<u8"
@@ -148,9 +148,10 @@ def read(path):
         points, cells = divide(points, cells, cuts)
     if (len(points), len(cells)) != (vertices_now, cells_now):
         raise ValueError(f"{path}: its steps make another mesh than its table tells of")
-    fields = {name: file.section((vertices_now, cells_now)[on], kind, width)
-              for name, on, kind, width in file.fields}
-    return numpy.array(points), numpy.array(cells), fields
+    fields = {}, {}  # one name may be on both
+    for name, on, kind, width in file.fields:
+        fields[on][name] = file.section((vertices_now, cells_now)[on], kind, width)
+    return numpy.array(points), numpy.array(cells), *fields
 
 
 if __name__ == "__main__":
@@ -160,4 +161,5 @@ if __name__ == "__main__":
         found = read(sys.argv[1])
     except (OSError, ValueError) as error:
         sys.exit(f"read_checkpoint: {error}")
-    print(f"{len(found[0])} vertices, {len(found[1])} cells, fields: {', '.join(found[2]) or 'none'}")
+    names = [f"{name} on {on}" for on, fields in zip(("vertices", "cells"), found[2:]) for name in fields]
+    print(f"{len(found[0])} vertices, {len(found[1])} cells, fields: {', '.join(names) or 'none'}")

@@ -35,11 +35,11 @@ class ReadCheckpoint(ProgramCase):
                                              "save a.octetra\n")
         self.run_octetra("generate", "kuhn", "9", "-o", "cube.mesh")
         self.run_octetra("adapt", "cube.mesh", "--script", "steps.txt", "-o", "a.mesh")
-        points, cells, fields = read_checkpoint.read(self.path / "a.octetra")
+        points, cells, on_vertices, on_cells = read_checkpoint.read(self.path / "a.octetra")
         expected_points, expected_cells = mesh_of(self.path / "a.mesh")
         numpy.testing.assert_array_equal(points, expected_points)
         numpy.testing.assert_array_equal(cells, expected_cells)
-        self.assertEqual(fields, {})
+        self.assertEqual((on_vertices, on_cells), ({}, {}))
 
     def test_finds_the_names_of_groups(self):
         box = pathlib.Path(__file__).parents[2] / "corpus" / "meshes" / "gmsh-box-22.msh"
@@ -50,7 +50,7 @@ class ReadCheckpoint(ProgramCase):
         self.assertEqual(found.group_names, [(0, 6, "corner"), (1, 5, "ridge"), (2, 3, "floor #1"),
                                              (2, 4, "interface"), (2, -9, "St\u00e4be"), (3, 2, "air above"), (3, 7, "steel")])
         self.run_octetra("refine", "box.msh", "--all", "-o", "a.mesh")
-        points, cells, _ = read_checkpoint.read(self.path / "a.octetra")
+        points, cells, *_ = read_checkpoint.read(self.path / "a.octetra")
         expected_points, expected_cells = mesh_of(self.path / "a.mesh")
         numpy.testing.assert_array_equal(points, expected_points)
         numpy.testing.assert_array_equal(cells, expected_cells)
@@ -68,7 +68,7 @@ class ReadCheckpoint(ProgramCase):
             (self.path / "b.mesh").write_text("\n".join(scaled) + "\n")
             self.run_octetra("refine", "b.mesh", "--random", "0.3", "--levels", "2", "-o", "b.octetra")
             self.run_octetra("convert", "b.octetra", "c.mesh")
-            points, cells, _ = read_checkpoint.read(self.path / "b.octetra")
+            points, cells, *_ = read_checkpoint.read(self.path / "b.octetra")
             expected_points, expected_cells = mesh_of(self.path / "c.mesh")
             numpy.testing.assert_array_equal(points, expected_points)
             numpy.testing.assert_array_equal(cells, expected_cells)

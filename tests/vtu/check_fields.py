@@ -32,7 +32,7 @@ def places_of_cells(grid, numbers, cells):
     return [number_of[tuple(sorted(numbers[cell].tolist()))] for cell in check_vtu.connectivity(grid)]
 
 
-def differences(path, points, cells, fields):
+def differences(path, cells, on_vertices, on_cells):
     grid, complaints = check_vtu.read(path)
     if complaints:
         return complaints
@@ -44,10 +44,9 @@ def differences(path, points, cells, fields):
     else:
         rows = {"vertices": slice(None), "cells": slice(None)}
     wrong = []
-    for name, values in fields.items():
-        for on, data in (("vertices", grid.GetPointData()), ("cells", grid.GetCellData())):
-            if len(values) != (len(points) if on == "vertices" else len(cells)):
-                continue
+    for on, data, fields in (("vertices", grid.GetPointData(), on_vertices),
+                             ("cells", grid.GetCellData(), on_cells)):
+        for name, values in fields.items():
             array = array_of(path, data, name)
             if array is None:
                 wrong.append(f"{path} has no array {name}")
@@ -61,9 +60,9 @@ def differences(path, points, cells, fields):
 
 
 def main():
-    points, cells, fields = read_checkpoint.read(sys.argv[2])
-    assert len(points) != len(cells) and fields
-    wrong = [what for path in sys.argv[3:] for what in differences(path, points, cells, fields)]
+    _, *rest = read_checkpoint.read(sys.argv[2])
+    assert any(rest[1:])
+    wrong = [what for path in sys.argv[3:] for what in differences(path, *rest)]
     print("\n".join(wrong))
     return 1 if wrong else 0
 

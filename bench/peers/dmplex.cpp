@@ -1,7 +1,8 @@
-/// PETSc's DMPlex beside an AdaptiveMesh: `peer_dmplex [CUBES [LEVELS]]` takes CUBES^3 cubes of six
-/// cells and halves all edges LEVELS times, first by DMRefine(), then by refine(), from barrier to
-/// barrier; and of the refined mesh, it makes a DMPlex in two ways: by to_plex(), and by PETSc from
-/// lists of the same cells on the same ranks. Also under mpirun.
+/// PETSc's DMPlex beside an AdaptiveMesh: `peer_dmplex [CUBES [LEVELS [SECONDS]]]` takes CUBES^3
+/// cubes of six cells and halves all edges LEVELS times, first by DMRefine(), until the next level
+/// would pass SECONDS in all, and then as often by refine(), with to_plex() after each level; and
+/// of one of these meshes PETSc makes a DMPlex from lists of the same cells on the same ranks. From
+/// barrier to barrier; prints a line of JSON. Also under mpirun.
 ///
 /// What differs: PETSc divides a cell into eight in its own way. Of tetrahedra Debian's PETSc
 /// refines all or none.
@@ -12,6 +13,8 @@
 #include <cstdlib>
 #include <utility>
 #include <vector>
+
+#include <nlohmann/json.hpp>
 
 #include <octetra/distributed/adaptive_mesh.hpp>
 #include <octetra/distributed/exchange.hpp>
@@ -24,6 +27,7 @@
 namespace octetra::bench {
 namespace {
 
+using Json = nlohmann::ordered_json;
 using distributed::AdaptiveMesh;
 using distributed::Communicator;
 
@@ -101,39 +105,72 @@ double seconds_of_cell_list(const Communicator& world, const AdaptiveMesh& mesh)
     return took;
 }
 
-void run(const Communicator& world, std::size_t cubes, int levels) {
-    const Mesh mesh = test::kuhn(cubes, cubes, cubes, 1.0 / static_cast<double>(cubes));
-    const auto print = [&](const char* what, std::uint64_t cells, double took) {
-        if (world.is_first()) {
-            std::printf("%-40s %10llu cells %9.4f s\n", what,
-                        static_cast<unsigned long long>(cells), took);
-        }
-    };
+struct Bounds {
+    std::size_t cubes = 16;
+    std::size_t levels = 2;
+    double seconds = 600;
+};
+
+/// What each level of DMRefine() takes, until all are done or the next would take too long.
+Json levels_of_dmplex(const Communicator& world, const Mesh& mesh, const Bounds& bounds) {
     DM plex = plex_of(mesh, world.is_first());
     check(DMPlexSetRefinementUniform(plex, PETSC_TRUE));
-    for (int level = 0; level < levels; ++level) {
+    Json levels = Json::array();
+    double all = 0;
+    double next = 0;
+    while (levels.size() < bounds.levels && all + next <= bounds.seconds) {
         DM finer = nullptr;
         const double took =
             seconds(world, [&] { check(DMRefine(plex, PETSC_COMM_WORLD, &finer)); });
         check(DMDestroy(&plex));
         plex = std::exchange(finer, nullptr);
-        print("DMPlex refines", cells_of(world, plex), took);
+        levels.push_back({{"cells", cells_of(world, plex)}, {"seconds", took}});
+        all += took;
+        next = static_cast<double>(world.max(static_cast<std::uint64_t>(8e6 * took))) * 1e-6;
+        all = static_cast<double>(world.max(static_cast<std::uint64_t>(1e6 * all))) * 1e-6;
     }
     check(DMDestroy(&plex));
+    return levels;
+}
 
+/// The same by refine(), and what to_plex() takes then. Of the first mesh of some size also what
+/// PETSc takes to make a plex of it.
+Json levels_of_octetra(const Communicator& world, const Mesh& mesh, std::size_t level_count,
+                       Json& cell_list) {
+    constexpr std::uint64_t some_size = 100'000;
     auto ours = AdaptiveMesh::distribute(
         world, mesh,
         distributed::partition_cells(mesh, world.size(),
                                      {.method = distributed::PartitionMethod::rcb}));
-    for (int level = 0; level < levels; ++level) {
-        const double took = seconds(world, [&] { (void)ours.refine(Selection{.all = true}); });
-        print("octetra refines", world.sum(ours.cells().size()), took);
+    Json levels = Json::array();
+    for (std::size_t level = 0; level < level_count; ++level) {
+        const double refining = seconds(world, [&] { (void)ours.refine(Selection{.all = true}); });
+        DM plex = nullptr;
+        const double handing = seconds(world, [&] { plex = petsc::to_plex(ours); });
+        const std::uint64_t cells = cells_of(world, plex);
+        check(DMDestroy(&plex));
+        levels.push_back({{"cells", cells},
+                          {"seconds", refining + handing},
+                          {"refine_seconds", refining},
+                          {"hand_over_seconds", handing}});
+        if (cell_list.is_null() && (cells >= some_size || level + 1 == level_count)) {
+            cell_list = {{"cells", cells},
+                         {"seconds", seconds_of_cell_list(world, ours)},
+                         {"hand_over_seconds", handing}};
+        }
     }
-    const double took = seconds(world, [&] { plex = petsc::to_plex(ours); });
-    print("to_plex", cells_of(world, plex), took);
-    check(DMDestroy(&plex));
-    print("DMPlexCreateFromCellListParallelPetsc", world.sum(ours.cells().size()),
-          seconds_of_cell_list(world, ours));
+    return levels;
+}
+
+void run(const Communicator& world, const Bounds& bounds) {
+    const std::size_t n = bounds.cubes;
+    const Mesh mesh = test::kuhn(n, n, n, 1.0 / static_cast<double>(n));
+    const Json theirs = levels_of_dmplex(world, mesh, bounds);
+    Json cell_list;
+    const Json ours = levels_of_octetra(world, mesh, theirs.size(), cell_list);
+    const Json line{
+        {"ranks", world.size()}, {"dmplex", theirs}, {"octetra", ours}, {"cell_list", cell_list}};
+    if (world.is_first()) std::printf("%s\n", line.dump().c_str());
 }
 
 }  // namespace
@@ -143,8 +180,11 @@ int main(int argc, char** argv) {
     if (PetscInitialize(&argc, &argv, nullptr, nullptr) != 0) return 1;
     {
         const auto world = octetra::distributed::communicator_of(PETSC_COMM_WORLD);
-        const std::size_t cubes = argc > 1 ? std::strtoul(argv[1], nullptr, 10) : 16;
-        octetra::bench::run(world, cubes, argc > 2 ? std::atoi(argv[2]) : 2);
+        octetra::bench::Bounds bounds;
+        if (argc > 1) bounds.cubes = std::strtoul(argv[1], nullptr, 10);
+        if (argc > 2) bounds.levels = std::strtoul(argv[2], nullptr, 10);
+        if (argc > 3) bounds.seconds = std::strtod(argv[3], nullptr);
+        octetra::bench::run(world, bounds);
     }
     return PetscFinalize() == 0 ? 0 : 1;
 }

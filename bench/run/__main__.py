@@ -41,7 +41,7 @@ def parse_command_line():
     parser.add_argument("-o", "--output", metavar="FOLDER", default="bench")
     parser.add_argument("--quick", action="store_true",
                         help="small meshes, once each: to see that all runs")
-    parser.add_argument("--peers", action="store_true", help="DOLFINx, too, in turns with octetra")
+    parser.add_argument("--peers", action="store_true", help="DOLFINx and PETSc, too, in turns with octetra")
     parser.add_argument("--only", metavar="CASE", nargs="+", default=[],
                         help="only cases with one of these in the name of them or their group")
     parser.add_argument("--repetitions", metavar="N", type=positive,

@@ -1,5 +1,6 @@
 """All cases, by group."""
 
+import adaptive
 import files
 import growth
 import peers
@@ -16,9 +17,9 @@ ABOUT = {
               "With ranks: one mesh, a tenth of its cells marked at random; more ranks than cores "
               "take turns, so seconds are those of the processor, waiting included.",
     "files": "Files in the page cache, and `octetra refine` from its start to its end.",
-    "peers": "DOLFINx as Debian has it, the same mesh and the same cells chosen. Timed from "
-             "barrier to barrier, its edges included. Into memory that the process has yet to get, "
-             "as above.",
+    "peers": "DOLFINx and PETSc as Debian has them, the same mesh and the same cells chosen. Timed "
+             "from barrier to barrier, DOLFINx's edges included. Into memory that the process has "
+             "yet to get, as above. Cases that take minutes are run once.",
 }
 
 
@@ -38,7 +39,9 @@ def standard(with_peers):
     ]
     if with_peers:
         made.append(group("peers", [peers.uniform(55), peers.sphere(32), peers.bare(55),
-                                    peers.valid(32, 2)]))
+                                    peers.valid(32, 2), adaptive.run_in_dolfinx(8, 10),
+                                    adaptive.hand_over_to_dolfinx(40),
+                                    adaptive.beside_dmplex(8, 10, 60)]))
     return made
 
 
@@ -53,5 +56,7 @@ def quick(with_peers):
     ]
     if with_peers:
         made.append(group("peers", [peers.uniform(12), peers.sphere(8), peers.bare(12),
-                                    peers.valid(8, 2)]))
+                                    peers.valid(8, 2), adaptive.run_in_dolfinx(4, 3),
+                                    adaptive.hand_over_to_dolfinx(6),
+                                    adaptive.beside_dmplex(2, 2, 60)]))
     return made

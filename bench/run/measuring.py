@@ -9,17 +9,22 @@ from dataclasses import dataclass, field
 
 from running import TOO_LONG, Failure, must, printed, run
 
+ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
+
 
 @dataclass(frozen=True)
 class Place:
     build: str  # the folder of the programs
     folder: str  # of files that cases make
 
-    def program(self, name):
+    def built(self, name, kind=os.F_OK):
         path = os.path.join(self.build, name)
-        if not os.access(path, os.X_OK):
+        if not os.access(path, kind):
             raise Failure(f"{path} is not there: build it first")
         return path
+
+    def program(self, name):
+        return self.built(name, os.X_OK)
 
     def mesh(self, shape, name):
         """The file of a generated mesh, made when it is first asked for."""
@@ -65,13 +70,15 @@ class Figure:
 class Case:
     """`figures` gets the lines of each run, by its name; so do `points`, which returns what is
     drawn over an axis, a dictionary each, and `wrong`, which returns what must not be, in words.
-    A case whose runs are short has some multiple of the repetitions."""
+    A case whose runs are short has some multiple of the repetitions, one whose runs are long at
+    most so many."""
     name: str
     runs: list
     figures: Callable[[dict], list]
     points: Callable[[dict], list] = field(default=lambda lines: [])
     wrong: Callable[[dict], list] = field(default=lambda lines: [])
     multiple: int = 1
+    at_most: int = 1000
 
 
 @dataclass(frozen=True)
@@ -128,11 +135,28 @@ def driver(name, program, arguments, ranks=1, mesh=None, patience=None):
     return Run(name, line, " ".join(words))
 
 
+def script(name, path, arguments, ranks=1, patience=None):
+    """The same of a driver in Python, with the module as it is built."""
+    def line(place):
+        place.built("python/octetra/__init__.py")
+        command = ["env", "PYTHONPATH=" + os.path.join(place.build, "python"), *launcher(ranks),
+                   "/usr/bin/python3", os.path.join(ROOT, path), *shlex.split(arguments), "--json"]
+        words, times = printed_by(command, place.folder, patience)
+        try:
+            # DOLFINx may tell of forms that it compiles.
+            return json.loads(words.splitlines()[-1]) | ({BEGUN_AGAIN: times} if patience else {})
+        except (ValueError, IndexError) as error:
+            raise Failure(f"{path} printed no JSON:\n{words[-300:]}") from error
+
+    words = [f"mpirun -n {ranks}"] if ranks > 1 else []
+    return Run(name, line, " ".join([*words, "python3", path, arguments]))
+
+
 def measure(case, place, repetitions):
     """The case: how it was run how often, and the figures that follow. What the runs printed is not
     kept: the figures have its medians, least and most."""
     lines = {run.name: [] for run in case.runs}
-    for _ in range(case.multiple * repetitions):
+    for _ in range(min(case.multiple * repetitions, case.at_most)):
         for one in case.runs:
             lines[one.name].append(one.line(place))
     return {"name": case.name,

@@ -12,6 +12,7 @@ ROOT = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..")
 RUN = os.path.join(ROOT, "bench", "run")
 sys.path[:0] = [RUN, os.path.join(ROOT, "tools", "equivalence")]
 
+import adaptive  # noqa: E402
 import files  # noqa: E402
 import groups  # noqa: E402
 import kept  # noqa: E402
@@ -136,6 +137,27 @@ class Figures(unittest.TestCase):
         self.assertEqual(peers.other_counts(lines(8, 8)), [])
         self.assertEqual(len(peers.other_counts(lines(8, 9))), 1)
 
+    def adaptive_run(self, cells, seconds, handing=0.0):
+        return [{"levels": [{"cells": c, "seconds": seconds * c, "hand_over_seconds": handing, "other_seconds": 1}
+                            for c in cells], "peak_bytes": 1, "begun_again": 0}]
+
+    def test_of_adaptive_runs_are_of_the_steps_that_all_have_made(self):
+        lines = {f"{program}, {words}": self.adaptive_run(cells, seconds, 0.5)
+                 for words in ("1 rank", "2 ranks")
+                 for program, cells, seconds in (("octetra", [2, 8, 20], 1), ("DOLFINx", [2, 8], 60))}
+        self.assertEqual(adaptive.other_cells(lines), [])
+        found = {figure.name: figure for figure in adaptive.run_figures(lines)}
+        self.assertEqual((found["steps of both"].value, found["cells in the end"].value), (2, 8))
+        speed = found["the mesh: speed against DOLFINx, 2 ranks"]
+        self.assertEqual((speed.value, speed.at_least), (60, 50))
+        self.assertEqual(found["of that handing over, 1 rank"].value, 1)
+        lines["DOLFINx, 2 ranks"] = self.adaptive_run([2, 9], 60)
+        self.assertEqual(adaptive.other_cells(lines), ["DOLFINx, 2 ranks has [2, 9] cells, not [2, 8]"])
+
+    def test_of_what_takes_long_come_from_few_runs(self):
+        case = Case("long", [Run("a", lambda _: {})], lambda lines: [], at_most=1)
+        self.assertEqual(measure(case, None, 5)["runs"][0]["times"], 1)
+
 
 WHAT_COUNTS = ("processor", "cores", "memory_bytes", "system", "mpi", "compiler", "build", "commit")
 
@@ -227,6 +249,16 @@ class Programs(unittest.TestCase):
         self.assertGreater(cases["with ranks"]["points"][1]["bytes"], 0)
         self.assertEqual(len(cases["around a point"]["points"]), 4)
         for case in cases.values():
+            for figure in case["figures"]:
+                self.assertGreaterEqual(figure["value"], 0, figure)
+
+    @unittest.skipUnless(os.path.exists(os.path.join(os.environ["OCTETRA_BUILD"], "bench/peers/peer_dmplex"))
+                         and os.path.exists("/usr/lib/petscdir"), "needs DOLFINx and PETSc")
+    def test_run_beside_other_programs(self):
+        cases = self.cases_of("run of adaptive", "handing a mesh", "DMPlex", "--peers")
+        self.assertEqual(len(cases), 3)
+        for case in cases.values():
+            self.assertEqual(case["wrong"], [])
             for figure in case["figures"]:
                 self.assertGreaterEqual(figure["value"], 0, figure)
 

@@ -1,5 +1,9 @@
 """Meshes as DMPlex of petsc4py, and back."""
 
+import importlib
+import pathlib
+import re
+
 import numpy as np
 import pytest
 from conftest import near, total, world
@@ -103,6 +107,16 @@ def test_a_linear_function_solves_laplaces_equation_on_a_plex(refined):
     local = plex.createLocalVector()
     plex.globalToLocal(u, local)
     assert np.allclose(local.array[offset], exact, atol=1e-10)
+
+
+def test_the_solver_of_the_page_prints_what_the_page_shows(cube, monkeypatch, capsys):
+    source = pathlib.Path(__file__).resolve().parents[2]
+    monkeypatch.syspath_prepend(source / "examples/python")
+    page = (source / "docs/petsc.md").read_text()
+    table = re.search("    cells  unknowns  integral of u\n(.*\n){4}", page)[0].splitlines()
+    importlib.import_module("petsc_poisson").run(cube, 2)
+    world.Barrier()
+    assert capsys.readouterr().out.splitlines() == (table[:4] if world.rank == 0 else [])
 
 
 def test_what_is_no_plex_of_tetrahedra_is_refused():

@@ -27,7 +27,9 @@ std::vector<std::uint8_t> marks_of(const od::AdaptiveMesh& mesh, bool is_uniform
 }  // namespace
 
 int main(int argc, char** argv) {
-    MPI_Init(&argc, &argv);
+    // As mpi4py starts MPI, whose calls take longer then.
+    int provided = 0;
+    MPI_Init_thread(&argc, &argv, MPI_THREAD_MULTIPLE, &provided);
     if (argc != 4) return 2;
     od::AdaptiveMesh mesh = od::AdaptiveMesh::read(od::communicator_of(MPI_COMM_WORLD), argv[1]);
     for (int step = 0; step < std::atoi(argv[3]); ++step) {

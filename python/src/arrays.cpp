@@ -66,6 +66,11 @@ std::vector<V> values_of(const std::string& name, const py::handle& given) {
     }
     const auto numbers = py::array_t<Number, py::array::c_style | py::array::forcecast>(array);
     if (!is_real && !numbers.attr("__eq__")(array).attr("all")().template cast<bool>()) {
+        const py::object least = array.attr("min")();
+        if (std::is_unsigned_v<Number> && least.attr("__lt__")(0).template cast<bool>()) {
+            throw InputError(fmt::format("{}: numbers from 0; given is {}", name,
+                                         py::str(least).cast<std::string>()));
+        }
         refuse(name, fmt::format("numbers that fit into {} bits", 8 * sizeof(Number)), array);
     }
     std::vector<V> values(static_cast<std::size_t>(array.shape(0)));
@@ -83,8 +88,29 @@ template std::vector<std::array<std::uint64_t, 2>> values_of(const std::string&,
 template std::vector<std::array<std::uint64_t, 3>> values_of(const std::string&, const py::handle&);
 template std::vector<std::array<std::uint64_t, 4>> values_of(const std::string&, const py::handle&);
 
+std::uint64_t whole_number(const std::string& name, const py::handle& given) {
+    const auto number = py::reinterpret_steal<py::object>(PyNumber_Index(given.ptr()));
+    if (!number) PyErr_Clear();
+    const std::uint64_t value = number ? PyLong_AsUnsignedLongLong(number.ptr()) : 0;
+    if (number && PyErr_Occurred() == nullptr) return value;
+    PyErr_Clear();
+    throw InputError(fmt::format("{}: a whole number from 0; given is {}", name,
+                                 py::repr(given).cast<std::string>()));
+}
+
 py::array_t<std::uint8_t> marks_of(const py::handle& given, std::size_t cell_count) {
     if (given.is_none()) return no_marks(cell_count);
+    // What most programs pass is taken as it is, before numpy is asked for anything.
+    if (py::isinstance<py::array_t<bool>>(given)) {
+        const auto booleans = py::reinterpret_borrow<py::array_t<bool>>(given);
+        const auto count = static_cast<py::ssize_t>(cell_count);
+        if (booleans.ndim() == 1 && booleans.shape(0) == count &&
+            (booleans.flags() & py::array::c_style) != 0) {
+            const void* bytes = booleans.data();
+            return py::array_t<std::uint8_t>(count, static_cast<const std::uint8_t*>(bytes),
+                                             booleans);
+        }
+    }
     py::array array = any_array(given);
     const bool is_boolean = array.dtype().kind() == 'b';
     if (array.size() == 0 && array.ndim() == 1 && cell_count == 0) return no_marks(0);
@@ -102,7 +128,8 @@ py::array_t<std::uint8_t> marks_of_list(const py::handle& given, std::size_t cel
     py::array_t<std::uint8_t> marks = no_marks(cell_count);
     for (const std::uint64_t cell : cells) {
         if (cell >= cell_count) {
-            throw InputError(fmt::format("cell {} is marked, and there are {}", cell, cell_count));
+            throw InputError(
+                fmt::format("cells: {} is marked, and this rank has {} cells", cell, cell_count));
         }
         marks.mutable_data()[cell] = 1;
     }

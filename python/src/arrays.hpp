@@ -77,6 +77,9 @@ template <class T, class Allocator>
 template <class V>
 [[nodiscard]] std::vector<V> values_of(const std::string& name, const py::handle& given);
 
+/// A whole number from 0. Throws InputError where it is none; `name` is what the caller calls it.
+[[nodiscard]] std::uint64_t whole_number(const std::string& name, const py::handle& given);
+
 /// A byte for each cell from marks: booleans, or whole numbers of any type, of which others than 0
 /// mean true. None marks nothing.
 [[nodiscard]] py::array_t<std::uint8_t> marks_of(const py::handle& given, std::size_t cell_count);

@@ -1,3 +1,9 @@
+#include <string>
+#include <tuple>
+#include <vector>
+
+#include <pybind11/stl.h>
+
 #include "arrays.hpp"
 #include "bind.hpp"
 
@@ -36,6 +42,14 @@ void bind_part(MeshClass& mesh) {
             "has, ascending.");
 }
 
+std::vector<std::tuple<int, Marker, std::string>> group_names(const Mesh& mesh) {
+    std::vector<std::tuple<int, Marker, std::string>> names;
+    for (const GroupName& group : mesh.now().group_names()) {
+        names.emplace_back(group.dimension, group.tag, group.name);
+    }
+    return names;
+}
+
 void bind_tags(MeshClass& mesh) {
     mesh.def_property_readonly(
             "regions", [](const Mesh& m) { return array_of(m.now().regions()); },
@@ -48,7 +62,11 @@ void bind_tags(MeshClass& mesh) {
             "int32 (edges,), or (0,) where the input has none. Made when asked for.")
         .def_property_readonly(
             "root_of_cells", [](const Mesh& m) { return array_of(m.now().root_of_cells()); },
-            "uint32 (cells,): of each cell the place of its root in `roots`. Made when asked for.");
+            "uint32 (cells,): of each cell the place of its root in `roots`. Made when asked for.")
+        .def_property_readonly("group_names", &group_names,
+                               "What the input's file calls groups of entities with the same tag: "
+                               "[(dimension, tag, name)], 3 for cells, 2 for facets, 1 for edges "
+                               "and 0 for vertices. The same on all ranks.");
 }
 
 }  // namespace

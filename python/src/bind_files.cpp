@@ -4,9 +4,11 @@
 #include <utility>
 #include <vector>
 
+#include <fmt/format.h>
 #include <pybind11/stl.h>
-#include <pybind11/stl/filesystem.h>
 
+#include <octetra/core/error.hpp>
+#include <octetra/core/files/checkpoint.hpp>
 #include <octetra/distributed/partition.hpp>
 
 #include "bind.hpp"
@@ -17,24 +19,22 @@ namespace {
 
 using Path = std::filesystem::path;
 
-/// What `path` says, a str or an os.PathLike.
-Path path_of(const py::object& given) { return given.cast<Path>(); }
-
 /// Collective. A mesh that make(processes, path, partition) makes without the GIL.
 MeshPointer made(const py::object& comm, const py::object& given, const std::string& method,
                  auto&& make) {
     const od::Communicator processes = processes_of(comm);
-    Path path;
+    const Path path = common_path(processes, given);
     od::Partition partition;
-    convert_on_each(processes, [&] {
-        path = path_of(given);
-        partition = od::parse_partition(method);
-    });
+    convert_on_each(processes, [&] { partition = od::parse_partition(method); });
     return without_gil([&] { return std::make_shared<Mesh>(make(processes, path, partition)); });
 }
 
+/// A checkpoint is a mesh as any other.
 MeshPointer read(const py::object& path, const py::object& comm, const std::string& partition) {
-    return made(comm, path, partition, &od::AdaptiveMesh::read);
+    return made(comm, path, partition, [](const auto& processes, const auto& from, const auto& by) {
+        return is_checkpoint(from) ? od::AdaptiveMesh::load(processes, from, by)
+                                   : od::AdaptiveMesh::read(processes, from, by);
+    });
 }
 
 MeshPointer load(const py::object& path, const py::object& comm, const std::string& partition,
@@ -57,10 +57,9 @@ std::tuple<MeshPointer, py::dict, py::dict> load_with_fields(const py::object& p
 /// Collective. What a mesh writes into a file, with fields.
 auto written(Mesh& mesh, const py::object& given, const py::object& on_vertices,
              const py::object& on_cells, auto&& write) {
-    Path path;
+    const Path path = common_path(mesh.processes(), given);
     std::vector<od::Field> fields;
     convert_on_each(mesh.processes(), [&] {
-        path = path_of(given);
         fields = fields_of(on_vertices, on_cells, mesh.vertex_count(), mesh.cell_count());
     });
     return mesh.ask([&](const od::AdaptiveMesh& now) { return write(now, path, fields); });
@@ -70,7 +69,9 @@ std::string write(Mesh& mesh, const py::object& path, const py::object& vertex_f
                   const py::object& cell_fields) {
     return written(mesh, path, vertex_fields, cell_fields,
                    [](const od::AdaptiveMesh& now, const Path& to, const auto& fields) {
-                       return now.write(to, fields);
+                       if (!is_checkpoint(to)) return now.write(to, fields);
+                       now.save(to, fields);
+                       return std::string();
                    });
 }
 
@@ -78,6 +79,12 @@ void save(Mesh& mesh, const py::object& path, const py::object& vertex_fields,
           const py::object& cell_fields) {
     written(mesh, path, vertex_fields, cell_fields,
             [](const od::AdaptiveMesh& now, const Path& to, const auto& fields) {
+                if (!is_checkpoint(to)) {
+                    throw InputError(fmt::format(
+                        "{}: save() writes a checkpoint, which is named .octetra; write() writes "
+                        "files of other formats",
+                        to.native()));
+                }
                 now.save(to, fields);
             });
 }
@@ -88,10 +95,12 @@ void bind_files(py::module_& module, MeshClass& mesh) {
     const py::arg path("path");
     const py::arg_v comm = py::arg("comm") = py::none();
     const py::arg_v partition = py::arg("partition") = "rcb";
-    module.def("read", &read, path, comm, py::kw_only(), partition,
-               "Collective. A mesh from a file (.ele, .mesh, .meshb, .msh), shared out over the "
-               "ranks of comm, an mpi4py communicator; None means all ranks. partition: 'rcb', "
-               "'lepp', 'dual', 'block', 'random:SEED' or 'file:PATH'.");
+    module.def(
+        "read", &read, path, comm, py::kw_only(), partition,
+        "Collective. A mesh from a file (.ele, .mesh, .meshb, .msh, or .octetra as by load()), "
+        "shared out over the ranks of comm, an mpi4py communicator; None means all ranks. "
+        "partition: 'rcb', "
+        "'lepp', 'dual', 'block', 'random:SEED' or 'file:PATH'.");
     module.def(
         "load",
         [](const py::object& from, const py::object& ranks, const std::string& by) {
@@ -107,8 +116,9 @@ void bind_files(py::module_& module, MeshClass& mesh) {
     const py::arg_v cell_fields = py::arg("cell_fields") = py::none();
     mesh.def("write", &write, path, py::kw_only(), vertex_fields, cell_fields,
              "Collective. Writes a file, the same on any number of ranks; its extension says of "
-             "which format. Fields, {name: values}, go into .vtu, .pvtu and .vtkhdf: float64, "
-             "float32, int32 or int64 of shape (vertices, ...) or (cells, ...). Returns what the "
+             "which format. Fields, {name: values}, go into .vtu, .pvtu, .vtkhdf, .xdmf and "
+             ".octetra, and beside a Medit mesh into a .sol or .solb: float64, float32, int32 or "
+             "int64 of shape (vertices, ...) or (cells, ...). Returns what the "
              "format could not hold, or ''.")
         .def("save", &save, path, py::kw_only(), vertex_fields, cell_fields,
              "Collective. Writes a checkpoint, .octetra: the input, what each step did, and "

@@ -1,10 +1,13 @@
 #include <optional>
 #include <string>
 #include <utility>
+#include <variant>
 #include <vector>
 
+#include <fmt/format.h>
 #include <pybind11/stl.h>
 
+#include <octetra/core/error.hpp>
 #include <octetra/core/selection.hpp>
 #include <octetra/distributed/estimator_marks.hpp>
 
@@ -55,6 +58,21 @@ py::array marks_of_selection(const Mesh& mesh, const Selection& selection) {
     return booleans(std::move(bytes));
 }
 
+/// The tag itself, or that of the group of cells with this name.
+Marker region_tag(const Mesh& mesh, const std::variant<Marker, std::string>& given) {
+    if (const Marker* const tag = std::get_if<Marker>(&given)) return *tag;
+    const auto& name = std::get<std::string>(given);
+    std::string known;
+    for (const GroupName& group : mesh.now().group_names()) {
+        if (group.dimension != 3) continue;
+        if (group.name == name) return group.tag;
+        known += (known.empty() ? "" : ", ") + group.name;
+    }
+    throw InputError(
+        known.empty() ? fmt::format("no group of cells of this mesh has a name, as '{}'", name)
+                      : fmt::format("no group of cells is called '{}'; there are {}", name, known));
+}
+
 void bind_criteria(py::module_& mark) {
     mark.def(
         "sphere",
@@ -72,8 +90,12 @@ void bind_criteria(py::module_& mark) {
         "bool (cells,): is the centroid in the closed box? As --box.");
     mark.def(
         "region",
-        [](const Mesh& mesh, Marker tag) { return marks_of_selection(mesh, {.regions = {tag}}); },
-        py::arg("mesh"), py::arg("tag"), "bool (cells,): is this the region tag? As --region.");
+        [](const Mesh& mesh, const std::variant<Marker, std::string>& tag) {
+            return marks_of_selection(mesh, {.regions = {region_tag(mesh, tag)}});
+        },
+        py::arg("mesh"), py::arg("tag"),
+        "bool (cells,): is this the region tag? Or of the group with this name, where the file has "
+        "names (.msh). As --region.");
     mark.def(
         "random",
         [](const Mesh& mesh, double fraction, std::uint64_t seed) {

@@ -4,7 +4,6 @@
 #include <vector>
 
 #include <pybind11/stl.h>
-#include <pybind11/stl/filesystem.h>
 
 #include "bind.hpp"
 #include "fields.hpp"
@@ -15,8 +14,7 @@ namespace {
 
 std::unique_ptr<Series> begun(const py::object& given, const py::object& comm) {
     const od::Communicator processes = processes_of(comm);
-    std::filesystem::path path;
-    convert_on_each(processes, [&] { path = given.cast<std::filesystem::path>(); });
+    const std::filesystem::path path = common_path(processes, given);
     return without_gil([&] { return std::make_unique<Series>(processes, path); });
 }
 

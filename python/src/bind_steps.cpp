@@ -38,7 +38,7 @@ od::StepOptions step_options(const std::string& scheme, const py::object& max_ce
     } else if (scheme != "8t") {
         throw InputError("scheme: '8t', '4t' or '2t'");
     }
-    if (!max_cells.is_none()) options.max_cells = max_cells.cast<std::uint64_t>();
+    if (!max_cells.is_none()) options.max_cells = whole_number("max_cells", max_cells);
     return options;
 }
 
@@ -48,12 +48,17 @@ Adaptation refine(Mesh& mesh, const py::object& marks, const py::object& cells,
                   const std::string& scheme, const py::object& max_cells) {
     Marked which;
     od::StepOptions options;
-    return mesh.change(
+    return mesh.change_when_asked(
         [&] {
             which = marked(mesh, marks, cells);
             options = step_options(scheme, max_cells);
         },
-        [&](od::AdaptiveMesh& now) { return shared(now.refine(which.span(), options)); });
+        [&](od::AdaptiveMesh& now, const auto& convert) {
+            return shared(now.refine([&] {
+                convert();
+                return od::StepRequest{which.span(), options};
+            }));
+        });
 }
 
 Adaptation refine_edges(Mesh& mesh, const py::object& given, const std::string& scheme,

@@ -4,8 +4,8 @@
 #include <vector>
 
 #include <pybind11/stl.h>
-#include <pybind11/stl/filesystem.h>
 
+#include <octetra/core/error.hpp>
 #include <octetra/verify/verify.hpp>
 
 #include "bind.hpp"
@@ -17,18 +17,20 @@ namespace ov = verify;
 
 /// Collective. The mesh as it is, alone or as a refinement of the one in a file.
 ov::Verdict judge(Mesh& mesh, const py::object& coarse, bool fast, const py::object& min_dihedral) {
-    std::optional<std::filesystem::path> input;
+    // None on all ranks, or a path on all.
+    const py::object words = coarse.is_none() ? py::object(py::str()) : coarse;
+    const std::filesystem::path input = common_path(mesh.processes(), words);
     ov::VerifyOptions options{.fast = fast};
     convert_on_each(mesh.processes(), [&] {
-        input = coarse.cast<std::optional<std::filesystem::path>>();
+        if (input.empty() && !coarse.is_none()) throw InputError("coarse: the path is empty");
         options.min_dihedral = min_dihedral.cast<std::optional<double>>();
     });
     return mesh.ask([&](const od::AdaptiveMesh& now) {
         od::CanonicalMesh canonical = now.canonical();
         ov::MeshSlice fine = ov::slice_of(canonical.whole());
         const od::Communicator& processes = now.processes();
-        if (!input) return ov::verify_mesh(std::move(fine), processes, options);
-        return ov::verify_refinement(ov::read_slice(*input, {}, processes), std::move(fine),
+        if (input.empty()) return ov::verify_mesh(std::move(fine), processes, options);
+        return ov::verify_refinement(ov::read_slice(input, {}, processes), std::move(fine),
                                      processes, options);
     });
 }

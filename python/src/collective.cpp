@@ -1,13 +1,16 @@
 #include "collective.hpp"
 
+#include <algorithm>
 #include <cstdint>
 #include <cstring>
 #include <memory>
 #include <new>
 #include <string>
+#include <vector>
 
 #include <fmt/format.h>
 #include <mpi.h>
+#include <pybind11/stl/filesystem.h>
 
 #include <octetra/core/error.hpp>
 #include <octetra/distributed/mpi.hpp>
@@ -67,23 +70,44 @@ distributed::Communicator processes_of(const py::object& comm) {
     return without_gil([&] { return distributed::communicator_of(handle); });
 }
 
+void convert_here(const distributed::Communicator& processes,
+                  const std::function<void()>& convert) {
+    const py::gil_scoped_acquire acquired;
+    try {
+        convert();
+    } catch (const std::bad_alloc&) {
+        throw;
+    } catch (py::error_already_set& error) {
+        if (error.matches(PyExc_MemoryError)) throw std::bad_alloc();
+        throw InputError(fmt::format("rank {}: {}", processes.rank(), first_line(error.what())));
+    } catch (const std::exception& error) {
+        throw InputError(fmt::format("rank {}: {}", processes.rank(), error.what()));
+    }
+}
+
 void convert_on_each(const distributed::Communicator& processes,
                      const std::function<void()>& convert) {
-    const auto attempt = [&] {
-        const py::gil_scoped_acquire acquired;
-        try {
-            convert();
-        } catch (const std::bad_alloc&) {
-            throw;
-        } catch (py::error_already_set& error) {
-            if (error.matches(PyExc_MemoryError)) throw std::bad_alloc();
-            throw InputError(
-                fmt::format("rank {}: {}", processes.rank(), first_line(error.what())));
-        } catch (const std::exception& error) {
-            throw InputError(fmt::format("rank {}: {}", processes.rank(), error.what()));
-        }
-    };
-    without_gil([&] { processes.on_each(attempt); });
+    without_gil([&] { processes.on_each([&] { convert_here(processes, convert); }); });
+}
+
+std::filesystem::path common_path(const distributed::Communicator& processes,
+                                  const py::object& given) {
+    std::filesystem::path path;
+    std::vector<char> of_first;
+    convert_on_each(processes, [&] {
+        path = given.cast<std::filesystem::path>();
+        of_first.assign(path.native().begin(), path.native().end());
+    });
+    without_gil([&] {
+        processes.broadcast(of_first);
+        processes.on_each([&] {
+            if (std::ranges::equal(of_first, path.native())) return;
+            throw InputError(fmt::format(
+                "rank {}: the path is {}, and {} on rank 0: all ranks pass the same",
+                processes.rank(), path.native(), std::string(of_first.begin(), of_first.end())));
+        });
+    });
+    return path;
 }
 
 }  // namespace octetra::python

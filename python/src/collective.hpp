@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <filesystem>
 #include <functional>
 #include <utility>
 
@@ -23,9 +24,17 @@ auto without_gil(auto&& work) {
     return work();
 }
 
+/// Converts what this rank has passed, with the GIL, which the caller has not. Whatever is thrown,
+/// an exception of Python's too, comes as an InputError that names the rank, or as std::bad_alloc.
+void convert_here(const distributed::Communicator& processes, const std::function<void()>& convert);
+
 /// Collective. Converts what each rank has passed, with the GIL. Whatever is thrown on one rank, an
 /// exception of Python's too, is thrown on all, as InputError or OutOfMemory, and names the rank.
 void convert_on_each(const distributed::Communicator& processes,
                      const std::function<void()>& convert);
+
+/// Collective. What `path` says, a str or an os.PathLike, which must be the same on all ranks.
+[[nodiscard]] std::filesystem::path common_path(const distributed::Communicator& processes,
+                                                const py::object& given);
 
 }  // namespace octetra::python

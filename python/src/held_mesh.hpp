@@ -55,6 +55,18 @@ public:
         });
         return without_gil([&] { return step(mesh_); });
     }
+    /// Collective. The same of a step that has what is passed converted itself, by a function that
+    /// it gets, where all processes hear whether that has failed.
+    auto change_when_asked(const std::function<void()>& convert, auto&& step) {
+        const Busy busy(*this);
+        const auto ask = [&] {
+            convert_here(processes(), [&] {
+                convert();
+                leave_arrays();
+            });
+        };
+        return without_gil([&] { return step(mesh_, ask); });
+    }
 
 private:
     /// While one thread is in a collective function others have the GIL.

@@ -50,6 +50,28 @@ TEST_P(AdaptiveMeshIn, IsAsItWasAfterAStepThatIsRefused) {
     }
 }
 
+TEST_P(AdaptiveMeshIn, IsAsItWasAfterAStepThatOneProcessCannotAskFor) {
+    const auto& world = test::world();
+    const bool is_last = world.rank() == world.size() - 1;
+    AdaptiveMesh mesh = shared_out(test::marked(test::shaken_kuhn(3, 0.2, 1), 1), GetParam());
+    AdaptiveMesh other = shared_out(test::marked(test::shaken_kuhn(3, 0.2, 1), 1), GetParam());
+    for (const Selection& selection : {steps[0], Selection{.all = true}, steps[2]}) {
+        const test::SeenMesh before(mesh);
+        const auto marks = marks_of(mesh, selection);
+        const auto request = [&](bool has_failed) {
+            if (has_failed) throw InputError("nothing to mark by");
+            return StepRequest{marks, {.scheme = Scheme::four}};
+        };
+        EXPECT_EQ(test::thrown_by<InputError>(
+                      [&] { (void)mesh.refine([&] { return request(is_last); }); }),
+                  "nothing to mark by");
+        EXPECT_TRUE(before == test::SeenMesh(mesh));
+        (void)mesh.refine([&] { return request(false); });
+        (void)other.refine(marks, {.scheme = Scheme::four});
+        EXPECT_TRUE(test::SeenMesh(other) == test::SeenMesh(mesh));
+    }
+}
+
 TEST_P(AdaptiveMeshIn, IsAsItWasAfterAStepThatRoundingForbids) {
     // Whole numbers are all that there is: some levels down an edge has no midpoint.
     Mesh whole = test::kuhn(3, 3, 3, 8);

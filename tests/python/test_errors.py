@@ -30,6 +30,11 @@ CASES = {
     "marks and cells": lambda m: m.refine(wrong_here([1] * cells_of(m), None), cells=[]),
     "a scheme": lambda m: m.refine(np.ones(cells_of(m)), scheme=wrong_here("3t", "8t")),
     "too many cells": lambda m: m.refine(np.ones(cells_of(m), bool), max_cells=10),
+    "a number of cells below none": lambda m: m.refine(None, max_cells=wrong_here(-1, 10**6)),
+    "a number of cells that is a word": lambda m: m.refine_edges([], max_cells=wrong_here("few", None)),
+    "a cell below the first": lambda m: m.refine(cells=wrong_here([3, -1], [])),
+    "a share that is no number": lambda m: m.rebalance(most_over_mean=wrong_here(float("nan"), 1.1)),
+    "a share below the mean": lambda m: m.refine_evenly(most_over_mean=wrong_here(0.5, 0.5)),
     "an edge of no cell": lambda m: m.refine_edges(wrong_here([[0, 10**9]], [])),
     "an edge of three": lambda m: m.refine_edges(wrong_here([[0, 1, 2]], [])),
     "another rank": lambda m: m.migrate(np.full(len(m.roots), wrong_here(99, 0))),
@@ -37,6 +42,7 @@ CASES = {
         m, np.full(cells_of(m), wrong_here(-1.0, 1.0))),
     "too few indicators": lambda m: octetra.mark.maximum(m, np.ones(wrong_here(1, cells_of(m)))),
     "a path": lambda m: m.write(wrong_here(7, "mesh.vtu")),
+    "a checkpoint by another name": lambda m: m.save("mesh.vtu"),
     "an extension": lambda m: m.write("mesh.txt"),
     "a folder that is not there": lambda m: m.save("/no/such/folder/state.octetra"),
     "a field of another size": lambda m: m.save(
@@ -60,16 +66,48 @@ CASES = {
 }
 
 
+# What a call says, where it is wrong on the last rank.
+WORDS = {
+    "a number of cells below none": "max_cells: a whole number from 0; given is -1",
+    "a number of cells that is a word": "max_cells: a whole number from 0; given is 'few'",
+    "a cell below the first": "cells: numbers from 0; given is -1",
+    "a cell that is not there": "cells: 1000000 is marked, and this rank has",
+    "a share that is no number": "most_over_mean: .*, from 1; given is nan",
+    "a share below the mean": "most_over_mean: .*, from 1; given is 0.5",
+    "a checkpoint by another name": r"mesh.vtu: save\(\) writes a checkpoint, .*write\(\) writes",
+}
+
+
 @pytest.mark.parametrize("case", CASES)
 def test_what_is_wrong_on_one_rank_is_raised_alike_on_all(mesh, case):
     points, cells = mesh.points, mesh.cells
-    with pytest.raises(octetra.Error) as raised:
+    with pytest.raises(octetra.Error, match=WORDS.get(case)) as raised:
         CASES[case](mesh)
     said = world.allgather((type(raised.value), str(raised.value)))
     assert said == [said[0]] * world.size
     assert np.array_equal(mesh.points, points) and np.array_equal(mesh.cells, cells)
     mesh.refine(near(mesh, 0.5))
     assert mesh.verify()
+
+
+PATHS = {
+    "read": lambda m, path: octetra.read(path),
+    "load": lambda m, path: octetra.load(path),
+    "write": lambda m, path: m.write(path),
+    "save": lambda m, path: m.save(path),
+    "verify": lambda m, path: m.verify(path),
+    "series": lambda m, path: octetra.MeshSeries(path),
+}
+
+
+@pytest.mark.skipif(world.size == 1, reason="ranks have different paths")
+@pytest.mark.parametrize("call", PATHS)
+def test_a_path_that_differs_by_rank_is_refused(folder, mesh, call):
+    end = {"read": "mesh", "verify": "mesh", "write": "vtu", "series": "vtkhdf"}.get(call, "octetra")
+    with pytest.raises(octetra.InputError, match=f"rank {world.size - 1}: the path is .*b.{end}, and"):
+        PATHS[call](mesh, folder / wrong_here(f"b.{end}", f"a.{end}"))
+    world.Barrier()
+    assert list(folder.iterdir()) == [folder / "cube.mesh"]
 
 
 def test_errors_are_also_pythons_own(mesh):

@@ -1,5 +1,8 @@
 """Steps, what they tell, and that the bytes are the command's."""
 
+import importlib
+import pathlib
+
 import numpy as np
 import pytest
 from conftest import centroids, command, near, total, world
@@ -45,6 +48,25 @@ def test_criteria_mark_what_those_of_the_command_mark(folder, criterion, option)
         command("refine", folder / "in.mesh", *option, "--scheme", scheme, "-o",
                 folder / "expected.mesh")
         assert same(folder / "out.mesh", folder / "expected.mesh")
+
+
+def test_regions_have_the_names_of_the_file(folder):
+    box = pathlib.Path(__file__).resolve().parents[2] / "corpus/meshes/gmsh-box-22.msh"
+    mesh = octetra.read(box)
+    assert (3, 7, "steel") in mesh.group_names and (2, 4, "interface") in mesh.group_names
+    steel = octetra.mark.region(mesh, "steel")
+    assert np.array_equal(steel, octetra.mark.region(mesh, 7)) and total(steel.sum()) > 0
+    mesh.refine(steel)
+    mesh.write(folder / "out.msh")
+    command("refine", box, "--region", "steel", "-o", folder / "expected.msh")
+    assert same(folder / "out.msh", folder / "expected.msh")
+    with pytest.raises(octetra.InputError, match="'glass'; there are air above, steel"):
+        octetra.mark.region(mesh, "glass")
+    without = octetra.from_arrays([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]],
+                                  [[0, 1, 2, 3]] if world.rank == 0 else [])
+    assert without.group_names == []
+    with pytest.raises(octetra.InputError, match="has a name"):
+        octetra.mark.region(without, "steel")
 
 
 @pytest.mark.parametrize("kind", (bool, np.int8, np.uint16, np.int64, list))
@@ -172,10 +194,26 @@ def test_a_mesh_is_saved_with_fields_and_goes_on(folder, mesh):
     assert np.array_equal(on_vertices["u"], again.points[:, 0])
     assert np.array_equal(on_cells["q"], centroids(again).astype(np.float32))
     plain = octetra.load(folder / "state.octetra", partition="block")
-    for number, m in enumerate((mesh, again, plain)):
+    read = octetra.read(folder / "state.octetra")
+    assert mesh.write(folder / "written.octetra", vertex_fields={"u": u}, cell_fields={"q": q}) == ""
+    assert same(folder / "written.octetra", folder / "state.octetra")
+    for number, m in enumerate((mesh, again, plain, read)):
         m.coarsen(near(m, 0.3))
         m.write(folder / f"{number}.mesh")
         assert same(folder / f"{number}.mesh", folder / "0.mesh")
+
+
+def test_one_name_may_be_on_vertices_and_on_cells(folder, mesh, monkeypatch):
+    mesh.refine(near(mesh, 0.5))
+    mesh.save(folder / "state.octetra", vertex_fields={"u": mesh.vertex_numbers.astype(np.int64)},
+              cell_fields={"u": np.full((len(mesh.cells), 2), 0.5, np.float32)})
+    again, on_vertices, on_cells = octetra.load_with_fields(folder / "state.octetra")
+    assert np.array_equal(on_vertices["u"], again.vertex_numbers) and on_cells["u"].shape[1] == 2
+    monkeypatch.syspath_prepend(pathlib.Path(__file__).resolve().parents[2] / "tools")
+    points, cells, on_vertices, on_cells = importlib.import_module("read_checkpoint").read(
+        folder / "state.octetra")
+    assert np.array_equal(on_vertices["u"][:, 0], np.arange(len(points)))
+    assert on_cells["u"].shape == (len(cells), 2) and (on_cells["u"] == 0.5).all()
 
 
 def test_fields_are_written_for_vtk(folder, mesh):

@@ -13,6 +13,7 @@
 
 #include "adapt/marks.hpp"
 #include "adapt/mesh_state.hpp"
+#include "comm/local_failure.hpp"
 #include "topology/face_neighbours.hpp"
 #include "topology/find_ghosts.hpp"
 #include "topology/number_sides.hpp"
@@ -70,11 +71,24 @@ AdaptiveMesh AdaptiveMesh::from_parts(const Communicator& processes, MeshPart pa
 }
 
 Adaptation AdaptiveMesh::refine(std::span<const std::uint8_t> marks, const StepOptions& options) {
+    return refine([&] { return StepRequest{marks, options}; });
+}
+
+Adaptation AdaptiveMesh::refine(const std::function<StepRequest()>& request) {
+    StepRequest wanted;
     // That all are marked, on all processes, needs no closure.
-    const bool all_here =
-        marks.size() == cells().size() && std::ranges::find(marks, 0) == marks.end();
-    if (processes().max(all_here ? 0 : 1) == 0) return refine(Selection{.all = true}, options);
-    return state_->refine([&] { return marked_by_bytes(state_->mesh, marks); }, options);
+    bool all_here = false;
+    LocalFailure failure;
+    failure.attempt([&] {
+        wanted = request();
+        all_here = wanted.marks.size() == cells().size() &&
+                   std::ranges::find(wanted.marks, 0) == wanted.marks.end();
+    });
+    const std::uint64_t most = failure.max_unless_failed(processes(), all_here ? 0 : 1);
+    if (most == LocalFailure::somewhere) failure.agree(processes());
+    if (most == 0) return refine(Selection{.all = true}, wanted.options);
+    return state_->refine([&] { return marked_by_bytes(state_->mesh, wanted.marks); },
+                          wanted.options);
 }
 
 Adaptation AdaptiveMesh::refine(std::span<const CellIndex> marked, const StepOptions& options) {
@@ -159,6 +173,9 @@ std::vector<Marker> AdaptiveMesh::edge_markers() const {
 std::uint64_t AdaptiveMesh::vertex_count() const { return state_->numbers.vertex_count; }
 std::span<const GlobalVertex> AdaptiveMesh::vertex_numbers() const {
     return state_->numbers.of_vertex;
+}
+const std::vector<GroupName>& AdaptiveMesh::group_names() const {
+    return state_->mesh.group_names.list();
 }
 const Sharing<VertexIndex>& AdaptiveMesh::vertex_sharing() const { return state_->sharing; }
 

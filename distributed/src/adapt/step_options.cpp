@@ -28,9 +28,15 @@ void check_same(const Communicator& processes, const StepOptions& options) {
 }
 
 void check_same(const Communicator& processes, const BalanceOptions& options) {
+    // First, as what is no number is not even the same as itself.
+    processes.on_each([&] {
+        if (options.most_over_mean >= 1) return;
+        throw InputError(fmt::format(
+            "most_over_mean: how many times the mean number of cells a process may have, from 1; "
+            "given is {}",
+            options.most_over_mean));
+    });
     check_all_same(processes, options);
-    if (options.most_over_mean >= 1) return;
-    throw InputError("the most cells that a process may have are at least the mean");
 }
 
 }  // namespace octetra::distributed

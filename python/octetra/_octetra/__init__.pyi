@@ -1,6 +1,6 @@
 # Types of the compiled part. The docstrings are the functions' own: help(octetra.Mesh).
 from os import PathLike
-from typing import Any, Dict, Mapping, Optional, Tuple, Union
+from typing import Any, Dict, List, Mapping, Optional, Tuple, Union
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -134,6 +134,8 @@ class Mesh(metaclass=_Compiled):
     def edge_markers(self) -> NDArray[np.int32]: ...
     @property
     def root_of_cells(self) -> NDArray[np.uint32]: ...
+    @property
+    def group_names(self) -> List[Tuple[int, int, str]]: ...
     @property
     def rank(self) -> int: ...
     @property

@@ -162,7 +162,7 @@ std::string lists_left_out(const std::filesystem::path& path, std::uint64_t face
                       : fmt::format("{} tagged facets and {} tagged edges", facets, edges);
     return fmt::format(
         "the {} file holds cells only, not the {} with their markers; files of TetGen, Medit and "
-        "Gmsh and .octetra hold them",
+        "Gmsh, .xdmf and .octetra hold them",
         path.extension().native(), what);
 }
 

@@ -40,6 +40,12 @@ struct StepOptions {
     friend bool operator==(const StepOptions&, const StepOptions&) = default;
 };
 
+/// What a process wants of a step.
+struct StepRequest {
+    std::span<const std::uint8_t> marks;
+    StepOptions options;
+};
+
 /// What AdaptiveMesh::refine_evenly() did: first cells moved, if they did, and then the step was
 /// taken, by the numbers that they have since.
 struct EvenStep {
@@ -118,6 +124,10 @@ public:
     /// Collective. One step of 8T-LE refinement, of the marked cells and what closure adds. `marks`
     /// has a byte for each cell of this process; not 0 means marked.
     Adaptation refine(std::span<const std::uint8_t> marks, const StepOptions& options = {});
+    /// The same, for programs that make marks of something else: every process calls `request`, and
+    /// what that throws on one is thrown on all, without a word between them that the step would
+    /// not need anyway. Nothing in `request` is collective; it may call leave_arrays().
+    Adaptation refine(const std::function<StepRequest()>& request);
     /// The same, of cells that are listed, in any order.
     Adaptation refine(std::span<const CellIndex> marked, const StepOptions& options = {});
     /// The same, of the cells that the criteria of the command line mark. Numbers of cells are
@@ -187,6 +197,8 @@ public:
     /// Of each vertex of this process, its number in the whole mesh: in the canonical order, which
     /// is that of files.
     [[nodiscard]] std::span<const GlobalVertex> vertex_numbers() const;
+    /// What the input's file calls groups of entities with the same tag; the same on all processes.
+    [[nodiscard]] const std::vector<GroupName>& group_names() const;
     /// Who else has this process's vertices, and who owns them. Sums of floating-point values over
     /// sharers differ in their last bits with the number of processes: they are rounded in another
     /// order.

@@ -139,9 +139,12 @@ std::vector<int> parts_by_coordinates(const Communicator& processes, const Share
         centroids.reserve(roots.size());
         for (std::size_t i = 0; i < roots.size(); ++i) centroids.push_back(centroid_of(i));
     });
+    const auto some = [&](std::size_t first, std::span<Point> places) {
+        std::ranges::copy(std::span(centroids).subspan(first, places.size()), places.begin());
+    };
     auto parts = bisect_coordinates(processes,
                                     {.count = roots.size(),
-                                     .point = [&](std::size_t i) { return centroids[i]; },
+                                     .points = some,
                                      .number = [&](std::size_t i) { return roots[i].number; },
                                      .weights = share.weights},
                                     processes.size(), failure);

@@ -121,12 +121,14 @@ std::vector<int> by_coordinates(const Mesh& mesh, int parts, const std::vector<f
     if (!weights.empty()) check_weights(mesh.cells.size(), weights);
     const float least = weights.empty() ? 1 : std::ranges::min(weights);
     const std::vector<std::uint64_t> of_points = whole_weights(weights, least);
-    const auto point = [&](std::size_t i) {
-        const auto& [a, b, c, d] = mesh.cells[CellIndex{i}];
-        return place_of({mesh.points[a], mesh.points[b], mesh.points[c], mesh.points[d]});
+    const auto places = [&](std::size_t first, std::span<Point> points) {
+        for (Point& point : points) {
+            const auto& [a, b, c, d] = mesh.cells[CellIndex{first++}];
+            point = place_of({mesh.points[a], mesh.points[b], mesh.points[c], mesh.points[d]});
+        }
     };
     const WeighedPoints points{.count = mesh.cells.size(),
-                               .point = point,
+                               .points = places,
                                .number = [](std::size_t i) { return i; },
                                .weights = of_points};
     LocalFailure failure;

@@ -35,7 +35,9 @@ struct WeighedPoint {
 /// for each, and 8 more where coordinates are equal.
 struct WeighedPoints {
     std::size_t count = 0;
-    std::function<Point(std::size_t)> point;
+    /// Writes as many points as there is room for, from one on. All are asked for once for each
+    /// level of the tree, in order, and a few again.
+    std::function<void(std::size_t first, std::span<Point> points)> points;
     std::function<std::uint64_t(std::size_t)> number;
     std::span<const std::uint64_t> weights;  ///< or empty: each weighs 1
 };
@@ -50,8 +52,10 @@ struct WeighedPoints {
 /// same however many processes find them, and whichever has which points. Weights add up to less
 /// than 2^63.
 ///
-/// Of each level of the tree, processes exchange 8 sums of 256 numbers for each box. Where a
-/// process has failed or fails, the result is not to be used on any.
+/// Of each level of the tree, processes reduce the extent of each box, and then as many arrays of
+/// sums, of 2^13 numbers for all boxes together or 2^8 for each, as keys have digits of so many
+/// bits: some five for coordinates, and some three where equal ones are told apart by their
+/// numbers. Where a process has failed or fails, the result is not to be used on any.
 [[nodiscard]] std::vector<int> bisect_coordinates(const Communicator& processes,
                                                   const WeighedPoints& points, int parts,
                                                   LocalFailure& failure);

@@ -26,25 +26,36 @@
 namespace octetra::distributed {
 namespace {
 
-/// What takes the corners of all cells, whose points are anywhere in memory, in one go.
-struct CellPlaces {
-    std::vector<Point> places;
-    bool are_positive = true;  ///< else not all are found
-};
-CellPlaces find_places(const StretchCorners& corners, std::size_t cells) {
-    CellPlaces found;
-    found.places.resize(cells);
-    for (std::size_t i = 0; i < cells; ++i) {
-        const Corners at = corners.of(i);
-        const auto& [a, b, c, d] = at;
-        if (orientation(a, b, c, d) <= 0) {
-            found.are_positive = false;
-            break;
+/// The places of cells, which are judged when their corners are looked at for the first time, as
+/// points are anywhere in memory.
+class CellPlaces {
+public:
+    explicit CellPlaces(const StretchCorners& corners) : corners_(&corners) {}
+
+    /// From one cell on; first of all cells, in order.
+    void write(std::size_t first, std::span<Point> places) {
+        for (std::size_t k = 0; k < places.size(); ++k) {
+            const Corners at = corners_->of(first + k);
+            places[k] = place_of(at);
+            if (first + k != judged_ || !are_positive_) continue;
+            ++judged_;
+            are_positive_ = orientation(at[0], at[1], at[2], at[3]) > 0;
         }
-        found.places[i] = place_of(at);
     }
-    return found;
-}
+    /// Has each of so many cells been judged, and been found to be positive?
+    [[nodiscard]] bool are_positive(std::size_t cells) {
+        while (judged_ < cells && are_positive_) {
+            Point place;
+            write(judged_, std::span(&place, 1));
+        }
+        return are_positive_;
+    }
+
+private:
+    const StretchCorners* corners_;
+    std::size_t judged_ = 0;
+    bool are_positive_ = true;
+};
 
 using Weigh = std::function<std::vector<float>(const CellsToWeigh&)>;
 
@@ -192,26 +203,23 @@ private:
     /// Collective. The parts of this process's cells; finds out whether all are positive.
     [[nodiscard]] std::vector<int> find_parts(StretchCorners& corners, PartitionMethod method,
                                               const Weigh& weigh) {
-        CellPlaces found;
-        failure_.attempt([&] {
-            found = find_places(corners, stretch_.lists.cells.size());
-            is_sound_ = is_sound_ && found.are_positive;
-        });
-        failure_.agree(processes_);
+        CellPlaces places(corners);
         std::vector<int> parts;
         if (method == PartitionMethod::rcb) {
             const auto weights = weights_of(processes_, stretch_, corners, weigh, failure_);
-            corners.forget_points();
             parts = bisect_coordinates(
                 processes_,
-                {.count = found.places.size(),
-                 .point = [&](std::size_t i) { return found.places[i]; },
+                {.count = stretch_.lists.cells.size(),
+                 .points = [&](std::size_t first,
+                               std::span<Point> some) { places.write(first, some); },
                  .number = [&](std::size_t i) { return stretch_.first_cell + i; },
                  .weights = weights},
                 processes_.size(), failure_);
         } else {
             failure_.attempt([&] { parts = parts_by_number(processes_, stretch_); });
         }
+        failure_.attempt(
+            [&] { is_sound_ = is_sound_ && places.are_positive(stretch_.lists.cells.size()); });
         failure_.agree(processes_);
         return parts;
     }

@@ -87,8 +87,8 @@ TEST(ReadForWork, StretchesMakeTheWholeMeshThatIsToBeWeighed) {
     (void)read_parts(test::world(), file, distributed::parse_partition("rcb"),
                      {.read = {}, .on_facts = {}, .weigh = [&](const CellsToWeigh& cells) {
                           ++weighed;
-                          EXPECT_EQ(cells.processes.sum(cells.count), mesh.cells.size());
-                          for (std::size_t i = 0; i < cells.count; ++i) {
+                          EXPECT_EQ(cells.processes.sum(cells.count()), mesh.cells.size());
+                          for (std::size_t i = 0; i < cells.count(); ++i) {
                               const CellIndex c{cells.first_number + i};
                               for (std::size_t k = 0; k < 4; ++k) {
                                   EXPECT_EQ(cells.corners(i)[k], mesh.points[mesh.cells[c][k]]);
@@ -109,7 +109,7 @@ TEST(ReadForWork, WeightsThatAreNoneAreRefusedOnAllProcesses) {
     const bool is_last = test::world().rank() + 1 == test::world().size();
     const auto refusal = [&](auto&& spoil) {
         const auto weigh = [&](const CellsToWeigh& cells) {
-            std::vector<float> weights(cells.count, 2);
+            std::vector<float> weights(cells.count(), 2);
             if (is_last) spoil(weights);
             return weights;
         };

@@ -67,6 +67,8 @@ public:
         });
     }
     [[nodiscard]] bool empty() const { return each_.empty(); }
+    /// All that they reach.
+    [[nodiscard]] SelectionBounds bounds() const { return SelectionBounds(all_); }
     [[nodiscard]] bool have(const Corners& corners) const {
         return marks(all_, corners, 0, GlobalCell{0});
     }
@@ -102,7 +104,7 @@ public:
           full_(std::min(std::pow(of_one_, levels), most_of_one)) {}
 
     /// First: takes memory.
-    void expect_one_of_each() { expected_.assign(cells_->count, 1); }
+    void expect_one_of_each() { expected_.assign(cells_->count(), 1); }
 
     void add_by_lot(double share) {
         const double of_all = std::pow(1 + share * (of_one_ - 1), levels_);
@@ -114,14 +116,14 @@ public:
         Selection by_tag;
         by_tag.cells = selection.cells;
         by_tag.regions = selection.regions;
-        for (std::size_t i = 0; i < cells_->count; ++i) {
+        for (std::size_t i = 0; i < cells_->count(); ++i) {
             const Marker region = cells_->regions.empty() ? 0 : cells_->regions[i];
             if (marks(by_tag, {}, region, GlobalCell{cells_->first_number + i})) expect(i, full_);
         }
     }
 
     void add_larger_than(double limit) {
-        for (std::size_t i = 0; i < cells_->count; ++i) {
+        for (std::size_t i = 0; i < cells_->count(); ++i) {
             const double times = volume(cells_->corners(i)) / limit;
             double cells = 1;
             while (cells < times && cells < full_) cells *= of_one_;
@@ -132,8 +134,17 @@ public:
     /// Leaves it to be found how much of the cells that it returns is inside: the bodies may have
     /// some of these, and not all.
     [[nodiscard]] std::vector<std::size_t> add_wholly_inside(const Bodies& bodies) {
+        std::vector<std::uint8_t> beyond;  // of each point, as corners are anywhere in memory
+        beyond.reserve(cells_->points.size());
+        const SelectionBounds bounds = bodies.bounds();
+        for (const Point& p : cells_->points) beyond.push_back(bounds.sides_beyond(p));
         std::vector<std::size_t> cut;
-        for (std::size_t i = 0; i < cells_->count; ++i) {
+        for (std::size_t i = 0; i < cells_->count(); ++i) {
+            const auto& [a, b, c, d] = cells_->cells[i];
+            if ((beyond[a.value()] & beyond[b.value()] & beyond[c.value()] & beyond[d.value()]) !=
+                0) {
+                continue;
+            }
             const Corners corners = cells_->corners(i);
             if (!bodies.may_have_some_of(corners)) continue;
             if (bodies.have_all_of(corners)) {
@@ -182,14 +193,10 @@ private:
 }  // namespace
 
 CellsToWeigh cells_to_weigh(const Mesh& mesh) {
-    const auto corners = [&mesh](std::size_t i) -> Corners {
-        const auto& [a, b, c, d] = mesh.cells[CellIndex{i}];
-        return {mesh.points[a], mesh.points[b], mesh.points[c], mesh.points[d]};
-    };
     return {.processes = {},
-            .count = mesh.cells.size(),
             .first_number = 0,
-            .corners = corners,
+            .cells = {mesh.cells.data(), mesh.cells.size()},
+            .points = {mesh.points.data(), mesh.points.size()},
             .regions = mesh.regions};
 }
 
@@ -210,7 +217,7 @@ std::vector<float> predicted_cells(const CellsToWeigh& cells, const Selection& s
     });
     failure.agree(cells.processes);
     if (!bodies.empty()) {
-        std::array<std::uint64_t, 2> counts{cut.size(), cells.count};
+        std::array<std::uint64_t, 2> counts{cut.size(), cells.count()};
         cells.processes.sum(std::span(counts));
         prediction.add_partly_inside(bodies, cut, depth_for(counts[0], counts[1]));
     }

@@ -66,12 +66,11 @@ std::vector<std::uint64_t> weights_of(const Communicator& processes, const MeshS
                                       LocalFailure& failure) {
     if (!weigh) return {};
     const std::size_t count = stretch.lists.cells.size();
-    const std::vector<float> weights =
-        weigh({.processes = processes,
-               .count = count,
-               .first_number = stretch.first_cell,
-               .corners = [&](std::size_t i) { return corners.of(i); },
-               .regions = stretch.lists.regions});
+    const std::vector<float> weights = weigh({.processes = processes,
+                                              .first_number = stretch.first_cell,
+                                              .cells = corners.cells(),
+                                              .points = corners.points(),
+                                              .regions = stretch.lists.regions});
     if (processes.max(weights.empty() ? 0 : 1) == 0) return {};
     constexpr std::uint64_t complement = 0xffff'ffff;
     std::uint64_t least = complement;  // by bits, which positive numbers are ordered by

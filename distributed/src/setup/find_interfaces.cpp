@@ -29,11 +29,12 @@ public:
             begin_.assign(mesh.points.size() + 1, 0);
             for (const Sharer& s : sharers_) ++begin_[s.key + 1];
             for (std::size_t v = 1; v < begin_.size(); ++v) begin_[v] += begin_[v - 1];
+            find_cells(mesh);
         });
     }
 
-    /// Does another process have this vertex?
-    [[nodiscard]] bool has(VertexIndex v) const { return !of(v).empty(); }
+    /// Those with two vertices or more that other processes have, ascending.
+    [[nodiscard]] std::span<const CellVertices> cells() const { return cells_; }
 
     /// Is there another process that has all of these vertices?
     template <std::size_t N>
@@ -50,8 +51,20 @@ private:
         return std::span(sharers_).subspan(begin_[v.value()],
                                            begin_[v.value() + 1U] - begin_[v.value()]);
     }
+    void find_cells(const DistributedMesh& mesh) {
+        IndexVector<VertexIndex, std::uint8_t> is_shared;  // small enough for a cache
+        is_shared.resize(mesh.points.size());
+        for (const Sharer& s : sharers_) is_shared[VertexIndex{s.key}] = 1;
+        for (const CellVertices& cell : mesh.cells) {
+            const auto& [a, b, c, d] = cell;
+            if (is_shared[a] + is_shared[b] + is_shared[c] + is_shared[d] < 2) continue;
+            cells_.push_back(cell);
+        }
+    }
+
     std::vector<Sharer> sharers_;
     std::vector<std::size_t> begin_;
+    std::vector<CellVertices> cells_;
 };
 
 template <std::size_t N>
@@ -60,12 +73,10 @@ using VertexLists = std::vector<std::array<VertexIndex, N>>;
 /// The sides (edges or faces) of the cells, each as often as cells have it, that another process
 /// may have, too; their vertices ascending.
 template <std::size_t N, std::size_t Sides>
-VertexLists<N> candidates(const DistributedMesh& mesh, const VertexSharers& sharers,
+VertexLists<N> candidates(const VertexSharers& sharers,
                           const std::array<std::array<std::uint8_t, N>, Sides>& sides) {
     VertexLists<N> found;
-    const auto is_shared = [&](VertexIndex v) { return sharers.has(v); };
-    for (const CellVertices& cell : mesh.cells) {
-        if (std::ranges::count_if(cell, is_shared) < 2) continue;
+    for (const CellVertices& cell : sharers.cells()) {
         for (const auto& side : sides) {
             std::array<VertexIndex, N> vertices;
             for (std::size_t k = 0; k < N; ++k) vertices[k] = cell[side[k]];
@@ -86,7 +97,7 @@ void find_shared(const DistributedMesh& mesh, const VertexSharers& sharers,
     VertexLists<N> found;
     std::vector<std::array<std::uint64_t, N>> keys;
     failure.attempt([&] {
-        found = candidates(mesh, sharers, sides);
+        found = candidates(sharers, sides);
         std::ranges::sort(found);
         found.erase(std::unique(found.begin(), found.end()), found.end());
         for (const auto& vertices : found) {

@@ -3,7 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
-#include <tuple>
+#include <functional>
+#include <utility>
 #include <vector>
 
 #include <octetra/distributed/communicator.hpp>
@@ -20,9 +21,40 @@ struct Sharer {
     friend auto operator<=>(const Sharer&, const Sharer&) = default;
 };
 
-/// Collective. For each of this process's keys, which are different from each other, the other
-/// processes that have it too; ascending by key and rank. A key is a vertex, or the vertices of an
-/// edge or face, by global numbers, ascending. None on any process, if one has failed or fails.
+/// Calls meet(processes, positions) for each key that several processes have sent: which these are,
+/// ascending, and where the key stands in what has come from each. Each process's keys ascend.
+template <class Key>
+void for_each_common(const std::vector<std::vector<Key>>& from_each, auto&& meet) {
+    std::vector<std::pair<Key, std::size_t>> waiting;  // a heap: the next key of each, the process
+    std::vector<std::size_t> next(from_each.size(), 0);
+    const auto wait = [&](std::size_t r) {
+        if (next[r] == from_each[r].size()) return;
+        waiting.emplace_back(from_each[r][next[r]], r);
+        std::ranges::push_heap(waiting, std::greater{});
+    };
+    for (std::size_t r = 0; r < from_each.size(); ++r) wait(r);
+    std::vector<std::int32_t> ranks;
+    std::vector<std::uint32_t> positions;
+    while (waiting.size() > 1) {
+        const Key key = waiting.front().first;
+        ranks.clear();
+        positions.clear();
+        while (!waiting.empty() && waiting.front().first == key) {
+            const std::size_t r = waiting.front().second;
+            std::ranges::pop_heap(waiting, std::greater{});
+            waiting.pop_back();
+            ranks.push_back(static_cast<std::int32_t>(r));
+            positions.push_back(static_cast<std::uint32_t>(next[r]++));
+        }
+        if (ranks.size() > 1) meet(ranks, positions);
+        for (const std::int32_t r : ranks) wait(static_cast<std::size_t>(r));
+    }
+}
+
+/// Collective. For each of this process's keys, which ascend and are different from each other, the
+/// other processes that have it too; ascending by key and rank. A key is a vertex, or the vertices
+/// of an edge or face, by global numbers, ascending. None on any process, if one has failed or
+/// fails.
 ///
 /// Each key meets its equals at a process that its value decides. Memory and messages are in
 /// proportion to the keys, and evenly spread.
@@ -31,11 +63,6 @@ template <std::size_t N>
     const Communicator& processes, const std::vector<std::array<std::uint64_t, N>>& keys,
     LocalFailure& failure) {
     using Key = std::array<std::uint64_t, N>;
-    struct Arrival {
-        Key key;
-        std::int32_t rank;
-        std::uint32_t position;
-    };
     const auto process_count = static_cast<std::size_t>(processes.size());
     const auto rendezvous_of = [&](const Key& key) {
         std::uint64_t h = 0;
@@ -58,26 +85,16 @@ template <std::size_t N>
 
     std::vector<std::vector<Sharer>> replies;
     failure.attempt([&] {
-        std::vector<Arrival> arrivals;
         const auto inboxes = processes.all_to_all(outboxes);
-        for (std::size_t r = 0; r < process_count; ++r) {
-            for (std::size_t i = 0; i < inboxes[r].size(); ++i) {
-                arrivals.push_back(
-                    {inboxes[r][i], static_cast<std::int32_t>(r), static_cast<std::uint32_t>(i)});
-            }
-        }
-        std::ranges::sort(arrivals, {}, [](const Arrival& a) { return std::tie(a.key, a.rank); });
         replies.resize(process_count);
-        for (std::size_t begin = 0, end = 0; begin < arrivals.size(); begin = end) {
-            while (end < arrivals.size() && arrivals[end].key == arrivals[begin].key) ++end;
-            for (std::size_t i = begin; i < end; ++i) {
-                for (std::size_t j = begin; j < end; ++j) {
-                    if (i == j) continue;
-                    replies[static_cast<std::size_t>(arrivals[i].rank)].push_back(
-                        {arrivals[i].position, arrivals[j].rank});
+        for_each_common(inboxes, [&](const auto& ranks, const auto& positions) {
+            for (std::size_t i = 0; i < ranks.size(); ++i) {
+                for (const std::int32_t other : ranks) {
+                    if (other == ranks[i]) continue;
+                    replies[static_cast<std::size_t>(ranks[i])].push_back({positions[i], other});
                 }
             }
-        }
+        });
     });
     if (failure.max_unless_failed(processes, 0) == LocalFailure::somewhere) return {};
 

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <span>
+
 #include <octetra/core/mesh_stretch.hpp>
 #include <octetra/core/selection.hpp>
 #include <octetra/distributed/communicator.hpp>
@@ -32,6 +34,12 @@ public:
             }
         });
     }
+
+    /// The cells with their vertices by place, and the points.
+    [[nodiscard]] std::span<const CellVertices> cells() const {
+        return {cells_->data(), cells_->size()};
+    }
+    [[nodiscard]] std::span<const Point> points() const { return points_; }
 
     /// Of the stretch's cell number i.
     [[nodiscard]] Corners of(std::size_t i) const {

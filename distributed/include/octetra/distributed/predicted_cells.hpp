@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
 #include <span>
 #include <vector>
 
@@ -15,10 +14,16 @@ namespace octetra::distributed {
 /// order of the mesh.
 struct CellsToWeigh {
     Communicator processes;
-    std::size_t count = 0;           ///< of this process
-    std::uint64_t first_number = 0;  ///< of the whole mesh's cells
-    std::function<Corners(std::size_t)> corners;
+    std::uint64_t first_number = 0;       ///< of the whole mesh's cells
+    std::span<const CellVertices> cells;  ///< of this process, by place in `points`
+    std::span<const Point> points;
     std::span<const Marker> regions;  ///< or empty
+
+    [[nodiscard]] std::size_t count() const { return cells.size(); }
+    [[nodiscard]] Corners corners(std::size_t i) const {
+        const auto& [a, b, c, d] = cells[i];
+        return {points[a.value()], points[b.value()], points[c.value()], points[d.value()]};
+    }
 };
 
 /// The cells of a mesh that this process has all of.

@@ -1,11 +1,11 @@
 #include <algorithm>
-#include <iterator>
 #include <optional>
 #include <utility>
 
 #include <octetra/distributed/profile.hpp>
 
 #include "adapt/mesh_state.hpp"
+#include "coarsen/coarser_numbers.hpp"
 #include "coarsen/coarser_part.hpp"
 #include "coarsen/incremental_coarsening.hpp"
 #include "coarsen/kept_vertices.hpp"
@@ -17,64 +17,24 @@
 namespace octetra::distributed {
 namespace {
 
-/// The shared vertices that stay, by the numbers that they have then.
-std::vector<VertexIndex> kept_of(const std::vector<VertexIndex>& shared,
-                                 const std::vector<VertexIndex>& vertices_before) {
-    std::vector<VertexIndex> kept;
-    for (const VertexIndex v : shared) {
-        const auto found = std::ranges::lower_bound(vertices_before, v);
-        if (found == vertices_before.end() || *found != v) continue;
-        kept.push_back(VertexIndex{static_cast<std::size_t>(found - vertices_before.begin())});
-    }
-    return kept;
-}
-
-/// Collective. The first level, from 0, that loses a vertex on any process.
-std::size_t first_changed_level(const DistributedMesh& mesh, const CoarserPart& part) {
-    const auto level = std::ranges::upper_bound(mesh.level_begin, part.first_gone) -
-                       mesh.level_begin.begin();              // all of them where none goes
-    const std::size_t level_count = mesh.level_begin.size();  // the same on all processes
-    const std::size_t changed = level_count + 1 - static_cast<std::size_t>(level);
-    const bool loses_any = part.first_gone < mesh.points.end_index();
-    return level_count - mesh.processes.max(loses_any ? changed : 0);
-}
-
-/// Collective. The numbers of the vertices that stay: before the first level that loses any, they
-/// are as they were.
-CanonicalNumbers numbers_after(const AdaptiveMesh::State& state, const CoarserPart& part,
-                               LocalFailure& failure) {
-    const DistributedMesh& after = part.mesh;
-    const std::size_t first_level = first_changed_level(state.mesh, part);
-    CanonicalNumbers numbers;
-    std::vector<VertexIndex> shared;
-    std::uint64_t same = 0;
-    failure.attempt([&] {
-        const auto& before = state.numbers.of_vertex;
-        const auto count = static_cast<std::ptrdiff_t>(state.mesh.level_begin[first_level].value());
-        numbers.of_vertex.reserve(after.points.size());
-        numbers.of_vertex.assign(before.begin(), before.begin() + count);
-        shared = kept_of(state.sharing.shared(), part.vertices_before);
-        if (count > 0) same = static_cast<std::uint64_t>(numbers.of_vertex.back()) + 1;
-    });
-    numbers.vertex_count = after.processes.max(std::max(same, state.mesh.input_vertex_count));
-    for (std::size_t t = first_level; t < after.level_begin.size(); ++t) {
-        const VertexIndex end =
-            t + 1 < after.level_begin.size() ? after.level_begin[t + 1] : after.points.end_index();
-        if (!numbers.number_midpoints(after, end, shared, failure)) break;
-    }
-    return numbers;
-}
-
 /// Who shares the vertices that stay. Whoever has one keeps it, so they are those of before.
-Sharing<VertexIndex> sharing_after(const Sharing<VertexIndex>& sharing, const CoarserPart& part,
-                                   const CanonicalNumbers& numbers) {
+Sharing<VertexIndex> sharing_after(const Sharing<VertexIndex>& sharing, const KeptVertices& kept,
+                                   const CoarserPart& part, const CanonicalNumbers& numbers,
+                                   const CoarserNumbers& numbers_after) {
     Sharing<VertexIndex> after;
     SharingBuilder<VertexIndex> builder(after, sharing.rank());
     for (const SharedWith<VertexIndex>& with : sharing.neighbours()) {
-        builder.share(with.rank, kept_of(with.entities, part.vertices_before));
+        std::vector<VertexIndex> vertices;
+        for (const VertexIndex v : with.entities) {
+            if (kept[v] != 0) vertices.push_back(part.vertex_after[v]);
+        }
+        builder.share(with.rank, std::move(vertices));
     }
-    builder.prepare(
-        [&](VertexIndex v) { return static_cast<std::uint64_t>(numbers.of_vertex[v]); });
+    builder.prepare([&](VertexIndex v) {
+        const std::size_t first = numbers_after.first.value();
+        return static_cast<std::uint64_t>(
+            v.value() < first ? numbers.of_vertex[v] : numbers_after.from_first[v.value() - first]);
+    });
     builder.commit();
     return after;
 }
@@ -106,9 +66,13 @@ struct Lists {
             coarsen_lists(mesh, *order, kept, part);
         }
     }
-    void commit(CoarserPart& part) noexcept {
-        if (incremental) incremental->commit(part);
-        order.reset();
+    void commit(DistributedMesh& mesh, CoarserPart& part) noexcept {
+        if (incremental) {
+            incremental->commit(part);
+        } else {
+            order->keep();
+            commit_new_lists(mesh, part);
+        }
     }
 };
 
@@ -121,7 +85,7 @@ Adaptation coarsen_state(AdaptiveMesh::State& state, const std::function<MarkedC
     const Phase phase(processes, "coarsen");
     LocalFailure failure;
     MarkedCells marked;
-    const Adjacency* adjacency = nullptr;
+    Adjacency* adjacency = nullptr;
     failure.attempt([&] {
         marked = mark();
         if (suits_incremental_level(mesh, marked, tuning)) adjacency = &Adjacency::of(mesh);
@@ -144,17 +108,20 @@ Adaptation coarsen_state(AdaptiveMesh::State& state, const std::function<MarkedC
         lists.plan(mesh, kept, tuning, *part);
     });
     failure.agree(processes);
-    drop_empty_levels(*part);
-    CanonicalNumbers numbers = numbers_after(state, *part, failure);
+    drop_empty_levels(mesh, *part);
+    const CoarserNumbers numbers =
+        coarser_numbers(processes, state.numbers, state.sharing, kept, *part, failure);
+    failure.agree(processes);
     std::optional<Sharing<VertexIndex>> sharing;
-    failure.attempt([&] { sharing = sharing_after(state.sharing, *part, numbers); });
+    failure.attempt(
+        [&] { sharing = sharing_after(state.sharing, kept, *part, state.numbers, numbers); });
     failure.agree(processes);
 
     adaptation = adaptation_of(mesh.points.size(), *part);
-    lists.commit(*part);
+    lists.commit(mesh, *part);
+    commit_vertices(mesh, *part);
+    commit_numbers(numbers, *part, state.numbers);
     adaptation.vertices_before = std::move(part->vertices_before);
-    state.mesh = std::move(part->mesh);
-    state.numbers = std::move(numbers);
     state.sharing = *std::move(sharing);
     state.step_count = static_cast<int>(mesh.level_begin.size());
     return adaptation;

@@ -10,6 +10,7 @@
 #include <octetra/distributed/distributed_mesh.hpp>
 
 #include "coarsen/kept_vertices.hpp"
+#include "coarsen/level_shares.hpp"
 #include "history/families.hpp"
 #include "memory/huge_pages.hpp"
 
@@ -46,8 +47,8 @@ class ListCoarsening {
 public:
     using Vertices = std::array<VertexIndex, N>;
 
-    ListCoarsening(const VertexLevels& levels, const KeptVertices& kept)
-        : levels_(&levels), kept_(&kept), families_(levels) {}
+    ListCoarsening(const VertexLevels& levels, const LevelShares& shares, const KeptVertices& kept)
+        : levels_(&levels), shares_(&shares), kept_(&kept), families_(levels) {}
 
     /// divide(level, root, parent, midpoints) gives the pieces of a parent; `root` is its place
     /// among this process's roots.
@@ -66,7 +67,8 @@ public:
         for (std::size_t i = 0; i < all.size();) {
             if (i + whole <= all.size()) {
                 const auto next = all.subspan(i).template first<whole>();
-                if (families_.are_family(next) && add_alike(next, parent_met, root_met)) {
+                level_ = levels_->newest(next[0], level_);
+                if (families_.are_family(next, level_) && add_alike(next, parent_met, root_met)) {
                     i += whole;
                     continue;
                 }
@@ -100,21 +102,29 @@ private:
     /// A family of which all new vertices stay, or none: the most frequent ones.
     [[nodiscard]] bool add_alike(std::span<const Vertices, whole> family, auto&& parent_met,
                                  auto&& root_met) {
-        unsigned gone = 0;
-        for (const Vertices& vertices : family) gone += count_gone(vertices);
-        if (gone != 0 && gone != whole * (N - 1)) return false;
+        const bool all_go = shares_->all_go(level_) || has_only(0, family);
+        if (!all_go && !shares_->all_stay(level_) && !has_only(1, family)) return false;
         const Note note{end(), end_before(), false};
         const Vertices parent = families_.parent_of(family);
-        if (gone == 0) {
-            for (unsigned k = 0; k < whole; ++k) made_.whole_of.push_back(note.begin + k);
-            made_.list.insert(made_.list.end(), family.begin(), family.end());
-        } else {
+        if (all_go) {
             made_.whole_of.insert(made_.whole_of.end(), whole, note.begin);
             made_.list.push_back(parent);
+        } else {
+            for (unsigned k = 0; k < whole; ++k) made_.whole_of.push_back(note.begin + k);
+            made_.list.insert(made_.list.end(), family.begin(), family.end());
         }
-        made_.halvings.insert(made_.halvings.end(), whole, gone == 0 ? 0 : N - 1);
+        made_.halvings.insert(made_.halvings.end(), whole, all_go ? N - 1 : 0);
         families_.add(parent, note, parent_met, root_met);
         return true;
+    }
+    /// Are its new vertices all kept, as a KeptVertices says it, or all not?
+    [[nodiscard]] bool has_only(std::uint8_t is_kept,
+                                std::span<const Vertices, whole> family) const {
+        const VertexIndex first_new = levels_->begin(level_);
+        return std::ranges::all_of(family, [&](const Vertices& vertices) {
+            return std::ranges::all_of(
+                vertices, [&](VertexIndex v) { return v < first_new || (*kept_)[v] == is_kept; });
+        });
     }
 
     [[nodiscard]] std::uint32_t end_before() const {
@@ -200,7 +210,9 @@ private:
     }
 
     const VertexLevels* levels_;
+    const LevelShares* shares_;
     const KeptVertices* kept_;
+    std::uint32_t level_ = 0;  ///< of the next of the list; that after it is often the same
     Families<N, Note> families_;
     CoarserList<I, N> made_;
     IndexVector<I, Vertices> family_;  ///< what a family becomes

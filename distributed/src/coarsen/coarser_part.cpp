@@ -1,84 +1,51 @@
 #include "coarsen/coarser_part.hpp"
 
 #include <algorithm>
+#include <cstddef>
+#include <span>
 #include <utility>
 
 #include "coarsen/coarser_interfaces.hpp"
 #include "coarsen/coarser_list.hpp"
 #include "coarsen/family_division.hpp"
+#include "coarsen/level_shares.hpp"
 #include "comm/local_failure.hpp"
 #include "history/vertex_levels.hpp"
+#include "memory/huge_pages.hpp"
 
 namespace octetra::distributed {
 namespace {
 
-/// What has no other numbers afterwards.
-DistributedMesh unchanged_parts(const DistributedMesh& mesh) {
-    DistributedMesh after;
-    after.processes = mesh.processes;
-    after.attributes_per_point = mesh.attributes_per_point;
-    after.input_vertices = mesh.input_vertices;
-    after.input_vertex_markers = mesh.input_vertex_markers;
-    after.input_vertex_count = mesh.input_vertex_count;
-    after.input_cell_count = mesh.input_cell_count;
-    after.index_base = mesh.index_base;
-    after.group_names = mesh.group_names;
-    return after;
-}
-
 /// The numbers that vertices have afterwards, or would have if they stayed.
 IndexVector<VertexIndex, VertexIndex> numbers_after(const KeptVertices& kept) {
     IndexVector<VertexIndex, VertexIndex> after;
-    after.reserve(kept.size() + 1);
+    reserve_in_huge_pages(after, kept.size() + 1);
+    after.resize(kept.size() + 1);
     std::size_t next = 0;
-    for (const std::uint8_t stays : kept) {
-        after.push_back(VertexIndex{next});
-        next += stays;
+    for (VertexIndex v{0}; v < kept.end_index(); ++v) {
+        after[v] = VertexIndex{next};
+        next += kept[v];
     }
-    after.push_back(VertexIndex{next});
+    after.back() = VertexIndex{next};
     return after;
 }
 
-void renumber(auto& list, const IndexVector<VertexIndex, VertexIndex>& after) {
+void renumber(auto&& list, const IndexVector<VertexIndex, VertexIndex>& after) {
     for (auto& vertices : list) {
         for (VertexIndex& v : vertices) v = after[v];
     }
 }
 
-/// Vertices, and what belongs to them.
-void keep_vertices(const DistributedMesh& mesh, const std::vector<VertexIndex>& kept,
-                   const IndexVector<VertexIndex, VertexIndex>& number_after,
-                   DistributedMesh& after) {
-    const std::size_t first_midpoint = mesh.input_vertices.size();
-    const std::size_t attributes = mesh.attributes_per_point;
-    after.points.reserve(kept.size());
-    after.point_attributes.reserve(kept.size() * attributes);
-    after.midpoint_to_edge.reserve(kept.size() - first_midpoint);
-    for (const VertexIndex v : kept) {
-        after.points.push_back(mesh.points[v]);
-        const auto values =
-            mesh.point_attributes.begin() + static_cast<std::ptrdiff_t>(v.value() * attributes);
-        after.point_attributes.insert(after.point_attributes.end(), values,
-                                      values + static_cast<std::ptrdiff_t>(attributes));
-        if (v.value() < first_midpoint) continue;
-        const std::size_t m = v.value() - first_midpoint;
-        after.midpoint_to_edge.push_back(mesh.midpoint_to_edge[m]);
-        if (!mesh.midpoint_markers.empty()) {
-            after.midpoint_markers.push_back(mesh.midpoint_markers[m]);
-        }
-    }
-    renumber(after.midpoint_to_edge, number_after);
-    for (const VertexIndex begin : mesh.level_begin) {
-        after.level_begin.push_back(number_after[begin]);
-    }
-}
-
 std::vector<VertexIndex> list_of(const KeptVertices& kept, std::size_t count) {
     std::vector<VertexIndex> list;
-    list.reserve(count);
+    reserve_in_huge_pages(list, count + 1);
+    list.resize(count + 1);
+    std::size_t next = 0;
     for (VertexIndex v{0}; v < kept.end_index(); ++v) {
-        if (kept[v] != 0) list.push_back(v);
+        list[next] = v;  // the next one takes its place if it goes
+        next += kept[v];
     }
+    list.resize(count);
     return list;
 }
 
@@ -91,18 +58,43 @@ std::vector<T> by_number(std::vector<T> ordered, const std::vector<I>& before) {
     return values;
 }
 
+/// Keeps what those entities have that were `before`, `width` each; `first` is the first that is
+/// another.
+void keep_in_place(auto& list, std::span<const VertexIndex> before, std::size_t first,
+                   std::size_t width) noexcept {
+    if (list.empty()) return;
+    for (std::size_t i = first; i < before.size(); ++i) {
+        const auto from = list.begin() + static_cast<std::ptrdiff_t>(before[i].value() * width);
+        std::copy_n(from, width, list.begin() + static_cast<std::ptrdiff_t>(i * width));
+    }
+    list.resize(before.size() * width);
+    if (list.size() < list.capacity() / 2) list.shrink_to_fit();
+}
+
+/// The same of midpoints, which come behind `skipped` other vertices.
+void keep_midpoints(auto& list, std::span<const VertexIndex> before, std::size_t first,
+                    std::size_t skipped) noexcept {
+    if (list.empty()) return;
+    for (std::size_t i = first; i < before.size(); ++i) {
+        list[i - skipped] = list[before[i].value() - skipped];
+    }
+    list.resize(before.size() - skipped);
+    if (list.size() < list.capacity() / 2) list.shrink_to_fit();
+}
+
 }  // namespace
 
 CoarserPart coarser_vertices(const DistributedMesh& mesh, const KeptVertices& kept) {
     CoarserPart part;
-    part.mesh = unchanged_parts(mesh);
     part.first_gone =
         VertexIndex{static_cast<std::size_t>(std::ranges::find(kept, 0) - kept.begin())};
     part.vertex_after = numbers_after(kept);
     part.vertices_before = list_of(kept, part.vertex_after.back().value());
-    keep_vertices(mesh, part.vertices_before, part.vertex_after, part.mesh);
-    part.mesh.interfaces = coarser_interfaces(mesh.interfaces, VertexLevels(mesh), kept);
-    for (Interface& interface : part.mesh.interfaces) {
+    for (const VertexIndex begin : mesh.level_begin) {
+        part.level_begin.push_back(part.vertex_after[begin]);
+    }
+    part.interfaces = coarser_interfaces(mesh.interfaces, VertexLevels(mesh), kept);
+    for (Interface& interface : part.interfaces) {
         renumber(interface.edges, part.vertex_after);
         renumber(interface.faces, part.vertex_after);
     }
@@ -112,35 +104,32 @@ CoarserPart coarser_vertices(const DistributedMesh& mesh, const KeptVertices& ke
 void coarsen_lists(const DistributedMesh& mesh, const CanonicalOrder& order,
                    const KeptVertices& kept, CoarserPart& part) {
     const VertexLevels levels(mesh);
-    const auto take = [&](auto coarser, auto& list, AncestorMap& ancestors, const AncestorMap& of,
-                          const auto& before) {
-        list = std::move(coarser.list);
-        renumber(list, part.vertex_after);
-        ancestors = {of.roots, std::move(coarser.first), of.markers};
-        return Succession::of_merges(list.size(), by_number(std::move(coarser.whole_of), before),
-                                     by_number(std::move(coarser.halvings), before));
-    };
+    const LevelShares shares(levels, kept);
     FamilyDivision divide(mesh, levels.count());
-    DistributedMesh& after = part.mesh;
-    part.cells = take(ListCoarsening<CellIndex, 4>(levels, kept).run(mesh.cells, divide),
-                      after.cells, after.cell_ancestors, mesh.cell_ancestors, order.cells_before());
-    part.facets =
-        take(ListCoarsening<FacetIndex, 3>(levels, kept).run(mesh.facets, divide), after.facets,
-             after.facet_ancestors, mesh.facet_ancestors, order.facets_before());
-    part.edges = take(ListCoarsening<EdgeIndex, 2>(levels, kept).run(mesh.edges, divide),
-                      after.edges, after.edge_ancestors, mesh.edge_ancestors, order.edges_before());
+    const auto take = [&]<class I, std::size_t N>(
+                          const IndexVector<I, std::array<VertexIndex, N>>& list,
+                          const std::vector<I>& before, NewList<I, N>& after) {
+        CoarserList<I, N> made = ListCoarsening<I, N>(levels, shares, kept).run(list, divide);
+        after = {std::move(made.list), std::move(made.first)};
+        renumber(after.list, part.vertex_after);
+        return Succession::of_merges(after.list.size(), by_number(std::move(made.whole_of), before),
+                                     by_number(std::move(made.halvings), before));
+    };
+    part.cells = take(mesh.cells, order.cells_before(), part.new_cells);
+    part.facets = take(mesh.facets, order.facets_before(), part.new_facets);
+    part.edges = take(mesh.edges, order.edges_before(), part.new_edges);
     part.failures = std::move(divide).failures();
 }
 
-void drop_empty_levels(CoarserPart& part) {
-    const Communicator& processes = part.mesh.processes;
+void drop_empty_levels(const DistributedMesh& mesh, CoarserPart& part) {
+    const Communicator& processes = mesh.processes;
     LocalFailure failure;
     std::vector<std::uint64_t> has_any;
-    auto& begins = part.mesh.level_begin;
+    auto& begins = part.level_begin;
     failure.attempt([&] {
         for (std::size_t t = 0; t < begins.size(); ++t) {
             const VertexIndex end =
-                t + 1 < begins.size() ? begins[t + 1] : part.mesh.points.end_index();
+                t + 1 < begins.size() ? begins[t + 1] : part.vertex_after.back();
             has_any.push_back(begins[t] < end ? 1 : 0);
         }
     });
@@ -152,9 +141,34 @@ void drop_empty_levels(CoarserPart& part) {
     for (std::size_t t = 0; t < begins.size(); ++t) {
         if (has_any[t] == 0) continue;
         begins[left++] = begins[t];
-        if (any_failed) part.failures[t].agree(part.mesh, static_cast<int>(left));
+        if (any_failed) part.failures[t].agree(mesh, static_cast<int>(left));
     }
     begins.resize(left);
+}
+
+void commit_vertices(DistributedMesh& mesh, CoarserPart& part) noexcept {
+    const std::span<const VertexIndex> before = part.vertices_before;
+    const std::size_t first = part.first_gone.value();
+    const std::size_t inputs = mesh.input_vertices.size();
+    keep_in_place(mesh.points, before, first, 1);
+    keep_in_place(mesh.point_attributes, before, first, mesh.attributes_per_point);
+    keep_midpoints(mesh.midpoint_to_edge, before, first, inputs);
+    keep_midpoints(mesh.midpoint_markers, before, first, inputs);
+    if (first < before.size()) {
+        renumber(std::span(mesh.midpoint_to_edge).subspan(first - inputs), part.vertex_after);
+    }
+    mesh.level_begin = std::move(part.level_begin);
+    mesh.interfaces = std::move(part.interfaces);
+}
+
+void commit_new_lists(DistributedMesh& mesh, CoarserPart& part) noexcept {
+    const auto take = [](auto& list, AncestorMap& ancestors, auto& made) {
+        list = std::move(made.list);
+        ancestors.first = std::move(made.first);
+    };
+    take(mesh.cells, mesh.cell_ancestors, part.new_cells);
+    take(mesh.facets, mesh.facet_ancestors, part.new_facets);
+    take(mesh.edges, mesh.edge_ancestors, part.new_edges);
 }
 
 }  // namespace octetra::distributed

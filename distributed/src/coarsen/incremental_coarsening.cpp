@@ -1,30 +1,27 @@
 #include "coarsen/incremental_coarsening.hpp"
 
 #include <algorithm>
+#include <cstdint>
+#include <cstring>
+#include <span>
 #include <utility>
 #include <vector>
 
 #include "coarsen/family_division.hpp"
+#include "coarsen/level_shares.hpp"
 
 namespace octetra::distributed {
 namespace {
 
 std::vector<VertexIndex> gone_of(const KeptVertices& kept) {
     std::vector<VertexIndex> gone;
-    for (auto next = kept.begin();;) {
-        next = std::find(next, kept.end(), 0);
-        if (next == kept.end()) return gone;
-        gone.push_back(VertexIndex{static_cast<std::size_t>(next++ - kept.begin())});
+    for (std::size_t v = 0; v < kept.size(); ++v) {
+        const void* const next = std::memchr(kept.data() + v, 0, kept.size() - v);
+        if (next == nullptr) break;
+        v = static_cast<std::size_t>(static_cast<const std::uint8_t*>(next) - kept.data());
+        gone.push_back(VertexIndex{v});
     }
-}
-
-/// Vertices older than the first that goes have their numbers still.
-void renumber(auto& list, const CoarserPart& part) {
-    for (auto& vertices : list) {
-        for (VertexIndex& v : vertices) {
-            if (v >= part.first_gone) v = part.vertex_after[v];
-        }
-    }
+    return gone;
 }
 
 }  // namespace
@@ -51,10 +48,11 @@ std::unique_ptr<IncrementalCoarsening> IncrementalCoarsening::of(DistributedMesh
 
 void IncrementalCoarsening::plan(const KeptVertices& kept, CoarserPart& part) {
     const VertexLevels levels(*mesh_);
+    const LevelShares shares(levels, kept);
     FamilyDivision divide(*mesh_, levels.count());
-    cells_.plan(levels, kept, divide);
-    facets_.plan(levels, kept, divide);
-    edges_.plan(levels, kept, divide);
+    cells_.plan(levels, shares, kept, divide);
+    facets_.plan(levels, shares, kept, divide);
+    edges_.plan(levels, shares, kept, divide);
     part.failures = std::move(divide).failures();
     cells_.for_each_changed(
         [&](CellIndex c) { changed_blocks_.push_back(c.value() / CellBlocks::size); });
@@ -64,12 +62,12 @@ void IncrementalCoarsening::plan(const KeptVertices& kept, CoarserPart& part) {
     part.cells = cells_.succession();
     part.facets = facets_.succession();
     part.edges = edges_.succession();
-    const std::size_t vertex_count = part.mesh.points.size();
-    shared_edges_ = SharedEntities<2>(vertex_count, part.mesh.interfaces);
-    shared_faces_ = SharedEntities<3>(vertex_count, part.mesh.interfaces);
+    const std::size_t vertex_count = part.vertices_before.size();
+    shared_edges_ = SharedEntities<2>(vertex_count, part.interfaces);
+    shared_faces_ = SharedEntities<3>(vertex_count, part.interfaces);
 }
 
-void IncrementalCoarsening::commit(CoarserPart& part) noexcept {
+void IncrementalCoarsening::commit(const CoarserPart& part) noexcept {
     DistributedMesh& mesh = *mesh_;
     cells_.commit(mesh.cells, adjacency_->cells, mesh.cell_ancestors);
     facets_.commit(mesh.facets, adjacency_->facets, mesh.facet_ancestors);
@@ -79,23 +77,12 @@ void IncrementalCoarsening::commit(CoarserPart& part) noexcept {
     adjacency_->new_cells.clear();
     adjacency_->cell_to_note.resize(mesh.cells.size());
 
-    renumber(mesh.cells, part);
-    renumber(mesh.facets, part);
-    renumber(mesh.edges, part);
-    const auto& before = part.vertices_before;
-    adjacency_->cells.keep_vertices(before);
-    adjacency_->facets.keep_vertices(before);
-    adjacency_->edges.keep_vertices(before);
+    const std::span<const VertexIndex> before = part.vertices_before;
+    adjacency_->cells.keep_vertices(before, part.first_gone, mesh.cells);
+    adjacency_->facets.keep_vertices(before, part.first_gone, mesh.facets);
+    adjacency_->edges.keep_vertices(before, part.first_gone, mesh.edges);
     adjacency_->shared_edges = std::move(shared_edges_);
     adjacency_->shared_faces = std::move(shared_faces_);
-
-    part.mesh.cells = std::move(mesh.cells);
-    part.mesh.facets = std::move(mesh.facets);
-    part.mesh.edges = std::move(mesh.edges);
-    part.mesh.cell_ancestors = std::move(mesh.cell_ancestors);
-    part.mesh.facet_ancestors = std::move(mesh.facet_ancestors);
-    part.mesh.edge_ancestors = std::move(mesh.edge_ancestors);
-    part.mesh.adjacency = std::move(mesh.adjacency);
 }
 
 }  // namespace octetra::distributed

@@ -16,7 +16,7 @@ namespace octetra::distributed {
 
 /// The way for few vertices that go: looks at the descendants of those roots (cells of the input)
 /// that lose one, leaves all other entities where they are, and keeps the mesh's adjacency. Numbers
-/// of vertices change all the same, so there is a little to do for all.
+/// of vertices change all the same, behind the first that goes.
 class IncrementalCoarsening {
 public:
     /// Nothing if these descendants are too many for this way. The mesh has its adjacency.
@@ -26,9 +26,8 @@ public:
 
     /// What the lists become goes into the part, but for the lists themselves.
     void plan(const KeptVertices& kept, CoarserPart& part);
-    /// Moves the lists and the adjacency from the mesh to the part. Vertices, which the part has,
-    /// go by their new numbers then.
-    void commit(CoarserPart& part) noexcept;
+    /// The mesh's lists and its adjacency, by the new numbers of vertices; not yet the vertices.
+    void commit(const CoarserPart& part) noexcept;
 
 private:
     explicit IncrementalCoarsening(DistributedMesh& mesh);

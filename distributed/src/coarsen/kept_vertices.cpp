@@ -6,15 +6,38 @@
 
 #include <octetra/core/edge_order.hpp>
 
+#include "coarsen/level_shares.hpp"
 #include "history/vertex_levels.hpp"
 
 namespace octetra::distributed {
 namespace {
 
+/// The marks of cells, as notes in the adjacency that finds them, for as long as this lives.
+class NotedMarks {
+public:
+    NotedMarks(const MarkedCells& marked, Adjacency& adjacency)
+        : marked_(&marked), notes_(&adjacency.cell_to_note) {
+        for (const CellIndex c : marked.cells) (*notes_)[c] = 0;
+    }
+    ~NotedMarks() {
+        for (const CellIndex c : marked_->cells) (*notes_)[c] = CellIndex::none_value;
+    }
+    NotedMarks(const NotedMarks&) = delete;
+    NotedMarks& operator=(const NotedMarks&) = delete;
+    NotedMarks(NotedMarks&&) = delete;
+    NotedMarks& operator=(NotedMarks&&) = delete;
+
+    [[nodiscard]] bool has(CellIndex c) const { return (*notes_)[c] != CellIndex::none_value; }
+
+private:
+    const MarkedCells* marked_;
+    IndexVector<CellIndex, std::uint32_t>* notes_;
+};
+
 class Keeping {
 public:
-    Keeping(const DistributedMesh& mesh, const MarkedCells& marked, const Adjacency* adjacency)
-        : mesh_(&mesh), levels_(mesh), marked_(&marked) {
+    Keeping(const DistributedMesh& mesh, const MarkedCells& marked, Adjacency* adjacency)
+        : mesh_(&mesh), levels_(mesh), marked_(&marked), was_divided_(levels_.count() + 1, false) {
         if (adjacency == nullptr) {
             kept_.assign(mesh.points.size(), 0);
             std::fill_n(kept_.begin(), mesh.input_vertices.size(), std::uint8_t{1});
@@ -31,58 +54,81 @@ public:
 
     /// Rule (b), as far as this process sees: again and again until nothing changes.
     void close() {
-        if (!is_any_level_divided()) return;
-        const std::size_t count = marked_->all ? mesh_->cells.size() : marked_->cells.size();
-        bool changed = true;
-        for (bool backwards = false; changed; backwards = !backwards) {
+        if (is_another_level_divided()) list_open_cells();
+        for (bool changed = true; changed;) {
             changed = false;
-            for (std::size_t k = 0; k < count; ++k) {
-                const std::size_t i = backwards ? count - 1 - k : k;
-                const CellIndex c = marked_->all ? CellIndex{i} : marked_->cells[i];
-                if (close(mesh_->cells[c])) changed = true;
-            }
+            std::erase_if(open_cells_,
+                          [&](CellIndex c) { return close(mesh_->cells[c], changed); });
+            std::ranges::reverse(open_cells_);  // what came too late comes first
         }
     }
 
 private:
-    /// Are there midpoints of one level of which some stay and some may go?
-    [[nodiscard]] bool is_any_level_divided() const {
+    /// Are there midpoints of one level of which some stay and some may go, of a level that was not
+    /// divided so before? Only of such a level does rule (b) say anything.
+    [[nodiscard]] bool is_another_level_divided() {
+        bool found = false;
+        const LevelShares shares(levels_, kept_);
         for (std::uint32_t level = 1; level <= levels_.count(); ++level) {
-            const std::size_t end = std::min<std::size_t>(levels_.end(level).value(), kept_.size());
-            const auto first = kept_.begin() + levels_.begin(level).value();
-            const auto last = kept_.begin() + static_cast<std::ptrdiff_t>(end);
-            if (std::find(first, last, 0) != last && std::find(first, last, 1) != last) return true;
+            if (was_divided_[level] || !shares.is_divided(level)) continue;
+            was_divided_[level] = true;
+            found = true;
         }
-        return false;
+        return found;
     }
-
-    /// A byte for each cell: is it marked?
-    [[nodiscard]] IndexVector<CellIndex, std::uint8_t> marks() const {
-        IndexVector<CellIndex, std::uint8_t> marks(mesh_->cells.size(), marked_->all ? 1 : 0);
-        for (const CellIndex c : marked_->cells) marks[c] = 1;
-        return marks;
+    /// The marked cells of which a vertex may go, of divided levels. They become fewer, as vertices
+    /// can but be kept.
+    void list_open_cells() {
+        open_cells_.clear();
+        std::uint32_t level = levels_.count();
+        const auto list = [&](CellIndex c) {
+            const CellVertices& cell = mesh_->cells[c];
+            level = levels_.newest(cell, level);
+            if (was_divided_[level] && !has_all(cell)) open_cells_.push_back(c);
+        };
+        if (marked_->all) {
+            for (CellIndex c{0}; c < mesh_->cells.end_index(); ++c) list(c);
+        } else {
+            std::ranges::for_each(marked_->cells, list);
+        }
     }
-    /// The first of the vertices that are new in the cell. Older ones are of its parent, too.
-    [[nodiscard]] VertexIndex first_new_of(const CellVertices& cell) const {
-        return levels_.begin(levels_.newest(cell));
+    [[nodiscard]] bool has_all(const CellVertices& cell) const {
+        return std::ranges::all_of(cell, [&](VertexIndex v) { return has(v); });
     }
 
     /// Rule (a), by all cells.
     void keep_what_cells_need() {
-        const auto is_marked = marks();
+        if (marked_->all) {
+            keep_older_ones();
+            return;
+        }
+        auto next_marked = marked_->cells.begin();
+        std::uint32_t level = levels_.count();
         for (CellIndex c{0}; c < mesh_->cells.end_index(); ++c) {
             const CellVertices& cell = mesh_->cells[c];
-            const VertexIndex first_new =
-                is_marked[c] == 0 ? VertexIndex::none() : first_new_of(cell);
-            // Without a branch, which could not be foreseen.
-            for (const VertexIndex v : cell) {
-                kept_[v] = static_cast<std::uint8_t>(kept_[v] | (v < first_new ? 1U : 0U));
+            const bool is_marked = next_marked != marked_->cells.end() && *next_marked == c;
+            if (is_marked) {
+                ++next_marked;
+                level = levels_.newest(cell, level);
             }
+            keep_before(is_marked ? levels_.begin(level) : VertexIndex::none(), cell);
         }
     }
+    void keep_older_ones() {
+        std::uint32_t level = levels_.count();
+        for (const CellVertices& cell : mesh_->cells) {
+            level = levels_.newest(cell, level);
+            keep_before(levels_.begin(level), cell);
+        }
+    }
+    /// Without a branch, which could not be foreseen: vertex 0 is the input's, and stays.
+    void keep_before(VertexIndex first_new, const CellVertices& cell) {
+        for (const VertexIndex v : cell) kept_[v < first_new ? v : VertexIndex{0}] = 1;
+    }
+
     /// Rule (a), by the cells at the new vertices of those that are marked.
-    void find_what_may_go(const Adjacency& adjacency) {
-        const auto is_marked = marks();
+    void find_what_may_go(Adjacency& adjacency) {
+        const NotedMarks is_marked(*marked_, adjacency);
         std::vector<bool> is_judged(mesh_->points.size(), false);
         for (const CellIndex c : marked_->cells) {
             const CellVertices& cell = mesh_->cells[c];
@@ -94,33 +140,35 @@ private:
                 bool may_go = true;
                 adjacency.cells.for_each_at(v, [&](CellIndex at) {
                     may_go =
-                        may_go && is_marked[at] != 0 && levels_.newest(mesh_->cells[at]) == level;
+                        may_go && is_marked.has(at) && levels_.newest(mesh_->cells[at]) == level;
                 });
                 kept_[v] = may_go ? 0 : 1;
             }
         }
     }
 
-    bool close(const CellVertices& cell) {
-        const VertexIndex first_new = first_new_of(cell);
+    /// Rule (b) in one cell, whose vertices before the first new one are of its parent, too. Do all
+    /// of its vertices stay?
+    bool close(const CellVertices& cell, bool& changed) {
+        const VertexIndex first_new = levels_.begin(levels_.newest(cell));
         unsigned kept = 0;
         unsigned kept_new = 0;
         for (const VertexIndex v : cell) {
             kept += kept_[v];
             kept_new += v < first_new ? 0U : kept_[v];
         }
-        if (kept == cell.size() || kept_new == 0) return false;
-        bool changed = false;
+        if (kept == cell.size() || kept_new == 0) return kept == cell.size();
         for (const VertexIndex v : cell) {
             if (has(v)) continue;
             for (const VertexIndex other : cell) {
                 if (other < first_new || !has(other) || !is_longest_of_face(v, other)) continue;
                 keep(v);
+                ++kept;
                 changed = true;
                 break;
             }
         }
-        return changed;
+        return kept == cell.size();
     }
     /// Of two midpoints of one level that an edge of the mesh joins: do both lie in a face whose
     /// longest edge is that of the first?
@@ -138,6 +186,8 @@ private:
     VertexLevels levels_;
     const MarkedCells* marked_;
     KeptVertices kept_;
+    std::vector<bool> was_divided_;      ///< by level, when close() last looked
+    std::vector<CellIndex> open_cells_;  ///< of these levels, with a vertex that may go
 };
 
 using Outboxes = std::vector<std::vector<std::uint32_t>>;
@@ -218,7 +268,7 @@ std::uint64_t count_of(const Outboxes& outboxes) {
 }  // namespace
 
 KeptVertices find_kept_vertices(const DistributedMesh& mesh, const Sharing<VertexIndex>& sharing,
-                                const MarkedCells& marked, const Adjacency* adjacency,
+                                const MarkedCells& marked, Adjacency* adjacency,
                                 LocalFailure& failure) {
     const Communicator& processes = mesh.processes;
     std::unique_ptr<Keeping> keeping;

@@ -25,10 +25,11 @@ using KeptVertices = IndexVector<VertexIndex, std::uint8_t>;
 ///
 /// Nothing depends on the order of cells, nor on the partition. With the mesh's adjacency, which
 /// may be null, a process looks at the marked cells and those around them, else at its whole part.
+/// The adjacency is afterwards as it was.
 /// Where a process has failed or fails, the result is not to be used on any.
 [[nodiscard]] KeptVertices find_kept_vertices(const DistributedMesh& mesh,
                                               const Sharing<VertexIndex>& sharing,
-                                              const MarkedCells& marked, const Adjacency* adjacency,
+                                              const MarkedCells& marked, Adjacency* adjacency,
                                               LocalFailure& failure);
 
 }  // namespace octetra::distributed

@@ -13,6 +13,7 @@
 
 #include "coarsen/coarser_list.hpp"
 #include "level/incremental/unordered_list.hpp"
+#include "memory/huge_pages.hpp"
 
 namespace octetra::distributed {
 
@@ -30,28 +31,35 @@ public:
         : list_(&list), unordered_(&unordered), ancestors_(&ancestors), count_after_(list.size()) {}
 
     /// Finds the descendants of roots that have one of the vertices. False if they are more than
-    /// `most`: then it is better to go through the whole list.
+    /// `most`, as soon as that is known: then it is better to go through the whole list.
     [[nodiscard]] bool find(std::span<const VertexIndex> gone, std::size_t most) {
+        std::vector<bool> is_found(ancestors_->roots.size(), false);
+        std::size_t count = 0;
         for (const VertexIndex v : gone) {
-            unordered_->for_each_at(v, [&](I i) { roots_.push_back(unordered_->root_of(i)); });
+            unordered_->for_each_at(v, [&](I i) {
+                const std::uint32_t root = unordered_->root_of(i);
+                if (is_found[root]) return;
+                is_found[root] = true;
+                roots_.push_back(root);
+                for_each_descendant(root, [&](I) { ++count; });
+            });
+            if (count > most) return false;
         }
         std::ranges::sort(roots_);
-        roots_.erase(std::unique(roots_.begin(), roots_.end()), roots_.end());
+        before_.reserve(count);
         for (const std::uint32_t root : roots_) {
-            for (I i{ancestors_->first[root]}; !i.is_none(); i = unordered_->next(i)) {
-                if (before_.size() == most) return false;
-                before_.push_back(i);
-            }
+            for_each_descendant(root, [&](I i) { before_.push_back(i); });
         }
         return true;
     }
 
     /// For `divide` see ListCoarsening.
-    void plan(const VertexLevels& levels, const KeptVertices& kept, auto&& divide) {
+    void plan(const VertexLevels& levels, const LevelShares& shares, const KeptVertices& kept,
+              auto&& divide) {
         List descendants;
         descendants.reserve(before_.size());
         for (const I i : before_) descendants.push_back((*list_)[i]);
-        made_ = ListCoarsening<I, N>(levels, kept)
+        made_ = ListCoarsening<I, N>(levels, shares, kept)
                     .run(descendants, [&](std::uint32_t level, std::size_t root,
                                           const Vertices& parent, const auto& midpoints) {
                         return divide(level, roots_[root], parent, midpoints);
@@ -61,8 +69,12 @@ public:
     }
 
     [[nodiscard]] Succession succession() const {
-        std::vector<std::uint32_t> whole_of(list_->size());
-        std::vector<std::uint8_t> halvings(list_->size(), 0);
+        std::vector<std::uint32_t> whole_of;
+        reserve_in_huge_pages(whole_of, list_->size());
+        whole_of.resize(list_->size());
+        std::vector<std::uint8_t> halvings;
+        reserve_in_huge_pages(halvings, list_->size());
+        halvings.resize(list_->size());
         std::iota(whole_of.begin(), whole_of.end(), 0U);
         const auto moved = [&](I i) {
             return i.value() < count_after_ ? i : moved_[i.value() - count_after_];
@@ -105,6 +117,10 @@ public:
     }
 
 private:
+    void for_each_descendant(std::uint32_t root, auto&& visit) const {
+        for (I i{ancestors_->first[root]}; !i.is_none(); i = unordered_->next(i)) visit(i);
+    }
+
     /// A whole has the number of its first piece; the other pieces' numbers are free.
     void place_wholes() {
         places_.assign(made_.list.size(), I::none());

@@ -63,9 +63,9 @@ public:
     static constexpr unsigned whole = 1U << (N - 1);
 
     /// Are the next of the list such a family, with nothing between its members? Then one may add
-    /// their parent in their stead. Sooner told than by adding them.
-    [[nodiscard]] bool are_family(std::span<const Vertices, whole> next) const {
-        const std::uint32_t level = levels_->newest(next[0]);
+    /// their parent in their stead. Sooner told than by adding them. `level` made the first.
+    [[nodiscard]] bool are_family(std::span<const Vertices, whole> next,
+                                  std::uint32_t level) const {
         if (level == 0 || (!open_.empty() && open_.back().level == level)) return false;
         const VertexIndex first_new = levels_->begin(level);
         const VertexIndex end_new = levels_->end(level);
@@ -77,13 +77,11 @@ public:
         }
         return are;
     }
-    [[nodiscard]] Vertices parent_of(std::span<const Vertices, whole> family) const {
-        const VertexIndex first_new = levels_->begin(levels_->newest(family[0]));
-        Vertices parent;
+    /// At each position, its corner is the oldest.
+    [[nodiscard]] static Vertices parent_of(std::span<const Vertices, whole> family) {
+        Vertices parent = family[0];
         for (const Vertices& vertices : family) {
-            for (std::size_t k = 0; k < N; ++k) {
-                parent[k] = vertices[k] < first_new ? vertices[k] : parent[k];
-            }
+            for (std::size_t k = 0; k < N; ++k) parent[k] = std::min(parent[k], vertices[k]);
         }
         return parent;
     }

@@ -28,9 +28,14 @@ public:
     /// The level of the newest of them: of a cell's vertices, that which made the cell.
     template <std::size_t N>
     [[nodiscard]] std::uint32_t newest(const std::array<VertexIndex, N>& vertices) const {
-        VertexIndex newest_vertex = vertices[0];
-        for (const VertexIndex v : vertices) newest_vertex = std::max(newest_vertex, v);
-        return of(newest_vertex);
+        return of(newest_of(vertices));
+    }
+    /// The same, sooner found where it is the level that is guessed.
+    template <std::size_t N>
+    [[nodiscard]] std::uint32_t newest(const std::array<VertexIndex, N>& vertices,
+                                       std::uint32_t guess) const {
+        const VertexIndex v = newest_of(vertices);
+        return begin(guess) <= v && v < end(guess) ? guess : of(v);
     }
     /// The first vertex that this level made, or would have.
     [[nodiscard]] VertexIndex begin(std::uint32_t level) const {
@@ -48,6 +53,11 @@ public:
     }
 
 private:
+    template <std::size_t N>
+    static VertexIndex newest_of(const std::array<VertexIndex, N>& vertices) {
+        return std::ranges::max(vertices);
+    }
+
     std::span<const VertexIndex> begins_;
     std::span<const EdgeVertices> ends_;
     std::size_t first_midpoint_;

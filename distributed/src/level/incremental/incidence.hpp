@@ -77,11 +77,18 @@ public:
     void truncate(std::size_t count) {
         if (!heads_.empty()) links_.resize(N * count);
     }
-    /// The vertices that stay, by the numbers that they had, ascending. The others have no
-    /// entities.
-    void keep_vertices(std::span<const VertexIndex> before) {
+    /// The vertices that stay, by the numbers that they had, ascending; those before `first` had
+    /// the same. The others have no entities. The entities of a list come to know, too.
+    void keep_vertices(std::span<const VertexIndex> before, VertexIndex first,
+                       IndexVector<I, Vertices>& entities) {
         if (heads_.empty()) return;
-        for (std::size_t v = 0; v < before.size(); ++v) heads_[VertexIndex{v}] = heads_[before[v]];
+        for (VertexIndex v = first; v < VertexIndex{before.size()}; ++v) {
+            const Head head = heads_[before[v.value()]];
+            heads_[v] = head;
+            for (std::uint32_t at = head.first; at != none; at = links_[at].next) {
+                entities[I{at / N}][at % N] = v;
+            }
+        }
         heads_.resize(before.size());
     }
 

@@ -115,8 +115,11 @@ public:
         list.resize(count);
         places_.resize(count);
     }
-    /// The vertices that stay, by the numbers that they had. Others have no entities any more.
-    void keep_vertices(std::span<const VertexIndex> before) { incidence_.keep_vertices(before); }
+    /// The vertices that stay, by the numbers that they had, which those before `first` have still.
+    /// Others have no entities any more.
+    void keep_vertices(std::span<const VertexIndex> before, VertexIndex first, List& list) {
+        incidence_.keep_vertices(before, first, list);
+    }
 
     /// Calls visit(i) for each entity that has the vertex.
     void for_each_at(VertexIndex v, auto&& visit) const { incidence_.for_each_at(v, visit); }

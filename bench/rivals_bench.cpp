@@ -25,7 +25,7 @@
 
 #include "measuring.hpp"
 #include "pattern_tables.hpp"
-#include "rivals/parts.hpp"
+#include "rivals/ranks/terminal_edges_on_ranks.hpp"
 #include "rivals/sizes.hpp"
 #include "rivals/terminal_edges.hpp"
 
@@ -43,7 +43,6 @@ struct Options {
     std::string task = "once";
     int halvings = 1;
     std::vector<double> sphere;
-    int parts = 1;
 };
 
 double longest_square(const Corners& corners) {
@@ -182,13 +181,29 @@ ordered_json by_terminal_edges(const Mesh& mesh, const Goal& goal) {
     return line;
 }
 
-ordered_json on_parts(const Mesh& mesh, const Goal& goal, int parts) {
-    const auto counts =
-        rivals::count_on_parts(mesh, goal, distributed::partition_cells(mesh, parts, {}));
-    return {{"ranks", parts},          {"cells", counts.cells},
-            {"rounds", counts.rounds}, {"messages", counts.messages},
-            {"bytes", counts.bytes},   {"asked", counts.asked},
-            {"ready", counts.ready},   {"shared_edges_bisected", counts.shared_edges_bisected}};
+/// Each rank keeps the cells of its part, as those of octetra's ranks do, and forgets the mesh.
+ordered_json by_ranks(const Communicator& world, const Mesh& mesh, const Goal& goal) {
+    const auto parts = distributed::partition_cells(mesh, world.size(), {});
+    rivals::PartOfMesh part = rivals::part_of(mesh, parts, world.rank());
+    Goal own = goal;
+    own.targets.clear();
+    for (const std::uint64_t root : part.roots) own.targets.push_back(goal.targets[root]);
+    const double begin = processor_seconds();
+    rivals::TerminalEdgesOnRanks bisection(world, std::move(part), mesh.points.size());
+    const double linked = processor_seconds();
+    const rivals::Traffic traffic = bisection.refine(own);
+    const double refined = processor_seconds();
+    const rivals::PartOfMesh made = bisection.result();
+    return {{"ranks", world.size()},
+            {"cells", world.sum(made.mesh.cells.size())},
+            {"rounds", traffic.rounds},
+            {"messages", world.sum(traffic.messages)},
+            {"bytes", world.sum(traffic.bytes)},
+            {"asked", world.sum(traffic.asked)},
+            {"ready", world.sum(traffic.ready)},
+            {"shared_edges_bisected", world.sum(traffic.shared_edges_bisected)},
+            {"setup_seconds", linked - begin},
+            {"refining_seconds", refined - linked}};
 }
 
 std::vector<std::uint8_t> marks_of(const AdaptiveMesh& mesh, const Goal& goal) {
@@ -260,8 +275,7 @@ void measure(const Communicator& world, const Options& options) {
                       {"targets", std::ranges::count(goal.targets, 1)},
                       {"shapes_of_targets", shapes_of_targets(mesh, goal)}};
     if (options.method == "terminal") {
-        line.update(options.parts > 1 ? on_parts(mesh, goal, options.parts)
-                                      : by_terminal_edges(mesh, goal));
+        line.update(world.size() > 1 ? by_ranks(world, mesh, goal) : by_terminal_edges(mesh, goal));
     } else {
         const Scheme scheme = options.method == "8t"   ? Scheme::eight
                               : options.method == "4t" ? Scheme::four
@@ -281,7 +295,6 @@ int run(const Communicator& world, int argc, char** argv) {
     app.add_option("--task", options.task)->check(CLI::IsMember({"once", "volume", "edge"}));
     app.add_option("--halvings", options.halvings)->check(CLI::Range(0, 30));
     app.add_option("--sphere", options.sphere)->delimiter(',')->expected(4);
-    app.add_option("--parts", options.parts)->check(CLI::Range(1, 1024));
     CLI11_PARSE(app, argc, argv);
     measure(world, options);
     return 0;

@@ -1,6 +1,6 @@
 """Terminal-edge bisection beside 8T-LE: what each makes of the same meshes for the same goals.
 
-usage: rivals measure [--build FOLDER] [--repetitions N] [--quick]    into bench/rivals/measured.json
+usage: rivals measure [--build FOLDER] [--repetitions N] [--quick] [--only cases|ranks]    into bench/rivals/measured.json
        rivals page                                                    from it, docs/rival.md
        rivals check                                                   status 1 if the page is another
 
@@ -27,7 +27,9 @@ QUICK = {"kuhn": (["kuhn", "4"], "0.5,0.5,0.5,0.3"), "random": (["random", "200"
 #        task, halvings, in the sphere?
 GOALS = (("edge", 1, False), ("edge", 2, False), ("edge", 2, True), ("edge", 3, True),
          ("once", 1, True), ("volume", 1, True), ("volume", 3, True))
-ON_PARTS = (("edge", 1, False), ("volume", 2, True))
+# A: until no edge is longer than half of the longest; B: until every cell of a region was cut; and a long way.
+ON_RANKS = (("edge", 1, False), ("once", 1, True), ("volume", 2, True))
+RANKS = (2, 4)
 SECONDS = ("setup_seconds", "marking_seconds", "refining_seconds", "result_seconds")
 
 
@@ -63,14 +65,22 @@ def measured_goal(program, mesh, goal, sphere, repetitions):
     return {method: medians(list_of) for method, list_of in runs.items()}
 
 
-def on_parts(program, mesh, goal, sphere, parts):
-    made = {}
-    for method in METHODS:
-        command = command_of(program, mesh, goal, sphere, method)
-        made[method] = printed(command + ["--parts", str(parts)] if method == "terminal" else
-                               [ROOT / "tests/support/mpirun.sh", str(parts), *command])
+def on_ranks(program, mesh, goal, sphere, ranks):
+    """What ranks tell each other; of the same cells, if it is the same method on more ranks."""
+    made = {method: printed([ROOT / "tests/support/mpirun.sh", str(ranks),
+                             *command_of(program, mesh, goal, sphere, method)]) for method in METHODS}
     return {method: {key: run[key] for key in ("rounds", "messages", "bytes", "cells")}
             for method, run in made.items()}
+
+
+def check_cells(cases, of_ranks):
+    """The mesh does not depend on the ranks, of any method."""
+    alone = {(case["mesh"], tuple(case["goal"]), method): run["cells"]
+             for case in cases for method, run in case["methods"].items()}
+    for case in of_ranks:
+        for method, run in case["methods"].items():
+            if run["cells"] != alone.get((case["mesh"], tuple(case["goal"]), method), run["cells"]):
+                sys.exit(f"rivals: {name_of(case)}, {method}: {run['cells']} cells on {case['ranks']} ranks")
 
 
 def lines_of(made):
@@ -79,25 +89,31 @@ def lines_of(made):
         return "[" + ",\n  ".join(json.dumps(case) for case in cases) + "]"
     return (f'{{"repetitions": {made["repetitions"]}, "load": {made["load"]},\n'
             f' "cases": {one_a_line(made["cases"])},\n'
-            f' "parts": {one_a_line(made["parts"])}}}\n')
+            f' "ranks": {one_a_line(made["ranks"])}}}\n')
 
 
-def measure(build, repetitions, quick):
+def measure(build, repetitions, quick, only):
     program, octetra = build / "bench/bench_rivals", build / "cli/octetra"
-    cases, parted, load = [], [], os.getloadavg()[0]
+    old = json.loads(MEASURED.read_text()) if only else {}
+    load = round(os.getloadavg()[0], 1)
+    if only == "ranks":
+        repetitions, load = old["repetitions"], old["load"]  # of the seconds that stay
+    cases, of_ranks = [], []
     with tempfile.TemporaryDirectory() as folder:
         for name, (shape, sphere) in (QUICK if quick else MESHES).items():
             mesh = f"{folder}/{name}.meshb"
             subprocess.run([octetra, "generate", *shape, "-o", mesh, "--quiet"], check=True)
-            for goal in GOALS:
+            for goal in GOALS if only != "ranks" else ():
                 made = measured_goal(program, mesh, goal, sphere, repetitions)
                 cases.append({"mesh": name, "goal": goal, "methods": made})
                 print(name, *goal, file=sys.stderr)
-            for goal in ON_PARTS:
-                for parts in (2, 8):
-                    parted.append({"mesh": name, "goal": goal, "parts": parts,
-                                   "methods": on_parts(program, mesh, goal, sphere, parts)})
-    return {"repetitions": repetitions, "load": round(load, 1), "cases": cases, "parts": parted}
+            for goal in ON_RANKS if only != "cases" else ():
+                for ranks in RANKS:
+                    of_ranks.append({"mesh": name, "goal": goal, "ranks": ranks,
+                                     "methods": on_ranks(program, mesh, goal, sphere, ranks)})
+    cases, of_ranks = cases or old["cases"], of_ranks or old["ranks"]
+    check_cells(cases, of_ranks)
+    return {"repetitions": repetitions, "load": load, "cases": cases, "ranks": of_ranks}
 
 
 def name_of(case):
@@ -163,15 +179,15 @@ def shapes_table(cases):
                   "99 %", "most", "edge ratio: 50 %", "90 %", "99 %", "most"], rows)
 
 
-def parts_table(cases):
+def ranks_table(cases):
     rows = []
     for case in cases:
         methods = case["methods"]
-        rows.append([name_of(case), str(case["parts"]),
+        rows.append([name_of(case), str(case["ranks"]),
                      *(f"{methods[m]['rounds']}" for m in METHODS),
                      *(f"{methods[m]['messages']:,}" for m in METHODS),
                      *(f"{methods[m]['bytes'] / 1000:,.1f}" for m in METHODS)])
-    return table(["mesh, goal", "parts", "rounds: terminal", "8t", "4t", "2t", "messages: terminal", "8t", "4t", "2t",
+    return table(["mesh, goal", "ranks", "rounds: terminal", "8t", "4t", "2t", "messages: terminal", "8t", "4t", "2t",
                   "kB: terminal", "8t", "4t", "2t"], rows)
 
 
@@ -184,10 +200,9 @@ def page_text():
 
     main_ones = with_goals(("edge", 2, False), ("edge", 3, True), ("once", 1, True), ("volume", 3, True))
     shaped = [case for case in with_goals(("volume", 3, True)) if case["mesh"] != "kuhn"]
-    parted = [case for case in measured["parts"] if case["parts"] == 8 and case["mesh"] != "kuhn"]
     text = (HERE / "page.md").read_text()
     for word, made in {"@cells@": cells_table(main_ones), "@seconds@": seconds_table(main_ones),
-                       "@shapes@": shapes_table(shaped), "@parts@": parts_table(parted),
+                       "@shapes@": shapes_table(shaped), "@ranks@": ranks_table(measured["ranks"]),
                        "@load@": str(measured["load"]),
                        "@repetitions@": str(measured["repetitions"])}.items():
         text = text.replace(word, made)
@@ -201,6 +216,7 @@ def main():
     parser.add_argument("--build", type=pathlib.Path, default=ROOT / "build/release")
     parser.add_argument("--repetitions", type=int, default=5)
     parser.add_argument("--quick", action="store_true", help="small meshes, once; prints, and writes no file")
+    parser.add_argument("--only", choices=["cases", "ranks"], help="measure one process, or ranks, and keep the other")
     parser.add_argument("--list", action="store_true", help="only name what would be measured")
     chosen = parser.parse_args()
     page = ROOT / "docs/rival.md"
@@ -210,11 +226,12 @@ def main():
     if chosen.what == "check":
         return 0 if page.read_text() == page_text() else 1
     if chosen.what == "measure":
-        made = measure(chosen.build, 1 if chosen.quick else chosen.repetitions, chosen.quick)
+        made = measure(chosen.build, 1 if chosen.quick else chosen.repetitions, chosen.quick, chosen.only)
         if chosen.quick:
-            print(cells_table(made["cases"]), parts_table(made["parts"]), sep="\n\n")
+            print(cells_table(made["cases"]), ranks_table(made["ranks"]), sep="\n\n")
             return 0
         MEASURED.write_text(lines_of(made))
+        print(ranks_table(made["ranks"]))
     page.write_text(page_text())
     return 0
 

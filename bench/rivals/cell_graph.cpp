@@ -33,25 +33,91 @@ CellGraph::CellGraph(const Mesh& mesh) : points(mesh.points) {
         next[c] = CellIndex{c.value() + std::size_t{1}};
     }
     if (!next.empty()) next.back() = CellIndex::none();
+    find_several_rows();
+}
+
+/// Rows end at the boundary, so where more than two of its faces have an edge there are several.
+void CellGraph::find_several_rows() {
+    std::vector<std::pair<std::uint64_t, CellIndex>> edges;
+    for (CellIndex c{0}; c < cells.end_index(); ++c) {
+        for (std::size_t face = 0; face < 4; ++face) {
+            if (!cells[c].neighbours[face].is_none()) continue;
+            for (const auto& [i, j] : cell_edges) {
+                if (i == face || j == face) continue;
+                edges.emplace_back(edge_key({cells[c].vertices[i], cells[c].vertices[j]}), c);
+            }
+        }
+    }
+    std::ranges::sort(edges);
+    for (std::size_t i = 2; i < edges.size(); ++i) {
+        const auto key = edges[i].first;
+        if (key != edges[i - 2].first) continue;
+        const EdgeVertices edge{VertexIndex{key >> 32U}, VertexIndex{key & 0xffffffffU}};
+        for (const std::size_t k : {i - 2, i - 1, i}) add_row(edge, edges[k].second);
+    }
+}
+
+void CellGraph::add_row(const EdgeVertices& edge, CellIndex c) {
+    auto& known = rows[edge_key(edge)];
+    Star star;
+    append_row(place(c, edge), star);
+    for (const StarCell& at : star.cells) {
+        if (std::ranges::find(known, at.cell) != known.end()) return;
+    }
+    known.push_back(c);
+}
+
+StarCell CellGraph::place(CellIndex c, const EdgeVertices& edge) const {
+    const std::uint8_t a = position(cells[c].vertices, edge[0]);
+    const std::uint8_t b = position(cells[c].vertices, edge[1]);
+    std::uint8_t other = 0;
+    while (other == a || other == b) ++other;
+    return {c, a, b, other, static_cast<std::uint8_t>(6 - a - b - other)};
 }
 
 void CellGraph::find_star(CellIndex c, Star& star) const {
     const auto& [a, b] = cell_edges[cells[c].longest];
     const auto& [i, j] = cell_edges[5U - cells[c].longest];  // the opposite edge
-    star.cells.assign(1, {c, a, b, i, j});
+    star.cells.clear();
+    append_row({c, a, b, i, j}, star);
+    if (!rows.empty()) append_other_rows(star);
+}
+
+void CellGraph::find_star(const EdgeVertices& edge, Star& star) const {
+    star.cells.clear();
+    append_row(place(rows.at(edge_key(edge)).front(), edge), star);
+    append_other_rows(star);
+}
+
+void CellGraph::append_other_rows(Star& star) const {
+    const EdgeVertices edge = edge_of(star.cells.front());
+    const auto found = rows.find(edge_key(edge));
+    if (found == rows.end() || found->second.size() == 1) return;
+    const std::size_t count = star.cells.size();
+    for (const CellIndex c : found->second) {
+        const auto is_there = [&](const StarCell& at) { return at.cell == c; };
+        if (std::any_of(star.cells.data(), star.cells.data() + count, is_there)) continue;
+        append_row(place(c, edge), star);
+    }
+}
+
+void CellGraph::append_row(const StarCell& first, Star& star) const {
+    const std::size_t begin = star.cells.size();
+    star.cells.push_back(first);
     walk(star);
     if (star.is_ring) return;
     StarCell last = star.cells.back();
     std::swap(last.next, last.previous);
-    star.cells.assign(1, last);
+    last.joins_previous = false;
+    star.cells.resize(begin);
+    star.cells.push_back(last);
     walk(star);
 }
 
-/// From the only cell of a star to its end, or around.
+/// From the last cell of a star to the end of its row, or around.
 void CellGraph::walk(Star& star) const {
-    const StarCell first = star.cells.front();
-    const VertexIndex a = cells[first.cell].vertices[first.a];
-    const VertexIndex b = cells[first.cell].vertices[first.b];
+    const StarCell first = star.cells.back();
+    const auto [a, b] = edge_of(first);
     for (StarCell at = first;;) {
         const CellIndex beside = cells[at.cell].neighbours[at.next];
         star.is_ring = beside == first.cell;
@@ -60,7 +126,7 @@ void CellGraph::walk(Star& star) const {
         const std::uint8_t pa = position(cell.vertices, a);
         const std::uint8_t pb = position(cell.vertices, b);
         const std::uint8_t previous = position(cell.neighbours, at.cell);
-        at = {beside, pa, pb, static_cast<std::uint8_t>(6 - pa - pb - previous), previous};
+        at = {beside, pa, pb, static_cast<std::uint8_t>(6 - pa - pb - previous), previous, true};
         star.cells.push_back(at);
     }
 }
@@ -69,12 +135,41 @@ void CellGraph::bisect(const Star& star, VertexIndex midpoint) {
     const std::size_t first_new = cells.size();
     const std::size_t count = star.cells.size();
     const auto second = [&](std::size_t i) { return CellIndex{first_new + i}; };
+    const EdgeVertices edge = edge_of(star.cells.front());
     for (const StarCell& at : star.cells) halve(at, midpoint);
-    for (std::size_t i = star.is_ring ? 0 : 1; i < count; ++i) {
+    for (std::size_t i = 0; i < count; ++i) {
+        if (!star.cells[i].joins_previous && !star.is_ring) continue;
         const std::size_t j = (i + count - 1) % count;
         join_halves(star.cells[i], second(i), star.cells[i].previous, star.cells[j], second(j));
         join_halves(star.cells[j], second(j), star.cells[j].next, star.cells[i], second(i));
     }
+    if (!rows.empty()) halve_rows(star, edge, midpoint);
+}
+
+/// What is known by its ends stays known, as its halves.
+void CellGraph::halve_rows(const Star& star, const EdgeVertices& edge, VertexIndex midpoint) {
+    const std::size_t first_new = cells.size() - star.cells.size();
+    for (std::size_t i = 0; i < star.cells.size(); ++i) {
+        const StarCell& at = star.cells[i];
+        const CellIndex second{first_new + i};
+        const VertexIndex kept = cells[second].vertices[std::max(at.a, at.b)];
+        for (const std::uint8_t beside : {at.next, at.previous}) {
+            put_into_row({kept, cells[second].vertices[beside]}, at.cell, second);
+        }
+    }
+    if (rows.erase(edge_key(edge)) == 0) return;
+    for (std::size_t i = 0; i < star.cells.size(); ++i) {
+        const StarCell& at = star.cells[i];
+        if (at.joins_previous) continue;
+        const CellIndex second{first_new + i};
+        rows[edge_key({edge[0], midpoint})].push_back(half(at, second, at.a));
+        rows[edge_key({edge[1], midpoint})].push_back(half(at, second, at.b));
+    }
+}
+
+void CellGraph::put_into_row(const EdgeVertices& edge, CellIndex old, CellIndex now) {
+    const auto found = rows.find(edge_key(edge));
+    if (found != rows.end()) std::ranges::replace(found->second, old, now);
 }
 
 /// What the halves have to do with one another, and with what is not of the star.

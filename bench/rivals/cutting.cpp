@@ -58,13 +58,16 @@ void Cutting::set_longest(CellIndex child) {
 
 void Cutting::bisect(const WantedEdges::Edge& edge) {
     const auto& [a, b] = edge.ends;
-    graph_.find_star(edge.cell, star_);
+    const bool is_shared = edge.shared != not_shared;
+    is_shared ? graph_.find_star(edge.ends, star_) : graph_.find_star(edge.cell, star_);
     const Point middle = midpoint(graph_.points[a], graph_.points[b]);
     const std::size_t first_new = graph_.cells.size();
     if (first_new + star_.cells.size() > max_cells_) {
         throw InputError("there would be too many cells");
     }
-    graph_.bisect(star_, graph_.points.append(middle));
+    const VertexIndex at_middle = graph_.points.append(middle);
+    graph_.bisect(star_, at_middle);
+    if (is_shared) border_->bisect(edge.shared, at_middle, graph_, star_);
     midpoint_to_edge_.push_back(edge.ends);
     for (std::size_t i = 0; i < star_.cells.size(); ++i) {
         is_cut_[graph_.cells[star_.cells[i].cell].root] = 1;

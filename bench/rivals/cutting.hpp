@@ -2,8 +2,10 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
+#include "rivals/border.hpp"
 #include "rivals/cell_graph.hpp"
 #include "rivals/terminal_edges.hpp"
 #include "rivals/wanted_edges.hpp"
@@ -14,12 +16,13 @@ namespace octetra::rivals {
 /// an edge that is terminal is bisected.
 class Cutting {
 public:
-    /// With a part for each cell of the mesh, or none: see WantedEdges.
-    Cutting(const Mesh& mesh, const std::vector<int>& part_of_cell)
-        : graph_(mesh),
-          wanted_(graph_, part_of_cell),
-          input_points_(mesh.points.size()),
-          is_cut_(mesh.cells.size(), 0) {}
+    /// `border` is that of the graph, or null where there are no other ranks.
+    explicit Cutting(CellGraph graph, Border* border = nullptr)
+        : graph_(std::move(graph)),
+          border_(border),
+          wanted_(graph_, border),
+          input_points_(graph_.points.size()),
+          is_cut_(graph_.cells.size(), 0) {}
     Cutting(const Cutting&) = delete;
     Cutting& operator=(const Cutting&) = delete;
     ~Cutting() = default;
@@ -43,6 +46,7 @@ private:
     [[nodiscard]] bool is_to_be_cut(CellIndex c) const;
 
     CellGraph graph_;
+    Border* border_;
     WantedEdges wanted_;
     Goal goal_;
     std::size_t max_cells_ = 0;

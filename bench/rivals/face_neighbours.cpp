@@ -59,24 +59,6 @@ void join(const Face& f, const Face& g, Neighbours& neighbours) {
     neighbours[g.cell][g.position] = f.cell;
 }
 
-/// Where more than two faces of the boundary have an edge, cells at it are in several stars.
-void check_boundary(const Mesh& mesh, const Neighbours& neighbours) {
-    std::vector<std::uint64_t> edges;
-    for (CellIndex c{0}; c < mesh.cells.end_index(); ++c) {
-        for (std::size_t k = 0; k < 4; ++k) {
-            if (!neighbours[c][k].is_none()) continue;
-            const auto [p, q, r] = sorted_face(mesh.cells[c], k);
-            edges.insert(edges.end(), {key(p, q), key(p, r), key(q, r)});
-        }
-    }
-    std::ranges::sort(edges);
-    for (std::size_t i = 2; i < edges.size(); ++i) {
-        if (edges[i] == edges[i - 2]) {
-            throw InputError("an edge has more than two faces of the boundary");
-        }
-    }
-}
-
 }  // namespace
 
 Neighbours face_neighbours(const Mesh& mesh) {
@@ -99,7 +81,6 @@ Neighbours face_neighbours(const Mesh& mesh) {
             }
         }
     }
-    check_boundary(mesh, neighbours);
     return neighbours;
 }
 

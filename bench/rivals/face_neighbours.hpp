@@ -7,8 +7,7 @@
 namespace octetra::rivals {
 
 /// For each cell, the cells behind its faces, which are opposite its vertices; none() at the
-/// boundary. Throws InputError where a face has three cells, or an edge more than two faces of the
-/// boundary.
+/// boundary. Throws InputError where a face has three cells.
 [[nodiscard]] IndexVector<CellIndex, std::array<CellIndex, 4>> face_neighbours(const Mesh& mesh);
 
 }  // namespace octetra::rivals

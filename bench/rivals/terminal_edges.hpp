@@ -41,8 +41,9 @@ struct Rounds {
 
 /// Cells stand where their parents stood, as a preorder of halves; the first half has the end of
 /// the bisected edge that comes first in the cell. Input vertices keep their numbers; midpoints
-/// follow round by round, in each by their ends' (smaller, larger) number. So the numbers, too, are
-/// no matter of chance.
+/// follow level by level, in each by their ends' (smaller, larger) number; the level of a midpoint
+/// is one above the higher one of its ends, that of the input's vertices is 0. So the numbers, too,
+/// do not depend on the order of bisections.
 struct TerminalEdgeMesh {
     Mesh mesh;  ///< points, cells and region tags: this carries nothing else along
     RefinementMaps maps;
@@ -50,9 +51,8 @@ struct TerminalEdgeMesh {
 
 class TerminalEdgeBisection {
 public:
-    /// The mesh must satisfy the invariants of struct Mesh. Throws InputError where cells meet in a
-    /// way that faces do not tell of: three at a face, or two at an edge that no ring of cells
-    /// around it, and no row from boundary to boundary, joins.
+    /// The mesh must satisfy the invariants of struct Mesh. Throws InputError where three cells
+    /// have a face in common.
     explicit TerminalEdgeBisection(const Mesh& mesh);
     ~TerminalEdgeBisection();
     TerminalEdgeBisection(const TerminalEdgeBisection&) = delete;

@@ -5,11 +5,6 @@
 namespace octetra::rivals {
 namespace {
 
-EdgeVertices ascending(EdgeVertices edge) {
-    if (edge[1] < edge[0]) std::swap(edge[0], edge[1]);
-    return edge;
-}
-
 bool has(const CellVertices& cell, VertexIndex v) {
     return cell[0] == v || cell[1] == v || cell[2] == v || cell[3] == v;
 }
@@ -26,38 +21,27 @@ void WantedEdges::follow_paths() {
 
 void WantedEdges::want_now(CellIndex c) {
     if (graph_->cells[c].longest_is_wanted) return;
+    const EdgeVertices ends = ascending(graph_->longest_edge_of(c));
+    const SharedEdgeIndex shared = border_ == nullptr ? not_shared : border_->find(ends);
+    if (shared != not_shared) asked_.push_back(shared);
     graph_->find_star(c, star_);
-    const std::uint32_t edge = add(c, part(c));
-    if (edges_[edge].is_shared) asked_.push_back(edges_[edge]);
+    add(ends, c, shared);
 }
 
-void WantedEdges::want_in(int part_told, CellIndex c) {
-    const EdgeVertices ends = ascending(graph_->longest_edge_of(c));
-    graph_->find_star(c, star_);
-    for (const StarCell& at : star_.cells) {
-        if (part(at.cell) != part_told) continue;
-        const bool is_longest = ascending(graph_->longest_edge_of(at.cell)) == ends;
-        if (is_longest ? graph_->cells[at.cell].longest_is_wanted : waits_for(at.cell, ends)) {
-            return;  // it has come to want it by itself
-        }
-    }
-    (void)add(c, part_told);
+void WantedEdges::want_shared(SharedEdgeIndex e) {
+    if (border_->edge(e).is_wanted) return;
+    const EdgeVertices ends = ascending(border_->edge(e).ends);
+    graph_->find_star(ends, star_);
+    add(ends, star_.cells.front().cell, e);
     follow_paths();
 }
 
-/// The longest edge of a cell, whose star has been found, is wanted by this part.
-std::uint32_t WantedEdges::add(CellIndex c, int by) {
-    const EdgeVertices ends = ascending(graph_->longest_edge_of(c));
-    const std::uint32_t edge = put({.ends = ends, .cell = c, .part = by});
-    for (const StarCell& at : star_.cells) {
-        if (part(at.cell) == by) {
-            meet(edge, at.cell);
-        } else {
-            edges_[edge].is_shared = true;
-        }
-    }
+/// An edge whose star has been found is wanted.
+void WantedEdges::add(const EdgeVertices& ends, CellIndex c, SharedEdgeIndex shared) {
+    if (shared != not_shared) border_->edge(shared).is_wanted = true;
+    const std::uint32_t edge = put({.ends = ends, .cell = c, .shared = shared});
+    for (const StarCell& at : star_.cells) meet(edge, at.cell);
     check(edge);
-    return edge;
 }
 
 /// A wanted edge and a cell around it: the cell has it as its longest one, or is in its way.
@@ -72,7 +56,7 @@ void WantedEdges::meet(std::uint32_t edge, CellIndex c) {
 
 void WantedEdges::check(std::uint32_t edge) {
     if (edges_[edge].awaited > 0) return;
-    (edges_[edge].is_shared ? ready_ : terminal_).push_back(edge);
+    (edges_[edge].shared == not_shared ? terminal_ : ready_).push_back(edge);
 }
 
 void WantedEdges::pass_on(CellIndex one, CellIndex other) {
@@ -90,13 +74,6 @@ void WantedEdges::pass_on(CellIndex one, CellIndex other) {
         }
         check(waiter.edge);
     }
-}
-
-bool WantedEdges::waits_for(CellIndex c, const EdgeVertices& ends) const {
-    for (std::uint32_t w = graph_->cells[c].first_waiter; w != no_waiter; w = waiters_[w].next) {
-        if (edges_[waiters_[w].edge].ends == ends) return true;
-    }
-    return false;
 }
 
 void WantedEdges::wait_for(CellIndex c, std::uint32_t edge) {

@@ -236,7 +236,22 @@ void expect_halves(const Mesh& fine, const Corners& cell, CellIndex& at) {
     expect_halves(fine, half, at);
 }
 
-TEST(Order, IsThatOfHalvesAndRoundByRoundOfEndsOfEdges) {
+/// Midpoints stand level by level, in each by the ends of their edges.
+void expect_levels(const RefinementMaps& maps) {
+    std::vector<std::pair<std::size_t, EdgeVertices>> keys;
+    const auto level = [&](VertexIndex v) {
+        return v < maps.first_midpoint ? 0 : keys[v.value() - maps.first_midpoint.value()].first;
+    };
+    for (const EdgeVertices& edge : maps.midpoint_to_edge) {
+        EXPECT_LT(edge[0], edge[1]);
+        ASSERT_LT(edge[1].value(), maps.first_midpoint.value() + keys.size());
+        keys.emplace_back(1 + std::max(level(edge[0]), level(edge[1])), edge);
+    }
+    EXPECT_TRUE(std::ranges::is_sorted(keys));
+    EXPECT_GT(keys.back().first, 1U);
+}
+
+TEST(Order, IsThatOfHalvesAndOfLevelsOfMidpoints) {
     for (const Mesh& mesh : {test::kuhn(2, 3, 2), test::shaken_kuhn(3, 0.3, 5)}) {
         const Refined fine = refined(mesh, {.volume = 0.01});
         CellIndex at{0};
@@ -244,13 +259,7 @@ TEST(Order, IsThatOfHalvesAndRoundByRoundOfEndsOfEdges) {
             expect_halves(fine.made.mesh, test::corners_of(mesh, c), at);
         }
         EXPECT_EQ(at, fine.made.mesh.cells.end_index());
-        auto edge = fine.made.maps.midpoint_to_edge.begin();
-        for (const std::uint64_t count : fine.rounds.edges_bisected) {
-            const auto end = edge + static_cast<std::ptrdiff_t>(count);
-            EXPECT_TRUE(std::is_sorted(edge, end));
-            edge = end;
-        }
-        EXPECT_TRUE(edge == fine.made.maps.midpoint_to_edge.end());
+        expect_levels(fine.made.maps);
     }
 }
 

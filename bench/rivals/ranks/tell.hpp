@@ -1,0 +1,51 @@
+#pragma once
+
+#include <cstddef>
+#include <cstring>
+#include <functional>
+#include <string>
+#include <type_traits>
+#include <vector>
+
+#include <octetra/core/error.hpp>
+#include <octetra/core/process_group.hpp>
+
+/// What ranks tell each other, in terms of vectors. Both functions are collective.
+namespace octetra::rivals {
+
+/// to_each[r] goes to rank r; the result's [r] came from there.
+template <class T>
+std::vector<std::vector<T>> all_to_all(const ProcessGroup& ranks,
+                                       const std::vector<std::vector<T>>& to_each) {
+    static_assert(std::is_trivially_copyable_v<T>);
+    std::vector<ProcessGroup::Bytes> bytes;
+    for (const std::vector<T>& values : to_each) {
+        const auto* const begin = reinterpret_cast<const std::byte*>(values.data());
+        bytes.emplace_back(begin, begin + values.size() * sizeof(T));
+    }
+    std::vector<std::vector<T>> from_each;
+    for (const ProcessGroup::Bytes& come : ranks.exchange(std::move(bytes))) {
+        std::vector<T>& values = from_each.emplace_back(come.size() / sizeof(T));
+        if (!values.empty()) std::memcpy(values.data(), come.data(), come.size());
+    }
+    return from_each;
+}
+
+/// Runs `work`, in which nothing is collective, on every rank. An InputError that one throws is
+/// thrown on all; of several, that of the lowest rank.
+inline void on_each(const ProcessGroup& ranks, const std::function<void()>& work) {
+    std::string failure;
+    try {
+        work();
+    } catch (const InputError& error) {
+        failure = error.what();
+    }
+    if (ranks.sum(std::uint64_t{failure.empty() ? 0U : 1U}) == 0) return;
+    const std::vector<char> words(failure.begin(), failure.end());
+    const std::vector<std::vector<char>> to_each(static_cast<std::size_t>(ranks.size()), words);
+    for (const std::vector<char>& come : all_to_all(ranks, to_each)) {
+        if (!come.empty()) throw InputError(std::string(come.begin(), come.end()));
+    }
+}
+
+}  // namespace octetra::rivals

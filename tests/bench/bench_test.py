@@ -10,13 +10,14 @@ import unittest
 
 ROOT = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..")
 RUN = os.path.join(ROOT, "bench", "run")
-sys.path[:0] = [RUN, os.path.join(ROOT, "tools", "equivalence")]
+sys.path[:0] = [RUN, os.path.join(ROOT, "tools", "equivalence"), os.path.join(ROOT, "bench", "paper")]
 
 import adaptive  # noqa: E402
 import files  # noqa: E402
 import groups  # noqa: E402
 import kept  # noqa: E402
 import peers  # noqa: E402
+import propagation  # noqa: E402
 import results  # noqa: E402
 from measuring import (Case, Figure, Run, measure, median, median_ratio,  # noqa: E402
                        printed_by, spread_figure)
@@ -279,6 +280,47 @@ class Rival(unittest.TestCase):
 
     def test_refuses_what_it_does_not_know(self):
         self.assertEqual(self.rivals("measure", "--slow").returncode, 2)
+
+
+class Paper(unittest.TestCase):
+    def paper(self, *arguments):
+        return subprocess.run([sys.executable, os.path.join(ROOT, "bench", "paper"), *arguments],
+                              stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, check=False)
+
+    def test_has_a_page_made_of_what_was_measured(self):
+        self.assertEqual(self.paper("check").returncode, 0)
+
+    def test_refuses_what_it_does_not_know(self):
+        self.assertEqual(self.paper("measure", "--slow").returncode, 2)
+
+    def test_finds_the_counts_that_it_foresees(self):
+        done = self.paper("measure", "--quick", "--build", os.environ["OCTETRA_BUILD"])
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn("| small, run 2 | 99,121 | 23,351 |", done.stdout)
+
+
+class Closure(unittest.TestCase):
+    """Of the sweeps that bench/paper counts."""
+    # A cell whose edges are all of different lengths, and one behind the face 0 1 2.
+    POINTS = [(0, 0, 0), (8, 0, 0), (1, 6, 0), (2, 1, 5), (2, 2, -9)]
+    CELLS = [(0, 1, 2, 3), (0, 1, 2, 4)]
+
+    def test_marks_the_longest_edges_of_faces(self):
+        edges = propagation.Edges(self.POINTS, self.CELLS)
+        closed, sweeps = propagation.closure(edges, {edges.number[0, 3]})
+        # Of its faces 0 1 is the longest, and 2 3; from there 1 2, and 1 4 of the other cell.
+        self.assertEqual(closed, {edges.number[edge] for edge in [(0, 3), (0, 1), (2, 3), (1, 2), (1, 4)]})
+        self.assertEqual(sweeps, 2)
+
+    def test_cuts_a_cell_in_eight(self):
+        made = propagation.predicted(self.POINTS[:4], self.CELLS[:1], [0])
+        self.assertEqual((made["cells"], made["vertices"], made["sweeps"], made["cells_cut"]), (8, 10, 0, 1))
+
+    def test_is_in_the_strict_order_where_lengths_tie(self):
+        edges = propagation.Edges([(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)], [(0, 1, 2, 3)])
+        # Of equal edges the one whose smaller end is larger is the longer one: (0,1,0) to (1,0,0), not (0,0,1).
+        self.assertGreater(edges.number[1, 2], edges.number[1, 3])
+        self.assertGreater(edges.number[1, 3], edges.number[2, 3])
 
 
 if __name__ == "__main__":

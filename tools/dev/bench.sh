@@ -1,15 +1,21 @@
 # ./dev bench [--quick] [--peers] [--only CASE...] [--repetitions N] [--list]
-# ./dev bench --rival [--quick] [--repetitions N]
+# ./dev bench --rival|--paper [--quick] [--repetitions N]
 # shellcheck shell=bash
 source "$root/tools/dev/common.sh"
 
-if [[ ${1:-} == --rival ]]; then
+# What makes a page of its own of what it measures.
+case ${1:-} in
+    --rival) page=bench/rivals targets=(bench_rivals octetra) ;;
+    --paper) page=bench/paper targets=(bench_refine octetra) ;;
+    *) page='' ;;
+esac
+if [[ $page ]]; then
     shift
-    if command -v python3 >/dev/null; then python3 bench/rivals measure --list "$@" >/dev/null || exit 2; fi
+    if command -v python3 >/dev/null; then python3 "$page" measure --list "$@" >/dev/null || exit 2; fi
     need build bench
     configure release release "-DOCTETRA_TESTS=$(on_if_installed test)" -DOCTETRA_BENCH=ON
-    step "build bench_rivals" cmake --build build/release --parallel "$jobs" --target bench_rivals octetra
-    exec python3 bench/rivals measure --build build/release "$@"
+    step "build ${targets[*]}" cmake --build build/release --parallel "$jobs" --target "${targets[@]}"
+    exec python3 "$page" measure --build build/release "$@"
 fi
 
 # A full run goes into bench/, to be committed; a quick one says nothing about speed.

@@ -1,0 +1,74 @@
+"""Runs octetra, and finds in a profile what the page needs."""
+import json
+import pathlib
+import re
+import statistics
+import subprocess
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+
+
+class Octetra:
+    def __init__(self, build, folder):
+        self.program, self.bench = build / "cli/octetra", build / "bench/bench_refine"
+        self.folder = pathlib.Path(folder)
+
+    def run(self, *words, ranks=1, program=None):
+        start = [] if ranks == 1 else [ROOT / "tests/support/mpirun.sh", str(ranks)]
+        done = subprocess.run([*start, program or self.program, *map(str, words)], check=True, cwd=self.folder,
+                              stdout=subprocess.PIPE, text=True)
+        return done.stdout
+
+    def generate(self, shape, name):
+        self.run("generate", *shape.split(), "-o", name, "--quiet")
+        return self.counts(name)
+
+    def counts(self, name):
+        found = json.loads(self.run("info", name, "--json"))
+        return {"cells": found["counts"]["cells"], "vertices": found["counts"]["vertices"]}
+
+    def refine(self, name, out, criteria, ranks=1, **options):
+        """The profile of it."""
+        words = [word for key, value in options.items() for word in (f"--{key}", value)]
+        self.run("refine", name, "-o", out, *criteria.split(), *words, "--profile", "profile.json", "--quiet",
+                 ranks=ranks)
+        return json.loads((self.folder / "profile.json").read_text())
+
+    def timed_level(self, name, share, ranks):
+        """A level of the engine alone, from when all ranks have their parts: its cells and seconds. Memory is at
+        hand, as in a program that refines again and again."""
+        criteria = [] if share == 1 else ["--random", share]
+        line = self.run(name, 1, *criteria, "--warm", "--memory-at-hand", 200, "--json", ranks=ranks,
+                        program=self.bench)
+        return json.loads(line)["levels"][0]
+
+    def partition(self, name, parts, method):
+        """Shares of cut faces and links, mean of shared vertices, and most cells over the mean."""
+        lines = self.run("partition", name, "-n", parts, "--partition", method)
+
+        def last(words, place=-1):
+            return next(line for line in lines.splitlines() if line.startswith(words)).split()[place]
+        return {"faces": float(last("cut faces", -2)), "links": float(last("cut links", -2)),
+                "vertices": float(last("vertices shared", -3).replace(",", "")), "balance": float(last("cells "))}
+
+
+def told(profile):
+    """Rounds, messages and bytes of synchronisation, all levels together; bytes also of the busiest rank."""
+    phases = [phase for phase in profile["phases"] if phase["phase"] == "synchronise"]
+    busiest = [sum(of_ranks) for of_ranks in zip(*(phase["bytes"]["of_rank"] for phase in phases))]
+    return {"rounds": sum(phase["rounds"]["max"] for phase in phases),
+            "messages": sum(phase["messages"]["sum"] for phase in phases),
+            "bytes": sum(phase["bytes"]["sum"] for phase in phases), "most_bytes": max(busiest)}
+
+
+def rounds_of_levels(profile):
+    return [phase["rounds"]["max"] for phase in profile["phases"] if phase["phase"] == "synchronise"]
+
+
+def processor():
+    with open("/proc/cpuinfo", encoding="ascii") as file:
+        return re.search(r"model name\s*: (.*)", file.read()).group(1)
+
+
+def median(values):
+    return statistics.median(values)

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 
+#include <fmt/format.h>
+
 namespace octetra::gmsh {
 namespace {
 
@@ -59,6 +61,22 @@ std::string_view plural(Shape shape) {
         case Shape::pyramid: return "pyramids";
     }
     return "elements";
+}
+
+std::string refusal_of_type(std::uint64_t number) {
+    const auto type = element_type(number);
+    if (!type) return fmt::format("elements of type {} are not known", number);
+    if (type->shape == Shape::tetrahedron && number != tetrahedron_type) {
+        return fmt::format(
+            "only tetrahedra of 4 nodes are supported, and these have {}: mesh again with "
+            "gmsh -3 -order 1, or have a script of Gmsh do Merge, SetOrder 1 and Save",
+            type->nodes);
+    }
+    if (is_solid(type->shape) && number != tetrahedron_type) {
+        return fmt::format("only tetrahedral meshes are supported, and this one has {}",
+                           plural(type->shape));
+    }
+    return {};
 }
 
 }  // namespace octetra::gmsh

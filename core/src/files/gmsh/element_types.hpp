@@ -1,7 +1,9 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <string_view>
 
 /// The kinds of elements that Gmsh numbers.
@@ -21,6 +23,7 @@ enum class Shape {
     prism,
     pyramid,
 };
+inline constexpr std::size_t shape_count = 8;
 
 struct ElementType {
     Shape shape;
@@ -29,6 +32,9 @@ struct ElementType {
 
 /// What is known of a type; nothing of one whose number of nodes is not known.
 [[nodiscard]] std::optional<ElementType> element_type(std::uint64_t number);
+
+/// Why a file cannot be read if it has elements of this type; else nothing.
+[[nodiscard]] std::string refusal_of_type(std::uint64_t number);
 
 /// "tetrahedra"
 [[nodiscard]] std::string_view plural(Shape shape);

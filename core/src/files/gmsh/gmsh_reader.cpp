@@ -1,10 +1,6 @@
-#include <algorithm>
-#include <array>
 #include <optional>
 #include <string>
-#include <string_view>
 #include <utility>
-#include <vector>
 
 #include <fmt/format.h>
 
@@ -14,7 +10,9 @@
 #include "files/gmsh/entity_groups.hpp"
 #include "files/gmsh/format_line.hpp"
 #include "files/gmsh/gmsh.hpp"
+#include "files/gmsh/left_out.hpp"
 #include "files/gmsh/mesh_intake.hpp"
+#include "files/gmsh/section_order.hpp"
 #include "files/gmsh/sections_2.hpp"
 #include "files/gmsh/sections_4.hpp"
 #include "files/gmsh/text_input.hpp"
@@ -32,7 +30,11 @@ class GmshSections {
 public:
     GmshSections(Input& in, const FormatLine& format, const ReadOptions& options,
                  GrowingMesh& growing, const std::optional<ElementCounts>& counts)
-        : in_(&in), is_4_(format.is_4), options_(&options), intake_(growing, options, counts) {}
+        : in_(&in),
+          is_4_(format.is_4),
+          options_(&options),
+          intake_(growing, options, counts),
+          order_(format.is_4) {}
 
     /// Returns how many elements of each kind there are. `path` is for notes.
     ElementCounts read(const fs::path& path) {
@@ -41,67 +43,44 @@ public:
             if (name.empty()) break;
             read_section(name);
         }
-        for (const std::string_view needed : {"Nodes", "Elements"}) {
-            if (!is_read(needed)) in_->fail(fmt::format("there is no section ${}", needed));
-        }
+        order_.end([this](const std::string& what) { in_->fail(what); });
         intake_.check(Input::has_lines, [this](const std::string& what, std::uint64_t place) {
             in_->fail_at(what, place);
         });
-        if (groups_.in_several() > 0) {
-            options_->note(fmt::format(
-                "{}: {} entities are in more physical groups than one: the first is kept",
-                path.native(), groups_.in_several()));
-        }
+        tell_of_entities(groups_.in_several(), path.native(), options_->note);
         intake_.tell_notes(path.native());
         return intake_.counts();
     }
 
 private:
     void read_section(const std::string& name) {
-        if (name == "PhysicalNames" || name == "Nodes" || name == "Elements" ||
-            name == "Entities" || name == "PartitionedEntities") {
-            if (is_read(name)) in_->fail(fmt::format("a second section ${}", name));
-            read_known(name);
+        const SectionKind section =
+            order_.begin(name, [this](const std::string& what) { in_->fail(what); });
+        if (section != SectionKind::other) {
+            read_known(section);
             return in_->end_section(name);
         }
-        if (name.starts_with("End"))
-            in_->fail(fmt::format("{} ends no section", shown("$" + name)));
-        if (name == "ParametricNodes") {
-            in_->fail("nodes with parameters: save without Mesh.SaveParametric");
-        }
-        const bool is_first = !is_read(name);
-        if (is_first && name != "Comments") {
+        if (order_.is_noted()) {
             options_->note(
                 fmt::format("{}: the section {} is not kept", in_->place(), shown(name)));
         }
-        if (is_first) read_.push_back(name);
         in_->skip_section(name);
     }
 
-    void read_known(const std::string& name) {
-        read_.push_back(name);
-        if (name == "Nodes") {
+    void read_known(SectionKind section) {
+        if (section == SectionKind::names) return intake_.take_names(*in_);
+        if (section == SectionKind::entities) return read_entities_4(*in_, groups_);
+        if (section == SectionKind::partitioned_entities) {
+            return read_partitioned_entities_4(*in_, groups_);
+        }
+        if (section == SectionKind::nodes) {
             is_4_ ? read_nodes_4(*in_, intake_) : read_nodes_2(*in_, intake_);
-            intake_.nodes_complete([this](const std::string& what, std::uint64_t place) {
+            return intake_.nodes_complete([this](const std::string& what, std::uint64_t place) {
                 in_->fail_at(what, place);
             });
-        } else if (name == "PhysicalNames") {
-            intake_.take_names(*in_);
-        } else if (name == "Elements") {
-            if (!is_read("Nodes")) in_->fail("the section $Nodes must come before $Elements");
-            is_4_ ? read_elements_4(*in_, groups_, intake_) : Elements2(*in_, intake_).read();
-            intake_.elements_complete();
-        } else if (!is_4_ || is_read("Elements")) {
-            in_->fail(fmt::format("the section ${} must not stand here", name));
-        } else if (name == "Entities") {
-            read_entities_4(*in_, groups_);
-        } else {
-            read_partitioned_entities_4(*in_, groups_);
         }
-    }
-
-    [[nodiscard]] bool is_read(std::string_view name) const {
-        return std::ranges::find(read_, name) != read_.end();
+        is_4_ ? read_elements_4(*in_, groups_, intake_) : Elements2(*in_, intake_).read();
+        intake_.elements_complete();
     }
 
     Input* in_;
@@ -109,7 +88,7 @@ private:
     const ReadOptions* options_;
     MeshIntake intake_;
     EntityGroups groups_;
-    std::vector<std::string> read_;  // sections, each once
+    SectionOrder order_;
 };
 
 /// Reads the file into `growing`, and returns how many elements of each kind it has.

@@ -83,22 +83,6 @@ std::string_view MeshIntake::judge(const EdgeVertices& edge) {
     return edge[0] == edge[1] ? "the line has the same vertex twice" : "";
 }
 
-std::string MeshIntake::refusal(std::uint64_t number) {
-    const auto type = element_type(number);
-    if (!type) return fmt::format("elements of type {} are not known", number);
-    if (type->shape == Shape::tetrahedron && number != tetrahedron_type) {
-        return fmt::format(
-            "only tetrahedra of 4 nodes are supported, and these have {}: mesh again with "
-            "gmsh -3 -order 1, or have a script of Gmsh do Merge, SetOrder 1 and Save",
-            type->nodes);
-    }
-    if (is_solid(type->shape) && number != tetrahedron_type) {
-        return fmt::format("only tetrahedral meshes are supported, and this one has {}",
-                           plural(type->shape));
-    }
-    return {};
-}
-
 void MeshIntake::elements_complete() {
     growing_->all_complete(edge_kind);
     growing_->all_complete(facet_kind);
@@ -141,16 +125,10 @@ void MeshIntake::check(bool has_lines, const Fail& fail) {
 }
 
 void MeshIntake::tell_notes(const std::string& path) const {
-    const auto note = [&](std::uint64_t count, std::string_view what) {
-        if (count > 0) options_->note(fmt::format("{}: {} {}", path, count, what));
-    };
-    note(cell_check_.fixed_count(), "inverted cells were turned round");
-    for (const auto& [shape, count] : skipped_) {
-        note(count, fmt::format("elements that are {} are not kept", plural(shape)));
+    if (const std::uint64_t fixed = cell_check_.fixed_count(); fixed > 0) {
+        options_->note(fmt::format("{}: {} inverted cells were turned round", path, fixed));
     }
-    note(interfaces_, "elements between partitions are not kept");
-    note(names_left_out_, "names of groups are empty, or no UTF-8 text, and are not kept");
-    note(in_another_group_, "elements are in more physical groups than one: the first is kept");
+    tell(left_out_, path, options_->note);
 }
 
 ElementCounts MeshIntake::counts() const { return {cells_.count, facets_.count, edges_.count}; }

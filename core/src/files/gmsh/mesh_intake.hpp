@@ -3,7 +3,6 @@
 #include <array>
 #include <cstdint>
 #include <functional>
-#include <map>
 #include <optional>
 #include <span>
 #include <string>
@@ -16,6 +15,7 @@
 #include "files/checks/cell_check.hpp"
 #include "files/gmsh/element_types.hpp"
 #include "files/gmsh/group_names.hpp"
+#include "files/gmsh/left_out.hpp"
 #include "files/gmsh/node_numbers.hpp"
 #include "files/gmsh/place_runs.hpp"
 #include "files/input/growing_mesh.hpp"
@@ -43,7 +43,7 @@ public:
     /// The names of groups.
     template <class Input>
     void take_names(Input& in) {
-        names_left_out_ = read_group_names(in, growing_->mesh.group_names);
+        left_out_.names = read_group_names(in, growing_->mesh.group_names);
     }
 
     void expect_nodes(std::uint64_t count) { growing_->expect_points(count, 0, false); }
@@ -74,11 +74,9 @@ public:
                                         std::span<const std::uint64_t, N> tags, Marker marker,
                                         std::uint64_t place, std::uint64_t step);
     /// Count elements that are not kept: of another kind, between partitions, listed again.
-    void skip(Shape shape, std::uint64_t count) { skipped_[shape] += count; }
-    void skip_interface(std::uint64_t count) { interfaces_ += count; }
-    void skip_in_another_group() { ++in_another_group_; }
-    /// Why the file cannot be read if it has elements of this type; else nothing.
-    [[nodiscard]] static std::string refusal(std::uint64_t type);
+    void skip(Shape shape, std::uint64_t count) { left_out_.add(shape, count); }
+    void skip_interface(std::uint64_t count) { left_out_.interfaces += count; }
+    void skip_in_another_group() { ++left_out_.in_another_group; }
     void elements_complete();
 
     /// Checks what must be seen as a whole. Calls fail(what, place) for what is wrong; `has_lines`:
@@ -115,10 +113,7 @@ private:
     Taken edges_;
     CellCheck cell_check_;
     std::optional<RepeatedCells> repeated_cells_;
-    std::map<Shape, std::uint64_t> skipped_;
-    std::uint64_t interfaces_ = 0;
-    std::uint64_t in_another_group_ = 0;
-    std::uint64_t names_left_out_ = 0;
+    LeftOut left_out_;
     std::string wrong_;  // what take() returned
 };
 

@@ -1,15 +1,23 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
+#include <span>
+#include <string>
 #include <string_view>
+#include <utility>
 
 #include <fmt/format.h>
 
-#include "files/gmsh/entity_groups.hpp"
-#include "files/gmsh/mesh_intake.hpp"
+#include <octetra/core/mesh.hpp>
 
-/// The sections of version 4.1, text and binary: the same numbers in the same order.
+#include "files/gmsh/element_types.hpp"
+#include "files/gmsh/entity_groups.hpp"
+#include "files/input/growing_mesh.hpp"
+
+/// The sections of version 4.1, text and binary: the same numbers in the same order. An Input is a
+/// TextInput or has its functions; an Intake is a MeshIntake, or has.
 namespace octetra::gmsh {
 
 /// Reads a list of tags behind its length. Returns the length, and the first of them, or 0.
@@ -93,103 +101,167 @@ std::uint64_t read_block_length(Input& in, std::uint64_t left, std::string_view 
                         what, left));
 }
 
+/// What a section of blocks begins with.
+struct SectionTotals {
+    std::uint64_t blocks = 0;
+    std::uint64_t entries = 0;
+};
+
 template <class Input>
-void read_node_block_4(Input& in, std::int32_t dimension, bool is_parametric, std::uint64_t count,
-                       MeshIntake& intake) {
+SectionTotals read_totals_4(Input& in, std::string_view what, std::size_t numbers,
+                            std::size_t bytes) {
+    SectionTotals totals;
+    totals.blocks = in.number64("the number of blocks");
+    totals.entries = in.number64(fmt::format("the number of {}", what));
+    in.check_count(totals.entries, numbers, bytes, what);
+    (void)in.number64("the least tag");
+    (void)in.number64("the largest tag");
+    return totals;
+}
+template <class Input>
+SectionTotals read_node_totals_4(Input& in) {
+    return read_totals_4(in, "nodes", 4, sizeof(std::uint64_t) + 3 * sizeof(double));
+}
+template <class Input>
+SectionTotals read_element_totals_4(Input& in) {
+    return read_totals_4(in, "elements", 2, 2 * sizeof(std::uint64_t));
+}
+
+/// Nodes of an entity: behind this come the tags of all of them, then the points.
+struct NodeBlock {
+    std::size_t parameters = 0;  ///< behind each point
+    std::uint64_t count = 0;
+
+    static constexpr std::size_t tag_bytes = sizeof(std::uint64_t);
+    [[nodiscard]] std::size_t point_bytes() const { return (3 + parameters) * sizeof(double); }
+};
+
+/// `left`: nodes of which no block has come.
+template <class Input>
+NodeBlock read_node_block_4(Input& in, std::uint64_t left) {
+    NodeBlock block;
+    const std::int32_t dimension = read_dimension(in);
+    (void)in.integer("the tag of an entity");
+    const bool is_parametric = in.integer("whether a block is parametric") != 0;
+    if (is_parametric) block.parameters = static_cast<std::size_t>(dimension);
+    block.count = read_block_length(in, left, "nodes");
+    return block;
+}
+
+template <class Input, class Intake>
+void read_node_tags_4(Input& in, std::uint64_t count, Intake& intake) {
     for (std::uint64_t i = 0; i < count; ++i) {
         const std::uint64_t place = in.begin_row("a node's tag");
-        intake.take_tag(in.number64("a node's tag"), place, Input::row_step(sizeof(std::uint64_t)));
+        intake.take_tag(in.number64("a node's tag"), place, Input::row_step(NodeBlock::tag_bytes));
     }
+}
+
+template <class Input, class Intake>
+void read_node_points_4(Input& in, const NodeBlock& block, std::uint64_t count, Intake& intake) {
     for (std::uint64_t i = 0; i < count; ++i) {
+        (void)in.begin_row("x");
         const double x = in.coordinate("x");
         const double y = in.coordinate("y");
         intake.take_point({x, y, in.coordinate("z")});
-        if (!is_parametric) continue;
-        for (std::int32_t k = 0; k < dimension; ++k) in.skip_real("a parameter of a node");
+        for (std::size_t k = 0; k < block.parameters; ++k) in.skip_real("a parameter of a node");
     }
 }
 
+template <class Input, class Intake>
+void read_nodes_4(Input& in, Intake& intake) {
+    const SectionTotals totals = read_node_totals_4(in);
+    intake.expect_nodes(totals.entries);
+    std::uint64_t left = totals.entries;
+    for (std::uint64_t k = 0; k < totals.blocks; ++k) {
+        const NodeBlock block = read_node_block_4(in, left);
+        read_node_tags_4(in, block.count, intake);
+        read_node_points_4(in, block, block.count, intake);
+        left -= block.count;
+    }
+    if (left > 0) {
+        in.fail(fmt::format("{} of the {} nodes announced are missing", left, totals.entries));
+    }
+}
+
+/// Elements of an entity, all of one type.
+struct ElementBlock {
+    Entity entity;
+    std::uint64_t type = 0;
+    ElementType known{};
+    std::uint64_t count = 0;
+
+    [[nodiscard]] std::size_t row_bytes() const {
+        return (1 + known.nodes) * sizeof(std::uint64_t);
+    }
+};
+
+/// `left`: elements of which no block has come. A block of none may have any type.
 template <class Input>
-void read_nodes_4(Input& in, MeshIntake& intake) {
-    std::uint64_t blocks = in.number64("the number of blocks");
-    const std::uint64_t total = in.number64("the number of nodes");
-    in.check_count(total, 4, sizeof(std::uint64_t) + 3 * sizeof(double), "nodes");
-    (void)in.number64("the least tag");
-    (void)in.number64("the largest tag");
-    intake.expect_nodes(total);
-    std::uint64_t left = total;
-    for (; blocks > 0; --blocks) {
-        const std::int32_t dimension = read_dimension(in);
-        (void)in.integer("the tag of an entity");
-        const bool is_parametric = in.integer("whether a block is parametric") != 0;
-        const std::uint64_t count = read_block_length(in, left, "nodes");
-        read_node_block_4(in, dimension, is_parametric, count, intake);
-        left -= count;
+ElementBlock read_element_block_4(Input& in, std::uint64_t left, const EntityGroups& groups) {
+    ElementBlock block;
+    const std::uint64_t place = in.begin_row("a block of elements");
+    const std::int32_t dimension = read_dimension(in);
+    block.entity = groups.find(dimension, in.integer("the tag of an entity"));
+    block.type = in.number32("the type of elements");
+    block.count = read_block_length(in, left, "elements");
+    if (block.count == 0) return block;
+    if (const std::string refusal = refusal_of_type(block.type); !refusal.empty()) {
+        in.fail_at(refusal, place);
     }
-    if (left > 0) in.fail(fmt::format("{} of the {} nodes announced are missing", left, total));
+    block.known = *element_type(block.type);
+    in.check_count(block.count, 1 + block.known.nodes, block.row_bytes(), "elements");
+    return block;
 }
 
-template <class Input, class I, std::size_t N>
-void keep_block_4(Input& in, const EntityKind<I, N>& kind, Marker marker, std::uint64_t count,
-                  MeshIntake& intake) {
+template <class Input, class I, std::size_t N, class Intake>
+void keep_rows_4(Input& in, const EntityKind<I, N>& kind, Marker marker, std::uint64_t count,
+                 Intake& intake) {
     intake.make_room(kind, count);
     std::array<std::uint64_t, 1 + N> row;
     for (std::uint64_t i = 0; i < count; ++i) {
         const std::uint64_t place = in.begin_row("an element");
         in.row(row, "a node of an element");
-        const std::string_view wrong = intake.take<I, N>(
-            kind, std::span(row).template last<N>(), marker, place, Input::row_step(sizeof row));
+        const std::string_view wrong =
+            intake.take(kind, std::span<const std::uint64_t, N>(std::span(row).template last<N>()),
+                        marker, place, Input::row_step(sizeof row));
         if (!wrong.empty()) in.fail_at(wrong, place);
     }
 }
 
-template <class Input>
-void skip_block_4(Input& in, const ElementType& type, std::uint64_t count) {
+/// Reads so many rows of a block.
+template <class Input, class Intake>
+void read_element_rows_4(Input& in, const ElementBlock& block, std::uint64_t count,
+                         Intake& intake) {
+    if (!block.entity.is_interface) {
+        const Marker marker = block.entity.marker;
+        if (block.type == tetrahedron_type)
+            return keep_rows_4(in, cell_kind, marker, count, intake);
+        if (block.type == triangle_type) return keep_rows_4(in, facet_kind, marker, count, intake);
+        if (block.type == line_type) return keep_rows_4(in, edge_kind, marker, count, intake);
+    }
     for (std::uint64_t i = 0; i < count; ++i) {
-        for (std::uint32_t k = 0; k <= type.nodes; ++k) (void)in.number64("a node of an element");
+        (void)in.begin_row("a node of an element");
+        for (std::uint32_t k = 0; k <= block.known.nodes; ++k) {
+            (void)in.number64("a node of an element");
+        }
     }
+    block.entity.is_interface ? intake.skip_interface(count)
+                              : intake.skip(block.known.shape, count);
 }
 
-template <class Input>
-void read_element_block_4(Input& in, std::uint64_t left, std::uint64_t& count,
-                          const EntityGroups& groups, MeshIntake& intake) {
-    const std::uint64_t place = in.begin_row("a block of elements");
-    const std::int32_t dimension = read_dimension(in);
-    const Entity entity = groups.find(dimension, in.integer("the tag of an entity"));
-    const std::uint64_t type = in.number32("the type of elements");
-    count = read_block_length(in, left, "elements");
-    if (const std::string refusal = MeshIntake::refusal(type); !refusal.empty() && count > 0) {
-        in.fail_at(refusal, place);
+template <class Input, class Intake>
+void read_elements_4(Input& in, const EntityGroups& groups, Intake& intake) {
+    const SectionTotals totals = read_element_totals_4(in);
+    intake.expect_elements(totals.entries);
+    std::uint64_t left = totals.entries;
+    for (std::uint64_t k = 0; k < totals.blocks; ++k) {
+        const ElementBlock block = read_element_block_4(in, left, groups);
+        if (block.count > 0) read_element_rows_4(in, block, block.count, intake);
+        left -= block.count;
     }
-    if (count == 0) return;
-    const ElementType known = *element_type(type);
-    in.check_count(count, 1 + known.nodes, (1 + known.nodes) * sizeof(std::uint64_t), "elements");
-    if (entity.is_interface) {
-        skip_block_4(in, known, count);
-        return intake.skip_interface(count);
+    if (left > 0) {
+        in.fail(fmt::format("{} of the {} elements announced are missing", left, totals.entries));
     }
-    if (type == tetrahedron_type) return keep_block_4(in, cell_kind, entity.marker, count, intake);
-    if (type == triangle_type) return keep_block_4(in, facet_kind, entity.marker, count, intake);
-    if (type == line_type) return keep_block_4(in, edge_kind, entity.marker, count, intake);
-    skip_block_4(in, known, count);
-    intake.skip(known.shape, count);
-}
-
-template <class Input>
-void read_elements_4(Input& in, const EntityGroups& groups, MeshIntake& intake) {
-    std::uint64_t blocks = in.number64("the number of blocks");
-    const std::uint64_t total = in.number64("the number of elements");
-    in.check_count(total, 2, 2 * sizeof(std::uint64_t), "elements");
-    (void)in.number64("the least tag");
-    (void)in.number64("the largest tag");
-    intake.expect_elements(total);
-    std::uint64_t left = total;
-    for (; blocks > 0; --blocks) {
-        std::uint64_t count = 0;
-        read_element_block_4(in, left, count, groups, intake);
-        left -= count;
-    }
-    if (left > 0) in.fail(fmt::format("{} of the {} elements announced are missing", left, total));
 }
 
 }  // namespace octetra::gmsh

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <string>
+
+#include "files/gmsh/element_types.hpp"
+
+namespace octetra::gmsh {
+
+/// How much of a file is not kept.
+struct LeftOut {
+    std::array<std::uint64_t, shape_count> of_shape{};  ///< elements that a mesh has not
+    std::uint64_t interfaces = 0;                       ///< elements between partitions
+    std::uint64_t names = 0;
+    std::uint64_t in_another_group = 0;  ///< elements that are listed again
+
+    void add(Shape shape, std::uint64_t count) {
+        of_shape[static_cast<std::size_t>(shape)] += count;
+    }
+};
+
+/// Tells of it in sentences about the file `path`.
+void tell(const LeftOut& left_out, const std::string& path,
+          const std::function<void(const std::string&)>& note);
+
+/// What is told of entities that are in several groups, if there are any.
+void tell_of_entities(std::uint64_t in_several, const std::string& path,
+                      const std::function<void(const std::string&)>& note);
+
+}  // namespace octetra::gmsh

@@ -27,6 +27,7 @@ inline Mesh put_together(const std::vector<std::optional<MeshStretch>>& stretche
         const Mesh& lists = stretch->lists;
         whole.index_base = lists.index_base;
         whole.attributes_per_point = lists.attributes_per_point;
+        whole.group_names = stretch->facts.group_names.list();
         append(whole.points, lists.points);
         append(whole.point_markers, lists.point_markers);
         append(whole.point_attributes, lists.point_attributes);

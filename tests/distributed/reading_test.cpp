@@ -16,6 +16,7 @@
 
 #include "core/meshb_files.hpp"
 #include "distributed/marked_mesh.hpp"
+#include "distributed/mesh_texts.hpp"
 #include "distributed/outcomes.hpp"
 #include "distributed/shared_folder.hpp"
 #include "distributed/world.hpp"
@@ -27,15 +28,24 @@ namespace octetra {
 namespace {
 
 namespace fs = std::filesystem;
-
-const std::vector<std::string> partitions{"rcb", "block"};
+using test::are_read_together;
+using test::Case;
+using test::expect_one_outcome;
+using test::Files;
+using test::files_of;
+using test::mutated;
+using test::partitions;
+using test::replaced;
+using test::write_on_first;
 
 /// The meshes in a folder, by what they are called in commands.
 std::vector<fs::path> meshes_in(const fs::path& folder) {
     std::set<fs::path> files;
     for (const auto& entry : fs::directory_iterator(folder)) {
         fs::path file = entry.path();
-        if (file.extension() == ".mesh" || file.extension() == ".meshb") files.insert(file);
+        for (const char* const extension : {".mesh", ".meshb", ".msh"}) {
+            if (file.extension() == extension) files.insert(file);
+        }
         if (file.extension() != ".ele" && file.extension() != ".node") continue;
         const fs::path ele = fs::path(file).replace_extension(".ele");
         files.insert(fs::exists(ele) ? ele : file);
@@ -62,65 +72,6 @@ TEST(ReadTogether, EveryBadFileOfTheCorpusIsRefusedInTheWordsOfOneProcess) {
     const std::vector<fs::path> files = meshes_in(corpus("bad"));
     EXPECT_GE(files.size(), 60U);
     for (const fs::path& file : files) EXPECT_FALSE(test::expect_one_outcome(file, "rcb")) << file;
-}
-
-/// Collective. The first process writes the file, as all others see from then on.
-void write_on_first(const auto& write) {
-    if (test::world().is_first()) write();
-    (void)test::world().max(0);
-}
-
-/// A mesh in one file or several, and what stands in them.
-struct Files {
-    std::string extension;  ///< of the file that is read
-    std::vector<std::pair<std::string, std::string>> texts{};
-
-    void write(const test::SharedFolder& folder) const {
-        write_on_first([&] {
-            for (const auto& [ending, text] : texts) {
-                const fs::path file = folder / ("m" + ending);
-                fs::remove(file);
-                test::write_file(file, text);
-            }
-        });
-    }
-    [[nodiscard]] std::string& text(const std::string& ending) {
-        return std::ranges::find(texts, ending, &std::pair<std::string, std::string>::first)
-            ->second;
-    }
-};
-
-/// Collective. What write_mesh makes of a mesh.
-Files files_of(const Mesh& mesh, const std::string& extension) {
-    const test::TemporaryFolder folder;  // of each process
-    Files files{extension};
-    (void)write_mesh(mesh, folder / ("m" + extension));
-    for (const std::string ending : {".node", ".ele", ".face", ".edge", ".mesh", ".meshb"}) {
-        const fs::path file = folder / ("m" + ending);
-        if (fs::exists(file)) files.texts.emplace_back(ending, test::content_of(file));
-    }
-    return files;
-}
-
-/// Collective. Writes files, and reads them in both ways. Returns whether there is a mesh.
-bool expect_one_outcome(const Files& files) {
-    const test::SharedFolder folder;
-    files.write(folder);
-    bool is_mesh = true;
-    for (const std::string& partition : partitions) {
-        is_mesh = test::expect_one_outcome(folder / ("m" + files.extension), partition);
-    }
-    (void)test::world().max(0);  // before the folder goes
-    return is_mesh;
-}
-
-/// Collective.
-bool are_read_together(const Files& files) {
-    const test::SharedFolder folder;
-    files.write(folder);
-    const bool together = test::is_read_together(folder / ("m" + files.extension));
-    (void)test::world().max(0);
-    return together;
 }
 
 TEST(ReadTogether, MeshesWithEverythingAreWhatOneProcessReads) {
@@ -185,14 +136,6 @@ TEST(ReadTogether, AMeshOfManyCellsIsWhatOneProcessReads) {
     }
 }
 
-std::string replaced(std::string text, const std::string& old, const std::string& by) {
-    for (std::size_t at = text.find(old); at != std::string::npos;
-         at = text.find(old, at + by.size())) {
-        text.replace(at, old.size(), by);
-    }
-    return text;
-}
-
 /// Forms of the same files that all processes read together.
 TEST(ReadTogether, CommentsBlanksAndLineEndsAreReadOver) {
     for (const std::string extension : {".ele", ".mesh"}) {
@@ -222,13 +165,6 @@ const std::string one_cell = "1 4 0\n1 1 2 3 4\n";
 const std::string medit_points =
     "MeshVersionFormatted 2\nDimension 3\nVertices\n4\n0 0 0 0\n"
     "1 0 0 0\n0 1 0 0\n0 0 1 0\n";
-
-struct Case {
-    std::string name;
-    Files files;
-    bool is_mesh = true;
-    bool together = true;  ///< in the end one process may refuse it, or have to read it alone
-};
 
 Files tetgen(const std::string& node, const std::string& ele, const std::string& face = {},
              const std::string& edge = {}) {
@@ -463,43 +399,6 @@ TEST(ReadTogether, InvertedCellsAreTurnedRoundIfAskedFor) {
     EXPECT_EQ(expected.notes.size(), 1U);
     EXPECT_TRUE(!test::world().is_first() || found == expected);
     (void)test::world().max(0);
-}
-
-/// Changes a text at random places, as an editor, a disk or a careless program would.
-std::string mutated(std::string text, std::mt19937_64& random) {
-    const auto below = [&](std::size_t n) { return static_cast<std::size_t>(random() % n); };
-    const auto line = [&](std::size_t at) {
-        const std::size_t begin = at == 0 ? 0 : text.rfind('\n', at - 1) + 1;
-        const std::size_t end = text.find('\n', at);
-        return std::pair(begin, end == std::string::npos ? text.size() : end + 1);
-    };
-    const std::string some = "0123456789 -+.e#\n\r\tnE";
-    for (std::size_t times = 1 + below(2); times > 0 && !text.empty(); --times) {
-        const std::size_t at = below(text.size());
-        const auto [begin, end] = line(at);
-        const std::string copy = text.substr(begin, end - begin);
-        switch (below(9)) {
-            case 0: text[at] = static_cast<char>(random()); break;
-            case 1: text[at] = some[below(some.size())]; break;
-            case 2: text.erase(at, 1); break;
-            case 3: text.insert(at, 1, some[below(some.size())]); break;
-            case 4: text.erase(begin, end - begin); break;
-            case 5: text.insert(begin, copy); break;
-            case 6: text.insert(line(below(text.size())).first, copy); break;
-            case 7: {  // one line becomes another's, and the count stays
-                const auto [other, its_end] = line(below(text.size()));
-                text.replace(other, its_end - other, copy);
-                break;
-            }
-            default: {  // one number of a line becomes another's
-                const auto [other, its_end] = line(below(text.size()));
-                const std::size_t from = text.find_first_of("0123456789", other);
-                if (from == std::string::npos || from >= its_end) break;
-                text[at] = text[from];
-            }
-        }
-    }
-    return text;
 }
 
 TEST(ReadTogether, FilesThatWereChangedAtRandomComeToWhatOneProcessMakesOfThem) {

@@ -80,6 +80,11 @@ public:
     [[nodiscard]] std::string place() const { return reader_->path().native(); }
     static constexpr bool has_lines = false;
 
+    /// For who reads rows anywhere: where what follows stands, and how to get to another place.
+    [[nodiscard]] std::uint64_t here() const { return reader_->position(); }
+    void go_to(std::uint64_t byte) { reader_->seek(byte); }
+    void end_rows() const {}
+
 private:
     /// The next line that holds something; empty at the end of the file.
     std::string next_line();

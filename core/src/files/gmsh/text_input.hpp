@@ -101,6 +101,13 @@ public:
     /// Can a message call a place a line?
     static constexpr bool has_lines = true;
 
+protected:
+    [[nodiscard]] LineReader& reader() const { return *reader_; }
+    /// Is nothing left on the line of what was read last?
+    [[nodiscard]] bool at_line_end() const { return tokens_.at_line_end(); }
+    /// Goes on behind the line on which the reader is.
+    void leave_line() { tokens_.leave_line(); }
+
 private:
     LineReader* reader_;
     Tokens tokens_;

@@ -283,11 +283,11 @@ std::optional<MeshStretch> read_medit_stretch(const fs::path& path, const Proces
         if (plan.has_end == 0) stretch.notes.push_back(note_on_missing_end(path));
     });
     if (!progress.all_well() || !shares.number(stretch)) return std::nullopt;
-    settle_medit_facts({.vertices = plan.vertices.count,
-                        .cells = plan.tetrahedra.count,
-                        .facets = plan.triangles.count,
-                        .edges = plan.edges.count},
-                       group, stretch);
+    settle_facts({.vertices = plan.vertices.count,
+                  .cells = plan.tetrahedra.count,
+                  .facets = plan.triangles.count,
+                  .edges = plan.edges.count},
+                 group, stretch);
     return stretch;
 }
 

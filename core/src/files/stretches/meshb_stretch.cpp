@@ -86,11 +86,11 @@ std::optional<MeshStretch> read_meshb_stretch(const std::filesystem::path& path,
     if (!take_notes(progress, stretch.notes)) return std::nullopt;
     progress.attempt([&] { read_shares(path, sections, group, stretch); });
     if (!progress.all_well()) return std::nullopt;
-    settle_medit_facts({.vertices = sections.vertices.count,
-                        .cells = sections.tetrahedra.count,
-                        .facets = sections.triangles.count,
-                        .edges = sections.edges.count},
-                       group, stretch);
+    settle_facts({.vertices = sections.vertices.count,
+                  .cells = sections.tetrahedra.count,
+                  .facets = sections.triangles.count,
+                  .edges = sections.edges.count},
+                 group, stretch);
     return stretch;
 }
 

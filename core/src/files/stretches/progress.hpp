@@ -1,9 +1,13 @@
 #pragma once
 
+#include <array>
+#include <bit>
+#include <cstdint>
 #include <cstring>
 #include <new>
 #include <type_traits>
 #include <utility>
+#include <vector>
 
 #include <octetra/core/process_group.hpp>
 
@@ -59,6 +63,36 @@ template <class T>
     bytes = progress.group().of_first(std::move(bytes));
     std::memcpy(&value, bytes.data(), sizeof value);
     return true;
+}
+
+/// Collective. What the process `rank` has, bit by bit, whole words.
+template <class T>
+[[nodiscard]] T of_rank(const ProcessGroup& group, int rank, const T& value) {
+    static_assert(std::is_trivially_copyable_v<T> && sizeof(T) % sizeof(std::uint64_t) == 0);
+    std::array<std::uint64_t, sizeof(T) / sizeof(std::uint64_t)> words{};
+    if (group.rank() == rank) std::memcpy(words.data(), &value, sizeof value);
+    for (std::uint64_t& word : words) word = group.sum(word);
+    return std::bit_cast<T>(words);
+}
+
+/// Collective. What each process has, bit by bit, in their order. Of no use unless all_well().
+template <class T>
+[[nodiscard]] std::vector<T> of_each(Progress& progress, const T& value) {
+    static_assert(std::is_trivially_copyable_v<T>);
+    std::vector<ProcessGroup::Bytes> to_each;
+    progress.attempt([&] {
+        ProcessGroup::Bytes bytes(sizeof value);
+        std::memcpy(bytes.data(), &value, sizeof value);
+        to_each.assign(static_cast<std::size_t>(progress.group().size()), bytes);
+    });
+    std::vector<T> values;
+    if (!progress.all_well()) return values;
+    progress.attempt([&] {
+        for (const ProcessGroup::Bytes& bytes : progress.group().exchange(std::move(to_each))) {
+            std::memcpy(&values.emplace_back(), bytes.data(), sizeof value);
+        }
+    });
+    return values;
 }
 
 }  // namespace octetra

@@ -8,6 +8,7 @@ std::optional<MeshStretch> read_stretch(const std::filesystem::path& path,
     if (extension == ".ele" || extension == ".node") return read_tetgen_stretch(path, group);
     if (extension == ".mesh") return read_medit_stretch(path, group);
     if (extension == ".meshb") return read_meshb_stretch(path, group);
+    if (extension == ".msh") return read_gmsh_stretch(path, group);
     return std::nullopt;
 }
 

@@ -19,9 +19,12 @@ namespace octetra {
 [[nodiscard]] std::optional<MeshStretch> read_meshb_stretch(const std::filesystem::path& path,
                                                             const ProcessGroup& group);
 
-/// Collective. What is told of a mesh of Medit's once all have their shares: `counts` has how many
-/// there are of each kind. Markers that are 0 on all processes are dropped.
-void settle_medit_facts(const MeshFacts& counts, const ProcessGroup& group, MeshStretch& stretch);
+[[nodiscard]] std::optional<MeshStretch> read_gmsh_stretch(const std::filesystem::path& path,
+                                                           const ProcessGroup& group);
+
+/// Collective. What is told of a mesh of Medit's or Gmsh's once all have their shares: `counts` has
+/// how many there are of each kind. Markers that are 0 on all processes are dropped.
+void settle_facts(const MeshFacts& counts, const ProcessGroup& group, MeshStretch& stretch);
 
 /// Room for the entities of a process's share of a list, of which the whole is `count`: in
 /// proportion to the bytes, and a quarter more, as some lines are shorter. What is not used of it

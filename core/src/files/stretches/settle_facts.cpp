@@ -16,7 +16,7 @@ bool keep_if_any(const ProcessGroup& group, std::vector<Marker>& markers) {
 
 }  // namespace
 
-void settle_medit_facts(const MeshFacts& counts, const ProcessGroup& group, MeshStretch& stretch) {
+void settle_facts(const MeshFacts& counts, const ProcessGroup& group, MeshStretch& stretch) {
     MeshFacts& facts = stretch.facts;
     facts = counts;
     facts.index_base = facts.vertices == 0 ? 0 : 1;

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "files/gmsh/sections_2.hpp"
+
+namespace octetra::gmsh {
+
+/// An element of version 2 that is listed once for each of its groups may be listed by the last of
+/// a process's rows and again by the first of another's, who keeps it. `runs`: of each process.
+/// Returns how many elements at the beginning of the list of `rank` must go; nothing if what each
+/// process has told does not decide it for all.
+template <std::size_t N>
+[[nodiscard]] std::optional<std::uint64_t> count_listed_again(std::span<const ListedRun<N>> runs,
+                                                              std::size_t rank) {
+    std::uint64_t to_go = 0;
+    Listed<N> last;  // that is kept, of all before
+    for (std::size_t r = 0; r < runs.size(); ++r) {
+        const ListedRun<N>& run = runs[r];
+        if (run.kept == 0) continue;
+        const bool is_again =
+            run.first.physical != last.physical && is_same_element(run.first, last);
+        if (!is_again) {
+            last = run.last;
+            continue;
+        }
+        const std::size_t known = std::min<std::uint64_t>(run.others, run.groups_of_others.size());
+        const auto groups = std::span(run.groups_of_others).first(known);
+        if (known < run.others || std::ranges::find(groups, last.physical) != groups.end()) {
+            return std::nullopt;
+        }
+        if (r == rank) to_go = run.alike;
+        if (run.alike < run.kept) last = run.last;
+    }
+    return to_go;
+}
+
+}  // namespace octetra::gmsh

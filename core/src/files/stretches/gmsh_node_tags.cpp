@@ -1,0 +1,174 @@
+#include "files/stretches/gmsh_node_tags.hpp"
+
+#include <algorithm>
+#include <cstddef>
+#include <cstring>
+#include <limits>
+#include <span>
+#include <stdexcept>
+#include <utility>
+
+namespace octetra::gmsh {
+namespace {
+
+struct TagsFound {
+    std::uint64_t least = std::numeric_limits<std::uint64_t>::max();
+    std::uint64_t most = 0;
+    std::uint64_t count = 0;
+    std::uint64_t are_consecutive = 1;
+};
+
+TagsFound look_at(const std::vector<std::uint64_t>& tags) {
+    TagsFound found;
+    found.count = tags.size();
+    for (std::size_t k = 0; k < tags.size(); ++k) {
+        found.least = std::min(found.least, tags[k]);
+        found.most = std::max(found.most, tags[k]);
+        if (tags[k] != tags[0] + k) found.are_consecutive = 0;
+    }
+    return found;
+}
+
+/// Those of all processes.
+TagsFound together(const std::vector<TagsFound>& found) {
+    TagsFound all;
+    for (const TagsFound& one : found) {
+        if (one.count == 0) continue;
+        if (one.are_consecutive == 0 || (all.count > 0 && one.least != all.most + 1)) {
+            all.are_consecutive = 0;
+        }
+        all.least = std::min(all.least, one.least);
+        all.most = std::max(all.most, one.most);
+        all.count += one.count;
+    }
+    return all;
+}
+
+using Word = std::uint32_t;
+
+Word word_at(const ProcessGroup::Bytes& bytes, std::size_t k) {
+    Word word;
+    std::memcpy(&word, bytes.data() + k * sizeof word, sizeof word);
+    return word;
+}
+void put_word(ProcessGroup::Bytes& bytes, std::size_t k, Word word) {
+    std::memcpy(bytes.data() + k * sizeof word, &word, sizeof word);
+}
+
+/// Room for words to each process, and how many are there.
+struct Outboxes {
+    std::vector<ProcessGroup::Bytes> bytes;
+    std::vector<std::size_t> counts;
+
+    explicit Outboxes(std::size_t processes) : bytes(processes), counts(processes, 0) {}
+
+    /// All are counted: they may be put now.
+    void make_room() {
+        for (std::size_t k = 0; k < bytes.size(); ++k) bytes[k].resize(counts[k] * sizeof(Word));
+        std::ranges::fill(counts, 0);
+    }
+    void put(std::size_t process, Word word) { put_word(bytes[process], counts[process]++, word); }
+};
+
+}  // namespace
+
+std::optional<NodeTags> NodeTags::make(Progress& progress, const std::vector<std::uint64_t>& tags,
+                                       std::uint64_t first) {
+    const auto found = of_each(progress, look_at(tags));
+    if (!progress.all_well()) return std::nullopt;
+    const TagsFound all = together(found);
+    if (all.count == 0) return NodeTags(0, 0);
+    if (all.most - all.least >= VertexIndex::limit) return std::nullopt;
+    NodeTags result(all.least, all.most - all.least + 1);
+    result.are_consecutive_ = all.are_consecutive == 1;
+    if (result.are_consecutive_) return result;
+    result.processes_ = static_cast<std::uint32_t>(progress.group().size());
+    constexpr std::uint64_t gaps = 4;  // as NodeNumbers makes tables
+    result.is_dense_ = result.tag_span_ < gaps * all.count;
+    result.block_ = static_cast<Offset>((result.tag_span_ - 1) / result.processes_ + 1);
+    if (!result.find_homes(progress, tags, first)) return std::nullopt;
+    return result;
+}
+
+bool NodeTags::find_homes(Progress& progress, const std::vector<std::uint64_t>& tags,
+                          std::uint64_t first) {
+    Outboxes out(processes_);
+    progress.attempt([&] {
+        const auto offset_of = [&](std::size_t k) { return static_cast<Offset>(tags[k] - least_); };
+        for (std::size_t k = 0; k < tags.size(); ++k) out.counts[home_of(offset_of(k))] += 2;
+        out.make_room();
+        for (std::size_t k = 0; k < tags.size(); ++k) {
+            const std::size_t home = home_of(offset_of(k));
+            out.put(home, offset_of(k));
+            out.put(home, static_cast<Word>(first + k));
+        }
+    });
+    if (!progress.all_well()) return false;
+    progress.attempt([&] {
+        for (const ProcessGroup::Bytes& pairs : progress.group().exchange(std::move(out.bytes))) {
+            for (std::size_t k = 0; k < pairs.size() / sizeof(Word); k += 2) {
+                tags_here_.add(word_at(pairs, k));
+                numbers_.push_back(word_at(pairs, k + 1));
+            }
+        }
+        if (tags_here_.complete()) throw std::runtime_error("a tag is there twice");
+    });
+    return progress.all_well();
+}
+
+/// Puts numbers in place of offsets.
+void NodeTags::answer(ProcessGroup::Bytes& offsets) const {
+    for (std::size_t k = 0; k < offsets.size() / sizeof(Word); ++k) {
+        const VertexIndex here = tags_here_.find(word_at(offsets, k));
+        if (here.is_none()) throw std::runtime_error("there is no such node");
+        put_word(offsets, k, numbers_[here.value()]);
+    }
+}
+
+template <class I, std::size_t N>
+bool NodeTags::number(Progress& progress, IndexVector<I, std::array<VertexIndex, N>>& list) const {
+    if (are_consecutive_) return true;
+    constexpr std::size_t at_once = std::size_t{1} << 18U;  // so that messages take little memory
+    const auto counts = of_each(progress, std::uint64_t{list.size()});
+    if (!progress.all_well()) return false;
+    const std::uint64_t most = *std::ranges::max_element(counts);
+    for (std::uint64_t done = 0; done < most; done += at_once) {
+        const auto left = std::span(list).subspan(std::min<std::size_t>(done, list.size()));
+        const auto rows = left.first(std::min(at_once, left.size()));
+        Outboxes out(processes_);
+        std::vector<ProcessGroup::Bytes> come;
+        progress.attempt([&] {
+            for (const auto& row : rows) {
+                for (const VertexIndex v : row) ++out.counts[home_of(v.value())];
+            }
+            out.make_room();
+            for (const auto& row : rows) {
+                for (const VertexIndex v : row) out.put(home_of(v.value()), v.value());
+            }
+        });
+        if (!progress.all_well()) return false;
+        progress.attempt([&] {
+            come = progress.group().exchange(std::move(out.bytes));
+            for (ProcessGroup::Bytes& offsets : come) answer(offsets);
+        });
+        if (!progress.all_well()) return false;
+        progress.attempt([&] {
+            come = progress.group().exchange(std::move(come));
+            std::vector<std::size_t> taken(processes_, 0);
+            for (auto& row : rows) {
+                for (VertexIndex& v : row) {
+                    const std::size_t home = home_of(v.value());
+                    v = VertexIndex{word_at(come[home], taken[home]++)};
+                }
+            }
+        });
+        if (!progress.all_well()) return false;
+    }
+    return true;
+}
+
+template bool NodeTags::number(Progress&, IndexVector<CellIndex, CellVertices>&) const;
+template bool NodeTags::number(Progress&, IndexVector<FacetIndex, FacetVertices>&) const;
+template bool NodeTags::number(Progress&, IndexVector<EdgeIndex, EdgeVertices>&) const;
+
+}  // namespace octetra::gmsh

@@ -1,0 +1,77 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "files/gmsh/left_out.hpp"
+#include "files/input/growing_mesh.hpp"
+#include "files/stretches/gmsh_node_tags.hpp"
+
+namespace octetra::gmsh {
+
+/// What a process takes of a file that several read: has the functions of MeshIntake by which
+/// sections are read, and does of its checks those that need no more than a row. Vertices are
+/// stand-ins of tags.
+class StretchIntake {
+public:
+    explicit StretchIntake(Mesh& lists) : lists_(&lists) {}
+
+    void expect_nodes(std::uint64_t count) {
+        tags_.reserve(count);
+        lists_->points.reserve(count);
+    }
+    void take_tag(std::uint64_t tag, std::uint64_t /*place*/, std::uint64_t /*step*/) {
+        tags_.push_back(tag);
+    }
+    void take_point(const Point& point) { lists_->points.push_back(point); }
+
+    /// Nodes are complete.
+    [[nodiscard]] std::vector<std::uint64_t> release_tags() { return std::exchange(tags_, {}); }
+    void know_tags(const NodeTags& tags) { node_tags_ = &tags; }
+
+    template <class I, std::size_t N>
+    void make_room(const EntityKind<I, N>& kind, std::uint64_t count) {
+        auto& list = lists_->*kind.list;
+        const std::size_t needed = list.size() + count;
+        if (needed <= list.capacity()) return;
+        const std::size_t room = std::max(needed, list.size() + list.size() / 2);
+        list.reserve(room);
+        (lists_->*kind.markers).reserve(room);
+    }
+    template <class I, std::size_t N>
+    [[nodiscard]] std::string_view take(const EntityKind<I, N>& kind,
+                                        std::span<const std::uint64_t, N> tags, Marker marker,
+                                        std::uint64_t /*place*/, std::uint64_t /*step*/) {
+        std::array<VertexIndex, N> vertices;
+        for (std::size_t k = 0; k < N; ++k) {
+            vertices[k] = node_tags_->stand_in(tags[k]);
+            if (vertices[k].is_none()) return "there is no such node";
+            for (std::size_t j = 0; j < k; ++j) {
+                if (vertices[j] == vertices[k]) return "the same vertex twice";
+            }
+        }
+        (lists_->*kind.list).push_back(vertices);
+        (lists_->*kind.markers).push_back(marker);
+        return {};
+    }
+    void skip(Shape shape, std::uint64_t count) { left_out.add(shape, count); }
+    void skip_interface(std::uint64_t count) { left_out.interfaces += count; }
+    void skip_in_another_group() { ++left_out.in_another_group; }
+
+    /// By this process.
+    LeftOut left_out;
+
+private:
+    Mesh* lists_;
+    std::vector<std::uint64_t> tags_;
+    const NodeTags* node_tags_ = nullptr;
+};
+
+}  // namespace octetra::gmsh

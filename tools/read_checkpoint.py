@@ -34,6 +34,7 @@ class File:
         self.steps = [self.numbers(3) for _ in range(self.numbers(1)[0])]
         self.fields = [self.field() for _ in range(self.numbers(1)[0])]
         self.group_names = [self.group_name() for _ in range(self.numbers(1)[0] if self.counts[8] & 16 else 0)]
+        self.features = self.numbers(6) if self.counts[8] & 32 else []
         self.block_begin = 16
 
     def numbers(self, count):
@@ -136,6 +137,8 @@ def read(path):
     for entities, flag, width in ((facets, 4, 3), (edges, 8, 2)):
         file.section(entities, kind, width)
         file.section(entities if flags & flag else 0, "<i4", 1)
+    for count in file.features:
+        file.section(count, "<u8", 1)
     blocks = [cuts_of(b, len(file.steps)) for b in file.blocks(cell_count if file.steps else 0)]
     counts = [min(BLOCK, cell_count - k * BLOCK) for k in range(len(blocks))]
     for step in range(len(file.steps)):

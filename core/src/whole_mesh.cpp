@@ -39,7 +39,9 @@ WholeMesh::WholeMesh(const Mesh& mesh, const RefinementMaps* maps)
              .has_facet_markers = !mesh.facet_markers.empty(),
              .has_edge_markers = !mesh.edge_markers.empty(),
              .has_parents = maps != nullptr,
-             .group_names = SharedGroupNames(mesh.group_names)} {}
+             .group_names = SharedGroupNames(mesh.group_names)} {
+    for (const Feature f : all_features) facts_.features[f] = mesh.features[f].size();
+}
 
 std::span<const Point> WholeMesh::points(const Window& w) { return slice(mesh_->points, w); }
 std::span<const Marker> WholeMesh::point_markers(const Window& w) {
@@ -69,6 +71,9 @@ std::span<const VertexNumbers<2>> WholeMesh::edges(const Window& w) {
 }
 std::span<const Marker> WholeMesh::edge_markers(const Window& w) {
     return slice(mesh_->edge_markers, w);
+}
+std::span<const std::uint64_t> WholeMesh::features(Feature f, const Window& w) {
+    return slice(mesh_->features[f], w);
 }
 
 }  // namespace octetra

@@ -72,10 +72,15 @@ void check_allowed(const Mesh& mesh, const EdgeTable& table, const EdgeToMidpoin
                     level, count, max_cells));
 }
 
-void bisect_cells(const Mesh& mesh, const EdgeTable& table, const EdgeToMidpoint& midpoints,
-                  const IndexVector<CellIndex, CellIndex>& cell_to_parent, int level,
-                  Refinement& fine) {
+/// The number of the first piece of each entity, and of all pieces.
+using FirstPieces = std::vector<std::uint64_t>;
+
+FirstPieces bisect_cells(const Mesh& mesh, const EdgeTable& table, const EdgeToMidpoint& midpoints,
+                         const IndexVector<CellIndex, CellIndex>& cell_to_parent, int level,
+                         Refinement& fine) {
+    FirstPieces first;
     for (CellIndex c{0}; c < mesh.cells.end_index(); ++c) {
+        first.push_back(fine.mesh.cells.size());
         const auto children = pieces_of(mesh.cells[c], mesh, table, midpoints);
         check_countable(fine.mesh.cells.size() + children.size(), "cells");
         for (const CellVertices& child : children) {
@@ -87,22 +92,38 @@ void bisect_cells(const Mesh& mesh, const EdgeTable& table, const EdgeToMidpoint
             if (!mesh.regions.empty()) fine.mesh.regions.append(mesh.regions[c]);
         }
     }
+    first.push_back(fine.mesh.cells.size());
+    return first;
 }
 
 /// Facets and tagged edges go the way of the cells that they belong to.
 template <class I, std::size_t N>
-void bisect_tagged(const IndexVector<I, std::array<VertexIndex, N>>& list,
-                   const IndexVector<I, Marker>& markers, const Mesh& mesh, const EdgeTable& table,
-                   const EdgeToMidpoint& midpoints,
-                   IndexVector<I, std::array<VertexIndex, N>>& fine_list,
-                   IndexVector<I, Marker>& fine_markers) {
+FirstPieces bisect_tagged(const IndexVector<I, std::array<VertexIndex, N>>& list,
+                          const IndexVector<I, Marker>& markers, const Mesh& mesh,
+                          const EdgeTable& table, const EdgeToMidpoint& midpoints,
+                          IndexVector<I, std::array<VertexIndex, N>>& fine_list,
+                          IndexVector<I, Marker>& fine_markers) {
+    FirstPieces first;
     for (I i{0}; i < list.end_index(); ++i) {
+        first.push_back(fine_list.size());
         for (const auto& piece : pieces_of(list[i], mesh, table, midpoints)) {
             check_countable(fine_list.size() + 1, "tagged facets or edges");
             fine_list.append(piece);
             if (!markers.empty()) fine_markers.append(markers[i]);
         }
     }
+    first.push_back(fine_list.size());
+    return first;
+}
+
+/// What an entity was singled out for its pieces are, too.
+std::vector<std::uint64_t> pieces_of_all(const std::vector<std::uint64_t>& numbers,
+                                         const FirstPieces& first) {
+    std::vector<std::uint64_t> pieces;
+    for (const std::uint64_t number : numbers) {
+        for (std::uint64_t p = first[number]; p < first[number + 1]; ++p) pieces.push_back(p);
+    }
+    return pieces;
 }
 
 }  // namespace
@@ -146,11 +167,23 @@ Refinement bisect_mesh(const Refinement& coarse, const std::vector<EdgeVertices>
     bisect_edges(mesh, table, edges, fine);
     const EdgeToMidpoint midpoints = midpoints_of(edges, table, mesh);
     check_allowed(mesh, table, midpoints, max_cells, level);
-    bisect_cells(mesh, table, midpoints, coarse.maps.cell_to_parent, level, fine);
-    bisect_tagged(mesh.facets, mesh.facet_markers, mesh, table, midpoints, fine.mesh.facets,
-                  fine.mesh.facet_markers);
-    bisect_tagged(mesh.edges, mesh.edge_markers, mesh, table, midpoints, fine.mesh.edges,
-                  fine.mesh.edge_markers);
+    const FirstPieces cell_pieces =
+        bisect_cells(mesh, table, midpoints, coarse.maps.cell_to_parent, level, fine);
+    const FirstPieces facet_pieces =
+        bisect_tagged(mesh.facets, mesh.facet_markers, mesh, table, midpoints, fine.mesh.facets,
+                      fine.mesh.facet_markers);
+    const FirstPieces edge_pieces =
+        bisect_tagged(mesh.edges, mesh.edge_markers, mesh, table, midpoints, fine.mesh.edges,
+                      fine.mesh.edge_markers);
+    const auto& features = mesh.features;
+    auto& finer = fine.mesh.features;
+    finer[Feature::corners] = features[Feature::corners];  // vertices keep their numbers
+    finer[Feature::required_vertices] = features[Feature::required_vertices];
+    finer[Feature::ridges] = pieces_of_all(features[Feature::ridges], edge_pieces);
+    finer[Feature::required_edges] = pieces_of_all(features[Feature::required_edges], edge_pieces);
+    finer[Feature::required_facets] =
+        pieces_of_all(features[Feature::required_facets], facet_pieces);
+    finer[Feature::required_cells] = pieces_of_all(features[Feature::required_cells], cell_pieces);
     return fine;
 }
 

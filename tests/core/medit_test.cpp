@@ -22,6 +22,7 @@ using testing::HasSubstr;
 const std::string head = "MeshVersionFormatted 2\nDimension 3\n";
 const std::string vertices = "Vertices\n4\n0 0 0 0\n1 0 0 0\n0 1 0 0\n0 0 1 0\n";
 const std::string cells = "Tetrahedra\n1\n1 2 3 4 5\n";
+const std::string whole_cell = head + vertices + cells;
 const std::string good = head + vertices + cells + "End\n";
 
 Mesh read(const std::string& text, const ReadOptions& options = {}) {
@@ -90,6 +91,27 @@ INSTANTIATE_TEST_SUITE_P(
         {"AfterEnd", good + "Corners\n0\n", 13, "text after the keyword End"},
         {"StrayTriangle", head + vertices + cells + "Triangles\n1\n1 2 2 0\nEnd\n", 14,
          "the triangle has the same vertex twice"},
+        {"CornerZero", whole_cell + "Corners\n1\n0\nEnd\n", 14, "there is no vertex 0"},
+        {"CornerNegative", whole_cell + "Corners\n1\n-1\nEnd\n", 14,
+         "a number should be a whole number from 0, not '-1'"},
+        {"CornerTooLarge", whole_cell + "Corners\n4\n4\n9\n1\n9\nEnd\n", 15,
+         "there is no vertex 9: the file has 4"},
+        {"CornerBeyondIndices", whole_cell + "Corners\n1\n4294967296\nEnd\n", 14,
+         "there is no vertex 4294967296"},
+        {"CornerBeforeVertices", head + "Corners\n1\n5\n" + vertices + "End\n", 5,
+         "there is no vertex 5: the file has 4"},
+        {"RidgeWithoutEdges", whole_cell + "Ridges\n1\n1\nEnd\n", 14,
+         "there is no edge 1: the file has 0"},
+        {"RequiredTriangleTooLarge",
+         whole_cell + "RequiredTriangles\n2\n1\n2\nTriangles\n1\n1 2 3 0\nEnd\n", 15,
+         "there is no triangle 2: the file has 1"},
+        {"RequiredCellTooLarge", whole_cell + "RequiredTetrahedra\n1\n2\nEnd\n", 14,
+         "there is no cell 2: the file has 1"},
+        {"CornersCountHuge", whole_cell + "Corners\n4000000000\n1\n", 13, "holds at most"},
+        {"CornersTwice", whole_cell + "Corners\n1\n1\nCorners\n1\n2\nEnd\n", 15,
+         "a second section Corners; the first is on line 12"},
+        {"CornersMissing", whole_cell + "Corners\n2\n1\nEnd\n", 15,
+         "a number should be a whole number from 0, not 'End'"},
         {"FractionalReference", head + vertices + "Tetrahedra\n1\n1 2 3 4 .5\nEnd\n", 11,
          "the reference should be a whole number"},
     }),
@@ -132,10 +154,11 @@ TEST(MeditReader, TakesCarriageReturnsAloneForBlanks) {
 
 TEST(MeditReader, SkipsWhatItDoesNotKeepAndSaysSo) {
     std::string note;
-    const Mesh mesh = read(head + vertices + "Corners\n2\n1\n2\nNormals 1 0 0 1\n" + cells + "End",
-                           {.note = [&](const auto& n) { note += n + "\n"; }});
+    const Mesh mesh =
+        read(head + vertices + "NormalAtVertices\n2\n1 1\n2 1\nNormals 1 0 0 1\n" + cells + "End",
+             {.note = [&](const auto& n) { note += n + "\n"; }});
     EXPECT_EQ(mesh, read(good));
-    EXPECT_THAT(note, HasSubstr("m.mesh:9: the 2 entries of Corners are not kept"));
+    EXPECT_THAT(note, HasSubstr("m.mesh:9: the 2 entries of NormalAtVertices are not kept"));
     EXPECT_THAT(note, HasSubstr("the 1 entries of Normals are not kept"));
 }
 

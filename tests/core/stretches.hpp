@@ -37,7 +37,9 @@ inline Mesh put_together(const std::vector<std::optional<MeshStretch>>& stretche
         append(whole.facet_markers, lists.facet_markers);
         append(whole.edges, lists.edges);
         append(whole.edge_markers, lists.edge_markers);
+        for (const Feature f : all_features) append(whole.features[f], lists.features[f]);
     }
+    for (const Feature f : all_features) put_in_order(whole.features[f]);
     return whole;
 }
 

@@ -43,7 +43,7 @@ void adapt(AdaptiveMesh& mesh, std::uint64_t seed, int steps) {
 }
 
 /// Its lists of points, cells and cuts take several blocks.
-Mesh input_of(std::uint64_t seed) { return test::marked_lattice(16, seed); }
+Mesh input_of(std::uint64_t seed) { return test::featured(test::marked_lattice(16, seed), seed); }
 
 AdaptiveMesh shared_out(const Communicator& processes, Mesh mesh, const std::string& partition) {
     std::vector<int> parts = partition_cells(mesh, processes.size(), parse_partition(partition));
@@ -124,7 +124,7 @@ TEST_P(Checkpoint, LeavesOffWhereTheMeshGoesOn) {
 
 TEST_P(Checkpoint, HasTheReferencesInputAndSteps) {
     const test::SharedFolder folder;
-    const Mesh input = test::marked_lattice(4, GetParam());
+    const Mesh input = test::featured(test::marked_lattice(4, GetParam()), GetParam());
     AdaptiveMesh mesh = shared_out(world(), input, "random:3");
     reference::History history{input, {}};
     for (std::uint64_t k = 0; k < 3; ++k) {
@@ -213,7 +213,7 @@ bool is_refused(const std::filesystem::path& path) {
 
 TEST(CheckpointThatIsMadeUp, IsReadOrRefusedByAllRanks) {
     const test::SharedFolder folder;
-    AdaptiveMesh mesh = shared_out(world(), test::marked_lattice(2, 1), "block");
+    AdaptiveMesh mesh = shared_out(world(), test::featured(test::marked_lattice(2, 1), 1), "block");
     for (const std::uint64_t seed : {1U, 2U, 3U}) (void)mesh.refine(some(0.1, seed));
     mesh.save(folder / "good.octetra");
     EXPECT_FALSE(is_refused(folder / "good.octetra"));

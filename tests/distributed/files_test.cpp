@@ -157,7 +157,7 @@ protected:
 };
 
 TEST_P(FilesOfAllRanks, AreTheReferencesOfAMeshWithEverythingMarked) {
-    expect_equal_files(test::marked(test::shaken_kuhn(3, 0.3, 5), 1),
+    expect_equal_files(test::featured(test::marked(test::shaken_kuhn(3, 0.3, 5), 1), 1),
                        {.random = RandomShare{0.1, 3}}, 2);
 }
 

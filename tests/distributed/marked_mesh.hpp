@@ -50,6 +50,19 @@ void mark_alike(const IndexVector<I, std::array<VertexIndex, N>>& list,
     }
 }
 
+/// Corners, ridges and what is required, about a third of all of each.
+inline Mesh featured(Mesh mesh, std::uint64_t seed) {
+    std::mt19937_64 random(seed);
+    const std::array counts{mesh.points.size(), mesh.edges.size(), mesh.facets.size(),
+                            mesh.cells.size()};
+    for (const Feature f : all_features) {
+        for (std::uint64_t i = 0; i < counts.at(dimension_of(f)); ++i) {
+            if (random() % 3 == 0) mesh.features[f].push_back(i);
+        }
+    }
+    return mesh;
+}
+
 /// A lattice with all that a file can say of it.
 inline Mesh marked_lattice(std::size_t n, std::uint64_t seed) {
     Mesh mesh = marked(shaken_kuhn(n, 0.2, seed), seed);

@@ -30,7 +30,7 @@ inline Mesh input_of(std::uint64_t seed) {
     mesh.points.push_back({9, 9, 9});
     mesh.point_markers.push_back(7);
     mesh.point_attributes.insert(mesh.point_attributes.end(), {1.5, 2.5});
-    return mesh;
+    return test::featured(std::move(mesh), seed);
 }
 
 inline AdaptiveMesh shared_out(Mesh mesh, const std::string& partition) {

@@ -78,7 +78,8 @@ TEST(ReadTogether, MeshesWithEverythingAreWhatOneProcessReads) {
     for (const std::string extension : {".ele", ".mesh", ".meshb"}) {
         for (const std::uint32_t index_base : {0U, 1U}) {
             for (const std::size_t n : {1U, 2U, 6U}) {
-                const Files files = files_of(test::full_mesh(n, index_base), extension);
+                const Files files =
+                    files_of(test::featured(test::full_mesh(n, index_base), n), extension);
                 EXPECT_TRUE(are_read_together(files)) << extension << ' ' << n;
                 EXPECT_TRUE(expect_one_outcome(files)) << extension << ' ' << n;
             }
@@ -408,9 +409,10 @@ TEST(ReadTogether, FilesThatWereChangedAtRandomComeToWhatOneProcessMakesOfThem) 
     test::world().broadcast(seed);
     SCOPED_TRACE(fmt::format("OCTETRA_READING_SEED={}", seed.front()));
     std::mt19937_64 random(seed.front());
-    const std::vector<Files> files{
-        files_of(test::full_mesh(1, 0), ".ele"), files_of(test::full_mesh(1, 1), ".ele"),
-        files_of(test::full_mesh(1, 1), ".mesh"), files_of(test::full_mesh(1, 1), ".meshb")};
+    const std::vector<Files> files{files_of(test::full_mesh(1, 0), ".ele"),
+                                   files_of(test::full_mesh(1, 1), ".ele"),
+                                   files_of(test::featured(test::full_mesh(1, 1), 3), ".mesh"),
+                                   files_of(test::featured(test::full_mesh(1, 1), 3), ".meshb")};
     int meshes = 0;
     // Where there are more processes than cores, each turn takes long.
     const int turns = OCTETRA_SANITIZED ? 100 : test::world().size() > 3 ? 200 : 1000;

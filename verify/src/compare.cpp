@@ -71,9 +71,10 @@ struct Item {
     bool turned = false;              ///< of a cell: an odd permutation of that order
     Marker marker = 0;
     std::vector<double> attributes;
+    unsigned features = 0;  ///< a bit for each that it has
 
     [[nodiscard]] auto place() const { return std::tie(corners, colours); }
-    [[nodiscard]] auto tags() const { return std::tie(turned, marker, attributes); }
+    [[nodiscard]] auto tags() const { return std::tie(turned, marker, attributes, features); }
 };
 
 template <std::size_t N>
@@ -82,7 +83,8 @@ bool comes_before(const Item<N>& a, const Item<N>& b) {
     if (a.colours != b.colours) return a.colours < b.colours;
     if (a.turned != b.turned) return b.turned;
     if (a.marker != b.marker) return a.marker < b.marker;
-    return a.attributes < b.attributes;
+    if (a.attributes != b.attributes) return a.attributes < b.attributes;
+    return a.features < b.features;
 }
 
 template <std::size_t N>
@@ -106,6 +108,17 @@ Item<N> item_of(const std::array<VertexIndex, N>& vertices, const Mesh& mesh,
     return item;
 }
 
+template <std::size_t N>
+void mark_features(const Mesh& mesh, std::vector<Item<N>>& items) {
+    constexpr std::size_t dimension = N - 1;
+    for (const Feature f : all_features) {
+        if (dimension_of(f) != dimension) continue;
+        for (const std::uint64_t i : mesh.features[f]) {
+            items[i].features |= 1U << static_cast<unsigned>(f);
+        }
+    }
+}
+
 template <class I, std::size_t N>
 std::vector<Item<N>> items_of(const IndexVector<I, std::array<VertexIndex, N>>& list,
                               const IndexVector<I, Marker>& markers, const Mesh& mesh,
@@ -117,6 +130,7 @@ std::vector<Item<N>> items_of(const IndexVector<I, std::array<VertexIndex, N>>& 
         if (N != 4) items.back().turned = false;  // facets and edges have no sides
         if (!markers.empty()) items.back().marker = markers[i];
     }
+    mark_features(mesh, items);
     return items;
 }
 
@@ -130,6 +144,7 @@ std::vector<Item<1>> vertices_of(const Mesh& mesh, const Colours& colours) {
         const auto first = mesh.point_attributes.begin() + count * std::ptrdiff_t{v.value()};
         items.back().attributes.assign(first, first + count);
     }
+    mark_features(mesh, items);
     return items;
 }
 
@@ -139,6 +154,12 @@ std::string shown(const Item<N>& item, std::string_view tag, bool with_turn = fa
     if (with_turn) text += item.turned ? ", corners in odd order" : ", corners in even order";
     if (!item.attributes.empty()) {
         text += fmt::format(", attributes {}", fmt::join(item.attributes, ", "));
+    }
+    constexpr std::array<std::string_view, feature_count> words{
+        ", corner", ", required", ", ridge", ", required", ", required", ", required"};
+    for (const Feature f : all_features) {
+        const auto bit = static_cast<unsigned>(f);
+        if ((item.features >> bit & 1U) != 0) text += words.at(bit);
     }
     return text;
 }
@@ -195,9 +216,10 @@ private:
 /// All of a mesh but what files call its groups, and its first vertex.
 auto lists_of(const Mesh& mesh) {
     const auto& [points, point_markers, attributes_per_point, point_attributes, cells, regions,
-                 facets, facet_markers, edges, edge_markers, group_names, index_base] = mesh;
+                 facets, facet_markers, edges, edge_markers, features, group_names, index_base] =
+        mesh;
     return std::tie(points, point_markers, attributes_per_point, point_attributes, cells, regions,
-                    facets, facet_markers, edges, edge_markers);
+                    facets, facet_markers, edges, edge_markers, features);
 }
 
 }  // namespace

@@ -125,16 +125,24 @@ void add_lost_fields(std::string& lost, const MeshSource& mesh, const fs::path& 
     }
 }
 
-/// What is lost in all, where that is `lost` without names of groups and fields.
+bool can_hold_features(const fs::path& path) {
+    return format_of(path) == Format::medit || format_of(path) == Format::meshb;
+}
+
+/// What is lost in all, where that is `lost` without names of groups, features
+/// and fields.
 std::string all_lost(std::string lost, const MeshSource& mesh, const fs::path& path) {
     if (!mesh.facts().group_names.empty() && format_of(path) != Format::gmsh) {
         add_loss(lost, group_names_are_lost);
+    }
+    if (has_any(mesh.facts().features) && !can_hold_features(path)) {
+        add_loss(lost, features_are_lost);
     }
     add_lost_fields(lost, mesh, path);
     return lost;
 }
 
-/// Returns what is lost but for the names of groups and fields.
+/// Returns what is lost but for names of groups, features and fields.
 std::string write_lists(MeshSource& mesh, const fs::path& path, const WriteOptions& options) {
     mesh.group().on_first([&] { check_writable(path); });
     switch (format_of(path)) {

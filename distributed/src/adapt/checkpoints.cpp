@@ -109,6 +109,7 @@ AdaptiveMesh AdaptiveMesh::load(const Communicator& processes, const std::filesy
     LoadedPart part = load_part(processes, *file, path, partition);
     auto state = naming(path, [&] {
         auto made = std::make_unique<State>(distribute_parts(processes, std::move(part.input)));
+        made->mesh.features = std::move(part.features);
         redo(*made, std::move(part.cuts), file->facts());
         return made;
     });

@@ -272,6 +272,19 @@ void take_tagged(const std::vector<Tagged<N>>& tagged, bool has_markers,
     }
 }
 
+/// What this process reads of them: whole blocks.
+SharedFeatures share_of_features(const Communicator& processes, const CheckpointReader& file) {
+    const FeatureCounts& counts = file.facts().features;
+    if (!has_any(counts)) return {};
+    FeatureLists lists;
+    for (const Feature f : all_features) {
+        const Homes homes = homes_of_blocks(counts[f], block_length, processes.size());
+        lists[f] =
+            file.read_features(f, homes.begin_of(processes.rank()), homes.end_of(processes.rank()));
+    }
+    return std::make_shared<const FeatureLists>(std::move(lists));
+}
+
 }  // namespace
 
 LoadedPart load_part(const Communicator& processes, const CheckpointReader& file,
@@ -309,6 +322,7 @@ LoadedPart load_part(const Communicator& processes, const CheckpointReader& file
                     part.input.edge_numbers);
         take_roots(std::move(roots), facts, part);
         part.input.group_names = facts.group_names;
+        part.features = share_of_features(processes, file);
     });
     failure.agree(processes);
     return part;

@@ -13,6 +13,7 @@ namespace octetra::distributed {
 struct LoadedPart {
     MeshPart input;  ///< its cells ascend by number
     CutRoots cuts;
+    SharedFeatures features;  ///< see DistributedMesh
 };
 
 /// Collective. Every process reads its share of the blocks; then cells go where the partition gives

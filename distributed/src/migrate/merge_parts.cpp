@@ -235,6 +235,7 @@ MergedPart merge_parts(const DistributedMesh& before, const Departures& departur
     mesh.input_cell_count = before.input_cell_count;
     mesh.index_base = before.index_base;
     mesh.group_names = before.group_names;
+    mesh.features = before.features;
     const DistributedMesh& come = arrivals.part;
     const auto stays = staying_vertices(before, departures);
     Source a(before, &stays);

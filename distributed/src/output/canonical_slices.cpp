@@ -13,6 +13,9 @@ CanonicalSlices::CanonicalSlices(const DistributedMesh& mesh)
       cell_runs_(canonical_runs(mesh.processes, lists_.cells.ancestors())),
       facet_runs_(canonical_runs(mesh.processes, lists_.facets.ancestors())),
       edge_runs_(canonical_runs(mesh.processes, lists_.edges.ancestors())),
+      features_(mesh, {{{&lists_.edges.ancestors(), &edge_runs_},
+                        {&lists_.facets.ancestors(), &facet_runs_},
+                        {&lists_.cells.ancestors(), &cell_runs_}}}),
       facts_(find_facts()) {}
 
 MeshFacts CanonicalSlices::find_facts() const {
@@ -32,6 +35,7 @@ MeshFacts CanonicalSlices::find_facts() const {
             .has_facet_markers = any_has(lists_.facets.ancestors().markers),
             .has_edge_markers = any_has(lists_.edges.ancestors().markers),
             .has_parents = true,
+            .features = features_.counts(),
             .group_names = mesh_->group_names};
 }
 
@@ -178,6 +182,10 @@ std::span<const VertexNumbers<2>> CanonicalSlices::edges(const Window& window) {
 
 std::span<const Marker> CanonicalSlices::edge_markers(const Window& window) {
     return bring_markers(window, lists_.edges.ancestors(), edge_runs_, edge_markers_);
+}
+
+std::span<const std::uint64_t> CanonicalSlices::features(Feature feature, const Window& window) {
+    return features_.slice(feature, window);
 }
 
 void CanonicalSlices::add(std::span<const Field> fields, const Sharing<VertexIndex>& sharing) {

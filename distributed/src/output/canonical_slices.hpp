@@ -8,6 +8,7 @@
 
 #include "numbering/canonical_numbers.hpp"
 #include "numbering/canonical_runs.hpp"
+#include "output/feature_slices.hpp"
 #include "output/field_slices.hpp"
 #include "output/ordered_lists.hpp"
 
@@ -38,6 +39,8 @@ public:
     [[nodiscard]] std::span<const Marker> facet_markers(const Window& window) override;
     [[nodiscard]] std::span<const VertexNumbers<2>> edges(const Window& window) override;
     [[nodiscard]] std::span<const Marker> edge_markers(const Window& window) override;
+    [[nodiscard]] std::span<const std::uint64_t> features(Feature feature,
+                                                          const Window& window) override;
     [[nodiscard]] std::span<const FieldFacts> fields() const override;
     [[nodiscard]] std::span<const std::byte> field_values(std::size_t field,
                                                           const Window& window) override;
@@ -67,6 +70,7 @@ private:
     CanonicalRuns cell_runs_;
     CanonicalRuns facet_runs_;
     CanonicalRuns edge_runs_;
+    FeatureSlices features_;
     MeshFacts facts_;
     std::optional<FieldSlices> fields_;
 

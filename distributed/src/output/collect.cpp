@@ -30,11 +30,29 @@ void expand(const AncestorMap& ancestors, IndexVector<I, Marker>& markers,
     }
 }
 
+/// Of one process that has all.
+FeatureLists own_features(const DistributedMesh& part) {
+    FeatureLists lists;
+    if (!part.features) return lists;
+    const CanonicalRuns edges = canonical_runs(part.processes, part.edge_ancestors);
+    const CanonicalRuns facets = canonical_runs(part.processes, part.facet_ancestors);
+    const CanonicalRuns cells = canonical_runs(part.processes, part.cell_ancestors);
+    FeatureSlices slices(part, {{{&part.edge_ancestors, &edges},
+                                 {&part.facet_ancestors, &facets},
+                                 {&part.cell_ancestors, &cells}}});
+    for (const Feature f : all_features) {
+        const auto numbers = slices.slice(f, whole_window(slices.counts()[f]));
+        lists[f].assign(numbers.begin(), numbers.end());
+    }
+    return lists;
+}
+
 /// One process's vertices, cells and lists are in canonical order as they are.
 Collected hand_over(DistributedMesh part) {
     Collected whole;
     Mesh& mesh = whole.mesh;
     mesh.point_markers = own_markers(part);
+    mesh.features = own_features(part);
     mesh.attributes_per_point = part.attributes_per_point;
     mesh.point_attributes = std::move(part.point_attributes);
     whole.maps.cell_to_parent.reserve(part.cells.size());
@@ -100,6 +118,10 @@ Collected gather(const DistributedMesh& part) {
     if (facts.has_facet_markers) all(mesh.facet_markers, facts.facets, &Slices::facet_markers);
     all(mesh.edges, facts.edges, &Slices::edges);
     if (facts.has_edge_markers) all(mesh.edge_markers, facts.edges, &Slices::edge_markers);
+    for (const Feature f : all_features) {
+        fetch(mesh.features[f], facts.features[f], 1,
+              [&](const Window& window) { return slices.features(f, window); });
+    }
     all(whole.maps.cell_to_parent, facts.cells, &Slices::parents);
     all(whole.maps.midpoint_to_edge, facts.vertices - facts.first_midpoint, &Slices::midpoint_ends);
     return whole;

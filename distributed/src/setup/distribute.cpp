@@ -23,10 +23,12 @@ struct Facts {
     std::uint64_t cells = 0;
     std::uint64_t attributes_per_point = 0;
     std::uint32_t index_base = 0;
+    std::uint32_t has_features = 0;
 };
 
 Facts facts_of(const Mesh& mesh) {
-    return {mesh.points.size(), mesh.cells.size(), mesh.attributes_per_point, mesh.index_base};
+    return {mesh.points.size(), mesh.cells.size(), mesh.attributes_per_point, mesh.index_base,
+            has_any(mesh.features) ? 1U : 0U};
 }
 
 /// Collective. What all get to know of the first process's mesh, in one message.
@@ -287,6 +289,9 @@ DistributedMesh distribute(const Communicator& processes, Mesh mesh,
     part.input_cell_count = facts.cells;
     part.index_base = facts.index_base;
     part.group_names = SharedGroupNames(std::move(group_names));
+    if (facts.has_features != 0) {
+        part.features = std::make_shared<const FeatureLists>(std::move(mesh.features));
+    }
     if (processes.size() == 1) {
         take_over(std::move(mesh), part);
         return part;

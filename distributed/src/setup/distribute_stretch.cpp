@@ -135,6 +135,10 @@ public:
         mesh_.processes = processes;
         mesh_.index_base = stretch_.facts.index_base;
         mesh_.group_names = stretch_.facts.group_names;
+        if (has_any(stretch_.facts.features)) {
+            mesh_.features =
+                std::make_shared<const FeatureLists>(std::move(stretch_.lists.features));
+        }
         mesh_.input_vertex_count = stretch_.facts.vertices;
         mesh_.input_cell_count = stretch_.facts.cells;
     }

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include <octetra/core/features.hpp>
 #include <octetra/core/group_names.hpp>
 #include <octetra/core/index.hpp>
 #include <octetra/core/point.hpp>
@@ -31,7 +32,8 @@ inline constexpr std::array<std::array<std::uint8_t, 2>, 3> triangle_edges{
 ///  - every cell is positively oriented, exactly;
 ///  - every facet is a face of some cell, every edge an edge of some cell;
 ///  - no two cells have the same vertices, and no two lie on the same side of a tagged facet;
-///  - a facet or edge that is listed again has the same marker again.
+///  - a facet or edge that is listed again has the same marker again;
+///  - numbers in `features` are in range, ascending, and each there once.
 /// Not promised: that cells do not overlap elsewhere, even at a face that is not tagged, nor that
 /// vertices are different points, and of cells. verify_mesh() of octetra_verify judges that.
 /// A list with the remark "or empty" is empty where the file had no such column.
@@ -49,6 +51,8 @@ struct Mesh {
 
     IndexVector<EdgeIndex, EdgeVertices> edges;   ///< tagged edges: ridges, wires
     IndexVector<EdgeIndex, Marker> edge_markers;  ///< one per edge, or empty
+
+    FeatureLists features;
 
     std::vector<GroupName> group_names;  ///< as the file lists them; each group once
 

@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include <octetra/core/features.hpp>
 #include <octetra/core/field.hpp>
 #include <octetra/core/index.hpp>
 #include <octetra/core/maps.hpp>
@@ -71,6 +72,7 @@ struct MeshFacts {
     bool has_edge_markers = false;
     bool has_parents = false;
     bool has_vertex_numbers = false;
+    FeatureCounts features;  ///< of the entities that have each
     SharedGroupNames group_names;
 };
 
@@ -115,6 +117,12 @@ public:
     [[nodiscard]] virtual std::span<const VertexNumbers<2>> edges(const Window&) { return {}; }
     [[nodiscard]] virtual std::span<const Marker> edge_markers(const Window&) { return {}; }
 
+    /// Of a window of the entities that have the feature, MeshFacts::features of them: their
+    /// numbers, ascending.
+    [[nodiscard]] virtual std::span<const std::uint64_t> features(Feature, const Window&) {
+        return {};
+    }
+
     /// The fields that go with the mesh, and their values on a window of vertices or cells: as many
     /// bytes for each as FieldFacts tell.
     [[nodiscard]] virtual std::span<const FieldFacts> fields() const { return {}; }
@@ -141,6 +149,8 @@ public:
     [[nodiscard]] std::span<const Marker> facet_markers(const Window& window) override;
     [[nodiscard]] std::span<const VertexNumbers<2>> edges(const Window& window) override;
     [[nodiscard]] std::span<const Marker> edge_markers(const Window& window) override;
+    [[nodiscard]] std::span<const std::uint64_t> features(Feature feature,
+                                                          const Window& window) override;
 
 private:
     const Mesh* mesh_;

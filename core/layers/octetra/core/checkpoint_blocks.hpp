@@ -30,9 +30,14 @@ enum class Section : std::size_t {
     facet_markers,
     edges,
     edge_markers,
-    cuts,
+    features,  // one for each feature, see feature_section()
+    cuts = features + feature_count,
 };
-inline constexpr std::size_t first_field = 10;
+inline constexpr std::size_t first_field = static_cast<std::size_t>(Section::cuts) + 1;
+[[nodiscard]] constexpr Section feature_section(Feature feature) {
+    return static_cast<Section>(static_cast<std::size_t>(Section::features) +
+                                static_cast<std::size_t>(feature));
+}
 [[nodiscard]] constexpr Section field_section(std::size_t field) {
     return static_cast<Section>(first_field + field);
 }
@@ -142,6 +147,9 @@ public:
         for (std::size_t i = 0; i < numbers.size(); ++i) lists[i / N][i % N] = numbers[i];
         return lists;
     }
+    /// Numbers begin .. end-1 of those with a feature, which are in range and ascend.
+    [[nodiscard]] std::vector<std::uint64_t> read_features(Feature feature, std::uint64_t begin,
+                                                           std::uint64_t end) const;
     /// Points, which are finite and not too large.
     [[nodiscard]] std::vector<Point> read_points(std::uint64_t begin, std::uint64_t end) const;
 

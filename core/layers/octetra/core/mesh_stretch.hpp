@@ -17,7 +17,8 @@ namespace octetra {
 struct MeshStretch {
     MeshFacts facts;  ///< of the whole mesh
     /// The entities of the stretches; vertices go by their numbers in the whole mesh. Markers that
-    /// facts says there are none of are left out on all processes.
+    /// facts says there are none of are left out on all processes. Of features a process has what
+    /// it has read, as it stands: any numbers in range, and facts counts what comes twice twice.
     Mesh lists;
     std::uint64_t first_vertex = 0;
     std::uint64_t first_cell = 0;

@@ -41,6 +41,9 @@ Mesh read_input(const CheckpointReader& file) {
     mesh.facet_markers = read_markers<FacetIndex>(file, Section::facet_markers);
     mesh.edges = read_lists<EdgeIndex, 2>(file, Section::edges);
     mesh.edge_markers = read_markers<EdgeIndex>(file, Section::edge_markers);
+    for (const Feature f : all_features) {
+        mesh.features[f] = file.read_features(f, 0, facts.features[f]);
+    }
     mesh.index_base = facts.index_base;
     mesh.group_names = facts.group_names;
     return mesh;

@@ -137,6 +137,20 @@ std::vector<std::uint64_t> CheckpointReader::read_numbers(Section section, std::
     return numbers;
 }
 
+std::vector<std::uint64_t> CheckpointReader::read_features(Feature feature, std::uint64_t begin,
+                                                           std::uint64_t end) const {
+    const Section section = feature_section(feature);
+    auto numbers = read<std::uint64_t>(section, begin, end);
+    const std::uint64_t count = entities_with(feature, facts());
+    for (std::size_t i = 0; i < numbers.size(); ++i) {
+        if (numbers[i] < count && (i == 0 || numbers[i - 1] < numbers[i])) continue;
+        fail(section, (begin + i) / block_length,
+             fmt::format("{} stands there, and numbers should ascend and be less than {}",
+                         numbers[i], count));
+    }
+    return numbers;
+}
+
 std::vector<Point> CheckpointReader::read_points(std::uint64_t begin, std::uint64_t end) const {
     std::vector<Point> points = read<Point>(Section::points, begin, end);
     for (std::size_t i = 0; i < points.size(); ++i) {

@@ -1,9 +1,28 @@
+#include <array>
+#include <optional>
+#include <string_view>
 
 #include <octetra/core/checkpoint_blocks.hpp>
 
 #include "files/input/fields.hpp"
 
 namespace octetra {
+namespace {
+
+std::optional<Feature> feature_of(Section section) {
+    if (section < Section::features || section >= Section::cuts) return std::nullopt;
+    return all_features.at(static_cast<std::size_t>(section) -
+                           static_cast<std::size_t>(Section::features));
+}
+
+std::string name_of_list(Feature feature) {
+    constexpr std::array<std::string_view, feature_count> names{
+        "corners",        "required vertices", "ridges",
+        "required edges", "required facets",   "required cells"};
+    return std::string(names.at(static_cast<std::size_t>(feature)));
+}
+
+}  // namespace
 
 std::size_t vertex_number_size(const CheckpointFacts& facts) {
     return facts.vertices <= (std::uint64_t{1} << 32U) ? 4 : 8;
@@ -11,7 +30,11 @@ std::size_t vertex_number_size(const CheckpointFacts& facts) {
 
 SectionShape shape_of(const CheckpointFacts& facts, Section section) {
     const std::size_t number_size = vertex_number_size(facts);
+    if (const auto feature = feature_of(section)) {
+        return {facts.features[*feature], sizeof(std::uint64_t)};
+    }
     switch (section) {
+        case Section::features: break;  // above
         case Section::points: return {facts.vertices, 3 * sizeof(double)};
         case Section::point_markers:
             return {facts.has_point_markers ? facts.vertices : 0, sizeof(Marker)};
@@ -36,7 +59,9 @@ SectionShape shape_of(const CheckpointFacts& facts, Section section) {
 }
 
 std::string name_of(const CheckpointFacts& facts, Section section) {
+    if (const auto feature = feature_of(section)) return name_of_list(*feature);
     switch (section) {
+        case Section::features: break;  // above
         case Section::points: return "points";
         case Section::point_markers: return "vertex markers";
         case Section::point_attributes: return "attributes";

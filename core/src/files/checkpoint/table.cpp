@@ -1,5 +1,6 @@
 #include "files/checkpoint/table.hpp"
 
+#include <array>
 #include <cstring>
 #include <limits>
 #include <string>
@@ -22,12 +23,14 @@ constexpr std::uint64_t regions = 2;
 constexpr std::uint64_t facet_markers = 4;
 constexpr std::uint64_t edge_markers = 8;
 constexpr std::uint64_t group_names = 16;
+constexpr std::uint64_t features = 32;
 
 std::uint64_t flags_of(const CheckpointFacts& facts) {
     return (facts.has_point_markers ? point_markers : 0U) | (facts.has_regions ? regions : 0U) |
            (facts.has_facet_markers ? facet_markers : 0U) |
            (facts.has_edge_markers ? edge_markers : 0U) |
-           (facts.group_names.empty() ? 0U : group_names);
+           (facts.group_names.empty() ? 0U : group_names) |
+           (has_any(facts.features) ? features : 0U);
 }
 
 void put(std::vector<std::byte>& bytes, const void* data, std::size_t size) {
@@ -116,7 +119,7 @@ void read_facts(Table& table, CheckpointFacts& facts) {
     }
     facts.attributes_per_point = table.number_to(1U << 20U, "attributes of a vertex");
     facts.index_base = static_cast<std::uint32_t>(table.number_to(1, "as the index base"));
-    const std::uint64_t flags = table.number_to(31, "as flags");
+    const std::uint64_t flags = table.number_to(63, "as flags");
     facts.has_point_markers = (flags & point_markers) != 0;
     facts.has_regions = (flags & regions) != 0;
     facts.has_facet_markers = (flags & facet_markers) != 0;
@@ -136,9 +139,18 @@ void read_facts(Table& table, CheckpointFacts& facts) {
         if (!is_name(field.name)) table.fail("the name of a field cannot be shown");
     }
     if ((flags & group_names) != 0) read_group_names(table, facts.group_names);
+    if ((flags & features) == 0) return;
+    for (const Feature f : all_features) {
+        facts.features[f] = table.number_to(entities_with(f, facts), "entities with a feature");
+    }
 }
 
 }  // namespace
+
+std::uint64_t entities_with(Feature feature, const CheckpointFacts& facts) {
+    return std::array{facts.vertices, facts.edges, facts.facets, facts.cells}.at(
+        dimension_of(feature));
+}
 
 std::uint64_t hash_of(std::span<const std::byte> bytes) {
     return XXH3_64bits(bytes.data(), bytes.size());
@@ -172,6 +184,9 @@ std::vector<std::byte> table_of(const CheckpointFacts& facts,
         put(bytes, field.name.data(), field.name.size());
     }
     put_group_names(bytes, facts.group_names);
+    if (has_any(facts.features)) {  // else as files were before there were any
+        for (const std::uint64_t count : facts.features) put(bytes, count);
+    }
     put(bytes, blocks.data(), blocks.size() * sizeof(BlockEntry));
     return bytes;
 }

@@ -43,6 +43,9 @@ struct BlockEntry {
 /// XXH3, 64 bits.
 [[nodiscard]] std::uint64_t hash_of(std::span<const std::byte> bytes);
 
+/// How many entities of the input can have the feature.
+[[nodiscard]] std::uint64_t entities_with(Feature feature, const CheckpointFacts& facts);
+
 [[nodiscard]] std::size_t section_count(const CheckpointFacts& facts);
 
 /// The table: the facts, and the blocks in the order of the file.

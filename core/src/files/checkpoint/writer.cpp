@@ -111,6 +111,10 @@ void CheckpointWriter::put_input(MeshSource& input) {
     put_section(Section::edges, [&](const Window& w) { return numbers(input.edges(w)); });
     put_section(Section::edge_markers,
                 [&](const Window& w) { return bytes_of(input.edge_markers(w)); });
+    for (const Feature f : all_features) {
+        put_section(feature_section(f),
+                    [&](const Window& w) { return bytes_of(input.features(f, w)); });
+    }
 }
 
 void CheckpointWriter::commit() {

@@ -110,8 +110,21 @@ std::string_view entry_name(Listed list) {
     return "edge";
 }
 
+Numbered numbered_by(Feature feature, const MeshFacts& counts) {
+    switch (dimension_of(feature)) {
+        case 0: return {counts.vertices, "vertex"};
+        case 1: return {counts.edges, entry_name(Listed::edges)};
+        case 2: return {counts.facets, entry_name(Listed::facets)};
+        default: return {counts.cells, entry_name(Listed::cells)};
+    }
+}
+
+std::string no_such_entity(const Numbered& numbered, std::int64_t number) {
+    return fmt::format("there is no {} {}: the file has {}", numbered.name, number, numbered.count);
+}
+
 std::string no_such_vertex(std::int64_t number, std::uint64_t vertices) {
-    return fmt::format("there is no vertex {}: the file has {}", number, vertices);
+    return no_such_entity({vertices, "vertex"}, number);
 }
 
 void check_listed(Mesh& mesh, const ReadOptions& options, const std::filesystem::path& path,

@@ -7,6 +7,7 @@
 
 #include <octetra/core/files/mesh_files.hpp>
 #include <octetra/core/mesh.hpp>
+#include <octetra/core/mesh_source.hpp>
 
 #include "files/checks/conflicts.hpp"
 
@@ -36,6 +37,15 @@ public:
     [[nodiscard]] virtual LineOf lines_of(Listed list) const = 0;
 };
 
+/// Of how many entities the numbers of a feature are, and what messages call one.
+struct Numbered {
+    std::uint64_t count = 0;
+    std::string_view name;
+};
+[[nodiscard]] Numbered numbered_by(Feature feature, const MeshFacts& counts);
+
+/// "there is no edge 5: the file has 4"
+[[nodiscard]] std::string no_such_entity(const Numbered& numbered, std::int64_t number);
 /// "there is no vertex 5: the file has 4"
 [[nodiscard]] std::string no_such_vertex(std::int64_t number, std::uint64_t vertices);
 

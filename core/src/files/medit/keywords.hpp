@@ -1,11 +1,14 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
 #include <string_view>
 
-/// Keywords of the Medit format that begin sections of other kinds than a mesh is made of.
+#include <octetra/core/features.hpp>
+
+/// Keywords of the Medit format that begin sections of other kinds than lists of a mesh.
 namespace octetra {
 
 /// Of a keyword that only text files have.
@@ -17,20 +20,32 @@ struct MeditKeyword {
     std::int32_t code;
 };
 
+/// Of the features, in the order of all_features. Each entry is the number of an entity.
+inline constexpr std::array<MeditKeyword, feature_count> feature_sections{
+    {{"Corners", 13},
+     {"RequiredVertices", 15},
+     {"Ridges", 14},
+     {"RequiredEdges", 16},
+     {"RequiredTriangles", 17},
+     {"RequiredTetrahedra", 12}}};
+
+[[nodiscard]] inline const MeditKeyword& keyword_of(Feature feature) {
+    return feature_sections.at(static_cast<std::size_t>(feature));
+}
+/// Which of the features' sections has this keyword or code; feature_count if none has.
+[[nodiscard]] std::size_t feature_with(auto MeditKeyword::*member, const auto& value) {
+    const auto found = std::ranges::find(feature_sections, value, member);
+    return static_cast<std::size_t>(found - feature_sections.begin());
+}
+
 /// Keywords whose entries are read over, and how many numbers each entry has in text.
 struct SkippedSection {
     std::string_view keyword;
     std::size_t numbers_per_entry;
     std::int32_t code;
 };
-inline constexpr std::array<SkippedSection, 13> skipped_sections{
-    {{"Corners", 1, 13},
-     {"RequiredVertices", 1, 15},
-     {"Ridges", 1, 14},
-     {"RequiredEdges", 1, 16},
-     {"RequiredTriangles", 1, 17},
-     {"RequiredTetrahedra", 1, 12},
-     {"Normals", 3, 60},
+inline constexpr std::array<SkippedSection, 7> skipped_sections{
+    {{"Normals", 3, 60},
      {"NormalAtVertices", 2, 20},
      {"NormalAtTriangleVertices", 3, 21},
      {"Tangents", 3, 59},

@@ -4,6 +4,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -33,6 +34,13 @@ struct Section {
     std::optional<OutOfRange> out_of_range;  ///< looked for while streaming
 };
 
+/// What is known of a feature's section.
+struct FeatureSection {
+    std::uint64_t keyword_line = 0;  ///< 0: there was no such section
+    std::uint64_t largest = 0;       ///< of its numbers, counted from 1
+    std::uint64_t largest_line = 0;  ///< where that stands first
+};
+
 class MeditReader final : private EntryPlaces {
 public:
     /// Without a sink, reads the mesh into memory.
@@ -54,6 +62,7 @@ public:
         } else {
             check_listed(mesh_, *options_, reader_.path(), *this);
         }
+        for (const Feature feature : all_features) finish_feature(feature);
         growing_.finish();
         return std::move(mesh_);
     }
@@ -99,6 +108,8 @@ private:
 
     void read_other(const std::string& keyword) {
         const std::uint64_t line = reader_.line_number();
+        const std::size_t feature = feature_with(&MeditKeyword::keyword, std::string_view(keyword));
+        if (feature < feature_count) return read_feature(all_features.at(feature));
         const auto skipped = std::ranges::find(skipped_sections, keyword, &SkippedSection::keyword);
         if (skipped != skipped_sections.end()) {
             const std::uint64_t count = tokens_.unsigned_integer("the number of entries");
@@ -123,6 +134,41 @@ private:
                 line);
         }
         reader_.fail(fmt::format("a keyword expected, {} found", shown(keyword)));
+    }
+
+    void read_feature(Feature feature) {
+        FeatureSection& section = features_[feature];
+        if (section.keyword_line != 0) {
+            reader_.fail(fmt::format("a second section {}; the first is on line {}",
+                                     keyword_of(feature).keyword, section.keyword_line));
+        }
+        section.keyword_line = reader_.line_number();
+        const std::uint64_t count = tokens_.unsigned_integer("the number of entries");
+        reader_.check_count(count, 1, "entries");
+        std::vector<std::uint64_t>& numbers = mesh_.features[feature];
+        if (!growing_.is_streaming()) numbers.reserve(count);
+        const std::string_view name = numbered_by(feature, {}).name;
+        for (std::uint64_t i = 0; i < count; ++i) {
+            const std::uint64_t number = tokens_.unsigned_integer("a number");
+            if (number == 0 || number > VertexIndex::limit) {
+                reader_.fail(fmt::format("there is no {} {}", name, number));
+            }
+            if (number > section.largest) {
+                section.largest = number;
+                section.largest_line = reader_.line_number();
+            }
+            if (!growing_.is_streaming()) numbers.push_back(number - 1);
+        }
+    }
+
+    /// What the numbers are of may stand behind them.
+    void finish_feature(Feature feature) {
+        const Numbered numbered = numbered_by(feature, growing_.facts());
+        const auto& [keyword_line, largest, line] = features_[feature];
+        if (largest > numbered.count) {
+            reader_.fail(no_such_entity(numbered, static_cast<std::int64_t>(largest)), line);
+        }
+        put_in_order(mesh_.features[feature]);
     }
 
     /// Reads a section's count and its entries, each by read_entry().
@@ -267,6 +313,7 @@ private:
     Section tetrahedra_;
     Section triangles_;
     Section edges_;
+    PerFeature<FeatureSection> features_;
 };
 
 }  // namespace

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "files/medit/keywords.hpp"
 #include "files/medit/medit.hpp"
 #include "files/medit/sol_writer.hpp"
 #include "files/output/output_file.hpp"
@@ -70,6 +71,20 @@ void write_vertices(OutputFile& out, MeshSource& mesh) {
     });
 }
 
+void write_features(OutputFile& out, MeshSource& mesh) {
+    for (const Feature feature : all_features) {
+        const std::uint64_t count = mesh.facts().features[feature];
+        if (count == 0) continue;
+        put_section_heading(out, mesh.group(), keyword_of(feature).keyword, count);
+        put_list(out, count, mesh.group(), [&](const Window& window, std::uint64_t) {
+            for (const std::uint64_t number : mesh.features(feature, window)) {
+                out.put(number + 1);
+                out.put('\n');
+            }
+        });
+    }
+}
+
 }  // namespace
 
 std::string write_medit(MeshSource& mesh, const std::filesystem::path& path) {
@@ -92,6 +107,7 @@ std::string write_medit(MeshSource& mesh, const std::filesystem::path& path) {
                          {"Edges", facts.edges, &MeshSource::edges, facts.has_edge_markers,
                           &MeshSource::edge_markers});
     }
+    write_features(out, mesh);
     if (group.is_first()) out.put(std::string_view{"End\n"});
     commit_with_fields(std::move(file), mesh, path);
     return attributes_left_out(facts);

@@ -65,6 +65,11 @@ private:
 
     /// Of what is no list of the mesh.
     void take_other(const MeshbRecord& record) {
+        const std::size_t feature = feature_with(&MeditKeyword::code, record.code);
+        if (feature < feature_count) {
+            return take_list(record, layout_.lists.features[all_features.at(feature)],
+                             format().integer_size(), feature_sections.at(feature).keyword);
+        }
         const auto named = [&](const auto& keywords) {
             using Keyword = std::ranges::range_value_t<decltype(keywords)>;
             const auto found = std::ranges::find(keywords, record.code, &Keyword::code);
@@ -112,6 +117,15 @@ std::string note_on_section(const std::filesystem::path& path, std::uint64_t key
                             std::int32_t code) {
     return fmt::format("{}: at byte {}: the section with keyword {} is not kept", path.native(),
                        keyword_at, code);
+}
+
+MeshFacts counts_of(const MeshbLists& lists) {
+    MeshFacts counts{.vertices = lists.vertices.count,
+                     .cells = lists.tetrahedra.count,
+                     .facets = lists.triangles.count,
+                     .edges = lists.edges.count};
+    for (const Feature f : all_features) counts.features[f] = lists.features[f].count;
+    return counts;
 }
 
 MeshbLayout read_meshb_layout(ByteReader& reader) { return LayoutReader(reader).read(); }

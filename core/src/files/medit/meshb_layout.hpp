@@ -6,6 +6,9 @@
 #include <string>
 #include <vector>
 
+#include <octetra/core/features.hpp>
+#include <octetra/core/mesh_source.hpp>
+
 #include "files/input/byte_reader.hpp"
 
 /// How Medit's binary format `.meshb` is laid out: 1, which tells the byte order, and a version, of
@@ -13,7 +16,7 @@
 /// count, and as many rows. Entities are numbered from 1.
 namespace octetra {
 
-/// Codes of keywords that a mesh is made of; keywords.hpp has those of others.
+/// Codes of keywords of a mesh's lists; keywords.hpp has those of others.
 namespace meshb_code {
 inline constexpr std::int32_t dimension = 3;
 inline constexpr std::int32_t vertices = 4;
@@ -59,6 +62,7 @@ struct MeshbLists {
     MeshbSection tetrahedra;
     MeshbSection triangles;
     MeshbSection edges;
+    PerFeature<MeshbSection> features;
     bool has_end = false;
 };
 
@@ -68,6 +72,9 @@ struct MeshbLayout {
     /// known, and 0.
     std::vector<MeshbSection> skipped;
 };
+
+/// How many entities there are of each kind.
+[[nodiscard]] MeshFacts counts_of(const MeshbLists& lists);
 
 /// Goes from keyword to keyword, and over the rows. What holds of a layout that is returned: rows
 /// of all lists are in the file, and as many as announced; there are vertices. Throws InputError

@@ -2,6 +2,7 @@
 #include <array>
 #include <functional>
 #include <utility>
+#include <vector>
 
 #include "files/input/byte_reader.hpp"
 #include "files/input/growing_mesh.hpp"
@@ -37,6 +38,7 @@ public:
         std::array<Listed, 3> lists{Listed::cells, Listed::facets, Listed::edges};
         std::ranges::sort(lists, {}, [&](Listed list) { return rows_.section(list).keyword_at; });
         for (const Listed list : lists) read_list(list);
+        for (const Feature feature : all_features) read_feature(feature);
         if (!growing_.is_streaming()) {
             check_listed(growing_.mesh, *options_, reader_.path(), *this);
         }
@@ -77,6 +79,17 @@ private:
             done += some;
         }
         growing_.all_complete(kind);
+    }
+
+    void read_feature(Feature feature) {
+        constexpr std::uint64_t at_once = 16384;
+        const std::uint64_t count = layout_.lists.features[feature].count;
+        std::vector<std::uint64_t>& numbers = growing_.mesh.features[feature];
+        for (std::uint64_t done = 0; done < count; done += at_once) {
+            rows_.append_numbers(feature, done, std::min(count - done, at_once), numbers);
+            if (growing_.is_streaming()) numbers.clear();
+        }
+        put_in_order(numbers);
     }
 
     [[noreturn]] void fail_entry(Listed list, std::uint64_t entry,

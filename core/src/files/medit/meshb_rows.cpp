@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "files/input/fields.hpp"
+#include "files/medit/keywords.hpp"
 
 namespace octetra {
 namespace {
@@ -204,6 +205,36 @@ void MeshbRows::refuse_entity(const std::byte* row, std::uint64_t first) const {
         const std::int64_t reference = Numbers::integer(row, N);
         if (!is_reference(reference)) {
             fail_entry(listed<N>, first, wrong_reference("the reference", reference));
+        }
+    }
+}
+
+void MeshbRows::append_numbers(Feature feature, std::uint64_t first, std::uint64_t count,
+                               std::vector<std::uint64_t>& numbers) {
+    with_numbers(lists_->format, [&]<class Numbers>(Numbers) {
+        append_numbers_of<Numbers>(feature, first, count, numbers);
+    });
+}
+
+template <class Numbers>
+void MeshbRows::append_numbers_of(Feature feature, std::uint64_t first, std::uint64_t count,
+                                  std::vector<std::uint64_t>& numbers) {
+    constexpr std::size_t row_size = sizeof(typename Numbers::Integer);
+    const Numbered numbered = numbered_by(feature, counts_of(*lists_));
+    const std::uint64_t begin = lists_->features[feature].rows_at;
+    reader_->seek(begin + first * row_size);
+    while (count > 0) {
+        const auto rows = reader_->take_rows(count, row_size, "an entry");
+        for (const std::byte* row = rows.data(); row != rows.data() + rows.size();
+             row += row_size, ++first, --count) {
+            const std::int64_t number = Numbers::integer(row, 0);
+            if (number < 1 || static_cast<std::uint64_t>(number) > numbered.count) {
+                reader_->fail(
+                    fmt::format("entry {} of {}: {}", first + 1, keyword_of(feature).keyword,
+                                no_such_entity(numbered, number)),
+                    begin + first * row_size);
+            }
+            numbers.push_back(static_cast<std::uint64_t>(number) - 1);
         }
     }
 }

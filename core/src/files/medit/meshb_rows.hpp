@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <vector>
 
 #include <octetra/core/mesh.hpp>
 
@@ -27,6 +28,10 @@ public:
     template <class I, std::size_t N>
     void append(const EntityKind<I, N>& kind, std::uint64_t first, std::uint64_t count, Mesh& mesh);
 
+    /// Appends rows of a feature's section, as numbers from 0.
+    void append_numbers(Feature feature, std::uint64_t first, std::uint64_t count,
+                        std::vector<std::uint64_t>& numbers);
+
     [[nodiscard]] const MeshbSection& section(Listed list) const;
     /// Throws InputError that names an entry of a section.
     [[noreturn]] void fail_entry(Listed list, std::uint64_t entry, std::string_view what) const;
@@ -39,6 +44,9 @@ private:
     template <class Numbers, class I, std::size_t N>
     void append_of(const EntityKind<I, N>& kind, std::uint64_t first, std::uint64_t count,
                    Mesh& mesh);
+    template <class Numbers>
+    void append_numbers_of(Feature feature, std::uint64_t first, std::uint64_t count,
+                           std::vector<std::uint64_t>& numbers);
     template <class Numbers, std::size_t N>
     [[noreturn]] void refuse_entity(const std::byte* rows, std::uint64_t first) const;
 

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "files/medit/keywords.hpp"
 #include "files/medit/medit.hpp"
 #include "files/medit/meshb_heads.hpp"
 #include "files/medit/sol_writer.hpp"
@@ -16,11 +17,16 @@ namespace octetra {
 namespace {
 
 std::uint64_t file_size(const MeshFacts& facts, const MeshbFormat& format) {
-    const std::uint64_t heads = 2U + (facts.facets > 0 ? 1U : 0U) + (facts.edges > 0 ? 1U : 0U);
+    std::uint64_t heads = 2U + (facts.facets > 0 ? 1U : 0U) + (facts.edges > 0 ? 1U : 0U);
+    std::uint64_t featured = 0;
+    for (const std::uint64_t count : facts.features) {
+        heads += count > 0 ? 1U : 0U;
+        featured += count;
+    }
     return MeshbHeads::start_size(format) + heads * format.head_size() +
            facts.vertices * format.point_size() + facts.cells * format.entity_size(4) +
-           facts.facets * format.entity_size(3) + facts.edges * format.entity_size(2) + 4 +
-           format.position_size();
+           facts.facets * format.entity_size(3) + facts.edges * format.entity_size(2) +
+           featured * format.integer_size() + 4 + format.position_size();
 }
 
 template <class Integer>
@@ -42,6 +48,9 @@ public:
         if (facts.edges > 0) {
             write_list<2>(meshb_code::edges, facts.edges, &MeshSource::edges,
                           facts.has_edge_markers, &MeshSource::edge_markers);
+        }
+        for (const Feature feature : all_features) {
+            if (facts.features[feature] > 0) write_feature(feature, facts.features[feature]);
         }
         heads_.put_end();
     }
@@ -89,6 +98,18 @@ private:
                 place += sizeof row;
             }
             out_->put_bytes(rows_.data(), rows_.size());
+        });
+    }
+
+    void write_feature(Feature feature, std::uint64_t count) {
+        heads_.put_section(keyword_of(feature).code, count, count * sizeof(Integer));
+        std::vector<Integer> numbers;
+        put_list(*out_, count, mesh_->group(), [&](const Window& window, std::uint64_t) {
+            numbers.clear();
+            for (const std::uint64_t number : mesh_->features(feature, window)) {
+                numbers.push_back(static_cast<Integer>(number + 1));
+            }
+            out_->put_bytes(numbers.data(), numbers.size() * sizeof(Integer));
         });
     }
 

@@ -16,4 +16,7 @@ inline void add_loss(std::string& lost, std::string_view loss) {
 inline constexpr std::string_view group_names_are_lost =
     "the names of groups are lost; .msh and .octetra files hold them";
 
+inline constexpr std::string_view features_are_lost =
+    "corners, ridges and what is required are lost; .mesh, .meshb and .octetra files hold them";
+
 }  // namespace octetra

@@ -8,6 +8,7 @@
 #include "files/input/growing_mesh.hpp"
 #include "files/input/input_file.hpp"
 #include "files/input/line_reader.hpp"
+#include "files/medit/entry_places.hpp"
 #include "files/medit/keywords.hpp"
 #include "files/medit/medit.hpp"
 #include "files/stretches/keyword_scan.hpp"
@@ -40,6 +41,7 @@ struct MeditPlan {
     SectionPlan tetrahedra;
     SectionPlan triangles;
     SectionPlan edges;
+    PerFeature<SectionPlan> features;
     std::array<SkippedPlan, 2 * skipped_sections.size()> skipped{};
     std::uint64_t skipped_count = 0;
     std::uint64_t has_end = 0;
@@ -87,12 +89,26 @@ private:
     std::uint64_t number_ = 0;
 };
 
+/// How many there are of each kind.
+MeshFacts counts_of(const MeditPlan& plan) {
+    MeshFacts counts{.vertices = plan.vertices.count,
+                     .cells = plan.tetrahedra.count,
+                     .facets = plan.triangles.count,
+                     .edges = plan.edges.count};
+    for (const Feature f : all_features) counts.features[f] = plan.features[f].count;
+    return counts;
+}
+
 /// Of what is no list of the mesh.
 void plan_other(SectionHead& head, std::uint64_t keyword_line, MeditPlan& plan) {
     if (std::ranges::find(other_cell_shapes, head.keyword(), &MeditKeyword::keyword) !=
         other_cell_shapes.end()) {
         if (head.number() != 0) leave_it_to_one_process();
         return head.expect_nothing();
+    }
+    const std::size_t feature = feature_with(&MeditKeyword::keyword, head.keyword());
+    if (feature < feature_count) {
+        return head.take_entries(plan.features[all_features.at(feature)], 1);
     }
     const auto skipped =
         std::ranges::find(skipped_sections, head.keyword(), &SkippedSection::keyword);
@@ -171,6 +187,7 @@ public:
         read_list(plan_->tetrahedra, cell_kind, lists);
         read_list(plan_->triangles, facet_kind, lists);
         read_list(plan_->edges, edge_kind, lists);
+        for (const Feature feature : all_features) read_feature(feature, lists.features[feature]);
         for (std::size_t k = 0; k < plan_->skipped_count; ++k) read_over(k);
     }
 
@@ -185,6 +202,9 @@ public:
         stretch.first_cell = number(lists.cells.size(), plan_->tetrahedra);
         stretch.first_facet = number(lists.facets.size(), plan_->triangles);
         stretch.first_edge = number(lists.edges.size(), plan_->edges);
+        for (const Feature feature : all_features) {
+            (void)number(lists.features[feature].size(), plan_->features[feature]);
+        }
         for (std::size_t k = 0; k < plan_->skipped_count; ++k) {
             (void)number(read_over_[k], plan_->skipped[k].section);
         }
@@ -235,6 +255,17 @@ private:
             read_entry);
     }
 
+    void read_feature(Feature feature, std::vector<std::uint64_t>& numbers) {
+        const std::uint64_t count = numbered_by(feature, counts_of(*plan_)).count;
+        read_share(
+            plan_->features[feature], 1, [&](std::size_t room) { numbers.reserve(room); },
+            [&](Fields& fields, const LineReader& reader) {
+                const std::uint64_t number = fields.unsigned_integer("a number") - 1;
+                if (number >= count) reader.fail("there is no such entity");  // 0 wraps round
+                numbers.push_back(number);
+            });
+    }
+
     void read_over(std::size_t k) {
         const SkippedPlan& skipped = plan_->skipped[k];
         const std::size_t numbers = skipped_sections.at(skipped.kind).numbers_per_entry;
@@ -283,11 +314,7 @@ std::optional<MeshStretch> read_medit_stretch(const fs::path& path, const Proces
         if (plan.has_end == 0) stretch.notes.push_back(note_on_missing_end(path));
     });
     if (!progress.all_well() || !shares.number(stretch)) return std::nullopt;
-    settle_facts({.vertices = plan.vertices.count,
-                  .cells = plan.tetrahedra.count,
-                  .facets = plan.triangles.count,
-                  .edges = plan.edges.count},
-                 group, stretch);
+    settle_facts(counts_of(plan), group, stretch);
     return stretch;
 }
 

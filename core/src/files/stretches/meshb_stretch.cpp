@@ -46,6 +46,11 @@ void read_shares(const std::filesystem::path& path, const MeshbLists& sections,
     stretch.first_cell = read(cell_kind, sections.tetrahedra);
     stretch.first_facet = read(facet_kind, sections.triangles);
     stretch.first_edge = read(edge_kind, sections.edges);
+    for (const Feature feature : all_features) {
+        const RowShare share = share_of_rows(sections.features[feature].count, group);
+        lists.features[feature].reserve(share.count);
+        rows.append_numbers(feature, share.first, share.count, lists.features[feature]);
+    }
 }
 
 /// Collective. Notes of the first process, one after the other with zeros between, are all's.
@@ -86,11 +91,7 @@ std::optional<MeshStretch> read_meshb_stretch(const std::filesystem::path& path,
     if (!take_notes(progress, stretch.notes)) return std::nullopt;
     progress.attempt([&] { read_shares(path, sections, group, stretch); });
     if (!progress.all_well()) return std::nullopt;
-    settle_facts({.vertices = sections.vertices.count,
-                  .cells = sections.tetrahedra.count,
-                  .facets = sections.triangles.count,
-                  .edges = sections.edges.count},
-                 group, stretch);
+    settle_facts(counts_of(sections), group, stretch);
     return stretch;
 }
 

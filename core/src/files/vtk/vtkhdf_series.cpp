@@ -170,6 +170,7 @@ struct MeshSeries::Parts {
     std::uint64_t facets = 0;
     std::uint64_t edges = 0;
     bool has_group_names = false;
+    bool has_features = false;
 
     Parts(const fs::path& name, const ProcessGroup& processes)
         : path(name),
@@ -265,6 +266,7 @@ struct MeshSeries::Parts {
     [[nodiscard]] std::string lost() const {
         std::string lost = lists_left_out(path, facets, edges);
         if (has_group_names) add_loss(lost, group_names_are_lost);
+        if (has_features) add_loss(lost, features_are_lost);
         std::vector<std::string> missing;
         for (const KeptStep& step : steps) {
             for (const KeptArray& array : step.arrays) {
@@ -312,6 +314,7 @@ void MeshSeries::append(MeshSource& mesh, double time) {
     parts.facets = std::max(parts.facets, facts.facets);
     parts.edges = std::max(parts.edges, facts.edges);
     parts.has_group_names = parts.has_group_names || !facts.group_names.empty();
+    parts.has_features = parts.has_features || has_any(facts.features);
 }
 
 std::string MeshSeries::commit() {

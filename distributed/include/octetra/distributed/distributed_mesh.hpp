@@ -4,6 +4,7 @@
 #include <memory>
 #include <vector>
 
+#include <octetra/core/features.hpp>
 #include <octetra/core/index.hpp>
 #include <octetra/core/maps.hpp>
 #include <octetra/core/mesh.hpp>
@@ -90,6 +91,11 @@ struct DistributedMesh {
     std::uint64_t input_cell_count = 0;
     std::uint32_t index_base = 0;
     SharedGroupNames group_names;
+
+    /// Features of the input, if it has any: all processes have lists then, or none has. Each has
+    /// some of the numbers, whoever has the entities: what becomes of these is found out when the
+    /// mesh is written, as their pieces stand together then.
+    SharedFeatures features;
 };
 
 /// Collective. Gives each cell of a mesh that the first process has to the process that

@@ -25,8 +25,9 @@ struct Refinement {
 /// the input's vertices keep their numbers, the midpoints of a level follow in the order of their
 /// edges' (smaller, larger) end point numbers.
 /// Region tags go to the children, facets and their markers to the triangles that tile them, edges
-/// and theirs to the halves. A midpoint has the mean of its ends' attributes. Its marker is the
-/// edge's, where that is tagged; else the smallest of the tagged facets around the edge; else 0.
+/// and theirs to the halves; features of all of them likewise, and no midpoint has one. A midpoint
+/// has the mean of its ends' attributes. Its marker is the edge's, where that is tagged; else the
+/// smallest of the tagged facets around the edge; else 0.
 ///
 /// The mesh must satisfy the invariants of struct Mesh. Throws InputError where a midpoint, rounded
 /// to binary64, would flatten or invert a cell, where the result has more entities than can be

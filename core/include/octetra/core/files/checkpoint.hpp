@@ -34,6 +34,7 @@ struct CheckpointFacts {
     bool has_regions = false;
     bool has_facet_markers = false;
     bool has_edge_markers = false;
+    FeatureCounts features;
 
     // The mesh as it is:
     std::uint64_t vertices_now = 0;

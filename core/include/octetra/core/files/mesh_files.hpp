@@ -21,7 +21,7 @@ struct ReadOptions {
     /// a vertex twice, facets and edges may belong to no cell or have two markers. For whoever
     /// judges the mesh; vertex numbers are still in range and coordinates finite.
     bool only_syntax = false;
-    /// Told, in a sentence, of what is in the file but not in the mesh (Medit's `Corners`, say),
+    /// Told, in a sentence, of what is in the file but not in the mesh (Medit's `Normals`, say),
     /// and of how many cells were turned round.
     std::function<void(const std::string&)> note = [](const std::string&) {};
 };

@@ -16,9 +16,9 @@ namespace octetra {
 /// stretches of 1 to longest_stretch. Points come before all else, whatever the file's order;
 /// cells, facets and edges follow as the file has them, one kind after the other or, in `.msh`
 /// files, by turns. Vertices are numbered from 0, and in range; coordinates are finite. Nothing
-/// else is checked (ReadOptions::only_syntax). Spans are valid during the call. Where the file
-/// turns out bad, nothing further comes and stream_mesh() throws, as it does what a sink throws:
-/// what was heard then is not a mesh.
+/// else is checked (ReadOptions::only_syntax). Of features a sink hears nothing. Spans are valid
+/// during the call. Where the file turns out bad, nothing further comes and stream_mesh() throws,
+/// as it does what a sink throws: what was heard then is not a mesh.
 class MeshSink {
 public:
     /// Of points, fewer come at once the more attributes they have.

@@ -1,0 +1,132 @@
+#include "output/feature_slices.hpp"
+
+#include <algorithm>
+#include <functional>
+
+#include "output/slices.hpp"
+
+namespace octetra::distributed {
+namespace {
+
+/// Numbers of an input's entities of a kind meet at a process that they decide: the first has the
+/// first block of them, and so on.
+struct NumberBlocks {
+    std::uint64_t size = 1;
+    std::size_t processes = 1;
+
+    NumberBlocks(const Communicator& group, std::uint64_t count)
+        : size(count / static_cast<std::uint64_t>(group.size()) + 1),
+          processes(static_cast<std::size_t>(group.size())) {}
+
+    /// What each process gets of these.
+    template <class T>
+    [[nodiscard]] std::vector<std::vector<T>> outboxes(const std::vector<T>& all,
+                                                       auto&& number_of) const {
+        std::vector<std::vector<T>> boxes(processes);
+        for (const T& one : all) boxes[number_of(one) / size].push_back(one);
+        return boxes;
+    }
+};
+
+/// A root, and where its pieces stand in the canonical order.
+struct PiecesOfRoot {
+    std::uint64_t root;
+    std::uint64_t begin;
+    std::uint64_t count;
+};
+
+/// Collective. Of this process's block of roots, by their numbers.
+std::vector<PiecesOfRoot> pieces_in_block(const Communicator& processes,
+                                          const FeatureSlices::Kind& kind,
+                                          const NumberBlocks& blocks) {
+    const auto& [roots, first, markers] = *kind.ancestors;
+    std::vector<PiecesOfRoot> own;
+    own.reserve(roots.size());
+    for (std::size_t r = 0; r < roots.size(); ++r) {
+        own.push_back({roots[r], kind.runs->begin[r], std::uint64_t{first[r + 1] - first[r]}});
+    }
+    const auto number_of = [](const PiecesOfRoot& pieces) { return pieces.root; };
+    std::vector<PiecesOfRoot> met;
+    for (const auto& inbox : processes.all_to_all(blocks.outboxes(own, number_of))) {
+        met.insert(met.end(), inbox.begin(), inbox.end());
+    }
+    std::ranges::sort(met, {}, number_of);
+    return met;
+}
+
+/// Collective. The numbers with a feature that are in this process's block, in order.
+std::vector<std::uint64_t> numbers_in_block(const Communicator& processes,
+                                            const std::vector<std::uint64_t>& numbers,
+                                            const NumberBlocks& blocks) {
+    std::vector<std::uint64_t> met;
+    for (const auto& inbox : processes.all_to_all(blocks.outboxes(numbers, std::identity{}))) {
+        met.insert(met.end(), inbox.begin(), inbox.end());
+    }
+    put_in_order(met);
+    return met;
+}
+
+/// Collective. How many entities of a dimension the input has.
+std::uint64_t input_count(const DistributedMesh& mesh, std::size_t dimension,
+                          const AncestorMap* ancestors) {
+    if (dimension == 0) return mesh.input_vertex_count;
+    return mesh.processes.max(ancestors->roots.empty() ? 0 : ancestors->roots.back() + 1);
+}
+
+}  // namespace
+
+FeatureSlices::FeatureSlices(const DistributedMesh& mesh, const std::array<Kind, 3>& kinds)
+    : processes_(mesh.processes) {
+    if (!mesh.features) return;
+    for (std::size_t dimension = 0; dimension <= kinds.size(); ++dimension) {
+        const Kind* const kind = dimension == 0 ? nullptr : &kinds.at(dimension - 1);
+        std::uint64_t listed = 0;
+        for (const Feature f : all_features) {
+            if (dimension_of(f) == dimension) listed += (*mesh.features)[f].size();
+        }
+        if (processes_.sum(listed) == 0) continue;
+        const NumberBlocks blocks(
+            processes_, input_count(mesh, dimension, kind == nullptr ? nullptr : kind->ancestors));
+        std::vector<PiecesOfRoot> pieces;
+        if (kind != nullptr) pieces = pieces_in_block(processes_, *kind, blocks);
+        for (const Feature f : all_features) {
+            if (dimension_of(f) != dimension) continue;
+            std::uint64_t own = 0;
+            for (const std::uint64_t number :
+                 numbers_in_block(processes_, (*mesh.features)[f], blocks)) {
+                Run run{own, number, 1};  // a vertex keeps its number
+                if (kind != nullptr) {
+                    const auto found =
+                        std::ranges::lower_bound(pieces, number, {}, &PiecesOfRoot::root);
+                    run.begin = found->begin;
+                    run.count = found->count;
+                }
+                own += run.count;
+                runs_[f].push_back(run);
+            }
+            const std::uint64_t before = processes_.sum_before(own);
+            for (Run& run : runs_[f]) run.place += before;
+            counts_[f] = processes_.sum(own);
+        }
+    }
+}
+
+std::span<const std::uint64_t> FeatureSlices::slice(Feature feature, const Window& window) {
+    const std::vector<Run>& runs = runs_[feature];
+    bring_to_slices<std::uint64_t>(
+        processes_, window,
+        [&](std::uint64_t begin, std::uint64_t end, auto&& emit) {
+            // The first run that does not end before `begin`.
+            auto run = std::ranges::partition_point(
+                runs, [&](const Run& r) { return r.place + r.count <= begin; });
+            for (; run != runs.end() && run->place < end; ++run) {
+                const std::uint64_t from = std::max(begin, run->place);
+                const std::uint64_t to = std::min(end, run->place + run->count);
+                for (std::uint64_t p = from; p < to; ++p) emit(p, run->begin + (p - run->place));
+            }
+        },
+        slice_);
+    return slice_;
+}
+
+}  // namespace octetra::distributed

@@ -60,15 +60,17 @@ Mesh as_in_medit(Mesh mesh) {
     return mesh;
 }
 
-Mesh without_names(Mesh mesh) {
+/// What of a mesh TetGen's files can hold.
+Mesh as_in_tetgen(Mesh mesh) {
     mesh.group_names.clear();
+    mesh.features = {};
     return mesh;
 }
 
 void check_written(const Mesh& mesh, const fs::path& folder, bool only_syntax) {
     const ReadOptions options{.only_syntax = only_syntax};
     (void)write_mesh(mesh, folder / "out.ele");
-    expect_same(read(folder / "out.ele", options), without_names(mesh),
+    expect_same(read(folder / "out.ele", options), as_in_tetgen(mesh),
                 "when written to TetGen files and read");
     (void)write_mesh(mesh, folder / "out.mesh");
     expect_same(read(folder / "out.mesh", options), as_in_medit(mesh),
@@ -83,6 +85,7 @@ Mesh as_in_gmsh(Mesh mesh) {
     mesh.point_markers.clear();
     std::vector<GroupName> group_names = std::move(mesh.group_names);
     mesh = as_in_medit(std::move(mesh));
+    mesh.features = {};
     mesh.group_names = std::move(group_names);
     return mesh;
 }

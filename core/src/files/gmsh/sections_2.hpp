@@ -74,7 +74,7 @@ std::uint64_t read_element_count_2(Input& in) {
 
 /// Of elements of a kind that are kept, what is needed to know one that is listed again.
 template <std::size_t N>
-struct Listed {
+struct ListedElement {
     std::array<std::uint64_t, N> nodes{};
     std::int32_t physical = 0;
     std::int32_t elementary = 0;
@@ -84,7 +84,7 @@ struct Listed {
 /// Do both mean the same element of the same entity? Its vertices are turned round where a group
 /// has the entity reversed.
 template <std::size_t N>
-bool is_same_element(const Listed<N>& a, const Listed<N>& b) {
+bool is_same_element(const ListedElement<N>& a, const ListedElement<N>& b) {
     if (!a.is_there || !b.is_there || a.elementary != b.elementary) return false;
     auto nodes = a.nodes;
     auto other_nodes = b.nodes;
@@ -96,14 +96,14 @@ bool is_same_element(const Listed<N>& a, const Listed<N>& b) {
 /// What of the elements of a kind tells whether those before or behind are listed again.
 template <std::size_t N>
 struct ListedRun {
-    Listed<N> first;           ///< that is kept
-    Listed<N> last;            ///< that is kept
+    ListedElement<N> first;    ///< that is kept
+    ListedElement<N> last;     ///< that is kept
     std::uint64_t kept = 0;    ///< of all
     std::uint64_t alike = 0;   ///< kept ones at the beginning that are the same element
     std::uint64_t others = 0;  ///< of these, listed in other groups and not kept
     std::array<std::int32_t, 6> groups_of_others{};  ///< as many as there is room for
 
-    void keep(const Listed<N>& one) {
+    void keep(const ListedElement<N>& one) {
         if (kept == 0) first = one;
         if (kept == alike && is_same_element(one, first)) ++alike;
         ++kept;
@@ -187,7 +187,7 @@ private:
 
     template <class I, std::size_t N>
     void keep(const EntityKind<I, N>& kind, ListedRun<N>& run) {
-        Listed<N> one{{}, physical_, elementary_, true};
+        ListedElement<N> one{{}, physical_, elementary_, true};
         for (std::uint64_t& node : one.nodes) node = in_->number32("a node's number");
         if (physical_ != run.last.physical && is_same_element(one, run.last)) {
             run.leave_out(physical_);

@@ -19,7 +19,7 @@ template <std::size_t N>
 [[nodiscard]] std::optional<std::uint64_t> count_listed_again(std::span<const ListedRun<N>> runs,
                                                               std::size_t rank) {
     std::uint64_t to_go = 0;
-    Listed<N> last;  // that is kept, of all before
+    ListedElement<N> last;  // that is kept, of all before
     for (std::size_t r = 0; r < runs.size(); ++r) {
         const ListedRun<N>& run = runs[r];
         if (run.kept == 0) continue;

@@ -7,7 +7,8 @@ namespace octetra::distributed {
 
 std::vector<std::uint64_t> descending_bits(std::span<const double> indicators) {
     std::vector<std::uint64_t> bits(indicators.size());
-    std::ranges::transform(indicators, bits.begin(), bits_of);
+    std::ranges::transform(indicators, bits.begin(),
+                           [](double indicator) { return bits_of(indicator); });
     std::ranges::sort(bits, std::greater<>());
     return bits;
 }

@@ -50,7 +50,7 @@ EdgeMask closure_of(std::size_t edge, const LongestFirst& longest_first) {
 }
 
 /// A list of at most 8 that asks for no memory: there are two thousand to make.
-class Pieces {
+class PiecesOfCell {
 public:
     struct Piece {
         std::array<Place, 4> places{};
@@ -67,22 +67,22 @@ private:
     std::size_t count_ = 0;
 };
 
-Pieces whole_cell() {
-    Pieces pieces;
+PiecesOfCell whole_cell() {
+    PiecesOfCell pieces;
     pieces.push_back({.places = {0, 1, 2, 3}});
     return pieces;
 }
 
 /// The pieces, each cut in two if it has the edge. An original corner never leaves its position but
 /// for a midpoint.
-Pieces bisected(const Pieces& pieces, std::uint8_t edge) {
+PiecesOfCell bisected(const PiecesOfCell& pieces, std::uint8_t edge) {
     const auto& [low, high] = cell_edges[edge];
     const auto midpoint = static_cast<Place>(4 + edge);
-    Pieces halves;
-    for (const Pieces::Piece& piece : pieces) {
+    PiecesOfCell halves;
+    for (const PiecesOfCell::Piece& piece : pieces) {
         halves.push_back(piece);
         if (piece.places[low] != low || piece.places[high] != high) continue;
-        Pieces::Piece half{piece.places, static_cast<std::uint8_t>(piece.halvings + 1)};
+        PiecesOfCell::Piece half{piece.places, static_cast<std::uint8_t>(piece.halvings + 1)};
         half.places[high] = midpoint;
         halves.back() = half;
         half.places = piece.places;
@@ -127,7 +127,7 @@ public:
 private:
     static constexpr Number none = 0xffff;
     struct Node {
-        Pieces pieces;
+        PiecesOfCell pieces;
         std::array<Number, 6> after{};  ///< by the next edge; 0: not yet known
         Number pattern = none;
     };
@@ -140,11 +140,11 @@ private:
         return nodes_[node].after[edge];
     }
 
-    Number number_of(const Pieces& pieces, std::vector<Pattern>& patterns,
+    Number number_of(const PiecesOfCell& pieces, std::vector<Pattern>& patterns,
                      std::vector<Division>& divisions) {
         Pattern pattern;
         pattern.child_count = static_cast<std::uint8_t>(pieces.size());
-        std::ranges::transform(pieces, pattern.children.begin(), &Pieces::Piece::places);
+        std::ranges::transform(pieces, pattern.children.begin(), &PiecesOfCell::Piece::places);
         const auto [place, fresh] =
             numbers_.try_emplace(code_of(pattern), static_cast<Number>(patterns.size()));
         if (fresh) {
@@ -154,9 +154,10 @@ private:
         return place->second;
     }
 
-    static DivisionNumber division_of(const Pieces& pieces, std::vector<Division>& divisions) {
+    static DivisionNumber division_of(const PiecesOfCell& pieces,
+                                      std::vector<Division>& divisions) {
         Division division{.piece_count = static_cast<std::uint8_t>(pieces.size())};
-        std::ranges::transform(pieces, division.halvings.begin(), &Pieces::Piece::halvings);
+        std::ranges::transform(pieces, division.halvings.begin(), &PiecesOfCell::Piece::halvings);
         const auto found = std::ranges::find(divisions, division);
         const auto number = static_cast<DivisionNumber>(found - divisions.begin());
         if (found == divisions.end()) divisions.push_back(division);

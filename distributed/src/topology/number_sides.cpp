@@ -13,7 +13,7 @@ namespace octetra::distributed {
 namespace {
 
 template <std::size_t N>
-using Corners = std::array<VertexIndex, N>;
+using SideCorners = std::array<VertexIndex, N>;
 
 /// Local numbers: sides are found at their lowest vertices, where they are put in order.
 template <class I, std::size_t N, std::size_t PerCell>
@@ -23,7 +23,7 @@ void number_locally(const DistributedMesh& mesh,
     const std::size_t count = PerCell * mesh.cells.size();
     if (count >= I::limit) throw InputError("too many cells on one process to number their sides");
     const auto corners_of = [&](std::size_t side) {
-        Corners<N> corners;
+        SideCorners<N> corners;
         for (std::size_t k = 0; k < N; ++k) {
             corners[k] = mesh.cells[CellIndex{side / PerCell}][places[side % PerCell][k]];
         }
@@ -38,7 +38,7 @@ void number_locally(const DistributedMesh& mesh,
         at_vertex[--begin[corners_of(side)[0].value()]] = static_cast<std::uint32_t>(side);
     }
     sides.of_cell.resize(mesh.cells.size());
-    std::vector<std::pair<Corners<N>, std::uint32_t>> star;
+    std::vector<std::pair<SideCorners<N>, std::uint32_t>> star;
     for (std::size_t v = 0; v + 1 < begin.size(); ++v) {
         star.clear();
         for (std::uint32_t k = begin[v]; k < begin[v + 1]; ++k) {
@@ -55,7 +55,7 @@ void number_locally(const DistributedMesh& mesh,
 }
 
 template <class I, std::size_t N, std::size_t PerCell>
-I find(const Sides<I, N, PerCell>& sides, Corners<N> corners) {
+I find(const Sides<I, N, PerCell>& sides, SideCorners<N> corners) {
     std::ranges::sort(corners);
     const auto found = std::ranges::lower_bound(sides.vertices, corners);
     return I{static_cast<std::size_t>(found - sides.vertices.begin())};

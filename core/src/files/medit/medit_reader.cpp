@@ -27,7 +27,7 @@ struct OutOfRange {
 };
 
 /// Where the entries of a section were found.
-struct Section {
+struct SectionOfText {
     std::uint64_t keyword_line = 0;          ///< 0: there was no such section
     std::uint64_t first_line = 0;            ///< of the first entry
     bool consecutive = true;                 ///< entry i begins on line first_line + i
@@ -172,9 +172,9 @@ private:
     }
 
     /// Reads a section's count and its entries, each by read_entry().
-    Section read_entries(const Section& earlier, std::size_t field_count, std::string_view name,
-                         auto&& expect, auto&& read_entry) {
-        Section section{.keyword_line = reader_.line_number()};
+    SectionOfText read_entries(const SectionOfText& earlier, std::size_t field_count,
+                               std::string_view name, auto&& expect, auto&& read_entry) {
+        SectionOfText section{.keyword_line = reader_.line_number()};
         if (earlier.keyword_line != 0) {
             reader_.fail(fmt::format("a second section of {}; the first is on line {}", name,
                                      earlier.keyword_line));
@@ -214,7 +214,8 @@ private:
     }
 
     template <class I, std::size_t N>
-    void read_entities(const EntityKind<I, N>& kind, Section& section, std::string_view name) {
+    void read_entities(const EntityKind<I, N>& kind, SectionOfText& section,
+                       std::string_view name) {
         std::optional<OutOfRange> out_of_range;
         std::uint64_t entry = 0;
         section = read_entries(
@@ -270,14 +271,14 @@ private:
     // as it is for a mesh in memory.
 
     void check_streamed(Listed list) const {
-        const Section& section = section_of(list);
+        const SectionOfText& section = section_of(list);
         if (!section.out_of_range) return;
         const auto& [entry, vertex] = *section.out_of_range;
         fail_entry(list, entry,
                    no_such_vertex(std::int64_t{vertex.value()} + 1, growing_.facts().vertices));
     }
 
-    [[nodiscard]] const Section& section_of(Listed list) const {
+    [[nodiscard]] const SectionOfText& section_of(Listed list) const {
         switch (list) {
             case Listed::cells: return tetrahedra_;
             case Listed::facets: return triangles_;
@@ -288,7 +289,7 @@ private:
 
     [[noreturn]] void fail_entry(Listed list, std::uint64_t entry,
                                  std::string_view what) const override {
-        const Section& section = section_of(list);
+        const SectionOfText& section = section_of(list);
         if (section.consecutive) reader_.fail(what, section.first_line + entry);
         reader_.fail(fmt::format("{} {} of this section: {}", entry_name(list), entry + 1, what),
                      section.keyword_line);
@@ -309,10 +310,10 @@ private:
     /// While streaming, once it is known: the number of vertices. Else no number reaches it.
     VertexIndex streamed_vertices_ = VertexIndex::none();
     std::optional<std::uint64_t> vertices_ahead_;  ///< as read before the rest
-    Section vertices_;
-    Section tetrahedra_;
-    Section triangles_;
-    Section edges_;
+    SectionOfText vertices_;
+    SectionOfText tetrahedra_;
+    SectionOfText triangles_;
+    SectionOfText edges_;
     PerFeature<FeatureSection> features_;
 };
 

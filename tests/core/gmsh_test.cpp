@@ -36,7 +36,7 @@ using testing::EndsWith;
 using testing::HasSubstr;
 using testing::IsEmpty;
 
-Mesh read(const std::string& content) { return test::read_gmsh(content).mesh; }
+Mesh read_content(const std::string& content) { return test::read_gmsh(content).mesh; }
 
 /// The one cell of the files in pieces.
 Mesh one_cell() {
@@ -47,15 +47,15 @@ Mesh one_cell() {
 }
 
 TEST(GmshReader, ReadsAllFourKinds) {
-    EXPECT_EQ(read(gmsh_head_2 + gmsh_nodes_2 + gmsh_cell_2), one_cell());
-    EXPECT_EQ(read(gmsh_head_4 + gmsh_entities_4 + gmsh_nodes_4 + gmsh_cell_4), one_cell());
-    EXPECT_EQ(read(test::gmsh_binary_2()), one_cell());
-    EXPECT_EQ(read(test::gmsh_binary_4()), one_cell());
+    EXPECT_EQ(read_content(gmsh_head_2 + gmsh_nodes_2 + gmsh_cell_2), one_cell());
+    EXPECT_EQ(read_content(gmsh_head_4 + gmsh_entities_4 + gmsh_nodes_4 + gmsh_cell_4), one_cell());
+    EXPECT_EQ(read_content(test::gmsh_binary_2()), one_cell());
+    EXPECT_EQ(read_content(test::gmsh_binary_4()), one_cell());
 }
 
 TEST(GmshReader, ReadsBinaryFilesOfTheOtherByteOrder) {
-    EXPECT_EQ(read(test::gmsh_binary_2(true)), one_cell());
-    EXPECT_EQ(read(test::gmsh_binary_4(true)), one_cell());
+    EXPECT_EQ(read_content(test::gmsh_binary_2(true)), one_cell());
+    EXPECT_EQ(read_content(test::gmsh_binary_4(true)), one_cell());
 }
 
 TEST(GmshReader, TakesBlanksCommentsLineEndsAndABom) {
@@ -65,18 +65,20 @@ TEST(GmshReader, TakesBlanksCommentsLineEndsAndABom) {
             result += c == '\n' ? std::string("  # ...\r\n") : std::string(1, c);
         return result;
     };
-    EXPECT_EQ(read(with_crlf(gmsh_head_2 + gmsh_nodes_2 + gmsh_cell_2)), one_cell());
-    EXPECT_EQ(read(with_crlf(gmsh_head_4 + gmsh_entities_4 + gmsh_nodes_4 + gmsh_cell_4)),
+    EXPECT_EQ(read_content(with_crlf(gmsh_head_2 + gmsh_nodes_2 + gmsh_cell_2)), one_cell());
+    EXPECT_EQ(read_content(with_crlf(gmsh_head_4 + gmsh_entities_4 + gmsh_nodes_4 + gmsh_cell_4)),
               one_cell());
 }
 
 TEST(GmshReader, GivesElementsOfNoGroupTheMarkerZeroWhichIsNone) {
-    EXPECT_THAT(read(gmsh_head_4 + gmsh_nodes_4 + gmsh_cell_4).regions, IsEmpty());
-    EXPECT_THAT(read(gmsh_head_2 + gmsh_nodes_2 + "$Elements\n1\n1 4 2 0 5 1 2 3 4\n$EndElements\n")
-                    .regions,
-                IsEmpty());
+    EXPECT_THAT(read_content(gmsh_head_4 + gmsh_nodes_4 + gmsh_cell_4).regions, IsEmpty());
     EXPECT_THAT(
-        read(gmsh_head_2 + gmsh_nodes_2 + "$Elements\n1\n1 4 0 1 2 3 4\n$EndElements\n").regions,
+        read_content(gmsh_head_2 + gmsh_nodes_2 + "$Elements\n1\n1 4 2 0 5 1 2 3 4\n$EndElements\n")
+            .regions,
+        IsEmpty());
+    EXPECT_THAT(
+        read_content(gmsh_head_2 + gmsh_nodes_2 + "$Elements\n1\n1 4 0 1 2 3 4\n$EndElements\n")
+            .regions,
         IsEmpty());
 }
 
@@ -89,7 +91,7 @@ const std::string all_kinds_2 = gmsh_head_2 + gmsh_nodes_2 +
                                 "$EndElements\n";
 
 TEST(GmshReader, MakesTrianglesFacetsAndLinesEdgesInAnyOrder) {
-    const Mesh mesh = read(all_kinds_2);
+    const Mesh mesh = read_content(all_kinds_2);
     EXPECT_EQ(mesh.cells, one_cell().cells);
     const VertexIndex a{0}, b{1}, c{2}, d{3};
     EXPECT_THAT(mesh.facets, ElementsAre(FacetVertices{a, b, c}, FacetVertices{a, b, d}));
@@ -131,12 +133,13 @@ TEST(GmshReader, FindsNodesBySparseTagsInAnyOrder) {
         std::istringstream(tags) >> tag[0] >> tag[1] >> tag[2] >> tag[3];
         const std::string nodes = "$Nodes\n4\n" + tag[0] + " 0 0 0\n" + tag[1] + " 1 0 0\n" +
                                   tag[2] + " 0 1 0\n" + tag[3] + " 0 0 1\n$EndNodes\n";
-        EXPECT_EQ(read(gmsh_head_2 + nodes + cell + tags + "\n$EndElements\n"), one_cell()) << tags;
+        EXPECT_EQ(read_content(gmsh_head_2 + nodes + cell + tags + "\n$EndElements\n"), one_cell())
+            << tags;
         for (const std::string other : {"99", "10", "18446744073709551615", "4000000000000"}) {
             EXPECT_THAT(test::thrown_by<InputError>([&] {
-                            (void)read(gmsh_head_2 + nodes + cell +
-                                       tags.substr(0, tags.rfind(' ') + 1) + other +
-                                       "\n$EndElements\n");
+                            (void)read_content(gmsh_head_2 + nodes + cell +
+                                               tags.substr(0, tags.rfind(' ') + 1) + other +
+                                               "\n$EndElements\n");
                         }),
                         HasSubstr("m.msh:13: there is no node " + other));
         }
@@ -191,16 +194,17 @@ TEST(GmshReader, PutsPartitionsTogetherWithoutWhatLiesBetweenThem) {
 }
 
 TEST(GmshReader, ReadsOverTheParametersOfNodes) {
-    EXPECT_EQ(read(gmsh_head_4 + gmsh_entities_4 +
-                   "$Nodes\n3 4 1 4\n0 1 1 1\n1\n0 0 0\n2 1 1 2\n2\n3\n1 0 0 .5 .5\n0 1 0 .5 1\n"
-                   "1 1 1 1\n4\n0 0 1 .5\n$EndNodes\n" +
-                   gmsh_cell_4),
-              one_cell());
+    EXPECT_EQ(
+        read_content(gmsh_head_4 + gmsh_entities_4 +
+                     "$Nodes\n3 4 1 4\n0 1 1 1\n1\n0 0 0\n2 1 1 2\n2\n3\n1 0 0 .5 .5\n0 1 0 .5 1\n"
+                     "1 1 1 1\n4\n0 0 1 .5\n$EndNodes\n" +
+                     gmsh_cell_4),
+        one_cell());
 }
 
 TEST(GmshReader, KeepsVerticesThatNoElementHas) {
     const std::string nodes = "$Nodes\n5\n9 5 5 5\n1 0 0 0\n2 1 0 0\n3 0 1 0\n4 0 0 1\n$EndNodes\n";
-    const Mesh mesh = read(gmsh_head_2 + nodes + gmsh_cell_2);
+    const Mesh mesh = read_content(gmsh_head_2 + nodes + gmsh_cell_2);
     EXPECT_EQ(mesh.points.size(), 5U);
     EXPECT_EQ(mesh.cells.front()[0], VertexIndex{1});
 }
@@ -216,21 +220,21 @@ TEST(GmshReader, TurnsInvertedCellsRoundIfAsked) {
     EXPECT_THAT(notes, ElementsAre(EndsWith("m.msh: 1 inverted cells were turned round")));
 }
 
-struct BadCase {
+struct BadContent {
     std::string name;
     std::string content;
     std::string place;  // "LINE: ", or "at byte N: "
     std::string what;
 };
 
-void PrintTo(const BadCase& test_case, std::ostream* out) { *out << test_case.name; }
+void PrintTo(const BadContent& test_case, std::ostream* out) { *out << test_case.name; }
 
-class BadGmshFile : public testing::TestWithParam<BadCase> {};
+class BadGmshFile : public testing::TestWithParam<BadContent> {};
 
 TEST_P(BadGmshFile, IsRefusedByPlaceAndReason) {
     const auto& [name, content, place, what] = GetParam();
     const std::string message =
-        test::thrown_by<InputError>([&, &content = content] { (void)read(content); });
+        test::thrown_by<InputError>([&, &content = content] { (void)read_content(content); });
     EXPECT_THAT(message, HasSubstr("/m.msh:" + place));
     EXPECT_THAT(message, HasSubstr(what));
 }
@@ -243,7 +247,7 @@ std::string replaced(std::string text, const std::string& from, const std::strin
 
 INSTANTIATE_TEST_SUITE_P(
     Head, BadGmshFile,
-    testing::ValuesIn(std::vector<BadCase>{
+    testing::ValuesIn(std::vector<BadContent>{
         {"Empty", "", "1: ", "the file is empty"},
         {"Garbage", "\x01\x02\n", "1: ", "begins with $MeshFormat"},
         {"Version1", "$NOD\n1\n1 0 0 0\n$ENDNOD\n", "1: ", "version 1 is not supported: save"},
@@ -266,7 +270,7 @@ INSTANTIATE_TEST_SUITE_P(
 
 INSTANTIATE_TEST_SUITE_P(
     Sections, BadGmshFile,
-    testing::ValuesIn(std::vector<BadCase>{
+    testing::ValuesIn(std::vector<BadContent>{
         {"Order", gmsh_head_2 + gmsh_cell_2, "4: ", "$Nodes must come before $Elements"},
         {"Second", gmsh_head_2 + gmsh_nodes_2 + gmsh_nodes_2, "11: ", "a second section $Nodes"},
         {"EntitiesLate", gmsh_head_4 + gmsh_nodes_4 + gmsh_cell_4 + gmsh_entities_4,
@@ -287,7 +291,7 @@ INSTANTIATE_TEST_SUITE_P(
 
 INSTANTIATE_TEST_SUITE_P(
     Nodes, BadGmshFile,
-    testing::ValuesIn(std::vector<BadCase>{
+    testing::ValuesIn(std::vector<BadContent>{
         {"HugeCount2", gmsh_head_2 + "$Nodes\n4000000000\n", "5: ", "holds at most"},
         {"HugeCount4", gmsh_head_4 + "$Nodes\n1 18446744073709551615 1 4\n",
          "5: ", "holds at most"},
@@ -311,7 +315,7 @@ INSTANTIATE_TEST_SUITE_P(
 
 INSTANTIATE_TEST_SUITE_P(
     Elements, BadGmshFile,
-    testing::ValuesIn(std::vector<BadCase>{
+    testing::ValuesIn(std::vector<BadContent>{
         {"HugeCount2", gmsh_head_2 + gmsh_nodes_2 + "$Elements\n99999\n", "12: ", "holds at most"},
         {"HugeBlock", gmsh_head_4 + gmsh_nodes_4 + "$Elements\n1 9 1 1\n3 1 4 10\n",
          "18: ", "a block of 10 elements, where 9 are left"},
@@ -378,8 +382,8 @@ const std::size_t elements_4 = behind(binary_4, "$Elements\n");
 const std::size_t nodes_2 = behind(binary_2, "$Nodes\n4\n");
 const std::size_t elements_2 = behind(binary_2, "$Elements\n1\n");
 
-BadCase binary_case(const std::string& name, const std::string& file, std::size_t place,
-                    auto number, std::size_t blamed, const std::string& what) {
+BadContent binary_case(const std::string& name, const std::string& file, std::size_t place,
+                       auto number, std::size_t blamed, const std::string& what) {
     return {name, patched(file, place, bytes_of_number(number)),
             " at byte " + std::to_string(blamed) + ": ", what};
 }
@@ -422,9 +426,9 @@ INSTANTIATE_TEST_SUITE_P(
                     binary_2.size() - 2, "the file ends where a tag should be"),
         binary_case("NoSuchNode2", binary_2, elements_2 + 24, std::int32_t{9}, elements_2 + 12,
                     "there is no node 9"),
-        BadCase{"Count2", replaced(binary_2, "$Nodes\n4\n", "$Nodes\nx\n"),
-                " at byte " + std::to_string(nodes_2 - 2) + ": ",
-                "the number of nodes should be a whole number from 0, not 'x'"}),
+        BadContent{"Count2", replaced(binary_2, "$Nodes\n4\n", "$Nodes\nx\n"),
+                   " at byte " + std::to_string(nodes_2 - 2) + ": ",
+                   "the number of nodes should be a whole number from 0, not 'x'"}),
     named_by_case);
 
 /// Whatever is cut off: no file without its end is taken for a mesh.

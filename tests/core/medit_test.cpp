@@ -25,33 +25,34 @@ const std::string cells = "Tetrahedra\n1\n1 2 3 4 5\n";
 const std::string whole_cell = head + vertices + cells;
 const std::string good = head + vertices + cells + "End\n";
 
-Mesh read(const std::string& text, const ReadOptions& options = {}) {
+Mesh read_medit_text(const std::string& text, const ReadOptions& options = {}) {
     const TemporaryFolder folder;
     const auto file = folder.write("m.mesh", text);
     test::expect_right_stretches(file);
     return read_mesh(file, options);
 }
 
-struct BadCase {
+struct BadText {
     std::string name;
     std::string text;
     int line;
     std::string what;
 };
 
-void PrintTo(const BadCase& test_case, std::ostream* out) { *out << test_case.name; }
+void PrintTo(const BadText& test_case, std::ostream* out) { *out << test_case.name; }
 
-class BadMeditFile : public testing::TestWithParam<BadCase> {};
+class BadMeditFile : public testing::TestWithParam<BadText> {};
 
 TEST_P(BadMeditFile, IsRefusedByFileLineAndReason) {
-    const std::string message = test::thrown_by<InputError>([&] { (void)read(GetParam().text); });
+    const std::string message =
+        test::thrown_by<InputError>([&] { (void)read_medit_text(GetParam().text); });
     EXPECT_THAT(message, HasSubstr("/m.mesh:" + std::to_string(GetParam().line) + ": "));
     EXPECT_THAT(message, HasSubstr(GetParam().what));
 }
 
 INSTANTIATE_TEST_SUITE_P(
     , BadMeditFile,
-    testing::ValuesIn(std::vector<BadCase>{
+    testing::ValuesIn(std::vector<BadText>{
         {"Empty", "", 1, "the file is empty"},
         {"Garbage", std::string("\x00\x01\x02\xff\xfe", 5), 1, "begins with MeshVersionFormatted"},
         {"VersionZero", "MeshVersionFormatted\n0\nDimension 3\n", 2, "versions 1 to 4, not 0"},
@@ -120,21 +121,22 @@ INSTANTIATE_TEST_SUITE_P(
 TEST(MeditReader, ReportsATriangleOfNoCell) {
     const std::string text = head + "Vertices\n5\n0 0 0 0\n1 0 0 0\n0 1 0 0\n0 0 1 0\n9 9 9 0\n" +
                              cells + "Triangles\n2\n1 2 3 0\n1 2 5 0\nEnd\n";
-    EXPECT_THAT(test::thrown_by<InputError>([&] { (void)read(text); }),
+    EXPECT_THAT(test::thrown_by<InputError>([&] { (void)read_medit_text(text); }),
                 HasSubstr("m.mesh:16: triangle 2 belongs to no cell"));
 }
 
 TEST(MeditReader, KeepsTagsAndDropsReferencesThatAreAllZero) {
-    const Mesh mesh = read(good);
+    const Mesh mesh = read_medit_text(good);
     EXPECT_EQ(mesh.regions.front(), 5);
     EXPECT_TRUE(mesh.point_markers.empty());
     EXPECT_EQ(mesh.index_base, 1U);
 }
 
 TEST(MeditReader, TakesTokensAcrossLinesInAnyOrderWithComments) {
-    EXPECT_EQ(read("# a mesh\r\nMeshVersionFormatted\r\n2 Dimension 3 Tetrahedra 1 1\r\n2 3 # ...\n"
-                   "4 5\nVertices 4 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1 0 Hexahedra 0 End"),
-              read(good));
+    EXPECT_EQ(read_medit_text(
+                  "# a mesh\r\nMeshVersionFormatted\r\n2 Dimension 3 Tetrahedra 1 1\r\n2 3 # ...\n"
+                  "4 5\nVertices 4 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1 0 Hexahedra 0 End"),
+              read_medit_text(good));
 }
 
 /// They differ in the width of binary numbers; as text all four are the same.
@@ -142,40 +144,41 @@ TEST(MeditReader, TakesVersionsOneToFour) {
     for (const std::string version : {"1", "2", "3", "4"}) {
         std::string text = good;
         text.replace(text.find('2'), 1, version);
-        EXPECT_EQ(read(text), read(good)) << version;
+        EXPECT_EQ(read_medit_text(text), read_medit_text(good)) << version;
     }
 }
 
 TEST(MeditReader, TakesCarriageReturnsAloneForBlanks) {
     std::string text = good;
     std::ranges::replace(text, '\n', '\r');
-    EXPECT_EQ(read(text), read(good));
+    EXPECT_EQ(read_medit_text(text), read_medit_text(good));
 }
 
 TEST(MeditReader, SkipsWhatItDoesNotKeepAndSaysSo) {
     std::string note;
-    const Mesh mesh =
-        read(head + vertices + "NormalAtVertices\n2\n1 1\n2 1\nNormals 1 0 0 1\n" + cells + "End",
-             {.note = [&](const auto& n) { note += n + "\n"; }});
-    EXPECT_EQ(mesh, read(good));
+    const Mesh mesh = read_medit_text(
+        head + vertices + "NormalAtVertices\n2\n1 1\n2 1\nNormals 1 0 0 1\n" + cells + "End",
+        {.note = [&](const auto& n) { note += n + "\n"; }});
+    EXPECT_EQ(mesh, read_medit_text(good));
     EXPECT_THAT(note, HasSubstr("m.mesh:9: the 2 entries of NormalAtVertices are not kept"));
     EXPECT_THAT(note, HasSubstr("the 1 entries of Normals are not kept"));
 }
 
 TEST(MeditReader, TakesAFileThatLacksEndAndSaysSo) {
     std::string note;
-    EXPECT_EQ(read(head + vertices + cells, {.note = [&](const auto& n) { note = n; }}),
-              read(good));
+    EXPECT_EQ(read_medit_text(head + vertices + cells, {.note = [&](const auto& n) { note = n; }}),
+              read_medit_text(good));
     EXPECT_THAT(note, HasSubstr("without the keyword End"));
 }
 
 TEST(MeditReader, SaysOnlyOneThingOfAFileThatIsAllHead) {
-    EXPECT_THROW((void)read(head, {.note = [](const auto& n) { FAIL() << n; }}), InputError);
+    EXPECT_THROW((void)read_medit_text(head, {.note = [](const auto& n) { FAIL() << n; }}),
+                 InputError);
 }
 
 TEST(MeditReader, TurnsInvertedCellsRoundWhenAsked) {
-    const Mesh mesh =
-        read(head + vertices + "Tetrahedra\n1\n2 1 3 4 0\nEnd\n", {.fix_orientation = true});
+    const Mesh mesh = read_medit_text(head + vertices + "Tetrahedra\n1\n2 1 3 4 0\nEnd\n",
+                                      {.fix_orientation = true});
     EXPECT_EQ(mesh.cells.front(),
               (CellVertices{VertexIndex{1}, VertexIndex{0}, VertexIndex{3}, VertexIndex{2}}));
 }

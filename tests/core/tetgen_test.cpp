@@ -35,7 +35,7 @@ struct Files {
     std::string edge = {};
 };
 
-Mesh read(const Files& files, const ReadOptions& options = {}) {
+Mesh read_files(const Files& files, const ReadOptions& options = {}) {
     const TemporaryFolder folder;
     (void)folder.write("m.node", files.node);
     (void)folder.write("m.ele", files.ele);
@@ -45,19 +45,20 @@ Mesh read(const Files& files, const ReadOptions& options = {}) {
     return read_mesh(folder / "m.ele", options);
 }
 
-struct BadCase {
+struct BadFiles {
     std::string name;
     Files files;
     std::string place;  ///< file name and line
     std::string what;
 };
 
-void PrintTo(const BadCase& test_case, std::ostream* out) { *out << test_case.name; }
+void PrintTo(const BadFiles& test_case, std::ostream* out) { *out << test_case.name; }
 
-class BadTetgenFile : public testing::TestWithParam<BadCase> {};
+class BadTetgenFile : public testing::TestWithParam<BadFiles> {};
 
 TEST_P(BadTetgenFile, IsRefusedByFileLineAndReason) {
-    const std::string message = test::thrown_by<InputError>([&] { (void)read(GetParam().files); });
+    const std::string message =
+        test::thrown_by<InputError>([&] { (void)read_files(GetParam().files); });
     EXPECT_THAT(message, HasSubstr("/" + GetParam().place + ": "));
     EXPECT_THAT(message, HasSubstr(GetParam().what));
 }
@@ -77,7 +78,7 @@ Files ele_line(int line, const std::string& text) {
 
 INSTANTIATE_TEST_SUITE_P(
     , BadTetgenFile,
-    testing::ValuesIn(std::vector<BadCase>{
+    testing::ValuesIn(std::vector<BadFiles>{
         {"EmptyNode", {.node = "", .ele = good_ele}, "m.node:1", "the file is empty"},
         {"OnlyComments", {.node = "# nothing\n\n"}, "m.node:2", "ends before its header"},
         {"Garbage",
@@ -167,22 +168,23 @@ INSTANTIATE_TEST_SUITE_P(
     [](const auto& test_case) { return test_case.param.name; });
 
 TEST(TetgenReader, TakesCommentsBlankLinesTabsAndCarriageReturns) {
-    const Mesh plain = read({});
+    const Mesh plain = read_files({});
     const Files oddly_set{
         .node =
             "# head\r\n\r\n 4\t3 0 0 # counts\r\n0 0 0 0\r\n\n1 +1 0 0\r\n  2 0 1e0 0  \r\n"
             "3 0 0 1.000 # last\r\n# tail",
         .ele = "1 4 0\r\n\r\n0\t0\t1\t2\t3"};
-    EXPECT_EQ(read(oddly_set), plain);
+    EXPECT_EQ(read_files(oddly_set), plain);
 }
 
 TEST(TetgenReader, TakesHeadersThatLeaveTheDefaultsOut) {
-    EXPECT_EQ(read({.node = with_line(good_node, 1, "4"), .ele = with_line(good_ele, 1, "1")}),
-              read({}));
+    EXPECT_EQ(
+        read_files({.node = with_line(good_node, 1, "4"), .ele = with_line(good_ele, 1, "1")}),
+        read_files({}));
 }
 
 TEST(TetgenReader, KeepsTheNumberingFromOne) {
-    const Mesh mesh = read(
+    const Mesh mesh = read_files(
         {.node = "4 3 0 0\n1 0 0 0\n2 1 0 0\n3 0 1 0\n4 0 0 1\n", .ele = "1 4 0\n1 1 2 3 4\n"});
     EXPECT_EQ(mesh.index_base, 1U);
     EXPECT_EQ(mesh.cells.front()[0], VertexIndex{0});
@@ -190,8 +192,9 @@ TEST(TetgenReader, KeepsTheNumberingFromOne) {
 
 TEST(TetgenReader, TurnsInvertedCellsRoundWhenAskedAndSaysHowMany) {
     std::string note;
-    const Mesh mesh = read({.ele = "1 4 0\n0 1 0 2 3\n"},
-                           {.fix_orientation = true, .note = [&](const auto& n) { note = n; }});
+    const Mesh mesh =
+        read_files({.ele = "1 4 0\n0 1 0 2 3\n"},
+                   {.fix_orientation = true, .note = [&](const auto& n) { note = n; }});
     EXPECT_EQ(mesh.cells.front(),
               (CellVertices{VertexIndex{1}, VertexIndex{0}, VertexIndex{3}, VertexIndex{2}}));
     EXPECT_THAT(note, HasSubstr("1 inverted"));
@@ -203,11 +206,11 @@ TEST(TetgenReader, ReadsOverTheAdjacentCellsThatTetgenAddsWithNnAndSaysSo) {
     const Files with_adjacency{.face = "2 1\n0 0 1 2 7 0 -1\n1 0 1 3 8 -1 0\n",
                                .edge = "2 1\n0 0 1 5 0\n1 0 2 6 0\n"};
     const Files without{.face = "2 1\n0 0 1 2 7\n1 0 1 3 8\n", .edge = "2 1\n0 0 1 5\n1 0 2 6\n"};
-    EXPECT_EQ(read(with_adjacency, options), read(without));
+    EXPECT_EQ(read_files(with_adjacency, options), read_files(without));
     EXPECT_THAT(notes, HasSubstr("the adjacent cells of each face are not kept"));
     EXPECT_THAT(notes, HasSubstr("the adjacent cells of each edge are not kept"));
     EXPECT_THAT(test::thrown_by<InputError>(
-                    [&] { (void)read({.face = "2 1\n0 0 1 2 7 0 -1\n1 0 1 3 8\n"}); }),
+                    [&] { (void)read_files({.face = "2 1\n0 0 1 2 7 0 -1\n1 0 1 3 8\n"}); }),
                 HasSubstr("m.face:3: an adjacent cell is missing"));
 }
 
@@ -266,25 +269,25 @@ Files fan(int count) {
 
 TEST(TetgenReader, TakesFansInTimeThatDoesNotGrowWithTheSquareOfTheirSize) {
     constexpr int count = 100000;  // the square of it takes longer than any test may
-    EXPECT_EQ(read(fan(count)).facets.size(), std::size_t{count});
+    EXPECT_EQ(read_files(fan(count)).facets.size(), std::size_t{count});
 }
 
 TEST(TetgenReader, FindsTheFirstOfStrayFacesAmongMany) {
     Files files = fan(50);
     const std::string last = files.face.substr(files.face.rfind("49 "));
     files.face.replace(files.face.size() - last.size(), last.size(), "49 0 20 9\n");
-    EXPECT_THAT(test::thrown_by<InputError>([&] { (void)read(files); }),
+    EXPECT_THAT(test::thrown_by<InputError>([&] { (void)read_files(files); }),
                 HasSubstr("m.face:51: face 49 belongs to no cell"));
 }
 
 TEST(TetgenReader, TakesEveryMarkerOf32Bits) {
-    EXPECT_EQ(read({.face = "2 1\n0 0 1 2 -2147483648\n1 1 2 3 2147483647\n"}).facet_markers,
+    EXPECT_EQ(read_files({.face = "2 1\n0 0 1 2 -2147483648\n1 1 2 3 2147483647\n"}).facet_markers,
               (IndexVector<FacetIndex, Marker>{std::numeric_limits<Marker>::min(),
                                                std::numeric_limits<Marker>::max()}));
 }
 
 TEST(TetgenReader, TakesFacesThatAreListedTwiceWithOneMarker) {
-    EXPECT_EQ(read({.face = "3 1\n0 0 1 2 7\n1 0 1 3 8\n2 2 1 0 7\n"}).facet_markers,
+    EXPECT_EQ(read_files({.face = "3 1\n0 0 1 2 7\n1 0 1 3 8\n2 2 1 0 7\n"}).facet_markers,
               (IndexVector<FacetIndex, Marker>{7, 8, 7}));
 }
 

@@ -117,6 +117,22 @@ TEST_P(Coarsening, OfAllAgainAndAgainEndsInTheInput) {
     EXPECT_TRUE(found == mesh || !test::world().is_first());
 }
 
+/// Of several levels at once, where often only another process knows that one is divided.
+TEST_P(Coarsening, OfAllButFewCellsOfASmallMeshIsTheReferences) {
+    std::mt19937_64 random(GetParam());
+    const int trials = test::world().size() > 3 ? 2 : 20;
+    for (int trial = 0; trial < trials; ++trial) {
+        const Mesh lattice =
+            trial % 2 == 0 ? test::kuhn(2, 1, 1) : test::shaken_kuhn(2, 0.2, random());
+        Both both(lattice, random());
+        for (int step = 0; step < 3; ++step) {
+            both.refine({.random = RandomShare{0.08, random()}}, Scheme::eight, {});
+        }
+        both.coarsen({.random = RandomShare{trial % 3 == 0 ? 0.9 : 0.98, random()}}, {});
+        both.expect_equal();
+    }
+}
+
 INSTANTIATE_TEST_SUITE_P(Seeds, Coarsening, testing::Range<std::uint64_t>(0, 16));
 
 }  // namespace

@@ -71,7 +71,8 @@ inline Selection random_cells_to_coarsen(const Mesh& present, std::mt19937_64& r
         return {.spheres = {{points[VertexIndex{random() % points.size()}], 0.25 + up_to(1)}}};
     }
     const auto cells = static_cast<double>(present.cells.size());
-    return about(cells - 1 - up_to(0.1 * cells), present, random());
+    const std::uint64_t seed = random();  // first, whatever order a compiler has for arguments
+    return about(cells - 1 - up_to(0.1 * cells), present, seed);
 }
 
 inline Call random_coarsening(const History& before, std::mt19937_64& random) {

@@ -8,6 +8,7 @@
 
 #include <octetra/core/files/mesh_files.hpp>
 
+#include "support/deaf_sink.hpp"
 #include "support/meshes.hpp"
 #include "support/temporary_folder.hpp"
 
@@ -60,27 +61,12 @@ void read_file(benchmark::State& state, const std::string& name) {
     set_rate(state, folder.path());
 }
 
-/// Hears a mesh, and keeps nothing of it.
-class DeafSink final : public MeshSink {
-public:
-    void expect_points(std::uint64_t, std::size_t, bool) override {}
-    void take_points(std::span<const Point>, std::span<const double>,
-                     std::span<const Marker>) override {}
-    void expect_cells(std::uint64_t, bool) override {}
-    void take_cells(std::span<const CellVertices>, std::span<const Marker>) override {}
-    void expect_facets(std::uint64_t, bool) override {}
-    void take_facets(std::span<const FacetVertices>, std::span<const Marker>) override {}
-    void expect_edges(std::uint64_t, bool) override {}
-    void take_edges(std::span<const EdgeVertices>, std::span<const Marker>) override {}
-    void finish(const MeshFacts&) override {}
-};
-
 /// Without the checks that need the whole mesh, and the memory.
 void stream_file(benchmark::State& state, const std::string& name) {
     const test::TemporaryFolder folder;
     (void)write_mesh(large_mesh(), folder / name);
     for (auto _ : state) {
-        DeafSink sink;
+        test::DeafSink sink;
         stream_mesh(folder / name, sink);
     }
     set_rate(state, folder.path());

@@ -116,16 +116,6 @@ FirstPieces bisect_tagged(const IndexVector<I, std::array<VertexIndex, N>>& list
     return first;
 }
 
-/// What an entity was singled out for its pieces are, too.
-std::vector<std::uint64_t> pieces_of_all(const std::vector<std::uint64_t>& numbers,
-                                         const FirstPieces& first) {
-    std::vector<std::uint64_t> pieces;
-    for (const std::uint64_t number : numbers) {
-        for (std::uint64_t p = first[number]; p < first[number + 1]; ++p) pieces.push_back(p);
-    }
-    return pieces;
-}
-
 }  // namespace
 
 std::vector<BisectedEdge> bisected_edges(const Mesh& mesh, const EdgeTable& table,
@@ -167,23 +157,22 @@ Refinement bisect_mesh(const Refinement& coarse, const std::vector<EdgeVertices>
     bisect_edges(mesh, table, edges, fine);
     const EdgeToMidpoint midpoints = midpoints_of(edges, table, mesh);
     check_allowed(mesh, table, midpoints, max_cells, level);
-    const FirstPieces cell_pieces =
-        bisect_cells(mesh, table, midpoints, coarse.maps.cell_to_parent, level, fine);
-    const FirstPieces facet_pieces =
-        bisect_tagged(mesh.facets, mesh.facet_markers, mesh, table, midpoints, fine.mesh.facets,
-                      fine.mesh.facet_markers);
-    const FirstPieces edge_pieces =
+    const std::array<FirstPieces, 4> first_pieces{
+        FirstPieces{},  // vertices keep their numbers
         bisect_tagged(mesh.edges, mesh.edge_markers, mesh, table, midpoints, fine.mesh.edges,
-                      fine.mesh.edge_markers);
-    const auto& features = mesh.features;
-    auto& finer = fine.mesh.features;
-    finer[Feature::corners] = features[Feature::corners];  // vertices keep their numbers
-    finer[Feature::required_vertices] = features[Feature::required_vertices];
-    finer[Feature::ridges] = pieces_of_all(features[Feature::ridges], edge_pieces);
-    finer[Feature::required_edges] = pieces_of_all(features[Feature::required_edges], edge_pieces);
-    finer[Feature::required_facets] =
-        pieces_of_all(features[Feature::required_facets], facet_pieces);
-    finer[Feature::required_cells] = pieces_of_all(features[Feature::required_cells], cell_pieces);
+                      fine.mesh.edge_markers),
+        bisect_tagged(mesh.facets, mesh.facet_markers, mesh, table, midpoints, fine.mesh.facets,
+                      fine.mesh.facet_markers),
+        bisect_cells(mesh, table, midpoints, coarse.maps.cell_to_parent, level, fine)};
+    fine.mesh.features = mesh.features;
+    for (const Feature f : all_features) {
+        if (dimension_of(f) == 0) continue;
+        const FirstPieces& first = first_pieces.at(dimension_of(f));
+        fine.mesh.features[f].clear();
+        for (const std::uint64_t i : mesh.features[f]) {
+            for (auto p = first[i]; p < first[i + 1]; ++p) fine.mesh.features[f].push_back(p);
+        }
+    }
     return fine;
 }
 

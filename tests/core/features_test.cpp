@@ -10,6 +10,7 @@
 
 #include "core/meshb_files.hpp"
 #include "core/stretches.hpp"
+#include "support/deaf_sink.hpp"
 #include "support/meshes.hpp"
 #include "support/temporary_folder.hpp"
 #include "support/thrown.hpp"
@@ -18,6 +19,7 @@
 namespace octetra {
 namespace {
 
+using test::DeafSink;
 using test::MeshbFile;
 using test::TemporaryFolder;
 using testing::ElementsAre;
@@ -184,20 +186,6 @@ TEST(Features, AreNotReadFromMoreBytesThanThereAre) {
     EXPECT_THAT(test::thrown_by<InputError>([&] { (void)read_file("m.meshb", twice.bytes()); }),
                 HasSubstr("a second section of Corners"));
 }
-
-/// Takes all and keeps nothing.
-class DeafSink final : public MeshSink {
-    void expect_points(std::uint64_t, std::size_t, bool) override {}
-    void take_points(std::span<const Point>, std::span<const double>,
-                     std::span<const Marker>) override {}
-    void expect_cells(std::uint64_t, bool) override {}
-    void take_cells(std::span<const CellVertices>, std::span<const Marker>) override {}
-    void expect_facets(std::uint64_t, bool) override {}
-    void take_facets(std::span<const FacetVertices>, std::span<const Marker>) override {}
-    void expect_edges(std::uint64_t, bool) override {}
-    void take_edges(std::span<const EdgeVertices>, std::span<const Marker>) override {}
-    void finish(const MeshFacts&) override {}
-};
 
 TEST(Features, AreRefusedInTheSameWordsWhereAMeshIsStreamed) {
     const TemporaryFolder folder;

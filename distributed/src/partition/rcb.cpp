@@ -7,19 +7,10 @@
 #include <numeric>
 #include <span>
 
+#include "partition/key_search.hpp"
+
 namespace octetra::distributed {
 namespace {
-
-using Key = std::uint64_t;
-
-/// A whole number that orders as the coordinate does.
-Key key_of(double x) {
-    const auto bits = std::bit_cast<std::uint64_t>(x == 0 ? 0.0 : x);
-    return bits >> 63U != 0 ? ~bits : bits | std::uint64_t{1} << 63U;
-}
-double coordinate_of(Key key) {
-    return std::bit_cast<double>(key >> 63U != 0 ? key & ~(std::uint64_t{1} << 63U) : ~key);
-}
 
 double along(std::size_t axis, const Point& p) { return axis == 0 ? p.x : axis == 1 ? p.y : p.z; }
 
@@ -30,31 +21,6 @@ struct Box {
 
     [[nodiscard]] bool is_part() const { return end - begin == 1; }
     [[nodiscard]] int middle() const { return begin + (end - begin) / 2; }
-};
-
-/// Where a key is looked for in each box: from `low` on, in numbers of so many bits; what has been
-/// found of it is `found`, but for the lowest `bits`.
-struct Search {
-    Key low = 0;
-    Key found = 0;
-    unsigned bits = 0;
-
-    [[nodiscard]] bool may_be(Key key) const { return above(key - low) == above(found); }
-    /// Of a key that it may be: the next digit.
-    [[nodiscard]] std::size_t digit_of(Key key, unsigned digit_bits) const {
-        return (key - low - found) >> rest(digit_bits);
-    }
-    void take(std::size_t digit, unsigned digit_bits) {
-        bits = rest(digit_bits);
-        found |= Key{digit} << bits;
-    }
-    [[nodiscard]] Key limit() const { return low + found; }
-
-private:
-    [[nodiscard]] Key above(Key difference) const { return bits < 64 ? difference >> bits : 0; }
-    [[nodiscard]] unsigned rest(unsigned digit_bits) const {
-        return bits > digit_bits ? bits - digit_bits : 0;
-    }
 };
 
 class Bisection {

@@ -37,6 +37,16 @@ public:
     [[nodiscard]] virtual LineOf lines_of(Listed list) const = 0;
 };
 
+/// How many entities there are of each kind, by the sections of a file, text or binary.
+[[nodiscard]] MeshFacts counts_of(const auto& sections) {
+    MeshFacts counts{.vertices = sections.vertices.count,
+                     .cells = sections.tetrahedra.count,
+                     .facets = sections.triangles.count,
+                     .edges = sections.edges.count};
+    for (const Feature f : all_features) counts.features[f] = sections.features[f].count;
+    return counts;
+}
+
 /// Of how many entities the numbers of a feature are, and what messages call one.
 struct Numbered {
     std::uint64_t count = 0;

@@ -119,15 +119,6 @@ std::string note_on_section(const std::filesystem::path& path, std::uint64_t key
                        keyword_at, code);
 }
 
-MeshFacts counts_of(const MeshbLists& lists) {
-    MeshFacts counts{.vertices = lists.vertices.count,
-                     .cells = lists.tetrahedra.count,
-                     .facets = lists.triangles.count,
-                     .edges = lists.edges.count};
-    for (const Feature f : all_features) counts.features[f] = lists.features[f].count;
-    return counts;
-}
-
 MeshbLayout read_meshb_layout(ByteReader& reader) { return LayoutReader(reader).read(); }
 
 std::vector<std::string> notes_on(const std::filesystem::path& path, bool has_end,

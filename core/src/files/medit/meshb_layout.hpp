@@ -7,7 +7,6 @@
 #include <vector>
 
 #include <octetra/core/features.hpp>
-#include <octetra/core/mesh_source.hpp>
 
 #include "files/input/byte_reader.hpp"
 
@@ -72,9 +71,6 @@ struct MeshbLayout {
     /// known, and 0.
     std::vector<MeshbSection> skipped;
 };
-
-/// How many entities there are of each kind.
-[[nodiscard]] MeshFacts counts_of(const MeshbLists& lists);
 
 /// Goes from keyword to keyword, and over the rows. What holds of a layout that is returned: rows
 /// of all lists are in the file, and as many as announced; there are vertices. Throws InputError

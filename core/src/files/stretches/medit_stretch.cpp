@@ -89,16 +89,6 @@ private:
     std::uint64_t number_ = 0;
 };
 
-/// How many there are of each kind.
-MeshFacts counts_of(const MeditPlan& plan) {
-    MeshFacts counts{.vertices = plan.vertices.count,
-                     .cells = plan.tetrahedra.count,
-                     .facets = plan.triangles.count,
-                     .edges = plan.edges.count};
-    for (const Feature f : all_features) counts.features[f] = plan.features[f].count;
-    return counts;
-}
-
 /// Of what is no list of the mesh.
 void plan_other(SectionHead& head, std::uint64_t keyword_line, MeditPlan& plan) {
     if (std::ranges::find(other_cell_shapes, head.keyword(), &MeditKeyword::keyword) !=

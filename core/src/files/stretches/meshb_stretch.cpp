@@ -4,6 +4,7 @@
 
 #include "files/input/byte_reader.hpp"
 #include "files/input/growing_mesh.hpp"
+#include "files/medit/entry_places.hpp"
 #include "files/medit/meshb_layout.hpp"
 #include "files/medit/meshb_rows.hpp"
 #include "files/stretches/progress.hpp"

@@ -4,6 +4,8 @@
 
 #include <cstdint>
 #include <ctime>
+#include <fstream>
+#include <string>
 
 /// What benchmarks measure of the process that they are in.
 namespace octetra::bench {
@@ -26,6 +28,18 @@ inline std::uint64_t peak_bytes() {
     rusage usage{};
     ::getrusage(RUSAGE_SELF, &usage);
     return static_cast<std::uint64_t>(usage.ru_maxrss) * 1024;
+}
+
+/// The most memory that this process has held since this was last called, by what /proc says; and
+/// begins anew.
+inline std::uint64_t peak_bytes_since_last() {
+    std::uint64_t kilobytes = 0;
+    std::ifstream status("/proc/self/status");
+    for (std::string word; kilobytes == 0 && status >> word;) {
+        if (word == "VmHWM:") status >> kilobytes;
+    }
+    std::ofstream("/proc/self/clear_refs") << 5;
+    return kilobytes * 1024;
 }
 
 }  // namespace octetra::bench

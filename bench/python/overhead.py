@@ -1,8 +1,8 @@
 """What a step through Python takes beside one in C++, by turns: overhead.py BUILD [RANKS...]
 
-Prints a row for each kind of step, of a lattice of 998,250 cells: `uniform` bisects all of them, `small` one
-of each rank's. Figures are the least of the runs, in milliseconds: of a small step the median of
-all but a run's first, which makes what later ones go by.
+Prints a row for each kind of step, of a lattice of 998,250 cells: `uniform` bisects all of them, `medium`
+a thousand of each rank's, `small` one. Figures are the least of the runs, in milliseconds: of a medium or
+small step the median of all but a run's first, which makes what later ones go by.
 """
 
 import os
@@ -47,4 +47,5 @@ with tempfile.TemporaryDirectory() as folder:
                    check=True)
     for count in [int(word) for word in sys.argv[2:]] or [1, 2]:
         row(count, large, "uniform", 1, 12)
+        row(count, large, "medium", 40, 12)
         row(count, large, "small", 40, 12)

@@ -1,5 +1,5 @@
 // The same steps as steps.py, in C++: what a step through Python takes beside it.
-//     bench_python_steps MESH uniform|small STEPS
+//     bench_python_steps MESH uniform|medium|small STEPS
 #include <mpi.h>
 
 #include <algorithm>
@@ -17,10 +17,11 @@ namespace {
 
 namespace od = octetra::distributed;
 
-/// All cells, or one of this rank's: of what becomes of it, that which has its number.
-std::vector<std::uint8_t> marks_of(const od::AdaptiveMesh& mesh, bool is_uniform) {
-    std::vector<std::uint8_t> marks(mesh.cells().size(), is_uniform ? 1 : 0);
-    marks[7] = 1;
+/// All cells, a thousand side by side, or one of this rank's: of what becomes of them, those which
+/// have their numbers.
+std::vector<std::uint8_t> marks_of(const od::AdaptiveMesh& mesh, std::string_view kind) {
+    std::vector<std::uint8_t> marks(mesh.cells().size(), kind == "uniform" ? 1 : 0);
+    std::fill_n(marks.begin() + 7, kind == "medium" ? 1000 : 1, std::uint8_t{1});
     return marks;
 }
 
@@ -33,7 +34,7 @@ int main(int argc, char** argv) {
     if (argc != 4) return 2;
     od::AdaptiveMesh mesh = od::AdaptiveMesh::read(od::communicator_of(MPI_COMM_WORLD), argv[1]);
     for (int step = 0; step < std::atoi(argv[3]); ++step) {
-        const auto marks = marks_of(mesh, std::string_view(argv[2]) == "uniform");
+        const auto marks = marks_of(mesh, argv[2]);
         const auto marked = std::ranges::count(marks, 1);  // which are in the cache then, as there
         MPI_Barrier(MPI_COMM_WORLD);
         const auto begin = std::chrono::steady_clock::now();

@@ -1,4 +1,4 @@
-"""The same steps as steps.cpp, through Python: steps.py MESH uniform|small STEPS [look]
+"""The same steps as steps.cpp, through Python: steps.py MESH uniform|medium|small STEPS [look]
 
 With `look`, the program holds the arrays of the mesh over each step.
 """
@@ -16,7 +16,7 @@ look = len(sys.argv) > 4
 for _ in range(int(sys.argv[3])):
     points, cells = mesh.points, mesh.cells
     marks = np.full(len(cells), sys.argv[2] == "uniform")
-    marks[7] = True
+    marks[7:1007 if sys.argv[2] == "medium" else 8] = True
     if not look:
         del points, cells
     marked = np.count_nonzero(marks)

@@ -46,8 +46,7 @@ void bisect_edges(const Mesh& mesh, const EdgeTable& table, const std::vector<Ed
 void check_child(const CellVertices& child, const Mesh& fine, CellIndex parent, int level,
                  std::uint32_t index_base) {
     const auto& p = fine.points;
-    const bool finite = is_finite(p[child[0]]) && is_finite(p[child[1]]) &&
-                        is_finite(p[child[2]]) && is_finite(p[child[3]]);
+    const bool finite = std::ranges::all_of(child, [&](VertexIndex v) { return is_finite(p[v]); });
     const int sign = finite ? orientation(p[child[0]], p[child[1]], p[child[2]], p[child[3]]) : 0;
     if (sign > 0) return;
     throw InputError(fmt::format(
@@ -62,9 +61,7 @@ void check_allowed(const Mesh& mesh, const EdgeTable& table, const EdgeToMidpoin
                    std::size_t max_cells, int level) {
     if (max_cells == any_number) return;
     std::size_t count = 0;
-    for (const CellVertices& cell : mesh.cells) {
-        count += pieces_of(cell, mesh, table, midpoints).size();
-    }
+    for (const auto& cell : mesh.cells) count += pieces_of(cell, mesh, table, midpoints).size();
     if (count <= max_cells || count == mesh.cells.size()) return;
     throw InputError(
         fmt::format("level {} would make {} cells, more than the {} allowed: mark fewer cells or "

@@ -6,8 +6,7 @@ namespace octetra::reference {
 
 EdgeSet close(EdgeSet marked, const Mesh& mesh, const EdgeTable& table) {
     const auto is_marked = [&](EdgeIndex e) { return marked[e] != 0; };
-    bool changed = true;
-    while (changed) {
+    for (bool changed = true; changed;) {
         changed = false;
         for (const auto& cell : table.cell_to_edges) {
             for (std::size_t face = 0; face < 4; ++face) {

@@ -13,13 +13,10 @@ using VertexSet = IndexVector<VertexIndex, char>;
 /// A mesh before a step, and the midpoints that the step made of its edges.
 struct Step {
     const Mesh* mesh;
-    EdgeTable table;
-    EdgeToMidpoint midpoints;
+    const std::vector<EdgeVertices>* edges;
+    EdgeTable table = number_edges(*mesh);
+    EdgeToMidpoint midpoints = midpoints_of(*edges, table, *mesh);
 
-    Step(const Mesh& before, const std::vector<EdgeVertices>& edges)
-        : mesh(&before),
-          table(number_edges(before)),
-          midpoints(midpoints_of(edges, table, before)) {}
     [[nodiscard]] bool cuts(CellIndex c) const {
         return std::ranges::any_of(table.cell_to_edges[c],
                                    [&](EdgeIndex e) { return !midpoints[e].is_none(); });
@@ -86,7 +83,7 @@ History coarsened(const History& history, const CellMarks& may_go) {
     const std::vector<Refinement> meshes = replay(history);
     std::vector<Step> steps;
     for (std::size_t t = 0; t < history.steps.size(); ++t) {
-        steps.emplace_back(meshes[t].mesh, history.steps[t]);
+        steps.push_back({&meshes[t].mesh, &history.steps[t]});
     }
     VertexSet kept = vertices_that_must_stay(history.input, meshes.back().mesh, may_go, steps);
     for (const Step& step : steps) keep_closed(step, kept);

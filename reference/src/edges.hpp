@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <span>
 
@@ -28,11 +29,9 @@ struct EdgeTable {
 /// The longest of some edges, in the strict order of core/edge_order.hpp.
 [[nodiscard]] inline EdgeIndex longest(const Mesh& mesh, const EdgeTable& table,
                                        std::span<const EdgeIndex> edges) {
-    EdgeIndex best = edges.front();
-    for (const EdgeIndex e : edges) {
-        if (longer(segment(mesh, table.edges[e]), segment(mesh, table.edges[best]))) best = e;
-    }
-    return best;
+    return *std::ranges::min_element(edges, [&](EdgeIndex e, EdgeIndex f) {
+        return longer(segment(mesh, table.edges[e]), segment(mesh, table.edges[f]));
+    });
 }
 
 /// The three edges of face i of a cell (the one opposite corner i), from the cell's six.

@@ -15,4 +15,19 @@ Refinement refine(const Mesh& mesh, const Selection& selection, Scheme scheme, i
     return result;
 }
 
+std::vector<Refinement> replay(const History& history) {
+    std::vector<Refinement> meshes{unrefined(history.input)};
+    for (const auto& edges : history.steps) {
+        meshes.push_back(bisect_mesh(meshes.back(), edges, static_cast<int>(meshes.size())));
+    }
+    return meshes;
+}
+
+History refined(const History& history, const CellMarks& marked, Scheme scheme) {
+    const auto edges = edges_to_bisect(replay(history).back().mesh, marked, scheme);
+    History longer = history;
+    if (!edges.empty()) longer.steps.push_back(edges);
+    return longer;
+}
+
 }  // namespace octetra::reference

@@ -48,7 +48,7 @@ struct Input {
     }
 };
 
-/// Of a uniform step, in it and after it: the largest rank's peak.
+/// Of a uniform step by an AdaptiveMesh: the largest rank's peak.
 void measure_memory(const Communicator& world, std::size_t cubes) {
     AdaptiveMesh mesh = [&] {
         const Input input(world, cubes);

@@ -30,8 +30,7 @@ inline std::uint64_t peak_bytes() {
     return static_cast<std::uint64_t>(usage.ru_maxrss) * 1024;
 }
 
-/// The most memory that this process has held since this was last called, by what /proc says; and
-/// begins anew.
+/// The most memory that this process has held since this was last called, or ever, if it was not.
 inline std::uint64_t peak_bytes_since_last() {
     std::uint64_t kilobytes = 0;
     std::ifstream status("/proc/self/status");

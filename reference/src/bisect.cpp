@@ -5,8 +5,6 @@
 #include <octetra/core/error.hpp>
 #include <octetra/core/orientation.hpp>
 
-#include "markers.hpp"
-
 namespace octetra::reference {
 namespace {
 
@@ -15,6 +13,29 @@ void check_countable(std::size_t count, std::string_view what) {
         throw InputError(
             fmt::format("the refined mesh would have more than {} {}", VertexIndex::limit, what));
     }
+}
+
+/// The marker that the midpoint of each edge of the table gets: the edge's own, where the
+/// edge is tagged; else the smallest among the tagged facets that have the edge; else 0.
+IndexVector<EdgeIndex, Marker> midpoint_markers(const Mesh& mesh, const EdgeTable& table) {
+    IndexVector<EdgeIndex, Marker> markers(table.edges.size(), 0);
+    EdgeSet met(table.edges.size(), false);
+    const auto take = [&](EdgeIndex e, Marker marker) {
+        markers[e] = met[e] != 0 ? std::min(markers[e], marker) : marker;
+        met[e] = true;
+    };
+    for (FacetIndex f{0}; f < mesh.facet_markers.end_index(); ++f) {
+        for (const auto& [i, j] : triangle_edges) {
+            take(find_edge(table, mesh.facets[f][i], mesh.facets[f][j]), mesh.facet_markers[f]);
+        }
+    }
+    // A tagged edge overrules the facets; listed twice, it has the smaller of its markers.
+    met.assign(met.size(), false);
+    for (EdgeIndex tagged{0}; tagged < mesh.edge_markers.end_index(); ++tagged) {
+        take(find_edge(table, mesh.edges[tagged][0], mesh.edges[tagged][1]),
+             mesh.edge_markers[tagged]);
+    }
+    return markers;
 }
 
 /// The vertices of `mesh` and the midpoints of the edges.

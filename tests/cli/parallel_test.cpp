@@ -42,20 +42,22 @@ TEST_F(Parallel, WritesTheSameBytesOnAnyNumberOfRanksAndByTheReference) {
     EXPECT_EQ(test::content_of(folder / "r.txt"), test::content_of(folder / "d.txt"));
     ASSERT_EQ(test::octetra(refine + "-o r.mesh", folder).status, 0);
     ASSERT_EQ(test::octetra(refine + "-o r.vtu", folder).status, 0);
+    const std::vector<std::string> ways{"", "--sync gateway --partition dual",
+                                        "--partition random:7 --rebalance never",
+                                        "--partition block --rebalance 0"};
     for (const int ranks : {1, 2, 3, 4}) {
-        for (const std::string how :
-             {"", "--sync gateway --partition dual", "--partition random:7 --rebalance never",
-              "--partition block --rebalance 0"}) {
+        for (const std::string& how : ways) {
+            if (ranks < 3 && how != ways[static_cast<std::size_t>(ranks - 1)]) continue;
             const auto run = octetra_on(ranks, refine + how + " -o p.ele --maps p.txt", folder);
             ASSERT_EQ(run.status, 0) << run.err;
             expect_same_files("r", "p");
             EXPECT_EQ(test::content_of(folder / "r.txt"), test::content_of(folder / "p.txt"));
         }
-        for (const std::string extension : {"mesh", "vtu"}) {
-            ASSERT_EQ(octetra_on(ranks, refine + " -o p." + extension, folder).status, 0);
-            EXPECT_EQ(test::content_of(folder / ("r." + extension)),
-                      test::content_of(folder / ("p." + extension)));
-        }
+    }
+    for (const std::string extension : {"mesh", "vtu"}) {
+        ASSERT_EQ(octetra_on(3, refine + " -o p." + extension, folder).status, 0);
+        EXPECT_EQ(test::content_of(folder / ("r." + extension)),
+                  test::content_of(folder / ("p." + extension)));
     }
 }
 

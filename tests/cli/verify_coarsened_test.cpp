@@ -19,7 +19,7 @@ using testing::HasSubstr;
 class VerifyCoarsened : public testing::Test {
 protected:
     VerifyCoarsened() {
-        run(0, "generate two-material -o m.ele --quiet");
+        run(0, "generate two-material --edge 0.4 -o m.ele --quiet");
         run(0, "refine m.ele --sphere 0.5,0.5,0.5,0.4 --levels 2 -o fine.octetra --quiet");
     }
     test::Outcome run(int status, const std::string& arguments, int ranks = 1) const {

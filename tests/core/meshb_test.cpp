@@ -410,7 +410,7 @@ TEST(MeshbReader, MakesAMeshOrARefusalOfWhateverIsThere) {
         files.push_back(MeshbFile(corner(version)).cell().section(13, 1).row({1}).end().bytes());
     }
     int meshes = 0;
-    constexpr int turns = OCTETRA_SANITIZED ? 200 : 600;
+    constexpr int turns = OCTETRA_SANITIZED ? 150 : 300;
     for (int turn = 0; turn < turns; ++turn) {
         std::string bytes = files[random() % files.size()];
         const std::size_t early = random() % 2 == 0 ? bytes.size() : 60;

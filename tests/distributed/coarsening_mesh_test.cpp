@@ -6,9 +6,9 @@
 #include <octetra/core/error.hpp>
 #include <octetra/distributed/adaptive_mesh.hpp>
 #include <octetra/distributed/partition.hpp>
-#include <octetra/reference/history.hpp>
 
 #include "distributed/marked_mesh.hpp"
+#include "distributed/reference_steps.hpp"
 #include "distributed/seen_mesh.hpp"
 #include "distributed/world.hpp"
 #include "support/meshes.hpp"
@@ -43,18 +43,20 @@ std::vector<std::pair<bool, Selection>> random_steps(std::uint64_t seed) {
 TEST_P(CoarseningMesh, IsTheReferencesOnEveryPartition) {
     const Mesh input = test::marked(test::shaken_kuhn(4, 0.2, GetParam()), 1);
     AdaptiveMesh mesh = shared_out(input, GetParam() % 2 == 0 ? "block" : "random:3");
-    reference::History history{input, {}};
+    test::ReferenceSteps reference(input);
     for (const auto& [refines, selection] : random_steps(GetParam())) {
-        const auto marks = marked_cells(reference::replay(history).back(), selection);
         const Adaptation step = refines ? mesh.refine(selection) : mesh.coarsen(selection);
-        const reference::History before = history;
-        history = refines ? reference::refined(history, marks, Scheme::eight)
-                          : reference::coarsened(history, marks);
-        EXPECT_EQ(step.changed, history.steps != before.steps);
+        const reference::History before = reference.history();
+        if (refines) {
+            reference.refine(selection);
+        } else {
+            reference.coarsen(selection);
+        }
         const Mesh found = mesh.collect();
         EXPECT_EQ(mesh.vertex_count(), test::world().sum(found.points.size()));
         if (!test::world().is_first()) continue;
-        EXPECT_TRUE(found == reference::replay(history).back().mesh);
+        EXPECT_EQ(step.changed, reference.history().steps != before.steps);
+        EXPECT_TRUE(found == reference.mesh());
         // What is kept up, not found anew as by collect().
         for (std::size_t v = 0; v < mesh.points().size(); ++v) {
             const auto number = static_cast<std::size_t>(mesh.vertex_numbers()[v]);

@@ -7,11 +7,11 @@
 
 #include <octetra/distributed/adaptive_mesh.hpp>
 #include <octetra/distributed/partition.hpp>
-#include <octetra/reference/history.hpp>
 
 #include <gtest/gtest.h>
 
 #include "distributed/marked_mesh.hpp"
+#include "distributed/reference_steps.hpp"
 #include "distributed/shared_folder.hpp"
 #include "distributed/world.hpp"
 #include "support/meshes.hpp"
@@ -43,20 +43,22 @@ inline AdaptiveMesh shared_out(Mesh mesh, const std::string& partition) {
 struct MovingAndResting {
     AdaptiveMesh moving;
     AdaptiveMesh resting;
-    reference::History history;
+    test::ReferenceSteps reference;
 
     explicit MovingAndResting(std::uint64_t seed)
         : moving(shared_out(input_of(seed), "random:" + std::to_string(seed))),
           resting(shared_out(input_of(seed), "block")),
-          history{input_of(seed), {}} {}
+          reference(input_of(seed)) {}
 
     /// Collective. After both have done a step: is it the reference's?
     void expect_step(const Selection& selection, bool refines) {
-        const auto marks = marked_cells(reference::replay(history).back(), selection);
-        history = refines ? reference::refined(history, marks, Scheme::eight)
-                          : reference::coarsened(history, marks);
+        if (refines) {
+            reference.refine(selection);
+        } else {
+            reference.coarsen(selection);
+        }
         const Mesh found = moving.collect();
-        EXPECT_TRUE(found == reference::replay(history).back().mesh || !test::world().is_first());
+        EXPECT_TRUE(found == reference.mesh() || !test::world().is_first());
         EXPECT_EQ(moving.vertex_count(), resting.vertex_count());
     }
 

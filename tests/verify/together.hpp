@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -59,10 +60,13 @@ inline std::string text_of(const verify::Verdict& verdict) {
     return text;
 }
 
+using GroupSizes = std::vector<int>;
+inline const GroupSizes all_group_sizes{2, 3, 7};
+
 inline void expect_same_verdict_together(
-    const verify::Verdict& alone,
-    const std::function<verify::Verdict(const ProcessGroup&)>& judge) {
-    for (const int size : {2, 3, 4, 7}) {
+    const verify::Verdict& alone, const std::function<verify::Verdict(const ProcessGroup&)>& judge,
+    const GroupSizes& sizes = all_group_sizes) {
+    for (const int size : sizes) {
         SCOPED_TRACE(fmt::format("{} processes", size));
         verify::Verdict first;
         run_together(size, [&](const ProcessGroup& group) {
@@ -77,7 +81,7 @@ inline void expect_same_verdict_together(
     }
 }
 
-/// The verdict of this process alone; and expects that of 2, 3, 4 and 7 together to be the same.
+/// The verdict of this process alone; and expects that of 2, 3 and 7 together to be the same.
 inline verify::Verdict judged_by_all(const Mesh& mesh, const verify::VerifyOptions& options = {}) {
     const verify::Verdict alone = verify_mesh(mesh, options);
     expect_same_verdict_together(alone, [&](const ProcessGroup& group) {
@@ -87,12 +91,14 @@ inline verify::Verdict judged_by_all(const Mesh& mesh, const verify::VerifyOptio
 }
 
 inline verify::Verdict judged_by_all(const Mesh& coarse, const Mesh& fine,
-                                     const verify::VerifyOptions& options = {}) {
+                                     const verify::VerifyOptions& options = {},
+                                     const GroupSizes& sizes = all_group_sizes) {
     const verify::Verdict alone = verify_refinement(coarse, fine, options);
-    expect_same_verdict_together(alone, [&](const ProcessGroup& group) {
+    const auto judge = [&](const ProcessGroup& group) {
         return verify_refinement(verify::share_out(coarse, group), verify::share_out(fine, group),
                                  group, options);
-    });
+    };
+    expect_same_verdict_together(alone, judge, sizes);
     return alone;
 }
 

@@ -26,6 +26,7 @@ count_tests() {
         done <"$1"
     fi
     bad=$((all - good - left_out))
+    count_cases
     if ((bad == 0 && $2 != 0)); then bad=1; fi
     passed=$((passed + good))
     failed=$((failed + bad))
@@ -33,11 +34,27 @@ count_tests() {
     ran=$((good + bad))
 }
 
+# count_cases: a suite is one test to ctest; what it says of its cases counts instead.
+count_cases() {
+    local cases failures skips
+    while read -r cases failures skips; do
+        if ((failures > 0)); then bad=$((bad - 1)); else good=$((good - 1)); fi
+        good=$((good + cases - failures - skips))
+        bad=$((bad + failures))
+        left_out=$((left_out + skips))
+    done < <(find "build/$preset" -path '*/suites_*/*.xml' -exec awk '
+        function of(name) { return match($0, " " name "=\"[0-9]+") ? substr($0, RSTART + length(name) + 3, RLENGTH - length(name) - 3) : 0 }
+        /<testsuites / { cases = of("tests"); failures = of("failures"); skips = 0 }
+        /<testsuite / { skips += of("skipped") }
+        /<\/testsuites>/ { print cases, failures, skips }' {} +)
+}
+
 # run_ctest PRESET OPTION...
 run_ctest() {
     local preset=$1 report=$root/build/$1/ctest.xml status=0 ran=0
     shift
     rm -f "$report"
+    find "build/$preset" -path '*/suites_*/*.xml' -delete
     step "test $preset" ctest --test-dir "build/$preset" --output-on-failure --parallel "$jobs" \
         --output-junit "$report" "$@" || status=$?
     count_tests "$report" "$status"
@@ -96,7 +113,8 @@ while (($# > 0)); do
     shift
 done
 which=()  # of the tests
-if [[ -n $regex ]]; then which+=(--tests-regex "$regex"); fi
+# By name cases are found, of all tests suites are run.
+if [[ -n $regex ]]; then which+=(--tests-regex "$regex" --label-exclude '^suite$'); else which+=(--label-exclude '^case$'); fi
 
 if [[ -n $quick ]]; then
     need build test

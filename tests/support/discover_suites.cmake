@@ -1,0 +1,34 @@
+# Writes a file for ctest: of a program of GoogleTest's the suites that a filter leaves, each a test. To start a
+# process for every case would take longer than most cases do.
+#   cmake -D PROGRAM=... -D PREFIX=... -D FILTER=... -D LABEL=... -D OUTPUT=... -P discover_suites.cmake
+# They are called <prefix><suite>, slow ones <prefix><suite>.slow. Each writes <prefix><suite>.xml into OUTPUT's
+# folder: how many cases there were, and what became of them.
+
+execute_process(COMMAND ${PROGRAM} --gtest_list_tests --gtest_filter=${FILTER}
+                OUTPUT_VARIABLE listed COMMAND_ERROR_IS_FATAL ANY)
+string(REPLACE "\n" ";" lines "${listed}")
+get_filename_component(folder ${OUTPUT} DIRECTORY)
+set(suites)
+foreach(line IN LISTS lines)
+  string(REGEX REPLACE "  #.*" "" name "${line}")  # types and parameters
+  if(name MATCHES "^  (.+)")
+    list(APPEND cases_of_${suite} "${suite}.${CMAKE_MATCH_1}")
+  elseif(name MATCHES "^([^ ]+)\\.$")
+    set(suite ${CMAKE_MATCH_1})
+    list(APPEND suites ${suite})
+  endif()
+endforeach()
+
+set(script "")
+foreach(suite IN LISTS suites)
+  list(JOIN cases_of_${suite} ":" cases)
+  set(name "${PREFIX}${suite}")
+  string(REPLACE "/" "_" report "${name}.xml")
+  if(LABEL STREQUAL "slow")
+    string(APPEND name ".slow")
+  endif()
+  string(APPEND script "add_test([=[${name}]=] [=[${PROGRAM}]=] [=[--gtest_filter=${cases}]=]"
+                       " [=[--gtest_output=xml:${folder}/${report}]=])\n"
+                       "set_tests_properties([=[${name}]=] PROPERTIES TIMEOUT 900 LABELS [=[suite;${LABEL}]=])\n")
+endforeach()
+file(WRITE ${OUTPUT} "${script}")

@@ -28,7 +28,8 @@ void expect_marked_only_where_it_may_be(double size, double offset) {
         Corners corners{point(), point(), point(), point()};
         if (i % 3 == 0) corners = {corners[0], corners[0], corners[0], corners[0]};
         const Point centre = centroid(corners);
-        const Point c = point();
+        Point c = point();
+        if (i % 5 == 0) c = {c.x, centre.y, centre.z};  // where the sphere reaches farthest
         const double radius = std::hypot(centre.x - c.x, centre.y - c.y, centre.z - c.z);
         const Selection sphere{.spheres = {{c, radius * (1 + (i % 7 - 3) * 2e-16)}}};
         const Selection box{.boxes = {{centre, centre}}};
@@ -36,7 +37,11 @@ void expect_marked_only_where_it_may_be(double size, double offset) {
             if (!marks(selection, corners, 0, GlobalCell{0})) continue;
             ++marked;
             ASSERT_TRUE(may_be_marked(selection, box_of(corners))) << "case " << i;
-            ASSERT_EQ(sides_in_common(SelectionBounds(selection), corners), 0) << "case " << i;
+            const SelectionBounds reach(selection);
+            ASSERT_EQ(sides_in_common(reach, corners), 0) << "case " << i;
+            const auto& [a, b, c, d] = corners;
+            ASSERT_FALSE(reach.is_out_of_reach(a, b, c, d)) << "case " << i;
+            ASSERT_FALSE(reach.is_out_of_reach(box_of(corners))) << "case " << i;
         }
     }
     EXPECT_GT(marked, 20000);
@@ -67,6 +72,22 @@ TEST(SelectionBounds, EndsWhereSpheresAndBoxesEnd) {
     const Corners around{{{-5, 0, 0}, {5, 0, 0}, {0, 5, 0}, {0, -5, 1}}};
     EXPECT_EQ(sides_in_common(reach, around), 0);
     EXPECT_EQ(SelectionBounds({.spheres = {{{0, 0, 0}, infinity}}}).sides_beyond({1e308, 0, 0}), 0);
+}
+
+TEST(SelectionBounds, PassOverCellsAndBoxesBeyondOneSide) {
+    const SelectionBounds reach({.spheres = {{{0, 0, 0}, 1}}});
+    const Corners cell{{{-1, -1, -1}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
+    for (double Point::*x : {&Point::x, &Point::y, &Point::z}) {
+        for (const auto& [shift, is_out] : {std::pair{1.99, false}, {2.01, true}}) {
+            for (const double sign : {-1.0, 1.0}) {
+                Corners moved = cell;
+                for (Point& p : moved) p.*x += sign * shift;
+                const auto& [a, b, c, d] = moved;
+                EXPECT_EQ(reach.is_out_of_reach(a, b, c, d), is_out);
+                EXPECT_EQ(reach.is_out_of_reach(box_of(moved)), is_out);
+            }
+        }
+    }
 }
 
 }  // namespace

@@ -35,6 +35,9 @@ public:
     [[nodiscard]] const std::vector<Box>& boxes() const { return boxes_; }
 
 private:
+    /// By the block's cells from this one on.
+    void extend_by(const DistributedMesh& mesh, std::size_t block, CellIndex begin);
+
     std::vector<Box> boxes_;
 };
 

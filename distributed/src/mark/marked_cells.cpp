@@ -12,6 +12,7 @@ public:
     Marking(const DistributedMesh& mesh, const Selection& selection)
         : mesh_(&mesh),
           selection_(&selection),
+          reach_(selection),
           by_place_only_(selection.cells.empty() && selection.regions.empty() &&
                          !selection.random && !selection.max_volume) {}
 
@@ -38,7 +39,10 @@ public:
     void judge_blocks(const Adjacency& adjacency) {
         const auto& boxes = adjacency.blocks.boxes();
         for (std::size_t b = 0; b < boxes.size(); ++b) {
-            if (by_place_only_ && !may_be_marked(*selection_, boxes[b])) continue;
+            if (by_place_only_ &&
+                (reach_.is_out_of_reach(boxes[b]) || !may_be_marked(*selection_, boxes[b]))) {
+                continue;
+            }
             const std::size_t begin = b * CellBlocks::size;
             const std::size_t end = std::min(begin + CellBlocks::size, mesh_->cells.size());
             for (CellIndex c{begin}; c < CellIndex{end}; ++c) {
@@ -63,17 +67,20 @@ private:
     [[nodiscard]] IndexVector<VertexIndex, std::uint8_t> sides_beyond() const {
         IndexVector<VertexIndex, std::uint8_t> sides;
         if (!by_place_only_) return sides;
-        const SelectionBounds reach(*selection_);
         sides.reserve(mesh_->points.size());
-        for (const Point& p : mesh_->points) sides.push_back(reach.sides_beyond(p));
+        for (const Point& p : mesh_->points) sides.push_back(reach_.sides_beyond(p));
         return sides;
     }
 
     void judge_if_near(CellIndex c, std::size_t root) {
         ++marked_.judged;
-        const Corners corners = corners_of(c);
-        if (by_place_only_ && !may_be_marked(*selection_, box_of(corners))) return;
-        judge(c, root, corners);
+        const auto& points = mesh_->points;
+        const auto& [v0, v1, v2, v3] = mesh_->cells[c];
+        if (by_place_only_ &&
+            reach_.is_out_of_reach(points[v0], points[v1], points[v2], points[v3])) {
+            return;
+        }
+        judge(c, root, corners_of(c));
     }
 
     void judge(CellIndex c, std::size_t root, const Corners& corners) {
@@ -86,6 +93,7 @@ private:
 
     const DistributedMesh* mesh_;
     const Selection* selection_;
+    SelectionBounds reach_;
     bool by_place_only_;
     MarkedCells marked_;
 };

@@ -59,11 +59,6 @@ Box box_round(const Sphere& sphere) {
 
 }  // namespace
 
-void extend(Box& box, const Point& p) {
-    box.low = {std::min(box.low.x, p.x), std::min(box.low.y, p.y), std::min(box.low.z, p.z)};
-    box.high = {std::max(box.high.x, p.x), std::max(box.high.y, p.y), std::max(box.high.z, p.z)};
-}
-
 Box box_of(const Corners& corners) {
     Box box = empty_box;
     for (const Point& p : corners) extend(box, p);
@@ -81,23 +76,15 @@ bool may_be_marked(const Selection& selection, const Box& corners) {
            std::ranges::any_of(selection.boxes, may_hold_one);
 }
 
+// A centroid is not beyond all corners: rounded sums are monotone, and exact for four equal
+// numbers.
 SelectionBounds::SelectionBounds(const Selection& selection) {
     const auto include = [this](const Box& box) {
-        extend(centroids_, box.low);
-        extend(centroids_, box.high);
+        extend(reach_, box.low);
+        extend(reach_, box.high);
     };
     for (const Sphere& sphere : selection.spheres) include(box_round(sphere));
     for (const Box& box : selection.boxes) include(box);
-}
-
-std::uint8_t SelectionBounds::sides_beyond(const Point& p) const {
-    const auto& [low, high] = centroids_;
-    const auto sides = [](double coordinate, double low_bound, double high_bound) {
-        return static_cast<unsigned>(greatest_mean(coordinate) < low_bound) |
-               static_cast<unsigned>(least_mean(coordinate) > high_bound) << 1U;
-    };
-    return static_cast<std::uint8_t>(sides(p.x, low.x, high.x) | sides(p.y, low.y, high.y) << 2U |
-                                     sides(p.z, low.z, high.z) << 4U);
 }
 
 }  // namespace octetra::distributed

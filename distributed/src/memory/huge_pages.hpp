@@ -20,11 +20,11 @@ void reserve_in_huge_pages(Vector& list, std::size_t count) {
                       (list.capacity() - used) * sizeof(typename Vector::value_type));
 }
 
-/// The same for a list that is going to grow little by little: with room for a quarter more, which
-/// takes no memory before it is used.
+/// The same for a list that is going to grow little by little: with room for half as many more,
+/// which takes no memory before it is used.
 template <class Vector>
 void reserve_with_room(Vector& list, std::size_t count) {
-    reserve_in_huge_pages(list, count + count / 4);
+    reserve_in_huge_pages(list, count + count / 2);
 }
 
 /// Room for so many entries, if there is not: from then on no failure keeps the list from having

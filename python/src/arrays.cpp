@@ -27,10 +27,16 @@ bool is_whole(const py::array& array) {
 }
 
 /// The marks of this many cells, none of them set.
-py::array_t<std::uint8_t> no_marks(std::size_t cell_count) {
-    py::array_t<std::uint8_t> marks(static_cast<py::ssize_t>(cell_count));
+using Bytes = py::array_t<std::uint8_t>;
+
+Bytes no_marks(std::size_t cell_count) {
+    Bytes marks(static_cast<py::ssize_t>(cell_count));
     std::memset(marks.mutable_data(), 0, cell_count);
     return marks;
+}
+
+Marks owned(Bytes bytes) {
+    return {{bytes.data(), static_cast<std::size_t>(bytes.size())}, std::move(bytes)};
 }
 
 }  // namespace
@@ -98,34 +104,35 @@ std::uint64_t whole_number(const std::string& name, const py::handle& given) {
                                  py::repr(given).cast<std::string>()));
 }
 
-py::array_t<std::uint8_t> marks_of(const py::handle& given, std::size_t cell_count) {
-    if (given.is_none()) return no_marks(cell_count);
+Marks marks_of(const py::handle& given, std::size_t cell_count) {
+    if (given.is_none()) return owned(no_marks(cell_count));
     // What most programs pass is taken as it is, before numpy is asked for anything.
     if (py::isinstance<py::array_t<bool>>(given)) {
         const auto booleans = py::reinterpret_borrow<py::array_t<bool>>(given);
-        const auto count = static_cast<py::ssize_t>(cell_count);
-        if (booleans.ndim() == 1 && booleans.shape(0) == count &&
+        if (booleans.ndim() == 1 && booleans.shape(0) == static_cast<py::ssize_t>(cell_count) &&
             (booleans.flags() & py::array::c_style) != 0) {
             const void* bytes = booleans.data();
-            return py::array_t<std::uint8_t>(count, static_cast<const std::uint8_t*>(bytes),
-                                             booleans);
+            return {{static_cast<const std::uint8_t*>(bytes), cell_count}, booleans};
         }
     }
     py::array array = any_array(given);
     const bool is_boolean = array.dtype().kind() == 'b';
-    if (array.size() == 0 && array.ndim() == 1 && cell_count == 0) return no_marks(0);
+    if (array.size() == 0 && array.ndim() == 1 && cell_count == 0) {
+        return owned(no_marks(0));
+    }
     if (array.ndim() != 1 || static_cast<std::size_t>(array.size()) != cell_count ||
         !(is_boolean || is_whole(array))) {
         refuse("marks", fmt::format("a boolean or whole number for each of {} cells", cell_count),
                array);
     }
     if (!is_boolean) array = array.attr("__ne__")(0);
-    return py::module_::import("numpy").attr("ascontiguousarray")(array).attr("view")("uint8");
+    return owned(
+        Bytes(py::module_::import("numpy").attr("ascontiguousarray")(array).attr("view")("uint8")));
 }
 
-py::array_t<std::uint8_t> marks_of_list(const py::handle& given, std::size_t cell_count) {
+Marks marks_of_list(const py::handle& given, std::size_t cell_count) {
     const auto cells = values_of<std::uint64_t>("cells", given);
-    py::array_t<std::uint8_t> marks = no_marks(cell_count);
+    Bytes marks = no_marks(cell_count);
     for (const std::uint64_t cell : cells) {
         if (cell >= cell_count) {
             throw InputError(
@@ -133,7 +140,7 @@ py::array_t<std::uint8_t> marks_of_list(const py::handle& given, std::size_t cel
         }
         marks.mutable_data()[cell] = 1;
     }
-    return marks;
+    return owned(std::move(marks));
 }
 
 }  // namespace octetra::python

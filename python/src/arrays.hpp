@@ -80,12 +80,17 @@ template <class V>
 /// A whole number from 0. Throws InputError where it is none; `name` is what the caller calls it.
 [[nodiscard]] std::uint64_t whole_number(const std::string& name, const py::handle& given);
 
-/// A byte for each cell from marks: booleans, or whole numbers of any type, of which others than 0
-/// mean true. None marks nothing.
-[[nodiscard]] py::array_t<std::uint8_t> marks_of(const py::handle& given, std::size_t cell_count);
+/// A byte for each cell, and what has them.
+struct Marks {
+    std::span<const std::uint8_t> bytes;
+    py::object owner;
+};
+
+/// From booleans, or whole numbers of any type, of which others than 0 mean true. None marks
+/// nothing.
+[[nodiscard]] Marks marks_of(const py::handle& given, std::size_t cell_count);
 
 /// The same from numbers of cells, in any order.
-[[nodiscard]] py::array_t<std::uint8_t> marks_of_list(const py::handle& given,
-                                                      std::size_t cell_count);
+[[nodiscard]] Marks marks_of_list(const py::handle& given, std::size_t cell_count);
 
 }  // namespace octetra::python

@@ -14,19 +14,10 @@ namespace {
 
 using Adaptation = std::shared_ptr<od::Adaptation>;
 
-/// Marks of cells as Python has them, and what it says beside.
-struct Marked {
-    py::array_t<std::uint8_t> bytes;
-
-    [[nodiscard]] std::span<const std::uint8_t> span() const {
-        return {bytes.data(), static_cast<std::size_t>(bytes.size())};
-    }
-};
-
-Marked marked(const Mesh& mesh, const py::object& marks, const py::object& cells) {
-    if (cells.is_none()) return {marks_of(marks, mesh.cell_count())};
+Marks marked(const Mesh& mesh, const py::object& marks, const py::object& cells) {
+    if (cells.is_none()) return marks_of(marks, mesh.cell_count());
     if (!marks.is_none()) throw InputError("either marks or cells, not both");
-    return {marks_of_list(cells, mesh.cell_count())};
+    return marks_of_list(cells, mesh.cell_count());
 }
 
 od::StepOptions step_options(const std::string& scheme, const py::object& max_cells) {
@@ -46,7 +37,7 @@ Adaptation shared(od::Adaptation step) { return std::make_shared<od::Adaptation>
 
 Adaptation refine(Mesh& mesh, const py::object& marks, const py::object& cells,
                   const std::string& scheme, const py::object& max_cells) {
-    Marked which;
+    Marks which;
     od::StepOptions options;
     return mesh.change_when_asked(
         [&] {
@@ -56,7 +47,7 @@ Adaptation refine(Mesh& mesh, const py::object& marks, const py::object& cells,
         [&](od::AdaptiveMesh& now, const auto& convert) {
             return shared(now.refine([&] {
                 convert();
-                return od::StepRequest{which.span(), options};
+                return od::StepRequest{which.bytes, options};
             }));
         });
 }
@@ -74,9 +65,9 @@ Adaptation refine_edges(Mesh& mesh, const py::object& given, const std::string& 
 }
 
 Adaptation coarsen(Mesh& mesh, const py::object& marks, const py::object& cells) {
-    Marked which;
+    Marks which;
     return mesh.change([&] { which = marked(mesh, marks, cells); },
-                       [&](od::AdaptiveMesh& now) { return shared(now.coarsen(which.span())); });
+                       [&](od::AdaptiveMesh& now) { return shared(now.coarsen(which.bytes)); });
 }
 
 Moved moved(const od::AdaptiveMesh& mesh) {
@@ -106,7 +97,7 @@ std::tuple<Moved, Adaptation> refine_evenly(Mesh& mesh, const py::object& marks,
                                             const py::object& cells, double most_over_mean,
                                             const std::string& scheme,
                                             const py::object& max_cells) {
-    Marked which;
+    Marks which;
     od::StepOptions options;
     return mesh.change(
         [&] {
@@ -116,7 +107,7 @@ std::tuple<Moved, Adaptation> refine_evenly(Mesh& mesh, const py::object& marks,
         [&](od::AdaptiveMesh& now) {
             Moved move = moved(now);
             od::EvenStep step = now.refine_evenly(
-                which.span(), od::BalanceOptions{.most_over_mean = most_over_mean}, options);
+                which.bytes, od::BalanceOptions{.most_over_mean = most_over_mean}, options);
             move.migration = std::move(step.move);
             return std::tuple(std::move(move), shared(std::move(step.step)));
         });

@@ -89,6 +89,12 @@ def test_the_heart_of_the_tutorial_runs_as_the_page_shows_it(tmp_path, monkeypat
     monkeypatch.chdir(tmp_path)
     monkeypatch.syspath_prepend(SOURCE / "examples/python")
     names = {"octetra": octetra, "np": np, "front": importlib.import_module("tutorial").front}
-    exec(re.search("```python\n(.*?)```", PAGE, re.DOTALL)[1], names)
+    step, going_on = re.findall("```python\n(.*?)```", PAGE, re.DOTALL)
+    exec(step, names)
+    finer = len(names["mesh"].cells)
     assert len(names["u"]) == len(names["mesh"].points) > 1026
     assert (tmp_path / "tutorial.vtu").exists() and (tmp_path / "tutorial.octetra").exists()
+    exec(going_on, names)
+    assert len(names["volumes"]) == len(names["mesh"].cells) < finer
+    assert np.allclose(names["volumes"], octetra.quality.volume(names["mesh"]), rtol=1e-12)
+    assert (tmp_path / "coarser.octetra").exists()

@@ -34,13 +34,14 @@ void expect_marked_only_where_it_may_be(double size, double offset) {
         const Selection sphere{.spheres = {{c, radius * (1 + (i % 7 - 3) * 2e-16)}}};
         const Selection box{.boxes = {{centre, centre}}};
         for (const Selection& selection : {sphere, box}) {
-            if (!marks(selection, corners, 0, GlobalCell{0})) continue;
+            const SelectionBounds reach(selection);
+            if (!marks(selection, corners, 0, GlobalCell{0})) {
+                ASSERT_FALSE(reach.is_wholly_inside(box_of(corners))) << "case " << i;
+                continue;
+            }
             ++marked;
             ASSERT_TRUE(may_be_marked(selection, box_of(corners))) << "case " << i;
-            const SelectionBounds reach(selection);
             ASSERT_EQ(sides_in_common(reach, corners), 0) << "case " << i;
-            const auto& [a, b, c, d] = corners;
-            ASSERT_FALSE(reach.is_out_of_reach(a, b, c, d)) << "case " << i;
             ASSERT_FALSE(reach.is_out_of_reach(box_of(corners))) << "case " << i;
         }
     }
@@ -82,12 +83,23 @@ TEST(SelectionBounds, PassOverCellsAndBoxesBeyondOneSide) {
             for (const double sign : {-1.0, 1.0}) {
                 Corners moved = cell;
                 for (Point& p : moved) p.*x += sign * shift;
-                const auto& [a, b, c, d] = moved;
-                EXPECT_EQ(reach.is_out_of_reach(a, b, c, d), is_out);
                 EXPECT_EQ(reach.is_out_of_reach(box_of(moved)), is_out);
             }
         }
     }
+}
+
+TEST(SelectionBounds, FindCellsThatAreWhollyInside) {
+    const SelectionBounds reach(
+        {.spheres = {{{5, 5, 5}, 1}, {{0, 0, 0}, 2}}, .boxes = {{{-9, -9, -9}, {-8, -8, -8}}}});
+    for (const auto& [x, is_inside] : {std::pair{1.99, true}, {2.01, false}}) {
+        EXPECT_EQ(reach.is_wholly_inside({{-x, 0, 0}, {0, 0, 0}}), is_inside);
+        EXPECT_EQ(reach.is_wholly_inside({{0, 0, 0}, {0, x, 0}}), is_inside);
+        EXPECT_EQ(reach.is_wholly_inside({{0, 0, -0.1}, {0, 0, x}}), is_inside);
+    }
+    EXPECT_FALSE(reach.is_wholly_inside({{-1.5, -1.5, 0}, {0, 0, 0}}));  // a corner is not
+    EXPECT_TRUE(reach.is_wholly_inside({{-9, -9, -9}, {-8, -8, -8}}));
+    EXPECT_FALSE(reach.is_wholly_inside({{-9, -9, -9}, {-8, -8, -7.9}}));
 }
 
 }  // namespace

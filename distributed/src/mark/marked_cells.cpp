@@ -23,7 +23,7 @@ public:
             for (CellIndex c{ancestors.first[r]}; c < CellIndex{ancestors.first[r + 1]}; ++c) {
                 const auto& [v0, v1, v2, v3] = mesh_->cells[c];
                 if (!by_place_only_ || (beyond[v0] & beyond[v1] & beyond[v2] & beyond[v3]) == 0) {
-                    judge(c, r, corners_of(c));
+                    judge(c, r);
                 }
             }
         }
@@ -32,21 +32,19 @@ public:
 
     void judge_new(const Adjacency& adjacency) {
         for (const CellIndex c : adjacency.new_cells) {
-            judge_if_near(c, adjacency.cells.root_of(c));
+            judge(c, adjacency.cells.root_of(c));
         }
     }
 
     void judge_blocks(const Adjacency& adjacency) {
         const auto& boxes = adjacency.blocks.boxes();
         for (std::size_t b = 0; b < boxes.size(); ++b) {
-            if (by_place_only_ &&
-                (reach_.is_out_of_reach(boxes[b]) || !may_be_marked(*selection_, boxes[b]))) {
-                continue;
-            }
-            const std::size_t begin = b * CellBlocks::size;
-            const std::size_t end = std::min(begin + CellBlocks::size, mesh_->cells.size());
-            for (CellIndex c{begin}; c < CellIndex{end}; ++c) {
-                judge_if_near(c, adjacency.cells.root_of(c));
+            const CellIndex begin{b * CellBlocks::size};
+            const CellIndex end{std::min((b + 1) * CellBlocks::size, mesh_->cells.size())};
+            if (reach_.is_wholly_inside(boxes[b])) {
+                for (CellIndex c = begin; c < end; ++c) marked_.cells.push_back(c);
+            } else if (!by_place_only_ || may_be_reached(boxes[b])) {
+                for (CellIndex c = begin; c < end; ++c) judge(c, adjacency.cells.root_of(c));
             }
         }
     }
@@ -72,18 +70,23 @@ private:
         return sides;
     }
 
-    void judge_if_near(CellIndex c, std::size_t root) {
-        ++marked_.judged;
-        const auto& points = mesh_->points;
-        const auto& [v0, v1, v2, v3] = mesh_->cells[c];
-        if (by_place_only_ &&
-            reach_.is_out_of_reach(points[v0], points[v1], points[v2], points[v3])) {
-            return;
-        }
-        judge(c, root, corners_of(c));
+    [[nodiscard]] bool may_be_reached(const Box& box) const {
+        return !reach_.is_out_of_reach(box) && may_be_marked(*selection_, box);
     }
 
-    void judge(CellIndex c, std::size_t root, const Corners& corners) {
+    void judge(CellIndex c, std::size_t root) {
+        ++marked_.judged;
+        const Corners corners = corners_of(c);
+        const Box box = box_of(corners);
+        if (by_place_only_ && reach_.is_out_of_reach(box)) return;
+        if (reach_.is_wholly_inside(box)) {
+            marked_.cells.push_back(c);
+        } else {
+            judge_exactly(c, root, corners);
+        }
+    }
+
+    void judge_exactly(CellIndex c, std::size_t root, const Corners& corners) {
         const AncestorMap& ancestors = mesh_->cell_ancestors;
         const Marker region = ancestors.markers.empty() ? 0 : ancestors.markers[root];
         if (marks(*selection_, corners, region, GlobalCell{ancestors.roots[root]})) {

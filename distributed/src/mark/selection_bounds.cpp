@@ -59,12 +59,6 @@ Box box_round(const Sphere& sphere) {
 
 }  // namespace
 
-Box box_of(const Corners& corners) {
-    Box box = empty_box;
-    for (const Point& p : corners) extend(box, p);
-    return box;
-}
-
 bool may_be_marked(const Selection& selection, const Box& corners) {
     // What marks() computes of a centroid farther out, in the same way, is no smaller: rounding
     // is monotone.
@@ -83,8 +77,16 @@ SelectionBounds::SelectionBounds(const Selection& selection) {
         extend(reach_, box.low);
         extend(reach_, box.high);
     };
-    for (const Sphere& sphere : selection.spheres) include(box_round(sphere));
+    for (const Sphere& sphere : selection.spheres) {
+        include(box_round(sphere));
+        // Centroids are in the box of their corners, and distances are rounded by much less.
+        constexpr double smaller = 1 - 0x1p-20;
+        const double radius = sphere.radius * smaller;
+        const bool is_ordinary = radius > 0x1p-400 && radius < 0x1p400;  // its square is, too
+        if (is_ordinary) balls_.push_back({sphere.centre, radius * radius});
+    }
     for (const Box& box : selection.boxes) include(box);
+    boxes_ = selection.boxes;
 }
 
 }  // namespace octetra::distributed

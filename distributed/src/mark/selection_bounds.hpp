@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <limits>
+#include <vector>
 
 #include <octetra/core/selection.hpp>
 
@@ -23,9 +24,14 @@ inline void extend(Box& box, const Point& p) {
 [[nodiscard]] bool may_be_marked(const Selection& selection, const Box& corners);
 
 /// The smallest box with these corners in it.
-[[nodiscard]] Box box_of(const Corners& corners);
+[[nodiscard]] inline Box box_of(const Corners& corners) {
+    Box box = empty_box;
+    for (const Point& p : corners) extend(box, p);
+    return box;
+}
 
-/// All that the spheres and boxes of a selection reach, from one corner to the other.
+/// What is told in a few comparisons of most cells: that no sphere or box of a selection reaches
+/// them, or that one of them has all of them in it.
 class SelectionBounds {
 public:
     explicit SelectionBounds(const Selection& selection);
@@ -42,27 +48,38 @@ public:
                                          side(p.z < low.z, 4) | side(p.z > high.z, 5));
     }
 
-    /// Do these corners of a cell have such a side in common?
-    [[nodiscard]] bool is_out_of_reach(const Point& a, const Point& b, const Point& c,
-                                       const Point& d) const {
-        const auto is_beyond = [&](double Point::*x) {
-            const double least = std::min(std::min(a.*x, b.*x), std::min(c.*x, d.*x));
-            const double most = std::max(std::max(a.*x, b.*x), std::max(c.*x, d.*x));
-            return static_cast<unsigned>(most < reach_.low.*x) |
-                   static_cast<unsigned>(least > reach_.high.*x);
-        };
-        return (is_beyond(&Point::x) | is_beyond(&Point::y) | is_beyond(&Point::z)) != 0;
-    }
-
-    /// Of every cell whose corners are in the box, then.
+    /// Can no cell be marked for its place whose corners are in the box?
     [[nodiscard]] bool is_out_of_reach(const Box& corners) const {
         const auto& [low, high] = corners;
         return high.x < reach_.low.x || low.x > reach_.high.x || high.y < reach_.low.y ||
                low.y > reach_.high.y || high.z < reach_.low.z || low.z > reach_.high.z;
     }
 
+    /// Is every such cell marked, as the box is in one of the spheres or boxes? Says no where it is
+    /// in the middle of several, or where rounding might decide.
+    [[nodiscard]] bool is_wholly_inside(const Box& corners) const {
+        const auto& [low, high] = corners;
+        for (const auto& [centre, squared_radius] : balls_) {
+            const double dx = std::max(centre.x - low.x, high.x - centre.x);
+            const double dy = std::max(centre.y - low.y, high.y - centre.y);
+            const double dz = std::max(centre.z - low.z, high.z - centre.z);
+            if (dx * dx + dy * dy + dz * dz < squared_radius) return true;
+        }
+        return std::ranges::any_of(boxes_, [&](const Box& box) {
+            return low.x >= box.low.x && high.x <= box.high.x && low.y >= box.low.y &&
+                   high.y <= box.high.y && low.z >= box.low.z && high.z <= box.high.z;
+        });
+    }
+
 private:
+    struct Ball {
+        Point centre;
+        double squared_radius;
+    };
+
     Box reach_ = empty_box;
+    std::vector<Ball> balls_;  ///< the spheres, a little smaller
+    std::vector<Box> boxes_;
 };
 
 }  // namespace octetra::distributed

@@ -1,6 +1,7 @@
 """All cases, by group."""
 
 import adaptive
+import file_tools
 import files
 import growth
 import peers
@@ -41,7 +42,8 @@ def standard(with_peers):
         made.append(group("peers", [peers.uniform(55), peers.sphere(32), peers.bare(55),
                                     peers.valid(32, 2), adaptive.run_in_dolfinx(8, 10),
                                     adaptive.hand_over_to_dolfinx(40),
-                                    adaptive.beside_dmplex(8, 10, 60)]))
+                                    adaptive.beside_dmplex(8, 10, 60),
+                                    file_tools.beside_others("two-material --edge 0.045")]))
     return made
 
 
@@ -58,5 +60,6 @@ def quick(with_peers):
         made.append(group("peers", [peers.uniform(12), peers.sphere(8), peers.bare(12),
                                     peers.valid(8, 2), adaptive.run_in_dolfinx(4, 3),
                                     adaptive.hand_over_to_dolfinx(6),
-                                    adaptive.beside_dmplex(2, 2, 60)]))
+                                    adaptive.beside_dmplex(2, 2, 60),
+                                    file_tools.beside_others("two-material")]))
     return made

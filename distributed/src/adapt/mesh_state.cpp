@@ -2,11 +2,13 @@
 
 #include <span>
 #include <utility>
+#include <vector>
 
 #include <octetra/distributed/profile.hpp>
 
 #include "adapt/step_options.hpp"
 #include "comm/local_failure.hpp"
+#include "memory/huge_pages.hpp"
 #include "sharing/sharing_builder.hpp"
 #include "sharing/vertex_sharing.hpp"
 
@@ -38,13 +40,16 @@ Adaptation adaptation_of(PlannedLevel& plan, const DistributedMesh& mesh) {
     const std::size_t before = mesh.level_begin.back().value();
     const auto new_ends =
         std::span(mesh.midpoint_to_edge).subspan(before - mesh.input_vertices.size());
+    std::vector<EdgeVertices> copied;
+    reserve_in_huge_pages(copied, new_ends.size());
+    copied.assign(new_ends.begin(), new_ends.end());
     ListChanges changes = plan.changes();
     return {.changed = true,
             .cells = std::move(changes.cells),
             .facets = std::move(changes.facets),
             .edges = std::move(changes.edges),
             .vertex_count_before = before,
-            .new_vertex_ends = {new_ends.begin(), new_ends.end()},
+            .new_vertex_ends = std::move(copied),
             .synchronisation = plan.counts};
 }
 

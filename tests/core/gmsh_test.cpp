@@ -10,6 +10,7 @@
 #include "core/gmsh_files.hpp"
 #include "support/meshes.hpp"
 #include "support/temporary_folder.hpp"
+#include "support/thrown.hpp"
 
 /// What is read of Gmsh's files, and what is said of it.
 namespace octetra {

@@ -114,8 +114,10 @@ TEST_P(Coarsening, OfAllAgainAndAgainEndsInTheInput) {
     EXPECT_TRUE(found == mesh || !test::world().is_first());
 }
 
+class CoarseningOfSmallMeshes : public Coarsening {};
+
 /// Of several levels at once, where often only another process knows that one is divided.
-TEST_P(Coarsening, OfAllButFewCellsOfASmallMeshIsTheReferences) {
+TEST_P(CoarseningOfSmallMeshes, OfAllButFewCellsIsTheReferences) {
     std::mt19937_64 random(GetParam());
     const int trials = test::world().size() > 3 ? 2 : 20;
     for (int trial = 0; trial < trials; ++trial) {
@@ -131,6 +133,7 @@ TEST_P(Coarsening, OfAllButFewCellsOfASmallMeshIsTheReferences) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Seeds, Coarsening, testing::Range<std::uint64_t>(0, 10));
+INSTANTIATE_TEST_SUITE_P(Seeds, CoarseningOfSmallMeshes, testing::Range<std::uint64_t>(0, 16));
 
 }  // namespace
 }  // namespace octetra::distributed

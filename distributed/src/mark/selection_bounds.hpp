@@ -58,7 +58,8 @@ public:
     /// Is every such cell marked, as the box is in one of the spheres or boxes? Says no where it is
     /// in the middle of several, or where rounding might decide.
     [[nodiscard]] bool is_wholly_inside(const Box& corners) const {
-        const auto& [low, high] = corners;
+        const Point& low = corners.low;
+        const Point& high = corners.high;
         for (const auto& [centre, squared_radius] : balls_) {
             const double dx = std::max(centre.x - low.x, high.x - centre.x);
             const double dy = std::max(centre.y - low.y, high.y - centre.y);

@@ -186,6 +186,28 @@ TEST(Hubs, ChangeNothingOfWhatIsFoundAmongCellsAnywhere) {
     EXPECT_GT(found, OCTETRA_SANITIZED ? 2'000U : 20'000U);
 }
 
+/// A cell at one end of the edge, which is seen best along the edge: the faces at its corner take
+/// more of the sphere than of the circle round the edge. The other end lies on one of these faces.
+TEST(Hubs, ShowAnEndOfAnEdgeOnACellThatHasTheOtherEnd) {
+    Mesh mesh = test::mesh_of(
+        {{0, 0, 0},
+         {1, -1, 0},
+         {5, -1, 2},
+         {1, -5, -2},
+         {-9, 11, -1},  // the edge, the cell's others
+         {1, 1, 1},
+         {1, 1, -1},
+         {0, 0, -1},
+         {-1, -1, -1},
+         {-1, -1, 1}},  // round the edge
+        {{0, 2, 3, 4}, {0, 1, 5, 6}, {0, 1, 6, 7}, {0, 1, 7, 8}, {0, 1, 8, 9}, {0, 1, 9, 5}});
+    expect_same_with_hubs(mesh, "an end on a face");
+    const auto found = found_in_space(mesh, 4);
+    EXPECT_TRUE(std::any_of(found.begin(), found.end(), [](const Violation& violation) {
+        return violation.code == Code::hanging_vertex && violation.found == "on a face of the cell";
+    }));
+}
+
 TEST(Hubs, ChangeNothingOfWhatIsFoundAtAnyScale) {
     std::mt19937_64 random(99);
     for (std::size_t round = 0; round < (OCTETRA_SANITIZED ? 20U : 200U); ++round) {

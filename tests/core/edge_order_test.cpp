@@ -181,6 +181,28 @@ TEST(EdgeOrder, DoesNotChangeWhenAllIsMultipliedByAPowerOfTwo) {
     }
 }
 
+/// Where squares are about as small as numbers with all their digits can be, the smaller ones of a
+/// sum lack digits, and lengths that are nearly the same round otherwise.
+TEST(EdgeOrder, DoesNotChangeWhereOnlyTheSmallerSquaresLoseDigits) {
+    std::mt19937_64 random(6);
+    std::uniform_real_distribution<double> digits(1, 2);
+    for (int round = 0; round < 20'000; ++round) {
+        const double x = digits(random);
+        const double y = std::scalbn(digits(random), -static_cast<int>(random() % 30));
+        const double z = std::scalbn(digits(random), -static_cast<int>(random() % 30));
+        const Segment e{{}, {x, y, z}};
+        const Segment f{{}, {z, y, x}};  // the same squares, summed in another order
+        for (const int exponent : {-511, -508, -500, -480}) {
+            const auto scaled = [&](const Segment& s) {
+                return Segment{{},
+                               {std::scalbn(s.b.x, exponent), std::scalbn(s.b.y, exponent),
+                                std::scalbn(s.b.z, exponent)}};
+            };
+            ASSERT_EQ(longer(scaled(e), scaled(f)), longer(e, f)) << x << ' ' << y << ' ' << z;
+        }
+    }
+}
+
 TEST(EdgeOrder, HoldsOfTheLargestCoordinatesThatThereCanBe) {
     const double most = std::numeric_limits<double>::max() / 2;
     const Segment diagonal{{-most, -most, -most}, {most, most, most}};

@@ -234,6 +234,15 @@ TEST(ReadGmshTogether, OddFilesComeToWhatOneProcessMakesOfThem) {
     }
 }
 
+/// A blank line, and later two rows on a line, within one process's share: in the end lines are as
+/// many as rows, but those between are not where they are looked for.
+TEST(ReadGmshTogether, RowsThatMakeUpForABlankLineAreReadByOneProcess) {
+    std::string text = test::GmshText(test::full_mesh(2, 1), {.format = {true, true}}).text();
+    text = replaced(replaced(text, "\n2 ", "\n\n2 "), "\n4 ", " 4 ");
+    EXPECT_FALSE(are_read_together(msh(text)));
+    EXPECT_TRUE(expect_one_outcome(msh(text)));
+}
+
 TEST(ReadGmshTogether, FilesThatWereChangedAtRandomComeToWhatOneProcessMakesOfThem) {
     const char* const given = std::getenv("OCTETRA_READING_SEED");
     std::vector<std::uint64_t> seed{given != nullptr ? std::strtoull(given, nullptr, 10)

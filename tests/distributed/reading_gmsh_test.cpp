@@ -185,6 +185,12 @@ std::vector<OddGmsh> odd_gmsh_files() {
         {"a tag twice", replaced(four, "\n3\n4\n", "\n2\n4\n"), false, false},
         {"a tag twice, far apart",
          replaced(replaced(four, "\n3\n4\n", "\n900\n4\n"), "\n2\n", "\n900\n"), false, false},
+        {"a tag twice, and every node that is asked for",
+         head_4 +
+             "$Nodes\n1 5 1 4\n3 1 0 5\n1\n2\n3\n4\n4\n"
+             "0 0 0\n1 0 0\n0 1 0\n0 0 1\n0 0 2\n$EndNodes\n" +
+             cell_4,
+         false, false},
         {"a node that there is not", replaced(four, "1 1 2 3 4", "1 1 2 3 5"), false, false},
         {"a node in a gap", replaced(replaced(four, "\n4\n", "\n9\n"), "1 1 2 3 4", "1 1 2 3 4"),
          false, false},

@@ -21,55 +21,20 @@
 #include <octetra/distributed/refine.hpp>
 
 #include "checkpoint/load.hpp"
+#include "distributed/failing_allocations.hpp"
 #include "distributed/marked_mesh.hpp"
 #include "distributed/seen_mesh.hpp"
 #include "distributed/shared_folder.hpp"
 #include "distributed/world.hpp"
 
 /// Where one process has no memory, at whatever place of a step, all processes hear of it, and the
-/// mesh is as it was. This program's operator new refuses an allocation when it is told to.
-namespace {
-
-constexpr long never = -1;
-long allocations_left = never;
-
-void* allocate(std::size_t size) {
-    if (allocations_left == 0) throw std::bad_alloc();
-    if (allocations_left > 0) --allocations_left;
-    void* const memory = std::malloc(size == 0 ? 1 : size);
-    if (memory == nullptr) throw std::bad_alloc();
-    return memory;
-}
-
-}  // namespace
-
-void* operator new(std::size_t size) { return allocate(size); }
-void* operator new[](std::size_t size) { return allocate(size); }
-void operator delete(void* memory) noexcept { std::free(memory); }
-void operator delete[](void* memory) noexcept { std::free(memory); }
-void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
-void operator delete[](void* memory, std::size_t) noexcept { std::free(memory); }
-
+/// mesh is as it was.
 namespace octetra::distributed {
 namespace {
 
-/// Does `work` on all processes, while on `rank` only so many allocations succeed. Did it get
-/// there?
-bool done_with(long allocations, int rank, auto&& work) {
-    if (test::world().rank() == rank) allocations_left = allocations;
-    bool done = true;
-    try {
-        work();
-    } catch (const OutOfMemory& error) {
-        allocations_left = never;
-        EXPECT_STREQ(error.what(), fmt::format("rank {}: out of memory", rank).c_str());
-        done = false;
-    } catch (const std::bad_alloc&) {  // of an exchange by itself, which tells nobody
-        done = false;
-    }
-    allocations_left = never;
-    return done;
-}
+using test::allocations_left;
+using test::done_with;
+using test::never;
 
 /// Little, and what that leaves; much, so that the order of all cells is restored; and all.
 const std::vector<Selection> steps{
@@ -296,88 +261,6 @@ TEST(FailingAllocations, OfSavingLeaveTheMeshAsItWasAndTheOldFileOrNone) {
         }
     }
     EXPECT_GE(failures, 300);
-}
-
-/// Collective. Lets allocations of some work that begins anew each time fail in turn on each of the
-/// processes, the first fifty one after the other, later ones with ever more between them; when
-/// none fails any more, the work is done on all. Returns how many that were.
-std::uint64_t let_each_fail_anew(auto&& work) {
-    const Communicator& world = test::world();
-    std::uint64_t failures = 0;
-    for (int rank = 0; rank < world.size(); ++rank) {
-        for (long allocations = 0;; allocations += 1 + allocations / 50) {
-            const bool done = done_with(allocations, rank, work);
-            const auto done_on = static_cast<int>(world.sum(done ? 1 : 0));
-            EXPECT_EQ(done_on, done ? world.size() : 0) << allocations;
-            if (done_on > 0) break;
-            ++failures;
-        }
-    }
-    return failures;
-}
-
-TEST(FailingAllocations, OfReadingAFileTogetherAreThrownOnAllProcesses) {
-    if (test::world().size() == 1) return;  // which reads alone
-    const test::SharedFolder folder;
-    Mesh mesh = test::marked(test::shaken_kuhn(2, 0.2, 1), 1);
-    for (Marker& marker : mesh.facet_markers) marker = 3;
-    for (Marker& marker : mesh.edge_markers) marker = 4;
-    for (const std::string name : {"m.ele", "m.mesh"}) {
-        const std::filesystem::path file = folder / name;
-        const Partition by_coordinates{.method = PartitionMethod::rcb};
-        const Selection box{.boxes = {{{0, 0, 0}, {1, 1, 1}}}};
-        const auto weigh = [&](const CellsToWeigh& cells) {
-            return predicted_cells(cells, box, Scheme::eight, 2);
-        };
-        const ReadPartsOptions options{.read = {}, .on_facts = {}, .weigh = weigh};
-        test::world().on_first([&] { (void)write_mesh(mesh, file); });
-        const std::uint64_t failures = let_each_fail_anew(
-            [&] { (void)read_parts(test::world(), file, by_coordinates, options); });
-        EXPECT_GE(failures, 100U);
-    }
-}
-
-TEST(FailingAllocations, OfLoadingACheckpointAreThrownOnAllProcesses) {
-    const test::SharedFolder folder;
-    const std::filesystem::path file = folder / "m.octetra";
-    Mesh whole = test::marked(test::shaken_kuhn(2, 0.2, 1), 1);
-    for (Marker& marker : whole.facet_markers) marker = 3;
-    for (Marker& marker : whole.edge_markers) marker = 4;
-    const std::vector<int> ranks(whole.cells.size(), 0);
-    AdaptiveMesh mesh = AdaptiveMesh::distribute(test::world(), std::move(whole), ranks);
-    (void)mesh.refine(Selection{.random = RandomShare{0.3, 1}});
-    mesh.save(file);
-    const CheckpointReader reader(file);
-    const Partition by_coordinates{.method = PartitionMethod::rcb};
-    const std::uint64_t failures = let_each_fail_anew([&] {
-        LoadedPart part = load_part(test::world(), reader, file, by_coordinates);
-        (void)distribute_parts(test::world(), std::move(part.input));
-    });
-    EXPECT_GE(failures, 100U);
-}
-
-/// Messages that are cut into pieces, and of which one process can keep nothing.
-TEST(FailingAllocations, OfAReceiverOfLongMessagesKeepNobodyWaiting) {
-    const Communicator& world = test::world();
-    std::vector<std::vector<std::uint64_t>> outboxes;
-    for (int r = 0; r < world.size(); ++r) {
-        outboxes.emplace_back(300'000U * static_cast<std::size_t>(r + 1), 7U);
-    }
-    for (int rank = 0; rank < world.size(); ++rank) {
-        for (long allocations = 0;; ++allocations) {
-            const bool done = done_with(allocations, rank, [&] {
-                for (const auto& inbox : world.all_to_all(outboxes)) {
-                    EXPECT_TRUE(inbox.empty() || inbox.front() + inbox.back() == 14U);
-                }
-            });
-            EXPECT_TRUE(done || world.rank() == rank);
-            if (world.sum(done ? 1 : 0) == static_cast<std::uint64_t>(world.size())) break;
-        }
-    }
-    const auto inboxes = world.all_to_all(outboxes);
-    for (const auto& inbox : inboxes) {
-        EXPECT_EQ(inbox, outboxes[static_cast<std::size_t>(world.rank())]);
-    }
 }
 
 }  // namespace

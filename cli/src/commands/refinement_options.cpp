@@ -1,5 +1,6 @@
 #include "commands/refinement_options.hpp"
 
+#include <algorithm>
 #include <array>
 
 #include <CLI/CLI.hpp>
@@ -22,10 +23,17 @@ void add_refinement_options(CLI::App& subcommand, RefinementOptions& options,
         ->type_name("8t|4t|2t");
 }
 
+bool was_given(const CLI::App& subcommand, std::string_view name) {
+    // Not by App::count(), which copies names where nothing may be thrown, not even std::bad_alloc.
+    const auto options = subcommand.get_options();
+    return std::ranges::any_of(options, [&](const CLI::Option* option) {
+        return option->count() > 0 && std::ranges::count(option->get_lnames(), name) > 0;
+    });
+}
+
 bool says_how_refined(const CLI::App& subcommand) {
-    return subcommand.count("--levels") + subcommand.count("--scheme") +
-               subcommand.count("--seed") >
-           0;
+    return was_given(subcommand, "levels") || was_given(subcommand, "scheme") ||
+           was_given(subcommand, "seed");
 }
 
 Scheme parse_scheme(const RefinementOptions& options) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 
 #include <octetra/core/selection.hpp>
 
@@ -18,6 +19,9 @@ struct RefinementOptions {
 /// Declares the selection under the headline `group`, --levels and --scheme.
 void add_refinement_options(CLI::App& subcommand, RefinementOptions& options,
                             const std::string& group);
+
+/// Was the option with this name, without dashes, typed?
+[[nodiscard]] bool was_given(const CLI::App& subcommand, std::string_view name);
 
 /// Was --levels, --scheme or --seed typed, even with the default value? Without a
 /// criterion they mean nothing.

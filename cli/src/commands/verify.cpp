@@ -255,7 +255,7 @@ void add_verify(CLI::App& program, const distributed::Communicator& world) {
         "  mpirun -n 4 octetra verify gear.1.ele fine.1.ele");
     command->callback([options, command, world] {
         options->says_how_refined = says_how_refined(*command);
-        options->says_scheme = command->count("--scheme") > 0;
+        options->says_scheme = was_given(*command, "scheme");
         if (!run(*options, world)) throw AnswerIsNo{};
     });
 }

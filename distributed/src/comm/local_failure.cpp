@@ -7,6 +7,8 @@
 #include <octetra/core/error.hpp>
 #include <octetra/distributed/out_of_memory.hpp>
 
+#include "comm/mpi_group.hpp"
+
 namespace octetra::distributed {
 namespace {
 
@@ -49,6 +51,20 @@ void Communicator::on_each(const std::function<void()>& work) const {
     LocalFailure failure;
     failure.attempt(work);
     failure.agree(*this);
+}
+
+/// From a process that has failed nothing comes, which nobody may take for what it has to say.
+std::vector<Communicator::Bytes> Communicator::exchange(std::vector<Bytes> to_each) const {
+    if (mpi_ && mpi_->is_watched) {
+        std::vector<Bytes> come = all_to_all(to_each);
+        ask_whether_all_work();
+        return come;
+    }
+    std::vector<Bytes> come;
+    LocalFailure failure;
+    failure.attempt([&] { come = all_to_all(to_each); });
+    failure.agree(*this);
+    return come;
 }
 
 void LocalFailure::agree(const Communicator& processes) const {

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <array>
+#include <new>
 #include <span>
 #include <string>
 
@@ -150,13 +151,16 @@ public:
             pack(ending_);
         });
     }
-    /// Throws it, on all processes.
     void send_error(Item item, const std::string& what) {
-        send([&](Packer& pack) {
+        for (Packer& pack : to_each_) pack.bytes().clear();  // an entry may have come halfway
+        hand_on(packed([&](Packer& pack) {
             pack(item);
             pack.list(what);
-        });
+        }));
     }
+
+    /// Is this the exchange, of which all processes know that it has failed?
+    [[nodiscard]] bool is_exchanging() const { return is_exchanging_; }
 
 private:
     static constexpr std::size_t bytes_of_a_round = std::size_t{4} << 20U;
@@ -194,21 +198,61 @@ private:
         });
     }
 
+    /// The own part is taken in first: who could hear of it if that failed later?
     void send(auto&& pack_last) {
+        std::vector<ProcessGroup::Bytes> outboxes = packed(pack_last);
+        (void)own_.take(std::exchange(outboxes.front(), {}));
+        hand_on(std::move(outboxes));
+    }
+    [[nodiscard]] std::vector<ProcessGroup::Bytes> packed(auto&& pack_last) {
         std::vector<ProcessGroup::Bytes> outboxes;
+        outboxes.reserve(to_each_.size());
         for (Packer& pack : to_each_) {
             pack_last(pack);
             outboxes.push_back(std::exchange(pack.bytes(), {}));
         }
-        (void)own_.take(group_.exchange(std::move(outboxes)).front());
+        return outboxes;
+    }
+    void hand_on(std::vector<ProcessGroup::Bytes> outboxes) {
+        is_exchanging_ = true;
+        (void)group_.exchange(std::move(outboxes));
+        is_exchanging_ = false;
     }
 
     const ProcessGroup& group_;
     Receiver& own_;
     std::vector<Packer> to_each_;
+    bool is_exchanging_ = false;
     Ending ending_{};
     Progress points_, cells_, facets_, edges_;
 };
+
+/// What the first process does. What fails here is thrown on all processes.
+void read_and_hand_on(const std::filesystem::path& path, const ReadOptions& options,
+                      const ProcessGroup& group, Receiver& own) {
+    Distributor distributor(group, own);
+    std::string what;
+    Item ended = Item::end;
+    try {
+        stream_mesh(path, distributor, options);
+        distributor.send_end();
+        return;
+    } catch (const InputError& error) {
+        ended = Item::input_error;
+        what = error.what();
+    } catch (const std::bad_alloc&) {
+        if (distributor.is_exchanging()) throw;
+        ended = Item::failure;
+        what = "out of memory";
+    } catch (const std::exception& error) {
+        if (distributor.is_exchanging()) throw;
+        ended = Item::failure;
+        what = error.what();
+    }
+    distributor.send_error(ended, what);
+    if (ended == Item::input_error) throw InputError(what);
+    throw SystemError(what);
+}
 
 }  // namespace
 
@@ -216,19 +260,7 @@ MeshSlice read_slice(const std::filesystem::path& path, const ReadOptions& optio
                      const ProcessGroup& group) {
     Receiver receiver;
     if (group.is_first()) {
-        Distributor distributor(group, receiver);
-        std::string what;
-        Item ended = Item::end;
-        try {
-            stream_mesh(path, distributor, options);
-        } catch (const InputError& error) {
-            ended = Item::input_error;
-            what = error.what();
-        } catch (const std::exception& error) {
-            ended = Item::failure;
-            what = error.what();
-        }
-        ended == Item::end ? distributor.send_end() : distributor.send_error(ended, what);
+        read_and_hand_on(path, options, group, receiver);
     } else {
         const auto nothing = [&] {
             return std::vector<ProcessGroup::Bytes>(static_cast<std::size_t>(group.size()));

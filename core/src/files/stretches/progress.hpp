@@ -4,6 +4,7 @@
 #include <bit>
 #include <cstdint>
 #include <cstring>
+#include <exception>
 #include <new>
 #include <type_traits>
 #include <utility>
@@ -29,24 +30,24 @@ public:
             work();
         } catch (const std::bad_alloc&) {
             is_well_ = false;
-            has_no_memory_ = true;
+            no_memory_ = std::current_exception();
         } catch (...) {
             is_well_ = false;
         }
     }
 
-    /// Collective. Has nothing failed anywhere? Throws std::bad_alloc if this process has no
-    /// memory.
+    /// Collective. Has nothing failed anywhere? Throws the std::bad_alloc that this process has
+    /// met.
     [[nodiscard]] bool all_well() const {
         const bool well = group_->sum(is_well_ ? 0 : 1) == 0;
-        if (has_no_memory_) throw std::bad_alloc();
+        if (no_memory_) std::rethrow_exception(no_memory_);
         return well;
     }
 
 private:
     const ProcessGroup* group_;
     bool is_well_ = true;
-    bool has_no_memory_ = false;
+    std::exception_ptr no_memory_;
 };
 
 /// Collective. Gives all what the first process has, bit by bit. False, on all processes, if

@@ -40,11 +40,8 @@ public:
     [[nodiscard]] Communicator with_profile(std::shared_ptr<Profile> profile) const;
 
     // As ProcessGroup says, without sending to all what only a sum is wanted of.
-    [[nodiscard]] std::vector<Bytes> exchange(std::vector<Bytes> to_each) const override {
-        std::vector<Bytes> come = all_to_all(to_each);
-        ask_whether_all_work();  // else what has come may be nothing
-        return come;
-    }
+    // Where one process has no memory for it, OutOfMemory is thrown on all.
+    [[nodiscard]] std::vector<Bytes> exchange(std::vector<Bytes> to_each) const override;
     using ProcessGroup::sum;
     [[nodiscard]] std::uint64_t sum(std::uint64_t number) const override;
     using ProcessGroup::sum_before;

@@ -1,0 +1,150 @@
+#include <cstddef>
+#include <cstdint>
+#include <exception>
+#include <filesystem>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include <octetra/core/files/mesh_files.hpp>
+#include <octetra/distributed/adaptive_mesh.hpp>
+#include <octetra/distributed/communicator.hpp>
+#include <octetra/distributed/read_parts.hpp>
+#include <octetra/distributed/refine.hpp>
+#include <octetra/verify/mesh_slice.hpp>
+
+#include "checkpoint/load.hpp"
+#include "distributed/failing_allocations.hpp"
+#include "distributed/marked_mesh.hpp"
+#include "distributed/shared_folder.hpp"
+#include "distributed/world.hpp"
+
+/// Where one process has no memory for what all do together without a mesh yet: exchanges, and
+/// reading.
+namespace octetra::distributed {
+namespace {
+
+using test::allocations_left;
+using test::done_with;
+using test::let_each_fail_anew;
+using test::never;
+
+/// As the verifier and the readers of files use it: nobody watches over the work.
+TEST(FailingAllocations, OfAnExchangeBetweenProcessesOfAnyKindAreThrownOnAll) {
+    const Communicator& world = test::world();
+    const ProcessGroup& group = world;
+    const auto size = static_cast<std::size_t>(world.size());
+    for (int rank = 0; rank < world.size(); ++rank) {
+        for (long allocations = 0;; ++allocations) {
+            std::vector<ProcessGroup::Bytes> to_each(size, ProcessGroup::Bytes(100));
+            std::vector<ProcessGroup::Bytes> come;
+            const bool done =
+                done_with(allocations, rank, [&] { come = group.exchange(std::move(to_each)); });
+            ASSERT_EQ(world.sum(done ? 1 : 0), done ? size : 0) << rank << ' ' << allocations;
+            if (!done) continue;
+            for (const ProcessGroup::Bytes& bytes : come) EXPECT_EQ(bytes.size(), 100U);
+            EXPECT_TRUE(allocations >= world.size());
+            break;
+        }
+    }
+}
+
+TEST(FailingAllocations, OfReadingAFileTogetherAreThrownOnAllProcesses) {
+    if (test::world().size() == 1) return;  // which reads alone
+    const test::SharedFolder folder;
+    Mesh mesh = test::marked(test::shaken_kuhn(2, 0.2, 1), 1);
+    for (Marker& marker : mesh.facet_markers) marker = 3;
+    for (Marker& marker : mesh.edge_markers) marker = 4;
+    for (const std::string name : {"m.ele", "m.mesh"}) {
+        const std::filesystem::path file = folder / name;
+        const Partition by_coordinates{.method = PartitionMethod::rcb};
+        const Selection box{.boxes = {{{0, 0, 0}, {1, 1, 1}}}};
+        const auto weigh = [&](const CellsToWeigh& cells) {
+            return predicted_cells(cells, box, Scheme::eight, 2);
+        };
+        const ReadPartsOptions options{.read = {}, .on_facts = {}, .weigh = weigh};
+        test::world().on_first([&] { (void)write_mesh(mesh, file); });
+        const std::uint64_t failures = let_each_fail_anew(
+            [&] { (void)read_parts(test::world(), file, by_coordinates, options); });
+        EXPECT_GE(failures, 100U);
+    }
+}
+
+TEST(FailingAllocations, OfLoadingACheckpointAreThrownOnAllProcesses) {
+    const test::SharedFolder folder;
+    const std::filesystem::path file = folder / "m.octetra";
+    Mesh whole = test::marked(test::shaken_kuhn(2, 0.2, 1), 1);
+    for (Marker& marker : whole.facet_markers) marker = 3;
+    for (Marker& marker : whole.edge_markers) marker = 4;
+    const std::vector<int> ranks(whole.cells.size(), 0);
+    AdaptiveMesh mesh = AdaptiveMesh::distribute(test::world(), std::move(whole), ranks);
+    (void)mesh.refine(Selection{.random = RandomShare{0.3, 1}});
+    mesh.save(file);
+    const CheckpointReader reader(file);
+    const Partition by_coordinates{.method = PartitionMethod::rcb};
+    const std::uint64_t failures = let_each_fail_anew([&] {
+        LoadedPart part = load_part(test::world(), reader, file, by_coordinates);
+        (void)distribute_parts(test::world(), std::move(part.input));
+    });
+    EXPECT_GE(failures, 100U);
+}
+
+/// The one that reads hands on what it has read; an entry that it could not pack is not taken for
+/// what it has to say.
+TEST(FailingAllocations, OfTheProcessThatReadsForTheVerifierAreThrownOnAll) {
+    const Communicator& world = test::world();
+    const test::SharedFolder folder;
+    const std::filesystem::path file = folder / "m.mesh";
+    world.on_first([&] { (void)write_mesh(test::marked(test::shaken_kuhn(2, 0.2, 1), 1), file); });
+    test::refuses_one_alone = true;
+    std::uint64_t failures = 0;
+    for (long allocations = 1;; ++allocations) {  // without the first it cannot hand on anything
+        if (world.is_first()) allocations_left = allocations;
+        std::string said;
+        try {
+            (void)verify::read_slice(file, {}, world);
+        } catch (const std::exception& error) {
+            said = error.what();
+        }
+        const bool refused_here = std::exchange(allocations_left, never) == never;
+        const bool was_refused = world.of_first(std::uint64_t{refused_here}) != 0;
+        const std::uint64_t failed_on = world.sum(said.empty() ? 0 : 1);
+        ASSERT_TRUE(failed_on == 0 || failed_on == static_cast<std::uint64_t>(world.size()));
+        if (failed_on > 0) {
+            ++failures;
+            EXPECT_NE(said.find("memory"), std::string::npos) << said;
+        }
+        if (!was_refused) break;
+    }
+    test::refuses_one_alone = false;
+    EXPECT_GE(failures, 10U);
+}
+
+/// Messages that are cut into pieces, and of which one process can keep nothing.
+TEST(FailingAllocations, OfAReceiverOfLongMessagesKeepNobodyWaiting) {
+    const Communicator& world = test::world();
+    std::vector<std::vector<std::uint64_t>> outboxes;
+    for (int r = 0; r < world.size(); ++r) {
+        outboxes.emplace_back(300'000U * static_cast<std::size_t>(r + 1), 7U);
+    }
+    for (int rank = 0; rank < world.size(); ++rank) {
+        for (long allocations = 0;; ++allocations) {
+            const bool done = done_with(allocations, rank, [&] {
+                for (const auto& inbox : world.all_to_all(outboxes)) {
+                    EXPECT_TRUE(inbox.empty() || inbox.front() + inbox.back() == 14U);
+                }
+            });
+            EXPECT_TRUE(done || world.rank() == rank);
+            if (world.sum(done ? 1 : 0) == static_cast<std::uint64_t>(world.size())) break;
+        }
+    }
+    const auto inboxes = world.all_to_all(outboxes);
+    for (const auto& inbox : inboxes) {
+        EXPECT_EQ(inbox, outboxes[static_cast<std::size_t>(world.rank())]);
+    }
+}
+
+}  // namespace
+}  // namespace octetra::distributed

@@ -153,7 +153,8 @@ TEST_F(Parallel, NeedsNoLargeFilesOfItsOwn) {
 TEST_F(Parallel, EndsAtOnceWhereARankIsOutOfMemoryAndKeepsTheOutput) {
     const auto with_little_memory = [&](const std::string& arguments) {
         return test::run_program(
-            {OCTETRA_SOURCE_DIR "/tests/support/mpirun.sh", "2", "sh", "-c",
+            {"env", "OCTETRA_SECONDS_TO_END=1", OCTETRA_SOURCE_DIR "/tests/support/mpirun.sh", "2",
+             "sh", "-c",
              "ulimit -v 500000; exec " + std::string(OCTETRA_PROGRAM) + " " + arguments},
             folder.path());
     };
@@ -174,7 +175,8 @@ TEST_F(Parallel, EndsInOneMessageWhereAllRanksAreOutOfMemory) {
     const TemporaryFolder locks;
     for (const int at : {2, 3, 5, 5, 5, 5}) {
         const auto run = test::run_program(
-            test::words(OCTETRA_SOURCE_DIR "/tests/support/mpirun.sh 4 -x TMPDIR=" +
+            test::words("env OCTETRA_SECONDS_TO_END=1 " OCTETRA_SOURCE_DIR
+                        "/tests/support/mpirun.sh 4 -x TMPDIR=" +
                         locks.path().native() + " -x LD_PRELOAD=" OCTETRA_MPI_EXHAUSTER +
                         " -x OCTETRA_EXHAUST_AT=" + std::to_string(at) + " " + OCTETRA_PROGRAM +
                         " " + refine + "--quiet -o p.mesh"),
@@ -193,7 +195,8 @@ test::Outcome run_with_a_kill(int rank, int at, const std::string& arguments,
                               const TemporaryFolder& folder) {
     return test::run_program(
         test::words(
-            std::string(OCTETRA_SOURCE_DIR "/tests/support/mpirun.sh 3") +
+            std::string("env OCTETRA_SECONDS_TO_END=1 " OCTETRA_SOURCE_DIR
+                        "/tests/support/mpirun.sh 3") +
             " -x LD_PRELOAD=" OCTETRA_MPI_KILLER + " -x OCTETRA_KILL_RANK=" + std::to_string(rank) +
             " -x OCTETRA_KILL_AT=" + std::to_string(at) + " " + OCTETRA_PROGRAM + " " + arguments),
         folder.path());

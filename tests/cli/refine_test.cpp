@@ -304,7 +304,8 @@ TEST(Refine, EndedByASignalBetweenRenamesPutsAllFilesOfTheMeshInPlace) {
     const std::string preload = OCTETRA_RENAME_INTERRUPTER " -x OCTETRA_RENAMES=3 ";
     const std::string alone =
         "env ASAN_OPTIONS=verify_asan_link_order=0 OCTETRA_RENAMES=3 LD_PRELOAD=";
-    const std::string on_two = OCTETRA_SOURCE_DIR "/tests/support/mpirun.sh 2 -x LD_PRELOAD=";
+    const std::string on_two = "env OCTETRA_SECONDS_TO_END=1 " OCTETRA_SOURCE_DIR
+                               "/tests/support/mpirun.sh 2 -x LD_PRELOAD=";
     for (const std::string& run : {alone + OCTETRA_RENAME_INTERRUPTER " ", on_two + preload}) {
         for (const std::string extension : {".node", ".ele", ".face", ".edge"}) {
             (void)folder.write("fine" + extension, "of an older mesh\n");

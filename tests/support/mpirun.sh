@@ -13,8 +13,9 @@ export OMPI_MCA_hwloc_base_binding_policy=none
 # Who waits lets others run: those that it waits for may have no core of their own.
 export OMPI_MCA_mpi_yield_when_idle=1
 # After a rank has ended with a status other than 0, mpirun would give the others one second and another to end,
-# though they have ended, too.
-export OMPI_MCA_odls_base_sigkill_timeout=0
+# though they have ended, too. Where one rank fails alone they need that time, and so does mpirun, which else now
+# and then crashes in the end.
+export OMPI_MCA_odls_base_sigkill_timeout="${OCTETRA_SECONDS_TO_END:-0}"
 # Open MPI keeps some memory until the end of the process, which the leak sanitizer would report;
 # and the address sanitizer wants to be told that a test may preload a library.
 export ASAN_OPTIONS="detect_leaks=0:verify_asan_link_order=0${ASAN_OPTIONS:+:$ASAN_OPTIONS}"

@@ -47,14 +47,14 @@ void set_rate(benchmark::State& state, const std::filesystem::path& folder) {
 void write_file(benchmark::State& state, const std::string& name) {
     const test::TemporaryFolder folder;
     const Mesh& mesh = large_mesh();  // made here, before the clock runs
-    for (auto _ : state) (void)write_mesh(mesh, folder / name);
+    for ([[maybe_unused]] auto _ : state) (void)write_mesh(mesh, folder / name);
     set_rate(state, folder.path());
 }
 
 void read_file(benchmark::State& state, const std::string& name) {
     const test::TemporaryFolder folder;
     (void)write_mesh(large_mesh(), folder / name);
-    for (auto _ : state) {
+    for ([[maybe_unused]] auto _ : state) {
         const Mesh mesh = read_mesh(folder / name);
         benchmark::DoNotOptimize(mesh.points.data());
     }
@@ -65,7 +65,7 @@ void read_file(benchmark::State& state, const std::string& name) {
 void stream_file(benchmark::State& state, const std::string& name) {
     const test::TemporaryFolder folder;
     (void)write_mesh(large_mesh(), folder / name);
-    for (auto _ : state) {
+    for ([[maybe_unused]] auto _ : state) {
         test::DeafSink sink;
         stream_mesh(folder / name, sink);
     }

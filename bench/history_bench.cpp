@@ -5,6 +5,7 @@
 /// take, as shares of refinement. Each time is the least of three. Also under mpirun.
 
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <filesystem>
 #include <limits>
@@ -38,8 +39,8 @@ std::vector<Case> cases() {
     Case ball{"within a ball", {}};
     for (int k = 0; k < 4; ++k) ball.steps.push_back({.spheres = {{{0.5, 0.5, 0.5}, 0.3}}});
     Case point{"around a point", {}};
-    for (double radius = 0.25; radius > 1e-4; radius /= 2) {
-        point.steps.push_back({.spheres = {{{0.5, 0.5, 0.5}, radius}}});
+    for (int k = 2; k < 14; ++k) {
+        point.steps.push_back({.spheres = {{{0.5, 0.5, 0.5}, std::ldexp(1, -k)}}});
     }
     return {{"uniform", {{.all = true}, {.all = true}}}, ball, point};
 }

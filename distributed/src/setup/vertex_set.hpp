@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <utility>
 #include <vector>
 
 #include <octetra/core/index.hpp>
@@ -44,7 +45,7 @@ public:
         if (size_ == 0) {
             cover(least, greatest);
         } else {
-            const VertexSet before = std::move(*this);
+            const VertexSet before = std::exchange(*this, {});
             cover(std::min(least, before.first_), std::max(greatest, before.last()));
             std::ranges::copy(before.bits_,
                               bits_.begin() + static_cast<std::ptrdiff_t>(word_of(before.first_)));

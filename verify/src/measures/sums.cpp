@@ -97,10 +97,10 @@ struct Area {
 
 using TagBounds = std::map<Marker, exact::NumberSum>;
 
-/// By tag, ascending.
+/// By tag, ascending. `coarse` is asked for the places of coarse terms alone.
 template <class Measure>
 std::vector<TagTotal> totals_of(std::vector<Term> terms, const TagBounds& bounds,
-                                const JudgedMesh& fine, const JudgedMesh* coarse) {
+                                const JudgedMesh& fine, const JudgedMesh& coarse) {
     std::sort(terms.begin(), terms.end());
     std::vector<TagTotal> totals;
     Measure of_fine;
@@ -112,7 +112,7 @@ std::vector<TagTotal> totals_of(std::vector<Term> terms, const TagBounds& bounds
         of_coarse.clear();
         for (; i < terms.size() && terms[i].tag == tag; ++i) {
             const bool is_fine = terms[i].which == Which::fine;
-            (is_fine ? of_fine : of_coarse).add(terms[i], is_fine ? fine : *coarse);
+            (is_fine ? of_fine : of_coarse).add(terms[i], is_fine ? fine : coarse);
         }
         const auto bound = bounds.find(tag);
         totals.push_back({tag, of_fine.sum.exactly(), of_coarse.sum.exactly(),
@@ -218,7 +218,7 @@ private:
         append_borders_of_regions(fine_, by_tag, terms);
         append_borders_of_regions(coarse_, by_tag, terms);
         findings_.verdict().volumes = sum_up(
-            totals_of<Volume>(std::move(terms), bounds, fine_, &coarse_), Volume::multiple, true,
+            totals_of<Volume>(std::move(terms), bounds, fine_, coarse_), Volume::multiple, true,
             findings_.group(),
             [&](const TagSum& sum, const exact::NumberSum& difference, Bound bound) {
                 volume_bound_ = std::max(volume_bound_, bound / Volume::multiple);
@@ -254,7 +254,7 @@ private:
         append_facets(fine_, terms);
         append_facets(coarse_, terms);
         findings_.verdict().areas =
-            sum_up(totals_of<Area>(std::move(terms), bounds, fine_, &coarse_), Area::multiple, true,
+            sum_up(totals_of<Area>(std::move(terms), bounds, fine_, coarse_), Area::multiple, true,
                    findings_.group(),
                    [&](const TagSum& sum, const exact::NumberSum& difference, Bound bound) {
                        area_bound_ = std::max(area_bound_, bound / Area::multiple);
@@ -287,11 +287,11 @@ void measure_sums(const JudgedMesh& judged, Findings& findings) {
     Verdict& verdict = findings.verdict();
     std::vector<Term> terms;
     append_borders_of_regions(judged, true, terms);
-    verdict.volumes = sum_up(totals_of<Volume>(std::move(terms), {}, judged, nullptr),
+    verdict.volumes = sum_up(totals_of<Volume>(std::move(terms), {}, judged, judged),
                              Volume::multiple, false, findings.group(), nothing_to_judge);
     terms.clear();
     append_facets(judged, terms);
-    verdict.areas = sum_up(totals_of<Area>(std::move(terms), {}, judged, nullptr), Area::multiple,
+    verdict.areas = sum_up(totals_of<Area>(std::move(terms), {}, judged, judged), Area::multiple,
                            false, findings.group(), nothing_to_judge);
 }
 

@@ -1,26 +1,18 @@
-#include <algorithm>
-#include <cstdlib>
+#include <cstdint>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
-#include <new>
-#include <optional>
 #include <string>
 #include <utility>
+#include <vector>
 
-#include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include <octetra/core/error.hpp>
-#include <octetra/core/files/mesh_files.hpp>
 #include <octetra/distributed/adaptive_mesh.hpp>
 #include <octetra/distributed/estimator_marks.hpp>
 #include <octetra/distributed/exchange.hpp>
-#include <octetra/distributed/out_of_memory.hpp>
-#include <octetra/distributed/read_parts.hpp>
 #include <octetra/distributed/refine.hpp>
 
-#include "checkpoint/load.hpp"
 #include "distributed/failing_allocations.hpp"
 #include "distributed/marked_mesh.hpp"
 #include "distributed/seen_mesh.hpp"

@@ -176,7 +176,7 @@ def share(line):
 
 def by_lot(points):
     mesh = (f"random {points} --seed 1", "delaunay.mesh")
-    return Case("random Delaunay mesh, cells by lot, 2 ranks", [
+    return Case("random Delaunay mesh, random cells, 2 ranks", [
         driver(f"{100 * chosen:g} %", REFINE,
                f"1 --random {chosen} --partition lepp --profile --json", 2, mesh)
         for chosen in (0.001, 0.01, 0.05, 0.2)], lot_figures)

@@ -39,7 +39,7 @@ struct ElementType {
 /// "tetrahedra"
 [[nodiscard]] std::string_view plural(Shape shape);
 
-/// Does a cell have this shape, be it a tetrahedron or not?
+/// Does a cell have this shape, a tetrahedron or any other?
 [[nodiscard]] inline bool is_solid(Shape shape) { return shape >= Shape::tetrahedron; }
 
 }  // namespace octetra::gmsh

@@ -52,6 +52,14 @@ function(octetra_layer name)
   target_include_directories(octetra_${name} PRIVATE src)
   target_link_libraries(octetra_${name} PUBLIC ${layer_LINKS} PRIVATE ${layer_USES})
   octetra_compile_options(octetra_${name})
+  # Half of the time is that of parsing headers. Few at a time, so that one that was changed is soon
+  # compiled again.
+  if(OCTETRA_UNITY AND NOT CMAKE_UNITY_BUILD)
+    set_target_properties(octetra_${name} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 5)
+    # g++ takes a file that is compiled with others for a header, in which a type of no name would be a mistake.
+    target_compile_options(octetra_${name} PRIVATE
+                           $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)
+  endif()
   # Nobody replaces our functions by others of their name, so they may be inlined in a shared library.
   target_compile_options(octetra_${name} PRIVATE
                          $<$<CXX_COMPILER_ID:GNU>:-fno-semantic-interposition>)

@@ -44,10 +44,11 @@ Whole value_of(const std::vector<double>& addends) {
 
 /// Of any size, each bit pattern alike.
 std::vector<double> random_doubles(std::size_t count, std::uint64_t seed) {
+    constexpr auto bits_of_greatest = std::bit_cast<std::uint64_t>(greatest);
     std::mt19937_64 random(seed);
     std::vector<double> doubles(count);
     std::ranges::generate(doubles,
-                          [&] { return std::bit_cast<double>(random() % bits_of(greatest)); });
+                          [&] { return std::bit_cast<double>(random() % bits_of_greatest); });
     return doubles;
 }
 

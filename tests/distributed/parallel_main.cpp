@@ -30,5 +30,6 @@ int main(int argc, char** argv) {
     if (session.world().is_first() && failed_ranks > 0) {
         std::printf("tests failed on %d ranks\n", static_cast<int>(failed_ranks));
     }
+    octetra::test::world_pointer() = nullptr;
     return failed_ranks == 0 ? 0 : 1;
 }

@@ -23,6 +23,7 @@ namespace {
 using test::are_read_together;
 using test::expect_one_outcome;
 using test::Files;
+using test::files_of;
 using test::GmshForm;
 using test::replaced;
 

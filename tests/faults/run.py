@@ -186,6 +186,10 @@ def main():
     parser.add_argument("--seconds", type=float, default=10, help="within which all ranks must end [10]")
     parser.add_argument("--only", default="", metavar="TEXT", help="commands whose description has it")
     chosen = parser.parse_args()
+    if chosen.moments < 1:
+        parser.error(f"--moments: not a positive number: {chosen.moments}")
+    if not any(chosen.only in name for name in COMMANDS):
+        parser.error(f"--only: no command has {chosen.only!r}; there are: {'; '.join(COMMANDS)}")
     print("| command | fault | calls that may fail, on the first rank and the last | moments | went on | "
           "s until all ended, at most | faults once | faults |\n|---|---|---:|---:|---:|---:|---:|---:|", flush=True)
     turns = [(name, kind) for name in COMMANDS if chosen.only in name for kind in KINDS]

@@ -15,6 +15,9 @@ from manual_pages import manual_pages
 source, build = (pathlib.Path(argument) for argument in sys.argv[1:3])
 mpirun = source / "tests/support/mpirun.sh"
 
+# What is compiled here is run on small meshes.
+QUICKLY = ("-DCMAKE_UNITY_BUILD=ON", "-DCMAKE_UNITY_BUILD_BATCH_SIZE=32", "-DCMAKE_CXX_FLAGS_RELEASE=-O0")
+
 PART_OF_A_PROGRAM = """\
 cmake_minimum_required(VERSION 3.25)
 project(Program LANGUAGES CXX)
@@ -26,7 +29,6 @@ if(TARGET octetra OR TARGET test_core OR TARGET octetra_verify)
   message(FATAL_ERROR "Octetra as a part of a program brings more than libraries of its own accord")
 endif()
 """
-
 
 
 def blocks_of_tutorial():
@@ -181,8 +183,7 @@ class Package(unittest.TestCase):
             (project / "CMakeLists.txt").write_text(
                 PART_OF_A_PROGRAM.format(how=how, source=source))
             shutil.rmtree(project / "build", ignore_errors=True)
-            self.configure(project, project / "build", "-DBUILD_SHARED_LIBS=ON",
-                           "-DCMAKE_UNITY_BUILD=ON")  # it takes a third of the time
+            self.configure(project, project / "build", "-DBUILD_SHARED_LIBS=ON", *QUICKLY)
         run("cmake", "--build", project / "build", "--target", "program")
         self.check_refined(project / "build/program", ranks=(2,))
 
@@ -203,8 +204,7 @@ class Package(unittest.TestCase):
         # The checkout stays as it is, and the program is there already; to compile it well takes longer.
         install = block("cmake -S .").replace("build/mine", str(self.folder / "mine")).replace(
             "cmake -S .",
-            "cmake -S . -DOCTETRA_VERIFY=OFF -DOCTETRA_CLI=OFF -DCMAKE_UNITY_BUILD=ON "
-            "-DCMAKE_CXX_FLAGS_RELEASE=-O0")
+            f"cmake -S . -DOCTETRA_VERIFY=OFF -DOCTETRA_CLI=OFF {' '.join(QUICKLY)}")
         follow(install, source)
         prefix, = home.glob("octetra*")
         (prefix / "bin").mkdir()

@@ -15,7 +15,7 @@ if [[ $page ]]; then
     need build bench
     configure release release "-DOCTETRA_TESTS=$(on_if_installed test)" -DOCTETRA_BENCH=ON
     step "build ${targets[*]}" cmake --build build/release --parallel "$jobs" --target "${targets[@]}"
-    exec python3 "$page" measure --build build/release "$@"
+    exec python3 "$page" measure --build "$root/build/release" "$@"
 fi
 
 # A full run goes into bench/, to be committed; a quick one says nothing about speed.

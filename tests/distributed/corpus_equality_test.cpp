@@ -53,7 +53,7 @@ Outcome outcome_of(auto&& refine) {
 
 /// Partitions and synchronisations take turns, from mesh to mesh, too, so that each is met with all
 /// others.
-TEST_P(CorpusEquality, ByEverySchemeAndPartitionsInTurn) {
+TEST_P(CorpusEquality, ByEverySchemeAndPartition) {
     const Communicator& world = test::world();
     const std::vector<Selection> selections{{.random = RandomShare{0.15, 4}},
                                             {.cells = {GlobalCell{0}}}};

@@ -32,7 +32,7 @@ def standard(with_peers):
     made = [
         group("refinement", [refinement.uniform(55), refinement.uniform_at_hand(55, 44, 800),
                              refinement.sphere(32),
-                             refinement.around_a_point(88, 10, 1000), refinement.by_lot(25500)]),
+                             refinement.around_a_point(88, 10, 1000), refinement.random_cells(25500)]),
         group("growth", [growth.with_cells((6, 12, 24, 44, 55, 85)),
                          growth.with_cells_at_hand((6, 12, 24, 44, 55, 85)),
                          growth.with_ranks(40, (1, 2, 4, 8, 16, 32))]),
@@ -51,7 +51,7 @@ def quick(with_peers):
     made = [
         group("refinement", [refinement.uniform(24), refinement.uniform_at_hand(24, 19, 100),
                              refinement.sphere(12),
-                             refinement.around_a_point(24, 4, 200), refinement.by_lot(2000)]),
+                             refinement.around_a_point(24, 4, 200), refinement.random_cells(2000)]),
         group("growth", [growth.with_cells((6, 12, 24)), growth.with_cells_at_hand((6, 12, 24)),
                          growth.with_ranks(10, (1, 2, 4))]),
         group("files", [files.tetgen(), files.program(16), files.in_a_corner(10, 2)]),

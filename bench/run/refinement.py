@@ -155,7 +155,7 @@ def around_a_point(cubes, levels, chosen):
 # --- cells at random
 
 
-def lot_figures(lines):
+def random_cells_figures(lines):
     made = []
     for name, of_run in lines.items():
         levels = of_run[0]["levels"]
@@ -174,9 +174,9 @@ def share(line):
                                                + profile["communicating_seconds"])
 
 
-def by_lot(points):
+def random_cells(points):
     mesh = (f"random {points} --seed 1", "delaunay.mesh")
     return Case("random Delaunay mesh, random cells, 2 ranks", [
         driver(f"{100 * chosen:g} %", REFINE,
                f"1 --random {chosen} --partition lepp --profile --json", 2, mesh)
-        for chosen in (0.001, 0.01, 0.05, 0.2)], lot_figures)
+        for chosen in (0.001, 0.01, 0.05, 0.2)], random_cells_figures)

@@ -51,8 +51,7 @@ Outcome outcome_of(auto&& refine) {
     }
 }
 
-/// Partitions and synchronisations take turns, from mesh to mesh, too, so that each is met with all
-/// others.
+/// Partitions and synchronisations take turns, which begin elsewhere with each mesh.
 TEST_P(CorpusEquality, ByEverySchemeAndPartition) {
     const Communicator& world = test::world();
     const std::vector<Selection> selections{{.random = RandomShare{0.15, 4}},

@@ -14,10 +14,13 @@ import random
 import sys
 import tempfile
 
-sys.path.append(str(pathlib.Path(__file__).resolve().parents[2] / "tools/equivalence"))
+BENCH = pathlib.Path(__file__).resolve().parents[1]
+sys.path += [str(BENCH.parent / "tools/equivalence"), str(BENCH)]
 
+import prose  # noqa: E402
 import tables  # noqa: E402
 from cases import LARGE_GEAR, PAPER_COUNTS, SMALL_GEAR  # noqa: E402
+from paper.figures import figures_of  # noqa: E402
 from program import ROOT, Octetra, median, processor, rounds_of_levels, told  # noqa: E402
 from propagation import predicted, read_medit  # noqa: E402
 
@@ -153,16 +156,23 @@ def measure(build, repetitions, quick, only):
     return json.loads(json.dumps(made))
 
 
+def tables_of(made):
+    return {"runs": tables.runs_table(made["runs"], {"small": SMALL, "large": LARGE}),
+            "shares": tables.shares_table(made["propagation"]["shares"]),
+            "levels": tables.levels_table(made["propagation"]["levels"]),
+            "partitions": tables.partitions_table(made["partitions"]),
+            "synchronisation": tables.synchronisation_table(made["synchronisation"]),
+            "speed": tables.speed_table(made["speed"])}
+
+
 def page_text(made):
-    text = (HERE / "page.md").read_text()
-    for word, table in {"@runs@": tables.runs_table(made["runs"], {"small": SMALL, "large": LARGE}),
-                        "@shares@": tables.shares_table(made["propagation"]["shares"]),
-                        "@levels@": tables.levels_table(made["propagation"]["levels"]),
-                        "@partitions@": tables.partitions_table(made["partitions"]),
-                        "@synchronisation@": tables.synchronisation_table(made["synchronisation"]),
-                        "@speed@": tables.speed_table(made["speed"]),
-                        "@machine@": tables.machine_words(made["machine"])}.items():
-        text = text.replace(word, table)
+    try:
+        text = (HERE / "page.md").read_text().replace("{machine}", tables.machine_words(made["machine"]))
+        text = prose.told(text, lambda query: figures_of(made, query))
+    except prose.NotTrue as why:
+        sys.exit(f"bench/paper/page.md, {why}")
+    for name, table in tables_of(made).items():
+        text = text.replace(f"{{{name}}}", table)
     return text
 
 
@@ -194,7 +204,7 @@ def main():
     if chosen.what == "measure":
         made = measure(chosen.build, 1 if chosen.quick else chosen.repetitions, chosen.quick, chosen.only)
         if chosen.quick:
-            print(page_text(made))
+            print("\n\n".join(f"{name}\n\n{table}" for name, table in tables_of(made).items()))
             return 0
         MEASURED.write_text(lines_of(made))
     text = page_text(json.loads(MEASURED.read_text()))

@@ -16,8 +16,14 @@ import subprocess
 import sys
 import tempfile
 
-ROOT = pathlib.Path(__file__).resolve().parents[2]
-HERE = pathlib.Path(__file__).parent
+HERE = pathlib.Path(__file__).resolve().parent
+ROOT = HERE.parents[1]
+sys.path += [str(HERE.parent), str(ROOT / "tools/equivalence")]
+
+import prose  # noqa: E402
+from machine import describe, known  # noqa: E402
+from rivals.figures import SECONDS, added, figures_of, refining_nanoseconds  # noqa: E402
+
 MEASURED = HERE / "measured.json"
 METHODS = ("terminal", "8t", "4t", "2t")
 MESHES = {"kuhn": (["kuhn", "16"], "0.5,0.5,0.5,0.2"),
@@ -30,8 +36,6 @@ GOALS = (("edge", 1, False), ("edge", 2, False), ("edge", 2, True), ("edge", 3, 
 # A: until no edge is longer than half of the longest; B: until every cell of a region was cut; and a long way.
 ON_RANKS = (("edge", 1, False), ("once", 1, True), ("volume", 2, True))
 RANKS = (2, 4)
-SECONDS = ("setup_seconds", "marking_seconds", "refining_seconds", "result_seconds")
-
 
 # Huge pages for whatever malloc gives, as octetra's engine asks for by itself.
 ENVIRONMENT = os.environ | {"GLIBC_TUNABLES": "glibc.malloc.hugetlb=1"}
@@ -53,7 +57,9 @@ def medians(runs):
     first = dict(runs[0])
     for key in SECONDS:
         first[key] = statistics.median(run[key] for run in runs)
-    first["to_target_seconds"] = statistics.median(sum(run[key] for key in SECONDS) for run in runs)
+    to_target = [sum(run[key] for key in SECONDS) for run in runs]
+    first["to_target_seconds"] = statistics.median(to_target)
+    first["most_over_median"] = max(to_target) / first["to_target_seconds"]
     return first
 
 
@@ -87,7 +93,7 @@ def lines_of(made):
     """JSON, a case a line."""
     def one_a_line(cases):
         return "[" + ",\n  ".join(json.dumps(case) for case in cases) + "]"
-    return (f'{{"repetitions": {made["repetitions"]}, "load": {made["load"]},\n'
+    return (f'{{"repetitions": {made["repetitions"]}, "machine": {json.dumps(made["machine"])},\n'
             f' "cases": {one_a_line(made["cases"])},\n'
             f' "ranks": {one_a_line(made["ranks"])}}}\n')
 
@@ -95,9 +101,9 @@ def lines_of(made):
 def measure(build, repetitions, quick, only):
     program, octetra = build / "bench/bench_rivals", build / "cli/octetra"
     old = json.loads(MEASURED.read_text()) if only else {}
-    load = round(os.getloadavg()[0], 1)
+    machine = describe(str(octetra))
     if only == "ranks":
-        repetitions, load = old["repetitions"], old["load"]  # of the seconds that stay
+        repetitions, machine = old["repetitions"], old["machine"]  # of the seconds that stay
     cases, of_ranks = [], []
     with tempfile.TemporaryDirectory() as folder:
         for name, (shape, sphere) in (QUICK if quick else MESHES).items():
@@ -113,7 +119,7 @@ def measure(build, repetitions, quick, only):
                                      "methods": on_ranks(program, mesh, goal, sphere, ranks)})
     cases, of_ranks = cases or old["cases"], of_ranks or old["ranks"]
     check_cells(cases, of_ranks)
-    return {"repetitions": repetitions, "load": load, "cases": cases, "ranks": of_ranks}
+    return {"repetitions": repetitions, "machine": machine, "cases": cases, "ranks": of_ranks}
 
 
 def name_of(case):
@@ -144,14 +150,10 @@ def cells_table(cases):
         if case["goal"][2]:
             outside = [f"{methods[m]['cells_added_outside']:,}" for m in METHODS]
         rows.append([name_of(case), f"{own['input_cells']:,}", f"{own['targets']:,}",
-                     *beside(case, lambda run: run["cells"] - run["input_cells"], lambda n: f"{n:,}"),
+                     *beside(case, added, lambda n: f"{n:,}"),
                      *(outside or [""] * 4)])
     return table(["mesh, goal", "cells", "targets", "added: terminal", "8t", "4t", "2t",
                   "outside: terminal", "8t", "4t", "2t"], rows)
-
-
-def per_cell(run):
-    return 1e9 * run["refining_seconds"] / max(1, run["cells"] - run["input_cells"])
 
 
 def seconds_table(cases):
@@ -160,7 +162,7 @@ def seconds_table(cases):
         methods = case["methods"]
         rows.append([name_of(case), f"{methods['terminal']['rounds']}",
                      *(f"{methods[m]['levels']}" for m in METHODS[1:]),
-                     *(f"{per_cell(methods[m]):,.0f}" for m in METHODS),
+                     *(f"{refining_nanoseconds(methods[m]):,.0f}" for m in METHODS),
                      *(f"{1000 * methods[m]['to_target_seconds']:,.1f}" for m in METHODS)])
     return table(["mesh, goal", "rounds", "levels: 8t", "4t", "2t", "ns a cell: terminal", "8t", "4t", "2t",
                   "ms to goal: terminal", "8t", "4t", "2t"], rows)
@@ -187,24 +189,30 @@ def ranks_table(cases):
                      *(f"{methods[m]['rounds']}" for m in METHODS),
                      *(f"{methods[m]['messages']:,}" for m in METHODS),
                      *(f"{methods[m]['bytes'] / 1000:,.1f}" for m in METHODS)])
-    return table(["mesh, goal", "ranks", "rounds: terminal", "8t", "4t", "2t", "messages: terminal", "8t", "4t", "2t",
+    return table(["mesh, goal", "ranks", "exchanges: terminal", "8t", "4t", "2t", "messages: terminal", "8t", "4t", "2t",
                   "kB: terminal", "8t", "4t", "2t"], rows)
+
+
+def when_and_where(measured):
+    """And how far runs of one thing lay apart: nine in ten took at most so many times the median."""
+    apart = sorted(run["most_over_median"] for case in measured["cases"] for run in case["methods"].values())
+    machine = measured["machine"]
+    return (f"{', '.join(known(machine))}; other programs kept {machine['load']:.1f} cores busy when it began. "
+            f"Processor time on one core, medians of {measured['repetitions']} runs in turns; nine in ten of the slowest "
+            f"runs took at most {apart[len(apart) * 9 // 10]:.2f} times the median")
 
 
 def page_text():
     measured = json.loads(MEASURED.read_text())
     cases = measured["cases"]
-
-    def with_goals(*goals):
-        return [case for case in cases if tuple(case["goal"]) in goals]
-
-    main_ones = with_goals(("edge", 2, False), ("edge", 3, True), ("once", 1, True), ("volume", 3, True))
-    shaped = [case for case in with_goals(("volume", 3, True)) if case["mesh"] != "kuhn"]
-    text = (HERE / "page.md").read_text()
-    for word, made in {"@cells@": cells_table(main_ones), "@seconds@": seconds_table(main_ones),
-                       "@shapes@": shapes_table(shaped), "@ranks@": ranks_table(measured["ranks"]),
-                       "@load@": str(measured["load"]),
-                       "@repetitions@": str(measured["repetitions"])}.items():
+    shaped = [case for case in cases if tuple(case["goal"]) == ("volume", 3, True) and case["mesh"] != "kuhn"]
+    try:
+        text = (HERE / "page.md").read_text().replace("{measured}", when_and_where(measured))
+        text = prose.told(text, lambda query: figures_of(measured, query))
+    except prose.NotTrue as why:
+        sys.exit(f"bench/rivals/page.md, {why}")
+    for word, made in {"{cells}": cells_table(cases), "{seconds}": seconds_table(cases),
+                       "{shapes}": shapes_table(shaped), "{ranks}": ranks_table(measured["ranks"])}.items():
         text = text.replace(word, made)
     return text
 

@@ -10,7 +10,8 @@ import unittest
 
 ROOT = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..")
 RUN = os.path.join(ROOT, "bench", "run")
-sys.path[:0] = [RUN, os.path.join(ROOT, "tools", "equivalence"), os.path.join(ROOT, "bench", "paper")]
+sys.path[:0] = [RUN, os.path.join(ROOT, "tools", "equivalence"), os.path.join(ROOT, "bench", "paper"),
+                os.path.join(ROOT, "bench")]
 
 import adaptive  # noqa: E402
 import files  # noqa: E402
@@ -18,6 +19,7 @@ import groups  # noqa: E402
 import kept  # noqa: E402
 import peers  # noqa: E402
 import propagation  # noqa: E402
+import prose  # noqa: E402
 import results  # noqa: E402
 from measuring import (Case, Figure, Run, measure, median, median_ratio,  # noqa: E402
                        printed_by, spread_figure)
@@ -73,6 +75,27 @@ class Tries(unittest.TestCase):
             self.printed(0, 3, 0.5)
         with self.assertRaisesRegex(Failure, "status 3"):
             self.printed(0, 3, None)
+
+
+class SentencesOfPages(unittest.TestCase):
+    FIGURES = {"times a/b": [0.5, 12.34], "none": []}
+
+    def told(self, text):
+        return prose.told(text, self.FIGURES.__getitem__)
+
+    def test_have_the_figures_that_they_ask_for(self):
+        self.assertEqual(self.told("It is @times a/b@ and\nat most @most times a/b@."), "It is 0.5 to 12.3 and at most 12.3.\n")
+
+    def test_stand_only_while_their_conditions_hold(self):
+        self.assertEqual(self.told("So.\n<!-- holds: times a/b > 0.4 -->\n<!-- holds: some times a/b < 1 -->\n"), "So.\n")
+        for wrong in ("times a/b > 0.6", "some times a/b < 0.5", "times a/b = 0.5", "none > 0"):
+            with self.assertRaisesRegex(prose.NotTrue, "line 2: "):
+                self.told(f"So.\n<!-- holds: {wrong} -->\n")
+
+    def test_are_wrapped_again_but_not_in_a_link_and_not_in_a_table(self):
+        link, table = "[" + "link " * 5 + "it](there.md)", "| " + "cell " * 40 + "|"
+        lines = self.told("word\n" * 21 + link + f"\n\n{table}").splitlines()
+        self.assertEqual(lines, [" ".join(["word"] * 21), link, "", table])
 
 
 class Figures(unittest.TestCase):

@@ -8,6 +8,7 @@ namespace octetra {
 namespace {
 
 using testing::HasSubstr;
+using testing::Not;
 using testing::StartsWith;
 
 const std::string sources = OCTETRA_SOURCE_DIR;
@@ -25,16 +26,42 @@ TEST_P(BadUsage, EndsInStatus2AndOneMessage) {
 INSTANTIATE_TEST_SUITE_P(
     CommandLines, BadUsage,
     testing::Values("frobnicate", "build --fast", "build relaese", "test --slow", "test A B",
-                    "campaign frobnicate", "campaign --minutes 9", "campaign fuzz --minutes",
-                    "campaign fuzz --minutes 0", "campaign fuzz --minutes 00",
-                    "campaign fuzz --minutes x", "campaign fuzz 5", "campaign worlds --minutes 0",
-                    "campaign worlds --from 0", "campaign worlds --from 263", "campaign shrink",
-                    "campaign shrink a.ele", "campaign shrink no-such-file.json",
-                    "campaign shrink a.json b.json", "campaign shrink a.json --minutes 0",
-                    "campaign shrink a.json --ranks 0", "campaign shrink a.json --ranks",
-                    "campaign shrink --slow 1 a.json", "campaign files --minutes 0",
-                    "campaign packages --minutes 0", "campaign packages now", "format --slow",
-                    "docs now", "clean all"));
+                    "campaign frobnicate", "campaign frobnicate --help", "campaign --minutes 9",
+                    "campaign fuzz --minutes", "campaign fuzz --minutes 0",
+                    "campaign fuzz --minutes 00", "campaign fuzz --minutes x", "campaign fuzz 5",
+                    "campaign worlds --minutes 0", "campaign worlds --from 0",
+                    "campaign worlds --from 263", "campaign shrink", "campaign shrink a.ele",
+                    "campaign shrink no-such-file.json", "campaign shrink a.json b.json",
+                    "campaign shrink a.json --minutes 0", "campaign shrink a.json --ranks 0",
+                    "campaign shrink a.json --ranks", "campaign shrink --slow 1 a.json",
+                    "campaign files --minutes 0", "campaign packages --minutes 0",
+                    "campaign packages now", "format --slow", "docs now", "clean all"));
+
+/// What a verb needs is neither installed nor built for that.
+class Help : public testing::TestWithParam<std::pair<std::string, std::string>> {};
+
+TEST_P(Help, IsOfTheVerbThatIsAskedFor) {
+    const auto& [words, line] = GetParam();
+    const test::TemporaryFolder folder;
+    const auto run = test::run_program(test::words(sources + "/dev " + words), folder.path());
+    EXPECT_EQ(run.status, 0) << run.err;
+    EXPECT_THAT(run.out, StartsWith("usage: "));
+    EXPECT_THAT(run.out, HasSubstr(line));
+    EXPECT_THAT(run.out, Not(HasSubstr("  demo  ")));
+}
+
+INSTANTIATE_TEST_SUITE_P(CommandLines, Help,
+                         testing::Values(std::pair("test --help", "  test [--quick"),
+                                         std::pair("build -h", "  build [PRESET]"),
+                                         std::pair("campaign --help", "    fuzz [--seed S]"),
+                                         std::pair("campaign fuzz -h",
+                                                   "  campaign fuzz [--seed S]"),
+                                         std::pair("campaign faults --moments 2 --help",
+                                                   "  campaign faults [--moments N]"),
+                                         std::pair("bench --help", "--peers"),
+                                         std::pair("bench --rival --help", "usage: rivals"),
+                                         std::pair("bench --quick --paper -h", "usage: paper"),
+                                         std::pair("equivalence --help", "--quick")));
 
 /// Without installing anything: that comes before the list of mutants is read.
 TEST(Mutants, TakeNoTimeThatIsOverAtOnce) {

@@ -113,7 +113,7 @@ class Report(unittest.TestCase):
     def test_says_that_all_is_identical_and_valid(self):
         status, said, report = self.report("kuhn-2")
         self.assertEqual(status, 0)
-        self.assertIn("1 case, 7 parallel runs: all identical", said)
+        self.assertIn("1 case, 7 runs on 1 to 4 ranks: all identical", said)
         case = report["cases"][0]
         self.assertEqual((case["before"]["cells"], case["after"]["cells"]), (48, 3072))
         self.assertTrue(case["verdict"]["valid"])

@@ -190,10 +190,13 @@ def main():
         parser.error(f"--moments: not a positive number: {chosen.moments}")
     if not any(chosen.only in name for name in COMMANDS):
         parser.error(f"--only: no command has {chosen.only!r}; there are: {'; '.join(COMMANDS)}")
+    print("At each moment a call fails on one of three ranks, or the rank is killed there. Went on: status 0, as the "
+          "command can do\nwithout that call. Faults: ranks that end in different ways or too late, or files that are not "
+          "whole; once: not when tried again.\n")
     print("| command | fault | calls that may fail, on the first rank and the last | moments | went on | "
           "s until all ended, at most | faults once | faults |\n|---|---|---:|---:|---:|---:|---:|---:|", flush=True)
     turns = [(name, kind) for name in COMMANDS if chosen.only in name for kind in KINDS]
-    faults, end = 0, time.monotonic() + 60 * chosen.minutes
+    faults, moments, end = 0, 0, time.monotonic() + 60 * chosen.minutes
     with tempfile.TemporaryDirectory() as folder:
         bench = Bench(chosen.build.resolve(), pathlib.Path(folder), chosen.seconds)
         for name, kind in turns:
@@ -202,7 +205,9 @@ def main():
                 break
             result = tried(bench, *COMMANDS[name], kind, chosen.moments)
             faults += len(result.faults)
+            moments += result.moments
             print(row(name, kind, result), flush=True)
+    print(f"\n{moments:,} moments, {faults:,} faults" + ("" if faults else ": all ranks ended alike, and files are whole"))
     sys.exit(1 if faults else 0)
 
 

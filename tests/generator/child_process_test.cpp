@@ -43,5 +43,17 @@ TEST(ChildProcess, EndsWhenItsParentIsKilled) {
     ::close(read_end);
 }
 
+/// TetGen ends like that now and then. Sanitizers have such handlers, and so may a program that
+/// uses us.
+TEST(ChildProcess, EndsByItsSignalWhateverItsParentDoesAboutIt) {
+    for (const int signal : {SIGSEGV, SIGABRT, SIGFPE}) {
+        auto* const before = std::signal(signal, [](int) { ::_exit(1); });
+        const ChildResult result = run_in_child([&](ToParent&) { return std::raise(signal); });
+        (void)std::signal(signal, before);
+        EXPECT_EQ(result.signal, signal);
+        EXPECT_EQ(result.exit_status, 0);
+    }
+}
+
 }  // namespace
 }  // namespace octetra::generator

@@ -4,13 +4,16 @@
 source "$root/tools/dev/common.sh"
 
 # What makes a page of its own of what it measures.
-case ${1:-} in
-    --rival) page=bench/rivals targets=(bench_rivals octetra) ;;
-    --paper) page=bench/paper targets=(bench_refine octetra) ;;
-    *) page='' ;;
-esac
+page='' others=()
+for argument in "$@"; do
+    case $argument in
+        --rival) page=bench/rivals targets=(bench_rivals octetra) ;;
+        --paper) page=bench/paper targets=(bench_refine octetra) ;;
+        *) others+=("$argument") ;;
+    esac
+done
 if [[ $page ]]; then
-    shift
+    set -- "${others[@]}"
     if command -v python3 >/dev/null; then python3 "$page" measure --list "$@" >/dev/null || exit 2; fi
     need build bench
     configure release release "-DOCTETRA_TESTS=$(on_if_installed test)" -DOCTETRA_BENCH=ON

@@ -22,8 +22,8 @@ def figure(drawing, caption, kind=""):
     return f'<figure class="{kind}">{drawing}<figcaption>{caption}</figcaption></figure>'
 
 
-def details(summary, content):
-    return f"<details><summary>{summary}</summary>{content}</details>"
+def details(summary, content, kind=""):
+    return f'<details{f" class={kind}" if kind else ""}><summary>{summary}</summary>{content}</details>'
 
 
 # --- the answer, first
@@ -31,27 +31,51 @@ def details(summary, content):
 
 def answer(total):
     """One sentence, and in which colour."""
-    runs = plural(total["runs"], "parallel run")
+    runs = plural(total["runs"], "run")
     cases = plural(total["cases"], "case")
     if total["differing"]:
         return "bad", (f"Not identical to the serial reference: {', '.join(total['differing'])} "
                        f"({plural(total['differing_runs'], 'kind')} of run).")
     if total["invalid"]:
         return "bad", f"Not valid by exact verification: {', '.join(total['invalid'])}."
-    return "good", f"{cases}, {runs}: all identical to the serial reference, byte by byte."
+    return "good", f"{cases}, {runs} on 1 to 4 ranks: all identical to the serial reference, byte by byte."
 
 
 def verdict(total):
     kind, sentence = answer(total)
-    valid = total["refined"] - len(total["invalid"])
-    refused = (f"; {plural(total['refused'], 'mesh/meshes')} refused, for midpoints that rounding "
-               "would spoil, by all" if total["refused"] else "")
+    judged = total["refined"] + total["loops"]
+    valid = judged - len(total["invalid"])
+    refused = (f" {plural(total['refused'], 'mesh/meshes')} refused, for midpoints that rounding "
+               "would spoil, by all." if total["refused"] else "")
     return (f'<div class="verdict {kind}"><b>{escape(sentence)}</b>'
-            f"{size(total['bytes'])} of files compared on 1 to 4 ranks, by both synchronisations, "
-            f"up to {count(total['most_cells'])} cells. {count(valid)} of "
-            f"{plural(total['refined'], 'refined mesh/meshes')} found valid by an independent "
-            f"verifier, in {count(total['decisions'])} exact decisions"
-            f"{refused}.</div>")
+            f"{size(total['bytes'])} of files compared, of both synchronisations, up to {count(total['most_cells'])} cells. "
+            f"{count(valid)} of {plural(judged, 'refined mesh/meshes')} found valid by a verifier that shares with the "
+            "engines only the mesh, its file formats and the order of edges. Of its decisions "
+            f"{count(total['filtered'])} were certain by floating point with a bound on its error, and "
+            f"{count(total['exact'])} needed exact numbers.{refused}</div>")
+
+
+WORDS = {
+    "reference": "the serial implementation; it shares only the mesh, its file formats and the order of edges with the "
+                 "distributed one, which is run on 1 to 4 ranks",
+    "rank": "a process under mpirun, with a part of the mesh",
+    "scheme 8t, 4t, 2t": "a marked cell marks all six of its edges, the longest of each face, or its longest",
+    "closure": "marking the longest edge of every face with a marked edge, until nothing changes; the paths that this "
+               "takes through the mesh are the paper's LEPP, and those inside a part its local LEPP",
+    "neighbour, gateway": "who tells whom about marks on edges that ranks share: each rank those that share them, or "
+                          "all the first rank, which passes them on (<code>--sync</code>)",
+    "rounds": "how often ranks tell each other what they have marked, over all levels",
+    "messages and bytes": "in the table of cases those of synchronisation; in the table of a case's runs all messages of "
+                          "the run, those that distribute the mesh and collect it for writing among them",
+    "parent maps": "a file (<code>--maps</code>) that says which cell, facet and edge of the input each of the result "
+                   "came from",
+    "η": "the mean ratio of a cell: 1 for a regular tetrahedron, 0 for a flat one",
+}
+
+
+def words_section():
+    rows = "".join(f"<dt>{word}</dt><dd>{meaning}</dd>" for word, meaning in WORDS.items())
+    return details("<b>Words of this page</b>", f"<dl>{rows}</dl>")
 
 
 def where(report):
@@ -134,8 +158,8 @@ def paper_section(cases):
             "cells are marked, at random, as make them grow about as much. So the counts of cells "
             "are near because they were made so; times cannot be compared, as the paper "
             "tabulates none.</p>" + paper_table(cases) +
-            '<p class="faint">The paper\'s vertex count for 235,941 cells is a misprint, and for '
-            "770,882 cells it has none. From which mesh it came to the last is not said; here it "
+            '<p class="faint">The paper\'s vertices for 235,941 cells are left out, as they do not go with its other '
+            "figures; for 770,882 cells it has none. From which mesh it came to the last is not said; here it "
             "follows the one before.</p>")
 
 
@@ -256,7 +280,7 @@ def case_details(case):
 def runs_section(cases):
     return "<h2>Every run</h2>" + details(
         "commands, runs, fingerprints of the files, and the verifier's checks, case by case",
-        "".join(map(case_details, cases)))
+        "".join(map(case_details, cases)), "appendix")
 
 
 def page(report, folder, benchmarks=None):
@@ -268,7 +292,7 @@ def page(report, folder, benchmarks=None):
         style = file.read()
     body = ('<p class="faint">Octetra: equivalence report</p>'
             f"<h1>Does refinement give the same bytes everywhere?</h1>{where(report)}"
-            + verdict(totals(report)) + faults_section(cases, loops) + load_notice(machine)
+            + verdict(totals(report)) + faults_section(cases, loops) + load_notice(machine) + words_section()
             + cases_section(cases) + loop_section.section(loops) + picture_section(report, folder) + paper_section(cases)
             + angles_section(cases) + balance_section(cases) + time_section(timed, cores)
             + scaling_section(timed, cores) + bench_section.section(benchmarks)

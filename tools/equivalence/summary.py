@@ -23,7 +23,9 @@ def totals(report):
                  + sum(len(loop["runs"]) * loop["bytes"] for loop in loops),
         "most_cells": max([*(case["after"]["cells"] for case in refined),
                            *(max(loop["cells"]) for loop in loops)], default=0),
-        "decisions": sum(sum(case["verdict"]["arithmetic"].values()) for case in refined),
+        "loops": len(loops),
+        "filtered": sum(case["verdict"]["arithmetic"]["filtered"] for case in refined),
+        "exact": sum(case["verdict"]["arithmetic"]["exact"] for case in refined),
     }
 
 

@@ -69,9 +69,9 @@ def case_row(case):
 
 
 def cases_table(cases):
-    head = ("<tr><th rowspan=2>case</th><th colspan=2>cells</th><th rowspan=2>same bytes"
-            "<br>as reference</th><th rowspan=2>exact<br>verification</th>"
-            "<th colspan=2>4 ranks tell each other: rounds · messages · bytes</th>"
+    head = ("<tr><th rowspan=2>case</th><th colspan=2>cells</th><th rowspan=2>runs with the<br>"
+            "reference's bytes</th><th rowspan=2>exact<br>verification</th>"
+            "<th colspan=2>synchronisation of 4 ranks: rounds · messages · bytes</th>"
             "<th colspan=3 class=number>time, files included</th></tr>"
             "<tr><th class=number>before</th><th class=number>after</th><th class=number>neighbour"
             "</th><th class=number>gateway</th><th class=number>reference</th>"
@@ -129,7 +129,7 @@ def run_row(run):
 
 
 def runs_table(case):
-    head = heads("run", "same", "time", "of it refining", "rounds", "messages · bytes",
+    head = heads("run", "same", "time", "of it refining", "rounds", "all messages · bytes",
                  "most memory of a rank")
     return table(head, [run_row(run) for run in case["runs"]], f"Runs of {case['name']}")
 

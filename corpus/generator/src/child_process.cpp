@@ -37,8 +37,16 @@ void end_with(pid_t parent) {
     if (::getppid() != parent) ::_exit(EXIT_FAILURE);  // it was gone before that was heard
 }
 
+/// A handler of the parent's, a sanitizer's for one, would end the child with an exit status of its
+/// own.
+void end_by_signals() {
+    for (const int signal : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT})
+        std::signal(signal, SIG_DFL);
+}
+
 [[noreturn]] void be_child(int pipe_end, const std::function<int(ToParent&)>& work) noexcept {
     be_silent();
+    end_by_signals();
     const rlimit no_core_file{0, 0};
     ::setrlimit(RLIMIT_CORE, &no_core_file);
     ToParent parent(pipe_end);

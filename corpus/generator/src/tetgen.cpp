@@ -18,10 +18,13 @@
 namespace octetra::generator {
 namespace {
 
-/// What the child says in its exit status, beside the 1 to 10 that TetGen throws.
-constexpr int out_of_memory = 1;
+/// What TetGen throws then. As an exit status it would be what anything says that fails.
+constexpr int tetgen_without_memory = 1;
+
+/// What the child says in its exit status, beside the 2 to 10 that TetGen throws.
 constexpr int no_result = 11;
 constexpr int other_failure = 12;
+constexpr int out_of_memory = 13;
 
 /// TetGen gives the marker 1 to every segment that nobody listed, so ours move up by one.
 constexpr int unlisted_ridge = 1;
@@ -138,7 +141,7 @@ int run_tetgen(const Complex& complex, std::string switches, ToParent& parent) {
         tetrahedralize(switches.data(), &in, &out);
         return send_result(out, parent);
     } catch (const int code) {
-        return code;
+        return code == tetgen_without_memory ? out_of_memory : code;
     } catch (const std::bad_alloc&) {
         return out_of_memory;
     } catch (...) {

@@ -34,4 +34,4 @@ fuzz_for() {
 minutes=5 seed=$((RANDOM * 32768 + RANDOM + 1))
 take_numbers fuzz "minutes seed" "$@"
 build_laws
-step "fuzz for $minutes minutes" fuzz_for "$minutes" "$seed"
+step "fuzz for $minutes min" fuzz_for "$minutes" "$seed"

@@ -45,9 +45,9 @@ def parse_command_line():
 
 
 def chosen_cases(options):
-    cases = all_cases.quick() if options.quick else all_cases.standard()
     if options.only is None:
-        return cases
+        return all_cases.quick() if options.quick else all_cases.standard()
+    cases = all_cases.quick() if options.quick else [*all_cases.in_full(), *all_cases.corpus()]
     wanted = [case for case in cases if options.only in case.name]
     names = {case.name for case in wanted}
     for case in reversed(cases):  # a case stands behind the one that it follows

@@ -22,6 +22,7 @@ class Case:
     after: str = ""
     output: str = "refined.ele"
     repeats: int = 1  # of each run; all are compared, and times are medians
+    gateway_ranks: tuple = (2, 3, 4)  # on how many ranks it is run by the gateway, too
     scaling: bool = False  # whether its times are plotted over the number of ranks
     view: list = field(default_factory=list)  # for a picture: what tools/render.py is told
 
@@ -30,33 +31,33 @@ SMALL_GEAR = "gear --teeth 5 --thickness 0.32 --bore 0.25 --edge 0.3"
 LARGE_GEAR = "gear --teeth 20 --thickness 0.18 --edge 0.1"
 
 GEAR = Case("gear tooth", "one tooth of a gear, twice", "shapes",
-            "--sphere 1,0,0.15,0.4 --levels 2", generate="gear", repeats=3,
+            "--sphere 1,0,0.15,0.4 --levels 2", generate="gear",
             view=["--view", "1,-0.25,1.2"])
 INCLUSION = Case("inclusion", "the ball in a cube of two materials, by region tag; as a Medit file",
                  "shapes", "--region 2 --levels 2", generate="two-material", output="refined.mesh",
-                 repeats=3, view=["--clip", "0.5,0.5,0.5,0,-1,0"])
+                 view=["--clip", "0.5,0.5,0.5,0,-1,0"])
 FICHERA = Case("re-entrant corner", "a cube without an octant, at the inner corner; scheme 4t",
                "shapes", "--box -0.3,-0.3,-0.3,0.3,0.3,0.3 --scheme 4t --levels 4",
-               generate="fichera", repeats=3, view=["--view", "0.6,0.7,0.5"])
+               generate="fichera", view=["--view", "0.6,0.7,0.5"])
 LATTICE = Case("lattice", "a sphere in a cubic lattice, full of edges of the same length; other "
                "programs find 143,016 cells, too", "shapes",
-               "--sphere 0.5,0.5,0.5,0.25 --levels 3", generate="kuhn 8", repeats=3)
+               "--sphere 0.5,0.5,0.5,0.25 --levels 3", generate="kuhn 8")
 RING = Case("ring", "a torus until no cell is larger than 0.0005", "shapes",
-            "--max-volume 0.0005 --levels 8", generate="torus", repeats=3)
+            "--max-volume 0.0005 --levels 8", generate="torus")
 UNIFORM = Case("uniform", "all cells of a finer gear, once", "shapes", "--all",
                generate="gear --edge 0.05", repeats=3, scaling=True)
 
 PAPER_SMALL = [
     Case("paper, small, 1st", "most cells of a small mesh", "paper",
-         "--random 0.4 --seed 1", generate=SMALL_GEAR, repeats=3),
+         "--random 0.4 --seed 1", generate=SMALL_GEAR),
     Case("paper, small, 2nd", "the result refined again", "paper",
-         "--random 0.28 --seed 1", after="paper, small, 1st", repeats=3),
+         "--random 0.28 --seed 1", after="paper, small, 1st"),
 ]
 PAPER_LARGE = [
     Case("paper, large, 1st", "cells at random, all over a mesh", "paper",
-         "--random 0.054 --seed 1", generate=LARGE_GEAR, repeats=3, view=["--view", "1,-0.25,1.2"]),
+         "--random 0.054 --seed 1", generate=LARGE_GEAR, view=["--view", "1,-0.25,1.2"]),
     Case("paper, large, 2nd", "the result refined again", "paper",
-         "--random 0.021 --seed 1", after="paper, large, 1st", repeats=3),
+         "--random 0.021 --seed 1", after="paper, large, 1st"),
     Case("paper, large, 3rd", "and again", "paper",
          "--random 0.018 --seed 1", after="paper, large, 2nd", repeats=3, scaling=True),
 ]
@@ -97,8 +98,13 @@ def of_manifest(entry):
 
 
 def standard():
-    return [GEAR, INCLUSION, FICHERA, LATTICE, RING, UNIFORM, *PAPER_SMALL, *PAPER_LARGE,
-            *seeds(), *corpus()]
+    """The corpus by the gateway on 4 ranks only; with every other way to run it in tests/distributed/."""
+    by_fewer_runs = [replace(case, gateway_ranks=(4,)) for case in corpus()]
+    return [*in_full(), *by_fewer_runs]
+
+
+def in_full():
+    return [GEAR, INCLUSION, FICHERA, LATTICE, RING, UNIFORM, *PAPER_SMALL, *PAPER_LARGE, *seeds()]
 
 
 def quick():

@@ -11,9 +11,6 @@ import comparing
 from running import Failure, must, own_message, run
 
 RANKS = (1, 2, 3, 4)
-SYNCS = ("neighbour", "gateway")
-# One rank has nobody to synchronise with.
-PARALLEL_RUNS = [(1, "neighbour")] + [(ranks, sync) for ranks in RANKS[1:] for sync in SYNCS]
 
 NOT_REFINING = {"read", "partition", "distribute", "number vertices", "write", "rest"}
 
@@ -157,12 +154,19 @@ def in_parallel(case, mesh, reference, place, ranks, sync):
     return lines, profile
 
 
+def runs_of(case):
+    """One rank has nobody to synchronise with."""
+    by_gateway = [(ranks, "gateway") for ranks in case.gateway_ranks]
+    return sorted([*((ranks, "neighbour") for ranks in RANKS), *by_gateway], key=lambda run: run[0])
+
+
 def parallel_runs(case, mesh, reference, place):
     """All runs, repeated in turns so that a busy moment of the machine does not meet one alone."""
-    lines = {key: [] for key in PARALLEL_RUNS}
-    profiles = {key: [] for key in PARALLEL_RUNS}
+    runs = runs_of(case)
+    lines = {key: [] for key in runs}
+    profiles = {key: [] for key in runs}
     for _ in range(case.repeats):
-        for key in PARALLEL_RUNS:
+        for key in runs:
             differing, profile = in_parallel(case, mesh, reference, place, *key)
             lines[key] += [line for line in differing if line not in lines[key]]
             if profile:
@@ -170,7 +174,7 @@ def parallel_runs(case, mesh, reference, place):
     return [{"ranks": ranks, "sync": sync, "repeats": case.repeats,
              "identical": not lines[ranks, sync], "differences": lines[ranks, sync],
              "figures": figures(profiles[ranks, sync]) if profiles[ranks, sync] else None}
-            for ranks, sync in PARALLEL_RUNS]
+            for ranks, sync in runs]
 
 
 # --- looking at the meshes

@@ -120,8 +120,8 @@ def cases_section(cases):
     shown = in_front(cases)
     corpus = [case for case in cases if case not in shown]
     html = ("<h2>Cases</h2><p>Each is refined by the serial reference, then by the parallel engine "
-            "on 1, 2, 3 and 4 ranks, with both ways to synchronise; then every file, parent maps "
-            "too, is compared byte by byte.</p>" + cases_table(shown))
+            "on 1, 2, 3 and 4 ranks, with both ways to synchronise (meshes of the corpus by the gateway on 4 ranks only); "
+            "then every file, parent maps too, is compared byte by byte.</p>" + cases_table(shown))
     if corpus:
         right = sum(case["identical"] and case["valid"] for case in corpus)
         html += details(f"<b>The corpus</b>: {plural(len(corpus), 'mesh/meshes')}, made for "

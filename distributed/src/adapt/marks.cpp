@@ -1,8 +1,8 @@
 #include "adapt/marks.hpp"
 
 #include <algorithm>
-#include <functional>
-#include <numeric>
+#include <cstdint>
+#include <cstring>
 
 #include <fmt/format.h>
 
@@ -10,6 +10,28 @@
 #include <octetra/core/vertex_buckets.hpp>
 
 namespace octetra::distributed {
+namespace {
+
+constexpr std::size_t block_size = 64;
+
+bool is_any_set(const std::uint8_t* block) {
+    std::uint64_t any = 0;
+    for (std::size_t k = 0; k < block_size; k += sizeof any) {
+        std::uint64_t word = 0;
+        std::memcpy(&word, block + k, sizeof word);
+        any |= word;
+    }
+    return any != 0;
+}
+
+void append_marked(MarkedCells& marked, std::span<const std::uint8_t> marks, std::size_t begin,
+                   std::size_t end) {
+    for (std::size_t k = begin; k < end; ++k) {
+        if (marks[k] != 0) marked.cells.push_back(CellIndex{k});
+    }
+}
+
+}  // namespace
 
 MarkedCells marked_by_bytes(const DistributedMesh& mesh, std::span<const std::uint8_t> marks) {
     if (marks.size() != mesh.cells.size()) {
@@ -17,15 +39,12 @@ MarkedCells marked_by_bytes(const DistributedMesh& mesh, std::span<const std::ui
                                      marks.size(), mesh.cells.size()));
     }
     MarkedCells marked;
-    for (std::size_t begin = 0; begin < marks.size(); begin += 64) {
-        const auto block = marks.subspan(begin, std::min<std::size_t>(64, marks.size() - begin));
-        // Few are marked where time matters: most blocks are passed over as a whole.
-        if (std::reduce(block.begin(), block.end(), std::uint8_t{0}, std::bit_or<>()) == 0)
-            continue;
-        for (std::size_t k = 0; k < block.size(); ++k) {
-            if (block[k] != 0) marked.cells.push_back(CellIndex{begin + k});
-        }
+    // Few are marked where time matters: most blocks are passed over as a whole, by words.
+    const std::size_t whole_blocks = marks.size() / block_size * block_size;
+    for (std::size_t begin = 0; begin < whole_blocks; begin += block_size) {
+        if (is_any_set(&marks[begin])) append_marked(marked, marks, begin, begin + block_size);
     }
+    append_marked(marked, marks, whole_blocks, marks.size());
     marked.count = marked.cells.size();
     marked.judged = marks.size();
     return marked;

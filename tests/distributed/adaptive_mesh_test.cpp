@@ -67,6 +67,26 @@ TEST_P(AdaptiveMeshIn, IsAfterAnyStepWhatTheReferenceMakes) {
     }
 }
 
+TEST(AdaptiveMesh, FindsAMarkWhereverItStandsAmongOthersThatAreNone) {
+    const Mesh mesh = test::shaken_kuhn(3, 0.2, 3);
+    const auto ranks = partition_cells(mesh, test::world().size(), in_blocks);
+    const AdaptiveMesh input = AdaptiveMesh::distribute(test::world(), mesh, ranks);
+    const std::size_t most = test::world().max(input.cells().size());
+    for (std::size_t c = 0; c < most; c += 5) {
+        std::vector<std::uint8_t> bytes(input.cells().size(), 0);
+        std::vector<CellIndex> list;
+        if (c < bytes.size()) {
+            bytes[c] = 128;
+            list.emplace_back(c);
+        }
+        AdaptiveMesh by_bytes = AdaptiveMesh::distribute(test::world(), mesh, ranks);
+        AdaptiveMesh by_list = AdaptiveMesh::distribute(test::world(), mesh, ranks);
+        EXPECT_TRUE(by_bytes.refine(bytes).changed);
+        EXPECT_TRUE(by_list.refine(list).changed);
+        EXPECT_TRUE(std::ranges::equal(by_bytes.cells(), by_list.cells())) << c;
+    }
+}
+
 TEST_P(AdaptiveMeshIn, WritesTheFilesOfTheWholeMesh) {
     AdaptiveMesh mesh = shared_out(test::shaken_kuhn(3, 0.2, 3), GetParam());
     std::optional<test::TemporaryFolder> folder;  // one for all processes

@@ -1,8 +1,8 @@
 """The paper's tables, made again: what can be, of M. Balman, Tetrahedral Mesh Refinement in Distributed Environments.
 
-usage: paper measure [--build FOLDER] [--repetitions N] [--quick] [--only speed|counts]    into bench/paper/measured.json
-       paper page                                                   from it, docs/paper.md
-       paper check                                                  status 1 if the page is another
+    ./dev bench --paper        measures, into bench/paper/measured.json and docs/paper.md
+    python3 bench/paper page   makes docs/paper.md anew of what was measured
+    python3 bench/paper check  status 1 if the page is another
 
 Meshes are octetra's own, of the paper's sizes. All but seconds is the same on any machine.
 """
@@ -20,8 +20,9 @@ sys.path += [str(BENCH.parent / "tools/equivalence"), str(BENCH)]
 import prose  # noqa: E402
 import tables  # noqa: E402
 from cases import LARGE_GEAR, PAPER_COUNTS, SMALL_GEAR  # noqa: E402
+from machine import describe  # noqa: E402
 from paper.figures import figures_of  # noqa: E402
-from program import ROOT, Octetra, median, processor, rounds_of_levels, told  # noqa: E402
+from program import ROOT, Octetra, median, rounds_of_levels, told  # noqa: E402
 from propagation import predicted, read_medit  # noqa: E402
 
 HERE = pathlib.Path(__file__).parent
@@ -140,15 +141,14 @@ def speed(octetra, sizes, repetitions):
 
 
 def measure(build, repetitions, quick, only):
-    sizes, load = Sizes(quick), round(os.getloadavg()[0], 1)
+    sizes, where = Sizes(quick), describe(str(build / "cli/octetra"))
     made = json.loads(MEASURED.read_text()) if only else {}
     with tempfile.TemporaryDirectory() as folder:
         octetra = Octetra(build, folder)
         made["runs"] = runs(octetra, sizes)
         if only != "counts":
             made["speed"] = speed(octetra, sizes, repetitions)
-            made["machine"] = {"processor": processor(), "cores": os.cpu_count(), "load": load,
-                               "repetitions": repetitions}
+            made["machine"] = {**where, "repetitions": repetitions}
         if only != "speed":
             made["partitions"] = partitions(octetra, sizes)
             made["synchronisation"] = synchronisation(octetra, sizes)
@@ -188,11 +188,14 @@ def lines_of(made):
 
 
 def main():
-    parser = argparse.ArgumentParser(prog="paper", description=__doc__,
+    parser = argparse.ArgumentParser(usage="./dev bench --paper [--quick] [--repetitions N] [--only speed|counts] [--list]",
+                                     description=__doc__,
                                      formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("what", choices=["measure", "page", "check"])
-    parser.add_argument("--build", type=pathlib.Path, default=ROOT / "build/release")
-    parser.add_argument("--repetitions", type=int, default=5)
+    parser.add_argument("what", choices=["measure", "page", "check"],
+                        help="measure: what ./dev bench --paper does")
+    parser.add_argument("--build", type=pathlib.Path, default=ROOT / "build/release", metavar="FOLDER",
+                        help="where it is built [build/release]")
+    parser.add_argument("--repetitions", type=int, default=5, metavar="N", help="runs of each, of which the medians count [5]")
     parser.add_argument("--quick", action="store_true", help="small meshes, once; prints, and writes no file")
     parser.add_argument("--only", choices=["speed", "counts"], help="measure this, and keep the other")
     parser.add_argument("--list", action="store_true", help="only name the tables")

@@ -65,10 +65,5 @@ def rounds_of_levels(profile):
     return [phase["rounds"]["max"] for phase in profile["phases"] if phase["phase"] == "synchronise"]
 
 
-def processor():
-    with open("/proc/cpuinfo", encoding="ascii") as file:
-        return re.search(r"model name\s*: (.*)", file.read()).group(1)
-
-
 def median(values):
     return statistics.median(values)

@@ -1,4 +1,5 @@
 """The tables of docs/paper.md, of what was measured."""
+from machine import known
 
 
 def table(heads, rows, words=1):
@@ -103,5 +104,5 @@ def speed_table(cases):
 
 
 def machine_words(machine):
-    return (f"{machine['processor']}, {machine['cores']} cores; medians of {machine['repetitions']} runs in turns "
-            f"(least to most), load {machine['load']} when it began")
+    return (f"{', '.join(known(machine))}; other programs kept {machine['load']:.1f} cores busy when it began. Medians of "
+            f"{machine['repetitions']} runs in turns (least to most)")

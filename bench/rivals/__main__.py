@@ -1,8 +1,8 @@
 """Terminal-edge bisection beside 8T-LE: what each makes of the same meshes for the same goals.
 
-usage: rivals measure [--build FOLDER] [--repetitions N] [--quick] [--only cases|ranks]    into bench/rivals/measured.json
-       rivals page                                                    from it, docs/rival.md
-       rivals check                                                   status 1 if the page is another
+    ./dev bench --rival        measures, into bench/rivals/measured.json and docs/rival.md
+    python3 bench/rivals page  makes docs/rival.md anew of what was measured
+    python3 bench/rivals check status 1 if the page is another
 
 Every run is a process of its own, which prints a line of JSON (bench/rivals_bench.cpp). Repetitions go in
 turns, so that a busy moment does not meet one method alone; seconds are those of the processor, medians.
@@ -22,7 +22,7 @@ sys.path += [str(HERE.parent), str(ROOT / "tools/equivalence")]
 
 import prose  # noqa: E402
 from machine import describe, known  # noqa: E402
-from rivals.figures import SECONDS, added, figures_of, refining_nanoseconds  # noqa: E402
+from rivals.figures import SECONDS, added, figures_of, milliseconds, refining_nanoseconds  # noqa: E402
 
 MEASURED = HERE / "measured.json"
 METHODS = ("terminal", "8t", "4t", "2t")
@@ -58,8 +58,7 @@ def medians(runs):
     for key in SECONDS:
         first[key] = statistics.median(run[key] for run in runs)
     to_target = [sum(run[key] for key in SECONDS) for run in runs]
-    first["to_target_seconds"] = statistics.median(to_target)
-    first["most_over_median"] = max(to_target) / first["to_target_seconds"]
+    first["most_over_median"] = max(to_target) / statistics.median(to_target)
     return first
 
 
@@ -163,7 +162,7 @@ def seconds_table(cases):
         rows.append([name_of(case), f"{methods['terminal']['rounds']}",
                      *(f"{methods[m]['levels']}" for m in METHODS[1:]),
                      *(f"{refining_nanoseconds(methods[m]):,.0f}" for m in METHODS),
-                     *(f"{1000 * methods[m]['to_target_seconds']:,.1f}" for m in METHODS)])
+                     *(f"{milliseconds(methods[m]):,.1f}" for m in METHODS)])
     return table(["mesh, goal", "rounds", "levels: 8t", "4t", "2t", "ns a cell: terminal", "8t", "4t", "2t",
                   "ms to goal: terminal", "8t", "4t", "2t"], rows)
 
@@ -198,8 +197,9 @@ def when_and_where(measured):
     apart = sorted(run["most_over_median"] for case in measured["cases"] for run in case["methods"].values())
     machine = measured["machine"]
     return (f"{', '.join(known(machine))}; other programs kept {machine['load']:.1f} cores busy when it began. "
-            f"Processor time on one core, medians of {measured['repetitions']} runs in turns; nine in ten of the slowest "
-            f"runs took at most {apart[len(apart) * 9 // 10]:.2f} times the median")
+            f"Processor time on one core, medians of {measured['repetitions']} runs in turns; the slowest of them "
+            f"took at most {apart[len(apart) * 9 // 10]:.2f} times the median in nine of ten cases, and {apart[-1]:.2f} times in "
+            "the worst")
 
 
 def page_text():
@@ -218,11 +218,14 @@ def page_text():
 
 
 def main():
-    parser = argparse.ArgumentParser(prog="rivals", description=__doc__,
+    parser = argparse.ArgumentParser(usage="./dev bench --rival [--quick] [--repetitions N] [--only cases|ranks] [--list]",
+                                     description=__doc__,
                                      formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("what", choices=["measure", "page", "check"])
-    parser.add_argument("--build", type=pathlib.Path, default=ROOT / "build/release")
-    parser.add_argument("--repetitions", type=int, default=5)
+    parser.add_argument("what", choices=["measure", "page", "check"],
+                        help="measure: what ./dev bench --rival does")
+    parser.add_argument("--build", type=pathlib.Path, default=ROOT / "build/release", metavar="FOLDER",
+                        help="where it is built [build/release]")
+    parser.add_argument("--repetitions", type=int, default=5, metavar="N", help="runs of each, of which the medians count [5]")
     parser.add_argument("--quick", action="store_true", help="small meshes, once; prints, and writes no file")
     parser.add_argument("--only", choices=["cases", "ranks"], help="measure one process, or ranks, and keep the other")
     parser.add_argument("--list", action="store_true", help="only name what would be measured")

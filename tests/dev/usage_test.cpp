@@ -59,8 +59,8 @@ INSTANTIATE_TEST_SUITE_P(CommandLines, Help,
                                          std::pair("campaign faults --moments 2 --help",
                                                    "  campaign faults [--moments N]"),
                                          std::pair("bench --help", "--peers"),
-                                         std::pair("bench --rival --help", "usage: rivals"),
-                                         std::pair("bench --quick --paper -h", "usage: paper"),
+                                         std::pair("bench --rival --help", "--rival [--quick]"),
+                                         std::pair("bench --quick --paper -h", "--paper [--quick]"),
                                          std::pair("equivalence --help", "--quick")));
 
 /// Without installing anything: that comes before the list of mutants is read.

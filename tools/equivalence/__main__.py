@@ -30,9 +30,9 @@ from summary import totals
 
 def parse_command_line():
     parser = argparse.ArgumentParser(prog="equivalence", description=__doc__.split("\n\n")[0])
-    parser.add_argument("--octetra", metavar="PROGRAM", default="octetra", help="(octetra, in the PATH)")
-    parser.add_argument("-o", "--output", metavar="FOLDER", default="equivalence", help="(equivalence)")
-    parser.add_argument("--quick", action="store_true", help="a few small cases, every run once")
+    parser.add_argument("--octetra", metavar="PROGRAM", default="octetra", help="[octetra, in the PATH; by ./dev: what it builds]")
+    parser.add_argument("-o", "--output", metavar="FOLDER", default="equivalence", help="[equivalence; by ./dev with --quick or --only: equivalence/part]")
+    parser.add_argument("--quick", action="store_true", help="a few small cases and a loop, every run once")
     parser.add_argument("--only", metavar="WORDS", help="only cases with this in their name, and "
                         "those that they follow")
     parser.add_argument("--list", action="store_true", help="run nothing: name the cases")

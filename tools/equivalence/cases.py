@@ -48,7 +48,7 @@ UNIFORM = Case("uniform", "all cells of a finer gear, once", "shapes", "--all",
                generate="gear --edge 0.05", repeats=3, scaling=True)
 
 PAPER_SMALL = [
-    Case("paper, small, 1st", "most cells of a small mesh", "paper",
+    Case("paper, small, 1st", "two fifths of the cells of a small mesh, at random", "paper",
          "--random 0.4 --seed 1", generate=SMALL_GEAR),
     Case("paper, small, 2nd", "the result refined again", "paper",
          "--random 0.28 --seed 1", after="paper, small, 1st"),

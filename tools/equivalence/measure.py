@@ -91,12 +91,18 @@ def median_phases(profiles):
                     for part in ("computing", "communicating")} for phase in every[0]}
 
 
+def spread_of(seconds):
+    """How many times as long as the fastest the slowest took."""
+    return max(seconds) / min(seconds) if min(seconds) > 0 else 1
+
+
 def figures(profiles):
     """Of the repetitions of a run: times are medians; the rest is the same every time."""
     last = profiles[-1]
     return {
         "seconds": statistics.median(p["seconds"]["max"] for p in profiles),
         "refining_seconds": statistics.median(refining_seconds(p) for p in profiles),
+        "refining_spread": spread_of([refining_seconds(p) for p in profiles]),
         "phases": median_phases(profiles),
         "synchronisation": synchronisation(last),
         "messages": sum(e["messages"]["sum"] for e in last["phases"]),

@@ -48,6 +48,7 @@ def verdict(total):
     refused = (f" {plural(total['refused'], 'mesh/meshes')} refused, for midpoints that rounding "
                "would spoil, by all." if total["refused"] else "")
     return (f'<div class="verdict {kind}"><b>{escape(sentence)}</b>'
+            f"{plural(total['repeats'], 'run')} among them only for timing. "
             f"{size(total['bytes'])} of files compared, of both synchronisations, up to {count(total['most_cells'])} cells. "
             f"{count(valid)} of {plural(judged, 'refined mesh/meshes')} found valid by a verifier that shares with the "
             "engines only the mesh, its file formats and the order of edges. Of its decisions "
@@ -58,7 +59,7 @@ def verdict(total):
 WORDS = {
     "reference": "the serial implementation; it shares only the mesh, its file formats and the order of edges with the "
                  "distributed one, which is run on 1 to 4 ranks",
-    "rank": "a process under mpirun, with a part of the mesh",
+    "rank": "a process under mpirun, with a part of the mesh; parts are cut by <code>rcb</code>, the default",
     "scheme 8t, 4t, 2t": "a marked cell marks all six of its edges, the longest of each face, or its longest",
     "closure": "marking the longest edge of every face with a marked edge, until nothing changes; the paths that this "
                "takes through the mesh are the paper's LEPP, and those inside a part its local LEPP",
@@ -69,6 +70,7 @@ WORDS = {
                           "the run, those that distribute the mesh and collect it for writing among them",
     "parent maps": "a file (<code>--maps</code>) that says which cell, facet and edge of the input each of the result "
                    "came from",
+    "8T-LE": "among the verifier's checks: that what was cut is the closure of what the scheme marks, and how",
     "η": "the mean ratio of a cell: 1 for a regular tetrahedron, 0 for a flat one",
 }
 
@@ -126,7 +128,8 @@ def cases_section(cases):
         right = sum(case["identical"] and case["valid"] for case in corpus)
         html += details(f"<b>The corpus</b>: {plural(len(corpus), 'mesh/meshes')}, made for "
                         f"trouble (ties, slivers, odd files); {right} of them "
-                        "identical, and valid or refused by all",
+                        "identical, and valid or refused by all. Those from files are refined by "
+                        "<code>--all --levels 2</code>, the others by <code>--random 0.1 --levels 2</code>",
                         cases_table(corpus))
     return html
 
@@ -233,7 +236,8 @@ def scaling_figure(case, cores):
     return figure(plots.scaling(case, cores),
                   f"<b>{escape(case['name'])}</b>, {count(case['after']['cells'])} cells: on one "
                   f"rank refinement takes {seconds(one['refining_seconds'])} of "
-                  f"{seconds(one['seconds'])}.")
+                  f"{seconds(one['seconds'])}. Medians of {plural(case['runs'][0]['repeats'], 'run')}, of which the slowest "
+                  f"takes up to {max(run_of(case, ranks)['refining_spread'] for ranks in (1, 2, 3, 4)):.2f} times the fastest.")
 
 
 def scaling_section(cases, cores):

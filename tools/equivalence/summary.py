@@ -17,6 +17,7 @@ def totals(report):
         "refused": len(cases) - len(refined),
         "invalid": [case["name"] for case in [*refined, *loops] if not case["valid"]],
         "runs": sum(run["repeats"] for run in runs) + len(loop_runs),
+        "repeats": sum(run["repeats"] - 1 for run in runs),
         "differing_runs": sum(not run["identical"] for run in [*runs, *loop_runs]),
         "bytes": sum(run["repeats"] * file["bytes"] for case in cases for run in case["runs"]
                      for file in case["reference"]["files"].values())

@@ -87,7 +87,7 @@ Orbit orbit_of(const std::vector<std::size_t>& orders, const std::vector<Symmetr
         }
         if (image == orbit.least) ++times;
     }
-    orbit.size = all.size() / times;
+    orbit.size = all.size() / std::max<std::size_t>(times, 1);  // the identity is one of them
     return orbit;
 }
 

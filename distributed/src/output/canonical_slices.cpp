@@ -1,6 +1,7 @@
 #include "output/canonical_slices.hpp"
 
 #include <algorithm>
+#include <limits>
 
 #include "level/known_marker.hpp"
 #include "output/slices.hpp"
@@ -107,7 +108,7 @@ std::span<const VertexNumbers<2>> CanonicalSlices::midpoint_ends(const Window& w
         [&](std::uint64_t begin, std::uint64_t end, auto&& emit) {
             for_each_vertex(first + begin, first + end, [&](std::uint64_t number, VertexIndex v) {
                 const std::size_t m = v.value() - mesh_->input_vertices.size();
-                emit(number - first, numbered(mesh_->midpoint_to_edge[m]));
+                emit(number - first, numbered<std::uint64_t>(mesh_->midpoint_to_edge[m]));
             });
         },
         midpoint_ends_);
@@ -118,15 +119,28 @@ template <class I, std::size_t N>
 std::span<const VertexNumbers<N>> CanonicalSlices::bring(
     const Window& window, const OrderedList<IndexVector<I, std::array<VertexIndex, N>>>& list,
     const CanonicalRuns& runs, std::vector<VertexNumbers<N>>& slice) const {
-    bring_to_slices<VertexNumbers<N>>(
-        mesh_->processes, window,
-        [&](std::uint64_t begin, std::uint64_t end, auto&& emit) {
+    const auto numbers_between = [&]<class Number>(Number) {
+        return [&](std::uint64_t begin, std::uint64_t end, auto&& emit) {
             for_each_between(runs, list.ancestors(), begin, end,
                              [&](std::uint64_t number, std::size_t local, std::size_t) {
-                                 emit(number, numbered(list.list()[I{local}]));
+                                 emit(number, numbered<Number>(list.list()[I{local}]));
                              });
-        },
-        slice);
+        };
+    };
+    using Short = std::uint32_t;
+    const Communicator& processes = mesh_->processes;
+    if (processes.size() == 1 || numbers_.vertex_count > std::numeric_limits<Short>::max()) {
+        bring_to_slices<VertexNumbers<N>>(processes, window, numbers_between(std::uint64_t{}),
+                                          slice);
+        return slice;
+    }
+    // Half as much is sent.
+    slice.resize(window.end_of(processes.rank()) - window.begin_of(processes.rank()));
+    bring_to_slices<std::array<Short, N>>(
+        processes, window, numbers_between(Short{}),
+        [&](std::uint32_t position, const std::array<Short, N>& vertices) {
+            std::ranges::copy(vertices, slice[position].begin());
+        });
     return slice;
 }
 

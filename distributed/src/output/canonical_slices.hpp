@@ -47,11 +47,11 @@ public:
 
 private:
     [[nodiscard]] MeshFacts find_facts() const;
-    template <std::size_t N>
-    [[nodiscard]] VertexNumbers<N> numbered(const std::array<VertexIndex, N>& vertices) const {
-        VertexNumbers<N> numbers;
+    template <class Number, std::size_t N>
+    [[nodiscard]] std::array<Number, N> numbered(const std::array<VertexIndex, N>& vertices) const {
+        std::array<Number, N> numbers;
         for (std::size_t k = 0; k < N; ++k) {
-            numbers[k] = static_cast<std::uint64_t>(numbers_.of_vertex[vertices[k]]);
+            numbers[k] = static_cast<Number>(numbers_.of_vertex[vertices[k]]);
         }
         return numbers;
     }

@@ -52,6 +52,7 @@ TEST_P(Help, IsOfTheVerbThatIsAskedFor) {
 
 INSTANTIATE_TEST_SUITE_P(CommandLines, Help,
                          testing::Values(std::pair("test --help", "  test [--quick"),
+                                         std::pair("test Closure --help", "  test [--quick"),
                                          std::pair("build -h", "  build [PRESET]"),
                                          std::pair("campaign --help", "    fuzz [--seed S]"),
                                          std::pair("campaign fuzz -h",

@@ -118,6 +118,8 @@ class Report(unittest.TestCase):
         self.assertEqual((case["before"]["cells"], case["after"]["cells"]), (48, 3072))
         self.assertTrue(case["verdict"]["valid"])
         self.assertIn("maps.txt", case["reference"]["files"])
+        self.assertIn("The laws of histories were held against 108,720", self.output("index.html"))
+        self.assertEqual(self.output("index.html").split("Moments of faults")[1].split("</table>")[0].count("<tr>"), 13)
         self.assertIn("| kuhn-2 | 48 | 3,072 | 7 of 7 | valid |", self.output("equivalence.md"))
 
     def test_is_a_page_that_needs_nothing_beside_it(self):

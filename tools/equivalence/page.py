@@ -6,6 +6,7 @@ import shlex
 from html import escape
 
 import bench_section
+import campaign_section
 import loop_section
 import plots
 from charts import legend
@@ -237,7 +238,7 @@ def scaling_figure(case, cores):
                   f"<b>{escape(case['name'])}</b>, {count(case['after']['cells'])} cells: on one "
                   f"rank refinement takes {seconds(one['refining_seconds'])} of "
                   f"{seconds(one['seconds'])}. Medians of {plural(case['runs'][0]['repeats'], 'run')}, of which the slowest "
-                  f"takes up to {max(run_of(case, ranks)['refining_spread'] for ranks in (1, 2, 3, 4)):.2f} times the fastest.")
+                  f"takes up to {max(run_of(case, ranks).get('refining_spread', 1) for ranks in (1, 2, 3, 4)):.2f} times the fastest.")
 
 
 def scaling_section(cases, cores):
@@ -299,7 +300,7 @@ def page(report, folder, benchmarks=None):
             + verdict(totals(report)) + faults_section(cases, loops) + load_notice(machine) + words_section()
             + cases_section(cases) + loop_section.section(loops) + picture_section(report, folder) + paper_section(cases)
             + angles_section(cases) + balance_section(cases) + time_section(timed, cores)
-            + scaling_section(timed, cores) + bench_section.section(benchmarks)
+            + scaling_section(timed, cores) + bench_section.section(benchmarks) + campaign_section.section()
             + runs_section(cases))
     return ('<!DOCTYPE html>\n<html lang="en"><head><meta charset="utf-8">'
             '<meta name="viewport" content="width=device-width, initial-scale=1">'

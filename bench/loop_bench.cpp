@@ -1,15 +1,18 @@
 /// What the library adds to the engine: `bench_loop [CUBES [MARKED]]` refines CUBES^3 cubes of six
 /// cells uniformly, by the engine and by an AdaptiveMesh, the least of three times; says how much
-/// memory a rank needs for that, a mesh that the program has given away not counted; and takes
-/// steps of about so many marked cells, in a ball somewhere else each time, by both. Seconds are
-/// those of the slowest rank, barrier to barrier. Also under mpirun.
+/// memory a rank needs for that, a mesh that the program has given away not counted; how long
+/// which parts of the library's step the engine's has not; and takes steps of about so many marked
+/// cells, in a ball somewhere else each time, by both. Seconds are those of the slowest rank,
+/// barrier to barrier. Also under mpirun.
 
 #include <malloc.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <initializer_list>
 #include <limits>
+#include <string_view>
 #include <vector>
 
 #include <fmt/format.h>
@@ -63,6 +66,39 @@ void measure_memory(const Communicator& world, std::size_t cubes) {
     fmt::print("peak memory: {:.1f} bytes a cell\n", 0.1 * static_cast<double>(tenths));
 }
 
+/// Of the slowest rank, in the phases of these names.
+double seconds_in(const distributed::GatheredProfile& profile,
+                  std::initializer_list<std::string_view> names) {
+    double most = 0;
+    for (std::size_t r = 0; r < profile.seconds_of_rank.size(); ++r) {
+        double seconds = 0;
+        for (const distributed::ProfiledPhase& phase : profile.phases) {
+            if (std::ranges::find(names, phase.name) == names.end()) continue;
+            seconds += phase.of_rank[r].computing_seconds + phase.of_rank[r].communicating_seconds;
+        }
+        most = std::max(most, seconds);
+    }
+    return most;
+}
+
+/// What the library's uniform step does beside the engine's, in parts of the engine's seconds; the
+/// least of three times.
+void measure_parts(const Communicator& all, const Input& input, double engine) {
+    double numbers = std::numeric_limits<double>::infinity();
+    double maps = numbers;
+    for (int repeat = 0; repeat < 3; ++repeat) {
+        const auto world = distributed::profiled(all, distributed::ProfileDetail::sums);
+        AdaptiveMesh mesh = AdaptiveMesh::distribute(world, input.mesh, input.ranks);
+        (void)mesh.refine(std::vector<std::uint8_t>(mesh.cells().size(), 1));
+        const distributed::GatheredProfile profile = distributed::gather_profile(world);
+        numbers = std::min(numbers, seconds_in(profile, {"number vertices", "sharers"}));
+        maps = std::min(maps, seconds_in(profile, {"maps"}));
+    }
+    if (!all.is_first()) return;
+    fmt::print("of the engine's seconds: sharers, owners and global numbers {:.1f} %, maps {:.1f} %\n",
+               100 * numbers / engine, 100 * maps / engine);
+}
+
 /// Returns the seconds of the engine's uniform step.
 double measure_uniform(const Communicator& world, const Input& input) {
     constexpr double never = std::numeric_limits<double>::infinity();
@@ -108,17 +144,18 @@ Sphere ball(std::size_t cubes, std::size_t cells, int step) {
     return {{centre, centre, centre}, in_cubes / static_cast<double>(cubes)};
 }
 
-/// What a solver's estimator would have said.
-std::vector<std::uint8_t> marks_of(const Selection& selection, const AdaptiveMesh& mesh) {
-    std::vector<std::uint8_t> marks;
-    marks.reserve(mesh.cells().size());
+/// What a solver's estimator would have said: a list, as few are marked.
+std::vector<CellIndex> marks_of(const Selection& selection, const AdaptiveMesh& mesh) {
+    std::vector<CellIndex> marked;
     const auto points = mesh.points();
-    for (const auto& [a, b, c, d] : mesh.cells()) {
+    const auto cells = mesh.cells();
+    for (std::size_t i = 0; i < cells.size(); ++i) {
+        const auto& [a, b, c, d] = cells[i];
         const Corners corners{points[a.value()], points[b.value()], points[c.value()],
                               points[d.value()]};
-        marks.push_back(octetra::marks(selection, corners, 0, GlobalCell{0}) ? 1 : 0);
+        if (octetra::marks(selection, corners, 0, GlobalCell{0})) marked.push_back(CellIndex{i});
     }
-    return marks;
+    return marked;
 }
 
 void measure_small(const Communicator& world, const Input& input, std::size_t cubes,
@@ -133,10 +170,10 @@ void measure_small(const Communicator& world, const Input& input, std::size_t cu
         const auto before = world.sum(mesh.cells().size());
         const double engine = seconds_of(
             world, [&] { (void)distributed::refine(of_engine, selection, {.levels = 1}); });
-        const std::vector<std::uint8_t> marks = marks_of(selection, mesh);
+        const std::vector<CellIndex> chosen = marks_of(selection, mesh);
         double transfer = 0;
         const double library = seconds_of(world, [&] {
-            const distributed::Adaptation adaptation = mesh.refine(marks);
+            const distributed::Adaptation adaptation = mesh.refine(chosen);
             transfer = seconds_of(world, [&] {
                 u = adaptation.transfer_vertices(std::move(u));
                 q = adaptation.transfer_cells(std::move(q));
@@ -154,7 +191,8 @@ void measure_small(const Communicator& world, const Input& input, std::size_t cu
     const auto before = world.sum(mesh.cells().size());
     Selection selection;
     selection.spheres.push_back(ball(cubes, 8 * marked, 4));
-    const std::vector<std::uint8_t> may_go = marks_of(selection, mesh);
+    std::vector<std::uint8_t> may_go(mesh.cells().size(), 0);
+    for (const CellIndex c : marks_of(selection, mesh)) may_go[c.value()] = 1;
     const double seconds = seconds_of(world, [&] { (void)mesh.coarsen(may_go); });
     const auto cells = world.sum(mesh.cells().size());
     if (world.is_first()) {
@@ -172,5 +210,6 @@ int main(int argc, char** argv) {
     octetra::bench::measure_memory(session.world(), cubes);
     const octetra::bench::Input input(session.world(), cubes);
     const double uniform = octetra::bench::measure_uniform(session.world(), input);
+    octetra::bench::measure_parts(session.world(), input, uniform);
     octetra::bench::measure_small(session.world(), input, cubes, marked, uniform);
 }

@@ -96,12 +96,16 @@ Adaptation AdaptiveMesh::State::take(PlannedLevel& plan) {
         (void)numbers.number_midpoints(mesh, mesh.points.end_index(), sharing.shared(), failure);
     }
     failure.attempt([&] {
+        const Phase sharers(mesh.processes, "sharers");
         auto midpoints = plan.level->shared_midpoints();
         for (std::size_t i = 0; i < midpoints.size(); ++i) {
             shared.share(mesh.interfaces[i].rank, std::move(midpoints[i]));
         }
         shared.prepare(
             [&](VertexIndex v) { return static_cast<std::uint64_t>(numbers.of_vertex[v]); });
+    });
+    failure.attempt([&] {
+        const Phase maps(mesh.processes, "maps");
         adaptation = adaptation_of(plan, mesh);
     });
     failure.agree(mesh.processes);

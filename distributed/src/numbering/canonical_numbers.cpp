@@ -46,14 +46,8 @@ bool CanonicalNumbers::number_midpoints(const DistributedMesh& mesh, VertexIndex
             std::span(mesh.midpoint_to_edge)
                 .subspan(begin.value() - mesh.input_vertices.size(), end.value() - begin.value());
     }
-    const auto places = ranked<2>(mesh.processes, ends, of_vertex, shared_vertices, vertex_count,
-                                  vertex_count, failure);
-    if (!places) return false;
-    failure.attempt([&] {
-        make_room(of_vertex, end.value());
-        for (const std::uint64_t place : *places) of_vertex.push_back(GlobalVertex{place});
-    });
-    return true;
+    return append_ranked<2>(of_vertex, mesh.processes, ends, of_vertex, shared_vertices,
+                            vertex_count, vertex_count, failure);
 }
 
 void CanonicalNumbers::forget_from(VertexIndex end, std::uint64_t count) noexcept {

@@ -1,6 +1,9 @@
 #include "numbering/canonical_runs.hpp"
 
+#include <functional>
+#include <limits>
 #include <span>
+#include <utility>
 
 namespace octetra::distributed {
 namespace {
@@ -18,30 +21,69 @@ struct Blocks {
     [[nodiscard]] std::uint64_t begin_of(std::size_t rank) const { return size * rank; }
 };
 
-/// A root of the mesh in its block, and how many descendants it has.
-struct Root {
-    std::uint32_t place;
-    std::uint32_t descendants;
+/// Roots of one process that follow each other in their block and have as many descendants each.
+struct Alike {
+    std::uint32_t first;  ///< of them, by its place in the block
+    std::uint32_t count;
+    std::uint32_t descendants;  ///< of each
+
+    [[nodiscard]] std::uint64_t entities() const { return std::uint64_t{count} * descendants; }
 };
 
 /// Of this process's roots those of each block; as roots are ascending, one after the other.
-std::vector<std::vector<Root>> roots_of_blocks(const AncestorMap& ancestors, const Blocks& blocks,
-                                               std::size_t process_count) {
-    std::vector<std::vector<Root>> of_blocks(process_count);
+std::vector<std::vector<Alike>> roots_of_blocks(const AncestorMap& ancestors, const Blocks& blocks,
+                                                std::size_t process_count) {
+    std::vector<std::vector<Alike>> of_blocks(process_count);
     std::size_t r = 0;
     for (std::size_t rank = 0; rank < process_count; ++rank) {
         const std::uint64_t begin = blocks.begin_of(rank);
-        const auto from = ancestors.roots.begin() + static_cast<std::ptrdiff_t>(r);
-        const auto to = std::lower_bound(from, ancestors.roots.end(), begin + blocks.size);
-        of_blocks[rank].reserve(static_cast<std::size_t>(to - from));
-        for (const auto end = static_cast<std::size_t>(to - ancestors.roots.begin()); r < end;
-             ++r) {
-            of_blocks[rank].push_back(
-                {static_cast<std::uint32_t>(ancestors.roots[r] - begin),
-                 static_cast<std::uint32_t>(ancestors.first[r + 1] - ancestors.first[r])});
+        const std::uint64_t end = begin + blocks.size;
+        auto& of_block = of_blocks[rank];
+        for (; r < ancestors.roots.size() && ancestors.roots[r] < end; ++r) {
+            const auto place = static_cast<std::uint32_t>(ancestors.roots[r] - begin);
+            const auto descendants =
+                static_cast<std::uint32_t>(ancestors.first[r + 1] - ancestors.first[r]);
+            if (!of_block.empty() && of_block.back().first + of_block.back().count == place &&
+                of_block.back().descendants == descendants) {
+                ++of_block.back().count;
+            } else {
+                of_block.push_back({place, 1, descendants});
+            }
         }
     }
     return of_blocks;
+}
+
+/// Of what all processes have of a block: the number of the first descendant of all that are alike,
+/// where those of the whole block are numbered from `next` on.
+std::vector<std::vector<std::uint64_t>> numbers_in_block(
+    const std::vector<std::vector<Alike>>& from_each, std::uint64_t next) {
+    std::vector<std::vector<std::uint64_t>> numbers(from_each.size());
+    std::vector<std::pair<std::uint32_t, std::size_t>> waiting;  // a heap: first root, rank
+    const auto wait = [&](std::size_t rank) {
+        const std::size_t k = numbers[rank].size();
+        if (k == from_each[rank].size()) return;
+        waiting.emplace_back(from_each[rank][k].first, rank);
+        std::ranges::push_heap(waiting, std::greater{});
+    };
+    for (std::size_t rank = 0; rank < from_each.size(); ++rank) {
+        numbers[rank].reserve(from_each[rank].size());
+        wait(rank);
+    }
+    while (!waiting.empty()) {
+        const std::size_t rank = waiting.front().second;
+        std::ranges::pop_heap(waiting, std::greater{});
+        waiting.pop_back();
+        const std::uint64_t end =
+            waiting.empty() ? std::numeric_limits<std::uint64_t>::max() : waiting.front().first;
+        for (const Alike& roots : std::span(from_each[rank]).subspan(numbers[rank].size())) {
+            if (roots.first >= end) break;
+            numbers[rank].push_back(next);
+            next += roots.entities();
+        }
+        wait(rank);
+    }
+    return numbers;
 }
 
 }  // namespace
@@ -49,33 +91,24 @@ std::vector<std::vector<Root>> roots_of_blocks(const AncestorMap& ancestors, con
 CanonicalRuns canonical_runs(const Communicator& processes, const AncestorMap& ancestors) {
     const Blocks blocks(processes, ancestors);
     const auto process_count = static_cast<std::size_t>(processes.size());
-    const auto inboxes = processes.all_to_all(roots_of_blocks(ancestors, blocks, process_count));
-
-    std::vector<std::uint64_t> number(blocks.size, 0);  // of descendants, then of the first of them
+    const auto of_blocks = roots_of_blocks(ancestors, blocks, process_count);
+    const auto from_each = processes.all_to_all(of_blocks);
     std::uint64_t own = 0;
-    for (const auto& inbox : inboxes) {
-        for (const Root& root : inbox) {
-            number[root.place] = root.descendants;
-            own += root.descendants;
-        }
+    for (const auto& from_one : from_each) {
+        for (const Alike& roots : from_one) own += roots.entities();
     }
-    std::uint64_t next = processes.sum_before(own);
-    for (std::uint64_t& n : number) {
-        const std::uint64_t descendants = n;
-        n = next;
-        next += descendants;
-    }
+    const auto numbers =
+        processes.all_to_all(numbers_in_block(from_each, processes.sum_before(own)));
 
-    std::vector<std::vector<std::uint64_t>> replies(process_count);
-    for (std::size_t rank = 0; rank < process_count; ++rank) {
-        replies[rank].reserve(inboxes[rank].size());
-        for (const Root& root : inboxes[rank]) replies[rank].push_back(number[root.place]);
-    }
-    // Roots are ascending, so the answers come in their order.
     CanonicalRuns runs{.count = processes.sum(own)};
     runs.begin.reserve(ancestors.roots.size());
-    for (const auto& answers : processes.all_to_all(replies)) {
-        runs.begin.insert(runs.begin.end(), answers.begin(), answers.end());
+    for (std::size_t rank = 0; rank < process_count; ++rank) {
+        for (std::size_t k = 0; k < numbers[rank].size(); ++k) {
+            const Alike& roots = of_blocks[rank][k];
+            for (std::uint64_t i = 0; i < roots.count; ++i) {
+                runs.begin.push_back(numbers[rank][k] + i * roots.descendants);
+            }
+        }
     }
     return runs;
 }

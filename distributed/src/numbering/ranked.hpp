@@ -5,8 +5,9 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
-#include <optional>
+#include <limits>
 #include <span>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -14,6 +15,7 @@
 #include <octetra/distributed/distributed_mesh.hpp>
 
 #include "comm/local_failure.hpp"
+#include "memory/huge_pages.hpp"
 
 namespace octetra::distributed {
 
@@ -94,9 +96,9 @@ public:
             take_all_with_lowest();
             if (ranks_.size() == 1) {
                 answer_one(ranks_.front());
-            } else {
-                answer_several();
+                continue;
             }
+            answer_several();
             for (const std::size_t r : ranks_) {
                 readers_[r].next();
                 wait(r);
@@ -125,11 +127,18 @@ private:
             waiting_.pop_back();
         }
     }
+    /// All lowest vertices until one that another process asks about, too, or one less.
     void answer_one(std::size_t r) {
-        const std::uint64_t tuples = readers_[r].count();
-        const std::uint64_t answers = readers_[r].is_shared() ? tuples : 1;
-        for (std::uint64_t i = 0; i < answers; ++i) to_[r].push_back(count_ + i);
-        count_ += tuples;
+        QuestionReader<N>& reader = readers_[r];
+        const std::uint64_t end = waiting_.empty() ? std::numeric_limits<std::uint64_t>::max()
+                                                   : waiting_.front().first;
+        for (; !reader.at_end() && reader.lowest() < end; reader.next()) {
+            const std::uint64_t tuples = reader.count();
+            const std::uint64_t answers = reader.is_shared() ? tuples : 1;
+            for (std::uint64_t i = 0; i < answers; ++i) to_[r].push_back(count_ + i);
+            count_ += tuples;
+        }
+        wait(r);
     }
     void answer_several() {
         different_.clear();
@@ -156,41 +165,45 @@ private:
     std::uint64_t count_ = 0;
 };
 
-/// The place of each of `count` tuples, from the answers to this process's questions. A process
-/// that has failed answers nothing; places are not to be used then.
+/// Appends the place of each of `count` tuples to the list, from the answers to this process's
+/// questions. A process that has failed answers nothing; places are not to be used then.
 template <std::size_t N>
-std::vector<std::uint64_t> places_of(std::size_t count, const std::vector<Question>& questions,
-                                     const std::vector<std::vector<std::uint64_t>>& answers) {
-    std::vector<std::uint64_t> places;
-    places.reserve(count);
+void append_places(auto& list, std::size_t count, const std::vector<Question>& questions,
+                   const std::vector<std::vector<std::uint64_t>>& answers) {
+    using Place = typename std::remove_cvref_t<decltype(list)>::value_type;
+    const std::size_t end = list.size() + count;
+    make_room(list, end);
     for (std::size_t r = 0; r < questions.size(); ++r) {
         if (answers[r].empty()) continue;
         auto answer = answers[r].begin();
         for (QuestionReader<N> reader(questions[r]); !reader.at_end(); reader.next()) {
-            for (std::uint64_t i = 0; i < reader.count(); ++i) {
-                places.push_back(reader.is_shared() ? *answer++ : *answer + i);
+            if (reader.is_shared()) {
+                for (std::uint64_t i = 0; i < reader.count(); ++i) list.push_back(Place{*answer++});
+            } else {
+                const std::uint64_t first = *answer++;
+                for (std::uint64_t i = 0; i < reader.count(); ++i) list.push_back(Place{first + i});
             }
-            if (!reader.is_shared()) ++answer;
         }
     }
-    places.resize(count);
-    return places;
+    list.resize(end);
 }
 
-/// Collective. The places of tuples among the different tuples of all processes, in ascending
-/// order, counted from `total`, to which it adds their number. This process's `tuples` ascend;
-/// their vertices have global numbers less than `end_count`. `shared_vertices` are those that
-/// other processes have too, ascending. Nothing where a process is known to have failed, on all
-/// alike; where one fails at the end, that shows at the next agreement only.
+/// Collective. Appends to `list` the places of tuples among the different tuples of all processes,
+/// in ascending order, counted from `total`, to which it adds their number. This process's `tuples`
+/// ascend; their vertices have global numbers less than `end_count`. `shared_vertices` are those
+/// that other processes have too, ascending. False where a process is known to have failed, on all
+/// alike; where one fails at the end, that shows at the next agreement only. `list` may be
+/// `numbers`: they are appended when those are read.
 ///
 /// Each lowest vertex meets its equals at a process that its number decides. Memory and messages
 /// are in proportion to the lowest vertices, and to the tuples of shared ones.
 template <std::size_t N>
-[[nodiscard]] std::optional<std::vector<std::uint64_t>> ranked(
-    const Communicator& processes, std::span<const VertexTuple<N>> tuples,
-    const IndexVector<VertexIndex, GlobalVertex>& numbers,
-    std::span<const VertexIndex> shared_vertices, std::uint64_t end_count, std::uint64_t& total,
-    LocalFailure& failure) {
+[[nodiscard]] bool append_ranked(auto& list, const Communicator& processes,
+                                 std::span<const VertexTuple<N>> tuples,
+                                 const IndexVector<VertexIndex, GlobalVertex>& numbers,
+                                 std::span<const VertexIndex> shared_vertices,
+                                 std::uint64_t end_count, std::uint64_t& total,
+                                 LocalFailure& failure) {
     const auto somewhere_failed = [&] {
         return failure.max_unless_failed(processes, 0) == LocalFailure::somewhere;
     };
@@ -199,7 +212,7 @@ template <std::size_t N>
     failure.attempt([&] {
         questions = questions_about<N>(tuples, numbers, shared_vertices, block, processes.size());
     });
-    if (somewhere_failed()) return std::nullopt;
+    if (somewhere_failed()) return false;
 
     std::vector<std::vector<std::uint64_t>> answers;
     std::uint64_t count = 0;
@@ -214,11 +227,11 @@ template <std::size_t N>
     for (auto& places : answers) {
         for (std::uint64_t& place : places) place += first;
     }
-    if (somewhere_failed()) return std::nullopt;
-    std::vector<std::uint64_t> places;
-    failure.attempt(
-        [&] { places = places_of<N>(tuples.size(), questions, processes.all_to_all(answers)); });
-    return places;
+    if (somewhere_failed()) return false;
+    failure.attempt([&] {
+        append_places<N>(list, tuples.size(), questions, processes.all_to_all(answers));
+    });
+    return true;
 }
 
 }  // namespace octetra::distributed

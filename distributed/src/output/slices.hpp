@@ -16,11 +16,13 @@ namespace octetra::distributed {
 template <class T>
 void bring_to_slices(const Communicator& processes, const Window& window, auto&& between,
                      auto&& place) {
-    struct Parcel {
+    struct Run {  // of values whose numbers follow each other
         std::uint32_t position;
-        T value;
+        std::uint32_t count;
     };
-    std::vector<std::vector<Parcel>> outboxes(static_cast<std::size_t>(processes.size()));
+    const auto process_count = static_cast<std::size_t>(processes.size());
+    std::vector<std::vector<Run>> runs_to(process_count);
+    std::vector<std::vector<T>> values_to(process_count);
     for (int rank = 0; rank < processes.size(); ++rank) {
         const std::uint64_t begin = window.begin_of(rank);
         const std::uint64_t end = window.end_of(rank);
@@ -31,14 +33,25 @@ void bring_to_slices(const Communicator& processes, const Window& window, auto&&
             });
             continue;
         }
-        auto& outbox = outboxes[static_cast<std::size_t>(rank)];
-        outbox.reserve((end - begin) / outboxes.size());  // if all have about as many there
+        auto& runs = runs_to[static_cast<std::size_t>(rank)];
+        auto& values = values_to[static_cast<std::size_t>(rank)];
+        values.reserve((end - begin) / process_count);  // if all have about as many there
         between(begin, end, [&](std::uint64_t number, const T& value) {
-            outbox.push_back({static_cast<std::uint32_t>(number - begin), value});
+            const auto position = static_cast<std::uint32_t>(number - begin);
+            if (runs.empty() || runs.back().position + runs.back().count != position) {
+                runs.push_back({position, 0});
+            }
+            ++runs.back().count;
+            values.push_back(value);
         });
     }
-    for (const auto& inbox : processes.all_to_all(outboxes)) {
-        for (const Parcel& parcel : inbox) place(parcel.position, parcel.value);
+    const auto runs_from = processes.all_to_all(runs_to);
+    const auto values_from = processes.all_to_all(values_to);
+    for (std::size_t rank = 0; rank < process_count; ++rank) {
+        const T* value = values_from[rank].data();
+        for (const Run& run : runs_from[rank]) {
+            for (std::uint32_t k = 0; k < run.count; ++k) place(run.position + k, *value++);
+        }
     }
 }
 

@@ -72,11 +72,11 @@ Sides<I, N, PerCell> number(const DistributedMesh& mesh, const CanonicalNumbers&
     LocalFailure failure;
     failure.attempt([&] { number_locally(mesh, places, sides); });
     // Vertices are in canonical order here and there, so sides ascend by either numbers.
-    const auto ranks = ranked<N>(mesh.processes, sides.vertices, numbers.of_vertex, shared_vertices,
-                                 numbers.vertex_count, sides.count, failure);
+    const bool numbered =
+        append_ranked<N>(sides.numbers, mesh.processes, sides.vertices, numbers.of_vertex,
+                         shared_vertices, numbers.vertex_count, sides.count, failure);
     failure.attempt([&] {
-        if (!ranks) return;
-        sides.numbers.assign(ranks->begin(), ranks->end());
+        if (!numbered) return;
         for (const Interface& interface : mesh.interfaces) {
             std::vector<I> shared;
             for (const auto& corners : shared_of(interface)) {

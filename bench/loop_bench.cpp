@@ -95,8 +95,9 @@ void measure_parts(const Communicator& all, const Input& input, double engine) {
         maps = std::min(maps, seconds_in(profile, {"maps"}));
     }
     if (!all.is_first()) return;
-    fmt::print("of the engine's seconds: sharers, owners and global numbers {:.1f} %, maps {:.1f} %\n",
-               100 * numbers / engine, 100 * maps / engine);
+    fmt::print(
+        "of the engine's seconds: sharers, owners and global numbers {:.1f} %, maps {:.1f} %\n",
+        100 * numbers / engine, 100 * maps / engine);
 }
 
 /// Returns the seconds of the engine's uniform step.

@@ -44,13 +44,15 @@ void handle_signals() {
     }
 }
 
-/// The memory of an array that is not needed any more, of 2 MiB and more, goes back to the system
-/// at once rather than when it suits the allocator: the peak counts where ranks share a machine.
+/// The memory of a large array that is not needed any more goes back to the system at once rather
+/// than when it suits the allocator: the peak counts where ranks share a machine. What is small
+/// stays for what comes next: being given pages again, and cleared, would take a step of a loop as
+/// long as all else.
 void give_back_freed_memory() {
 #ifdef __GLIBC__
-    constexpr int large = 1 << 21;
+    constexpr int large = 32 << 20;
     mallopt(M_MMAP_THRESHOLD, large);
-    mallopt(M_TRIM_THRESHOLD, large);
+    mallopt(M_TRIM_THRESHOLD, 2 * large);
 #endif
 }
 

@@ -15,10 +15,10 @@ struct CanonicalNumbers {
 
     /// Collective. Numbers the midpoints of one level more: of this process, the vertices from the
     /// last that has a number to before `end`. They come in the order of their ends' numbers, which
-    /// processes put together that lower ends decide: see append_ranked(). `shared_vertices` are those
-    /// with a number that other processes have too, ascending. Where a process fails, the numbers
-    /// are not to be used on any until they have been taken back. False where that is known, on all
-    /// alike: then no further level is to be numbered.
+    /// processes put together that lower ends decide: see append_ranked(). `shared_vertices` are
+    /// those with a number that other processes have too, ascending. Where a process fails, the
+    /// numbers are not to be used on any until they have been taken back. False where that is
+    /// known, on all alike: then no further level is to be numbered.
     [[nodiscard]] bool number_midpoints(const DistributedMesh& mesh, VertexIndex end,
                                         std::span<const VertexIndex> shared_vertices,
                                         LocalFailure& failure);

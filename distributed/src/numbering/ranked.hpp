@@ -130,8 +130,8 @@ private:
     /// All lowest vertices until one that another process asks about, too, or one less.
     void answer_one(std::size_t r) {
         QuestionReader<N>& reader = readers_[r];
-        const std::uint64_t end = waiting_.empty() ? std::numeric_limits<std::uint64_t>::max()
-                                                   : waiting_.front().first;
+        const std::uint64_t end =
+            waiting_.empty() ? std::numeric_limits<std::uint64_t>::max() : waiting_.front().first;
         for (; !reader.at_end() && reader.lowest() < end; reader.next()) {
             const std::uint64_t tuples = reader.count();
             const std::uint64_t answers = reader.is_shared() ? tuples : 1;
@@ -228,9 +228,8 @@ template <std::size_t N>
         for (std::uint64_t& place : places) place += first;
     }
     if (somewhere_failed()) return false;
-    failure.attempt([&] {
-        append_places<N>(list, tuples.size(), questions, processes.all_to_all(answers));
-    });
+    failure.attempt(
+        [&] { append_places<N>(list, tuples.size(), questions, processes.all_to_all(answers)); });
     return true;
 }
 

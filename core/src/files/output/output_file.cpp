@@ -58,7 +58,8 @@ OutputFile::OutputFile(std::filesystem::path path, const ProcessGroup& group)
       place_(place_of(path_)),
       temporary_(temporary_beside(place_, group)),
       unfinished_(temporary_),
-      buffer_(buffer_size) {
+      buffer_(buffer_size),
+      room_(buffer_size) {
     try {
         if (const std::string what = in_the_way(path_); !what.empty()) {
             failure_ = fmt::format("{}: {}", path_.native(), what);
@@ -90,26 +91,44 @@ void OutputFile::put_bytes(const void* data, std::size_t size) {
         return;
     }
     if (size == 0) return;
-    if (buffer_.size() - used_ < size) make_room(size);
+    if (room_ - used_ < size) make_room(size);
     std::memcpy(buffer_.data() + used_, data, size);
     used_ += size;
 }
 
 void OutputFile::overwrite(std::uint64_t position, const void* data, std::size_t size) {
     if (is_alone()) end_turn();
+    write_kept();
     write_at(position, data, size);
 }
 
+/// Most file systems let one process at a time write to a file. So what a group has put is written
+/// in the course of the next turn: by one half of it when that begins, by the other when it is half
+/// done, so that while ones write the others prepare what comes next.
 void OutputFile::end_turn() {
+    write_kept();
     const std::uint64_t before = group_->sum_before(used_);
     const std::uint64_t total = group_->sum(used_);
-    write_at(flushed_ + before, buffer_.data(), used_);
+    if (is_alone()) {
+        write_at(flushed_, buffer_.data(), used_);
+    } else {
+        kept_.swap(buffer_);
+        kept_size_ = used_;
+        kept_position_ = flushed_ + before;
+        room_ = group_->rank() % 2 == 0 ? 0 : std::min(kept_size_ / 2, buffer_.size());
+    }
     flushed_ += total;
     used_ = 0;
 }
 
+void OutputFile::write_kept() {
+    write_at(kept_position_, kept_.data(), std::exchange(kept_size_, 0));
+    room_ = buffer_.size();
+}
+
 void OutputFile::sync() {
     end_turn();
+    write_kept();
     if (failure_.empty() && ::fsync(file_) != 0) fail("writing failed");
     is_synced_ = true;
     agree();
@@ -117,6 +136,7 @@ void OutputFile::sync() {
 
 void OutputFile::close() {
     end_turn();
+    write_kept();
     if (struct stat old{}; group_->is_first() && ::stat(place_.c_str(), &old) == 0) {
         pass_on_permissions(old, file_);
     }
@@ -162,11 +182,11 @@ void OutputFile::rename() {
 
 /// One process alone writes what it has; one of a group keeps it until its turn.
 void OutputFile::make_room(std::size_t size) {
-    if (is_alone()) {
-        end_turn();
-    } else {
-        buffer_.resize(std::max(2 * buffer_.size(), used_ + size));
-    }
+    if (is_alone()) return end_turn();
+    write_kept();
+    if (room_ - used_ >= size) return;
+    buffer_.resize(std::max({buffer_size, 2 * buffer_.size(), used_ + size}));
+    room_ = buffer_.size();
 }
 
 void OutputFile::open() {

@@ -35,7 +35,7 @@ public:
     OutputFile& operator=(OutputFile&&) = delete;
 
     void put(char c) {
-        if (used_ == buffer_.size()) make_room(1);
+        if (used_ == room_) make_room(1);
         buffer_[used_++] = c;
     }
     void put(std::string_view text);
@@ -71,13 +71,14 @@ public:
 private:
     void put_number(auto number) {
         constexpr std::size_t longest_number = 32;
-        if (buffer_.size() - used_ < longest_number) make_room(longest_number);
+        if (room_ - used_ < longest_number) make_room(longest_number);
         char* first = buffer_.data() + used_;
-        const auto result = std::to_chars(first, buffer_.data() + buffer_.size(), number);
+        const auto result = std::to_chars(first, buffer_.data() + room_, number);
         used_ += static_cast<std::size_t>(result.ptr - first);
     }
     [[nodiscard]] bool is_alone() const { return group_->size() == 1; }
     void make_room(std::size_t size);
+    void write_kept();
     void open();
     void rename();
     void write_at(std::uint64_t position, const void* data, std::size_t size);
@@ -91,8 +92,12 @@ private:
     UnfinishedFile unfinished_;
     int file_ = -1;
     std::vector<char> buffer_;
+    std::size_t room_ = 0;  ///< so much of the buffer may be used before something must be done
     std::size_t used_ = 0;
     std::uint64_t flushed_ = 0;
+    std::vector<char> kept_;     ///< of a group: what the last turn has put, kept_size_ bytes,
+    std::size_t kept_size_ = 0;  ///< until it is written: then 0
+    std::uint64_t kept_position_ = 0;
     bool committed_ = false;
     bool is_synced_ = false;
     std::string failure_;  ///< the first one, until it is thrown

@@ -135,8 +135,8 @@ public:
     };
     [[nodiscard]] Ordered ordered(const List& list, const AncestorMap& ancestors) const {
         Ordered ordered;
-        ordered.list.reserve(list.size());
-        ordered.before.reserve(list.size());
+        reserve_in_huge_pages(ordered.list, list.size());
+        reserve_in_huge_pages(ordered.before, list.size());
         ordered.first.reserve(ancestors.first.size());
         for (std::size_t root = 0; root < ancestors.roots.size(); ++root) {
             ordered.first.push_back(ordered.list.end_index().value());

@@ -1,9 +1,13 @@
+#include <algorithm>
+#include <random>
 #include <string>
+#include <string_view>
 
 #include <gtest/gtest.h>
 
 #include "files/output/output_file.hpp"
 #include "support/temporary_folder.hpp"
+#include "verify/thread_group.hpp"
 
 /// The bytes below the mesh writers, in amounts that only meshes of many gigabytes have.
 namespace octetra {
@@ -28,6 +32,69 @@ TEST(OutputFile, KeepsCountOfBlocksOfEverySizeAcrossItsBuffer) {
         EXPECT_EQ(out.position(), 9 + size);
         out.commit();
         EXPECT_TRUE(test::content_of(folder / "a") == "hEAd" + block + "Tail.") << size;
+    }
+}
+
+/// What a rank puts in a turn, and how the turn ends: the same for all that ask.
+struct Turn {
+    std::string block;
+    bool ends_later = false;
+    std::size_t overwritten = 0;  ///< a byte of what was put so far, once the turn has ended
+    int overwriter = 0;           ///< or no rank's
+};
+
+Turn turn_of(int number, int rank, int ranks, std::size_t put_so_far) {
+    std::mt19937 random(static_cast<unsigned>(number));  // as all ranks must agree on the end
+    Turn turn{.ends_later = random() % 3 != 0,
+              .overwritten = put_so_far == 0 ? 0 : random() % put_so_far,
+              .overwriter = static_cast<int>(random() % static_cast<unsigned>(ranks + 1))};
+    random.seed(static_cast<unsigned>(100 * number + rank));
+    const std::size_t most = random() % 8 == 0 ? 3 * buffer_size : 1000;
+    turn.block.assign(random() % 4 == 0 ? 0 : random() % most,
+                      static_cast<char>('a' + (number + rank) % 26));
+    return turn;
+}
+
+void put_in_parts(OutputFile& out, const std::string& block) {
+    const std::size_t some = std::min<std::size_t>(block.size(), 100);
+    for (std::size_t i = 0; i < some; ++i) out.put(block[i]);
+    const std::string_view rest = std::string_view(block).substr(some);
+    out.put(rest.substr(0, rest.size() / 3));
+    out.put_bytes(rest.data() + rest.size() / 3, rest.size() - rest.size() / 3);
+}
+
+TEST(OutputFile, OfAGroupHasWhatAllHavePutInOrderHoweverTheirTurnsEnd) {
+    constexpr int turns = 60;
+    for (const int ranks : {2, 3, 4}) {
+        std::string expected;
+        for (int number = 0; number < turns; ++number) {
+            const std::size_t before = expected.size();
+            const Turn first = turn_of(number, 0, ranks, before);
+            for (int rank = 0; rank < ranks; ++rank) {
+                expected += turn_of(number, rank, ranks, before).block;
+            }
+            const bool overwrites = !first.ends_later && before > 0 && first.overwriter < ranks;
+            if (overwrites) expected[first.overwritten] = '#';
+        }
+        const test::TemporaryFolder folder;
+        test::run_together(ranks, [&](const ProcessGroup& group) {
+            OutputFile out(folder / "a", group);
+            for (int number = 0; number < turns; ++number) {
+                const auto before = static_cast<std::size_t>(out.position());
+                const Turn turn = turn_of(number, group.rank(), ranks, before);
+                put_in_parts(out, turn.block);
+                if (turn.ends_later) {
+                    out.end_turn_later();
+                    continue;
+                }
+                out.end_turn();
+                if (before > 0 && turn.overwriter == group.rank()) {
+                    out.overwrite(turn.overwritten, "#", 1);
+                }
+            }
+            out.commit();
+        });
+        EXPECT_TRUE(test::content_of(folder / "a") == expected) << ranks << " ranks";
     }
 }
 

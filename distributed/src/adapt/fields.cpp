@@ -22,11 +22,11 @@ std::vector<Field> AdaptiveMesh::read_fields(
 
 std::string AdaptiveMesh::write(const std::filesystem::path& path, std::span<const Field> fields,
                                 const WriteOptions& options) const {
-    return write_mesh(state_->mesh, state_->sharing, fields, path, options);
+    return write_mesh(state_->mesh, state_->numbers, state_->sharing, fields, path, options);
 }
 
 void AdaptiveMesh::append_to(MeshSeries& series, double time, std::span<const Field> fields) const {
-    append_mesh(state_->mesh, state_->sharing, fields, series, time);
+    append_mesh(state_->mesh, state_->numbers, state_->sharing, fields, series, time);
 }
 
 }  // namespace octetra::distributed

@@ -7,10 +7,23 @@
 #include "output/slices.hpp"
 
 namespace octetra::distributed {
-CanonicalSlices::CanonicalSlices(const DistributedMesh& mesh)
+namespace {
+
+template <class Number, std::size_t N>
+std::array<Number, N> numbered(const std::array<VertexIndex, N>& vertices,
+                               const IndexVector<VertexIndex, GlobalVertex>& of_vertex) {
+    std::array<Number, N> numbers;
+    for (std::size_t k = 0; k < N; ++k) numbers[k] = static_cast<Number>(of_vertex[vertices[k]]);
+    return numbers;
+}
+
+}  // namespace
+
+CanonicalSlices::CanonicalSlices(const DistributedMesh& mesh, const CanonicalNumbers* known)
     : mesh_(&mesh),
       lists_(mesh),
-      numbers_(canonical_numbers(mesh)),
+      known_numbers_(known),
+      own_numbers_(known != nullptr ? CanonicalNumbers() : canonical_numbers(mesh)),
       cell_runs_(canonical_runs(mesh.processes, lists_.cells.ancestors())),
       facet_runs_(canonical_runs(mesh.processes, lists_.facets.ancestors())),
       edge_runs_(canonical_runs(mesh.processes, lists_.edges.ancestors())),
@@ -24,7 +37,7 @@ MeshFacts CanonicalSlices::find_facts() const {
     const auto any_has = [&](const std::vector<Marker>& markers) {
         return mesh_->processes.max(markers.empty() ? 0 : 1) == 1;
     };
-    return {.vertices = numbers_.vertex_count,
+    return {.vertices = numbers().vertex_count,
             .cells = cell_runs_.count,
             .facets = facet_runs_.count,
             .edges = edge_runs_.count,
@@ -42,7 +55,7 @@ MeshFacts CanonicalSlices::find_facts() const {
 
 /// Calls emit(number, local vertex) for this process's vertices numbered begin .. end-1.
 void CanonicalSlices::for_each_vertex(std::uint64_t begin, std::uint64_t end, auto&& emit) const {
-    const auto& numbers = numbers_.of_vertex;
+    const auto& numbers = this->numbers().of_vertex;
     const auto from = std::ranges::lower_bound(numbers, GlobalVertex{begin});
     for (VertexIndex v{static_cast<std::size_t>(from - numbers.begin())};
          v < numbers.end_index() && numbers[v] < GlobalVertex{end}; ++v) {
@@ -103,12 +116,14 @@ std::span<const double> CanonicalSlices::point_attributes(const Window& window) 
 
 std::span<const VertexNumbers<2>> CanonicalSlices::midpoint_ends(const Window& window) {
     const std::uint64_t first = mesh_->input_vertex_count;
+    const auto& of_vertex = numbers().of_vertex;
     bring_to_slices<VertexNumbers<2>>(
         mesh_->processes, window,
         [&](std::uint64_t begin, std::uint64_t end, auto&& emit) {
             for_each_vertex(first + begin, first + end, [&](std::uint64_t number, VertexIndex v) {
                 const std::size_t m = v.value() - mesh_->input_vertices.size();
-                emit(number - first, numbered<std::uint64_t>(mesh_->midpoint_to_edge[m]));
+                emit(number - first,
+                     numbered<std::uint64_t>(mesh_->midpoint_to_edge[m], of_vertex));
             });
         },
         midpoint_ends_);
@@ -119,17 +134,18 @@ template <class I, std::size_t N>
 std::span<const VertexNumbers<N>> CanonicalSlices::bring(
     const Window& window, const OrderedList<IndexVector<I, std::array<VertexIndex, N>>>& list,
     const CanonicalRuns& runs, std::vector<VertexNumbers<N>>& slice) const {
+    const auto& of_vertex = numbers().of_vertex;
     const auto numbers_between = [&]<class Number>(Number) {
         return [&](std::uint64_t begin, std::uint64_t end, auto&& emit) {
             for_each_between(runs, list.ancestors(), begin, end,
                              [&](std::uint64_t number, std::size_t local, std::size_t) {
-                                 emit(number, numbered<Number>(list.list()[I{local}]));
+                                 emit(number, numbered<Number>(list.list()[I{local}], of_vertex));
                              });
         };
     };
     using Short = std::uint32_t;
     const Communicator& processes = mesh_->processes;
-    if (processes.size() == 1 || numbers_.vertex_count > std::numeric_limits<Short>::max()) {
+    if (processes.size() == 1 || numbers().vertex_count > std::numeric_limits<Short>::max()) {
         bring_to_slices<VertexNumbers<N>>(processes, window, numbers_between(std::uint64_t{}),
                                           slice);
         return slice;
@@ -205,7 +221,7 @@ std::span<const std::uint64_t> CanonicalSlices::features(Feature feature, const 
 void CanonicalSlices::add(std::span<const Field> fields, const Sharing<VertexIndex>& sharing) {
     fields_.emplace(FieldsOfPart{.fields = fields,
                                  .processes = &mesh_->processes,
-                                 .numbers = &numbers_,
+                                 .numbers = &numbers(),
                                  .sharing = &sharing,
                                  .cell_ancestors = &lists_.cells.ancestors(),
                                  .cells_before = lists_.cells.before(),

@@ -17,15 +17,17 @@ namespace octetra::distributed {
 /// A mesh in its canonical order, from the processes that hold its parts. See MeshSource.
 class CanonicalSlices final : public MeshSource {
 public:
-    /// Collective. Refers to the mesh.
-    explicit CanonicalSlices(const DistributedMesh& mesh);
+    /// Collective. Refers to the mesh, and to the numbers of its vertices where these are known.
+    explicit CanonicalSlices(const DistributedMesh& mesh, const CanonicalNumbers* known = nullptr);
 
     /// Fields of the mesh go with it from now on. Refers to them.
     void add(std::span<const Field> fields, const Sharing<VertexIndex>& sharing);
 
     [[nodiscard]] const MeshFacts& facts() const override { return facts_; }
     [[nodiscard]] const ProcessGroup& group() const override { return mesh_->processes; }
-    [[nodiscard]] const CanonicalNumbers& numbers() const { return numbers_; }
+    [[nodiscard]] const CanonicalNumbers& numbers() const {
+        return known_numbers_ != nullptr ? *known_numbers_ : own_numbers_;
+    }
     [[nodiscard]] const OrderedLists& lists() const { return lists_; }
 
     [[nodiscard]] std::span<const Point> points(const Window& window) override;
@@ -47,14 +49,6 @@ public:
 
 private:
     [[nodiscard]] MeshFacts find_facts() const;
-    template <class Number, std::size_t N>
-    [[nodiscard]] std::array<Number, N> numbered(const std::array<VertexIndex, N>& vertices) const {
-        std::array<Number, N> numbers;
-        for (std::size_t k = 0; k < N; ++k) {
-            numbers[k] = static_cast<Number>(numbers_.of_vertex[vertices[k]]);
-        }
-        return numbers;
-    }
     void for_each_vertex(std::uint64_t begin, std::uint64_t end, auto&& emit) const;
     template <class I, std::size_t N>
     std::span<const VertexNumbers<N>> bring(
@@ -66,7 +60,8 @@ private:
 
     const DistributedMesh* mesh_;
     OrderedLists lists_;
-    CanonicalNumbers numbers_;
+    const CanonicalNumbers* known_numbers_;
+    CanonicalNumbers own_numbers_;  ///< where none are known
     CanonicalRuns cell_runs_;
     CanonicalRuns facet_runs_;
     CanonicalRuns edge_runs_;

@@ -48,6 +48,7 @@ void bring_to_slices(const Communicator& processes, const Window& window, auto&&
     const auto runs_from = processes.all_to_all(runs_to);
     const auto values_from = processes.all_to_all(values_to);
     for (std::size_t rank = 0; rank < process_count; ++rank) {
+        if (values_from[rank].empty()) continue;  // none, or a failure that all will know
         const T* value = values_from[rank].data();
         for (const Run& run : runs_from[rank]) {
             for (std::uint32_t k = 0; k < run.count; ++k) place(run.position + k, *value++);

@@ -22,12 +22,12 @@ void check_fields(const DistributedMesh& mesh, std::span<const Field> fields) {
 
 }  // namespace
 
-std::string write_mesh(const DistributedMesh& mesh, const Sharing<VertexIndex>& sharing,
-                       std::span<const Field> fields, const std::filesystem::path& path,
-                       const WriteOptions& options) {
+std::string write_mesh(const DistributedMesh& mesh, const CanonicalNumbers& numbers,
+                       const Sharing<VertexIndex>& sharing, std::span<const Field> fields,
+                       const std::filesystem::path& path, const WriteOptions& options) {
     check_fields(mesh, fields);
     std::optional<CanonicalSlices> slices;
-    in_phase(mesh.processes, "number vertices", [&] { slices.emplace(mesh); });
+    in_phase(mesh.processes, "number vertices", [&] { slices.emplace(mesh, &numbers); });
     if (!is_in_pieces(path)) {
         slices->add(fields, sharing);
         return octetra::write_mesh(*slices, path, options);
@@ -37,11 +37,12 @@ std::string write_mesh(const DistributedMesh& mesh, const Sharing<VertexIndex>& 
     return write_pieces(piece, mesh.processes, path);
 }
 
-void append_mesh(const DistributedMesh& mesh, const Sharing<VertexIndex>& sharing,
-                 std::span<const Field> fields, MeshSeries& series, double time) {
+void append_mesh(const DistributedMesh& mesh, const CanonicalNumbers& numbers,
+                 const Sharing<VertexIndex>& sharing, std::span<const Field> fields,
+                 MeshSeries& series, double time) {
     check_fields(mesh, fields);
     std::optional<CanonicalSlices> slices;
-    in_phase(mesh.processes, "number vertices", [&] { slices.emplace(mesh); });
+    in_phase(mesh.processes, "number vertices", [&] { slices.emplace(mesh, &numbers); });
     slices->add(fields, sharing);
     series.append(*slices, time);
 }

@@ -10,17 +10,21 @@
 #include <octetra/distributed/field.hpp>
 #include <octetra/distributed/sharing.hpp>
 
+#include "numbering/canonical_numbers.hpp"
+
 namespace octetra::distributed {
 
-/// Collective. Writes the mesh with fields; see AdaptiveMesh::write().
-[[nodiscard]] std::string write_mesh(const DistributedMesh& mesh,
+/// Collective. Writes the mesh with fields; see AdaptiveMesh::write(). `numbers` and `sharing` are
+/// those of its vertices.
+[[nodiscard]] std::string write_mesh(const DistributedMesh& mesh, const CanonicalNumbers& numbers,
                                      const Sharing<VertexIndex>& sharing,
                                      std::span<const Field> fields,
                                      const std::filesystem::path& path,
                                      const WriteOptions& options);
 
 /// Collective. Appends the mesh with fields to a series; see AdaptiveMesh::append_to().
-void append_mesh(const DistributedMesh& mesh, const Sharing<VertexIndex>& sharing,
-                 std::span<const Field> fields, MeshSeries& series, double time);
+void append_mesh(const DistributedMesh& mesh, const CanonicalNumbers& numbers,
+                 const Sharing<VertexIndex>& sharing, std::span<const Field> fields,
+                 MeshSeries& series, double time);
 
 }  // namespace octetra::distributed

@@ -242,12 +242,14 @@ private:
             }
         };
         std::vector<std::uint64_t> sums;
+        std::vector<std::uint64_t> own;  // where each point weighs 1, they count them
         std::size_t found = 0;
         failure.attempt([&] {
             sums.assign(boxes_.size() << digit, 0);
             for_each_left([&](std::size_t i, std::size_t b) {
                 sums[(b << digit) + searches_[b].digit_of(key(i), digit)] += weight(i);
             });
+            if (points_->weights.empty()) own = sums;
         });
         if (!nowhere(failure)) return false;
         processes_->sum(std::span(sums));
@@ -258,9 +260,10 @@ private:
                 if (is_first) target_.push_back(share_of_first(boxes_[b], of_box));
                 std::size_t d = 0;
                 while (d + 1 < of_box.size() && of_box[d] <= target_[b]) target_[b] -= of_box[d++];
+                if (!own.empty()) found += own[(b << digit) + d];
                 searches_[b].take(boxes_[b].is_part() ? 0 : d, digit);
             }
-            for_each_left([&](std::size_t, std::size_t) { ++found; });
+            if (own.empty()) for_each_left([&](std::size_t, std::size_t) { ++found; });
             if (found > (is_left_ ? left_.size() : count) / 4) return;
             std::vector<std::size_t> rest;
             rest.reserve(found);

@@ -102,23 +102,25 @@ void OutputFile::overwrite(std::uint64_t position, const void* data, std::size_t
     write_at(position, data, size);
 }
 
-/// Most file systems let one process at a time write to a file. So what a group has put is written
-/// in the course of the next turn: by one half of it when that begins, by the other when it is half
-/// done, so that while ones write the others prepare what comes next.
 void OutputFile::end_turn() {
-    write_kept();
-    const std::uint64_t before = group_->sum_before(used_);
-    const std::uint64_t total = group_->sum(used_);
-    if (is_alone()) {
-        write_at(flushed_, buffer_.data(), used_);
-    } else {
-        kept_.swap(buffer_);
-        kept_size_ = used_;
-        kept_position_ = flushed_ + before;
-        room_ = group_->rank() % 2 == 0 ? 0 : std::min(kept_size_ / 2, buffer_.size());
-    }
-    flushed_ += total;
+    write_at(place_of_turn(), buffer_.data(), used_);
     used_ = 0;
+}
+
+/// Most file systems let one process at a time write to a file. So one half of the group writes
+/// when the next turn begins, the other when it is half done: while ones write, the others prepare.
+void OutputFile::end_turn_later() {
+    kept_position_ = place_of_turn();
+    kept_.swap(buffer_);
+    kept_size_ = std::exchange(used_, 0);
+    room_ = group_->rank() % 2 == 0 ? 0 : std::min(kept_size_ / 2, buffer_.size());
+}
+
+std::uint64_t OutputFile::place_of_turn() {
+    write_kept();
+    const std::uint64_t place = flushed_ + group_->sum_before(used_);
+    flushed_ += group_->sum(used_);
+    return place;
 }
 
 void OutputFile::write_kept() {
@@ -128,7 +130,6 @@ void OutputFile::write_kept() {
 
 void OutputFile::sync() {
     end_turn();
-    write_kept();
     if (failure_.empty() && ::fsync(file_) != 0) fail("writing failed");
     is_synced_ = true;
     agree();
@@ -136,7 +137,6 @@ void OutputFile::sync() {
 
 void OutputFile::close() {
     end_turn();
-    write_kept();
     if (struct stat old{}; group_->is_first() && ::stat(place_.c_str(), &old) == 0) {
         pass_on_permissions(old, file_);
     }

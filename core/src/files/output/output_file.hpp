@@ -22,8 +22,9 @@ namespace octetra {
 /// permissions on and, as far as the system allows, its owner and group.
 ///
 /// A group of processes writes one file by taking turns: what each has put since the last turn
-/// follows what the lower ranks have put. Constructing, end_turn(), close() and commit() are
-/// collective, and failures are thrown there, on all processes. One process alone needs no turns.
+/// follows what the lower ranks have put. Constructing, both ways of ending a turn, close() and
+/// commit() are collective, and failures are thrown there, on all processes. One process alone
+/// needs no turns.
 class OutputFile {
 public:
     explicit OutputFile(std::filesystem::path path,
@@ -49,6 +50,9 @@ public:
 
     /// Brings what has been put to the file.
     void end_turn();
+    /// The same, but what has been put may come to the file in the course of the next turn: until
+    /// that has ended nothing of it may be overwritten.
+    void end_turn_later();
 
     /// How many bytes have been put so far: where the next one will stand. For a group: at the end
     /// of a turn, and the same on all processes.
@@ -78,6 +82,7 @@ private:
     }
     [[nodiscard]] bool is_alone() const { return group_->size() == 1; }
     void make_room(std::size_t size);
+    [[nodiscard]] std::uint64_t place_of_turn();
     void write_kept();
     void open();
     void rename();

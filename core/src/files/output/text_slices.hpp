@@ -23,7 +23,7 @@ void put_list(OutputFile& out, std::uint64_t count, const ProcessGroup& group, a
     const std::uint64_t stride = length * static_cast<std::uint64_t>(group.size());
     for (Window window{0, length, count}; window.begin < count; window.begin += stride) {
         put_slice(window, window.begin_of(group.rank()));
-        if (group.size() > 1) out.end_turn();
+        if (group.size() > 1) out.end_turn_later();
     }
 }
 

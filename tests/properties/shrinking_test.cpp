@@ -162,7 +162,7 @@ TEST_F(Shrinking, EndsInTimeAndKeepsTheSmallestSoFar) {
 TEST_F(Shrinking, KeepsTheSmallestSoFarWhenInterrupted) {
     const auto file = write("numbering", "numbering-running-17");
     const auto [status, out, err] = test::run_program(
-        {"timeout", "--preserve-status", "-s", "INT", "20", "env", "OCTETRA_CPU_SECONDS=1",
+        {"timeout", "--preserve-status", "-s", "INT", "20", "env", "OCTETRA_CPU_SECONDS=2",
          OCTETRA_SHRINK_FINDING, file, "0", "200", OCTETRA_FAULTY_LAWS},
         file.parent_path());
     EXPECT_EQ(status, 130) << out << err;

@@ -145,7 +145,7 @@ Sphere ball(std::size_t cubes, std::size_t cells, int step) {
     return {{centre, centre, centre}, in_cubes / static_cast<double>(cubes)};
 }
 
-/// What a solver's estimator would have said: a list, as few are marked.
+/// What a solver's estimator would have said.
 std::vector<CellIndex> marks_of(const Selection& selection, const AdaptiveMesh& mesh) {
     std::vector<CellIndex> marked;
     const auto points = mesh.points();
@@ -159,12 +159,48 @@ std::vector<CellIndex> marks_of(const Selection& selection, const AdaptiveMesh& 
     return marked;
 }
 
+/// The same as a byte for each cell.
+std::vector<std::uint8_t> bytes_of(const std::vector<CellIndex>& marked, const AdaptiveMesh& mesh) {
+    std::vector<std::uint8_t> bytes(mesh.cells().size(), 0);
+    for (const CellIndex c : marked) bytes[c.value()] = 1;
+    return bytes;
+}
+
+struct Seconds {
+    double step = 0;  ///< transfer with it
+    double transfer = 0;
+};
+
+/// A mesh with values on its vertices and cells.
+struct Solver {
+    AdaptiveMesh mesh;
+    std::vector<double> u;
+    std::vector<double> q;
+
+    Solver(const Communicator& world, const Input& input)
+        : mesh(AdaptiveMesh::distribute(world, input.mesh, input.ranks)),
+          u(mesh.points().size(), 1),
+          q(mesh.cells().size(), 1) {}
+
+    Seconds step(const Communicator& world, const auto& marks) {
+        Seconds seconds;
+        seconds.step = seconds_of(world, [&] {
+            const distributed::Adaptation adaptation = mesh.refine(marks);
+            seconds.transfer = seconds_of(world, [&] {
+                u = adaptation.transfer_vertices(std::move(u));
+                q = adaptation.transfer_cells(std::move(q));
+            });
+        });
+        return seconds;
+    }
+};
+
 void measure_small(const Communicator& world, const Input& input, std::size_t cubes,
                    std::size_t marked, double uniform) {
     DistributedMesh of_engine = distributed::distribute(world, input.mesh, input.ranks);
-    AdaptiveMesh mesh = AdaptiveMesh::distribute(world, input.mesh, input.ranks);
-    std::vector<double> u(mesh.points().size(), 1);
-    std::vector<double> q(mesh.cells().size(), 1);
+    Solver by_list(world, input);
+    Solver by_bytes(world, input);
+    AdaptiveMesh& mesh = by_list.mesh;
     for (int step = 0; step < 5; ++step) {
         Selection selection;
         selection.spheres.push_back(ball(cubes, marked, step));
@@ -172,28 +208,24 @@ void measure_small(const Communicator& world, const Input& input, std::size_t cu
         const double engine = seconds_of(
             world, [&] { (void)distributed::refine(of_engine, selection, {.levels = 1}); });
         const std::vector<CellIndex> chosen = marks_of(selection, mesh);
-        double transfer = 0;
-        const double library = seconds_of(world, [&] {
-            const distributed::Adaptation adaptation = mesh.refine(chosen);
-            transfer = seconds_of(world, [&] {
-                u = adaptation.transfer_vertices(std::move(u));
-                q = adaptation.transfer_cells(std::move(q));
-            });
-        });
+        const std::vector<std::uint8_t> bytes = bytes_of(chosen, mesh);
+        const Seconds list = by_list.step(world, chosen);
+        const Seconds byte = by_bytes.step(world, bytes);
         const auto cells = world.sum(mesh.cells().size());
         if (world.is_first()) {
             fmt::print(
-                "step {}: {} new cells; engine {:.2f} ms, library {:.2f} ms, of which transfer "
-                "{:.2f} ms; {:.2f} % of a uniform step\n",
-                step + 1, cells - before, 1e3 * engine, 1e3 * library, 1e3 * transfer,
-                100 * library / uniform);
+                "step {}: {} new cells; engine {:.2f} ms; library by a list of marked cells {:.2f} "
+                "ms, of which transfer {:.2f} ms, {:.2f} % of a uniform step; by a byte for each "
+                "cell {:.2f} ms, {:.2f} ms, {:.2f} %\n",
+                step + 1, cells - before, 1e3 * engine, 1e3 * list.step, 1e3 * list.transfer,
+                100 * list.step / uniform, 1e3 * byte.step, 1e3 * byte.transfer,
+                100 * byte.step / uniform);
         }
     }
     const auto before = world.sum(mesh.cells().size());
     Selection selection;
     selection.spheres.push_back(ball(cubes, 8 * marked, 4));
-    std::vector<std::uint8_t> may_go(mesh.cells().size(), 0);
-    for (const CellIndex c : marks_of(selection, mesh)) may_go[c.value()] = 1;
+    const std::vector<std::uint8_t> may_go = bytes_of(marks_of(selection, mesh), mesh);
     const double seconds = seconds_of(world, [&] { (void)mesh.coarsen(may_go); });
     const auto cells = world.sum(mesh.cells().size());
     if (world.is_first()) {

@@ -32,6 +32,23 @@ struct OneCut {
     VertexIndex midpoint;
 };
 
+struct NumberedEdge {
+    std::uint64_t ends = 0;  ///< the lower one in the higher bits
+    EdgeIndex number;
+};
+
+/// By (lower, higher) end.
+std::vector<NumberedEdge> in_order(const IndexVector<EdgeIndex, EdgeVertices>& edges) {
+    std::vector<NumberedEdge> sorted;
+    sorted.reserve(edges.size());
+    for (EdgeIndex e{0}; e < edges.end_index(); ++e) {
+        const auto [low, high] = edges[e];
+        sorted.push_back({std::uint64_t{low.value()} << 32U | high.value(), e});
+    }
+    std::ranges::sort(sorted, {}, &NumberedEdge::ends);
+    return sorted;
+}
+
 /// Of a triangle: pieces beyond the first, and edges between the pieces.
 std::size_t count_of_cuts(const auto& triangle) {
     return static_cast<std::size_t>(
@@ -59,14 +76,10 @@ IncrementalLevel::~IncrementalLevel() {
 
 void IncrementalLevel::bisect_edges() {
     const auto& edges = closure_.edges();
-    std::vector<EdgeIndex> in_order;
-    for (EdgeIndex e{0}; e < edges.end_index(); ++e) in_order.push_back(e);
-    std::ranges::sort(in_order, {}, [&](EdgeIndex e) { return edges[e]; });
-
     appended_.emplace(*mesh_);
     midpoints_.resize(edges.size());
     const bool has_markers = !mesh_->input_vertex_markers.empty();
-    for (const EdgeIndex e : in_order) {
+    for (const auto& [ends, e] : in_order(edges)) {
         const auto [low, high] = edges[e];
         midpoints_[e] = mesh_->points.end_index();
         append_midpoint(*mesh_, low, high);

@@ -75,14 +75,17 @@ void stream_file(benchmark::State& state, const std::string& name) {
 BENCHMARK_CAPTURE(write_file, tetgen, "a.ele")->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(write_file, medit, "a.mesh")->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(write_file, meshb, "a.meshb")->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(write_file, gmsh, "a.msh")->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(write_file, vtu, "a.vtu")->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(write_file, vtkhdf, "a.vtkhdf")->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(read_file, tetgen, "a.ele")->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(read_file, medit, "a.mesh")->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(read_file, meshb, "a.meshb")->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(read_file, gmsh, "a.msh")->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(stream_file, tetgen, "a.ele")->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(stream_file, medit, "a.mesh")->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(stream_file, meshb, "a.meshb")->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(stream_file, gmsh, "a.msh")->Unit(benchmark::kMillisecond);
 
 }  // namespace
 }  // namespace octetra

@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -30,6 +31,24 @@ Mesh read_medit_text(const std::string& text, const ReadOptions& options = {}) {
     const auto file = folder.write("m.mesh", text);
     test::expect_right_stretches(file);
     return read_mesh(file, options);
+}
+
+TEST(MeditFile, HasReferencesThatAreWholeNumbersHoweverTheyAreWritten) {
+    const Mesh mesh = read_medit_text(
+        head + vertices + "Tetrahedra\n1\n1 2 3 4 -0\nTriangles\n4\n1 2 3 +7\n1 2 4 -12\n" +
+        "1 3 4 -2147483648\n2 3 4 1e2\nEdges\n5\n1 2 999999999\n1 3 -999999999\n" +
+        "1 4 1000000000\n2 3 2147483647\n2 4 0005.0\nEnd\n");
+    EXPECT_TRUE(mesh.regions.empty());
+    EXPECT_THAT(mesh.facet_markers, testing::ElementsAre(7, -12, -2147483648, 100));
+    EXPECT_THAT(mesh.edge_markers,
+                testing::ElementsAre(999999999, -999999999, 1000000000, 2147483647, 5));
+    for (const char* reference : {"-", "--1", "-+1", "1-", "2147483648", "-2147483649", "1.5"}) {
+        const std::string text = head + vertices + "Tetrahedra\n1\n1 2 3 4 " + reference + "\n";
+        const std::string message =
+            test::thrown_by<InputError>([&] { (void)read_medit_text(text); });
+        EXPECT_THAT(message, HasSubstr("/m.mesh:11: the reference should be a "));
+        EXPECT_THAT(message, HasSubstr(fmt::format("not '{}'", reference)));
+    }
 }
 
 struct BadText {

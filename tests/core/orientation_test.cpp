@@ -1,11 +1,15 @@
 #include <array>
 #include <cstdint>
 #include <random>
+#include <span>
 
 #include <gtest/gtest.h>
 #include <boost/multiprecision/cpp_int.hpp>
 
 #include <octetra/core/orientation.hpp>
+#include <octetra/core/positive_filter.hpp>
+
+#include "support/meshes.hpp"
 
 namespace octetra {
 namespace {
@@ -137,6 +141,57 @@ TEST(Orientation, ChangesSignWithEveryExchangeOfTwoCorners) {
             }
         }
     }
+}
+
+bool is_sure_of(const Point& a, const Point& b, const Point& c, const Point& d) {
+    PositiveFilter filter;
+    filter.add(std::array{a, b, c, d});
+    return filter.is_surely_positive(a, b, c, d);
+}
+
+TEST(PositiveFilter, IsSureOfAllCellsOfAMeshThatAreNotNearlyFlat) {
+    const Mesh mesh = test::shaken_kuhn(6, 0.2, 3);
+    PositiveFilter filter;
+    filter.add(std::span(mesh.points).first(5));
+    filter.add(std::span(mesh.points).subspan(5));
+    EXPECT_EQ(filter.point_count(), mesh.points.size());
+    for (const auto& [a, b, c, d] : mesh.cells) {
+        const auto& p = mesh.points;
+        EXPECT_TRUE(filter.is_surely_positive(p[a], p[b], p[c], p[d]));
+        EXPECT_FALSE(filter.is_surely_positive(p[a], p[b], p[d], p[c]));
+    }
+}
+
+TEST(PositiveFilter, IsNotSureOfWhatRoundingMakesPositive) {
+    std::mt19937_64 random(6);
+    const auto unit = [&] { return static_cast<double>(random() >> 11U) * 0x1p-53; };
+    const auto point = [&] { return Point{unit() - 0.5, unit() * 0.125, unit()}; };
+    for (int i = 0; i < 20000; ++i) {
+        const Point a = point();
+        const Point b = point();
+        const Point c = point();
+        const double s = unit();
+        const double t = unit() * (1 - s);
+        const auto between = [&](double p, double q, double r) {
+            return p + s * (q - p) + t * (r - p);
+        };
+        const Point d{between(a.x, b.x, c.x), between(a.y, b.y, c.y), between(a.z, b.z, c.z)};
+        ASSERT_FALSE(is_sure_of(a, b, c, d) && exact_sign(a, b, c, d) <= 0) << "sample " << i;
+    }
+}
+
+TEST(PositiveFilter, IsNotSureWhereProductsUnderflowOrOverflow) {
+    // The least number is 2^-1074: products of 0.6 and 0.9 times that become it.
+    const Point a{0, 0, 0};
+    const Point b{0x1p-537, 0, 0};
+    const Point c{0, 0.6 * 0x1p-537, 0x1p1000};
+    const Point d{0, 0.9 * 0x1p-537, 1.4 * 0x1p1000};
+    ASSERT_EQ(exact_sign(a, b, c, d), -1);
+    EXPECT_FALSE(is_sure_of(a, b, c, d));
+
+    const Point far_x{0x1p1000, 0, 0};
+    const Point far_y{0, 0x1p1000, 0};
+    EXPECT_FALSE(is_sure_of(a, far_x, far_y, {0, 0, 1}));
 }
 
 }  // namespace

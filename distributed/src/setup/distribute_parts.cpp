@@ -12,6 +12,7 @@
 #include <octetra/core/check_group_names.hpp>
 #include <octetra/core/error.hpp>
 #include <octetra/core/orientation.hpp>
+#include <octetra/core/positive_filter.hpp>
 #include <octetra/core/vertex_buckets.hpp>
 #include <octetra/distributed/mesh_part.hpp>
 #include <octetra/distributed/profile.hpp>
@@ -157,11 +158,17 @@ IndexVector<CellIndex, CellVertices> cells_by_place(const Communicator& processe
                                                     const MeshPart& part, PartVertices& vertices) {
     IndexVector<CellIndex, CellVertices> cells;
     cells.reserve(part.cells.size());
+    PositiveFilter filter;
+    filter.add(part.points);
     for (std::size_t c = 0; c < part.cells.size(); ++c) {
         const CellVertices cell = vertices.places_of(processes, part.cells[c]);
-        const auto point = [&](std::size_t k) { return part.points[vertices.at(cell[k].value())]; };
-        const int sign = orientation(point(0), point(1), point(2), point(3));
-        if (sign <= 0) refuse(processes, "cell {} is {}", c, sign < 0 ? "inverted" : "flat");
+        const auto point = [&](std::size_t k) -> const Point& {
+            return part.points[vertices.at(cell[k].value())];
+        };
+        if (!filter.is_surely_positive(point(0), point(1), point(2), point(3))) {
+            const int sign = orientation(point(0), point(1), point(2), point(3));
+            if (sign <= 0) refuse(processes, "cell {} is {}", c, sign < 0 ? "inverted" : "flat");
+        }
         vertices.use(cell);
         cells.push_back(cell);
     }

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include <octetra/core/orientation.hpp>
+#include <octetra/core/positive_filter.hpp>
 #include <octetra/core/repeated_cells.hpp>
 #include <octetra/distributed/profile.hpp>
 
@@ -30,7 +31,9 @@ namespace {
 /// points are anywhere in memory.
 class CellPlaces {
 public:
-    explicit CellPlaces(const StretchCorners& corners) : corners_(&corners) {}
+    explicit CellPlaces(const StretchCorners& corners) : corners_(&corners) {
+        filter_.add(corners.points());
+    }
 
     /// From one cell on; first of all cells, in order.
     void write(std::size_t first, std::span<Point> places) {
@@ -39,7 +42,8 @@ public:
             places[k] = place_of(at);
             if (first + k != judged_ || !are_positive_) continue;
             ++judged_;
-            are_positive_ = orientation(at[0], at[1], at[2], at[3]) > 0;
+            are_positive_ = filter_.is_surely_positive(at[0], at[1], at[2], at[3]) ||
+                            orientation(at[0], at[1], at[2], at[3]) > 0;
         }
     }
     /// Has each of so many cells been judged, and been found to be positive?
@@ -53,6 +57,7 @@ public:
 
 private:
     const StretchCorners* corners_;
+    PositiveFilter filter_;
     std::size_t judged_ = 0;
     bool are_positive_ = true;
 };

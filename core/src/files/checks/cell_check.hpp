@@ -4,6 +4,7 @@
 
 #include <octetra/core/files/mesh_files.hpp>
 #include <octetra/core/mesh.hpp>
+#include <octetra/core/positive_filter.hpp>
 
 namespace octetra {
 
@@ -17,12 +18,23 @@ public:
 
     /// Returns what is wrong with the cell, or nothing. Turns an inverted one round if asked to.
     /// Its vertex numbers must be in range. Finds nothing wrong if only syntax is asked for.
-    [[nodiscard]] std::string_view judge(CellVertices& cell);
+    [[nodiscard]] std::string_view judge(CellVertices& cell) {
+        if (takes_all_) return {};
+        const auto& points = mesh_->points;
+        if (filter_.point_count() < points.size()) know_all_points();
+        const auto& [a, b, c, d] = cell;
+        if (filter_.is_surely_positive(points[a], points[b], points[c], points[d])) return {};
+        return judge_slowly(cell);
+    }
 
     [[nodiscard]] std::size_t fixed_count() const { return fixed_count_; }
 
 private:
+    void know_all_points();
+    [[nodiscard]] std::string_view judge_slowly(CellVertices& cell);
+
     const Mesh* mesh_;
+    PositiveFilter filter_;  ///< of the points that there were at the last cell
     bool fix_orientation_;
     bool takes_all_;
     std::size_t fixed_count_ = 0;

@@ -1,12 +1,60 @@
 #include "files/checks/tagged_entities.hpp"
 
 #include <algorithm>
+#include <array>
+#include <cstdint>
 #include <vector>
 
 #include <octetra/core/vertex_buckets.hpp>
 
 namespace octetra {
 namespace {
+
+/// A bit for each vertex, looked at without a branch.
+class VertexSet {
+public:
+    template <class I, std::size_t N>
+    VertexSet(const IndexVector<I, std::array<VertexIndex, N>>& list, std::size_t vertex_count)
+        : words_(vertex_count / 64 + 1, 0) {
+        for (const auto& vertices : list) {
+            for (const VertexIndex v : vertices) words_[v.value() / 64] |= bit(v);
+        }
+    }
+    /// Which of the cell's vertices are in the set, a bit for each.
+    [[nodiscard]] unsigned in(const CellVertices& cell) const {
+        unsigned corners = 0;
+        for (std::size_t k = 0; k < 4; ++k) {
+            const std::uint32_t v = cell[k].value();
+            corners |= static_cast<unsigned>(words_[v / 64] >> v % 64 & 1U) << k;
+        }
+        return corners;
+    }
+
+private:
+    static std::uint64_t bit(VertexIndex v) { return std::uint64_t{1} << v.value() % 64; }
+
+    std::vector<std::uint64_t> words_;
+};
+
+/// A bit for each corner of a cell that a side has.
+template <std::size_t N>
+constexpr unsigned corners_of(const std::array<std::uint8_t, N>& side) {
+    unsigned corners = 0;
+    for (const std::uint8_t k : side) corners |= 1U << k;
+    return corners;
+}
+
+/// Whether a set of corners has all those of a side.
+template <std::size_t N, std::size_t Sides>
+std::array<bool, 16> with_a_side(const std::array<std::array<std::uint8_t, N>, Sides>& sides) {
+    std::array<bool, 16> has{};
+    for (unsigned corners = 0; corners < has.size(); ++corners) {
+        has[corners] = std::ranges::any_of(sides, [&](const auto& side) {
+            return (corners & corners_of(side)) == corners_of(side);
+        });
+    }
+    return has;
+}
 
 /// Finds the first of the list that no cell has among its `sides` (faces or edges), or that repeats
 /// an earlier one with another marker. Calls met(c, k, vertices, i) where side k of cell c, which
@@ -17,17 +65,15 @@ WrongEntry<I> find_wrong(const Mesh& mesh, const IndexVector<I, std::array<Verte
                          const std::array<std::array<std::uint8_t, N>, Sides>& sides, auto&& met) {
     if (list.empty()) return {};
     const VertexBuckets<I, N> buckets(list, mesh.points.size());
-    std::vector<bool> is_corner(mesh.points.size(), false);
-    for (const auto& vertices : list) {
-        for (const VertexIndex v : vertices) is_corner[v.value()] = true;
-    }
+    const VertexSet corners_of_list(list, mesh.points.size());
+    const std::array<bool, 16> has_side = with_a_side(sides);
     std::vector<bool> of_cells(list.size(), false);
     for (CellIndex c{0}; c < mesh.cells.end_index(); ++c) {
         // Most cells have too few such corners where only the boundary is tagged.
-        const auto corners = std::ranges::count_if(
-            mesh.cells[c], [&](VertexIndex v) { return is_corner[v.value()]; });
-        if (corners < std::ptrdiff_t{N}) continue;
+        const unsigned corners = corners_of_list.in(mesh.cells[c]);
+        if (!has_side[corners]) continue;
         for (std::size_t k = 0; k < Sides; ++k) {
+            if ((corners & corners_of(sides[k])) != corners_of(sides[k])) continue;
             std::array<VertexIndex, N> vertices;
             for (std::size_t j = 0; j < N; ++j) vertices[j] = mesh.cells[c][sides[k][j]];
             buckets.find(vertices, [&](I i) {

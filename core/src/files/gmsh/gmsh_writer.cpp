@@ -164,7 +164,9 @@ private:
             for (std::uint64_t v = first; v < end; ++v) put_row(v + 1);
         });
         put_list(*out_, count, group_, [&](const Window& window, std::uint64_t) {
-            for (const Point& p : mesh_->points(window)) put_row(p.x, p.y, p.z);
+            for (const Point& p : mesh_->points(window)) {
+                numbers_.put_row(std::array{p.x, p.y, p.z});
+            }
         });
         on_first([&] { numbers_.end_section("Nodes"); });
     }
@@ -179,9 +181,9 @@ private:
                             static_cast<std::int32_t>(list.type), next->length);
                     ++next;
                 }
-                numbers_.put(list.first_tag + number++);
-                for (const std::uint64_t vertex : vertices) numbers_.put(vertex + 1);
-                numbers_.end_row();
+                std::array<std::uint64_t, 1 + N> row{list.first_tag + number++};
+                for (std::size_t k = 0; k < N; ++k) row[1 + k] = vertices[k] + 1;
+                numbers_.put_row(row);
             }
         });
     }

@@ -6,6 +6,7 @@
 
 #include "files/checks/conflicts.hpp"
 #include "files/checks/tagged_entities.hpp"
+#include "files/input/in_order.hpp"
 
 namespace octetra::gmsh {
 
@@ -48,9 +49,9 @@ template <class I, std::size_t N>
 std::string_view MeshIntake::take(const EntityKind<I, N>& kind,
                                   std::span<const std::uint64_t, N> tags, Marker marker,
                                   std::uint64_t place, std::uint64_t step) {
-    std::array<VertexIndex, N> vertices;
+    const std::uint64_t* tag = tags.data();
+    auto vertices = taken_in_order<N>([&] { return nodes_.find(*tag++); });
     for (std::size_t k = 0; k < N; ++k) {
-        vertices[k] = nodes_.find(tags[k]);
         if (vertices[k].is_none()) return wrong_ = fmt::format("there is no node {}", tags[k]);
     }
     Taken& of_kind = taken(kind);

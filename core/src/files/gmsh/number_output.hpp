@@ -1,6 +1,8 @@
 #pragma once
 
+#include <array>
 #include <concepts>
+#include <cstddef>
 #include <cstdint>
 #include <string_view>
 
@@ -24,6 +26,13 @@ public:
         if (!is_row_start_) out_->put(' ');
         is_row_start_ = false;
         out_->put(number);
+    }
+    /// Numbers of one type, and the end of the row.
+    template <class T, std::size_t N>
+    void put_row(const std::array<T, N>& row) {
+        if (!is_text_) return out_->put_bytes(row.data(), sizeof row);
+        for (const T number : row) put(number);
+        end_row();
     }
     void end_row() {
         if (is_text_) out_->put('\n');

@@ -55,12 +55,9 @@ void ByteReader::fill(std::uint64_t wanted) {
     end_ += more;
 }
 
-const std::byte* ByteReader::take_bytes(std::size_t size, std::string_view what) {
+void ByteReader::have_at_hand(std::size_t size, std::string_view what) {
     require(size, what);
-    if (end_ - begin_ < size) fill(size);
-    const std::byte* const bytes = buffer_.data() + begin_;
-    begin_ += size;
-    return bytes;
+    fill(size);
 }
 
 std::span<const std::byte> ByteReader::take_rows(std::uint64_t rows, std::size_t row_size,

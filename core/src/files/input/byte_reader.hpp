@@ -83,7 +83,12 @@ public:
     void take(std::span<T> numbers, std::string_view what);
 
     /// The next bytes as they are, at most buffer_size of them; valid until the next call.
-    [[nodiscard]] const std::byte* take_bytes(std::size_t size, std::string_view what);
+    [[nodiscard]] const std::byte* take_bytes(std::size_t size, std::string_view what) {
+        if (end_ - begin_ < size) have_at_hand(size, what);
+        const std::byte* const bytes = buffer_.data() + begin_;
+        begin_ += size;
+        return bytes;
+    }
     /// Of `rows` rows to come, each of `row_size` bytes, as many as are at hand, one at least: it
     /// is for the caller to ask again for the others. Valid until the next call.
     [[nodiscard]] std::span<const std::byte> take_rows(std::uint64_t rows, std::size_t row_size,
@@ -105,6 +110,7 @@ public:
 private:
     void require(std::uint64_t bytes, std::string_view what) const;
     void fill(std::uint64_t wanted);
+    void have_at_hand(std::size_t size, std::string_view what);
     void take_raw(void* place, std::uint64_t size, std::string_view what);
 
     InputFile file_;

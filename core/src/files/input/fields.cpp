@@ -76,23 +76,11 @@ Number Fields::number(std::string_view what, std::string_view kind) {
     return value;
 }
 
-std::uint64_t Fields::unsigned_integer(std::string_view what) {
-    // Nearly all are a few digits and nothing else, and most of a file; the rest goes the long way.
-    constexpr std::ptrdiff_t always_fits = 19;  // digits
-    std::uint64_t value = 0;
-    const char* stop = next_;
-    while (stop != end_ && *stop >= '0' && *stop <= '9' && stop - next_ < always_fits) {
-        value = 10 * value + static_cast<std::uint64_t>(*stop++ - '0');
-    }
-    if (stop != next_ && (stop == end_ || is_blank(*stop))) {
-        next_ = stop;
-        skip_blanks();
-        return value;
-    }
+std::uint64_t Fields::any_unsigned_integer(std::string_view what) {
     return number<std::uint64_t>(what, "a whole number from 0");
 }
 
-std::int32_t Fields::marker(std::string_view what) {
+std::int32_t Fields::any_marker(std::string_view what) {
     const char* const first = next_;
     // Programs that keep attributes as reals write whole ones as 2.0 or 2e0 too.
     const double value = real(what);

@@ -34,8 +34,24 @@ public:
 
     /// The next field as it stands, or an empty one at the end.
     [[nodiscard]] std::string_view text();
-    [[nodiscard]] std::uint64_t unsigned_integer(std::string_view what);
-    [[nodiscard]] std::int32_t marker(std::string_view what);
+    [[nodiscard]] std::uint64_t unsigned_integer(std::string_view what) {
+        // Nearly all are a few digits and nothing else, and most of a file; the rest goes the long
+        // way.
+        const char* stop = next_;
+        const std::uint64_t value = digits(stop);
+        if (!is_field(stop)) return any_unsigned_integer(what);
+        take(stop);
+        return value;
+    }
+    [[nodiscard]] std::int32_t marker(std::string_view what) {
+        const char* stop = next_ != end_ && *next_ == '-' ? next_ + 1 : next_;
+        const bool negative = stop != next_;
+        const char* const first = stop;
+        const auto value = static_cast<std::int64_t>(digits(stop));
+        if (stop - first > 9 || !is_field(stop) || stop == first) return any_marker(what);
+        take(stop);
+        return static_cast<std::int32_t>(negative ? -value : value);
+    }
     /// A finite number.
     [[nodiscard]] double real(std::string_view what);
     /// A number that a coordinate can be.
@@ -48,8 +64,29 @@ private:
     void skip_blanks() {
         while (next_ != end_ && (*next_ == ' ' || *next_ == '\t' || *next_ == '\r')) ++next_;
     }
+    /// Goes on behind digits, up to so many that their value always fits.
+    std::uint64_t digits(const char*& stop) const {
+        constexpr std::ptrdiff_t always_fits = 19;
+        const char* const last = end_ - stop > always_fits ? stop + always_fits : end_;
+        std::uint64_t value = 0;
+        for (; stop != last && *stop >= '0' && *stop <= '9'; ++stop) {
+            value = 10 * value + static_cast<std::uint64_t>(*stop - '0');
+        }
+        return value;
+    }
+    /// Does the next field end here?
+    [[nodiscard]] bool is_field(const char* stop) const {
+        return stop != next_ && (stop == end_ || is_blank(*stop));
+    }
+    void take(const char* stop) {
+        next_ = stop;
+        skip_blanks();
+    }
+
     template <class Number>
     Number number(std::string_view what, std::string_view kind);
+    std::uint64_t any_unsigned_integer(std::string_view what);
+    std::int32_t any_marker(std::string_view what);
 
     const LineReader* reader_;
     const char* next_;

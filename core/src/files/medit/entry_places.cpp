@@ -28,8 +28,8 @@ public:
               const EntryPlaces& places)
         : mesh_(&mesh), options_(&options), path_(&path), places_(&places) {}
 
-    void check() {
-        check_vertices(mesh_->cells, Listed::cells);
+    void check(bool are_in_range) {
+        if (!are_in_range) check_vertices(mesh_->cells, Listed::cells);
         check_cells();
         check_vertices(mesh_->facets, Listed::facets);
         check_vertices(mesh_->edges, Listed::edges);
@@ -128,8 +128,8 @@ std::string no_such_vertex(std::int64_t number, std::uint64_t vertices) {
 }
 
 void check_listed(Mesh& mesh, const ReadOptions& options, const std::filesystem::path& path,
-                  const EntryPlaces& places) {
-    MeshCheck(mesh, options, path, places).check();
+                  const EntryPlaces& places, bool are_in_range) {
+    MeshCheck(mesh, options, path, places).check(are_in_range);
 }
 
 }  // namespace octetra

@@ -61,8 +61,8 @@ struct Numbered {
 
 /// Checks a mesh that was read, as far as the options ask for it: vertex numbers, orientation, what
 /// is listed twice, facets and edges of no cell. Turns inverted cells round if asked to, and notes
-/// how many.
+/// how many. `are_in_range`: numbers of vertices have been checked.
 void check_listed(Mesh& mesh, const ReadOptions& options, const std::filesystem::path& path,
-                  const EntryPlaces& places);
+                  const EntryPlaces& places, bool are_in_range);
 
 }  // namespace octetra

@@ -10,6 +10,7 @@
 
 #include "files/input/fields.hpp"
 #include "files/input/growing_mesh.hpp"
+#include "files/input/in_order.hpp"
 #include "files/input/line_reader.hpp"
 #include "files/input/tokens.hpp"
 #include "files/medit/entry_places.hpp"
@@ -31,6 +32,7 @@ struct SectionOfText {
     std::uint64_t keyword_line = 0;          ///< 0: there was no such section
     std::uint64_t first_line = 0;            ///< of the first entry
     bool consecutive = true;                 ///< entry i begins on line first_line + i
+    std::uint64_t largest = 0;               ///< number of a vertex
     std::optional<OutOfRange> out_of_range;  ///< looked for while streaming
 };
 
@@ -60,7 +62,8 @@ public:
                 check_streamed(list);
             }
         } else {
-            check_listed(mesh_, *options_, reader_.path(), *this);
+            check_listed(mesh_, *options_, reader_.path(), *this,
+                         tetrahedra_.largest <= mesh_.points.size());
         }
         for (const Feature feature : all_features) finish_feature(feature);
         growing_.finish();
@@ -218,6 +221,7 @@ private:
                        std::string_view name) {
         std::optional<OutOfRange> out_of_range;
         std::uint64_t entry = 0;
+        std::uint64_t largest = 0;
         section = read_entries(
             section, N + 1, name,
             [&](std::uint64_t count) {
@@ -225,15 +229,15 @@ private:
                 growing_.expect(kind, count, true);
             },
             [&](auto&& started) {
-                std::array<VertexIndex, N> vertices;
-                for (VertexIndex& vertex : vertices) {
+                const auto vertices = taken_in_order<N>([&] {
                     const std::uint64_t number = tokens_.unsigned_integer("a vertex number");
                     started();
                     if (number == 0 || number > VertexIndex::limit) {
                         reader_.fail(fmt::format("there is no vertex {}", number));
                     }
-                    vertex = VertexIndex{number - 1};
-                }
+                    largest = std::max(largest, number);
+                    return VertexIndex{number - 1};
+                });
                 (mesh_.*kind.list).push_back(vertices);
                 (mesh_.*kind.markers).push_back(tokens_.marker("the reference"));
                 if (growing_.is_streaming()) {
@@ -242,6 +246,7 @@ private:
                 growing_.entity_complete(kind);
             });
         section.out_of_range = out_of_range;
+        section.largest = largest;
         growing_.all_complete(kind);
     }
 

@@ -40,7 +40,7 @@ public:
         for (const Listed list : lists) read_list(list);
         for (const Feature feature : all_features) read_feature(feature);
         if (!growing_.is_streaming()) {
-            check_listed(growing_.mesh, *options_, reader_.path(), *this);
+            check_listed(growing_.mesh, *options_, reader_.path(), *this, true);
         }
         growing_.finish();
         return std::move(growing_.mesh);

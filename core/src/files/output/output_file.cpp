@@ -83,15 +83,15 @@ OutputFile::~OutputFile() {
 
 void OutputFile::put(std::string_view text) { put_bytes(text.data(), text.size()); }
 
-void OutputFile::put_bytes(const void* data, std::size_t size) {
+/// More than there is room for.
+void OutputFile::put_many_bytes(const void* data, std::size_t size) {
     if (is_alone() && size > buffer_.size()) {
         end_turn();
         write_at(flushed_, data, size);
         flushed_ += size;
         return;
     }
-    if (size == 0) return;
-    if (room_ - used_ < size) make_room(size);
+    make_room(size);
     std::memcpy(buffer_.data() + used_, data, size);
     used_ += size;
 }

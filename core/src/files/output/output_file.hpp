@@ -3,6 +3,7 @@
 #include <charconv>
 #include <concepts>
 #include <cstdint>
+#include <cstring>
 #include <filesystem>
 #include <functional>
 #include <memory>
@@ -43,7 +44,12 @@ public:
     /// In the fewest decimal digits that read back to the same bits.
     void put(double number) { put_number(number); }
     void put(std::integral auto number) { put_number(number); }
-    void put_bytes(const void* data, std::size_t size);
+    void put_bytes(const void* data, std::size_t size) {
+        if (size == 0) return;
+        if (room_ - used_ < size) return put_many_bytes(data, size);
+        std::memcpy(buffer_.data() + used_, data, size);
+        used_ += size;
+    }
 
     /// Where it is until commit().
     [[nodiscard]] const std::filesystem::path& temporary() const { return temporary_; }
@@ -73,6 +79,7 @@ public:
                            const ProcessGroup& group, const std::function<void()>& rest);
 
 private:
+    void put_many_bytes(const void* data, std::size_t size);
     void put_number(auto number) {
         constexpr std::size_t longest_number = 32;
         if (room_ - used_ < longest_number) make_room(longest_number);

@@ -12,6 +12,7 @@
 
 #include "files/input/fields.hpp"
 #include "files/input/growing_mesh.hpp"
+#include "files/input/in_order.hpp"
 #include "files/input/line_reader.hpp"
 
 /// The lines of TetGen's files: what the first one announces, and what each of the others holds.
@@ -66,9 +67,7 @@ struct NumberedVertices {
 template <std::size_t N>
 [[nodiscard]] std::array<VertexIndex, N> read_vertices(Fields& fields, const LineReader& reader,
                                                        NumberedVertices numbers) {
-    std::array<VertexIndex, N> vertices;
-    for (VertexIndex& vertex : vertices) vertex = read_vertex(fields, reader, numbers);
-    return vertices;
+    return taken_in_order<N>([&] { return read_vertex(fields, reader, numbers); });
 }
 
 inline void read_point(Fields& fields, const NodeHead& head, Mesh& mesh) {

@@ -216,6 +216,28 @@ TEST(IncrementalLevel, IsTakenWhereFewCellsAreMarkedByAnotherSelectionEachTime) 
     }
 }
 
+TEST(IncrementalLevel, IsTakenForALastLevelOnlyWhereEarlierOnesHavePreparedIt) {
+    const std::size_t n = 16;
+    const Selection selection = around_the_middle(n, 0.8);
+    const auto refined = [&](int levels, bool is_last) {
+        DistributedMesh mesh = shared_out(test::kuhn(n, n, n), few_partitions[1]);
+        (void)refine(mesh, selection, {.levels = levels, .is_last = is_last});
+        return mesh;
+    };
+    DistributedMesh once = refined(1, false);
+    DistributedMesh only_once = refined(1, true);
+    EXPECT_TRUE(once.adjacency != nullptr);
+    EXPECT_TRUE(only_once.adjacency == nullptr);
+    DistributedMesh twice = refined(2, true);
+    EXPECT_TRUE(twice.adjacency != nullptr);
+    (void)refine(once, selection, {.levels = 1, .is_last = true});
+    EXPECT_TRUE(once.adjacency != nullptr) << "what is there is used";
+    (void)refine(only_once, selection, {.levels = 1, .is_last = true});
+    const Mesh expected = collect(std::move(twice)).mesh;
+    EXPECT_TRUE(collect(std::move(once)).mesh == expected);
+    EXPECT_TRUE(collect(std::move(only_once)).mesh == expected);
+}
+
 TEST(IncrementalLevel, IsNotTakenWhereManyCellsAreMarkedOrFewEverywhere) {
     for (const Selection& selection : {Selection{.all = true}, around_the_middle(8, 4),
                                        Selection{.random = RandomShare{0.05, 3}}}) {

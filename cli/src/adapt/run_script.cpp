@@ -1,8 +1,10 @@
 #include "adapt/run_script.hpp"
 
+#include <algorithm>
 #include <cstdint>
 #include <string>
 #include <string_view>
+#include <variant>
 #include <vector>
 
 #include <fmt/format.h>
@@ -41,14 +43,16 @@ double most_over_mean(const AdaptiveMesh& mesh) {
 
 class Runner {
 public:
-    Runner(AdaptiveMesh& mesh, const ScriptRun& run, bool is_refined_before)
-        : mesh_(&mesh), run_(&run), is_refined_before_(is_refined_before) {}
+    /// `is_last`: no later step changes the mesh.
+    Runner(AdaptiveMesh& mesh, const ScriptRun& run, bool is_refined_before, bool is_last)
+        : mesh_(&mesh), run_(&run), is_refined_before_(is_refined_before), is_last_(is_last) {}
 
     StepDone operator()(RefineStep step) {
         complete(step.selection, step.typed.selection);
         const int levels = step.typed.levels;
         distributed::StepOptions options = run_->options;
         options.scheme = step.scheme;
+        options.is_last = is_last_ && levels == 1;
         const int done = refine(*mesh_, step, options, run_->balance, followers(levels));
         return {levels_done("refined", done), idle_levels(done, levels, why_not_finer)};
     }
@@ -100,17 +104,25 @@ private:
     AdaptiveMesh* mesh_;
     const ScriptRun* run_;
     bool is_refined_before_;
+    bool is_last_;
 };
+
+bool changes_cells(const ScriptStep& step) {
+    return std::holds_alternative<RefineStep>(step.step) ||
+           std::holds_alternative<CoarsenStep>(step.step);
+}
 
 }  // namespace
 
 void run_script(AdaptiveMesh& mesh, const Script& script, const ScriptRun& run, Stopwatch& watch) {
     Counts before = counts_of(mesh);
     bool is_refined = run.has_steps;
+    auto changing = std::ranges::count_if(script.steps, changes_cells);  // steps still to come
     for (const ScriptStep& step : script.steps) {
+        if (changes_cells(step)) --changing;
         StepDone done;
         try {
-            done = std::visit(Runner(mesh, run, is_refined), step.step);
+            done = std::visit(Runner(mesh, run, is_refined, changing == 0), step.step);
         } catch (const InputError& error) {
             throw wrong_line(script, step, error.what());
         }

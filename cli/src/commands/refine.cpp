@@ -196,6 +196,7 @@ bool refine_distributed(Plan plan, const RefineOptions& options,
                              .levels = options.refinement.levels,
                              .synchronisation = plan.synchronisation,
                              .max_cells = options.max_cells,
+                             .is_last = true,
                              .balance = plan.balance,
                              .on_level = on_level});
     });

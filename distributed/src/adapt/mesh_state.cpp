@@ -70,6 +70,7 @@ RefineOptions level_options(const StepOptions& options) {
             .levels = 1,
             .synchronisation = options.synchronisation,
             .max_cells = options.max_cells,
+            .is_last = options.is_last,
             .on_level = {}};
 }
 

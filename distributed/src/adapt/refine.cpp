@@ -51,17 +51,19 @@ SynchronisationCounts refine(DistributedMesh& mesh, const Selection& selection,
         check_same(mesh.processes, *options.balance);
     }
     note_cells(mesh.processes, 0, mesh.cells.size(), 0);
+    RefineOptions of_level = options;
     for (int level = 1; level <= options.levels; ++level) {
         const Phase phase(mesh.processes, "level", level);
         const auto mark = [&] { return mark_cells(mesh, selection, level > 1); };
-        PlannedLevel plan = close_level(mesh, std::ref(mark), options, tuning);
+        of_level.is_last = options.is_last && level == options.levels;
+        PlannedLevel plan = close_level(mesh, std::ref(mark), of_level, tuning);
         if (!plan.changes_anything()) break;  // and so it would be at all further levels
         const SynchronisationCounts counts = plan.counts;
         std::optional<UnevenLevel> uneven;
-        if (options.balance) uneven = uneven_level(mesh, plan, *options.balance, options, tuning);
+        if (options.balance) uneven = uneven_level(mesh, plan, *options.balance, of_level, tuning);
         const std::size_t touched =
-            uneven ? move_and_bisect(mesh, *std::move(uneven), options, tuning, level)
-                   : bisect_and_commit(mesh, plan, options, level);
+            uneven ? move_and_bisect(mesh, *std::move(uneven), of_level, tuning, level)
+                   : bisect_and_commit(mesh, plan, of_level, level);
         total += counts;
         note_cells(mesh.processes, level, mesh.cells.size(), touched);
         const std::uint64_t cells = mesh.processes.sum(mesh.cells.size());

@@ -90,7 +90,7 @@ MarkedCells renumbered(MarkedCells marked, const std::vector<CellIndex>& before)
 
 void begin_level(DistributedMesh& mesh, const RefineOptions& options, const Tuning& tuning,
                  MarkedCells marked, PlannedLevel& plan) {
-    if (suits_incremental_level(mesh, marked, tuning)) {
+    if (suits_incremental_level(mesh, marked, tuning, options.is_last)) {
         auto level = std::make_unique<IncrementalLevel>(mesh);
         const Phase phase(mesh.processes, "select");
         level->mark(marked, options.scheme);

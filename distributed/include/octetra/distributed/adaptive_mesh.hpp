@@ -36,6 +36,9 @@ struct StepOptions {
     Synchronisation synchronisation = Synchronisation::neighbour;
     /// A step that would make more cells than this, of the whole mesh, is refused.
     std::uint64_t max_cells = std::numeric_limits<std::uint64_t>::max();
+    /// No step will follow: a step that changes little then takes no time and memory for what would
+    /// make later ones of that kind cheap.
+    bool is_last = false;
 
     friend bool operator==(const StepOptions&, const StepOptions&) = default;
 };

@@ -25,6 +25,9 @@ struct RefineOptions {
     Synchronisation synchronisation = Synchronisation::neighbour;
     /// A level that would make more cells than this, of the whole mesh, is not begun.
     std::uint64_t max_cells = std::numeric_limits<std::uint64_t>::max();
+    /// The mesh is not refined or coarsened after this: a level that changes little then takes no
+    /// time and memory for what would make later ones of that kind cheap.
+    bool is_last = false;
     /// Whether cells move before a level that would leave processes with too different numbers of
     /// them: see AdaptiveMesh::refine_evenly().
     std::optional<BalanceOptions> balance = std::nullopt;

@@ -7,8 +7,9 @@
 namespace octetra::distributed {
 
 bool suits_incremental_level(const DistributedMesh& mesh, const MarkedCells& marked,
-                             const Tuning& tuning) {
+                             const Tuning& tuning, bool is_last) {
     if (marked.all || !Adjacency::can_hold(mesh)) return false;
+    if (is_last && mesh.adjacency == nullptr) return false;
     const auto most = tuning.incremental_below * static_cast<double>(mesh.points.size());
     std::vector<bool> is_met(mesh.points.size(), false);
     std::size_t met = 0;

@@ -53,14 +53,17 @@ std::uint64_t number_of(const Bytes& bytes) {
 
 /// The sum of the numbers of processes 0 .. end-1.
 std::uint64_t sum_to(int end, std::uint64_t number, const ProcessGroup& group) {
-    const auto all = group.exchange(
-        std::vector<Bytes>(static_cast<std::size_t>(group.size()), bytes_of(number)));
+    const auto all = group.of_all(bytes_of(number));
     std::uint64_t sum = 0;
     for (int r = 0; r < end; ++r) sum += number_of(all[static_cast<std::size_t>(r)]);
     return sum;
 }
 
 }  // namespace
+
+std::vector<Bytes> ProcessGroup::of_all(Bytes bytes) const {
+    return exchange(std::vector<Bytes>(static_cast<std::size_t>(size()), std::move(bytes)));
+}
 
 std::uint64_t ProcessGroup::sum(std::uint64_t number) const {
     return sum_to(size(), number, *this);
@@ -91,8 +94,7 @@ void ProcessGroup::on_first(const std::function<void()>& work) const {
 
 void ProcessGroup::agree(const std::string& failure) const {
     if (sum(failure.empty() ? 0 : 1) == 0) return;
-    const std::vector<Bytes> all = exchange(std::vector<Bytes>(
-        static_cast<std::size_t>(size()), packed(Outcome::system_failed, failure)));
+    const std::vector<Bytes> all = of_all(packed(Outcome::system_failed, failure));
     for (const Bytes& one : all) {
         if (one.size() > 1) throw SystemError(text_of(one, 1));
     }

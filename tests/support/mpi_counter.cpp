@@ -107,3 +107,17 @@ int MPI_Exscan(const void* mine, void* result, int count, MPI_Datatype type, MPI
 int MPI_Bcast(void* buffer, int count, MPI_Datatype type, int root, MPI_Comm comm) {
     return collective(count, type, [&] { return PMPI_Bcast(buffer, count, type, root, comm); });
 }
+
+int MPI_Allgather(const void* mine, int count, MPI_Datatype type, void* all, int each,
+                  MPI_Datatype type_of_all, MPI_Comm comm) {
+    return collective(count, type, [&] {
+        return PMPI_Allgather(mine, count, type, all, each, type_of_all, comm);
+    });
+}
+
+int MPI_Allgatherv(const void* mine, int count, MPI_Datatype type, void* all, const int* counts,
+                   const int* places, MPI_Datatype type_of_all, MPI_Comm comm) {
+    return collective(count, type, [&] {
+        return PMPI_Allgatherv(mine, count, type, all, counts, places, type_of_all, comm);
+    });
+}

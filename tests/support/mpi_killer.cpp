@@ -85,3 +85,15 @@ int MPI_Bcast(void* buffer, int count, MPI_Datatype type, int root, MPI_Comm com
     victim.call();
     return PMPI_Bcast(buffer, count, type, root, comm);
 }
+
+int MPI_Allgather(const void* mine, int count, MPI_Datatype type, void* all, int each,
+                  MPI_Datatype type_of_all, MPI_Comm comm) {
+    victim.call();
+    return PMPI_Allgather(mine, count, type, all, each, type_of_all, comm);
+}
+
+int MPI_Allgatherv(const void* mine, int count, MPI_Datatype type, void* all, const int* counts,
+                   const int* places, MPI_Datatype type_of_all, MPI_Comm comm) {
+    victim.call();
+    return PMPI_Allgatherv(mine, count, type, all, counts, places, type_of_all, comm);
+}

@@ -123,6 +123,21 @@ void Communicator::broadcast_bytes(void* data, std::size_t size, int root) const
     }
 }
 
+void Communicator::gather_everywhere(std::uint64_t number, std::span<std::uint64_t> numbers) const {
+    const Communication communication(profile(), "gathering");
+    communication.count_collective(sizeof number);
+    MPI_Allgather(&number, 1, MPI_UINT64_T, numbers.data(), 1, MPI_UINT64_T, mpi_->comm);
+}
+
+void Communicator::gather_everywhere(std::span<const std::byte> bytes, std::span<const int> counts,
+                                     std::span<const int> places,
+                                     std::span<std::byte> gathered) const {
+    const Communication communication(profile(), "gathering");
+    communication.count_collective(bytes.size());
+    MPI_Allgatherv(bytes.data(), static_cast<int>(bytes.size()), MPI_BYTE, gathered.data(),
+                   counts.data(), places.data(), MPI_BYTE, mpi_->comm);
+}
+
 Communicator communicator_of(MPI_Comm comm) {
     return Communicator(std::make_shared<const Communicator::Mpi>(comm));
 }

@@ -2,7 +2,11 @@
 
 #include <array>
 #include <cstring>
+#include <limits>
 #include <new>
+#include <numeric>
+#include <utility>
+#include <vector>
 
 #include <octetra/core/error.hpp>
 #include <octetra/distributed/out_of_memory.hpp>
@@ -65,6 +69,46 @@ std::vector<Communicator::Bytes> Communicator::exchange(std::vector<Bytes> to_ea
     failure.attempt([&] { come = all_to_all(to_each); });
     failure.agree(*this);
     return come;
+}
+
+/// Whole calls of all, which know how to bring little to many: messages to each would be as many.
+std::vector<Communicator::Bytes> Communicator::of_all(Bytes bytes) const {
+    std::vector<Bytes> all;
+    if (!mpi_) {
+        all.push_back(std::move(bytes));
+        return all;
+    }
+    const auto all_have = [this](auto&& memory) {
+        if (mpi_->is_watched) {
+            memory();
+            return ask_whether_all_work();
+        }
+        on_each(memory);
+    };
+    std::vector<std::uint64_t> sizes;
+    all_have([&] { sizes.resize(static_cast<std::size_t>(size())); });
+    gather_everywhere(bytes.size(), sizes);
+    const auto total = std::accumulate(sizes.begin(), sizes.end(), std::uint64_t{0});
+    if (total > static_cast<std::uint64_t>(std::numeric_limits<int>::max())) {
+        return ProcessGroup::of_all(std::move(bytes));
+    }
+    Bytes gathered;
+    std::vector<int> counts;
+    std::vector<int> places;
+    all_have([&] {
+        gathered.resize(total);
+        counts.assign(sizes.begin(), sizes.end());
+        places.resize(counts.size());
+        std::exclusive_scan(counts.begin(), counts.end(), places.begin(), 0);
+    });
+    gather_everywhere(bytes, counts, places, gathered);
+    all_have([&] {
+        for (std::size_t r = 0; r < counts.size(); ++r) {
+            const auto begin = gathered.begin() + places[r];
+            all.emplace_back(begin, begin + counts[r]);
+        }
+    });
+    return all;
 }
 
 void LocalFailure::agree(const Communicator& processes) const {

@@ -18,8 +18,12 @@ std::vector<std::uint64_t> counts_to_come(const Communicator& processes,
                                           const std::vector<int>& parts, LocalFailure& failure) {
     std::vector<std::vector<std::uint64_t>> to_go;
     failure.attempt([&] {
-        to_go.assign(static_cast<std::size_t>(processes.size()), {0});
-        for (const int part : parts) ++to_go[static_cast<std::size_t>(part)].front();
+        to_go.resize(static_cast<std::size_t>(processes.size()));
+        for (const int part : parts) {
+            auto& count = to_go[static_cast<std::size_t>(part)];
+            if (count.empty()) count.push_back(0);
+            ++count.front();
+        }
     });
     failure.agree(processes);
     std::vector<std::vector<std::uint64_t>> to_come;
@@ -27,7 +31,9 @@ std::vector<std::uint64_t> counts_to_come(const Communicator& processes,
     failure.agree(processes);  // else who has no memory may have sent nothing
     std::vector<std::uint64_t> counts;
     failure.attempt([&] {
-        for (const auto& from_one : to_come) counts.push_back(from_one.front());
+        for (const auto& from_one : to_come) {
+            counts.push_back(from_one.empty() ? 0 : from_one.front());
+        }
     });
     failure.agree(processes);
     return counts;

@@ -150,10 +150,9 @@ std::vector<TagTotal> unpacked(const ProcessGroup::Bytes& bytes) {
 /// Collective. The totals of all processes, those of one tag next to each other.
 std::vector<TagTotal> totals_of_all(std::vector<TagTotal> totals, const ProcessGroup& group) {
     if (group.size() == 1) return totals;
-    const ProcessGroup::Bytes own = packed(totals);
+    ProcessGroup::Bytes own = packed(totals);
     totals.clear();
-    for (const auto& bytes : group.exchange(
-             std::vector<ProcessGroup::Bytes>(static_cast<std::size_t>(group.size()), own))) {
+    for (const auto& bytes : group.of_all(std::move(own))) {
         for (TagTotal& total : unpacked(bytes)) totals.push_back(std::move(total));
     }
     std::stable_sort(totals.begin(), totals.end(),

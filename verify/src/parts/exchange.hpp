@@ -51,8 +51,11 @@ template <class T>
 template <class T>
 [[nodiscard]] std::vector<std::vector<T>> share_with_all(const ProcessGroup& group,
                                                          const std::vector<T>& values) {
-    return exchange(group,
-                    std::vector<std::vector<T>>(static_cast<std::size_t>(group.size()), values));
+    std::vector<std::vector<T>> of_all;
+    for (const ProcessGroup::Bytes& bytes : group.of_all(bytes_of(values))) {
+        of_all.push_back(values_of<T>(bytes));
+    }
+    return of_all;
 }
 
 /// One value of each process, put together.

@@ -13,8 +13,8 @@ namespace octetra {
 /// speaks for more. How they talk to each other is nothing that core or the verifier need know.
 ///
 /// All functions but rank(), size() and is_first() are collective: every process of the group calls
-/// them, in the same order. A derived class has to say who there is and to exchange(); the sums and
-/// of_first() are made of that, and are there to be overridden by who does it better.
+/// them, in the same order. A derived class has to say who there is and to exchange(); the sums,
+/// of_all() and of_first() are made of that, and are there to be overridden by who does it better.
 class ProcessGroup {
 public:
     using Bytes = std::vector<std::byte>;
@@ -30,6 +30,9 @@ public:
     [[nodiscard]] virtual std::vector<Bytes> exchange(std::vector<Bytes> to_each) const {
         return to_each;
     }
+
+    /// What each process has, by rank: few bytes, as every process gets those of all.
+    [[nodiscard]] virtual std::vector<Bytes> of_all(Bytes bytes) const;
 
     /// The sum over all processes, and over those of lower rank. Of whole numbers alone: others
     /// would be cut off without a word.

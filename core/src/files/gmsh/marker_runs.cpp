@@ -21,9 +21,8 @@ template <class T>
 std::vector<std::vector<T>> lists_of_all(const ProcessGroup& group, const std::vector<T>& list) {
     ProcessGroup::Bytes bytes(list.size() * sizeof(T));
     if (!list.empty()) std::memcpy(bytes.data(), list.data(), bytes.size());
-    std::vector<ProcessGroup::Bytes> to_each(static_cast<std::size_t>(group.size()), bytes);
     std::vector<std::vector<T>> lists;
-    for (const ProcessGroup::Bytes& from : group.exchange(std::move(to_each))) {
+    for (const ProcessGroup::Bytes& from : group.of_all(std::move(bytes))) {
         std::vector<T>& other = lists.emplace_back(from.size() / sizeof(T));
         if (!from.empty()) std::memcpy(other.data(), from.data(), from.size());
     }

@@ -35,8 +35,7 @@ PointsBox box_of_points(MeshSource& mesh) {
     }
     ProcessGroup::Bytes bytes(sizeof box);
     std::memcpy(bytes.data(), &box, sizeof box);
-    std::vector<ProcessGroup::Bytes> to_each(static_cast<std::size_t>(group.size()), bytes);
-    for (const ProcessGroup::Bytes& from : group.exchange(std::move(to_each))) {
+    for (const ProcessGroup::Bytes& from : group.of_all(std::move(bytes))) {
         PointsBox other;
         std::memcpy(&other, from.data(), sizeof other);
         include(box, other.low, other.high);

@@ -83,19 +83,18 @@ std::optional<std::vector<NumberedLine>> scan_for_keywords(Progress& progress,
                                                            const std::filesystem::path& path,
                                                            std::uint64_t file_size) {
     const ProcessGroup& group = progress.group();
-    std::vector<ProcessGroup::Bytes> to_each;
+    ProcessGroup::Bytes own;
     progress.attempt([&] {
         const FileStretch share = share_of_lines(path, {0, file_size}, group.rank(), group.size());
         const std::vector<NumberedLine> found = keywords_in(path, share);
-        ProcessGroup::Bytes bytes(found.size() * sizeof(NumberedLine));
-        std::memcpy(bytes.data(), found.data(), bytes.size());
-        to_each.assign(static_cast<std::size_t>(group.size()), bytes);
+        own.resize(found.size() * sizeof(NumberedLine));
+        std::memcpy(own.data(), found.data(), own.size());
     });
     if (!progress.all_well()) return std::nullopt;
     std::vector<NumberedLine> keywords;
     progress.attempt([&] {
         std::uint64_t lines_before = 0;
-        for (const ProcessGroup::Bytes& bytes : group.exchange(std::move(to_each))) {
+        for (const ProcessGroup::Bytes& bytes : group.of_all(std::move(own))) {
             std::vector<NumberedLine> of_share(bytes.size() / sizeof(NumberedLine));
             if (of_share.empty()) continue;  // of a process that has failed
             std::memcpy(of_share.data(), bytes.data(), bytes.size());

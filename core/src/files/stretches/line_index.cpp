@@ -46,20 +46,20 @@ std::optional<LineIndex> LineIndex::make(Progress& progress, const std::filesyst
                                          std::uint64_t file_size) {
     const ProcessGroup& group = progress.group();
     std::optional<LineIndex> index;
-    std::vector<ProcessGroup::Bytes> to_each;
+    ProcessGroup::Bytes own;
     progress.attempt([&] {
         index = LineIndex(path, file_size);
         const std::uint64_t stretches = (file_size + index->stretch_ - 1) / index->stretch_;
         const std::vector<std::uint64_t> ends =
             count_ends(InputFile(path), index->stretch_, share_of_rows(stretches, group));
         const auto bytes = std::as_bytes(std::span(ends));
-        to_each.assign(static_cast<std::size_t>(group.size()), {bytes.begin(), bytes.end()});
+        own.assign(bytes.begin(), bytes.end());
     });
     if (!progress.all_well()) return std::nullopt;
     progress.attempt([&] {
         std::uint64_t sum = 0;
         index->ends_before_.push_back(sum);
-        for (const ProcessGroup::Bytes& bytes : group.exchange(std::move(to_each))) {
+        for (const ProcessGroup::Bytes& bytes : group.of_all(std::move(own))) {
             std::vector<std::uint64_t> ends(bytes.size() / sizeof(std::uint64_t));
             if (ends.empty()) continue;
             std::memcpy(ends.data(), bytes.data(), bytes.size());

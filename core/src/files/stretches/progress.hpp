@@ -80,16 +80,15 @@ template <class T>
 template <class T>
 [[nodiscard]] std::vector<T> of_each(Progress& progress, const T& value) {
     static_assert(std::is_trivially_copyable_v<T>);
-    std::vector<ProcessGroup::Bytes> to_each;
+    ProcessGroup::Bytes own;
     progress.attempt([&] {
-        ProcessGroup::Bytes bytes(sizeof value);
-        std::memcpy(bytes.data(), &value, sizeof value);
-        to_each.assign(static_cast<std::size_t>(progress.group().size()), bytes);
+        own.resize(sizeof value);
+        std::memcpy(own.data(), &value, sizeof value);
     });
     std::vector<T> values;
     if (!progress.all_well()) return values;
     progress.attempt([&] {
-        for (const ProcessGroup::Bytes& bytes : progress.group().exchange(std::move(to_each))) {
+        for (const ProcessGroup::Bytes& bytes : progress.group().of_all(std::move(own))) {
             std::memcpy(&values.emplace_back(), bytes.data(), sizeof value);
         }
     });

@@ -42,6 +42,7 @@ public:
     // As ProcessGroup says, without sending to all what only a sum is wanted of.
     // Where one process has no memory for it, OutOfMemory is thrown on all.
     [[nodiscard]] std::vector<Bytes> exchange(std::vector<Bytes> to_each) const override;
+    [[nodiscard]] std::vector<Bytes> of_all(Bytes bytes) const override;
     using ProcessGroup::sum;
     [[nodiscard]] std::uint64_t sum(std::uint64_t number) const override;
     using ProcessGroup::sum_before;
@@ -191,6 +192,11 @@ private:
     /// allocate(context, r, size) says. Throws what allocate() throws, but only in the end.
     void exchange_sparsely(std::span<const std::span<const std::byte>> outboxes, Allocate allocate,
                            void* context) const;
+    /// Everybody's number, and everybody's bytes, of which there are counts[r] from rank r, to
+    /// places[r]: by rank. Need no memory.
+    void gather_everywhere(std::uint64_t number, std::span<std::uint64_t> numbers) const;
+    void gather_everywhere(std::span<const std::byte> bytes, std::span<const int> counts,
+                           std::span<const int> places, std::span<std::byte> gathered) const;
     /// For a process that cannot do better: needs no memory.
     void send_and_receive_nothing(std::span<const int> receivers,
                                   std::span<const int> senders) const noexcept;

@@ -1,11 +1,17 @@
 #include <algorithm>
+#include <filesystem>
+#include <string>
+#include <vector>
 
 #include <gtest/gtest.h>
 
+#include <octetra/core/files/mesh_files.hpp>
 #include <octetra/distributed/partition.hpp>
 #include <octetra/distributed/profile.hpp>
+#include <octetra/distributed/read_parts.hpp>
 #include <octetra/distributed/refine.hpp>
 
+#include "distributed/shared_folder.hpp"
 #include "distributed/world.hpp"
 #include "level/tuning.hpp"
 #include "support/meshes.hpp"
@@ -182,6 +188,33 @@ TEST(Communication, OfAllWithAllSendsNothingToWhomThereIsNothingFor) {
                         (r == sender && sends(sender) ? expected : std::vector<std::uint64_t>{}))
                 << r << " to " << rank << " in round " << round;
         }
+    }
+}
+
+TEST(Communication, OfAFewBytesOfEveryProcessIsByCallsOfAll) {
+    const Communicator& world = test::world();
+    const auto bytes_of = [](std::size_t r) {
+        return ProcessGroup::Bytes(3 * r, static_cast<std::byte>(r));
+    };
+    const auto rank = static_cast<std::size_t>(world.rank());
+    const test::MpiCounts before = test::mpi_counts();
+    const std::vector<ProcessGroup::Bytes> all = world.of_all(bytes_of(rank));
+    EXPECT_EQ(test::mpi_counts().messages, before.messages);
+    ASSERT_EQ(all.size(), static_cast<std::size_t>(world.size()));
+    for (std::size_t r = 0; r < all.size(); ++r) EXPECT_EQ(all[r], bytes_of(r));
+}
+
+/// All that is sent here is sent for the sake of a line of the file, or a vertex, or a cell.
+TEST(Communication, OfReadingAFileOfOneCellDoesNotGrowWithTheProcesses) {
+    const test::SharedFolder folder;
+    for (const std::string name : {"m.ele", "m.mesh", "m.meshb", "m.msh"}) {
+        const std::filesystem::path file = folder / name;
+        test::world().on_first(
+            [&] { (void)write_mesh(test::one_cell(test::regular_corners), file); });
+        const test::MpiCounts before = test::mpi_counts();
+        (void)read_parts(test::world(), file, {.method = PartitionMethod::rcb}, {});
+        const std::uint64_t here = test::mpi_counts().messages - before.messages;
+        EXPECT_LE(test::world().sum(here), 40U) << name;
     }
 }
 

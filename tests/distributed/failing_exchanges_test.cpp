@@ -51,6 +51,24 @@ TEST(FailingAllocations, OfAnExchangeBetweenProcessesOfAnyKindAreThrownOnAll) {
     }
 }
 
+TEST(FailingAllocations, OfWhatAllTellAllAreThrownOnAll) {
+    const Communicator& world = test::world();
+    const auto size = static_cast<std::size_t>(world.size());
+    for (int rank = 0; rank < world.size(); ++rank) {
+        for (long allocations = 0;; ++allocations) {
+            ProcessGroup::Bytes bytes(100 * static_cast<std::size_t>(world.rank()));
+            std::vector<ProcessGroup::Bytes> come;
+            const bool done =
+                done_with(allocations, rank, [&] { come = world.of_all(std::move(bytes)); });
+            ASSERT_EQ(world.sum(done ? 1 : 0), done ? size : 0) << rank << ' ' << allocations;
+            if (!done) continue;
+            for (std::size_t r = 0; r < size; ++r) EXPECT_EQ(come[r].size(), 100 * r);
+            EXPECT_TRUE(size == 1 || allocations >= 4);
+            break;
+        }
+    }
+}
+
 TEST(FailingAllocations, OfReadingAFileTogetherAreThrownOnAllProcesses) {
     if (test::world().size() == 1) return;  // which reads alone
     const test::SharedFolder folder;

@@ -17,9 +17,10 @@ struct MpiCounts {
 };
 
 /// The calls that are counted.
-inline constexpr std::array<std::string_view, 12> counted_calls{
-    "MPI_Isend",   "MPI_Issend", "MPI_Mprobe",   "MPI_Improbe",   "MPI_Mrecv",  "MPI_Waitall",
-    "MPI_Testall", "MPI_Test",   "MPI_Ibarrier", "MPI_Allreduce", "MPI_Exscan", "MPI_Bcast"};
+inline constexpr std::array<std::string_view, 14> counted_calls{
+    "MPI_Isend",   "MPI_Issend",  "MPI_Mprobe",    "MPI_Improbe",   "MPI_Mrecv",
+    "MPI_Waitall", "MPI_Testall", "MPI_Test",      "MPI_Ibarrier",  "MPI_Allreduce",
+    "MPI_Exscan",  "MPI_Bcast",   "MPI_Allgather", "MPI_Allgatherv"};
 
 /// Since the program began.
 [[nodiscard]] MpiCounts mpi_counts();

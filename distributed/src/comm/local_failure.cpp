@@ -83,7 +83,9 @@ std::vector<Communicator::Bytes> Communicator::of_all(Bytes bytes) const {
             memory();
             return ask_whether_all_work();
         }
-        on_each(memory);
+        LocalFailure failure;
+        failure.attempt(memory);
+        failure.agree(*this);
     };
     std::vector<std::uint64_t> sizes;
     all_have([&] { sizes.resize(static_cast<std::size_t>(size())); });

@@ -92,7 +92,9 @@ std::vector<Communicator::Bytes> Communicator::of_all(Bytes bytes) const {
     gather_everywhere(bytes.size(), sizes);
     const auto total = std::accumulate(sizes.begin(), sizes.end(), std::uint64_t{0});
     if (total > static_cast<std::uint64_t>(std::numeric_limits<int>::max())) {
-        return ProcessGroup::of_all(std::move(bytes));
+        std::vector<Bytes> to_each;
+        all_have([&] { to_each.assign(sizes.size(), bytes); });
+        return exchange(std::move(to_each));
     }
     Bytes gathered;
     std::vector<int> counts;

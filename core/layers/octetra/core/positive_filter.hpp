@@ -9,9 +9,9 @@
 
 namespace octetra {
 
-/// Tells of nearly every positive tetrahedron of a mesh that it is one, in a third of the time that
-/// orientation() takes: its bound on the error of the determinant is worked out once, for the box
-/// around all points, where orientation() works one out for each tetrahedron.
+/// Tells of nearly every positive tetrahedron of a mesh that it is one, sooner than orientation():
+/// its bound on the error of the determinant is worked out once, for the box around all points,
+/// where orientation() works one out for each tetrahedron.
 class PositiveFilter {
 public:
     /// From now on, these points may be corners, too.

@@ -44,11 +44,12 @@ public:
         return value;
     }
     [[nodiscard]] std::int32_t marker(std::string_view what) {
+        constexpr std::ptrdiff_t always_fits = 9;  // digits, into 32 bits
         const char* stop = next_ != end_ && *next_ == '-' ? next_ + 1 : next_;
         const bool negative = stop != next_;
         const char* const first = stop;
         const auto value = static_cast<std::int64_t>(digits(stop));
-        if (stop - first > 9 || !is_field(stop) || stop == first) return any_marker(what);
+        if (stop == first || stop - first > always_fits || !is_field(stop)) return any_marker(what);
         take(stop);
         return static_cast<std::int32_t>(negative ? -value : value);
     }

@@ -32,7 +32,7 @@ struct SectionOfText {
     std::uint64_t keyword_line = 0;          ///< 0: there was no such section
     std::uint64_t first_line = 0;            ///< of the first entry
     bool consecutive = true;                 ///< entry i begins on line first_line + i
-    std::uint64_t largest = 0;               ///< number of a vertex
+    std::uint64_t largest = 0;               ///< of the numbers of vertices
     std::optional<OutOfRange> out_of_range;  ///< looked for while streaming
 };
 

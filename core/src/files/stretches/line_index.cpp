@@ -57,9 +57,10 @@ std::optional<LineIndex> LineIndex::make(Progress& progress, const std::filesyst
     });
     if (!progress.all_well()) return std::nullopt;
     progress.attempt([&] {
+        const std::vector<ProcessGroup::Bytes> of_all = group.of_all(std::move(own));
         std::uint64_t sum = 0;
         index->ends_before_.push_back(sum);
-        for (const ProcessGroup::Bytes& bytes : group.of_all(std::move(own))) {
+        for (const ProcessGroup::Bytes& bytes : of_all) {
             std::vector<std::uint64_t> ends(bytes.size() / sizeof(std::uint64_t));
             if (ends.empty()) continue;
             std::memcpy(ends.data(), bytes.data(), bytes.size());

@@ -164,8 +164,23 @@ INSTANTIATE_TEST_SUITE_P(
          "m.edge:2",
          "edge 0 belongs to no cell"},
         {"EdgeMarkerMissing", {.edge = "1 1\n0 0 1\n"}, "m.edge:2", "the marker is missing"},
+        {"CutOffBeforeANumber",
+         {.ele = "1 4 0\n0 0 1 2"},
+         "m.ele:2",
+         "is missing; the file ends with this line, without a line end: was it cut off?"},
+        {"CutOffInANumber",
+         {.ele = "1 4 0\n0 0 2 1 3"},
+         "m.ele:2",
+         "--fix-orientation; the file ends with this line, without a line end: was it cut off?"},
     }),
     [](const auto& test_case) { return test_case.param.name; });
+
+TEST(TetgenReader, AsksWhetherAFileWasCutOffOnlyWhereItsLastLineHasNoEnd) {
+    const std::string message =
+        test::thrown_by<InputError>([] { (void)read_files({.ele = "1 4 0\n0 0 2 1 3\n"}); });
+    EXPECT_THAT(message, testing::HasSubstr("--fix-orientation"));
+    EXPECT_THAT(message, testing::Not(testing::HasSubstr("cut off")));
+}
 
 TEST(TetgenReader, TakesCommentsBlankLinesTabsAndCarriageReturns) {
     const Mesh plain = read_files({});

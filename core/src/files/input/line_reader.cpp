@@ -92,11 +92,13 @@ bool LineReader::next_raw_line(std::string_view& raw) {
             const char* first = buffer_.data() + begin_;
             raw = {first, static_cast<std::size_t>(static_cast<const char*>(newline) - first)};
             begin_ += raw.size() + 1;
+            has_line_end_ = true;
             return true;
         }
         if (at_end_of_file_) {
             raw = {buffer_.data() + begin_, end_ - begin_};
             begin_ = end_;
+            has_line_end_ = raw.empty();
             return !raw.empty();
         }
         const std::size_t pending = end_ - begin_;
@@ -125,6 +127,12 @@ void LineReader::fill() {
     at_end_of_file_ = got == 0;
     end_ += static_cast<std::size_t>(got);
     left_ -= static_cast<std::uint64_t>(got);
+}
+
+void LineReader::fail(std::string_view what) const {
+    if (has_line_end_) fail(what, line_number_);
+    fail(fmt::format("{}; the file ends with this line, without a line end: was it cut off?", what),
+         line_number_);
 }
 
 void LineReader::fail(std::string_view what, std::uint64_t line_number) const {

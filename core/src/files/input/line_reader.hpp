@@ -43,7 +43,7 @@ public:
     [[nodiscard]] const std::filesystem::path& path() const { return path_; }
 
     /// Throws InputError "PATH:LINE: what", for the current line or another.
-    [[noreturn]] void fail(std::string_view what) const { fail(what, line_number_); }
+    [[noreturn]] void fail(std::string_view what) const;
     [[noreturn]] void fail(std::string_view what, std::uint64_t line_number) const;
 
     /// Refuses a count of entries that the file is too small to hold, if each takes at least
@@ -65,6 +65,7 @@ private:
     std::size_t begin_ = 0;  // of what is not yet handed out
     std::size_t end_ = 0;    // of what was read
     bool at_end_of_file_ = false;
+    bool has_line_end_ = true;  // the line that was read last
     std::string_view line_;
     std::string_view full_line_;
     std::uint64_t line_number_ = 0;

@@ -81,10 +81,10 @@ struct ArraysLeft {
 /// descendants, until they are rebalanced; a vertex is on every process that has a cell at it.
 ///
 /// Numbers are local to the process, 32 bits, where nothing else is said; those of type
-/// GlobalVertex, and counts, are of the whole mesh. A vertex keeps its local and its global number
-/// for ever. Cells and tagged facets and edges may get other numbers in a step, of which its
-/// Adaptation tells. The order of a process's cells is not that of files, which is the same on any
-/// number of processes.
+/// GlobalVertex, and counts, are of the whole mesh. Refinement leaves a vertex its local and its
+/// global number; coarsening may change both, moving to other processes the local one. Cells and
+/// tagged facets and edges may get other numbers in a step, of which its Adaptation tells. The
+/// order of a process's cells is not that of files, which is the same on any number of processes.
 ///
 /// Functions are collective where their description says so: all processes call them, in the same
 /// order. What a collective function throws it throws alike on all processes, and the mesh is as it
@@ -176,8 +176,9 @@ public:
 
     [[nodiscard]] const Communicator& processes() const;
 
-    // This process's part. Spans are valid until the mesh is refined. A tagged facet or edge is on
-    // one process alone, with a cell that has it: another one may have its vertices and not it.
+    // This process's part. Spans are valid until the mesh is refined, coarsened or moved. A tagged
+    // facet or edge is on one process alone, with a cell that has it: another one may have its
+    // vertices and not it.
     [[nodiscard]] std::span<const Point> points() const;
     [[nodiscard]] std::span<const CellVertices> cells() const;
     /// The region tag of each cell; empty where the input has none. Takes time in proportion to the

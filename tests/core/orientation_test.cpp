@@ -77,22 +77,27 @@ TEST(Orientation, IsRightWithinAFewUlpsOfAPlane) {
     EXPECT_GT(flat, 10) << "the sample should contain flat ones too";
 }
 
+/// Three points of all digits, and one that rounding moves off their plane.
+std::array<Point, 4> nearly_flat(std::mt19937_64& random) {
+    const auto unit = [&] { return static_cast<double>(random() >> 11U) * 0x1p-53; };
+    const auto point = [&] { return Point{unit() - 0.5, unit() * 0.125, unit()}; };
+    const Point a = point();
+    const Point b = point();
+    const Point c = point();
+    const double s = 2 * unit() - 0.5;
+    const double t = 2 * unit() - 0.5;
+    const auto between = [&](double p, double q, double r) {
+        return p + s * (q - p) + t * (r - p);
+    };
+    return {a, b, c, {between(a.x, b.x, c.x), between(a.y, b.y, c.y), between(a.z, b.z, c.z)}};
+}
+
 TEST(Orientation, IsRightNearPlanesThroughPointsOfAllDigits) {
     // Here differences round as well, and the determinant is wrong by up to three times 2^-53 of
     // its terms: a filter that trusts it further answers wrongly about 80 times.
     std::mt19937_64 random(5);
-    const auto unit = [&] { return static_cast<double>(random() >> 11U) * 0x1p-53; };
-    const auto point = [&] { return Point{unit() - 0.5, unit() * 0.125, unit()}; };
     for (int i = 0; i < 20000; ++i) {
-        const Point a = point();
-        const Point b = point();
-        const Point c = point();
-        const double s = 2 * unit() - 0.5;
-        const double t = 2 * unit() - 0.5;
-        const auto between = [&](double p, double q, double r) {
-            return p + s * (q - p) + t * (r - p);
-        };
-        const Point d{between(a.x, b.x, c.x), between(a.y, b.y, c.y), between(a.z, b.z, c.z)};
+        const auto [a, b, c, d] = nearly_flat(random);
         ASSERT_EQ(orientation(a, b, c, d), exact_sign(a, b, c, d)) << "sample " << i;
     }
 }
@@ -164,18 +169,8 @@ TEST(PositiveFilter, IsSureOfAllCellsOfAMeshThatAreNotNearlyFlat) {
 
 TEST(PositiveFilter, IsNotSureOfWhatRoundingMakesPositive) {
     std::mt19937_64 random(6);
-    const auto unit = [&] { return static_cast<double>(random() >> 11U) * 0x1p-53; };
-    const auto point = [&] { return Point{unit() - 0.5, unit() * 0.125, unit()}; };
     for (int i = 0; i < 20000; ++i) {
-        const Point a = point();
-        const Point b = point();
-        const Point c = point();
-        const double s = unit();
-        const double t = unit() * (1 - s);
-        const auto between = [&](double p, double q, double r) {
-            return p + s * (q - p) + t * (r - p);
-        };
-        const Point d{between(a.x, b.x, c.x), between(a.y, b.y, c.y), between(a.z, b.z, c.z)};
+        const auto [a, b, c, d] = nearly_flat(random);
         ASSERT_FALSE(is_sure_of(a, b, c, d) && exact_sign(a, b, c, d) <= 0) << "sample " << i;
     }
 }

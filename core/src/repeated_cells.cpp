@@ -16,29 +16,39 @@ using ByVertices = std::pair<CellVertices, CellIndex>;
 
 }  // namespace
 
-RepeatedCells::RepeatedCells(std::uint64_t cell_count) : seen_(cell_count / 4 + 1, 0) {}
+RepeatedCells::RepeatedCells(std::uint64_t cell_count)
+    : word_count_(cell_count / 4 + 1), seen_(word_count_, 0) {}
+
+/// All that wait.
+void RepeatedCells::look_up() {
+    for (std::uint32_t i = 0; i < waiting_count_; ++i) {
+        std::uint64_t& word = seen_[waiting_[i].word];
+        const std::uint64_t bits = waiting_[i].bits;
+        if ((word & bits) == bits) suspects_.push_back(CellIndex{count_ + i});
+        word |= bits;
+    }
+    count_ += std::exchange(waiting_count_, 0);
+}
 
 CellPair RepeatedCells::find(const IndexVector<CellIndex, CellVertices>& cells,
                              std::size_t vertex_count) {
-    for (std::uint32_t i = count_ - std::min(count_, ahead); i < count_; ++i) {
-        look_up(waiting_[i % ahead], i);
-    }
+    look_up();
     std::vector<std::uint64_t>().swap(seen_);
     if (suspects_.empty()) return {};
 
     std::vector<ByVertices> suspects;
-    std::vector<bool> is_corner(vertex_count, false);
+    std::vector<std::uint8_t> is_corner(vertex_count, 0);
     for (const CellIndex c : suspects_) {
         suspects.emplace_back(sorted(cells[c]), c);
-        for (const VertexIndex v : cells[c]) is_corner[v.value()] = true;
+        for (const VertexIndex v : cells[c]) is_corner[v.value()] = 1;
     }
     std::ranges::sort(suspects);
     CellPair pair;
     for (CellIndex c{0}; c < cells.end_index(); ++c) {
         const CellVertices& cell = cells[c];
-        if (!std::ranges::all_of(cell, [&](VertexIndex v) { return is_corner[v.value()]; })) {
-            continue;
-        }
+        std::uint8_t are_corners = 1;  // no branch for each
+        for (const VertexIndex v : cell) are_corners &= is_corner[v.value()];
+        if (are_corners == 0) continue;
         // The first suspect with these vertices that comes behind this cell.
         const ByVertices wanted{sorted(cell), c};
         const auto later = std::ranges::upper_bound(suspects, wanted);

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <limits>
@@ -5,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -12,6 +14,7 @@
 #include <octetra/core/files/mesh_files.hpp>
 
 #include "core/gmsh_files.hpp"
+#include "support/meshes.hpp"
 #include "support/temporary_folder.hpp"
 #include "support/thrown.hpp"
 
@@ -242,6 +245,32 @@ INSTANTIATE_TEST_SUITE_P(
                    " at byte " + std::to_string(nodes_2 - 2) + ": ",
                    "the number of nodes should be a whole number from 0, not 'x'"}),
     named_by_case);
+
+/// Rows of binary files are looked up and judged many at a time.
+TEST(GmshReader, NamesTheFirstRowWithAFaultWhicheverFaultItIs) {
+    const TemporaryFolder folder;
+    const Mesh mesh = test::kuhn(4, 4, 4);
+    (void)write_mesh(mesh, folder / "whole.msh");
+    const std::string whole = test::content_of(folder / "whole.msh");
+    constexpr std::size_t row_size = 5 * sizeof(std::uint64_t);
+    const std::size_t rows = behind(whole, "$Elements\n") + 4 * sizeof(std::uint64_t) +
+                             3 * sizeof(std::int32_t) + sizeof(std::uint64_t);
+    const auto last_node_of = [&](std::size_t row) { return rows + row * row_size + 4 * 8; };
+    for (const std::size_t flat : {0U, 5U, 127U, 128U, 200U, 383U}) {
+        for (const std::size_t missing : {0U, 4U, 6U, 126U, 127U, 128U, 129U, 255U, 256U, 383U}) {
+            if (flat == missing) continue;
+            std::string file = whole;
+            file.replace(last_node_of(flat), 8, file.substr(last_node_of(flat) - 8, 8));
+            file = patched(file, last_node_of(missing), bytes_of_number(std::uint64_t{9999}));
+            const auto path = folder.write("m.msh", file);
+            const std::string place =
+                fmt::format("m.msh: at byte {}: ", rows + std::min(flat, missing) * row_size);
+            EXPECT_THAT(test::thrown_by<InputError>([&] { (void)read_mesh(path); }),
+                        HasSubstr(place + (flat < missing ? "the cell has the same vertex twice"
+                                                          : "there is no node 9999")));
+        }
+    }
+}
 
 /// Whatever is cut off: no file without its end is taken for a mesh.
 TEST(GmshReader, RefusesAFileThatIsCutOffAnywhere) {

@@ -1,10 +1,12 @@
 #include <sys/stat.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
 #include <ostream>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <fmt/format.h>
@@ -293,6 +295,33 @@ TEST(TetgenReader, FindsTheFirstOfStrayFacesAmongMany) {
     files.face.replace(files.face.size() - last.size(), last.size(), "49 0 20 9\n");
     EXPECT_THAT(test::thrown_by<InputError>([&] { (void)read_files(files); }),
                 HasSubstr("m.face:51: face 49 belongs to no cell"));
+}
+
+/// Cells are judged many at a time, and lines are read one by one.
+TEST(TetgenReader, NamesTheFirstLineWithAFaultWhicheverFaultItIs) {
+    constexpr std::size_t count = 600;
+    for (const std::size_t flat : {0U, 7U, 255U, 256U, 300U, 599U}) {
+        for (const std::size_t malformed :
+             {0U, 6U, 8U, 254U, 255U, 256U, 257U, 301U, 511U, 512U, 599U}) {
+            if (flat == malformed) continue;
+            Files files;
+            files.node = fmt::format("{} 3 0 0\n0 0 0 0\n1 1 0 0\n2 0 1 0\n3 1 1 0\n", count + 4);
+            for (std::size_t i = 0; i < count; ++i) {
+                files.node += fmt::format("{} 0 0 {}\n", i + 4, i + 1);
+            }
+            files.ele = fmt::format("{} 4 0\n", count);
+            for (std::size_t i = 0; i < count; ++i) {
+                const std::string_view end = i == malformed ? "x" : "";
+                files.ele += fmt::format("{} 0 1 2 {}{}\n", i, i == flat ? 3 : i + 4, end);
+            }
+            const std::string what = flat < malformed ? "the cell is flat" : "should be";
+            EXPECT_THAT(test::thrown_by<InputError>([&] { (void)read_files(files); }),
+                        HasSubstr(fmt::format("m.ele:{}: ", std::min(flat, malformed) + 2)))
+                << flat << " " << malformed;
+            EXPECT_THAT(test::thrown_by<InputError>([&] { (void)read_files(files); }),
+                        HasSubstr(what));
+        }
+    }
 }
 
 TEST(TetgenReader, TakesEveryMarkerOf32Bits) {

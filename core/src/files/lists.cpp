@@ -6,7 +6,7 @@
 
 #include "files/input/fields.hpp"
 #include "files/input/line_reader.hpp"
-#include "files/output/output_file.hpp"
+#include "files/output/text_row.hpp"
 
 namespace octetra {
 
@@ -41,8 +41,7 @@ std::vector<TextLine> read_lines(const std::filesystem::path& path) {
 void write_list(const std::vector<int>& numbers, const std::filesystem::path& path) {
     OutputFile out(path);
     for (const int number : numbers) {
-        out.put(number);
-        out.put('\n');
+        put_line(out, number);
     }
     out.commit();
 }

@@ -23,11 +23,10 @@ public:
 
     /// The next cell.
     void add(const CellVertices& cell) {
-        Waiting& place = waiting_[count_ % ahead];
-        if (count_ >= ahead) look_up(place, count_ - ahead);
+        if (waiting_count_ == ahead) look_up();
+        Waiting& place = waiting_[waiting_count_++];
         place = of(cell);
         __builtin_prefetch(&seen_[place.word]);
-        ++count_;
     }
 
     /// All cells have come, and these are they: the first that has the vertices of an earlier one,
@@ -36,12 +35,12 @@ public:
                                 std::size_t vertex_count);
 
 private:
-    static constexpr std::uint32_t ahead = 8;
+    static constexpr std::uint32_t ahead = 32;
 
     /// What is kept of a cell: three bits of a word. They are looked up some cells later, when the
     /// word has come from memory.
     struct Waiting {
-        std::uint32_t word = 0;
+        std::uint64_t word = 0;
         std::uint64_t bits = 0;
     };
 
@@ -51,18 +50,15 @@ private:
         std::uint64_t product = 1;
         for (const VertexIndex v : cell) product *= odd + 2 * std::uint64_t{v.value()};
         const auto bit = [=](int shift) { return std::uint64_t{1} << (product >> shift & 63U); };
-        const std::uint64_t word = (product >> 32U) * seen_.size() >> 32U;
-        return {static_cast<std::uint32_t>(word), bit(20) | bit(26) | bit(32)};
+        return {(product >> 32U) * word_count_ >> 32U, bit(20) | bit(26) | bit(32)};
     }
 
-    void look_up(const Waiting& waiting, std::uint32_t number) {
-        std::uint64_t& word = seen_[waiting.word];
-        if ((word & waiting.bits) == waiting.bits) suspects_.push_back(CellIndex{number});
-        word |= waiting.bits;
-    }
+    void look_up();
 
-    std::uint32_t count_ = 0;
+    std::uint32_t count_ = 0;  ///< of those looked up
+    std::uint32_t waiting_count_ = 0;
     std::array<Waiting, ahead> waiting_;
+    std::uint64_t word_count_;
     std::vector<std::uint64_t> seen_;
     std::vector<CellIndex> suspects_;
 };

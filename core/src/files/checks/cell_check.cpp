@@ -11,6 +11,30 @@ void CellCheck::know_all_points() {
     filter_.add(std::span(mesh_->points).subspan(filter_.point_count()));
 }
 
+/// The first of the cells from there on that is not surely positive, or their number.
+std::size_t CellCheck::find_doubtful(std::span<const CellVertices> cells, std::size_t from) const {
+    const PositiveFilter filter = filter_;
+    const Point* const points = mesh_->points.data();
+    for (std::size_t i = from; i < cells.size(); ++i) {
+        const auto& [a, b, c, d] = cells[i];
+        if (!filter.is_surely_positive(points[a.value()], points[b.value()], points[c.value()],
+                                       points[d.value()])) {
+            return i;
+        }
+    }
+    return cells.size();
+}
+
+CellCheck::WrongCell CellCheck::judge(std::span<CellVertices> cells) {
+    if (takes_all_) return {};
+    if (filter_.point_count() < mesh_->points.size()) know_all_points();
+    for (std::size_t i = find_doubtful(cells, 0); i < cells.size();
+         i = find_doubtful(cells, i + 1)) {
+        if (const std::string_view what = judge_slowly(cells[i]); !what.empty()) return {i, what};
+    }
+    return {};
+}
+
 std::string_view CellCheck::judge_slowly(CellVertices& cell) {
     for (const auto& [i, j] : cell_edges) {
         if (cell[i] == cell[j]) return "the cell has the same vertex twice";

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstddef>
+#include <span>
 #include <string_view>
 
 #include <octetra/core/files/mesh_files.hpp>
@@ -27,10 +29,19 @@ public:
         return judge_slowly(cell);
     }
 
+    /// The same for many cells: the first that something is wrong with, and what.
+    struct WrongCell {
+        std::size_t cell = 0;
+        std::string_view what;  ///< empty: there is none
+    };
+    [[nodiscard]] WrongCell judge(std::span<CellVertices> cells);
+
     [[nodiscard]] std::size_t fixed_count() const { return fixed_count_; }
 
 private:
     void know_all_points();
+    [[nodiscard]] std::size_t find_doubtful(std::span<const CellVertices> cells,
+                                            std::size_t from) const;
     [[nodiscard]] std::string_view judge_slowly(CellVertices& cell);
 
     const Mesh* mesh_;

@@ -10,30 +10,25 @@
 namespace octetra {
 namespace {
 
-/// A bit for each vertex, looked at without a branch.
+/// Which vertices entities have, looked at without a branch.
 class VertexSet {
 public:
     template <class I, std::size_t N>
     VertexSet(const IndexVector<I, std::array<VertexIndex, N>>& list, std::size_t vertex_count)
-        : words_(vertex_count / 64 + 1, 0) {
+        : is_in_(vertex_count, 0) {
         for (const auto& vertices : list) {
-            for (const VertexIndex v : vertices) words_[v.value() / 64] |= bit(v);
+            for (const VertexIndex v : vertices) is_in_[v.value()] = 1;
         }
     }
     /// Which of the cell's vertices are in the set, a bit for each.
     [[nodiscard]] unsigned in(const CellVertices& cell) const {
         unsigned corners = 0;
-        for (std::size_t k = 0; k < 4; ++k) {
-            const std::uint32_t v = cell[k].value();
-            corners |= static_cast<unsigned>(words_[v / 64] >> v % 64 & 1U) << k;
-        }
+        for (std::size_t k = 0; k < 4; ++k) corners |= unsigned{is_in_[cell[k].value()]} << k;
         return corners;
     }
 
 private:
-    static std::uint64_t bit(VertexIndex v) { return std::uint64_t{1} << v.value() % 64; }
-
-    std::vector<std::uint64_t> words_;
+    std::vector<std::uint8_t> is_in_;
 };
 
 /// A bit for each corner of a cell that a side has.

@@ -2,7 +2,9 @@
 
 #include <array>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -60,12 +62,19 @@ public:
     }
     [[nodiscard]] double coordinate(std::string_view what);
     void skip_real(std::string_view what) { reader_->skip(sizeof(double), what); }
+    /// How many rows are taken at once: nothing but the end of the file stops them.
+    static constexpr std::size_t rows_at_once = 128;
+    /// Rows of a number each that nobody asks for, and N others.
     template <std::size_t N>
-    void row(std::array<std::uint64_t, N>& numbers, std::string_view what) {
-        const std::byte* const bytes = reader_->take_bytes(N * sizeof(std::uint64_t), what);
-        for (std::size_t k = 0; k < N; ++k) {
-            numbers[k] =
-                number_at<std::uint64_t>(bytes + k * sizeof(std::uint64_t), reader_->swaps_bytes());
+    void rows(std::span<std::array<std::uint64_t, N>> others, std::string_view what) {
+        constexpr std::size_t row_size = (1 + N) * sizeof(std::uint64_t);
+        const std::byte* bytes = reader_->take_bytes(others.size() * row_size, what);
+        const bool swapped = reader_->swaps_bytes();
+        for (auto& row : others) {
+            for (std::size_t k = 0; k < N; ++k) {
+                row[k] = number_at<std::uint64_t>(bytes + (1 + k) * sizeof(std::uint64_t), swapped);
+            }
+            bytes += row_size;
         }
     }
 

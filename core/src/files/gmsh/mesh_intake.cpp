@@ -46,42 +46,78 @@ void MeshIntake::make_room(const EntityKind<I, N>& kind, std::uint64_t count) {
 }
 
 template <class I, std::size_t N>
-std::string_view MeshIntake::take(const EntityKind<I, N>& kind,
-                                  std::span<const std::uint64_t, N> tags, Marker marker,
-                                  std::uint64_t place, std::uint64_t step) {
-    const std::uint64_t* tag = tags.data();
-    auto vertices = taken_in_order<N>([&] { return nodes_.find(*tag++); });
-    for (std::size_t k = 0; k < N; ++k) {
-        if (vertices[k].is_none()) return wrong_ = fmt::format("there is no node {}", tags[k]);
-    }
+WrongRow MeshIntake::take(const EntityKind<I, N>& kind,
+                          std::span<const std::array<std::uint64_t, N>> rows, Marker marker,
+                          std::uint64_t place, std::uint64_t step) {
+    std::array<std::array<VertexIndex, N>, most_at_once> room;
+    const auto vertices = std::span(room).first(rows.size());
+    const WrongRow missing = find_nodes(rows, vertices);
+    const auto found = missing.what.empty() ? vertices : vertices.first(missing.row);
     Taken& of_kind = taken(kind);
     if (!options_->only_syntax) {
-        if (const std::string_view wrong = judge(vertices); !wrong.empty()) return wrong;
-        of_kind.places.add(place, step);
+        if (const WrongRow wrong = judge(found); !wrong.what.empty()) return wrong;
+        of_kind.places.add(place, step, found.size());
     }
-    if (expected_ && of_kind.count == growing_->facts().*kind.count) {
-        return "the file has changed while it was read";
+    if (!missing.what.empty()) return missing;
+    if (expected_) {
+        const std::uint64_t left = growing_->facts().*kind.count - of_kind.count;
+        if (left < rows.size()) return {left, "the file has changed while it was read"};
     }
-    ++of_kind.count;
-    (growing_->mesh.*kind.list).push_back(vertices);
-    (growing_->mesh.*kind.markers).push_back(marker);
-    growing_->entity_complete(kind);
+    of_kind.count += rows.size();
+    append(kind, std::span<const std::array<VertexIndex, N>>(vertices), marker);
     return {};
 }
 
-std::string_view MeshIntake::judge(CellVertices& cell) {
-    const std::string_view wrong = cell_check_.judge(cell);
-    if (wrong.empty()) repeated_cells_->add(cell);
-    return wrong;
+/// The vertices of rows, up to the first that has a node which is not there.
+template <std::size_t N>
+WrongRow MeshIntake::find_nodes(std::span<const std::array<std::uint64_t, N>> rows,
+                                std::span<std::array<VertexIndex, N>> found) {
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+        const std::uint64_t* tag = rows[i].data();
+        found[i] = taken_in_order<N>([&] { return nodes_.find(*tag++); });
+        for (std::size_t k = 0; k < N; ++k) {
+            if (!found[i][k].is_none()) continue;
+            missing_ = fmt::format("there is no node {}", rows[i][k]);
+            return {i, missing_};
+        }
+    }
+    return {};
 }
 
-std::string_view MeshIntake::judge(const FacetVertices& facet) {
-    const auto& [a, b, c] = facet;
-    return a == b || b == c || c == a ? "the triangle has the same vertex twice" : "";
+WrongRow MeshIntake::judge(std::span<CellVertices> cells) {
+    const auto [cell, what] = cell_check_.judge(cells);
+    if (!what.empty()) return {cell, what};
+    for (const CellVertices& vertices : cells) repeated_cells_->add(vertices);
+    return {};
 }
 
-std::string_view MeshIntake::judge(const EdgeVertices& edge) {
-    return edge[0] == edge[1] ? "the line has the same vertex twice" : "";
+WrongRow MeshIntake::judge(std::span<const FacetVertices> facets) {
+    for (std::size_t i = 0; i < facets.size(); ++i) {
+        const auto& [a, b, c] = facets[i];
+        if (a == b || b == c || c == a) return {i, "the triangle has the same vertex twice"};
+    }
+    return {};
+}
+
+WrongRow MeshIntake::judge(std::span<const EdgeVertices> edges) {
+    for (std::size_t i = 0; i < edges.size(); ++i) {
+        if (edges[i][0] == edges[i][1]) return {i, "the line has the same vertex twice"};
+    }
+    return {};
+}
+
+template <class I, std::size_t N>
+void MeshIntake::append(const EntityKind<I, N>& kind,
+                        std::span<const std::array<VertexIndex, N>> vertices, Marker marker) {
+    auto& list = growing_->mesh.*kind.list;
+    auto& markers = growing_->mesh.*kind.markers;
+    while (!vertices.empty()) {
+        const auto some = vertices.first(std::min(vertices.size(), growing_->room_for(kind)));
+        list.insert(list.end(), some.begin(), some.end());
+        markers.insert(markers.end(), some.size(), marker);
+        growing_->entity_complete(kind);
+        vertices = vertices.subspan(some.size());
+    }
 }
 
 void MeshIntake::elements_complete() {
@@ -137,14 +173,14 @@ ElementCounts MeshIntake::counts() const { return {cells_.count, facets_.count, 
 template void MeshIntake::make_room(const EntityKind<CellIndex, 4>&, std::uint64_t);
 template void MeshIntake::make_room(const EntityKind<FacetIndex, 3>&, std::uint64_t);
 template void MeshIntake::make_room(const EntityKind<EdgeIndex, 2>&, std::uint64_t);
-template std::string_view MeshIntake::take(const EntityKind<CellIndex, 4>&,
-                                           std::span<const std::uint64_t, 4>, Marker, std::uint64_t,
-                                           std::uint64_t);
-template std::string_view MeshIntake::take(const EntityKind<FacetIndex, 3>&,
-                                           std::span<const std::uint64_t, 3>, Marker, std::uint64_t,
-                                           std::uint64_t);
-template std::string_view MeshIntake::take(const EntityKind<EdgeIndex, 2>&,
-                                           std::span<const std::uint64_t, 2>, Marker, std::uint64_t,
-                                           std::uint64_t);
+template WrongRow MeshIntake::take(const EntityKind<CellIndex, 4>&,
+                                   std::span<const std::array<std::uint64_t, 4>>, Marker,
+                                   std::uint64_t, std::uint64_t);
+template WrongRow MeshIntake::take(const EntityKind<FacetIndex, 3>&,
+                                   std::span<const std::array<std::uint64_t, 3>>, Marker,
+                                   std::uint64_t, std::uint64_t);
+template WrongRow MeshIntake::take(const EntityKind<EdgeIndex, 2>&,
+                                   std::span<const std::array<std::uint64_t, 2>>, Marker,
+                                   std::uint64_t, std::uint64_t);
 
 }  // namespace octetra::gmsh

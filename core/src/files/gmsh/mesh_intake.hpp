@@ -18,6 +18,7 @@
 #include "files/gmsh/left_out.hpp"
 #include "files/gmsh/node_numbers.hpp"
 #include "files/gmsh/place_runs.hpp"
+#include "files/gmsh/wrong_row.hpp"
 #include "files/input/growing_mesh.hpp"
 
 namespace octetra::gmsh {
@@ -68,11 +69,13 @@ public:
     /// Makes room for so many more elements of a kind.
     template <class I, std::size_t N>
     void make_room(const EntityKind<I, N>& kind, std::uint64_t count);
-    /// An element of one of the kinds of a mesh. `place`: of its row, `step` bytes or lines long.
+    static constexpr std::size_t most_at_once = 128;
+    /// Elements of one of the kinds of a mesh, at most `most_at_once`, by their nodes' tags.
+    /// `place`: of the first one's row, `step` bytes or lines long as are those behind it.
     template <class I, std::size_t N>
-    [[nodiscard]] std::string_view take(const EntityKind<I, N>& kind,
-                                        std::span<const std::uint64_t, N> tags, Marker marker,
-                                        std::uint64_t place, std::uint64_t step);
+    [[nodiscard]] WrongRow take(const EntityKind<I, N>& kind,
+                                std::span<const std::array<std::uint64_t, N>> rows, Marker marker,
+                                std::uint64_t place, std::uint64_t step);
     /// Count elements that are not kept: of another kind, between partitions, listed again.
     void skip(Shape shape, std::uint64_t count) { left_out_.add(shape, count); }
     void skip_interface(std::uint64_t count) { left_out_.interfaces += count; }
@@ -99,9 +102,15 @@ private:
         return N == 4 ? cells_ : N == 3 ? facets_ : edges_;
     }
     [[nodiscard]] static std::string describe(const NodeNumbers::Repeated& repeated);
-    [[nodiscard]] std::string_view judge(CellVertices& cell);
-    [[nodiscard]] static std::string_view judge(const FacetVertices& facet);
-    [[nodiscard]] static std::string_view judge(const EdgeVertices& edge);
+    template <std::size_t N>
+    [[nodiscard]] WrongRow find_nodes(std::span<const std::array<std::uint64_t, N>> rows,
+                                      std::span<std::array<VertexIndex, N>> found);
+    [[nodiscard]] WrongRow judge(std::span<CellVertices> cells);
+    [[nodiscard]] static WrongRow judge(std::span<const FacetVertices> facets);
+    [[nodiscard]] static WrongRow judge(std::span<const EdgeVertices> edges);
+    template <class I, std::size_t N>
+    void append(const EntityKind<I, N>& kind, std::span<const std::array<VertexIndex, N>> vertices,
+                Marker marker);
 
     GrowingMesh* growing_;
     const ReadOptions* options_;
@@ -114,7 +123,7 @@ private:
     CellCheck cell_check_;
     std::optional<RepeatedCells> repeated_cells_;
     LeftOut left_out_;
-    std::string wrong_;  // what take() returned
+    std::string missing_;  // what take() said of a node
 };
 
 }  // namespace octetra::gmsh

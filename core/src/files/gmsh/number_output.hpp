@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "files/output/output_file.hpp"
+#include "files/output/text_row.hpp"
 
 namespace octetra::gmsh {
 
@@ -27,12 +28,13 @@ public:
         is_row_start_ = false;
         out_->put(number);
     }
-    /// Numbers of one type, and the end of the row.
+    /// A row of numbers of one type.
     template <class T, std::size_t N>
-    void put_row(const std::array<T, N>& row) {
+    requires(N <= 8) void put_row(const std::array<T, N>& row) {
         if (!is_text_) return out_->put_bytes(row.data(), sizeof row);
-        for (const T number : row) put(number);
-        end_row();
+        TextRow text(*out_);
+        for (const T number : row) text.put(number);
+        text.end();
     }
     void end_row() {
         if (is_text_) out_->put('\n');

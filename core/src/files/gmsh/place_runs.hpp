@@ -11,10 +11,15 @@ namespace octetra::gmsh {
 class PlaceRuns {
 public:
     /// The next entry; the one behind it will stand `step` further, probably.
-    void add(std::uint64_t place, std::uint64_t step) {
-        if (runs_.empty() || place != expected_) runs_.push_back({count_, place, step});
-        ++count_;
-        expected_ = place + runs_.back().step;
+    void add(std::uint64_t place, std::uint64_t step) { add(place, step, 1); }
+    /// The next entries, `step` apart.
+    void add(std::uint64_t place, std::uint64_t step, std::uint64_t count) {
+        if (count == 0) return;
+        const bool goes_on =
+            !runs_.empty() && place == expected_ && (count == 1 || step == runs_.back().step);
+        if (!goes_on) runs_.push_back({count_, place, step});
+        count_ += count;
+        expected_ = place + count * runs_.back().step;
     }
     [[nodiscard]] std::uint64_t of(std::uint64_t entry) const {
         const auto after = std::ranges::upper_bound(runs_, entry, {}, &Run::first_entry);

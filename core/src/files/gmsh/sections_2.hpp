@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 
 #include "files/gmsh/element_types.hpp"
+#include "files/gmsh/wrong_row.hpp"
 #include "files/input/growing_mesh.hpp"
 
 /// The sections of versions 2 to 2.2, text and binary. An Input is a TextInput or has its
@@ -193,10 +194,11 @@ private:
             run.leave_out(physical_);
             return intake_->skip_in_another_group();
         }
-        const std::string_view wrong =
-            intake_->take(kind, std::span<const std::uint64_t, N>(one.nodes), physical_, place_,
-                          step_ + (Input::has_lines ? 0 : N * sizeof(std::int32_t)));
-        if (!wrong.empty()) in_->fail_at(wrong, place_);
+        const std::uint64_t step = step_ + (Input::has_lines ? 0 : N * sizeof(std::int32_t));
+        const WrongRow wrong =
+            intake_->take(kind, std::span<const std::array<std::uint64_t, N>>(&one.nodes, 1),
+                          physical_, place_, step);
+        if (!wrong.what.empty()) in_->fail_at(wrong.what, place_);
         run.keep(one);
     }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -14,6 +15,7 @@
 
 #include "files/gmsh/element_types.hpp"
 #include "files/gmsh/entity_groups.hpp"
+#include "files/gmsh/wrong_row.hpp"
 #include "files/input/growing_mesh.hpp"
 
 /// The sections of version 4.1, text and binary: the same numbers in the same order. An Input is a
@@ -216,15 +218,17 @@ ElementBlock read_element_block_4(Input& in, std::uint64_t left, const EntityGro
 template <class Input, class I, std::size_t N, class Intake>
 void keep_rows_4(Input& in, const EntityKind<I, N>& kind, Marker marker, std::uint64_t count,
                  Intake& intake) {
+    constexpr std::uint64_t step = Input::row_step((1 + N) * sizeof(std::uint64_t));
     intake.make_room(kind, count);
-    std::array<std::uint64_t, 1 + N> row;
-    for (std::uint64_t i = 0; i < count; ++i) {
+    std::array<std::array<std::uint64_t, N>, Input::rows_at_once> room;
+    while (count > 0) {
         const std::uint64_t place = in.begin_row("an element");
-        in.row(row, "a node of an element");
-        const std::string_view wrong =
-            intake.take(kind, std::span<const std::uint64_t, N>(std::span(row).template last<N>()),
-                        marker, place, Input::row_step(sizeof row));
-        if (!wrong.empty()) in.fail_at(wrong, place);
+        const auto rows = std::span(room).first(std::min(count, Input::rows_at_once));
+        in.rows(rows, "a node of an element");
+        const WrongRow wrong = intake.take(
+            kind, std::span<const std::array<std::uint64_t, N>>(rows), marker, place, step);
+        if (!wrong.what.empty()) in.fail_at(wrong.what, place + wrong.row * step);
+        count -= rows.size();
     }
 }
 

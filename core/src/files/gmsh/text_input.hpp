@@ -1,7 +1,9 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -79,9 +81,16 @@ public:
         tokens_.require(what);
         (void)tokens_.text();
     }
+    /// How many rows are taken at once: what is wrong with one comes before what is wrong with the
+    /// text of the next.
+    static constexpr std::size_t rows_at_once = 1;
+    /// Rows of a number each that nobody asks for, and N others.
     template <std::size_t N>
-    void row(std::array<std::uint64_t, N>& numbers, std::string_view what) {
-        for (std::uint64_t& number : numbers) number = tokens_.unsigned_integer(what);
+    void rows(std::span<std::array<std::uint64_t, N>> others, std::string_view what) {
+        for (auto& row : others) {
+            (void)tokens_.unsigned_integer(what);
+            for (std::uint64_t& number : row) number = tokens_.unsigned_integer(what);
+        }
     }
 
     /// Refuses a count, just read, of entries that the file cannot hold: each has at least so many

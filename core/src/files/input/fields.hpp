@@ -1,6 +1,10 @@
 #pragma once
 
+#include <array>
+#include <bit>
 #include <cstdint>
+#include <cstring>
+#include <limits>
 #include <string>
 #include <string_view>
 
@@ -22,6 +26,7 @@ namespace octetra {
 /// error message that a missing or malformed one gets, with the line reader's file and line.
 class Fields {
 public:
+    /// `line`: of the reader, a part of one, or empty.
     Fields(const LineReader& reader, std::string_view line)
         : reader_(&reader), next_(line.data()), end_(line.data() + line.size()) {
         skip_blanks();
@@ -37,21 +42,19 @@ public:
     [[nodiscard]] std::uint64_t unsigned_integer(std::string_view what) {
         // Nearly all are a few digits and nothing else, and most of a file; the rest goes the long
         // way.
-        const char* stop = next_;
-        const std::uint64_t value = digits(stop);
-        if (!is_field(stop)) return any_unsigned_integer(what);
-        take(stop);
-        return value;
+        const Digits digits = digits_at(next_);
+        if (!is_field(digits)) return any_unsigned_integer(what);
+        take(digits);
+        return digits.value;
     }
     [[nodiscard]] std::int32_t marker(std::string_view what) {
-        constexpr std::ptrdiff_t always_fits = 9;  // digits, into 32 bits
-        const char* stop = next_ != end_ && *next_ == '-' ? next_ + 1 : next_;
-        const bool negative = stop != next_;
-        const char* const first = stop;
-        const auto value = static_cast<std::int64_t>(digits(stop));
-        if (stop == first || stop - first > always_fits || !is_field(stop)) return any_marker(what);
-        take(stop);
-        return static_cast<std::int32_t>(negative ? -value : value);
+        const bool negative = next_ != end_ && *next_ == '-';
+        const Digits digits = digits_at(negative ? next_ + 1 : next_);
+        constexpr std::uint64_t largest = std::numeric_limits<std::int32_t>::max();
+        if (!is_field(digits) || digits.value > largest) return any_marker(what);
+        take(digits);
+        const auto value = static_cast<std::int32_t>(digits.value);
+        return negative ? -value : value;
     }
     /// A finite number.
     [[nodiscard]] double real(std::string_view what);
@@ -65,22 +68,51 @@ private:
     void skip_blanks() {
         while (next_ != end_ && (*next_ == ' ' || *next_ == '\t' || *next_ == '\r')) ++next_;
     }
-    /// Goes on behind digits, up to so many that their value always fits.
-    std::uint64_t digits(const char*& stop) const {
-        constexpr std::ptrdiff_t always_fits = 19;
-        const char* const last = end_ - stop > always_fits ? stop + always_fits : end_;
+    /// Digits, fifteen at most, so that their value always fits.
+    struct Digits {
         std::uint64_t value = 0;
-        for (; stop != last && *stop >= '0' && *stop <= '9'; ++stop) {
-            value = 10 * value + static_cast<std::uint64_t>(*stop - '0');
-        }
-        return value;
+        const char* stop = nullptr;  ///< where they end; null: there are none, or more
+    };
+    Digits digits_at(const char* first) const {
+        if (first == end_) return {};
+        const DigitsOfWord leading = digits_of_word(first);
+        if (leading.count == 0) return {};
+        if (leading.count < 8) return {leading.value, first + leading.count};
+        constexpr std::array<std::uint64_t, 8> powers{1,      10,      100,       1'000,
+                                                      10'000, 100'000, 1'000'000, 10'000'000};
+        const DigitsOfWord rest = digits_of_word(first + 8);
+        if (rest.count == 8) return {};
+        return {leading.value * powers.at(rest.count) + rest.value, first + 8 + rest.count};
     }
-    /// Does the next field end here?
-    [[nodiscard]] bool is_field(const char* stop) const {
-        return stop != next_ && (stop == end_ || is_blank(*stop));
+    struct DigitsOfWord {
+        std::uint64_t value;
+        unsigned count;
+    };
+    /// Looks at eight bytes at once, which need not be the line's.
+    static DigitsOfWord digits_of_word(const char* first) {
+        static_assert(std::endian::native == std::endian::little);
+        std::uint64_t word;
+        std::memcpy(&word, first, sizeof word);
+        word ^= 0x3030'3030'3030'3030;  // digits are 0 to 9, and nothing else is
+        // A byte above 9 carries into its own highest bit; into the next byte, too, but only the
+        // first such byte counts.
+        const std::uint64_t others =
+            ((word + 0x7676'7676'7676'7676) | word) & 0x8080'8080'8080'8080;
+        const auto count = static_cast<unsigned>(std::countr_zero(others)) / 8;
+        if (count == 0) return {0, 0};
+        // Zeros come in front of the digits. Then pairs are joined, pairs of these, and the rest.
+        word <<= 64 - 8 * count;
+        word = (word * 10 + (word >> 8U)) & 0x00ff'00ff'00ff'00ff;
+        word = (word * 100 + (word >> 16U)) & 0x0000'ffff'0000'ffff;
+        return {(word * 10'000 + (word >> 32U)) & 0xffff'ffff, count};
     }
-    void take(const char* stop) {
-        next_ = stop;
+    /// Do these make the next field?
+    [[nodiscard]] bool is_field(const Digits& digits) const {
+        if (digits.stop == nullptr || digits.stop > end_) return false;
+        return digits.stop == end_ || is_blank(*digits.stop);
+    }
+    void take(const Digits& digits) {
+        next_ = digits.stop;
         skip_blanks();
     }
 

@@ -14,21 +14,17 @@
 #include <octetra/core/error.hpp>
 #include <octetra/core/index.hpp>
 
+#include "files/input/fields.hpp"
+
 namespace octetra {
 namespace {
 
-/// What some editors put in front of UTF-8.
 constexpr std::size_t longest_line = std::size_t{1} << 20U;
 
-std::string_view without_comment_and_line_end(std::string_view raw) {
-    if (const void* hash = std::memchr(raw.data(), '#', raw.size())) {
-        raw = raw.substr(0, static_cast<std::size_t>(static_cast<const char*>(hash) - raw.data()));
-    }
-    while (!raw.empty() && (raw.back() == '\r' || raw.back() == ' ' || raw.back() == '\t')) {
-        raw.remove_suffix(1);
-    }
-    while (!raw.empty() && (raw.front() == ' ' || raw.front() == '\t')) raw.remove_prefix(1);
-    return raw;
+std::string_view without_blanks(std::string_view line) {
+    while (!line.empty() && is_blank(line.back())) line.remove_suffix(1);
+    while (!line.empty() && (line.front() == ' ' || line.front() == '\t')) line.remove_prefix(1);
+    return line;
 }
 
 }  // namespace
@@ -39,14 +35,12 @@ LineReader::LineReader(std::filesystem::path path) : path_(std::move(path)) {
         ::close(file_);
         throw InputError(fmt::format("{}:1: the file is empty", path_.native()));
     }
-    buffer_.resize(std::min<std::uint64_t>(longest_line, file_size_ + 1));
+    make_room(std::min<std::uint64_t>(longest_line, file_size_ + 1));
 }
 
 LineReader::LineReader(std::filesystem::path path, std::uint64_t begin, std::uint64_t end)
-    : path_(std::move(path)),
-      left_(end - begin),
-      buffer_position_(begin),
-      buffer_(std::min<std::uint64_t>(longest_line, left_ + 1)) {
+    : path_(std::move(path)), left_(end - begin), buffer_position_(begin) {
+    make_room(std::min<std::uint64_t>(longest_line, left_ + 1));
     open();
     (void)::lseek(file_, static_cast<off_t>(begin), SEEK_SET);
 }
@@ -75,12 +69,27 @@ bool LineReader::next() {
             raw.remove_prefix(byte_order_mark.size());
         }
         ++line_number_;
-        line_ = without_comment_and_line_end(raw);
+        line_ = without_blanks(without_comment(raw));
         full_line_ = raw;
         if (!line_.empty()) return true;
     }
     line_ = full_line_ = {};
     return false;
+}
+
+std::string_view LineReader::without_comment(std::string_view raw) {
+    const char* const comment = buffer_.data() + comment_;
+    if (comment >= raw.data() + raw.size()) return raw;
+    find_comment(begin_);
+    return raw.substr(0, static_cast<std::size_t>(comment - raw.data()));
+}
+
+/// In what was read, from there on.
+void LineReader::find_comment(std::size_t from) {
+    const void* const comment = std::memchr(buffer_.data() + from, '#', end_ - from);
+    comment_ = comment == nullptr
+                   ? end_
+                   : static_cast<std::size_t>(static_cast<const char*>(comment) - buffer_.data());
 }
 
 bool LineReader::next_raw_line(std::string_view& raw) {
@@ -107,17 +116,23 @@ bool LineReader::next_raw_line(std::string_view& raw) {
     }
 }
 
+void LineReader::make_room(std::size_t size) {
+    buffer_.resize(size + bytes_behind_line);
+    room_ = size;
+}
+
 void LineReader::fill() {
     const std::size_t pending = end_ - begin_;
     if (pending == longest_line) {
         fail("this line is longer than 1 MiB: not a text file?", line_number_ + 1);
     }
-    if (pending == buffer_.size()) buffer_.resize(longest_line);  // the file has grown meanwhile
+    if (pending == room_) make_room(longest_line);  // the file has grown meanwhile
     std::memmove(buffer_.data(), buffer_.data() + begin_, pending);
     buffer_position_ += begin_;
+    comment_ -= begin_;
     begin_ = 0;
     end_ = pending;
-    const std::size_t room = std::min<std::uint64_t>(buffer_.size() - end_, left_);
+    const std::size_t room = std::min<std::uint64_t>(room_ - end_, left_);
     const ssize_t got = ::read(file_, buffer_.data() + end_, room);
     if (got < 0 && errno == EINTR) return;
     if (got < 0) {
@@ -126,6 +141,7 @@ void LineReader::fill() {
     }
     at_end_of_file_ = got == 0;
     end_ += static_cast<std::size_t>(got);
+    if (comment_ == pending) find_comment(pending);
     left_ -= static_cast<std::uint64_t>(got);
 }
 

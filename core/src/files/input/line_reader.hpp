@@ -30,7 +30,9 @@ public:
     /// Moves to the next line that holds something; false at the end of the file.
     [[nodiscard]] bool next();
 
-    /// The current line, with neither comment nor line end; valid until next().
+    /// The current line, with neither comment nor line end; valid until next(). So many bytes
+    /// behind it can be read, too, whatever they are.
+    static constexpr std::size_t bytes_behind_line = 16;
     [[nodiscard]] std::string_view line() const { return line_; }
     /// The same with its comment, and with blanks.
     [[nodiscard]] std::string_view full_line() const { return full_line_; }
@@ -53,6 +55,9 @@ public:
 private:
     void open();
     [[nodiscard]] bool next_raw_line(std::string_view& raw);
+    [[nodiscard]] std::string_view without_comment(std::string_view raw);
+    void make_room(std::size_t size);
+    void find_comment(std::size_t from);
     void fill();
 
     std::filesystem::path path_;
@@ -62,8 +67,10 @@ private:
     std::uint64_t buffer_position_ = 0;  // of the buffer's beginning, in the file
     std::uint64_t line_position_ = 0;
     std::vector<char> buffer_;
-    std::size_t begin_ = 0;  // of what is not yet handed out
-    std::size_t end_ = 0;    // of what was read
+    std::size_t room_ = 0;     // of the buffer, for what is read
+    std::size_t begin_ = 0;    // of what is not yet handed out
+    std::size_t end_ = 0;      // of what was read
+    std::size_t comment_ = 0;  // the first '#' of what is not yet handed out, or its end
     bool at_end_of_file_ = false;
     bool has_line_end_ = true;  // the line that was read last
     std::string_view line_;

@@ -1,5 +1,7 @@
 #include "files/medit/entry_places.hpp"
 
+#include <span>
+
 #include <fmt/format.h>
 
 #include <octetra/core/repeated_cells.hpp>
@@ -68,10 +70,10 @@ private:
     void check_cells() {
         CellCheck check(*mesh_, *options_);
         RepeatedCells repeated(options_->only_syntax ? 0 : mesh_->cells.size());
-        for (CellIndex c{0}; c < mesh_->cells.end_index(); ++c) {
-            const std::string_view wrong = check.judge(mesh_->cells[c]);
-            if (!wrong.empty()) places_->fail_entry(Listed::cells, c.value(), wrong);
-            if (!options_->only_syntax) repeated.add(mesh_->cells[c]);
+        const auto [cell, wrong] = check.judge(std::span(mesh_->cells));
+        if (!wrong.empty()) places_->fail_entry(Listed::cells, cell, wrong);
+        if (!options_->only_syntax) {
+            for (const CellVertices& vertices : mesh_->cells) repeated.add(vertices);
         }
         if (check.fixed_count() > 0) {
             options_->note(fmt::format("{}: {} inverted cells were turned round", path_->native(),

@@ -10,6 +10,7 @@
 #include "files/medit/medit.hpp"
 #include "files/medit/sol_writer.hpp"
 #include "files/output/output_file.hpp"
+#include "files/output/text_row.hpp"
 #include "files/output/text_slices.hpp"
 
 namespace octetra {
@@ -31,8 +32,7 @@ void put_section_heading(OutputFile& out, const ProcessGroup& group, std::string
     if (!group.is_first()) return;
     out.put(keyword);
     out.put('\n');
-    out.put(count);
-    out.put('\n');
+    put_line(out, count);
 }
 
 template <std::size_t N>
@@ -43,12 +43,10 @@ void write_section(OutputFile& out, MeshSource& mesh, const EntitySection<N>& se
         std::span<const Marker> markers;
         if (section.has_markers) markers = (mesh.*section.markers)(window);
         for (std::size_t i = 0; i < entities.size(); ++i) {
-            for (const std::uint64_t vertex : entities[i]) {
-                out.put(vertex + 1);
-                out.put(' ');
-            }
-            out.put(markers.empty() ? 0 : markers[i]);
-            out.put('\n');
+            TextRow row(out);
+            for (const std::uint64_t vertex : entities[i]) row.put(vertex + 1);
+            row.put(markers.empty() ? 0 : markers[i]);
+            row.end();
         }
     });
 }
@@ -61,12 +59,7 @@ void write_vertices(OutputFile& out, MeshSource& mesh) {
         std::span<const Marker> markers;
         if (facts.has_point_markers) markers = mesh.point_markers(window);
         for (std::size_t v = 0; v < points.size(); ++v) {
-            for (const double coordinate : {points[v].x, points[v].y, points[v].z}) {
-                out.put(coordinate);
-                out.put(' ');
-            }
-            out.put(markers.empty() ? 0 : markers[v]);
-            out.put('\n');
+            put_line(out, points[v].x, points[v].y, points[v].z, markers.empty() ? 0 : markers[v]);
         }
     });
 }
@@ -78,8 +71,7 @@ void write_features(OutputFile& out, MeshSource& mesh) {
         put_section_heading(out, mesh.group(), keyword_of(feature).keyword, count);
         put_list(out, count, mesh.group(), [&](const Window& window, std::uint64_t) {
             for (const std::uint64_t number : mesh.features(feature, window)) {
-                out.put(number + 1);
-                out.put('\n');
+                put_line(out, number + 1);
             }
         });
     }

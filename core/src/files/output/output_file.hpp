@@ -1,6 +1,5 @@
 #pragma once
 
-#include <charconv>
 #include <concepts>
 #include <cstdint>
 #include <cstring>
@@ -13,6 +12,7 @@
 
 #include <octetra/core/mesh_source.hpp>
 
+#include "files/output/number_text.hpp"
 #include "files/output/unfinished_files.hpp"
 
 namespace octetra {
@@ -41,15 +41,21 @@ public:
         buffer_[used_++] = c;
     }
     void put(std::string_view text);
-    /// In the fewest decimal digits that read back to the same bits.
-    void put(double number) { put_number(number); }
-    void put(std::integral auto number) { put_number(number); }
+    void put(double number) { put_as_text(number); }
+    void put(std::integral auto number) { put_as_text(number); }
     void put_bytes(const void* data, std::size_t size) {
         if (size == 0) return;
         if (room_ - used_ < size) return put_many_bytes(data, size);
         std::memcpy(buffer_.data() + used_, data, size);
         used_ += size;
     }
+
+    /// Room for so many bytes, for who puts text there himself and then tells where it ends.
+    [[nodiscard]] char* room_for(std::size_t size) {
+        if (room_ - used_ < size) make_room(size);
+        return buffer_.data() + used_;
+    }
+    void put_up_to(const char* end) { used_ = static_cast<std::size_t>(end - buffer_.data()); }
 
     /// Where it is until commit().
     [[nodiscard]] const std::filesystem::path& temporary() const { return temporary_; }
@@ -80,13 +86,7 @@ public:
 
 private:
     void put_many_bytes(const void* data, std::size_t size);
-    void put_number(auto number) {
-        constexpr std::size_t longest_number = 32;
-        if (room_ - used_ < longest_number) make_room(longest_number);
-        char* first = buffer_.data() + used_;
-        const auto result = std::to_chars(first, buffer_.data() + room_, number);
-        used_ += static_cast<std::size_t>(result.ptr - first);
-    }
+    void put_as_text(auto number) { put_up_to(put_number(room_for(longest_number), number)); }
     [[nodiscard]] bool is_alone() const { return group_->size() == 1; }
     void make_room(std::size_t size);
     [[nodiscard]] std::uint64_t place_of_turn();

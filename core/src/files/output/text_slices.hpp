@@ -12,7 +12,7 @@ namespace octetra {
 /// How much of a list of text lines each process makes before the group takes turns: little enough
 /// for a buffer, much enough that turns are rare; of a small list, an equal share.
 [[nodiscard]] inline std::uint64_t lines_of_a_turn(std::uint64_t count, const ProcessGroup& group) {
-    constexpr std::uint64_t most = 1U << 15U;
+    const std::uint64_t most = group.size() > 1 ? 1U << 15U : 1U << 12U;
     return std::clamp(count / static_cast<std::uint64_t>(group.size()) + 1, std::uint64_t{1}, most);
 }
 

@@ -6,11 +6,11 @@
 #include <cstdint>
 #include <optional>
 #include <span>
-#include <string_view>
 #include <utility>
 #include <vector>
 
 #include "files/gmsh/left_out.hpp"
+#include "files/gmsh/wrong_row.hpp"
 #include "files/input/growing_mesh.hpp"
 #include "files/stretches/gmsh_node_tags.hpp"
 
@@ -46,19 +46,21 @@ public:
         (lists_->*kind.markers).reserve(room);
     }
     template <class I, std::size_t N>
-    [[nodiscard]] std::string_view take(const EntityKind<I, N>& kind,
-                                        std::span<const std::uint64_t, N> tags, Marker marker,
-                                        std::uint64_t /*place*/, std::uint64_t /*step*/) {
-        std::array<VertexIndex, N> vertices;
-        for (std::size_t k = 0; k < N; ++k) {
-            vertices[k] = node_tags_->stand_in(tags[k]);
-            if (vertices[k].is_none()) return "there is no such node";
-            for (std::size_t j = 0; j < k; ++j) {
-                if (vertices[j] == vertices[k]) return "the same vertex twice";
+    [[nodiscard]] WrongRow take(const EntityKind<I, N>& kind,
+                                std::span<const std::array<std::uint64_t, N>> rows, Marker marker,
+                                std::uint64_t /*place*/, std::uint64_t /*step*/) {
+        for (std::size_t i = 0; i < rows.size(); ++i) {
+            std::array<VertexIndex, N> vertices;
+            for (std::size_t k = 0; k < N; ++k) {
+                vertices[k] = node_tags_->stand_in(rows[i][k]);
+                if (vertices[k].is_none()) return {i, "there is no such node"};
+                for (std::size_t j = 0; j < k; ++j) {
+                    if (vertices[j] == vertices[k]) return {i, "the same vertex twice"};
+                }
             }
+            (lists_->*kind.list).push_back(vertices);
+            (lists_->*kind.markers).push_back(marker);
         }
-        (lists_->*kind.list).push_back(vertices);
-        (lists_->*kind.markers).push_back(marker);
         return {};
     }
     void skip(Shape shape, std::uint64_t count) { left_out.add(shape, count); }

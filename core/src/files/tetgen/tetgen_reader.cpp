@@ -1,4 +1,5 @@
 #include <optional>
+#include <span>
 #include <string_view>
 #include <utility>
 
@@ -48,19 +49,23 @@ std::uint32_t read_entries(LineReader& reader, std::uint64_t count, std::size_t 
     return first;
 }
 
-/// The line on which an entry of a file stands. (Reads it again: only errors ask.)
-std::uint64_t line_of_entry(const fs::path& path, std::uint64_t entry) {
-    LineReader reader(path);
+/// Goes to the line on which an entry stands, from the file's beginning. (Only errors ask.)
+void go_to_entry(LineReader& reader, std::uint64_t entry) {
     for (std::uint64_t line = 0; line < entry + 2; ++line) (void)reader.next();  // the header, too
-    return reader.line_number();
 }
 
 [[noreturn]] void fail_entry(const fs::path& path, std::uint64_t entry, std::string_view what) {
-    LineReader(path).fail(what, line_of_entry(path, entry));
+    LineReader reader(path);
+    go_to_entry(reader, entry);
+    reader.fail(what);
 }
 
 LineOf lines_of(const fs::path& path) {
-    return [path](std::uint64_t entry) { return line_of_entry(path, entry); };
+    return [path](std::uint64_t entry) {
+        LineReader reader(path);
+        go_to_entry(reader, entry);
+        return reader.line_number();
+    };
 }
 
 NumberedVertices vertex_numbers(const GrowingMesh& growing) {
@@ -78,32 +83,70 @@ void read_node(const fs::path& path, GrowingMesh& growing) {
     growing.points_complete();
 }
 
+/// Judges the cells of an `.ele` file, many at once, while they are read.
+class CellsOfFile {
+public:
+    CellsOfFile(Mesh& mesh, const fs::path& path, std::uint64_t count, const ReadOptions& options)
+        : mesh_(&mesh), path_(&path), check_(mesh, options), repeated_(count) {}
+
+    /// A cell has come.
+    void go_on() {
+        if (mesh_->cells.size() - judged_ == at_once) judge();
+    }
+    /// Throws InputError if something is wrong with one that has come.
+    void judge() {
+        const auto cells = std::span(mesh_->cells).subspan(judged_);
+        const auto [cell, wrong] = check_.judge(cells);
+        if (!wrong.empty()) fail_entry(*path_, judged_ + cell, wrong);
+        for (const CellVertices& vertices : cells) repeated_.add(vertices);
+        judged_ = mesh_->cells.size();
+    }
+    /// All have come.
+    void finish(const ReadOptions& options) {
+        judge();
+        if (check_.fixed_count() > 0) {
+            options.note(fmt::format("{}: {} inverted cells were turned round", path_->native(),
+                                     check_.fixed_count()));
+        }
+        const CellPair pair = repeated_.find(mesh_->cells, mesh_->points.size());
+        if (pair.cell.is_none()) return;
+        fail_entry(*path_, pair.cell.value(), describe_repeated(pair, *mesh_, lines_of(*path_)));
+    }
+
+private:
+    static constexpr std::size_t at_once = 256;
+
+    Mesh* mesh_;
+    const fs::path* path_;
+    CellCheck check_;
+    RepeatedCells repeated_;
+    std::size_t judged_ = 0;
+};
+
 void read_ele(const fs::path& path, const ReadOptions& options, GrowingMesh& growing) {
     LineReader reader(path);
     const EleHead head = read_ele_head(reader);
     growing.expect(cell_kind, head.count, head.attributes == 1);
     const NumberedVertices numbers = vertex_numbers(growing);
     Mesh& mesh = growing.mesh;
-    CellCheck check(mesh, options);
-    RepeatedCells repeated(options.only_syntax ? 0 : head.count);
+    std::optional<CellsOfFile> cells;
+    if (!options.only_syntax) cells.emplace(mesh, path, head.count, options);
     const auto read_cell = [&](Fields& fields) {
-        CellVertices cell = read_vertices<4>(fields, reader, numbers);
-        const std::string_view wrong = check.judge(cell);
-        if (!wrong.empty()) reader.fail(wrong);
-        mesh.cells.push_back(cell);
-        if (!options.only_syntax) repeated.add(cell);
+        mesh.cells.push_back(read_vertices<4>(fields, reader, numbers));
         read_region(fields, head, mesh);
     };
-    read_entries(reader, head.count, head.field_count(), mesh.index_base, read_cell,
-                 [&] { growing.entity_complete(cell_kind); });
+    const auto complete = [&] {
+        growing.entity_complete(cell_kind);
+        if (cells) cells->go_on();
+    };
+    try {
+        read_entries(reader, head.count, head.field_count(), mesh.index_base, read_cell, complete);
+    } catch (const InputError&) {
+        if (cells) cells->judge();  // what is wrong with an earlier line comes first
+        throw;
+    }
     growing.all_complete(cell_kind);
-    if (check.fixed_count() > 0) {
-        options.note(fmt::format("{}: {} inverted cells were turned round", path.native(),
-                                 check.fixed_count()));
-    }
-    if (const CellPair pair = repeated.find(mesh.cells, mesh.points.size()); !pair.cell.is_none()) {
-        fail_entry(path, pair.cell.value(), describe_repeated(pair, mesh, lines_of(path)));
-    }
+    if (cells) cells->finish(options);
 }
 
 /// Reads a `.face` or `.edge` file: entities of N vertices each.

@@ -6,6 +6,7 @@
 
 #include "files/output/output_file.hpp"
 #include "files/output/places.hpp"
+#include "files/output/text_row.hpp"
 #include "files/output/text_slices.hpp"
 #include "files/tetgen/tetgen.hpp"
 
@@ -13,16 +14,6 @@ namespace octetra {
 namespace {
 
 namespace fs = std::filesystem;
-
-void put_fields(OutputFile& out, auto... numbers) {
-    const char* separator = "";
-    ((out.put(std::string_view{separator}), out.put(numbers), separator = " "), ...);
-}
-
-void put_line(OutputFile& out, auto... numbers) {
-    put_fields(out, numbers...);
-    out.put('\n');
-}
 
 /// Collective. The first process's part of a turn of its own.
 void put_header(OutputFile& out, const ProcessGroup& group, auto... numbers) {
@@ -41,16 +32,15 @@ void write_node(OutputFile& out, MeshSource& mesh) {
         if (facts.has_point_markers) markers = mesh.point_markers(window);
         for (std::size_t v = 0; v < points.size(); ++v, ++number) {
             const Point& p = points[v];
-            put_fields(out, facts.index_base + number, p.x, p.y, p.z);
+            TextRow row(out);
+            row.put(facts.index_base + number);
+            for (const double coordinate : {p.x, p.y, p.z}) row.put(coordinate);
             for (std::size_t k = 0; k < attributes; ++k) {
-                out.put(' ');
-                out.put(values[v * attributes + k]);
+                row.go_on();
+                row.put(values[v * attributes + k]);
             }
-            if (!markers.empty()) {
-                out.put(' ');
-                out.put(markers[v]);
-            }
-            out.put('\n');
+            if (!markers.empty()) row.put(markers[v]);
+            row.end();
         }
     });
 }
@@ -73,16 +63,11 @@ void write_list(OutputFile& out, MeshSource& mesh, const List<N>& list) {
         std::span<const Marker> markers;
         if (list.has_markers) markers = (mesh.*list.markers)(window);
         for (std::size_t i = 0; i < entities.size(); ++i, ++number) {
-            out.put(index_base + number);
-            for (const std::uint64_t vertex : entities[i]) {
-                out.put(' ');
-                out.put(index_base + vertex);
-            }
-            if (!markers.empty()) {
-                out.put(' ');
-                out.put(markers[i]);
-            }
-            out.put('\n');
+            TextRow row(out);
+            row.put(index_base + number);
+            for (const std::uint64_t vertex : entities[i]) row.put(index_base + vertex);
+            if (!markers.empty()) row.put(markers[i]);
+            row.end();
         }
     });
 }

@@ -1,0 +1,47 @@
+#pragma once
+
+#include <cstddef>
+
+#include "files/output/number_text.hpp"
+#include "files/output/output_file.hpp"
+
+namespace octetra {
+
+/// A line of numbers with a space between them. Room in the file is asked for once for eight
+/// numbers: who puts more calls go_on() before the ninth, and so on.
+class TextRow {
+public:
+    explicit TextRow(OutputFile& out) : out_(&out), place_(out.room_for(most_bytes)) {}
+
+    void put(auto number) {
+        if (!is_empty_) *place_++ = ' ';
+        is_empty_ = false;
+        place_ = put_number(place_, number);
+    }
+    void go_on() {
+        out_->put_up_to(place_);
+        place_ = out_->room_for(most_bytes);
+    }
+    /// Once, and nothing behind it.
+    void end() {
+        *place_++ = '\n';
+        out_->put_up_to(place_);
+    }
+
+private:
+    static constexpr std::size_t most_bytes = 8 * (1 + longest_number) + 1;
+
+    OutputFile* out_;
+    char* place_;
+    bool is_empty_ = true;
+};
+
+/// A line of what is given: at most eight numbers.
+void put_line(OutputFile& out, auto... numbers) {
+    static_assert(sizeof...(numbers) <= 8);
+    TextRow row(out);
+    (row.put(numbers), ...);
+    row.end();
+}
+
+}  // namespace octetra

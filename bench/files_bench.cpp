@@ -44,11 +44,12 @@ void set_rate(benchmark::State& state, const std::filesystem::path& folder) {
         benchmark::Counter::kIsRate);
 }
 
-void write_file(benchmark::State& state, const std::string& name) {
+void write_file(benchmark::State& state, const std::string& name,
+                const WriteOptions& options = {}) {
     const test::TemporaryFolder folder;
     const Mesh& mesh = large_mesh();  // made here, before the clock runs
     for ([[maybe_unused]] auto _ : state) {
-        (void)write_mesh(mesh, folder / name);
+        (void)write_mesh(mesh, folder / name, options);
         // Where a file takes another's place, ext4 brings it to the disk at once.
         state.PauseTiming();
         for (const auto& entry : std::filesystem::directory_iterator(folder.path())) {
@@ -56,13 +57,13 @@ void write_file(benchmark::State& state, const std::string& name) {
         }
         state.ResumeTiming();
     }
-    (void)write_mesh(mesh, folder / name);
+    (void)write_mesh(mesh, folder / name, options);
     set_rate(state, folder.path());
 }
 
-void read_file(benchmark::State& state, const std::string& name) {
+void read_file(benchmark::State& state, const std::string& name, const WriteOptions& options = {}) {
     const test::TemporaryFolder folder;
-    (void)write_mesh(large_mesh(), folder / name);
+    (void)write_mesh(large_mesh(), folder / name, options);
     for ([[maybe_unused]] auto _ : state) {
         const Mesh mesh = read_mesh(folder / name);
         benchmark::DoNotOptimize(mesh.points.data());
@@ -71,9 +72,10 @@ void read_file(benchmark::State& state, const std::string& name) {
 }
 
 /// Without the checks that need the whole mesh, and the memory.
-void stream_file(benchmark::State& state, const std::string& name) {
+void stream_file(benchmark::State& state, const std::string& name,
+                 const WriteOptions& options = {}) {
     const test::TemporaryFolder folder;
-    (void)write_mesh(large_mesh(), folder / name);
+    (void)write_mesh(large_mesh(), folder / name, options);
     for ([[maybe_unused]] auto _ : state) {
         test::DeafSink sink;
         stream_mesh(folder / name, sink);
@@ -81,16 +83,36 @@ void stream_file(benchmark::State& state, const std::string& name) {
     set_rate(state, folder.path());
 }
 
+constexpr WriteOptions gmsh_2{.msh = {.is_2 = true}};
+constexpr WriteOptions gmsh_text{.msh = {.is_text = true}};
+constexpr WriteOptions gmsh_2_text{.msh = {.is_2 = true, .is_text = true}};
+
 BENCHMARK_CAPTURE(write_file, tetgen, "a.ele")->Unit(benchmark::kMillisecond)->UseRealTime();
 BENCHMARK_CAPTURE(write_file, medit, "a.mesh")->Unit(benchmark::kMillisecond)->UseRealTime();
 BENCHMARK_CAPTURE(write_file, meshb, "a.meshb")->Unit(benchmark::kMillisecond)->UseRealTime();
 BENCHMARK_CAPTURE(write_file, gmsh, "a.msh")->Unit(benchmark::kMillisecond)->UseRealTime();
+BENCHMARK_CAPTURE(write_file, gmsh_2, "a.msh", gmsh_2)
+    ->Unit(benchmark::kMillisecond)
+    ->UseRealTime();
+BENCHMARK_CAPTURE(write_file, gmsh_text, "a.msh", gmsh_text)
+    ->Unit(benchmark::kMillisecond)
+    ->UseRealTime();
+BENCHMARK_CAPTURE(write_file, gmsh_2_text, "a.msh", gmsh_2_text)
+    ->Unit(benchmark::kMillisecond)
+    ->UseRealTime();
 BENCHMARK_CAPTURE(write_file, vtu, "a.vtu")->Unit(benchmark::kMillisecond)->UseRealTime();
 BENCHMARK_CAPTURE(write_file, vtkhdf, "a.vtkhdf")->Unit(benchmark::kMillisecond)->UseRealTime();
 BENCHMARK_CAPTURE(read_file, tetgen, "a.ele")->Unit(benchmark::kMillisecond)->UseRealTime();
 BENCHMARK_CAPTURE(read_file, medit, "a.mesh")->Unit(benchmark::kMillisecond)->UseRealTime();
 BENCHMARK_CAPTURE(read_file, meshb, "a.meshb")->Unit(benchmark::kMillisecond)->UseRealTime();
 BENCHMARK_CAPTURE(read_file, gmsh, "a.msh")->Unit(benchmark::kMillisecond)->UseRealTime();
+BENCHMARK_CAPTURE(read_file, gmsh_2, "a.msh", gmsh_2)->Unit(benchmark::kMillisecond)->UseRealTime();
+BENCHMARK_CAPTURE(read_file, gmsh_text, "a.msh", gmsh_text)
+    ->Unit(benchmark::kMillisecond)
+    ->UseRealTime();
+BENCHMARK_CAPTURE(read_file, gmsh_2_text, "a.msh", gmsh_2_text)
+    ->Unit(benchmark::kMillisecond)
+    ->UseRealTime();
 BENCHMARK_CAPTURE(stream_file, tetgen, "a.ele")->Unit(benchmark::kMillisecond)->UseRealTime();
 BENCHMARK_CAPTURE(stream_file, medit, "a.mesh")->Unit(benchmark::kMillisecond)->UseRealTime();
 BENCHMARK_CAPTURE(stream_file, meshb, "a.meshb")->Unit(benchmark::kMillisecond)->UseRealTime();

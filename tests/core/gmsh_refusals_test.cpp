@@ -3,6 +3,7 @@
 #include <cstring>
 #include <limits>
 #include <ostream>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -246,6 +247,13 @@ INSTANTIATE_TEST_SUITE_P(
                    "the number of nodes should be a whole number from 0, not 'x'"}),
     named_by_case);
 
+std::vector<std::string> lines_in(const std::string& text) {
+    std::vector<std::string> lines;
+    std::istringstream stream(text);
+    for (std::string line; std::getline(stream, line);) lines.push_back(line);
+    return lines;
+}
+
 /// Rows of binary files are looked up and judged many at a time.
 TEST(GmshReader, NamesTheFirstRowWithAFaultWhicheverFaultItIs) {
     const TemporaryFolder folder;
@@ -268,6 +276,54 @@ TEST(GmshReader, NamesTheFirstRowWithAFaultWhicheverFaultItIs) {
             EXPECT_THAT(test::thrown_by<InputError>([&] { (void)read_mesh(path); }),
                         HasSubstr(place + (flat < missing ? "the cell has the same vertex twice"
                                                           : "there is no node 9999")));
+        }
+    }
+}
+
+/// So are lines, which are read one by one.
+TEST(GmshReader, NamesTheFirstLineWithAFaultWhicheverFaultItIs) {
+    const TemporaryFolder folder;
+    Mesh mesh = test::kuhn(4, 4, 4);
+    mesh.regions.assign(mesh.cells.size(), 3);
+    for (const bool is_2 : {false, true}) {
+        WriteOptions options;
+        options.msh = {.is_2 = is_2, .is_text = true};
+        (void)write_mesh(mesh, folder / "whole.msh", options);
+        const std::string whole = test::content_of(folder / "whole.msh");
+        const std::size_t elements = whole.find("$Elements\n");
+        const auto line_of =
+            std::count(whole.begin(), whole.begin() + static_cast<long>(elements), '\n');
+        const int lines_before = is_2 ? 2 : 3;
+        for (const std::size_t flat : {0U, 5U, 127U, 128U, 200U, 383U}) {
+            for (const std::size_t other : {0U, 4U, 6U, 126U, 127U, 128U, 129U, 255U, 256U, 383U}) {
+                if (flat == other) continue;
+                for (const std::string wrong : {"9999", "x"}) {
+                    std::vector<std::string> lines = lines_in(whole.substr(elements));
+                    const auto row = [&](std::size_t i) -> std::string& {
+                        return lines[i + static_cast<std::size_t>(lines_before)];
+                    };
+                    const auto replace_last = [](std::string& line, const std::string& by) {
+                        line.replace(line.rfind(' ') + 1, std::string::npos, by);
+                    };
+                    const std::string& flat_row = row(flat);
+                    const std::size_t last = flat_row.rfind(' ');
+                    const std::size_t before = flat_row.rfind(' ', last - 1) + 1;
+                    replace_last(row(flat), flat_row.substr(before, last - before));
+                    replace_last(row(other), wrong);
+                    const auto path = folder.write(
+                        "m.msh",
+                        fmt::format("{}{}\n", whole.substr(0, elements), fmt::join(lines, "\n")));
+                    const std::string place =
+                        fmt::format("m.msh:{}: ", line_of + lines_before + 1 +
+                                                      static_cast<long>(std::min(flat, other)));
+                    EXPECT_THAT(
+                        test::thrown_by<InputError>([&] { (void)read_mesh(path); }),
+                        HasSubstr(place + (flat < other   ? "the cell has the same vertex twice"
+                                           : wrong == "x" ? "a node"
+                                                          : "there is no node 9999")))
+                        << is_2 << " " << flat << " " << other;
+                }
+            }
         }
     }
 }

@@ -26,11 +26,10 @@ std::uint64_t BinaryInput::count_line(std::string_view what) {
     fail_at(fmt::format("{} should be a whole number from 0, not {}", what, shown(line)), begin);
 }
 
-double BinaryInput::coordinate(std::string_view what) {
+/// The next number is one that a coordinate cannot be.
+void BinaryInput::refuse_coordinate(std::string_view what) {
+    const std::uint64_t begin = reader_->position();
     const auto value = reader_->take<double>(what);
-    // False for what is not a number, too.
-    if (std::abs(value) < coordinate_limit) return value;
-    const std::uint64_t begin = reader_->position() - sizeof value;
     if (!std::isfinite(value)) fail_at(fmt::format("{} is not finite: {}", what, value), begin);
     fail_at(fmt::format("{} is {}: coordinates must be less than 2^1023, about 8.98e307, or "
                         "midpoints overflow; scale the mesh down",

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <span>
 #include <string>
 #include <string_view>
 
@@ -60,23 +59,30 @@ public:
     [[nodiscard]] std::int32_t integer(std::string_view what) {
         return reader_->take<std::int32_t>(what);
     }
-    [[nodiscard]] double coordinate(std::string_view what);
+    [[nodiscard]] Point point() {
+        const double x = coordinate("x");
+        const double y = coordinate("y");
+        return {x, y, coordinate("z")};
+    }
     void skip_real(std::string_view what) { reader_->skip(sizeof(double), what); }
-    /// How many rows are taken at once: nothing but the end of the file stops them.
-    static constexpr std::size_t rows_at_once = 128;
-    /// Rows of a number each that nobody asks for, and N others.
+    /// A row of an element's number, which nobody asks for, and its nodes.
     template <std::size_t N>
-    void rows(std::span<std::array<std::uint64_t, N>> others, std::string_view what) {
-        constexpr std::size_t row_size = (1 + N) * sizeof(std::uint64_t);
-        const std::byte* bytes = reader_->take_bytes(others.size() * row_size, what);
-        const bool swapped = reader_->swaps_bytes();
-        for (auto& row : others) {
-            for (std::size_t k = 0; k < N; ++k) {
-                row[k] = number_at<std::uint64_t>(bytes + (1 + k) * sizeof(std::uint64_t), swapped);
-            }
-            bytes += row_size;
+    void row(std::array<std::uint64_t, N>& nodes, std::string_view what) {
+        constexpr std::size_t size = sizeof(std::uint64_t);
+        const std::byte* const bytes = reader_->take_bytes((1 + N) * size, what);
+        for (std::size_t k = 0; k < N; ++k) {
+            nodes[k] = number_at<std::uint64_t>(bytes + (1 + k) * size, reader_->swaps_bytes());
         }
     }
+
+    /// The next bytes, if there are so many and no more than a row can have; pass() goes on.
+    [[nodiscard]] const std::byte* at_hand(std::size_t size) {
+        constexpr std::size_t longest_row = 1U << 12U;
+        if (size > longest_row || size > reader_->remaining()) return nullptr;
+        return reader_->look_at_bytes(size, {});
+    }
+    void pass(std::size_t size) { (void)reader_->take_bytes(size, {}); }
+    [[nodiscard]] bool swaps_bytes() const { return reader_->swaps_bytes(); }
 
     void check_count(std::uint64_t count, std::size_t /*numbers*/, std::size_t bytes,
                      std::string_view what) const {
@@ -97,6 +103,14 @@ public:
 private:
     /// The next line that holds something; empty at the end of the file.
     std::string next_line();
+    [[nodiscard]] double coordinate(std::string_view what) {
+        const std::byte* const bytes = reader_->look_at_bytes(sizeof(double), what);
+        const auto value = number_at<double>(bytes, reader_->swaps_bytes());
+        if (!(std::abs(value) < coordinate_limit)) refuse_coordinate(what);  // nor if it is NaN
+        pass(sizeof value);
+        return value;
+    }
+    [[noreturn]] void refuse_coordinate(std::string_view what);
 
     ByteReader* reader_;
     std::uint64_t line_begin_ = 0;

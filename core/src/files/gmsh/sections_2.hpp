@@ -4,15 +4,17 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 
 #include <fmt/format.h>
 
 #include "files/gmsh/element_types.hpp"
-#include "files/gmsh/wrong_row.hpp"
+#include "files/gmsh/row_batch.hpp"
+#include "files/input/byte_reader.hpp"
 #include "files/input/growing_mesh.hpp"
+#include "files/input/in_order.hpp"
 
 /// The sections of versions 2 to 2.2, text and binary. An Input is a TextInput or has its
 /// functions; an Intake is a MeshIntake, or has.
@@ -32,9 +34,7 @@ void read_node_rows_2(Input& in, std::uint64_t count, Intake& intake) {
     for (std::uint64_t i = 0; i < count; ++i) {
         const std::uint64_t place = in.begin_row("a node");
         intake.take_tag(in.number32("a node's number"), place, Input::row_step(node_bytes_2));
-        const double x = in.coordinate("x");
-        const double y = in.coordinate("y");
-        intake.take_point({x, y, in.coordinate("z")});
+        intake.take_point(in.point());
     }
 }
 
@@ -104,11 +104,18 @@ struct ListedRun {
     std::uint64_t others = 0;  ///< of these, listed in other groups and not kept
     std::array<std::int32_t, 6> groups_of_others{};  ///< as many as there is room for
 
-    void keep(const ListedElement<N>& one) {
-        if (kept == 0) first = one;
-        if (kept == alike && is_same_element(one, first)) ++alike;
+    /// The nodes of `last` are for the caller to set before anybody asks for them.
+    void keep(const std::array<std::uint64_t, N>& nodes, std::int32_t physical,
+              std::int32_t elementary) {
+        last.physical = physical;
+        last.elementary = elementary;
+        last.is_there = true;
+        if (kept == alike) {
+            const ListedElement<N> one{nodes, physical, elementary, true};
+            if (kept == 0) first = one;
+            if (is_same_element(one, first)) ++alike;
+        }
         ++kept;
-        last = one;
     }
     void leave_out(std::int32_t group) {
         if (kept != alike) return;
@@ -122,51 +129,111 @@ struct ListedRun {
 template <class Input, class Intake>
 class Elements2 {
 public:
-    Elements2(Input& in, Intake& intake) : in_(&in), intake_(&intake) {}
+    Elements2(Input& in, Intake& intake) : in_(&in), intake_(&intake), batch_(in, intake) {}
 
     void read() {
         const std::uint64_t count = read_element_count_2(*in_);
         intake_->expect_elements(count);
-        if constexpr (Input::has_lines) {
-            read_lines(count);
-        } else {
-            for (std::uint64_t left = count; left > 0;) {
-                const ElementBlock2 block = read_element_block_2(*in_, left);
-                read_rows(block, block.count);
-                left -= block.count;
-            }
-        }
+        if constexpr (Input::has_lines) read_lines(count);
+        if constexpr (!Input::has_lines) fill([&] { read_blocks(count); });
     }
 
     /// So many elements of a text file.
     void read_lines(std::uint64_t count) {
-        for (std::uint64_t i = 0; i < count; ++i) {
-            place_ = in_->begin_row("an element");
-            (void)in_->number32("an element's number");
-            const std::uint64_t type = in_->number32("an element's type");
-            read_element(type, in_->number32("the number of tags"));
-        }
+        fill([&] {
+            for (std::uint64_t i = 0; i < count; ++i) {
+                place_ = in_->begin_row("an element");
+                (void)in_->number32("an element's number");
+                const std::uint64_t type = in_->number32("an element's type");
+                read_element(type, in_->number32("the number of tags"));
+            }
+        });
     }
     /// So many of a block of a binary file.
-    void read_rows(const ElementBlock2& block, std::uint64_t count) {
-        for (std::uint64_t i = 0; i < count; ++i) {
-            place_ = in_->begin_row("an element");
-            (void)in_->integer("an element's number");
-            read_element(block.type, block.tags);
-        }
+    void read_rows(const ElementBlock2& block, std::uint64_t count) requires(!Input::has_lines) {
+        fill([&] { add_rows(block, count); });
     }
 
     [[nodiscard]] const ListedRun<4>& listed(const EntityKind<CellIndex, 4>& /*kind*/) const {
-        return cells_;
+        return cells_.run;
     }
     [[nodiscard]] const ListedRun<3>& listed(const EntityKind<FacetIndex, 3>& /*kind*/) const {
-        return facets_;
+        return facets_.run;
     }
     [[nodiscard]] const ListedRun<2>& listed(const EntityKind<EdgeIndex, 2>& /*kind*/) const {
-        return edges_;
+        return edges_.run;
     }
 
 private:
+    template <std::size_t N>
+    struct OfKind {
+        ListedRun<N> run;
+        /// Of the last one that is kept, as they stand in the batch: to copy them each time would
+        /// be to wait until they are there.
+        const std::array<std::uint64_t, N>* last_nodes = nullptr;
+
+        void know_last_nodes() {
+            if (last_nodes != nullptr) run.last.nodes = *std::exchange(last_nodes, nullptr);
+        }
+    };
+
+    void fill(auto&& read_elements) {
+        batch_.fill(read_elements);
+        cells_.know_last_nodes();
+        facets_.know_last_nodes();
+        edges_.know_last_nodes();
+    }
+    void read_blocks(std::uint64_t count) {
+        for (std::uint64_t left = count; left > 0;) {
+            const ElementBlock2 block = read_element_block_2(*in_, left);
+            add_rows(block, block.count);
+            left -= block.count;
+        }
+    }
+    void add_rows(const ElementBlock2& block, std::uint64_t count) requires(!Input::has_lines) {
+        const auto add = [&](auto&& read_at_once) {
+            for (std::uint64_t i = 0; i < count; ++i) {
+                place_ = in_->begin_row("an element");
+                if (read_at_once()) continue;
+                (void)in_->integer("an element's number");
+                read_element(block.type, block.tags);
+            }
+        };
+        const std::size_t tags = block.tags;
+        if (block.type == tetrahedron_type) {
+            intake_->make_room(cell_kind, count);
+            add([&] { return read_at_once(cell_kind, cells_, tags); });
+        } else if (block.type == triangle_type) {
+            intake_->make_room(facet_kind, count);
+            add([&] { return read_at_once(facet_kind, facets_, tags); });
+        } else {
+            add([] { return false; });
+        }
+    }
+    /// The whole row of a binary file. False, and nothing is read, where number by number something
+    /// wrong would be found.
+    template <class I, std::size_t N>
+    bool read_at_once(const EntityKind<I, N>& kind, OfKind<N>& of, std::size_t tags) {
+        const std::size_t size = (1 + tags + N) * sizeof(std::int32_t);
+        const std::byte* const row = in_->at_hand(size);
+        if (row == nullptr) return false;
+        const auto number = [&](std::size_t k) {
+            return number_at<std::int32_t>(row + k * sizeof(std::int32_t), in_->swaps_bytes());
+        };
+        auto& nodes = next_row(kind, of);
+        std::int32_t negative = 0;
+        for (std::size_t k = 0; k < N; ++k) {
+            const std::int32_t node = number(1 + tags + k);
+            negative |= node;
+            nodes[k] = static_cast<std::uint64_t>(node);
+        }
+        if (negative < 0) return false;
+        physical_ = tags > 0 ? number(1) : 0;
+        elementary_ = tags > 1 ? number(2) : 0;
+        in_->pass(size);
+        keep(kind, nodes, size, of);
+        return true;
+    }
     void read_element(std::uint64_t type, std::uint64_t tags) {
         physical_ = elementary_ = 0;
         for (std::uint64_t k = 0; k < tags; ++k) {
@@ -174,10 +241,10 @@ private:
             if (k == 0) physical_ = tag;
             if (k == 1) elementary_ = tag;
         }
-        step_ = Input::row_step((1 + tags) * sizeof(std::int32_t));
-        if (type == tetrahedron_type) return keep(cell_kind, cells_);
-        if (type == triangle_type) return keep(facet_kind, facets_);
-        if (type == line_type) return keep(edge_kind, edges_);
+        tags_ = tags;
+        if (type == tetrahedron_type) return read_nodes(cell_kind, cells_);
+        if (type == triangle_type) return read_nodes(facet_kind, facets_);
+        if (type == line_type) return read_nodes(edge_kind, edges_);
         if (const std::string refusal = refusal_of_type(type); !refusal.empty()) {
             in_->fail_at(refusal, place_);
         }
@@ -187,31 +254,43 @@ private:
     }
 
     template <class I, std::size_t N>
-    void keep(const EntityKind<I, N>& kind, ListedRun<N>& run) {
-        ListedElement<N> one{{}, physical_, elementary_, true};
-        for (std::uint64_t& node : one.nodes) node = in_->number32("a node's number");
-        if (physical_ != run.last.physical && is_same_element(one, run.last)) {
-            run.leave_out(physical_);
-            return intake_->skip_in_another_group();
+    void read_nodes(const EntityKind<I, N>& kind, OfKind<N>& of) {
+        auto& nodes = next_row(kind, of);
+        for (std::uint64_t& node : nodes) node = in_->number32("a node's number");
+        keep(kind, nodes, Input::row_step((1 + tags_ + N) * sizeof(std::int32_t)), of);
+    }
+    template <class I, std::size_t N>
+    std::array<std::uint64_t, N>& next_row(const EntityKind<I, N>& kind, OfKind<N>& of) {
+        if (!batch_.is_of(kind)) of.know_last_nodes();
+        return batch_.next_row(kind);
+    }
+    /// The next row of the batch, unless it is listed again.
+    template <class I, std::size_t N>
+    void keep(const EntityKind<I, N>& kind, const std::array<std::uint64_t, N>& nodes,
+              std::uint64_t step, OfKind<N>& of) {
+        ListedRun<N>& run = of.run;
+        if (physical_ != run.last.physical) {
+            of.know_last_nodes();
+            if (is_same_element({nodes, physical_, elementary_, true}, run.last)) {
+                run.leave_out(physical_);
+                return intake_->skip_in_another_group();
+            }
         }
-        const std::uint64_t step = step_ + (Input::has_lines ? 0 : N * sizeof(std::int32_t));
-        const WrongRow wrong =
-            intake_->take(kind, std::span<const std::array<std::uint64_t, N>>(&one.nodes, 1),
-                          physical_, place_, step);
-        if (!wrong.what.empty()) in_->fail_at(wrong.what, place_);
-        run.keep(one);
+        run.keep(nodes, physical_, elementary_);
+        of.last_nodes = &batch_.add(kind, physical_, place_, step);
     }
 
     Input* in_;
     Intake* intake_;
+    RowBatch<Input, Intake> batch_;
     // Of the element that is read:
     std::uint64_t place_ = 0;
-    std::uint64_t step_ = 0;
+    std::uint64_t tags_ = 0;
     std::int32_t physical_ = 0;
     std::int32_t elementary_ = 0;
-    ListedRun<4> cells_;
-    ListedRun<3> facets_;
-    ListedRun<2> edges_;
+    OfKind<4> cells_;
+    OfKind<3> facets_;
+    OfKind<2> edges_;
 };
 
 }  // namespace octetra::gmsh

@@ -4,7 +4,6 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -15,7 +14,7 @@
 
 #include "files/gmsh/element_types.hpp"
 #include "files/gmsh/entity_groups.hpp"
-#include "files/gmsh/wrong_row.hpp"
+#include "files/gmsh/row_batch.hpp"
 #include "files/input/growing_mesh.hpp"
 
 /// The sections of version 4.1, text and binary: the same numbers in the same order. An Input is a
@@ -162,9 +161,7 @@ template <class Input, class Intake>
 void read_node_points_4(Input& in, const NodeBlock& block, std::uint64_t count, Intake& intake) {
     for (std::uint64_t i = 0; i < count; ++i) {
         (void)in.begin_row("x");
-        const double x = in.coordinate("x");
-        const double y = in.coordinate("y");
-        intake.take_point({x, y, in.coordinate("z")});
+        intake.take_point(in.point());
         for (std::size_t k = 0; k < block.parameters; ++k) in.skip_real("a parameter of a node");
     }
 }
@@ -218,18 +215,15 @@ ElementBlock read_element_block_4(Input& in, std::uint64_t left, const EntityGro
 template <class Input, class I, std::size_t N, class Intake>
 void keep_rows_4(Input& in, const EntityKind<I, N>& kind, Marker marker, std::uint64_t count,
                  Intake& intake) {
-    constexpr std::uint64_t step = Input::row_step((1 + N) * sizeof(std::uint64_t));
     intake.make_room(kind, count);
-    std::array<std::array<std::uint64_t, N>, Input::rows_at_once> room;
-    while (count > 0) {
-        const std::uint64_t place = in.begin_row("an element");
-        const auto rows = std::span(room).first(std::min(count, Input::rows_at_once));
-        in.rows(rows, "a node of an element");
-        const WrongRow wrong = intake.take(
-            kind, std::span<const std::array<std::uint64_t, N>>(rows), marker, place, step);
-        if (!wrong.what.empty()) in.fail_at(wrong.what, place + wrong.row * step);
-        count -= rows.size();
-    }
+    RowBatch batch(in, intake);
+    batch.fill([&] {
+        for (std::uint64_t i = 0; i < count; ++i) {
+            const std::uint64_t place = in.begin_row("an element");
+            in.row(batch.next_row(kind), "a node of an element");
+            batch.add(kind, marker, place, Input::row_step((1 + N) * sizeof(std::uint64_t)));
+        }
+    });
 }
 
 /// Reads so many rows of a block.

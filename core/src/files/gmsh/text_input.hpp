@@ -3,11 +3,12 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <span>
 #include <string>
 #include <string_view>
 
 #include <fmt/format.h>
+
+#include <octetra/core/point.hpp>
 
 #include "files/input/fields.hpp"
 #include "files/input/line_reader.hpp"
@@ -75,22 +76,21 @@ public:
         return reader_->full_line();
     }
     [[nodiscard]] std::int32_t integer(std::string_view what) { return tokens_.marker(what); }
-    [[nodiscard]] double coordinate(std::string_view what) { return tokens_.coordinate(what); }
+    [[nodiscard]] Point point() {
+        const double x = tokens_.coordinate("x");
+        const double y = tokens_.coordinate("y");
+        return {x, y, tokens_.coordinate("z")};
+    }
     /// A number that nobody asks for.
     void skip_real(std::string_view what) {
         tokens_.require(what);
         (void)tokens_.text();
     }
-    /// How many rows are taken at once: what is wrong with one comes before what is wrong with the
-    /// text of the next.
-    static constexpr std::size_t rows_at_once = 1;
-    /// Rows of a number each that nobody asks for, and N others.
+    /// A row of an element's number, which nobody asks for, and its nodes.
     template <std::size_t N>
-    void rows(std::span<std::array<std::uint64_t, N>> others, std::string_view what) {
-        for (auto& row : others) {
-            (void)tokens_.unsigned_integer(what);
-            for (std::uint64_t& number : row) number = tokens_.unsigned_integer(what);
-        }
+    void row(std::array<std::uint64_t, N>& nodes, std::string_view what) {
+        (void)tokens_.unsigned_integer(what);
+        for (std::uint64_t& node : nodes) node = tokens_.unsigned_integer(what);
     }
 
     /// Refuses a count, just read, of entries that the file cannot hold: each has at least so many

@@ -84,10 +84,14 @@ public:
 
     /// The next bytes as they are, at most buffer_size of them; valid until the next call.
     [[nodiscard]] const std::byte* take_bytes(std::size_t size, std::string_view what) {
-        if (end_ - begin_ < size) have_at_hand(size, what);
-        const std::byte* const bytes = buffer_.data() + begin_;
+        const std::byte* const bytes = look_at_bytes(size, what);
         begin_ += size;
         return bytes;
+    }
+    /// The same bytes, which stay the next ones.
+    [[nodiscard]] const std::byte* look_at_bytes(std::size_t size, std::string_view what) {
+        if (end_ - begin_ < size) have_at_hand(size, what);
+        return buffer_.data() + begin_;
     }
     /// Of `rows` rows to come, each of `row_size` bytes, as many as are at hand, one at least: it
     /// is for the caller to ask again for the others. Valid until the next call.

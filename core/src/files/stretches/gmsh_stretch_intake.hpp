@@ -45,6 +45,7 @@ public:
         list.reserve(room);
         (lists_->*kind.markers).reserve(room);
     }
+    static constexpr std::size_t most_at_once = 128;
     template <class I, std::size_t N>
     [[nodiscard]] WrongRow take(const EntityKind<I, N>& kind,
                                 std::span<const std::array<std::uint64_t, N>> rows, Marker marker,

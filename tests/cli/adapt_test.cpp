@@ -178,6 +178,70 @@ TEST_F(Adapt, WritesTheSameBytesOnAnyNumberOfRanks) {
     }
 }
 
+/// A corner of few cells of the input, ever finer.
+std::string to_the_corner(int steps) {
+    std::string script;
+    double radius = 0.9;
+    for (int k = 0; k < steps; ++k, radius *= 0.6) {
+        script += "refine --sphere 0,0,0," + std::to_string(radius) + "\n";
+    }
+    return script;
+}
+
+TEST_F(Adapt, MakesRanksEvenWhereOneCornerHasMostOfTheCells) {
+    run("generate kuhn 2 -o coarse.mesh");
+    (void)folder.write("s.txt", to_the_corner(16) + "rebalance\n");
+    expect_done(test::octetra("adapt coarse.mesh --script s.txt -o alone.mesh", folder));
+    const auto four = test::octetra_on(
+        4, "adapt coarse.mesh --script s.txt --rebalance 0.1 -o four.mesh", folder);
+    expect_done(four);
+    expect_same("alone.mesh", "four.mesh");
+    const std::string before = "most/mean cells ";
+    const double most = std::stod(four.out.substr(four.out.rfind(before) + before.size()));
+    EXPECT_LE(most, 1.15) << four.out;
+}
+
+/// Whoever asks for it gets all of it: then no cell of the mesh takes the place of the input's.
+TEST_F(Adapt, KeepsTheHistoryForStepsAndFilesThatNeedIt) {
+    run("generate kuhn 2 -o coarse.mesh");
+    const std::string corner = to_the_corner(6);
+    const std::vector<std::array<std::string, 2>> cases{
+        {corner + "coarsen --all --levels 9\n", "-o OUT.mesh"},
+        {corner + "write OUT.octetra\n", "-o OUT.mesh"},
+        {corner, "-o OUT.octetra"},
+        {corner, "-o OUT.mesh --verify"}};
+    const auto named = [](std::string words, const std::string& name) {
+        for (auto at = words.find("OUT"); at != std::string::npos; at = words.find("OUT")) {
+            words.replace(at, 3, name);
+        }
+        return words;
+    };
+    for (const auto& [script, options] : cases) {
+        (void)folder.write("a.txt", named(script, "alone"));
+        (void)folder.write("f.txt", named(script, "four"));
+        expect_done(
+            test::octetra("adapt coarse.mesh --script a.txt " + named(options, "alone"), folder));
+        expect_done(test::octetra_on(
+            4, "adapt coarse.mesh --script f.txt --rebalance 0 " + named(options, "four"), folder));
+        for (const std::string extension : {".mesh", ".octetra"}) {
+            if ((script + options).find(extension) == std::string::npos) continue;
+            expect_same("alone" + extension, "four" + extension);
+        }
+    }
+    const std::string refine = "refine coarse.mesh --box 0,0,0,.4,.4,.4 --levels 5 ";
+    run(refine + "--maps alone.txt -o alone.mesh");
+    for (const std::string more : {"--maps four.txt", "--verify", ""}) {
+        expect_done(test::octetra_on(4, refine + "--rebalance 0 -o four.mesh " + more, folder));
+        expect_same("alone.mesh", "four.mesh");
+    }
+    expect_same("alone.txt", "four.txt");
+    (void)folder.write("cells.txt", "1\n2\n");
+    const std::string listed = "refine coarse.mesh --cells cells.txt --levels 5 ";
+    run(listed + "-o alone.mesh");
+    expect_done(test::octetra_on(4, listed + "--rebalance 0 -o four.mesh", folder));
+    expect_same("alone.mesh", "four.mesh");
+}
+
 TEST_F(Adapt, WritesTheSameBytesByTheReference) {
     std::string list;
     for (int c = 5; c < 60; c += 3) list += std::to_string(c) + "\n";

@@ -128,6 +128,14 @@ TEST(FailingAllocations, OfAStepBeforeWhichCellsMoveLeaveTheMeshAsItWas) {
     }
 }
 
+TEST(FailingAllocations, OfAStepBeforeWhichCellsBecomeRootsLeaveTheMeshAsItWas) {
+    constexpr BalanceOptions forgetting{.most_over_mean = 1, .may_forget_history = true};
+    const std::uint64_t failures = let_each_fail(2, [&](AdaptiveMesh& mesh) {
+        return [&] { (void)mesh.refine_evenly(steps[2], forgetting); };
+    });
+    EXPECT_TRUE(failures >= 250 || test::world().size() == 1);
+}
+
 /// Of a mesh that is no AdaptiveMesh, which becomes one for the move.
 TEST(FailingAllocations, OfALevelBeforeWhichCellsMoveLeaveTheMeshAsItWas) {
     const Mesh whole = test::marked(test::shaken_kuhn(4, 0.2, 1), 1);

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <variant>
@@ -10,6 +12,7 @@
 #include <fmt/format.h>
 
 #include <octetra/core/error.hpp>
+#include <octetra/core/files/checkpoint.hpp>
 #include <octetra/distributed/profile.hpp>
 
 #include "adapt/run_steps.hpp"
@@ -43,9 +46,20 @@ double most_over_mean(const AdaptiveMesh& mesh) {
 
 class Runner {
 public:
-    /// `is_last`: no later step changes the mesh.
-    Runner(AdaptiveMesh& mesh, const ScriptRun& run, bool is_refined_before, bool is_last)
-        : mesh_(&mesh), run_(&run), is_refined_before_(is_refined_before), is_last_(is_last) {}
+    /// What is known of the steps to come.
+    struct Rest {
+        bool changes_mesh;
+        bool needs_history;
+    };
+
+    Runner(AdaptiveMesh& mesh, const ScriptRun& run, bool is_refined_before, Rest rest)
+        : mesh_(&mesh),
+          run_(&run),
+          is_refined_before_(is_refined_before),
+          is_last_(!rest.changes_mesh),
+          balance_(run.balance) {
+        if (balance_) balance_->may_forget_history = !rest.needs_history;
+    }
 
     StepDone operator()(RefineStep step) {
         complete(step.selection, step.typed.selection);
@@ -53,7 +67,7 @@ public:
         distributed::StepOptions options = run_->options;
         options.scheme = step.scheme;
         options.is_last = is_last_ && levels == 1;
-        const int done = refine(*mesh_, step, options, run_->balance, followers(levels));
+        const int done = refine(*mesh_, step, options, balance_, followers(levels));
         return {levels_done("refined", done), idle_levels(done, levels, why_not_finer)};
     }
 
@@ -68,7 +82,8 @@ public:
 
     StepDone operator()(const RebalanceStep&) {
         const double before = most_over_mean(*mesh_);
-        const distributed::Migration move = mesh_->rebalance();
+        const distributed::Migration move =
+            mesh_->rebalance({.may_forget_history = balance_ && balance_->may_forget_history});
         if (!move.changed()) {
             return {fmt::format("rebalanced, and no cell moved: most/mean cells {:.2f}", before),
                     {},
@@ -105,6 +120,7 @@ private:
     const ScriptRun* run_;
     bool is_refined_before_;
     bool is_last_;
+    std::optional<distributed::BalanceOptions> balance_;
 };
 
 bool changes_cells(const ScriptStep& step) {
@@ -112,17 +128,29 @@ bool changes_cells(const ScriptStep& step) {
            std::holds_alternative<CoarsenStep>(step.step);
 }
 
+/// To take cells back one must know what they came from, and a checkpoint says it.
+bool needs_history(const ScriptStep& step) {
+    const auto* const write = std::get_if<WriteStep>(&step.step);
+    return std::holds_alternative<CoarsenStep>(step.step) ||
+           (write != nullptr && is_checkpoint(write->path));
+}
+
+Runner::Rest rest_of(std::span<const ScriptStep> steps, const ScriptRun& run) {
+    return {std::ranges::any_of(steps, changes_cells),
+            run.needs_history || std::ranges::any_of(steps, needs_history)};
+}
+
 }  // namespace
 
 void run_script(AdaptiveMesh& mesh, const Script& script, const ScriptRun& run, Stopwatch& watch) {
     Counts before = counts_of(mesh);
     bool is_refined = run.has_steps;
-    auto changing = std::ranges::count_if(script.steps, changes_cells);  // steps still to come
+    std::span<const ScriptStep> to_come(script.steps);
     for (const ScriptStep& step : script.steps) {
-        if (changes_cells(step)) --changing;
+        to_come = to_come.subspan(1);
         StepDone done;
         try {
-            done = std::visit(Runner(mesh, run, is_refined, changing == 0), step.step);
+            done = std::visit(Runner(mesh, run, is_refined, rest_of(to_come, run)), step.step);
         } catch (const InputError& error) {
             throw wrong_line(script, step, error.what());
         }

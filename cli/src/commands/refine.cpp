@@ -190,6 +190,11 @@ bool refine_distributed(Plan plan, const RefineOptions& options,
         if (show) clear_level_progress();
         report_refined(options, {levels, world.size(), facts, too_large}, watch.lap());
     };
+    if (plan.balance) {
+        // Nobody asks what cells came from but these.
+        plan.balance->may_forget_history =
+            options.maps.empty() && !options.verify && plan.selection.cells.empty();
+    }
     naming_the_mesh(options, [&] {
         distributed::refine(parts, plan.selection,
                             {.scheme = plan.scheme,

@@ -117,13 +117,14 @@ Adaptation coarsen_state(AdaptiveMesh::State& state, const std::function<MarkedC
         [&] { sharing = sharing_after(state.sharing, kept, *part, state.numbers, numbers); });
     failure.agree(processes);
 
+    const std::size_t levels_before = mesh.level_begin.size();
     adaptation = adaptation_of(mesh.points.size(), *part);
     lists.commit(mesh, *part);
     commit_vertices(mesh, *part);
     commit_numbers(numbers, *part, state.numbers);
     adaptation.vertices_before = std::move(part->vertices_before);
     state.sharing = *std::move(sharing);
-    state.step_count = static_cast<int>(mesh.level_begin.size());
+    state.step_count -= static_cast<int>(levels_before - mesh.level_begin.size());
     return adaptation;
 }
 

@@ -2,11 +2,13 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <utility>
 
 #include <octetra/distributed/profile.hpp>
 
+#include "adapt/even_roots.hpp"
 #include "comm/local_failure.hpp"
 #include "migrate/even_parts.hpp"
 #include "pattern/length_order.hpp"
@@ -29,11 +31,15 @@ struct Loads {
     }
 
     [[nodiscard]] bool are_uneven(const BalanceOptions& balance, int processes) const {
-        const double mean = static_cast<double>(sum) / processes;
-        const double spared = static_cast<double>(most) - mean;
-        if (static_cast<double>(most) <= balance.most_over_mean * mean) return false;
-        return !balance.only_if_it_pays || spared > 2 * static_cast<double>(most_before);
+        return static_cast<double>(most) > balance.most_over_mean * mean(processes);
     }
+    /// Cells that the process with most makes while the others wait.
+    [[nodiscard]] std::uint64_t spared(int processes) const {
+        return most - static_cast<std::uint64_t>(mean(processes));
+    }
+
+private:
+    [[nodiscard]] double mean(int processes) const { return static_cast<double>(sum) / processes; }
 };
 
 /// How many cells each root of this process will have become, of a mesh in canonical order.
@@ -100,9 +106,17 @@ void redo(DistributedMesh& mesh, PlannedLevel& plan, UnevenLevel level,
 
 }  // namespace
 
+void UnevenLevel::keep_mesh() noexcept {
+    if (roots != nullptr) roots->keep();
+    if (order != nullptr) order->keep();
+    roots.reset();
+    order.reset();
+}
+
 std::optional<UnevenLevel> uneven_level(DistributedMesh& mesh, PlannedLevel& plan,
                                         const BalanceOptions& balance, const RefineOptions& options,
-                                        const Tuning& tuning) {
+                                        const Tuning& tuning, std::uint64_t& waited,
+                                        const CanonicalNumbers* known) {
     const Communicator& processes = mesh.processes;
     if (processes.size() == 1) return std::nullopt;
     LocalFailure failure;
@@ -112,18 +126,17 @@ std::optional<UnevenLevel> uneven_level(DistributedMesh& mesh, PlannedLevel& pla
     const Loads loads(mesh, count);
     if (loads.sum > options.max_cells) return std::nullopt;  // bisection will say so
     if (!loads.are_uneven(balance, processes.size())) return std::nullopt;
+    waited += loads.spared(processes.size());
+    if (balance.only_if_it_pays && waited <= 2 * loads.most_before) return std::nullopt;
+    waited = 0;
 
     UnevenLevel level;
-    std::vector<std::uint64_t> weights;
-    failure.attempt([&] {
-        level = undone(mesh, plan);
-        weights = cells_of_roots_after(mesh, level.marks);
-    });
+    failure.attempt([&] { level = undone(mesh, plan); });
     failure.agree(processes);
-    auto ranks = even_parts(mesh, weights, failure);
-    failure.agree(processes);
-    if (ranks) {
-        level.rank_of_root = *std::move(ranks);
+    const auto weigh = [&] { return cells_of_roots_after(mesh, level.marks); };
+    if (auto parts =
+            even_parts_or_roots(mesh, std::ref(weigh), balance, level.roots, known, failure)) {
+        level.rank_of_root = *std::move(parts);
         return level;
     }
     failure.attempt([&] { redo(mesh, plan, std::move(level), options, tuning); });

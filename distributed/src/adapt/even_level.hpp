@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -8,6 +9,7 @@
 #include <octetra/distributed/migration.hpp>
 
 #include "adapt/mesh_state.hpp"
+#include "history/cells_as_roots.hpp"
 #include "level/incremental/adjacency.hpp"
 #include "level/planned_level.hpp"
 
@@ -20,16 +22,23 @@ namespace octetra::distributed {
 /// cells.
 struct UnevenLevel {
     std::unique_ptr<CanonicalOrder> order;  ///< that the mesh is in as long as this lives
+    std::unique_ptr<CellsAsRoots> roots;    ///< likewise; null: they are those of before
     MarkedCells marks;                      ///< closed, in that order
     std::vector<int> rank_of_root;
+
+    /// The mesh stays in this order, and its roots what they are.
+    void keep_mesh() noexcept;
 };
 
 /// Collective. Nothing, on all processes, where the closed level is to be bisected as it is: it is
-/// even enough, or would not become more so. Else the level is undone.
+/// even enough, or would not become more so. Else the level is undone. `waited`: for how many cells
+/// more than the mean all have waited until the process with most had made them, since cells moved;
+/// this level adds to it. `known`: the numbers of the mesh's vertices, or null.
 [[nodiscard]] std::optional<UnevenLevel> uneven_level(DistributedMesh& mesh, PlannedLevel& plan,
                                                       const BalanceOptions& balance,
                                                       const RefineOptions& options,
-                                                      const Tuning& tuning);
+                                                      const Tuning& tuning, std::uint64_t& waited,
+                                                      const CanonicalNumbers* known = nullptr);
 
 struct MovedLevel {
     std::unique_ptr<AdaptiveMesh::State> state;

@@ -17,7 +17,8 @@ struct AdaptiveMesh::State {
     DistributedMesh mesh;
     CanonicalNumbers numbers;
     Sharing<VertexIndex> sharing;
-    int step_count = 0;
+    int step_count = 0;        ///< those that were forgotten, too
+    std::uint64_t waited = 0;  ///< see uneven_level()
 
     State() = default;
     /// Collective. Of a part that is as the input was.

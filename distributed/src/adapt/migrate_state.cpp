@@ -1,4 +1,6 @@
 #include <algorithm>
+#include <functional>
+#include <memory>
 #include <optional>
 #include <utility>
 
@@ -7,6 +9,7 @@
 #include <octetra/core/error.hpp>
 #include <octetra/distributed/profile.hpp>
 
+#include "adapt/even_roots.hpp"
 #include "adapt/mesh_state.hpp"
 #include "adapt/step_options.hpp"
 #include "comm/local_failure.hpp"
@@ -176,17 +179,22 @@ Migration rebalance_state(AdaptiveMesh::State& state, const BalanceOptions& opti
         static_cast<double>(processes.sum(count)) / static_cast<double>(processes.size());
     if (static_cast<double>(processes.max(count)) <= options.most_over_mean * mean) return {};
     LocalFailure failure;
-    std::optional<std::vector<int>> ranks;
-    {
-        std::optional<CanonicalOrder> order;
-        failure.attempt([&] { order.emplace(state.mesh); });
-        failure.agree(processes);
-        std::vector<std::uint64_t> weights;
-        failure.attempt([&] { weights = cells_of_roots(state.mesh); });
-        ranks = even_parts(state.mesh, weights, failure);
-        failure.agree(processes);
-    }
-    return ranks ? migrate_state(state, *ranks) : Migration();
+    std::optional<CanonicalOrder> order;
+    failure.attempt([&] { order.emplace(state.mesh); });
+    failure.agree(processes);
+    std::unique_ptr<CellsAsRoots> roots;
+    const auto weigh = [&] { return cells_of_roots(state.mesh); };
+    const auto ranks =
+        even_parts_or_roots(state.mesh, std::ref(weigh), options, roots, &state.numbers, failure);
+    if (!ranks) return {};
+    const Phase phase(processes, "migrate");
+    Migration migration;
+    std::optional<AdaptiveMesh::State> after =
+        moved_state(state, order->cells_before(), *ranks, migration);
+    roots.reset();
+    order.reset();
+    state = *std::move(after);
+    return migration;
 }
 
 }  // namespace octetra::distributed

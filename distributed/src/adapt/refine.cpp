@@ -25,8 +25,7 @@ std::size_t bisect_and_commit(DistributedMesh& mesh, PlannedLevel& plan,
 /// Collective. Moves roots first. Where anything fails, the mesh is as it was.
 std::size_t move_and_bisect(DistributedMesh& mesh, UnevenLevel uneven, const RefineOptions& options,
                             const Tuning& tuning, int level) {
-    if (uneven.order != nullptr) uneven.order->keep();
-    uneven.order.reset();
+    uneven.keep_mesh();
     std::optional<AdaptiveMesh::State> state = state_of(mesh);
     try {
         MovedLevel moved = moved_level(*state, uneven, options, tuning);
@@ -52,6 +51,7 @@ SynchronisationCounts refine(DistributedMesh& mesh, const Selection& selection,
     }
     note_cells(mesh.processes, 0, mesh.cells.size(), 0);
     RefineOptions of_level = options;
+    std::uint64_t waited = 0;
     for (int level = 1; level <= options.levels; ++level) {
         const Phase phase(mesh.processes, "level", level);
         const auto mark = [&] { return mark_cells(mesh, selection, level > 1); };
@@ -60,7 +60,8 @@ SynchronisationCounts refine(DistributedMesh& mesh, const Selection& selection,
         if (!plan.changes_anything()) break;  // and so it would be at all further levels
         const SynchronisationCounts counts = plan.counts;
         std::optional<UnevenLevel> uneven;
-        if (options.balance) uneven = uneven_level(mesh, plan, *options.balance, of_level, tuning);
+        if (options.balance)
+            uneven = uneven_level(mesh, plan, *options.balance, of_level, tuning, waited);
         const std::size_t touched =
             uneven ? move_and_bisect(mesh, *std::move(uneven), of_level, tuning, level)
                    : bisect_and_commit(mesh, plan, of_level, level);

@@ -19,7 +19,8 @@ EvenStep refine_state_evenly(AdaptiveMesh::State& state, const std::function<Mar
     PlannedLevel plan = close_level(state.mesh, mark, level_of, tuning);
     if (!plan.changes_anything()) return {Migration(), unchanged(state.mesh)};
     const SynchronisationCounts counts = plan.counts;
-    std::optional<UnevenLevel> uneven = uneven_level(state.mesh, plan, balance, level_of, tuning);
+    std::optional<UnevenLevel> uneven =
+        uneven_level(state.mesh, plan, balance, level_of, tuning, state.waited, &state.numbers);
     if (!uneven) {
         bisect_level(plan, state.mesh, level_of, level);
         return {Migration(), state.take(plan)};

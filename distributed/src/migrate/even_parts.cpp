@@ -96,9 +96,8 @@ std::vector<std::uint64_t> cells_of_roots(const DistributedMesh& mesh) {
     return counts;
 }
 
-std::optional<std::vector<int>> even_parts(const DistributedMesh& mesh,
-                                           std::span<const std::uint64_t> weights,
-                                           LocalFailure& failure) {
+std::optional<EvenParts> even_parts(const DistributedMesh& mesh,
+                                    std::span<const std::uint64_t> weights, LocalFailure& failure) {
     const Communicator& processes = mesh.processes;
     const Phase phase(processes, "find even parts");
     std::vector<WeighedPoint> centroids;
@@ -123,7 +122,7 @@ std::optional<std::vector<int>> even_parts(const DistributedMesh& mesh,
     const std::uint64_t most = most_after(processes, ranks, weights, failure);
     if (failure.max_unless_failed(processes, 0) == LocalFailure::somewhere) return std::nullopt;
     if (most >= processes.max(weight_here)) return std::nullopt;
-    return ranks;
+    return EvenParts{std::move(ranks), most};
 }
 
 }  // namespace octetra::distributed

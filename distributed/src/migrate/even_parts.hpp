@@ -11,14 +11,19 @@
 
 namespace octetra::distributed {
 
+struct EvenParts {
+    std::vector<int> rank_of_root;
+    std::uint64_t most = 0;  ///< what the process that has most has then
+};
+
 /// Collective. For each root of this process, of a mesh in canonical order, the process that is to
 /// have it so that all have about the same weight: by recursive coordinate bisection, the parts
 /// given to processes so that much stays where it is. `weights` are those of this process's roots.
 /// Nothing, on all processes, where the one that has most would not have less, or where a process
 /// has failed or fails.
-[[nodiscard]] std::optional<std::vector<int>> even_parts(const DistributedMesh& mesh,
-                                                         std::span<const std::uint64_t> weights,
-                                                         LocalFailure& failure);
+[[nodiscard]] std::optional<EvenParts> even_parts(const DistributedMesh& mesh,
+                                                  std::span<const std::uint64_t> weights,
+                                                  LocalFailure& failure);
 
 /// How many cells each root of this process has become, of a mesh in canonical order.
 [[nodiscard]] std::vector<std::uint64_t> cells_of_roots(const DistributedMesh& mesh);

@@ -1,0 +1,127 @@
+#include "history/cells_as_roots.hpp"
+
+#include <numeric>
+#include <utility>
+
+#include "comm/all_or_none.hpp"
+#include "level/known_marker.hpp"
+#include "numbering/canonical_runs.hpp"
+#include "output/feature_slices.hpp"
+
+namespace octetra::distributed {
+namespace {
+
+/// Every entity is its own root.
+AncestorMap own_roots(const AncestorMap& ancestors, const CanonicalRuns& runs) {
+    AncestorMap own;
+    own.roots.reserve(ancestors.first.back());
+    if (!ancestors.markers.empty()) own.markers.reserve(ancestors.first.back());
+    for (std::size_t r = 0; r < ancestors.roots.size(); ++r) {
+        const std::size_t count = ancestors.first[r + 1] - ancestors.first[r];
+        for (std::size_t k = 0; k < count; ++k) own.roots.push_back(runs.begin[r] + k);
+        if (!ancestors.markers.empty()) {
+            own.markers.insert(own.markers.end(), count, ancestors.markers[r]);
+        }
+    }
+    own.first.resize(own.roots.size() + 1);
+    std::iota(own.first.begin(), own.first.end(), 0U);
+    return own;
+}
+
+/// Collective. The markers of this process's vertices as all that share them know them: a midpoint
+/// that is shared is at the end of a shared edge.
+std::vector<Marker> settled_markers(const DistributedMesh& mesh) {
+    std::vector<MidpointMarker> known;
+    const bool has_markers = !mesh.input_vertex_markers.empty() || !mesh.midpoint_markers.empty();
+    if (has_markers) {
+        for (VertexIndex v{0}; v < mesh.points.end_index(); ++v) {
+            known.push_back(known_marker(mesh, v));
+        }
+    }
+    std::vector<int> neighbours;
+    std::vector<std::vector<MidpointMarker>> outboxes;
+    for (const Interface& interface : mesh.interfaces) {
+        neighbours.push_back(interface.rank);
+        auto& outbox = outboxes.emplace_back();
+        if (!has_markers) continue;
+        for (const EdgeVertices& edge : interface.edges) {
+            for (const VertexIndex v : edge) outbox.push_back(known[v.value()]);
+        }
+    }
+    const auto inboxes = mesh.processes.exchange_with(neighbours, std::as_const(outboxes));
+    for (std::size_t i = 0; i < inboxes.size(); ++i) {
+        auto told = inboxes[i].begin();
+        for (const EdgeVertices& edge : mesh.interfaces[i].edges) {
+            for (const VertexIndex v : edge) {
+                if (told == inboxes[i].end()) break;
+                MidpointMarker& marker = known[v.value()];
+                if (tells_more(*told, marker)) marker = *told;
+                ++told;
+            }
+        }
+    }
+    std::vector<Marker> markers;
+    markers.reserve(known.size());
+    for (const MidpointMarker& marker : known) markers.push_back(marker.marker);
+    return markers;
+}
+
+/// Collective. What has the features, by its numbers now: of each list this process has a share.
+SharedFeatures features_now(const DistributedMesh& mesh, FeatureSlices slices) {
+    if (!mesh.features) return nullptr;
+    const auto size = static_cast<std::uint64_t>(mesh.processes.size());
+    FeatureLists lists;
+    for (const Feature f : all_features) {
+        const std::uint64_t count = slices.counts()[f];
+        if (count == 0) continue;
+        const auto share = slices.slice(f, {0, count / size + 1, count});
+        lists[f].assign(share.begin(), share.end());
+    }
+    return std::make_shared<const FeatureLists>(std::move(lists));
+}
+
+}  // namespace
+
+void CellsAsRoots::begin(DistributedMesh& mesh, const CanonicalNumbers* known) {
+    const Communicator& processes = mesh.processes;
+    CanonicalNumbers own_numbers;
+    if (known == nullptr) own_numbers = canonical_numbers(mesh);
+    const CanonicalNumbers& numbers = known == nullptr ? own_numbers : *known;
+    all_or_none(processes, [&] {
+        const CanonicalRuns cells = canonical_runs(processes, mesh.cell_ancestors);
+        const CanonicalRuns facets = canonical_runs(processes, mesh.facet_ancestors);
+        const CanonicalRuns edges = canonical_runs(processes, mesh.edge_ancestors);
+        input_vertices_.assign(numbers.of_vertex.begin(), numbers.of_vertex.end());
+        input_vertex_markers_ = settled_markers(mesh);
+        cell_ancestors_ = own_roots(mesh.cell_ancestors, cells);
+        facet_ancestors_ = own_roots(mesh.facet_ancestors, facets);
+        edge_ancestors_ = own_roots(mesh.edge_ancestors, edges);
+        input_vertex_count_ = numbers.vertex_count;
+        input_cell_count_ = cells.count;
+        features_ = features_now(mesh, FeatureSlices(mesh, {{{&mesh.edge_ancestors, &edges},
+                                                             {&mesh.facet_ancestors, &facets},
+                                                             {&mesh.cell_ancestors, &cells}}}));
+    });
+    swap_with(mesh);
+    mesh_ = &mesh;
+}
+
+CellsAsRoots::~CellsAsRoots() {
+    if (mesh_ != nullptr) swap_with(*mesh_);
+}
+
+void CellsAsRoots::swap_with(DistributedMesh& mesh) noexcept {
+    std::swap(mesh.input_vertices, input_vertices_);
+    std::swap(mesh.input_vertex_markers, input_vertex_markers_);
+    std::swap(mesh.level_begin, level_begin_);
+    std::swap(mesh.midpoint_to_edge, midpoint_to_edge_);
+    std::swap(mesh.midpoint_markers, midpoint_markers_);
+    std::swap(mesh.cell_ancestors, cell_ancestors_);
+    std::swap(mesh.facet_ancestors, facet_ancestors_);
+    std::swap(mesh.edge_ancestors, edge_ancestors_);
+    std::swap(mesh.input_vertex_count, input_vertex_count_);
+    std::swap(mesh.input_cell_count, input_cell_count_);
+    std::swap(mesh.features, features_);
+}
+
+}  // namespace octetra::distributed

@@ -74,11 +74,16 @@ Moved moved(const od::AdaptiveMesh& mesh) {
     return {mesh.processes(), mesh.cells().size(), mesh.points().size(), {}};
 }
 
-Moved rebalance(Mesh& mesh, double most_over_mean) {
+od::BalanceOptions balance_options(double most_over_mean, bool may_forget_history) {
+    return {.most_over_mean = most_over_mean, .may_forget_history = may_forget_history};
+}
+
+Moved rebalance(Mesh& mesh, double most_over_mean, bool may_forget_history) {
     return mesh.change([] {},
                        [&](od::AdaptiveMesh& now) {
                            Moved move = moved(now);
-                           move.migration = now.rebalance({.most_over_mean = most_over_mean});
+                           move.migration =
+                               now.rebalance(balance_options(most_over_mean, may_forget_history));
                            return move;
                        });
 }
@@ -95,7 +100,7 @@ Moved migrate(Mesh& mesh, const py::object& given) {
 
 std::tuple<Moved, Adaptation> refine_evenly(Mesh& mesh, const py::object& marks,
                                             const py::object& cells, double most_over_mean,
-                                            const std::string& scheme,
+                                            bool may_forget_history, const std::string& scheme,
                                             const py::object& max_cells) {
     Marks which;
     od::StepOptions options;
@@ -107,7 +112,7 @@ std::tuple<Moved, Adaptation> refine_evenly(Mesh& mesh, const py::object& marks,
         [&](od::AdaptiveMesh& now) {
             Moved move = moved(now);
             od::EvenStep step = now.refine_evenly(
-                which.bytes, od::BalanceOptions{.most_over_mean = most_over_mean}, options);
+                which.bytes, balance_options(most_over_mean, may_forget_history), options);
             move.migration = std::move(step.move);
             return std::tuple(std::move(move), shared(std::move(step.step)));
         });
@@ -121,6 +126,7 @@ void bind_steps(py::module_&, MeshClass& mesh) {
     const py::arg_v scheme = py::arg("scheme") = "8t";
     const py::arg_v max_cells = py::arg("max_cells") = py::none();
     const py::arg_v most_over_mean = py::arg("most_over_mean") = 1.1;
+    const py::arg_v may_forget = py::arg("may_forget_history") = false;
     mesh.def("refine", &refine, no_marks, py::kw_only(), no_cells, scheme, max_cells,
              "Collective. One step of 8T-LE refinement: of the marked cells and what closure "
              "adds.\n\n"
@@ -134,15 +140,18 @@ void bind_steps(py::module_&, MeshClass& mesh) {
             "closure adds. It is enough that one of the ranks which have an edge lists it.")
         .def(
             "refine_evenly", &refine_evenly, no_marks, py::kw_only(), no_cells, most_over_mean,
-            scheme, max_cells,
+            may_forget, scheme, max_cells,
             "Collective. refine(), before which cells move to where the step leaves all ranks with "
-            "about as many. Returns the Migration and the Adaptation, in this order.")
+            "about as many. Returns the Migration and the Adaptation, in this order.\n\n"
+            "may_forget_history: where cells of the input with all that has become of them are "
+            "too much to make ranks even, cells of the mesh as it is may take their place. They "
+            "are the roots then, and coarsening ends with them.")
         .def("coarsen", &coarsen, no_marks, py::kw_only(), no_cells,
              "Collective. Takes refinement back: marked cells may become part of the one that they "
              "were bisected from. Marks as of refine().")
-        .def("rebalance", &rebalance, py::kw_only(), most_over_mean,
+        .def("rebalance", &rebalance, py::kw_only(), most_over_mean, may_forget,
              "Collective. Cells go from ranks that have many to those that have few, where one has "
-             "more than most_over_mean times the mean.")
+             "more than most_over_mean times the mean. may_forget_history: see refine_evenly().")
         .def("migrate", &migrate, py::arg("rank_of_root"),
              "Collective. The same to where a program wants them: (roots,), the rank that is to "
              "have each of `roots`.");

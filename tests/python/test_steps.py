@@ -185,6 +185,20 @@ def test_an_even_step_gives_where_cells_went_and_what_it_did(folder, cube):
     assert same(folder / "even.mesh", folder / "other.mesh")
 
 
+def test_cells_may_take_the_place_of_the_inputs_where_these_are_too_heavy(folder, cube):
+    mesh, other = octetra.read(cube), octetra.read(cube)
+    roots = total(len(mesh.roots))
+    for radius in (0.9, 0.5, 0.28, 0.15, 0.08, 0.04):
+        mesh.refine_evenly(octetra.mark.sphere(mesh, (0, 0, 0), radius), most_over_mean=1.0,
+                           may_forget_history=True)
+        other.refine(octetra.mark.sphere(other, (0, 0, 0), radius))
+    mesh.rebalance(most_over_mean=1.0, may_forget_history=True)
+    assert world.size == 1 or total(len(mesh.roots)) > roots
+    mesh.write(folder / "even.mesh")
+    other.write(folder / "other.mesh")
+    assert same(folder / "even.mesh", folder / "other.mesh")
+
+
 def test_a_mesh_is_saved_with_fields_and_goes_on(folder, mesh):
     mesh.refine(near(mesh, 0.5))
     u, q = mesh.points[:, 0].copy(), centroids(mesh).astype(np.float32)

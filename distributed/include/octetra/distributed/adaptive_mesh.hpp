@@ -168,7 +168,8 @@ public:
     /// to have each of this process's roots().
     Migration migrate(std::span<const int> rank_of_root);
     /// The numbers of the cells of the input, the roots, whose descendants this process has;
-    /// ascending.
+    /// ascending. With BalanceOptions::may_forget_history they may come to be those of a mesh that
+    /// was refined already.
     [[nodiscard]] std::span<const std::uint64_t> roots() const;
     /// Of each cell of this process the place of its root among these. Takes time in proportion to
     /// the part.

@@ -75,7 +75,9 @@ RefineOptions level_options(const StepOptions& options) {
 }
 
 AdaptiveMesh::State::State(DistributedMesh part)
-    : mesh(std::move(part)), numbers(input_numbers(mesh)), sharing(find_vertex_sharing(mesh)) {}
+    : mesh(std::move(part)),
+      numbers(input_numbers(mesh)),
+      sharing(in_phase(mesh.processes, "sharers", [&] { return find_vertex_sharing(mesh); })) {}
 
 Adaptation AdaptiveMesh::State::refine(const std::function<MarkedCells()>& mark,
                                        const StepOptions& options, const Tuning& tuning) {

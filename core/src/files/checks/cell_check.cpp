@@ -43,7 +43,10 @@ std::string_view CellCheck::judge_slowly(CellVertices& cell) {
     const int sign =
         orientation(points[cell[0]], points[cell[1]], points[cell[2]], points[cell[3]]);
     if (sign > 0) return {};
-    if (sign == 0) return "the cell is flat: its four corners lie in one plane";
+    if (sign == 0) {
+        return "the cell is flat: its four corners lie in one plane; move one of them, or remove "
+               "the cell";
+    }
     if (!fix_orientation_) {
         return "the cell is inverted: exchange two of its corners, or read it with "
                "--fix-orientation";

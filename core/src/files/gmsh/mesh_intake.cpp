@@ -77,7 +77,9 @@ WrongRow MeshIntake::find_nodes(std::span<const std::array<std::uint64_t, N>> ro
         found[i] = taken_in_order<N>([&] { return nodes_.find(*tag++); });
         for (std::size_t k = 0; k < N; ++k) {
             if (!found[i][k].is_none()) continue;
-            missing_ = fmt::format("there is no node {}", rows[i][k]);
+            missing_ = fmt::format(
+                "there is no node {}: the file has {} nodes, and their numbers may have gaps",
+                rows[i][k], nodes_.size());
             return {i, missing_};
         }
     }

@@ -44,6 +44,9 @@ double most_over_mean(const AdaptiveMesh& mesh) {
     return static_cast<double>(mesh.processes().max(here)) * mesh.processes().size() / all;
 }
 
+constexpr std::string_view why_not_more_even =
+    " (as long as a step or a file to come needs the history, a cell of the input moves whole)";
+
 class Runner {
 public:
     /// What is known of the steps to come.
@@ -57,8 +60,9 @@ public:
           run_(&run),
           is_refined_before_(is_refined_before),
           is_last_(!rest.changes_mesh),
+          may_forget_(!rest.needs_history),
           balance_(run.balance) {
-        if (balance_) balance_->may_forget_history = !rest.needs_history;
+        if (balance_) balance_->may_forget_history = may_forget_;
     }
 
     StepDone operator()(RefineStep step) {
@@ -82,10 +86,11 @@ public:
 
     StepDone operator()(const RebalanceStep&) {
         const double before = most_over_mean(*mesh_);
-        const distributed::Migration move =
-            mesh_->rebalance({.may_forget_history = balance_ && balance_->may_forget_history});
+        const distributed::Migration move = mesh_->rebalance({.may_forget_history = may_forget_});
         if (!move.changed()) {
-            return {fmt::format("rebalanced, and no cell moved: most/mean cells {:.2f}", before),
+            const bool is_uneven = before > distributed::BalanceOptions{}.most_over_mean;
+            return {fmt::format("rebalanced, and no cell moved: most/mean cells {:.2f}{}", before,
+                                is_uneven && !may_forget_ ? why_not_more_even : ""),
                     {},
                     false};
         }
@@ -120,6 +125,7 @@ private:
     const ScriptRun* run_;
     bool is_refined_before_;
     bool is_last_;
+    bool may_forget_;
     std::optional<distributed::BalanceOptions> balance_;
 };
 

@@ -36,6 +36,10 @@ public:
         check_vertices(mesh_->facets, Listed::facets);
         check_vertices(mesh_->edges, Listed::edges);
         if (options_->only_syntax) return;
+        if (mesh_->cells.empty() && !mesh_->facets.empty()) {
+            places_->fail_entry(Listed::facets, 0,
+                                "there are triangles and no tetrahedra: the volume is not meshed");
+        }
         const WrongFacets wrong = find_wrong_facets(*mesh_);
         if (const CellIndex cell = wrong.overlap.cell; !cell.is_none()) {
             places_->fail_entry(Listed::cells, cell.value(),

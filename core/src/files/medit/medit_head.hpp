@@ -16,7 +16,9 @@ namespace octetra {
 inline void take_medit_head(Tokens& tokens, const LineReader& reader) {
     if (const std::string_view token = tokens.text(); token != "MeshVersionFormatted") {
         reader.fail(
-            fmt::format("a Medit file begins with MeshVersionFormatted, not {}", shown(token)));
+            fmt::format("a Medit file begins with MeshVersionFormatted, not {}; if it is binary, "
+                        "its name should end in .meshb or .solb",
+                        shown(token)));
     }
     const std::uint64_t version = tokens.unsigned_integer("the format's version");
     if (version < 1 || version > 4) {

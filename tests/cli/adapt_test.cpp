@@ -209,6 +209,10 @@ TEST_F(Adapt, KeepsTheHistoryForStepsAndFilesThatNeedIt) {
         {corner + "coarsen --all --levels 9\n", "-o OUT.mesh"},
         {corner + "write OUT.octetra\n", "-o OUT.mesh"},
         {corner, "-o OUT.octetra"},
+        {corner, "-o OUT.vtu"},
+        {corner, "-o OUT.vtkhdf"},
+        {corner + "write OUT.vtu\n", "-o OUT.mesh"},
+        {corner, "-o OUT.mesh --series OUT.vtkhdf"},
         {corner, "-o OUT.mesh --verify"}};
     const auto named = [](std::string words, const std::string& name) {
         for (auto at = words.find("OUT"); at != std::string::npos; at = words.find("OUT")) {
@@ -223,12 +227,15 @@ TEST_F(Adapt, KeepsTheHistoryForStepsAndFilesThatNeedIt) {
             test::octetra("adapt coarse.mesh --script a.txt " + named(options, "alone"), folder));
         expect_done(test::octetra_on(
             4, "adapt coarse.mesh --script f.txt --rebalance 0 " + named(options, "four"), folder));
-        for (const std::string extension : {".mesh", ".octetra"}) {
+        for (const std::string extension : {".mesh", ".octetra", ".vtu", ".vtkhdf"}) {
             if ((script + options).find(extension) == std::string::npos) continue;
             expect_same("alone" + extension, "four" + extension);
         }
     }
     const std::string refine = "refine coarse.mesh --box 0,0,0,.4,.4,.4 --levels 5 ";
+    run(refine + "-o alone.vtu");
+    expect_done(test::octetra_on(4, refine + "--rebalance 0 -o four.vtu", folder));
+    expect_same("alone.vtu", "four.vtu");
     run(refine + "--maps alone.txt -o alone.mesh");
     for (const std::string more : {"--maps four.txt", "--verify", ""}) {
         expect_done(test::octetra_on(4, refine + "--rebalance 0 -o four.mesh " + more, folder));

@@ -161,10 +161,6 @@ INSTANTIATE_TEST_SUITE_P(
          gmsh_head_4 + gmsh_nodes_4 +
              "$Elements\n2 2 1 2\n3 1 4 1\n1 1 2 3 4\n3 1 4 1\n2 2 3 1 4\n$EndElements\n",
          "21: ", "cell 2 has the vertices of cell 1 (line 19): remove one of them"},
-        {"EntityNotListed",
-         gmsh_head_4 + gmsh_entities_4 + gmsh_nodes_4 +
-             "$Elements\n1 1 1 1\n3 9 4 1\n1 1 2 3 4\n$EndElements\n",
-         "22: ", "elements of entity 9 of dimension 3, which is not in $Entities"},
         {"TrianglesAlone",
          gmsh_head_2 + gmsh_nodes_2 +
              "$Elements\n2\n1 2 2 7 1 1 2 3\n2 2 2 7 1 1 2 4\n$EndElements\n",

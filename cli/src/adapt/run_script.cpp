@@ -12,7 +12,6 @@
 #include <fmt/format.h>
 
 #include <octetra/core/error.hpp>
-#include <octetra/core/files/checkpoint.hpp>
 #include <octetra/distributed/profile.hpp>
 
 #include "adapt/run_steps.hpp"
@@ -134,11 +133,11 @@ bool changes_cells(const ScriptStep& step) {
            std::holds_alternative<CoarsenStep>(step.step);
 }
 
-/// To take cells back one must know what they came from, and a checkpoint says it.
+/// To take cells back one must know what they came from, and some files say it.
 bool needs_history(const ScriptStep& step) {
     const auto* const write = std::get_if<WriteStep>(&step.step);
     return std::holds_alternative<CoarsenStep>(step.step) ||
-           (write != nullptr && is_checkpoint(write->path));
+           (write != nullptr && tells_history(write->path));
 }
 
 Runner::Rest rest_of(std::span<const ScriptStep> steps, const ScriptRun& run) {

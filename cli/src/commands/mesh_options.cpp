@@ -100,6 +100,11 @@ void check_output(const std::filesystem::path& path, int ranks) {
     is_checkpoint(path) ? check_place(path) : check_writable(path, ranks);
 }
 
+bool tells_history(const std::filesystem::path& path) {
+    constexpr std::array<std::string_view, 5> silent{".node", ".ele", ".mesh", ".meshb", ".msh"};
+    return std::ranges::find(silent, path.extension()) == silent.end();
+}
+
 void check_side_file(std::string_view option, const std::filesystem::path& path) {
     if (path == "-") {
         throw InputError(

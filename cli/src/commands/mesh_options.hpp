@@ -49,6 +49,10 @@ void add_output_option(CLI::App& subcommand, std::string& path);
 /// ranks. Throws InputError.
 void check_output(const std::filesystem::path& path, int ranks = 1);
 
+/// Does a file of this name say what cells came from? Checkpoints do, and the formats that have
+/// each cell's parent.
+[[nodiscard]] bool tells_history(const std::filesystem::path& path);
+
 /// Refuses, before the work, a path for a file beside the mesh (maps, parts) that cannot be written
 /// or would take the place of a mesh. Throws InputError.
 void check_side_file(std::string_view option, const std::filesystem::path& path);

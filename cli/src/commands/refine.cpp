@@ -192,8 +192,9 @@ bool refine_distributed(Plan plan, const RefineOptions& options,
     };
     if (plan.balance) {
         // Nobody asks what cells came from but these.
-        plan.balance->may_forget_history =
-            options.maps.empty() && !options.verify && plan.selection.cells.empty();
+        plan.balance->may_forget_history = options.maps.empty() && !options.verify &&
+                                           plan.selection.cells.empty() &&
+                                           !tells_history(options.output);
     }
     naming_the_mesh(options, [&] {
         distributed::refine(parts, plan.selection,

@@ -25,10 +25,6 @@ public:
         const auto found = entities_.find(key(dimension, tag));
         return found == entities_.end() ? Entity{} : found->second;
     }
-    /// Is it listed, or does the file list none at all?
-    [[nodiscard]] bool knows(std::int32_t dimension, std::int32_t tag) const {
-        return entities_.empty() || entities_.contains(key(dimension, tag));
-    }
     /// How many entities are in more than one group.
     [[nodiscard]] std::uint64_t in_several() const { return in_several_; }
 

@@ -200,14 +200,7 @@ ElementBlock read_element_block_4(Input& in, std::uint64_t left, const EntityGro
     ElementBlock block;
     const std::uint64_t place = in.begin_row("a block of elements");
     const std::int32_t dimension = read_dimension(in);
-    const std::int32_t tag = in.integer("the tag of an entity");
-    if (!groups.knows(dimension, tag)) {
-        in.fail_at(fmt::format("elements of entity {} of dimension {}, which is not in $Entities: "
-                               "what group they are in is not known",
-                               tag, dimension),
-                   place);
-    }
-    block.entity = groups.find(dimension, tag);
+    block.entity = groups.find(dimension, in.integer("the tag of an entity"));
     block.type = in.number32("the type of elements");
     block.count = read_block_length(in, left, "elements");
     if (block.count == 0) return block;

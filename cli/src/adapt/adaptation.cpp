@@ -214,19 +214,19 @@ void adapt(const AdaptationOptions& options, const Script& script,
     };
     Series series(options.series, world);
     series.append(adaptive, fields);
-    run_script(
-        adaptive, script,
-        {.input = read,
-         .has_steps = has_history,
-         .options = steps,
-         .balance = balance_of(options.parallel),
-         .needs_history = options.verify || since.has_value() || tells_history(options.output),
-         .on_step = follow,
-         .on_move = move_along,
-         .on_changed = [&] { series.append(adaptive, fields); },
-         .fields = &fields,
-         .quiet = options.quiet},
-        watch);
+    run_script(adaptive, script,
+               {.input = read,
+                .has_steps = has_history,
+                .options = steps,
+                .balance = balance_of(options.parallel),
+                .needs_history = options.verify || since.has_value() || !options.series.empty() ||
+                                 tells_history(options.output),
+                .on_step = follow,
+                .on_move = move_along,
+                .on_changed = [&] { series.append(adaptive, fields); },
+                .fields = &fields,
+                .quiet = options.quiet},
+               watch);
     if (options.verify) {
         if (!is_valid(adaptive, std::move(coarse), options, script, read,
                       since ? &*since : nullptr)) {

@@ -30,9 +30,9 @@ public:
     /// Moves to the next line that holds something; false at the end of the file.
     [[nodiscard]] bool next();
 
-    /// The current line, with neither comment nor line end; valid until next(). So many bytes
-    /// behind it can be read, too, whatever they are.
+    /// So many bytes behind a line can be read, too, whatever they are.
     static constexpr std::size_t bytes_behind_line = 16;
+    /// The current line, with neither comment nor line end; valid until next().
     [[nodiscard]] std::string_view line() const { return line_; }
     /// The same with its comment, and with blanks.
     [[nodiscard]] std::string_view full_line() const { return full_line_; }

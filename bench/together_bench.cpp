@@ -58,13 +58,14 @@ void pass_bytes(const Communicator& world, const fs::path& path, std::uint64_t s
     ::close(file);
 }
 
-/// In windows as the writers ask for.
+/// In windows as the writers of binary files ask for.
 void bring_slices(MeshSource& mesh) {
     constexpr std::uint64_t length = std::uint64_t{1} << 15U;
-    const auto stride = length * static_cast<std::uint64_t>(mesh.group().size());
+    const auto ranks = static_cast<std::uint64_t>(mesh.group().size());
     const auto bring = [&](std::uint64_t count, const auto& slice_of) {
-        for (Window window{0, length, count}; window.begin < count; window.begin += stride) {
-            slice_of(window);
+        const std::uint64_t stretch = (count + ranks - 1) / ranks;
+        for (std::uint64_t begin = 0; begin < stretch; begin += length) {
+            slice_of(Window{begin, std::min(length, stretch - begin), count, stretch});
         }
     };
     bring(mesh.facts().vertices, [&](const Window& window) { (void)mesh.points(window); });

@@ -13,6 +13,7 @@
 #include "files/input/fields.hpp"
 #include "files/input/line_reader.hpp"
 #include "files/output/text_row.hpp"
+#include "files/output/text_slices.hpp"
 #include "support/temporary_folder.hpp"
 
 /// Numbers as text below the mesh files: several digits at a time, written and read.
@@ -120,6 +121,43 @@ TEST(Fields, RefuseEveryOtherByteInsideANumber) {
             }
         }
     }
+}
+
+TEST(TextLength, IsThatOfTheText) {
+    const auto expect = [](auto number) {
+        ASSERT_EQ(text_length(number), std::to_string(number).size()) << number;
+    };
+    std::mt19937_64 random(5);
+    for (unsigned shift = 0; shift < 64; ++shift) {
+        for (int i = 0; i < 200; ++i) {
+            const std::uint64_t number = random() >> shift;
+            expect(number);
+            expect(static_cast<std::int64_t>(number));
+            expect(static_cast<std::int32_t>(number));
+        }
+    }
+    for (std::uint64_t power = 1; power <= 1'000'000'000'000'000'000; power *= 10) {
+        for (const std::uint64_t number : {power - 1, power, power + 1}) expect(number);
+    }
+    expect(std::numeric_limits<std::uint64_t>::max());
+    expect(std::numeric_limits<std::int64_t>::min());
+    expect(std::numeric_limits<std::int32_t>::min());
+}
+
+TEST(TextLength, OfConsecutiveNumbersIsTheirSum) {
+    std::vector<std::uint64_t> before{0};
+    for (std::uint64_t number = 0; number < 1200; ++number) {
+        before.push_back(before.back() + std::to_string(number).size());
+    }
+    for (std::uint64_t begin = 0; begin <= 1200; ++begin) {
+        for (std::uint64_t end = begin; end <= 1200; end += 1 + end / 40) {
+            ASSERT_EQ(text_length_between(begin, end), before[end] - before[begin])
+                << begin << " to " << end;
+        }
+    }
+    constexpr std::uint64_t last = std::numeric_limits<std::uint64_t>::max();
+    EXPECT_EQ(text_length_between(last - 2, last), 40);
+    EXPECT_EQ(text_length_between(9'999'999'998, 10'000'000'003), 2 * 10 + 3 * 11);
 }
 
 /// Lines with and without comments, over a file of several buffers.

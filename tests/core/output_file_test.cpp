@@ -2,8 +2,11 @@
 #include <random>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include <gtest/gtest.h>
+
+#include <octetra/core/error.hpp>
 
 #include "files/output/output_file.hpp"
 #include "support/temporary_folder.hpp"
@@ -95,6 +98,62 @@ TEST(OutputFile, OfAGroupHasWhatAllHavePutInOrderHoweverTheirTurnsEnd) {
             out.commit();
         });
         EXPECT_TRUE(test::content_of(folder / "a") == expected) << ranks << " ranks";
+    }
+}
+
+/// What a rank puts of its stretch, piece by piece.
+std::vector<std::string> pieces_of(int rank) {
+    std::mt19937 random(static_cast<unsigned>(rank));
+    std::vector<std::string> pieces(random() % 12);  // some put nothing
+    for (std::string& piece : pieces) {
+        const std::size_t most = random() % 4 == 0 ? 3 * buffer_size : 1000;
+        const std::size_t length = random() % most;
+        piece.assign(length, static_cast<char>('a' + random() % 26));
+    }
+    return pieces;
+}
+
+TEST(OutputFile, OfAGroupHasTheStretchesOfAllInOrder) {
+    for (const int ranks : {2, 3, 5}) {
+        std::string expected = "head";
+        for (int rank = 0; rank < ranks; ++rank) {
+            for (const std::string& piece : pieces_of(rank)) expected += piece;
+        }
+        const std::size_t size = expected.size();
+        for (int rank = 0; rank < ranks; ++rank) expected += "tail";
+        const test::TemporaryFolder folder;
+        test::run_together(ranks, [&](const ProcessGroup& group) {
+            OutputFile out(folder / "a", group);
+            if (group.is_first()) out.put(std::string_view{"head"});
+            const std::vector<std::string> pieces = pieces_of(group.rank());
+            std::uint64_t own = 0;
+            for (const std::string& piece : pieces) own += piece.size();
+            out.begin_stretches(own);
+            for (const std::string& piece : pieces) {
+                put_in_parts(out, piece);
+                out.end_turn_later();
+            }
+            out.end_stretches();
+            EXPECT_EQ(out.position(), size);
+            out.put(std::string_view{"tail"});
+            out.commit();
+        });
+        EXPECT_TRUE(test::content_of(folder / "a") == expected) << ranks << " ranks";
+    }
+}
+
+TEST(OutputFile, IsNotWrittenWhereAStretchIsOfAnotherSizeThanWasSaid) {
+    const test::TemporaryFolder folder;
+    for (const std::uint64_t said : {std::uint64_t{4}, std::uint64_t{6}}) {
+        test::run_together(3, [&](const ProcessGroup& group) {
+            OutputFile out(folder / "a", group);
+            out.begin_stretches(group.rank() == 1 ? said : 5);
+            out.put(std::string_view{"12345"});
+            out.end_turn_later();
+            out.end_stretches();
+            EXPECT_THROW(out.commit(), SystemError);
+        });
+        EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
     }
 }
 

@@ -82,6 +82,77 @@ TEST(Slices, OfEveryLengthMakeUpTheWholeMesh) {
     }
 }
 
+/// Collective. Slices that lie as far apart as they can, in pieces of so many entities, put
+/// together on the first process.
+template <class T>
+std::vector<T> put_stretches_together(std::uint64_t count, std::uint64_t length, auto&& slice_of) {
+    const auto ranks = static_cast<std::uint64_t>(world().size());
+    const std::uint64_t share = (count + ranks - 1) / ranks;
+    std::vector<T> own;
+    for (std::uint64_t begin = 0; begin < share; begin += length) {
+        const std::span<const T> slice =
+            slice_of(Window{begin, std::min(length, share - begin), count, share});
+        own.insert(own.end(), slice.begin(), slice.end());
+    }
+    std::vector<T> all;
+    for (const auto& one : world().gather(own)) all.insert(all.end(), one.begin(), one.end());
+    return all;
+}
+
+TEST(Slices, ThatLieFarApartMakeUpTheWholeMesh) {
+    const Mesh mesh = test::marked(test::shaken_kuhn(2, 0.3, 5), 1);
+    const Selection selection{.random = RandomShare{0.1, 3}};
+    const reference::Refinement expected = reference::refine(mesh, selection, Scheme::eight, 2);
+    for (const std::string partition : {"block", "random:1"}) {
+        CanonicalMesh fine(refined(mesh, partition, selection, 2));
+        const std::uint64_t count = fine.facts().cells;
+        WholeMesh whole(expected.mesh, &expected.maps);
+        for (const std::uint64_t length : {std::uint64_t{7}, std::uint64_t{64}, count}) {
+            const auto cells = put_stretches_together<VertexNumbers<4>>(
+                count, length, [&](const Window& window) { return fine.whole().cells(window); });
+            const auto regions = put_stretches_together<Marker>(
+                count, length, [&](const Window& window) { return fine.whole().regions(window); });
+            if (!world().is_first()) continue;
+            EXPECT_TRUE(std::ranges::equal(cells, whole.cells(whole_window(count)))) << length;
+            EXPECT_TRUE(std::ranges::equal(regions, whole.regions(whole_window(count)))) << length;
+        }
+    }
+}
+
+/// Without asking for the vertices, as many digits as these have.
+TEST(Slices, KnowHowManyDigitsTheirVerticesHave) {
+    const Mesh mesh = test::marked(test::shaken_kuhn(3, 0.3, 5), 1);
+    CanonicalMesh fine(refined(mesh, "random:1", {.random = RandomShare{0.2, 3}}, 2));
+    MeshSource& slices = fine.whole();
+    const auto expect = [&](std::uint64_t count, auto digits, auto digits_one_by_one) {
+        const auto ranks = static_cast<std::uint64_t>(world().size());
+        for (const std::uint64_t length : {(count + ranks - 1) / ranks, std::uint64_t{40}}) {
+            for (const std::uint64_t index_base : {0U, 1U}) {
+                const Window window{0, length, count};
+                EXPECT_EQ(digits(window, index_base), digits_one_by_one(window, index_base))
+                    << length << " from " << index_base;
+            }
+        }
+    };
+    const MeshFacts& f = slices.facts();
+    ASSERT_GT(f.vertices, 1000);
+    expect(
+        f.cells, [&](const Window& w, std::uint64_t base) { return slices.cell_digits(w, base); },
+        [&](const Window& w, std::uint64_t base) {
+            return slices.MeshSource::cell_digits(w, base);
+        });
+    expect(
+        f.facets, [&](const Window& w, std::uint64_t base) { return slices.facet_digits(w, base); },
+        [&](const Window& w, std::uint64_t base) {
+            return slices.MeshSource::facet_digits(w, base);
+        });
+    expect(
+        f.edges, [&](const Window& w, std::uint64_t base) { return slices.edge_digits(w, base); },
+        [&](const Window& w, std::uint64_t base) {
+            return slices.MeshSource::edge_digits(w, base);
+        });
+}
+
 /// Collective. The mesh as if it were the end of one that has `vertices` more vertices before.
 DistributedMesh behind(std::uint64_t vertices, const Mesh& mesh) {
     DistributedMesh part = distribute(world(), mesh, partition_cells(mesh, world().size(), {}));

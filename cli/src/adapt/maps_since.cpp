@@ -41,8 +41,10 @@ std::span<const VertexNumbers<4>> MapsSince::cells(const Window& window) {
 
 /// Vertices keep their numbers, so those since then stand behind those before.
 std::span<const VertexNumbers<2>> MapsSince::midpoint_ends(const Window& window) {
-    return mesh_.whole().midpoint_ends(
-        {window.begin + midpoints_before_, window.slice_length, window.count + midpoints_before_});
+    Window all = window;
+    all.begin += midpoints_before_;
+    all.count += midpoints_before_;
+    return mesh_.whole().midpoint_ends(all);
 }
 
 std::span<const std::uint64_t> MapsSince::parents(const Window& window) {

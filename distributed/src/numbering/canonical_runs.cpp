@@ -113,4 +113,18 @@ CanonicalRuns canonical_runs(const Communicator& processes, const AncestorMap& a
     return runs;
 }
 
+std::pair<std::size_t, std::size_t> local_range(const CanonicalRuns& runs,
+                                                const AncestorMap& ancestors, std::uint64_t begin,
+                                                std::uint64_t end) {
+    // The first of this process's entities that is not numbered below.
+    const auto local_from = [&](std::uint64_t number) -> std::size_t {
+        const auto after = std::ranges::upper_bound(runs.begin, number);
+        if (after == runs.begin.begin()) return 0;
+        const auto r = static_cast<std::size_t>(after - runs.begin.begin()) - 1;
+        const std::uint64_t length = ancestors.first[r + 1] - ancestors.first[r];
+        return ancestors.first[r] + std::min(length, number - runs.begin[r]);
+    };
+    return {local_from(begin), local_from(end)};
+}
+
 }  // namespace octetra::distributed

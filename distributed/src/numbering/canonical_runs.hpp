@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include <octetra/distributed/distributed_mesh.hpp>
@@ -36,5 +37,11 @@ void for_each_between(const CanonicalRuns& runs, const AncestorMap& ancestors, s
         }
     }
 }
+
+/// The local numbers of this process's entities numbered begin .. end-1: from one up to another.
+[[nodiscard]] std::pair<std::size_t, std::size_t> local_range(const CanonicalRuns& runs,
+                                                              const AncestorMap& ancestors,
+                                                              std::uint64_t begin,
+                                                              std::uint64_t end);
 
 }  // namespace octetra::distributed

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <utility>
 
 #include "level/known_marker.hpp"
 #include "output/slices.hpp"
@@ -9,12 +10,34 @@
 namespace octetra::distributed {
 namespace {
 
+/// Made at once: written one by one into an array that is then read as a whole, they would be
+/// waited for.
 template <class Number, std::size_t N>
-std::array<Number, N> numbered(const std::array<VertexIndex, N>& vertices,
-                               const IndexVector<VertexIndex, GlobalVertex>& of_vertex) {
-    std::array<Number, N> numbers;
-    for (std::size_t k = 0; k < N; ++k) numbers[k] = static_cast<Number>(of_vertex[vertices[k]]);
-    return numbers;
+std::array<Number, N> numbered(const std::array<VertexIndex, N>& vertices, const auto& of_vertex) {
+    return [&]<std::size_t... k>(std::index_sequence<k...>) {
+        return std::array{static_cast<Number>(of_vertex[vertices[k]])...};
+    }
+    (std::make_index_sequence<N>());
+}
+
+/// How many digits the vertices of these have in all, those from first_longer[0] on at least two,
+/// and so on.
+template <std::size_t N>
+std::uint64_t digits_of(std::span<const std::array<VertexIndex, N>> entities,
+                        std::span<const std::uint32_t> first_longer) {
+    constexpr std::size_t at_once = 1U << 12U;  // in the cache, for all thresholds
+    std::uint64_t digits = N * entities.size();
+    for (std::size_t begin = 0; begin < entities.size(); begin += at_once) {
+        const auto some = entities.subspan(begin, std::min(at_once, entities.size() - begin));
+        for (const std::uint32_t longer : first_longer) {
+            std::uint32_t more = 0;
+            for (const auto& vertices : some) {
+                for (const VertexIndex v : vertices) more += std::uint32_t{v.value() >= longer};
+            }
+            digits += more;
+        }
+    }
+    return digits;
 }
 
 }  // namespace
@@ -30,7 +53,19 @@ CanonicalSlices::CanonicalSlices(const DistributedMesh& mesh, const CanonicalNum
       features_(mesh, {{{&lists_.edges.ancestors(), &edge_runs_},
                         {&lists_.facets.ancestors(), &facet_runs_},
                         {&lists_.cells.ancestors(), &cell_runs_}}}),
-      facts_(find_facts()) {}
+      facts_(find_facts()) {
+    if (!sends_short_numbers()) return;
+    short_numbers_.reserve(numbers().of_vertex.size());
+    for (const GlobalVertex number : numbers().of_vertex) {
+        short_numbers_.push_back(static_cast<std::uint32_t>(number));
+    }
+}
+
+/// The same on all processes, also on one that has no vertices.
+bool CanonicalSlices::sends_short_numbers() const {
+    return mesh_->processes.size() > 1 &&
+           numbers().vertex_count <= std::numeric_limits<std::uint32_t>::max();
+}
 
 MeshFacts CanonicalSlices::find_facts() const {
     // A process without cells does not know whether the others' have tags.
@@ -130,33 +165,43 @@ std::span<const VertexNumbers<2>> CanonicalSlices::midpoint_ends(const Window& w
     return midpoint_ends_;
 }
 
+template <class Number, class I, std::size_t N>
+void CanonicalSlices::bring_as(const Window& window,
+                               const OrderedList<IndexVector<I, std::array<VertexIndex, N>>>& list,
+                               const CanonicalRuns& runs, const auto& of_vertex,
+                               std::vector<VertexNumbers<N>>& slice) const {
+    using Row = std::array<Number, N>;
+    slice.resize(window.end_of(mesh_->processes.rank()) - window.begin_of(mesh_->processes.rank()));
+    const auto& entities = list.list();
+    bring_to_slices<Row>(
+        mesh_->processes, window,
+        [&](std::uint64_t begin, std::uint64_t end, auto&& emit) {
+            for_each_between(runs, list.ancestors(), begin, end,
+                             [&](std::uint64_t number, std::size_t local, std::size_t) {
+                                 // In a mesh in no order these are far from each other: they are
+                                 // asked for before it is their turn.
+                                 if (const std::size_t next = local + 16; next < entities.size()) {
+                                     for (const VertexIndex v : entities[I{next}]) {
+                                         __builtin_prefetch(&of_vertex[v]);
+                                     }
+                                 }
+                                 emit(number, numbered<Number>(entities[I{local}], of_vertex));
+                             });
+        },
+        [&](std::uint32_t position, const Row& row) {
+            std::ranges::copy(row, slice[position].begin());
+        });
+}
+
 template <class I, std::size_t N>
 std::span<const VertexNumbers<N>> CanonicalSlices::bring(
     const Window& window, const OrderedList<IndexVector<I, std::array<VertexIndex, N>>>& list,
     const CanonicalRuns& runs, std::vector<VertexNumbers<N>>& slice) const {
-    const auto& of_vertex = numbers().of_vertex;
-    const auto numbers_between = [&]<class Number>(Number) {
-        return [&](std::uint64_t begin, std::uint64_t end, auto&& emit) {
-            for_each_between(runs, list.ancestors(), begin, end,
-                             [&](std::uint64_t number, std::size_t local, std::size_t) {
-                                 emit(number, numbered<Number>(list.list()[I{local}], of_vertex));
-                             });
-        };
-    };
-    using Short = std::uint32_t;
-    const Communicator& processes = mesh_->processes;
-    if (processes.size() == 1 || numbers().vertex_count > std::numeric_limits<Short>::max()) {
-        bring_to_slices<VertexNumbers<N>>(processes, window, numbers_between(std::uint64_t{}),
-                                          slice);
-        return slice;
+    if (sends_short_numbers()) {
+        bring_as<std::uint32_t>(window, list, runs, short_numbers_, slice);
+    } else {
+        bring_as<std::uint64_t>(window, list, runs, numbers().of_vertex, slice);
     }
-    // Half as much is sent.
-    slice.resize(window.end_of(processes.rank()) - window.begin_of(processes.rank()));
-    bring_to_slices<std::array<Short, N>>(
-        processes, window, numbers_between(Short{}),
-        [&](std::uint32_t position, const std::array<Short, N>& vertices) {
-            std::ranges::copy(vertices, slice[position].begin());
-        });
     return slice;
 }
 
@@ -178,6 +223,48 @@ std::span<const Marker> CanonicalSlices::bring_markers(const Window& window,
 
 std::span<const VertexNumbers<4>> CanonicalSlices::cells(const Window& window) {
     return bring(window, lists_.cells, cell_runs_, cells_);
+}
+
+/// A process's vertices stand in the order of their numbers: how many digits one has is seen from
+/// its place there.
+template <class I, std::size_t N>
+std::uint64_t CanonicalSlices::digits_in(
+    const Window& window, std::uint64_t index_base,
+    const OrderedList<IndexVector<I, std::array<VertexIndex, N>>>& list,
+    const CanonicalRuns& runs) const {
+    const auto& of_vertex = numbers().of_vertex;
+    std::vector<std::uint32_t> first_longer;  // the first vertex of two digits, of three, ...
+    for (std::uint64_t least = 10; least < index_base + numbers().vertex_count; least *= 10) {
+        const auto found = std::ranges::lower_bound(of_vertex, GlobalVertex{least - index_base});
+        first_longer.push_back(static_cast<std::uint32_t>(found - of_vertex.begin()));
+    }
+    const Communicator& processes = mesh_->processes;
+    std::vector<std::vector<std::uint64_t>> digits_to(static_cast<std::size_t>(processes.size()));
+    for (int rank = 0; rank < processes.size(); ++rank) {
+        const auto [begin, end] =
+            local_range(runs, list.ancestors(), window.begin_of(rank), window.end_of(rank));
+        if (begin == end) continue;
+        const std::span<const std::array<VertexIndex, N>> all(list.list());
+        const auto entities = all.subspan(begin, end - begin);
+        digits_to[static_cast<std::size_t>(rank)] = {digits_of(entities, first_longer)};
+    }
+    std::uint64_t digits = 0;
+    for (const auto& from_one : processes.all_to_all(digits_to)) {
+        for (const std::uint64_t some : from_one) digits += some;
+    }
+    return digits;
+}
+
+std::uint64_t CanonicalSlices::cell_digits(const Window& window, std::uint64_t index_base) {
+    return digits_in(window, index_base, lists_.cells, cell_runs_);
+}
+
+std::uint64_t CanonicalSlices::facet_digits(const Window& window, std::uint64_t index_base) {
+    return digits_in(window, index_base, lists_.facets, facet_runs_);
+}
+
+std::uint64_t CanonicalSlices::edge_digits(const Window& window, std::uint64_t index_base) {
+    return digits_in(window, index_base, lists_.edges, edge_runs_);
 }
 
 std::span<const Marker> CanonicalSlices::regions(const Window& window) {

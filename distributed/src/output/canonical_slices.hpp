@@ -35,6 +35,12 @@ public:
     [[nodiscard]] std::span<const double> point_attributes(const Window& window) override;
     [[nodiscard]] std::span<const VertexNumbers<2>> midpoint_ends(const Window& window) override;
     [[nodiscard]] std::span<const VertexNumbers<4>> cells(const Window& window) override;
+    [[nodiscard]] std::uint64_t cell_digits(const Window& window,
+                                            std::uint64_t index_base) override;
+    [[nodiscard]] std::uint64_t facet_digits(const Window& window,
+                                             std::uint64_t index_base) override;
+    [[nodiscard]] std::uint64_t edge_digits(const Window& window,
+                                            std::uint64_t index_base) override;
     [[nodiscard]] std::span<const Marker> regions(const Window& window) override;
     [[nodiscard]] std::span<const std::uint64_t> parents(const Window& window) override;
     [[nodiscard]] std::span<const VertexNumbers<3>> facets(const Window& window) override;
@@ -49,11 +55,22 @@ public:
 
 private:
     [[nodiscard]] MeshFacts find_facts() const;
+    [[nodiscard]] bool sends_short_numbers() const;
     void for_each_vertex(std::uint64_t begin, std::uint64_t end, auto&& emit) const;
+    template <class Number, class I, std::size_t N>
+    void bring_as(const Window& window,
+                  const OrderedList<IndexVector<I, std::array<VertexIndex, N>>>& list,
+                  const CanonicalRuns& runs, const auto& of_vertex,
+                  std::vector<VertexNumbers<N>>& slice) const;
     template <class I, std::size_t N>
     std::span<const VertexNumbers<N>> bring(
         const Window& window, const OrderedList<IndexVector<I, std::array<VertexIndex, N>>>& list,
         const CanonicalRuns& runs, std::vector<VertexNumbers<N>>& slice) const;
+    template <class I, std::size_t N>
+    [[nodiscard]] std::uint64_t digits_in(
+        const Window& window, std::uint64_t index_base,
+        const OrderedList<IndexVector<I, std::array<VertexIndex, N>>>& list,
+        const CanonicalRuns& runs) const;
     std::span<const Marker> bring_markers(const Window& window, const AncestorMap& ancestors,
                                           const CanonicalRuns& runs,
                                           std::vector<Marker>& slice) const;
@@ -62,6 +79,9 @@ private:
     OrderedLists lists_;
     const CanonicalNumbers* known_numbers_;
     CanonicalNumbers own_numbers_;  ///< where none are known
+    /// The same numbers, where they are short: half as much is looked up, and sent. Of one process
+    /// alone, none.
+    IndexVector<VertexIndex, std::uint32_t> short_numbers_;
     CanonicalRuns cell_runs_;
     CanonicalRuns facet_runs_;
     CanonicalRuns edge_runs_;

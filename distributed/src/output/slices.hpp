@@ -1,6 +1,12 @@
 #pragma once
 
+#include <algorithm>
+#include <cstddef>
 #include <cstdint>
+#include <cstring>
+#include <memory>
+#include <span>
+#include <utility>
 #include <vector>
 
 #include <octetra/core/mesh_source.hpp>
@@ -8,21 +14,134 @@
 
 namespace octetra::distributed {
 
+/// Values for one process's slice, and their positions there, ascending.
+template <class T>
+class ValuesOfSlice {
+public:
+    explicit ValuesOfSlice(std::size_t likely_count) { make_room(likely_count); }
+
+    [[nodiscard]] std::span<const std::uint32_t> positions() const {
+        return {positions_.get(), count_};
+    }
+    [[nodiscard]] std::span<const T> values() const { return {values_.get(), count_}; }
+
+    void clear() { count_ = 0; }
+    void put(std::uint32_t position, const T& value) {
+        if (count_ == room_) make_room(2 * room_);
+        positions_[count_] = position;
+        values_[count_] = value;
+        ++count_;
+    }
+
+private:
+    void make_room(std::size_t room) {
+        auto positions = std::make_unique_for_overwrite<std::uint32_t[]>(room);
+        auto values = std::make_unique_for_overwrite<T[]>(room);
+        std::ranges::copy(this->positions(), positions.get());
+        std::ranges::copy(this->values(), values.get());
+        positions_ = std::move(positions);
+        values_ = std::move(values);
+        room_ = room;
+    }
+
+    std::size_t count_ = 0;
+    std::size_t room_ = 0;
+    std::unique_ptr<std::uint32_t[]> positions_;
+    std::unique_ptr<T[]> values_;
+};
+
+namespace detail {
+
+/// What a message begins with. Then come the values, and where they go: run by run where positions
+/// follow each other, or one by one if that takes no more.
+struct SliceHead {
+    std::uint64_t values;
+    std::uint64_t runs;  ///< 0: each value has a position
+};
+struct SliceRun {
+    std::uint32_t position;
+    std::uint32_t count;
+};
+
+template <class T>
+T read_from(const std::byte* place) {
+    T value;
+    std::memcpy(&value, place, sizeof value);
+    return value;
+}
+
+inline std::byte* put_bytes(std::byte* place, const void* data, std::size_t size) {
+    std::memcpy(place, data, size);
+    return place + size;
+}
+
+inline void put_runs(std::byte* place, std::span<const std::uint32_t> positions) {
+    for (std::size_t begin = 0; begin < positions.size();) {
+        std::size_t end = begin + 1;
+        while (end < positions.size() && positions[end] == positions[end - 1] + 1) ++end;
+        const SliceRun run{positions[begin], static_cast<std::uint32_t>(end - begin)};
+        place = put_bytes(place, &run, sizeof run);
+        begin = end;
+    }
+}
+
+}  // namespace detail
+
+template <class T>
+[[nodiscard]] std::vector<std::byte> packed(const ValuesOfSlice<T>& all) {
+    const auto positions = all.positions();
+    if (positions.empty()) return {};
+    std::size_t runs = 1;
+    for (std::size_t i = 1; i < positions.size(); ++i) {
+        runs += std::size_t{positions[i] != positions[i - 1] + 1};
+    }
+    const std::size_t size_of_runs = runs * sizeof(detail::SliceRun);
+    const bool by_runs = size_of_runs < positions.size_bytes();
+    const detail::SliceHead head{positions.size(), by_runs ? runs : 0};
+    std::vector<std::byte> bytes(sizeof head + all.values().size_bytes() +
+                                 (by_runs ? size_of_runs : positions.size_bytes()));
+    std::byte* place = detail::put_bytes(bytes.data(), &head, sizeof head);
+    place = detail::put_bytes(place, all.values().data(), all.values().size_bytes());
+    if (by_runs) {
+        detail::put_runs(place, positions);
+    } else {
+        detail::put_bytes(place, positions.data(), positions.size_bytes());
+    }
+    return bytes;
+}
+
+/// Calls place(position, value) for each value of a message.
+template <class T>
+void unpack(std::span<const std::byte> bytes, auto&& place) {
+    if (bytes.empty()) return;
+    const auto head = detail::read_from<detail::SliceHead>(bytes.data());
+    const std::byte* value = bytes.data() + sizeof head;
+    const std::byte* where = value + head.values * sizeof(T);
+    if (head.runs == 0) {
+        for (std::uint64_t i = 0; i < head.values; ++i) {
+            place(detail::read_from<std::uint32_t>(where + i * sizeof(std::uint32_t)),
+                  detail::read_from<T>(value + i * sizeof(T)));
+        }
+        return;
+    }
+    for (std::uint64_t r = 0; r < head.runs; ++r, where += sizeof(detail::SliceRun)) {
+        const auto run = detail::read_from<detail::SliceRun>(where);
+        for (std::uint32_t k = 0; k < run.count; ++k, value += sizeof(T)) {
+            place(run.position + k, detail::read_from<T>(value));
+        }
+    }
+}
+
 /// Collective. Brings values from the processes that have them to the processes whose slice of a
 /// window they are in.
 /// `between(begin, end, emit)` calls emit(number, value) for this process's values numbered begin
-/// .. end-1; place(position in the slice, value) is called for each value of this process's slice,
-/// once for each process that has it.
+/// .. end-1, ascending; place(position in the slice, value) is called for each value of this
+/// process's slice, once for each process that has it.
 template <class T>
 void bring_to_slices(const Communicator& processes, const Window& window, auto&& between,
                      auto&& place) {
-    struct Run {  // of values whose numbers follow each other
-        std::uint32_t position;
-        std::uint32_t count;
-    };
-    const auto process_count = static_cast<std::size_t>(processes.size());
-    std::vector<std::vector<Run>> runs_to(process_count);
-    std::vector<std::vector<T>> values_to(process_count);
+    std::vector<std::vector<std::byte>> outboxes(static_cast<std::size_t>(processes.size()));
+    ValuesOfSlice<T> some(std::clamp<std::uint64_t>(window.slice_length, 1, 1U << 15U));
     for (int rank = 0; rank < processes.size(); ++rank) {
         const std::uint64_t begin = window.begin_of(rank);
         const std::uint64_t end = window.end_of(rank);
@@ -33,27 +152,13 @@ void bring_to_slices(const Communicator& processes, const Window& window, auto&&
             });
             continue;
         }
-        auto& runs = runs_to[static_cast<std::size_t>(rank)];
-        auto& values = values_to[static_cast<std::size_t>(rank)];
-        values.reserve((end - begin) / process_count);  // if all have about as many there
+        some.clear();
         between(begin, end, [&](std::uint64_t number, const T& value) {
-            const auto position = static_cast<std::uint32_t>(number - begin);
-            if (runs.empty() || runs.back().position + runs.back().count != position) {
-                runs.push_back({position, 0});
-            }
-            ++runs.back().count;
-            values.push_back(value);
+            some.put(static_cast<std::uint32_t>(number - begin), value);
         });
+        outboxes[static_cast<std::size_t>(rank)] = packed(some);
     }
-    const auto runs_from = processes.all_to_all(runs_to);
-    const auto values_from = processes.all_to_all(values_to);
-    for (std::size_t rank = 0; rank < process_count; ++rank) {
-        if (values_from[rank].empty()) continue;  // none, or a failure that all will know
-        const T* value = values_from[rank].data();
-        for (const Run& run : runs_from[rank]) {
-            for (std::uint32_t k = 0; k < run.count; ++k) place(run.position + k, *value++);
-        }
-    }
+    for (const auto& bytes : processes.all_to_all(outboxes)) unpack<T>(bytes, place);
 }
 
 /// The same, for values that are the same wherever they come from.

@@ -18,17 +18,23 @@
 /// memory as a whole, and nothing here need know how processes talk to each other.
 namespace octetra {
 
-/// A stretch of the canonical order of a kind of entity, cut into slices of equal length, one for
-/// each process of a group, by rank. At the end of the order slices are shorter, or empty.
+/// Slices of equal length of the canonical order of a kind of entity, one for each process of a
+/// group, by rank. At the end of the order slices are shorter, or empty.
 struct Window {
     std::uint64_t begin = 0;         ///< number of the first entity
     std::uint64_t slice_length = 0;  ///< entities of a slice
     std::uint64_t count = 0;         ///< entities of the kind in all
+    /// From where a slice begins to where the next one does; 0: slices follow each other.
+    std::uint64_t distance = 0;
 
     [[nodiscard]] std::uint64_t begin_of(int rank) const {
-        return std::min(count, begin + slice_length * static_cast<std::uint64_t>(rank));
+        const std::uint64_t step = distance > 0 ? distance : slice_length;
+        return std::min(count, begin + step * static_cast<std::uint64_t>(rank));
     }
-    [[nodiscard]] std::uint64_t end_of(int rank) const { return begin_of(rank + 1); }
+    [[nodiscard]] std::uint64_t end_of(int rank) const {
+        return std::min(count, begin_of(rank) + slice_length);
+    }
+    [[nodiscard]] std::uint64_t length_of(int rank) const { return end_of(rank) - begin_of(rank); }
 };
 
 /// The slice of one process alone out of a list that it has all of, `per_entity` elements for each
@@ -116,6 +122,13 @@ public:
     [[nodiscard]] virtual std::span<const Marker> facet_markers(const Window&) { return {}; }
     [[nodiscard]] virtual std::span<const VertexNumbers<2>> edges(const Window&) { return {}; }
     [[nodiscard]] virtual std::span<const Marker> edge_markers(const Window&) { return {}; }
+
+    /// How many decimal digits the vertices of this process's slice have in all, numbered from
+    /// `index_base` on.
+    [[nodiscard]] virtual std::uint64_t cell_digits(const Window& window, std::uint64_t index_base);
+    [[nodiscard]] virtual std::uint64_t facet_digits(const Window& window,
+                                                     std::uint64_t index_base);
+    [[nodiscard]] virtual std::uint64_t edge_digits(const Window& window, std::uint64_t index_base);
 
     /// Of a window of the entities that have the feature, MeshFacts::features of them: their
     /// numbers, ascending.

@@ -19,6 +19,8 @@
 #include "files/gmsh/marker_runs.hpp"
 #include "files/gmsh/number_output.hpp"
 #include "files/gmsh/points_box.hpp"
+#include "files/gmsh/sections_2.hpp"
+#include "files/output/entity_list.hpp"
 #include "files/output/output_file.hpp"
 #include "files/output/text_slices.hpp"
 
@@ -29,12 +31,8 @@ using namespace gmsh;
 
 /// The elements of a kind: lines, triangles or tetrahedra.
 template <std::size_t N>
-struct ElementList {
+struct ElementList : EntityList<N> {
     std::uint64_t type;
-    std::uint64_t count;
-    std::span<const VertexNumbers<N>> (MeshSource::*vertices)(const Window&);
-    bool has_markers;
-    std::span<const Marker> (MeshSource::*markers)(const Window&);
     MarkerRuns runs{};
     std::uint64_t first_tag = 1;
 
@@ -159,22 +157,34 @@ private:
             put_row(is_any, count, is_any, count);
             if (count > 0) put_row(std::int32_t{3}, std::int32_t{1}, std::int32_t{0}, count);
         });
-        put_list(*out_, count, group_, [&](const Window& window, std::uint64_t first) {
-            const std::uint64_t end = window.end_of(group_.rank());
-            for (std::uint64_t v = first; v < end; ++v) put_row(v + 1);
-        });
-        put_list(*out_, count, group_, [&](const Window& window, std::uint64_t) {
-            for (const Point& p : mesh_->points(window)) {
-                numbers_.put_row(std::array{p.x, p.y, p.z});
-            }
+        const auto bytes_of_tags = [&](const Window& stretches) {
+            return numbers_.is_text() ? bytes_of_row_numbers(1, stretches)
+                                      : stretches.length_of(group_.rank()) * sizeof count;
+        };
+        put_list_in_stretches(*out_, count, group_, bytes_of_tags,
+                              [&](const Window& window, std::uint64_t first) {
+                                  const std::uint64_t end = window.end_of(group_.rank());
+                                  for (std::uint64_t v = first; v < end; ++v) put_row(v + 1);
+                              });
+        put_nodes(sizeof(Point), [&](const Point& p, std::uint64_t) {
+            numbers_.put_row(std::array{p.x, p.y, p.z});
         });
         on_first([&] { numbers_.end_section("Nodes"); });
     }
 
     template <std::size_t N>
     void write_elements_4(const ElementList<N>& list) {
+        const auto bytes_of = [&](const Window& stretches) {
+            std::uint64_t bytes = 0;
+            for (const MarkerRun& run : list.runs.here) bytes += bytes_of_head(list, run);
+            if (numbers_.is_text()) {
+                return bytes + bytes_of_row_numbers(list.first_tag, stretches) +
+                       bytes_of_vertices(*mesh_, list, stretches, 1);
+            }
+            return bytes + stretches.length_of(group_.rank()) * (1 + N) * sizeof(std::uint64_t);
+        };
         auto next = list.runs.here.begin();
-        put_list(*out_, list.count, group_, [&](const Window& window, std::uint64_t number) {
+        const auto put_slice = [&](const Window& window, std::uint64_t number) {
             for (const VertexNumbers<N>& vertices : (mesh_->*list.vertices)(window)) {
                 if (next != list.runs.here.end() && next->first == number) {
                     put_row(list.dimension(), list.entity_of(next->marker),
@@ -185,18 +195,43 @@ private:
                 for (std::size_t k = 0; k < N; ++k) row[1 + k] = vertices[k] + 1;
                 numbers_.put_row(row);
             }
-        });
+        };
+        put_list_in_stretches(*out_, list.count, group_, bytes_of, put_slice);
+    }
+
+    /// Of what stands before the elements of a run.
+    template <std::size_t N>
+    [[nodiscard]] std::uint64_t bytes_of_head(const ElementList<N>& list,
+                                              const MarkerRun& run) const {
+        if (!numbers_.is_text()) return 3 * sizeof(std::int32_t) + sizeof run.length;
+        return 4 + text_length(list.dimension()) + text_length(list.entity_of(run.marker)) +
+               text_length(list.type) + text_length(run.length);
+    }
+    /// Of the numbers of this process's rows as text, the whole list's from `first` on, with one
+    /// character behind each.
+    [[nodiscard]] std::uint64_t bytes_of_row_numbers(std::uint64_t first,
+                                                     const Window& stretches) const {
+        const std::uint64_t begin = stretches.begin_of(group_.rank());
+        const std::uint64_t end = stretches.end_of(group_.rank());
+        return text_length_between(first + begin, first + end) + (end - begin);
+    }
+    /// Calls put(point, its number) for this process's, which take `row_size` bytes in a binary
+    /// file.
+    void put_nodes(std::size_t row_size, auto&& put) {
+        const auto put_slice = [&](const Window& window, std::uint64_t number) {
+            for (const Point& p : mesh_->points(window)) put(p, number++);
+        };
+        if (numbers_.is_text()) return put_list(*out_, facts_.vertices, group_, put_slice);
+        put_list_of_rows(*out_, facts_.vertices, group_, row_size, put_slice);
     }
 
     // Version 2.2
 
     void write_2() {
         on_first([&] { numbers_.put_text(fmt::format("$Nodes\n{}\n", facts_.vertices)); });
-        put_list(*out_, facts_.vertices, group_, [&](const Window& window, std::uint64_t number) {
-            for (const Point& p : mesh_->points(window)) {
-                put_number_2(++number);
-                put_row(p.x, p.y, p.z);
-            }
+        put_nodes(node_bytes_2, [&](const Point& p, std::uint64_t number) {
+            put_number_2(number + 1);
+            put_row(p.x, p.y, p.z);
         });
         on_first([&] {
             numbers_.end_section("Nodes");
@@ -221,7 +256,19 @@ private:
             if (numbers_.is_text() || list.count == 0) return;
             put_row(type, static_cast<std::int32_t>(list.count), tags);
         });
-        put_list(*out_, list.count, group_, [&](const Window& window, std::uint64_t number) {
+        const auto bytes_of = [&](const Window& stretches) {
+            const std::uint64_t rows = stretches.length_of(group_.rank());
+            if (!numbers_.is_text()) return rows * (1 + std::size_t{tags} + N) * sizeof(type);
+            const auto bytes_of_tags = [&](Marker marker) {
+                return text_length(marker) + text_length(list.entity_of(marker)) + 2;
+            };
+            return bytes_of_row_numbers(list.first_tag, stretches) +
+                   rows * (text_length(type) + text_length(tags) + 2) +
+                   (list.has_markers ? bytes_of_markers(*mesh_, list, stretches, bytes_of_tags)
+                                     : rows * bytes_of_tags(0)) +
+                   bytes_of_vertices(*mesh_, list, stretches, 1);
+        };
+        const auto put_slice = [&](const Window& window, std::uint64_t number) {
             const auto elements = (mesh_->*list.vertices)(window);
             std::span<const Marker> markers;
             if (list.has_markers) markers = (mesh_->*list.markers)(window);
@@ -233,7 +280,8 @@ private:
                 for (const std::uint64_t vertex : elements[i]) put_number_2(vertex + 1);
                 numbers_.end_row();
             }
-        });
+        };
+        put_list_in_stretches(*out_, list.count, group_, bytes_of, put_slice);
     }
 
     NumberOutput numbers_;
@@ -242,12 +290,9 @@ private:
     const MeshFacts& facts_;
     const ProcessGroup& group_;
     bool is_2_;
-    ElementList<2> lines_{line_type, facts_.edges, &MeshSource::edges, facts_.has_edge_markers,
-                          &MeshSource::edge_markers};
-    ElementList<3> triangles_{triangle_type, facts_.facets, &MeshSource::facets,
-                              facts_.has_facet_markers, &MeshSource::facet_markers};
-    ElementList<4> tetrahedra_{tetrahedron_type, facts_.cells, &MeshSource::cells,
-                               facts_.has_regions, &MeshSource::regions};
+    ElementList<2> lines_{list_of_edges(facts_), line_type};
+    ElementList<3> triangles_{list_of_facets(facts_), triangle_type};
+    ElementList<4> tetrahedra_{list_of_cells(facts_), tetrahedron_type};
 };
 
 /// Binary files of version 2 have numbers of 32 bits.

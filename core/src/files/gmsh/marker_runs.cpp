@@ -29,15 +29,14 @@ std::vector<std::vector<T>> lists_of_all(const ProcessGroup& group, const std::v
     return lists;
 }
 
-std::vector<MarkerRun> runs_of_slice(std::span<const Marker> markers, std::uint64_t first) {
-    std::vector<MarkerRun> runs;
+/// The next markers of this process, from number `first` on.
+void add_runs(std::vector<MarkerRun>& runs, std::span<const Marker> markers, std::uint64_t first) {
     for (std::size_t i = 0; i < markers.size(); ++i) {
         if (runs.empty() || runs.back().marker != markers[i]) {
             runs.push_back({first + i, 0, markers[i]});
         }
         ++runs.back().length;
     }
-    return runs;
 }
 
 /// Joins the runs of slices, in the order of the list.
@@ -116,12 +115,13 @@ MarkerRuns find_marker_runs(std::uint64_t count, const ProcessGroup& group,
         if (group.is_first()) one.here.push_back({0, count, 0});
         return one;
     }
+    std::vector<MarkerRun> runs;
+    for_each_piece(stretches_of(count, group), lines_of_a_turn(count, group),
+                   [&](const Window& window) {
+                       add_runs(runs, markers(window), window.begin_of(group.rank()));
+                   });
     JoinedRuns joined(group);
-    const std::uint64_t length = lines_of_a_turn(count, group);
-    const std::uint64_t stride = length * static_cast<std::uint64_t>(group.size());
-    for (Window window{0, length, count}; window.begin < count; window.begin += stride) {
-        joined.add(runs_of_slice(markers(window), window.begin_of(group.rank())));
-    }
+    joined.add(runs);
     MarkerRuns found = joined.take();
     found.markers = markers_of_all(group, found.here);
     return found;

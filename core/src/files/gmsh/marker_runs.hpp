@@ -20,11 +20,11 @@ struct MarkerRun {
 /// The markers of a kind of entity, as its list has them.
 struct MarkerRuns {
     std::uint64_t count = 0;      ///< of all runs
-    std::vector<MarkerRun> here;  ///< those that begin in this process's slices, ascending
+    std::vector<MarkerRun> here;  ///< those that begin in this process's stretch, ascending
     std::vector<Marker> markers;  ///< all there are, ascending, each once
 };
 
-/// Collective. Finds them in slices, as put_list() cuts them. Without `markers` all are 0.
+/// Collective. A process's stretch is that of stretches_of(). Without `markers` all are 0.
 [[nodiscard]] MarkerRuns find_marker_runs(
     std::uint64_t count, const ProcessGroup& group,
     const std::function<std::span<const Marker>(const Window&)>& markers);

@@ -9,23 +9,13 @@
 #include "files/medit/keywords.hpp"
 #include "files/medit/medit.hpp"
 #include "files/medit/sol_writer.hpp"
+#include "files/output/entity_list.hpp"
 #include "files/output/output_file.hpp"
 #include "files/output/text_row.hpp"
 #include "files/output/text_slices.hpp"
 
 namespace octetra {
 namespace {
-
-/// Where the entities of a section come from, and their reference numbers, which are 0 where the
-/// mesh has no markers.
-template <std::size_t N>
-struct EntitySection {
-    std::string_view keyword;
-    std::uint64_t count;
-    std::span<const VertexNumbers<N>> (MeshSource::*vertices)(const Window&);
-    bool has_markers;
-    std::span<const Marker> (MeshSource::*markers)(const Window&);
-};
 
 void put_section_heading(OutputFile& out, const ProcessGroup& group, std::string_view keyword,
                          std::uint64_t count) {
@@ -35,20 +25,31 @@ void put_section_heading(OutputFile& out, const ProcessGroup& group, std::string
     put_line(out, count);
 }
 
+/// Reference numbers are 0 where the mesh has no markers.
 template <std::size_t N>
-void write_section(OutputFile& out, MeshSource& mesh, const EntitySection<N>& section) {
-    put_section_heading(out, mesh.group(), section.keyword, section.count);
-    put_list(out, section.count, mesh.group(), [&](const Window& window, std::uint64_t) {
-        const auto entities = (mesh.*section.vertices)(window);
-        std::span<const Marker> markers;
-        if (section.has_markers) markers = (mesh.*section.markers)(window);
-        for (std::size_t i = 0; i < entities.size(); ++i) {
-            TextRow row(out);
-            for (const std::uint64_t vertex : entities[i]) row.put(vertex + 1);
-            row.put(markers.empty() ? 0 : markers[i]);
-            row.end();
-        }
-    });
+void write_section(OutputFile& out, MeshSource& mesh, std::string_view keyword,
+                   const EntityList<N>& list) {
+    const ProcessGroup& group = mesh.group();
+    put_section_heading(out, group, keyword, list.count);
+    const auto bytes_of = [&](const Window& stretches) {
+        const std::uint64_t bytes = bytes_of_vertices(mesh, list, stretches, 1);
+        if (!list.has_markers) return bytes + 2 * stretches.length_of(group.rank());
+        return bytes + bytes_of_markers(mesh, list, stretches,
+                                        [](Marker marker) { return text_length(marker) + 1; });
+    };
+    put_list_in_stretches(out, list.count, group, bytes_of,
+                          [&](const Window& window, std::uint64_t) {
+                              const auto entities = (mesh.*list.vertices)(window);
+                              std::span<const Marker> markers;
+                              if (list.has_markers) markers = (mesh.*list.markers)(window);
+                              for (std::size_t i = 0; i < entities.size(); ++i) {
+                                  TextRow row(out);
+                                  for (const std::uint64_t vertex : entities[i])
+                                      row.put(vertex + 1);
+                                  row.put(markers.empty() ? 0 : markers[i]);
+                                  row.end();
+                              }
+                          });
 }
 
 void write_vertices(OutputFile& out, MeshSource& mesh) {
@@ -86,19 +87,9 @@ std::string write_medit(MeshSource& mesh, const std::filesystem::path& path) {
     OutputFile& out = *file;
     if (group.is_first()) out.put(std::string_view{"MeshVersionFormatted 2\nDimension 3\n"});
     write_vertices(out, mesh);
-    write_section<4>(
-        out, mesh,
-        {"Tetrahedra", facts.cells, &MeshSource::cells, facts.has_regions, &MeshSource::regions});
-    if (facts.facets > 0) {
-        write_section<3>(out, mesh,
-                         {"Triangles", facts.facets, &MeshSource::facets, facts.has_facet_markers,
-                          &MeshSource::facet_markers});
-    }
-    if (facts.edges > 0) {
-        write_section<2>(out, mesh,
-                         {"Edges", facts.edges, &MeshSource::edges, facts.has_edge_markers,
-                          &MeshSource::edge_markers});
-    }
+    write_section(out, mesh, "Tetrahedra", list_of_cells(facts));
+    if (facts.facets > 0) write_section(out, mesh, "Triangles", list_of_facets(facts));
+    if (facts.edges > 0) write_section(out, mesh, "Edges", list_of_edges(facts));
     write_features(out, mesh);
     if (group.is_first()) out.put(std::string_view{"End\n"});
     commit_with_fields(std::move(file), mesh, path);

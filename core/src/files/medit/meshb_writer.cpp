@@ -10,6 +10,7 @@
 #include "files/medit/medit.hpp"
 #include "files/medit/meshb_heads.hpp"
 #include "files/medit/sol_writer.hpp"
+#include "files/output/entity_list.hpp"
 #include "files/output/output_file.hpp"
 #include "files/output/text_slices.hpp"
 
@@ -39,16 +40,9 @@ public:
         const MeshFacts& facts = mesh_->facts();
         heads_.put_start();
         write_vertices();
-        write_list<4>(meshb_code::tetrahedra, facts.cells, &MeshSource::cells, facts.has_regions,
-                      &MeshSource::regions);
-        if (facts.facets > 0) {
-            write_list<3>(meshb_code::triangles, facts.facets, &MeshSource::facets,
-                          facts.has_facet_markers, &MeshSource::facet_markers);
-        }
-        if (facts.edges > 0) {
-            write_list<2>(meshb_code::edges, facts.edges, &MeshSource::edges,
-                          facts.has_edge_markers, &MeshSource::edge_markers);
-        }
+        write_list(meshb_code::tetrahedra, list_of_cells(facts));
+        if (facts.facets > 0) write_list(meshb_code::triangles, list_of_facets(facts));
+        if (facts.edges > 0) write_list(meshb_code::edges, list_of_edges(facts));
         for (const Feature feature : all_features) {
             if (facts.features[feature] > 0) write_feature(feature, facts.features[feature]);
         }
@@ -60,57 +54,58 @@ private:
         const MeshFacts& facts = mesh_->facts();
         constexpr std::size_t row_size = sizeof(Point) + sizeof(Integer);
         heads_.put_section(meshb_code::vertices, facts.vertices, facts.vertices * row_size);
-        put_list(*out_, facts.vertices, mesh_->group(), [&](const Window& window, std::uint64_t) {
-            const std::span<const Point> points = mesh_->points(window);
-            std::span<const Marker> markers;
-            if (facts.has_point_markers) markers = mesh_->point_markers(window);
-            rows_.resize(points.size() * row_size);
-            char* place = rows_.data();
-            for (std::size_t v = 0; v < points.size(); ++v) {
-                std::memcpy(place, &points[v], sizeof(Point));
-                const auto reference = static_cast<Integer>(markers.empty() ? 0 : markers[v]);
-                std::memcpy(place + sizeof(Point), &reference, sizeof reference);
-                place += row_size;
-            }
-            out_->put_bytes(rows_.data(), rows_.size());
-        });
+        put_list_of_rows(*out_, facts.vertices, mesh_->group(), row_size,
+                         [&](const Window& window, std::uint64_t) {
+                             const std::span<const Point> points = mesh_->points(window);
+                             std::span<const Marker> markers;
+                             if (facts.has_point_markers) markers = mesh_->point_markers(window);
+                             rows_.resize(points.size() * row_size);
+                             char* place = rows_.data();
+                             for (std::size_t v = 0; v < points.size(); ++v) {
+                                 std::memcpy(place, &points[v], sizeof(Point));
+                                 const auto reference =
+                                     static_cast<Integer>(markers.empty() ? 0 : markers[v]);
+                                 std::memcpy(place + sizeof(Point), &reference, sizeof reference);
+                                 place += row_size;
+                             }
+                             out_->put_bytes(rows_.data(), rows_.size());
+                         });
     }
 
     template <std::size_t N>
-    void write_list(std::int32_t code, std::uint64_t count,
-                    std::span<const VertexNumbers<N>> (MeshSource::*vertices)(const Window&),
-                    bool has_markers,
-                    std::span<const Marker> (MeshSource::*markers_of)(const Window&)) {
+    void write_list(std::int32_t code, const EntityList<N>& list) {
         using Row = std::array<Integer, N + 1>;
-        heads_.put_section(code, count, count * sizeof(Row));
-        put_list(*out_, count, mesh_->group(), [&](const Window& window, std::uint64_t) {
-            const auto entities = (mesh_->*vertices)(window);
-            std::span<const Marker> markers;
-            if (has_markers) markers = (mesh_->*markers_of)(window);
-            rows_.resize(entities.size() * sizeof(Row));
-            char* place = rows_.data();
-            for (std::size_t i = 0; i < entities.size(); ++i) {
-                Row row;
-                for (std::size_t k = 0; k < N; ++k)
-                    row[k] = static_cast<Integer>(entities[i][k] + 1);
-                row[N] = static_cast<Integer>(markers.empty() ? 0 : markers[i]);
-                std::memcpy(place, row.data(), sizeof row);
-                place += sizeof row;
-            }
-            out_->put_bytes(rows_.data(), rows_.size());
-        });
+        heads_.put_section(code, list.count, list.count * sizeof(Row));
+        put_list_of_rows(*out_, list.count, mesh_->group(), sizeof(Row),
+                         [&](const Window& window, std::uint64_t) {
+                             const auto entities = (mesh_->*list.vertices)(window);
+                             std::span<const Marker> markers;
+                             if (list.has_markers) markers = (mesh_->*list.markers)(window);
+                             rows_.resize(entities.size() * sizeof(Row));
+                             char* place = rows_.data();
+                             for (std::size_t i = 0; i < entities.size(); ++i) {
+                                 Row row;
+                                 for (std::size_t k = 0; k < N; ++k)
+                                     row[k] = static_cast<Integer>(entities[i][k] + 1);
+                                 row[N] = static_cast<Integer>(markers.empty() ? 0 : markers[i]);
+                                 std::memcpy(place, row.data(), sizeof row);
+                                 place += sizeof row;
+                             }
+                             out_->put_bytes(rows_.data(), rows_.size());
+                         });
     }
 
     void write_feature(Feature feature, std::uint64_t count) {
         heads_.put_section(keyword_of(feature).code, count, count * sizeof(Integer));
         std::vector<Integer> numbers;
-        put_list(*out_, count, mesh_->group(), [&](const Window& window, std::uint64_t) {
-            numbers.clear();
-            for (const std::uint64_t number : mesh_->features(feature, window)) {
-                numbers.push_back(static_cast<Integer>(number + 1));
-            }
-            out_->put_bytes(numbers.data(), numbers.size() * sizeof(Integer));
-        });
+        put_list_of_rows(*out_, count, mesh_->group(), sizeof(Integer),
+                         [&](const Window& window, std::uint64_t) {
+                             numbers.clear();
+                             for (const std::uint64_t number : mesh_->features(feature, window)) {
+                                 numbers.push_back(static_cast<Integer>(number + 1));
+                             }
+                             out_->put_bytes(numbers.data(), numbers.size() * sizeof(Integer));
+                         });
     }
 
     OutputFile* out_;

@@ -64,4 +64,15 @@ inline char* put_number(char* place, std::signed_integral auto number) {
     return detail::put_digits(place + 1, 0 - bits);
 }
 
+/// How long the text of a whole number is.
+inline std::uint64_t text_length(std::unsigned_integral auto number) {
+    std::uint64_t length = 1;
+    for (std::uint64_t rest = number; rest >= 10; rest /= 10) ++length;
+    return length;
+}
+inline std::uint64_t text_length(std::signed_integral auto number) {
+    const auto bits = static_cast<std::uint64_t>(std::int64_t{number});
+    return number >= 0 ? text_length(bits) : 1 + text_length(0 - bits);
+}
+
 }  // namespace octetra

@@ -118,9 +118,31 @@ void OutputFile::end_turn_later() {
 
 std::uint64_t OutputFile::place_of_turn() {
     write_kept();
-    const std::uint64_t place = flushed_ + group_->sum_before(used_);
-    flushed_ += group_->sum(used_);
+    if (stretch_) return std::exchange(stretch_->begin, stretch_->begin + used_);
+    return place_in_group(used_);
+}
+
+/// Collective. Where so many bytes of each process stand.
+std::uint64_t OutputFile::place_in_group(std::uint64_t size) {
+    const std::uint64_t place = flushed_ + group_->sum_before(size);
+    flushed_ += group_->sum(size);
     return place;
+}
+
+void OutputFile::begin_stretches(std::uint64_t size) {
+    end_turn();
+    const std::uint64_t begin = place_in_group(size);
+    stretch_ = {begin, begin + size};
+}
+
+void OutputFile::end_stretches() {
+    write_kept();
+    const bool is_full = stretch_->begin == stretch_->end;
+    stretch_.reset();
+    if (!is_full && failure_.empty()) {
+        failure_ = fmt::format("{}: writing failed: rows are not as long as they should be",
+                               path_.native());
+    }
 }
 
 void OutputFile::write_kept() {

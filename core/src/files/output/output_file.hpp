@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -66,6 +67,12 @@ public:
     /// that has ended nothing of it may be overwritten.
     void end_turn_later();
 
+    /// From here to end_stretches() each process has a stretch of `size` bytes of the file to
+    /// itself, by rank, and its turns, which end_turn_later() ends, are no other's affair.
+    void begin_stretches(std::uint64_t size);
+    /// Fails where a process has not put as many bytes as it said.
+    void end_stretches();
+
     /// How many bytes have been put so far: where the next one will stand. For a group: at the end
     /// of a turn, and the same on all processes.
     [[nodiscard]] std::uint64_t position() const { return flushed_ + used_; }
@@ -90,6 +97,7 @@ private:
     [[nodiscard]] bool is_alone() const { return group_->size() == 1; }
     void make_room(std::size_t size);
     [[nodiscard]] std::uint64_t place_of_turn();
+    [[nodiscard]] std::uint64_t place_in_group(std::uint64_t size);
     void write_kept();
     void open();
     void rename();
@@ -110,6 +118,12 @@ private:
     std::vector<char> kept_;     ///< of a group: what the last turn has put, kept_size_ bytes,
     std::size_t kept_size_ = 0;  ///< until it is written: then 0
     std::uint64_t kept_position_ = 0;
+    /// What is left of this process's stretch, while there is one.
+    struct Stretch {
+        std::uint64_t begin;
+        std::uint64_t end;
+    };
+    std::optional<Stretch> stretch_;
     bool committed_ = false;
     bool is_synced_ = false;
     std::string failure_;  ///< the first one, until it is thrown

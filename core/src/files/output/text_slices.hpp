@@ -5,12 +5,13 @@
 
 #include <octetra/core/mesh_source.hpp>
 
+#include "files/output/number_text.hpp"
 #include "files/output/output_file.hpp"
 
 namespace octetra {
 
-/// How much of a list of text lines each process makes before the group takes turns: little enough
-/// for a buffer, much enough that turns are rare; of a small list, an equal share.
+/// How much of a list each process puts before it writes: little enough for a buffer, much enough
+/// that turns are rare; of a small list, an equal share.
 [[nodiscard]] inline std::uint64_t lines_of_a_turn(std::uint64_t count, const ProcessGroup& group) {
     const std::uint64_t most = group.size() > 1 ? 1U << 15U : 1U << 12U;
     return std::clamp(count / static_cast<std::uint64_t>(group.size()) + 1, std::uint64_t{1}, most);
@@ -25,6 +26,62 @@ void put_list(OutputFile& out, std::uint64_t count, const ProcessGroup& group, a
         put_slice(window, window.begin_of(group.rank()));
         if (group.size() > 1) out.end_turn_later();
     }
+}
+
+/// The whole of a list in one slice for each process.
+[[nodiscard]] inline Window stretches_of(std::uint64_t count, const ProcessGroup& group) {
+    const auto processes = static_cast<std::uint64_t>(group.size());
+    return {0, (count + processes - 1) / processes, count};
+}
+
+/// Calls take(window) for windows that go through all slices of a larger one at once, `length`
+/// entities of each at a time.
+void for_each_piece(const Window& slices, std::uint64_t length, auto&& take) {
+    Window piece = slices;
+    if (piece.distance == 0) piece.distance = slices.slice_length;
+    for (std::uint64_t done = 0; done < slices.slice_length; done += length) {
+        piece.begin = slices.begin + done;
+        piece.slice_length = std::min(length, slices.slice_length - done);
+        take(static_cast<const Window&>(piece));
+    }
+}
+
+/// Collective. The same as put_list(), where each process can tell how many bytes there are in its
+/// slice of stretches_of(): no process has to wait for what those before it put. In most meshes a
+/// stretch of the order lies in few parts, and turns would have few processes at work at a time.
+void put_list_in_stretches(OutputFile& out, std::uint64_t count, const ProcessGroup& group,
+                           auto&& bytes_of, auto&& put_slice) {
+    if (group.size() == 1) return put_list(out, count, group, put_slice);
+    const Window stretches = stretches_of(count, group);
+    out.begin_stretches(bytes_of(stretches));
+    for_each_piece(stretches, lines_of_a_turn(count, group), [&](const Window& window) {
+        put_slice(window, window.begin_of(group.rank()));
+        out.end_turn_later();
+    });
+    out.end_stretches();
+}
+
+/// The same for rows of `row_size` bytes.
+void put_list_of_rows(OutputFile& out, std::uint64_t count, const ProcessGroup& group,
+                      std::size_t row_size, auto&& put_slice) {
+    const auto bytes_of = [&](const Window& stretches) {
+        return stretches.length_of(group.rank()) * row_size;
+    };
+    put_list_in_stretches(out, count, group, bytes_of, put_slice);
+}
+
+/// How long the texts of the numbers begin .. end-1 are in all.
+[[nodiscard]] inline std::uint64_t text_length_between(std::uint64_t begin, std::uint64_t end) {
+    std::uint64_t length = 0;
+    while (begin < end) {
+        const std::uint64_t digits = text_length(begin);
+        std::uint64_t more = 1;  // the first number with more digits
+        for (std::uint64_t k = 0; k < digits; ++k) more *= 10;
+        const std::uint64_t next = more > begin ? std::min(end, more) : end;
+        length += (next - begin) * digits;
+        begin = next;
+    }
+    return length;
 }
 
 }  // namespace octetra

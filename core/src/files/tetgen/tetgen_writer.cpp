@@ -4,6 +4,7 @@
 
 #include <octetra/core/files/places.hpp>
 
+#include "files/output/entity_list.hpp"
 #include "files/output/output_file.hpp"
 #include "files/output/places.hpp"
 #include "files/output/text_row.hpp"
@@ -45,31 +46,36 @@ void write_node(OutputFile& out, MeshSource& mesh) {
     });
 }
 
-/// Where the entities of a list come from, and their markers.
-template <std::size_t N>
-struct List {
-    std::uint64_t count;
-    std::span<const VertexNumbers<N>> (MeshSource::*vertices)(const Window&);
-    bool has_markers;
-    std::span<const Marker> (MeshSource::*markers)(const Window&);
-};
-
 /// Writes the entities of a list, their vertices and, where there are any, their markers.
 template <std::size_t N>
-void write_list(OutputFile& out, MeshSource& mesh, const List<N>& list) {
+void write_list(OutputFile& out, MeshSource& mesh, const EntityList<N>& list) {
     const std::uint32_t index_base = mesh.facts().index_base;
-    put_list(out, list.count, mesh.group(), [&](const Window& window, std::uint64_t number) {
-        const auto entities = (mesh.*list.vertices)(window);
-        std::span<const Marker> markers;
-        if (list.has_markers) markers = (mesh.*list.markers)(window);
-        for (std::size_t i = 0; i < entities.size(); ++i, ++number) {
-            TextRow row(out);
-            row.put(index_base + number);
-            for (const std::uint64_t vertex : entities[i]) row.put(index_base + vertex);
-            if (!markers.empty()) row.put(markers[i]);
-            row.end();
+    const ProcessGroup& group = mesh.group();
+    const auto bytes_of = [&](const Window& stretches) {
+        const std::uint64_t begin = stretches.begin_of(group.rank());
+        const std::uint64_t end = stretches.end_of(group.rank());
+        std::uint64_t bytes = text_length_between(index_base + begin, index_base + end) +
+                              (end - begin) + bytes_of_vertices(mesh, list, stretches, index_base);
+        if (list.has_markers) {
+            bytes += bytes_of_markers(mesh, list, stretches,
+                                      [](Marker marker) { return text_length(marker) + 1; });
         }
-    });
+        return bytes;
+    };
+    put_list_in_stretches(out, list.count, group, bytes_of,
+                          [&](const Window& window, std::uint64_t number) {
+                              const auto entities = (mesh.*list.vertices)(window);
+                              std::span<const Marker> markers;
+                              if (list.has_markers) markers = (mesh.*list.markers)(window);
+                              for (std::size_t i = 0; i < entities.size(); ++i, ++number) {
+                                  TextRow row(out);
+                                  row.put(index_base + number);
+                                  for (const std::uint64_t vertex : entities[i])
+                                      row.put(index_base + vertex);
+                                  if (!markers.empty()) row.put(markers[i]);
+                                  row.end();
+                              }
+                          });
 }
 
 /// Removes what is left from another mesh and would be read as lists of this one. Of a link goes
@@ -97,22 +103,17 @@ void write_tetgen(MeshSource& mesh, const fs::path& path) {
     write_node(create(".node"), mesh);
     OutputFile& ele = create(".ele");
     put_header(ele, group, facts.cells, 4, facts.has_regions ? 1 : 0);
-    write_list<4>(ele, mesh,
-                  {facts.cells, &MeshSource::cells, facts.has_regions, &MeshSource::regions});
+    write_list(ele, mesh, list_of_cells(facts));
 
     if (facts.facets > 0) {
         OutputFile& face = create(".face");
         put_header(face, group, facts.facets, facts.has_facet_markers ? 1 : 0);
-        write_list<3>(face, mesh,
-                      {facts.facets, &MeshSource::facets, facts.has_facet_markers,
-                       &MeshSource::facet_markers});
+        write_list(face, mesh, list_of_facets(facts));
     }
     if (facts.edges > 0) {
         OutputFile& edge = create(".edge");
         put_header(edge, group, facts.edges, facts.has_edge_markers ? 1 : 0);
-        write_list<2>(
-            edge, mesh,
-            {facts.edges, &MeshSource::edges, facts.has_edge_markers, &MeshSource::edge_markers});
+        write_list(edge, mesh, list_of_edges(facts));
     }
 
     OutputFile::commit_all(files, group, [&] {

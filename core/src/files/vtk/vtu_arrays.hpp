@@ -9,6 +9,8 @@
 
 #include <octetra/core/mesh_source.hpp>
 
+#include "files/output/text_slices.hpp"
+
 namespace octetra {
 
 /// How many bytes are compressed at a time: what a reader can skip to.
@@ -28,20 +30,17 @@ struct VtuArray {
     [[nodiscard]] std::size_t entity_size() const { return value_size * values_per_entity; }
 };
 
-/// Collective. Calls take(window, bytes) with this process's slices of an array, large
-/// enough to be few, small enough for a buffer, and of a small array equal shares.
+/// Collective. Calls take(window, bytes) with this process's slices of an array, one after the
+/// other through its stretch of the array, large enough to be few, small enough for a buffer.
 void for_each_slice(const VtuArray& array, const ProcessGroup& group, auto&& take) {
     constexpr std::uint64_t most_bytes = std::uint64_t{1} << 21U;
-    const std::uint64_t share = array.entities / static_cast<std::uint64_t>(group.size()) + 1;
     const std::uint64_t length =
-        std::clamp(most_bytes / array.entity_size(), std::uint64_t{1}, share);
-    const std::uint64_t stride = length * static_cast<std::uint64_t>(group.size());
+        std::max<std::uint64_t>(most_bytes / array.entity_size(), std::uint64_t{1});
     std::vector<char> bytes;
-    for (Window window{0, length, array.entities}; window.begin < window.count;
-         window.begin += stride) {
+    for_each_piece(stretches_of(array.entities, group), length, [&](const Window& window) {
         array.bytes_of_slice(window, bytes);
-        take(static_cast<const Window&>(window), static_cast<const std::vector<char>&>(bytes));
-    }
+        take(window, static_cast<const std::vector<char>&>(bytes));
+    });
 }
 
 /// What each point and each cell has beside its place, in the order of the file.

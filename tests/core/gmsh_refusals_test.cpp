@@ -280,6 +280,38 @@ TEST(GmshReader, NamesTheFirstRowWithAFaultWhicheverFaultItIs) {
     }
 }
 
+/// Those of version 2 that have one group are read together.
+TEST(GmshReader, NamesTheFirstRowOfVersion2WithAFaultWhicheverFaultItIs) {
+    const TemporaryFolder folder;
+    Mesh mesh = test::kuhn(4, 4, 4);
+    mesh.regions.assign(mesh.cells.size(), 3);
+    (void)write_mesh(mesh, folder / "whole.msh", {.msh = {.is_2 = true}});
+    const std::string whole = test::content_of(folder / "whole.msh");
+    constexpr std::size_t row_size = 7 * sizeof(std::int32_t);
+    const std::size_t rows = behind(whole, "$Elements\n384\n") + 3 * sizeof(std::int32_t);
+    const auto last_node_of = [&](std::size_t row) { return rows + row * row_size + 6 * 4; };
+    for (const std::size_t flat : {0U, 5U, 127U, 128U, 200U, 383U}) {
+        for (const std::size_t other : {0U, 4U, 130U, 256U, 257U, 258U, 300U, 383U}) {
+            for (const std::int32_t wrong : {9999, -1}) {
+                if (flat == other) continue;
+                std::string file = whole;
+                file.replace(last_node_of(flat), 4, file.substr(last_node_of(flat) - 4, 4));
+                file = patched(file, last_node_of(other), bytes_of_number(wrong));
+                const auto path = folder.write("m.msh", file);
+                const std::size_t place = flat < other  ? rows + flat * row_size
+                                          : wrong == -1 ? last_node_of(other)
+                                                        : rows + other * row_size;
+                const char* const what = flat < other    ? "the cell has the same vertex twice"
+                                         : wrong == 9999 ? "there is no node 9999"
+                                                         : "a node's number should be";
+                EXPECT_THAT(test::thrown_by<InputError>([&] { (void)read_mesh(path); }),
+                            HasSubstr(fmt::format("m.msh: at byte {}: {}", place, what)))
+                    << flat << " " << other;
+            }
+        }
+    }
+}
+
 /// So are lines, which are read one by one.
 TEST(GmshReader, NamesTheFirstLineWithAFaultWhicheverFaultItIs) {
     const TemporaryFolder folder;

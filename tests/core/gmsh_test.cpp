@@ -1,6 +1,12 @@
+#include <array>
+#include <cstdint>
+#include <random>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -116,6 +122,71 @@ TEST(GmshReader, TakesAnElementOfSeveralGroupsOnceAndSaysSo) {
     EXPECT_THAT(found.notes,
                 ElementsAre(EndsWith(
                     "m.msh: 3 elements are in more physical groups than one: the first is kept")));
+}
+
+/// Elements of version 2 whose groups change now and then, some of them listed again: as a text
+/// file and as a binary one.
+struct ListedElements {
+    std::string text;
+    std::string binary;
+};
+
+ListedElements listed_elements(std::mt19937& random, bool swapped) {
+    const Mesh mesh = test::kuhn(5, 5, 5);
+    struct Row {
+        std::array<std::int32_t, 2> groups;  // physical, entity
+        CellVertices nodes;
+    };
+    std::vector<Row> rows;
+    std::array<std::int32_t, 2> groups{1, 1};
+    const unsigned seldom = 1U << random() % 10;
+    for (const CellVertices& cell : mesh.cells) {
+        if (random() % seldom == 0) groups[random() % 2] = static_cast<std::int32_t>(random() % 3);
+        rows.push_back({groups, cell});
+        if (random() % seldom == 0) {
+            rows.push_back({{groups[0] + 1, groups[1]}, cell});
+            std::swap(rows.back().nodes[0], rows.back().nodes[1]);
+            std::swap(rows.back().nodes[2], rows.back().nodes[3]);
+        }
+    }
+    std::string text = fmt::format("{}$Nodes\n{}\n", gmsh_head_2, mesh.points.size());
+    test::BinaryBytes binary(swapped);
+    binary.text(test::gmsh_binary_head("2.2", swapped));
+    binary.text(fmt::format("$Nodes\n{}\n", mesh.points.size()));
+    for (std::int32_t v = 0; v < static_cast<std::int32_t>(mesh.points.size()); ++v) {
+        const Point& p = mesh.points[VertexIndex{static_cast<std::size_t>(v)}];
+        text += fmt::format("{} {} {} {}\n", v + 1, p.x, p.y, p.z);
+        binary.ints({v + 1}).reals({p.x, p.y, p.z});
+    }
+    text += fmt::format("$EndNodes\n$Elements\n{}\n", rows.size());
+    binary.text(fmt::format("\n$EndNodes\n$Elements\n{}\n", rows.size()));
+    binary.ints({4, static_cast<std::int32_t>(rows.size()), 2});
+    std::int32_t number = 0;
+    for (const auto& [of_row, cell] : rows) {
+        std::array<std::int32_t, 4> n{};
+        for (std::size_t k = 0; k < 4; ++k) n[k] = static_cast<std::int32_t>(cell[k].value()) + 1;
+        ++number;
+        text += fmt::format("{} 4 2 {} {} {}\n", number, of_row[0], of_row[1], fmt::join(n, " "));
+        binary.ints({number, of_row[0], of_row[1], n[0], n[1], n[2], n[3]});
+    }
+    return {text + "$EndElements\n", binary.text("\n$EndElements\n").bytes()};
+}
+
+TEST(GmshReader, ReadsTheSameOfVersion2AsTextAndBinaryHoweverGroupsChange) {
+    for (unsigned seed = 1; seed <= 20; ++seed) {
+        std::mt19937 random(seed);
+        const ListedElements listed = listed_elements(random, seed % 4 == 0);
+        const test::GmshRead text = test::read_gmsh(listed.text);
+        const test::GmshRead binary = test::read_gmsh(listed.binary);
+        EXPECT_EQ(text.mesh.cells, binary.mesh.cells) << "seed " << seed;
+        EXPECT_EQ(text.mesh.regions, binary.mesh.regions) << "seed " << seed;
+        ASSERT_EQ(text.notes.size(), binary.notes.size()) << "seed " << seed;
+        for (std::size_t i = 0; i < text.notes.size(); ++i) {
+            const std::string& note = text.notes[i];
+            EXPECT_THAT(binary.notes[i], EndsWith(note.substr(note.find("m.msh")))) << seed;
+        }
+        EXPECT_EQ(text.mesh.cells.size(), 750);
+    }
 }
 
 TEST(GmshReader, FindsNodesBySparseTagsInAnyOrder) {

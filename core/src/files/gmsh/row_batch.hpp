@@ -61,6 +61,26 @@ public:
         return rows_of<N>()[count_++];
     }
 
+    /// Where further rows can be put that go on with the last one: at `place`, with its marker and
+    /// step. There is room for one at least, or none where they do not go on.
+    template <class I, std::size_t N>
+    [[nodiscard]] std::span<std::array<std::uint64_t, N>> next_rows(
+        const EntityKind<I, N>& /*kind*/, Marker marker, std::uint64_t place, std::uint64_t step) {
+        const bool goes_on =
+            N == nodes_ && marker == marker_ && step == step_ && place == next_place_;
+        if (!goes_on) return {};
+        if (count_ == Intake::most_at_once) pass_on();
+        return std::span(rows_of<N>()).subspan(count_);
+    }
+    /// So many rows, one at least, that were put there. Returns the last one's nodes; see add().
+    template <class I, std::size_t N>
+    const std::array<std::uint64_t, N>& add_rows(const EntityKind<I, N>& /*kind*/,
+                                                 std::size_t count) {
+        count_ += count;
+        next_place_ += count * step_;
+        return rows_of<N>()[count_ - 1];
+    }
+
 private:
     template <std::size_t N>
     using Rows = std::array<std::array<std::uint64_t, N>, Intake::most_at_once>;

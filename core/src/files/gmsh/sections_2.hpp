@@ -191,24 +191,66 @@ private:
         }
     }
     void add_rows(const ElementBlock2& block, std::uint64_t count) requires(!Input::has_lines) {
-        const auto add = [&](auto&& read_at_once) {
-            for (std::uint64_t i = 0; i < count; ++i) {
+        const auto add_rows_of = [&](const auto& kind, auto& of) {
+            intake_->make_room(kind, count);
+            std::uint64_t one_by_one = 0;  // so many more, after some that were not alike
+            for (std::uint64_t left = count; left > 0;) {
+                if (one_by_one == 0) {
+                    const std::uint64_t read = read_alike(kind, of, block.tags, left);
+                    left -= read;
+                    if (read > 0) continue;
+                    one_by_one = Intake::most_at_once;
+                }
+                --one_by_one;
+                --left;
                 place_ = in_->begin_row("an element");
-                if (read_at_once()) continue;
+                if (read_at_once(kind, of, block.tags)) continue;
                 (void)in_->integer("an element's number");
                 read_element(block.type, block.tags);
             }
         };
-        const std::size_t tags = block.tags;
-        if (block.type == tetrahedron_type) {
-            intake_->make_room(cell_kind, count);
-            add([&] { return read_at_once(cell_kind, cells_, tags); });
-        } else if (block.type == triangle_type) {
-            intake_->make_room(facet_kind, count);
-            add([&] { return read_at_once(facet_kind, facets_, tags); });
-        } else {
-            add([] { return false; });
+        if (block.type == tetrahedron_type) return add_rows_of(cell_kind, cells_);
+        if (block.type == triangle_type) return add_rows_of(facet_kind, facets_);
+        for (std::uint64_t i = 0; i < count; ++i) {
+            place_ = in_->begin_row("an element");
+            (void)in_->integer("an element's number");
+            read_element(block.type, block.tags);
         }
+    }
+    /// The next rows of a binary file, as many as have the groups of the last one and fill the
+    /// batch, at most `left`. Returns how many; none where one of them is not like that.
+    template <class I, std::size_t N>
+    std::uint64_t read_alike(const EntityKind<I, N>& kind, OfKind<N>& of, std::size_t tags,
+                             std::uint64_t left) {
+        const ListedRun<N>& run = of.run;
+        if (tags < 2) return 0;
+        const std::size_t size = (1 + tags + N) * sizeof(std::int32_t);
+        auto rows = batch_.next_rows(kind, run.last.physical, in_->begin_row("an element"), size);
+        if (rows.empty()) return 0;
+        of.know_last_nodes();  // they stand where rows are put now
+        rows = rows.first(std::min<std::uint64_t>(rows.size(), left));
+        const std::byte* row = in_->at_hand(rows.size() * size);
+        if (row == nullptr) return 0;
+        const bool swaps_bytes = in_->swaps_bytes();
+        const auto number = [&](std::size_t k) {
+            return number_at<std::int32_t>(row + k * sizeof(std::int32_t), swaps_bytes);
+        };
+        std::int32_t negative = 0;
+        std::int32_t unlike = 0;
+        for (auto& nodes : rows) {
+            for (std::size_t k = 0; k < N; ++k) {
+                const std::int32_t node = number(1 + tags + k);
+                negative |= node;
+                nodes[k] = static_cast<std::uint64_t>(node);
+            }
+            unlike |= (number(1) ^ run.last.physical) | (number(2) ^ run.last.elementary);
+            row += size;
+        }
+        if (negative < 0 || unlike != 0) return 0;
+        in_->pass(rows.size() * size);
+        of.run.kept += rows.size();
+        of.last_nodes = &batch_.add_rows(kind, rows.size());
+        return rows.size();
     }
     /// The whole row of a binary file. False, and nothing is read, where number by number something
     /// wrong would be found.

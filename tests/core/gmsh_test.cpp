@@ -189,6 +189,21 @@ TEST(GmshReader, ReadsTheSameOfVersion2AsTextAndBinaryHoweverGroupsChange) {
     }
 }
 
+TEST(GmshReader, SaysWhichElementsAreOfEntitiesThatAreNotListed) {
+    const std::string nodes_of_two =
+        "$Nodes\n1 5 1 5\n3 1 0 5\n1\n2\n3\n4\n5\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n1 1 1\n$EndNodes\n";
+    const std::string elements =
+        "$Elements\n2 2 1 2\n3 1 4 1\n1 1 2 3 4\n3 2 4 1\n2 2 3 4 5\n$EndElements\n";
+    const test::GmshRead found =
+        test::read_gmsh(gmsh_head_4 + gmsh_entities_4 + nodes_of_two + elements);
+    EXPECT_THAT(found.mesh.regions, ElementsAre(7, 0));
+    EXPECT_THAT(found.notes,
+                ElementsAre(EndsWith("m.msh: 1 elements are of entities that $Entities does not "
+                                     "list, and in no group")));
+    // Some programs write no entities at all.
+    EXPECT_THAT(test::read_gmsh(gmsh_head_4 + nodes_of_two + elements).notes, IsEmpty());
+}
+
 TEST(GmshReader, FindsNodesBySparseTagsInAnyOrder) {
     const std::string cell = "$Elements\n1\n1 4 1 7 ";
     for (const std::string tags : {"7 9 8 6", "4 3 2 1", "1 2 3 1000000000000", "1 2 3 5",

@@ -11,6 +11,7 @@ namespace octetra::gmsh {
 struct Entity {
     Marker marker = 0;          ///< the tag of its first physical group; 0: it is in none
     bool is_interface = false;  ///< lies between partitions: no part of the geometry
+    bool is_missing = false;    ///< is not there, though others are
 };
 
 /// The entities of a file of version 4.1, by dimension and tag.
@@ -20,10 +21,10 @@ public:
         entities_[key(dimension, tag)] = entity;
         if (groups > 1) ++in_several_;
     }
-    /// One that is not listed is in no group.
+    /// One that is not there is in no group.
     [[nodiscard]] Entity find(std::int32_t dimension, std::int32_t tag) const {
         const auto found = entities_.find(key(dimension, tag));
-        return found == entities_.end() ? Entity{} : found->second;
+        return found == entities_.end() ? Entity{.is_missing = !entities_.empty()} : found->second;
     }
     /// How many entities are in more than one group.
     [[nodiscard]] std::uint64_t in_several() const { return in_several_; }

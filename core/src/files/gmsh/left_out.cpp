@@ -19,6 +19,8 @@ void tell(const LeftOut& left_out, const std::string& path,
     tell_of(left_out.names, "names of groups are empty, or no UTF-8 text, and are not kept");
     tell_of(left_out.in_another_group,
             "elements are in more physical groups than one: the first is kept");
+    tell_of(left_out.of_missing_entities,
+            "elements are of entities that $Entities does not list, and in no group");
 }
 
 void tell_of_entities(std::uint64_t in_several, const std::string& path,

@@ -80,6 +80,7 @@ public:
     void skip(Shape shape, std::uint64_t count) { left_out_.add(shape, count); }
     void skip_interface(std::uint64_t count) { left_out_.interfaces += count; }
     void skip_in_another_group() { ++left_out_.in_another_group; }
+    void note_missing_entity(std::uint64_t count) { left_out_.of_missing_entities += count; }
     void elements_complete();
 
     /// Checks what must be seen as a whole. Calls fail(what, place) for what is wrong; `has_lines`:

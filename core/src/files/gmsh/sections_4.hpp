@@ -230,6 +230,7 @@ void keep_rows_4(Input& in, const EntityKind<I, N>& kind, Marker marker, std::ui
 template <class Input, class Intake>
 void read_element_rows_4(Input& in, const ElementBlock& block, std::uint64_t count,
                          Intake& intake) {
+    if (block.entity.is_missing) intake.note_missing_entity(count);
     if (!block.entity.is_interface) {
         const Marker marker = block.entity.marker;
         if (block.type == tetrahedron_type)

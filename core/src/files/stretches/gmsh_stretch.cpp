@@ -323,6 +323,7 @@ private:
         for (std::uint64_t& count : all.of_shape) count = group().sum(count);
         all.interfaces = group().sum(all.interfaces);
         all.in_another_group = group().sum(all.in_another_group);
+        all.of_missing_entities = group().sum(all.of_missing_entities);
         progress_->attempt([&] {
             const auto note = [&](const std::string& text) { stretch_.notes.push_back(text); };
             tell_of_entities(entities_.in_several(), path_->native(), note);

@@ -67,6 +67,7 @@ public:
     void skip(Shape shape, std::uint64_t count) { left_out.add(shape, count); }
     void skip_interface(std::uint64_t count) { left_out.interfaces += count; }
     void skip_in_another_group() { ++left_out.in_another_group; }
+    void note_missing_entity(std::uint64_t count) { left_out.of_missing_entities += count; }
 
     /// By this process.
     LeftOut left_out;

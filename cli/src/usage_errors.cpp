@@ -133,9 +133,23 @@ std::string in_plain_words(std::string_view said) {
     return std::string(said);
 }
 
+/// What is to be said where an option took the name of another for its value; else nothing.
+std::string taken_for_a_value(const CLI::App& command) {
+    for (const CLI::Option* option : command.get_options()) {
+        for (const std::string& word : option->results()) {
+            const std::string name = word.substr(0, word.find('='));
+            if (!is_option(name) || command.get_option_no_throw(name) == nullptr) continue;
+            return fmt::format("{} lacks its value, {}: {} is an option", option->get_name(),
+                               option->get_type_name(), name);
+        }
+    }
+    return {};
+}
+
 /// CLI11 lists what it could not place from the last to the first, and asks for a subcommand where
 /// there is a word in its place.
 std::string what_is_wrong(const Innermost& command, const CLI::ParseError& error) {
+    if (std::string what = taken_for_a_value(*command.app); !what.empty()) return what;
     const std::vector<std::string> words = words_left(*command.app);
     const bool lacks_subcommand = command.app->get_require_subcommand_min() > 0;
     const bool has_extras = dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr;

@@ -200,6 +200,11 @@ TEST_F(Usage, OfTooFewAndTooManyValuesIsToldInOneLine) {
     expect_refused("generate kuhn 1 2 3 -o out.mesh", "4",
                    "N takes no more than 3 values, not 4; see octetra generate kuhn --help");
     expect_refused("refine", "m.ele", "--output is required; see octetra refine --help");
+    expect_refused("refine m.ele --all --profile", "-o",
+                   "--profile lacks its value, FILE: -o is an option; see octetra refine --help");
+    expect_refused("adapt m.ele --script", "--output=a.ele",
+                   "--script lacks its value, FILE: --output is an option; see octetra adapt "
+                   "--help");
     expect_refused("generate kuhn 2", "--sise",
                    "kuhn has no option --sise; did you mean --size? See octetra generate kuhn "
                    "--help");

@@ -158,7 +158,7 @@ private:
             if (count > 0) put_row(std::int32_t{3}, std::int32_t{1}, std::int32_t{0}, count);
         });
         const auto bytes_of_tags = [&](const Window& stretches) {
-            return numbers_.is_text() ? bytes_of_row_numbers(1, stretches)
+            return numbers_.is_text() ? bytes_of_row_numbers(stretches, group_.rank(), 1)
                                       : stretches.length_of(group_.rank()) * sizeof count;
         };
         put_list_in_stretches(*out_, count, group_, bytes_of_tags,
@@ -178,7 +178,7 @@ private:
             std::uint64_t bytes = 0;
             for (const MarkerRun& run : list.runs.here) bytes += bytes_of_head(list, run);
             if (numbers_.is_text()) {
-                return bytes + bytes_of_row_numbers(list.first_tag, stretches) +
+                return bytes + bytes_of_row_numbers(stretches, group_.rank(), list.first_tag) +
                        bytes_of_vertices(*mesh_, list, stretches, 1);
             }
             return bytes + stretches.length_of(group_.rank()) * (1 + N) * sizeof(std::uint64_t);
@@ -206,14 +206,6 @@ private:
         if (!numbers_.is_text()) return 3 * sizeof(std::int32_t) + sizeof run.length;
         return 4 + text_length(list.dimension()) + text_length(list.entity_of(run.marker)) +
                text_length(list.type) + text_length(run.length);
-    }
-    /// Of the numbers of this process's rows as text, the whole list's from `first` on, with one
-    /// character behind each.
-    [[nodiscard]] std::uint64_t bytes_of_row_numbers(std::uint64_t first,
-                                                     const Window& stretches) const {
-        const std::uint64_t begin = stretches.begin_of(group_.rank());
-        const std::uint64_t end = stretches.end_of(group_.rank());
-        return text_length_between(first + begin, first + end) + (end - begin);
     }
     /// Calls put(point, its number) for this process's, which take `row_size` bytes in a binary
     /// file.
@@ -262,7 +254,7 @@ private:
             const auto bytes_of_tags = [&](Marker marker) {
                 return text_length(marker) + text_length(list.entity_of(marker)) + 2;
             };
-            return bytes_of_row_numbers(list.first_tag, stretches) +
+            return bytes_of_row_numbers(stretches, group_.rank(), list.first_tag) +
                    rows * (text_length(type) + text_length(tags) + 2) +
                    (list.has_markers ? bytes_of_markers(*mesh_, list, stretches, bytes_of_tags)
                                      : rows * bytes_of_tags(0)) +

@@ -84,4 +84,12 @@ void put_list_of_rows(OutputFile& out, std::uint64_t count, const ProcessGroup& 
     return length;
 }
 
+/// How many bytes the numbers of the rows of a process's slice take as text, those of the whole
+/// list from `first` on, with one character behind each.
+[[nodiscard]] inline std::uint64_t bytes_of_row_numbers(const Window& slices, int rank,
+                                                        std::uint64_t first) {
+    return text_length_between(first + slices.begin_of(rank), first + slices.end_of(rank)) +
+           slices.length_of(rank);
+}
+
 }  // namespace octetra

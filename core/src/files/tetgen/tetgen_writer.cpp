@@ -52,10 +52,8 @@ void write_list(OutputFile& out, MeshSource& mesh, const EntityList<N>& list) {
     const std::uint32_t index_base = mesh.facts().index_base;
     const ProcessGroup& group = mesh.group();
     const auto bytes_of = [&](const Window& stretches) {
-        const std::uint64_t begin = stretches.begin_of(group.rank());
-        const std::uint64_t end = stretches.end_of(group.rank());
-        std::uint64_t bytes = text_length_between(index_base + begin, index_base + end) +
-                              (end - begin) + bytes_of_vertices(mesh, list, stretches, index_base);
+        std::uint64_t bytes = bytes_of_row_numbers(stretches, group.rank(), index_base) +
+                              bytes_of_vertices(mesh, list, stretches, index_base);
         if (list.has_markers) {
             bytes += bytes_of_markers(mesh, list, stretches,
                                       [](Marker marker) { return text_length(marker) + 1; });

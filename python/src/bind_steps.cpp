@@ -88,6 +88,15 @@ Moved rebalance(Mesh& mesh, double most_over_mean, bool may_forget_history) {
                        });
 }
 
+Moved recall_history(Mesh& mesh) {
+    return mesh.change([] {},
+                       [&](od::AdaptiveMesh& now) {
+                           Moved move = moved(now);
+                           move.migration = now.recall_history();
+                           return move;
+                       });
+}
+
 Moved migrate(Mesh& mesh, const py::object& given) {
     std::vector<std::int32_t> ranks;
     return mesh.change([&] { ranks = values_of<std::int32_t>("rank_of_root", given); },
@@ -145,13 +154,22 @@ void bind_steps(py::module_&, MeshClass& mesh) {
             "about as many. Returns the Migration and the Adaptation, in this order.\n\n"
             "may_forget_history: where cells of the input with all that has become of them are "
             "too much to make ranks even, cells of the mesh as it is may take their place. They "
-            "are the roots then, and coarsening ends with them.")
+            "are the roots then, and coarsening ends with them, until recall_history().")
         .def("coarsen", &coarsen, no_marks, py::kw_only(), no_cells,
              "Collective. Takes refinement back: marked cells may become part of the one that they "
              "were bisected from. Marks as of refine().")
         .def("rebalance", &rebalance, py::kw_only(), most_over_mean, may_forget,
              "Collective. Cells go from ranks that have many to those that have few, where one has "
              "more than most_over_mean times the mean. may_forget_history: see refine_evenly().")
+        .def_property_readonly(
+            "has_forgotten_history", [](const Mesh& m) { return m.now().has_forgotten_history(); },
+            "Has may_forget_history made cells of a refined mesh the roots? The same on all ranks.")
+        .def(
+            "recall_history", &recall_history,
+            "Collective. Where cells of a refined mesh are the roots, takes that back; the last "
+            "time, "
+            "where it was more than once. Roots go to the ranks on which they were cells, with all "
+            "that has become of them, and are descendants again.")
         .def("migrate", &migrate, py::arg("rank_of_root"),
              "Collective. The same to where a program wants them: (roots,), the rank that is to "
              "have each of `roots`.");

@@ -55,8 +55,8 @@ std::uint64_t let_each_fail(std::size_t step, auto&& prepare) {
     long failures = 0;
     for (int rank = 0; rank < world.size(); ++rank) {
         AdaptiveMesh mesh = before_step(step);
-        const test::SeenMesh before(mesh);
         auto work = prepare(mesh);
+        const test::SeenMesh before(mesh);
         for (long allocations = 0;; allocations += 1 + allocations / 100) {
             const bool done = done_with(allocations, rank, work);
             const auto done_on = static_cast<int>(world.sum(done ? 1 : 0));
@@ -134,6 +134,16 @@ TEST(FailingAllocations, OfAStepBeforeWhichCellsBecomeRootsLeaveTheMeshAsItWas) 
         return [&] { (void)mesh.refine_evenly(steps[2], forgetting); };
     });
     EXPECT_TRUE(failures >= 250 || test::world().size() == 1);
+}
+
+TEST(FailingAllocations, OfRecallingWhatCellsCameFromLeaveTheMeshAsItWas) {
+    constexpr BalanceOptions forgetting{.most_over_mean = 1, .may_forget_history = true};
+    const std::uint64_t failures = let_each_fail(2, [&](AdaptiveMesh& mesh) {
+        (void)mesh.refine_evenly(steps[2], forgetting);
+        EXPECT_EQ(mesh.has_forgotten_history(), test::world().size() > 1);
+        return [&] { (void)mesh.recall_history(); };
+    });
+    EXPECT_TRUE(failures >= 200 || test::world().size() == 1);
 }
 
 /// Of a mesh that is no AdaptiveMesh, which becomes one for the move.

@@ -80,6 +80,75 @@ TEST_P(ForgottenHistory, OfManyLevelsGivesTheMeshOfTheReference) {
     }
 }
 
+/// Collective. Takes back all that was forgotten; the points that come along are those that are
+/// there.
+int recall_all(AdaptiveMesh& mesh) {
+    int times = 0;
+    for (; mesh.has_forgotten_history(); ++times) {
+        std::vector<Point> points(mesh.points().begin(), mesh.points().end());
+        const Migration move = mesh.recall_history();
+        EXPECT_TRUE(std::ranges::equal(move.vertices(std::move(points)), mesh.points()));
+    }
+    EXPECT_FALSE(mesh.recall_history().changed());
+    return times;
+}
+
+/// Each root goes anywhere.
+void scatter(AdaptiveMesh& mesh, std::uint64_t seed) {
+    std::vector<int> ranks;
+    for (const std::uint64_t root : mesh.roots()) {
+        std::mt19937_64 random(root ^ seed);
+        ranks.push_back(static_cast<int>(random() % static_cast<unsigned>(test::world().size())));
+    }
+    (void)mesh.migrate(ranks);
+}
+
+/// Whatever was refined and moved since: coarsening and checkpoints are what they would have been.
+TEST_P(ForgottenHistory, IsRecalledWithWhatWasRefinedSince) {
+    MovingAndResting pair(GetParam());
+    int recalled = 0;
+    for (std::uint64_t round = 0; round < 2; ++round) {
+        for (std::uint64_t k = 0; k < 3; ++k) {
+            const Selection selection = some(k == 1 ? 0.01 : 0.001, GetParam() + 10 * round + k);
+            (void)pair.moving.refine_evenly(selection, forgetting);
+            (void)pair.resting.refine(selection);
+            pair.expect_step(selection, true);
+            if (round == 1) scatter(pair.moving, k);
+            if (k == 2) (void)pair.moving.rebalance(forgetting);
+        }
+        recalled += recall_all(pair.moving);
+        EXPECT_EQ(test::world().sum(pair.moving.roots().size()),
+                  test::world().sum(pair.resting.roots().size()));
+        pair.expect_same_checkpoints();
+        for (std::uint64_t k = 0; k < 2; ++k) {
+            const Selection selection = some(0.7, GetParam() + 10 * round + k);
+            (void)pair.moving.coarsen(selection);
+            (void)pair.resting.coarsen(selection);
+            pair.expect_step(selection, false);
+        }
+        pair.expect_same_checkpoints();
+        ASSERT_FALSE(HasFailure());
+    }
+    EXPECT_GE(recalled, test::world().size() > 1 ? 2 : 0);
+}
+
+/// What is taken back in the midst of it is the upper part alone.
+TEST_P(ForgottenHistory, IsRecalledAfterCoarseningThatEndedWithIt) {
+    AdaptiveMesh mesh = shared_out(input_of(GetParam()), "block");
+    const Mesh input = mesh.collect();
+    for (std::uint64_t k = 0; k < 4; ++k) {
+        (void)mesh.refine_evenly(some(0.05, GetParam() + k), forgetting);
+    }
+    while (mesh.coarsen(Selection{.all = true}).changed) {
+    }
+    const Mesh roots = mesh.collect();
+    (void)recall_all(mesh);
+    EXPECT_TRUE(mesh.collect() == roots);
+    while (mesh.coarsen(Selection{.all = true}).changed) {
+    }
+    EXPECT_TRUE(mesh.collect() == input);
+}
+
 INSTANTIATE_TEST_SUITE_P(Seeds, ForgottenHistory, testing::Range<std::uint64_t>(0, 4));
 
 TEST(ForgottenHistory, LetsProcessesBeEvenThatHaveACornerOfFewCells) {

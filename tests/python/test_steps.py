@@ -198,6 +198,19 @@ def test_cells_may_take_the_place_of_the_inputs_where_these_are_too_heavy(folder
     other.write(folder / "other.mesh")
     assert same(folder / "even.mesh", folder / "other.mesh")
 
+    assert mesh.has_forgotten_history == (world.size > 1)
+    points = np.array(mesh.points)
+    while mesh.has_forgotten_history:
+        points = mesh.recall_history().vertices(points)
+    assert np.array_equal(points, mesh.points)
+    assert total(len(mesh.roots)) == roots
+    for _ in range(3):
+        mesh.coarsen(np.ones(len(mesh.cells), bool))
+        other.coarsen(np.ones(len(other.cells), bool))
+    mesh.save(folder / "even.octetra")
+    other.save(folder / "other.octetra")
+    assert same(folder / "even.octetra", folder / "other.octetra")
+
 
 def test_a_mesh_is_saved_with_fields_and_goes_on(folder, mesh):
     mesh.refine(near(mesh, 0.5))

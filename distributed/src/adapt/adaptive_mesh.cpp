@@ -131,6 +131,8 @@ Adaptation AdaptiveMesh::coarsen(const Selection& may_go) {
 Migration AdaptiveMesh::rebalance(const BalanceOptions& options) {
     return rebalance_state(*state_, options);
 }
+bool AdaptiveMesh::has_forgotten_history() const { return !state_->forgotten.empty(); }
+Migration AdaptiveMesh::recall_history() { return distributed::recall_history(*state_); }
 Migration AdaptiveMesh::migrate(std::span<const int> rank_of_root) {
     return migrate_state(*state_, rank_of_root);
 }

@@ -107,7 +107,7 @@ void redo(DistributedMesh& mesh, PlannedLevel& plan, UnevenLevel level,
 }  // namespace
 
 void UnevenLevel::keep_mesh() noexcept {
-    if (roots != nullptr) roots->keep();
+    if (roots != nullptr) (void)roots->keep();
     if (order != nullptr) order->keep();
     roots.reset();
     order.reset();

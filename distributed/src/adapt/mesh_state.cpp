@@ -120,4 +120,16 @@ Adaptation AdaptiveMesh::State::take(PlannedLevel& plan) {
     return adaptation;
 }
 
+void AdaptiveMesh::State::make_room_for_history() {
+    LocalFailure failure;
+    failure.attempt([&] { forgotten.reserve(forgotten.size() + 1); });
+    failure.agree(mesh.processes);
+}
+
+void AdaptiveMesh::State::move_on(State&& after, std::unique_ptr<CellsAsRoots> roots) noexcept {
+    after.forgotten = std::move(forgotten);
+    if (roots != nullptr) after.forgotten.push_back(roots->keep());
+    *this = std::move(after);
+}
+
 }  // namespace octetra::distributed

@@ -2,9 +2,12 @@
 
 #include <functional>
 #include <memory>
+#include <vector>
 
 #include <octetra/distributed/adaptive_mesh.hpp>
 
+#include "history/cells_as_roots.hpp"
+#include "history/history.hpp"
 #include "level/planned_level.hpp"
 #include "mark/marked_cells.hpp"
 #include "numbering/canonical_numbers.hpp"
@@ -19,6 +22,8 @@ struct AdaptiveMesh::State {
     Sharing<VertexIndex> sharing;
     int step_count = 0;        ///< those that were forgotten, too
     std::uint64_t waited = 0;  ///< see uneven_level()
+    /// Of each time that cells became roots what this process's part was before.
+    std::vector<History> forgotten;
 
     State() = default;
     /// Collective. Of a part that is as the input was.
@@ -30,6 +35,11 @@ struct AdaptiveMesh::State {
     /// Collective. What a level of this mesh brings, once it is ready to be committed. The level is
     /// committed then.
     Adaptation take(PlannedLevel& plan);
+    /// Collective. For the part that `roots` have, before move_on().
+    void make_room_for_history();
+    /// Goes on as `after`, which is this state with cells that moved; `roots`, or null: they are
+    /// roots since.
+    void move_on(State&& after, std::unique_ptr<CellsAsRoots> roots) noexcept;
 };
 
 [[nodiscard]] RefineOptions level_options(const StepOptions& options);
@@ -64,5 +74,9 @@ struct AdaptiveMesh::State {
 
 /// Collective. Moves roots where processes have too different numbers of cells.
 [[nodiscard]] Migration rebalance_state(AdaptiveMesh::State& state, const BalanceOptions& options);
+
+/// Collective. The roots are what they were before cells became roots, if they ever did; the last
+/// time that they did is taken back.
+[[nodiscard]] Migration recall_history(AdaptiveMesh::State& state);
 
 }  // namespace octetra::distributed

@@ -13,6 +13,7 @@
 #include "adapt/mesh_state.hpp"
 #include "adapt/step_options.hpp"
 #include "comm/local_failure.hpp"
+#include "history/recall_history.hpp"
 #include "history/steps_of.hpp"
 #include "level/incremental/adjacency.hpp"
 #include "migrate/border.hpp"
@@ -166,8 +167,8 @@ Migration migrate_state(AdaptiveMesh::State& state, std::span<const int> rank_of
     Migration migration;
     std::optional<AdaptiveMesh::State> after =
         moved_state(state, order->cells_before(), rank_of_root, migration);
-    order.reset();
-    state = *std::move(after);
+    order->keep();
+    state.move_on(*std::move(after), nullptr);
     return migration;
 }
 
@@ -187,13 +188,35 @@ Migration rebalance_state(AdaptiveMesh::State& state, const BalanceOptions& opti
     const auto ranks =
         even_parts_or_roots(state.mesh, std::ref(weigh), options, roots, &state.numbers, failure);
     if (!ranks) return {};
+    if (roots != nullptr) state.make_room_for_history();
     const Phase phase(processes, "migrate");
     Migration migration;
     std::optional<AdaptiveMesh::State> after =
         moved_state(state, order->cells_before(), *ranks, migration);
-    roots.reset();
-    order.reset();
-    state = *std::move(after);
+    order->keep();
+    state.move_on(*std::move(after), std::move(roots));
+    return migration;
+}
+
+Migration recall_history(AdaptiveMesh::State& state) {
+    if (state.forgotten.empty()) return {};
+    const Phase phase(state.mesh.processes, "recall history");
+    const History& before = state.forgotten.back();
+    LocalFailure failure;
+    std::optional<CanonicalOrder> order;
+    failure.attempt([&] { order.emplace(state.mesh); });
+    failure.agree(state.mesh.processes);
+    const std::vector<int> ranks = ranks_of_cells(state.mesh, before);
+    Migration migration;
+    std::optional<AdaptiveMesh::State> after =
+        moved_state(state, order->cells_before(), ranks, migration);
+    std::optional<History> history;  // made, even of nothing, it takes memory
+    failure.attempt([&] { history = joined(before, after->mesh); });
+    failure.agree(state.mesh.processes);
+    history->swap_with(after->mesh);
+    order->keep();
+    state.forgotten.pop_back();
+    state.move_on(*std::move(after), nullptr);
     return migration;
 }
 

@@ -1,3 +1,4 @@
+#include <memory>
 #include <utility>
 
 #include <octetra/distributed/profile.hpp>
@@ -25,13 +26,16 @@ EvenStep refine_state_evenly(AdaptiveMesh::State& state, const std::function<Mar
         bisect_level(plan, state.mesh, level_of, level);
         return {Migration(), state.take(plan)};
     }
+    if (uneven->roots != nullptr) state.make_room_for_history();
     MovedLevel moved = moved_level(state, *uneven, level_of, tuning);
     bisect_level(moved.plan, moved.state->mesh, level_of, level);
     EvenStep done{std::move(moved.migration), moved.state->take(moved.plan)};
     done.step.synchronisation = counts;
     moved.plan = {};
+    std::unique_ptr<CellsAsRoots> roots = std::move(uneven->roots);
+    if (uneven->order != nullptr) uneven->order->keep();
     uneven.reset();
-    state = std::move(*moved.state);
+    state.move_on(std::move(*moved.state), std::move(roots));
     return done;
 }
 

@@ -91,37 +91,29 @@ void CellsAsRoots::begin(DistributedMesh& mesh, const CanonicalNumbers* known) {
         const CanonicalRuns cells = canonical_runs(processes, mesh.cell_ancestors);
         const CanonicalRuns facets = canonical_runs(processes, mesh.facet_ancestors);
         const CanonicalRuns edges = canonical_runs(processes, mesh.edge_ancestors);
-        input_vertices_.assign(numbers.of_vertex.begin(), numbers.of_vertex.end());
-        input_vertex_markers_ = settled_markers(mesh);
-        cell_ancestors_ = own_roots(mesh.cell_ancestors, cells);
-        facet_ancestors_ = own_roots(mesh.facet_ancestors, facets);
-        edge_ancestors_ = own_roots(mesh.edge_ancestors, edges);
-        input_vertex_count_ = numbers.vertex_count;
-        input_cell_count_ = cells.count;
-        features_ = features_now(mesh, FeatureSlices(mesh, {{{&mesh.edge_ancestors, &edges},
-                                                             {&mesh.facet_ancestors, &facets},
-                                                             {&mesh.cell_ancestors, &cells}}}));
+        forgotten_.input_vertices.assign(numbers.of_vertex.begin(), numbers.of_vertex.end());
+        forgotten_.input_vertex_markers = settled_markers(mesh);
+        forgotten_.cell_ancestors = own_roots(mesh.cell_ancestors, cells);
+        forgotten_.facet_ancestors = own_roots(mesh.facet_ancestors, facets);
+        forgotten_.edge_ancestors = own_roots(mesh.edge_ancestors, edges);
+        forgotten_.input_vertex_count = numbers.vertex_count;
+        forgotten_.input_cell_count = cells.count;
+        forgotten_.features =
+            features_now(mesh, FeatureSlices(mesh, {{{&mesh.edge_ancestors, &edges},
+                                                     {&mesh.facet_ancestors, &facets},
+                                                     {&mesh.cell_ancestors, &cells}}}));
     });
-    swap_with(mesh);
+    forgotten_.swap_with(mesh);
     mesh_ = &mesh;
 }
 
 CellsAsRoots::~CellsAsRoots() {
-    if (mesh_ != nullptr) swap_with(*mesh_);
+    if (mesh_ != nullptr) forgotten_.swap_with(*mesh_);
 }
 
-void CellsAsRoots::swap_with(DistributedMesh& mesh) noexcept {
-    std::swap(mesh.input_vertices, input_vertices_);
-    std::swap(mesh.input_vertex_markers, input_vertex_markers_);
-    std::swap(mesh.level_begin, level_begin_);
-    std::swap(mesh.midpoint_to_edge, midpoint_to_edge_);
-    std::swap(mesh.midpoint_markers, midpoint_markers_);
-    std::swap(mesh.cell_ancestors, cell_ancestors_);
-    std::swap(mesh.facet_ancestors, facet_ancestors_);
-    std::swap(mesh.edge_ancestors, edge_ancestors_);
-    std::swap(mesh.input_vertex_count, input_vertex_count_);
-    std::swap(mesh.input_cell_count, input_cell_count_);
-    std::swap(mesh.features, features_);
+History CellsAsRoots::keep() noexcept {
+    mesh_ = nullptr;
+    return std::move(forgotten_);
 }
 
 }  // namespace octetra::distributed

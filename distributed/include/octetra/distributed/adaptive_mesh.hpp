@@ -167,9 +167,16 @@ public:
     /// Collective. The same to where a program wants them: `rank_of_root` has the process that is
     /// to have each of this process's roots().
     Migration migrate(std::span<const int> rank_of_root);
+    /// Has BalanceOptions::may_forget_history made cells of a refined mesh the roots? The same on
+    /// all processes.
+    [[nodiscard]] bool has_forgotten_history() const;
+    /// Collective. Takes that back; the last time, where it was more than once. The roots go to the
+    /// processes on which they were cells then, with all that has become of them, and are
+    /// descendants again: coarsening and files know what they came from. No process has more than
+    /// what has become of the cells that it had.
+    Migration recall_history();
     /// The numbers of the cells of the input, the roots, whose descendants this process has;
-    /// ascending. With BalanceOptions::may_forget_history they may come to be those of a mesh that
-    /// was refined already.
+    /// ascending. They are those of a refined mesh while it has forgotten its history.
     [[nodiscard]] std::span<const std::uint64_t> roots() const;
     /// Of each cell of this process the place of its root among these. Takes time in proportion to
     /// the part.

@@ -14,8 +14,8 @@ struct BalanceOptions {
     bool only_if_it_pays = false;
     /// Where cells of the input with all that has become of them are too much to make processes
     /// even, cells of the mesh as it is may take their place. What they came from is forgotten
-    /// then: they are the roots, coarsening ends with them, a checkpoint has them as its input, and
-    /// parents in files are among them.
+    /// then, until AdaptiveMesh::recall_history(): they are the roots, coarsening ends with them, a
+    /// checkpoint has them as its input, and parents in files are among them.
     /// What is refined from there on is the same.
     bool may_forget_history = false;
 

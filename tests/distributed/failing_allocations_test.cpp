@@ -38,7 +38,9 @@ const std::vector<Selection> steps{
 
 /// The mesh as it is before one of the steps.
 AdaptiveMesh before_step(std::size_t step) {
-    const Mesh whole = test::marked(test::shaken_kuhn(5, 0.2, 1), 1);
+    Mesh whole = test::marked(test::shaken_kuhn(5, 0.2, 1), 1);
+    test::mark_alike(whole.facets, whole.facet_markers);
+    test::mark_alike(whole.edges, whole.edge_markers);
     const Partition in_blocks{.method = PartitionMethod::block};
     AdaptiveMesh mesh = AdaptiveMesh::distribute(
         test::world(), whole, partition_cells(whole, test::world().size(), in_blocks));
@@ -116,7 +118,7 @@ TEST(FailingAllocations, OfRebalancingLeaveTheMeshAsItWasOnAllProcesses) {
     const std::uint64_t failures = let_each_fail(3, [&](AdaptiveMesh& mesh) {
         return [&] { (void)mesh.rebalance({.most_over_mean = 1}); };
     });
-    EXPECT_TRUE(failures >= 200 || test::world().size() == 1);
+    EXPECT_TRUE(failures >= 300 || test::world().size() == 1);
 }
 
 TEST(FailingAllocations, OfAStepBeforeWhichCellsMoveLeaveTheMeshAsItWas) {
@@ -124,7 +126,7 @@ TEST(FailingAllocations, OfAStepBeforeWhichCellsMoveLeaveTheMeshAsItWas) {
         const std::uint64_t failures = let_each_fail(step, [&](AdaptiveMesh& mesh) {
             return [&] { (void)mesh.refine_evenly(steps[step], {.most_over_mean = 1}); };
         });
-        EXPECT_TRUE(failures >= 200 || test::world().size() == 1);
+        EXPECT_TRUE(failures >= 300 || test::world().size() == 1);
     }
 }
 
@@ -136,14 +138,20 @@ TEST(FailingAllocations, OfAStepBeforeWhichCellsBecomeRootsLeaveTheMeshAsItWas) 
     EXPECT_TRUE(failures >= 250 || test::world().size() == 1);
 }
 
+/// A checkpoint leaves tagged facets to the lowest process that has a cell at them, and they go
+/// another way than the first of these cells.
 TEST(FailingAllocations, OfRecallingWhatCellsCameFromLeaveTheMeshAsItWas) {
     constexpr BalanceOptions forgetting{.most_over_mean = 1, .may_forget_history = true};
     const std::uint64_t failures = let_each_fail(2, [&](AdaptiveMesh& mesh) {
+        const test::SharedFolder folder;
+        mesh.save(folder / "a.octetra");
+        mesh = AdaptiveMesh::load(test::world(), folder / "a.octetra",
+                                  {.method = PartitionMethod::random, .seed = 1});
         (void)mesh.refine_evenly(steps[2], forgetting);
         EXPECT_EQ(mesh.has_forgotten_history(), test::world().size() > 1);
         return [&] { (void)mesh.recall_history(); };
     });
-    EXPECT_TRUE(failures >= 200 || test::world().size() == 1);
+    EXPECT_TRUE(failures >= 300 || test::world().size() == 1);
 }
 
 /// Of a mesh that is no AdaptiveMesh, which becomes one for the move.

@@ -103,13 +103,23 @@ void scatter(AdaptiveMesh& mesh, std::uint64_t seed) {
     (void)mesh.migrate(ranks);
 }
 
+/// Of the same mesh, on processes at random. Tagged facets and edges are with the lowest process
+/// that has a cell at them, and not with the first cell.
+AdaptiveMesh loaded_again(const AdaptiveMesh& mesh, std::uint64_t seed) {
+    const test::SharedFolder folder;
+    mesh.save(folder / "a.octetra");
+    return AdaptiveMesh::load(test::world(), folder / "a.octetra",
+                              {.method = PartitionMethod::random, .seed = seed});
+}
+
 /// Whatever was refined and moved since: coarsening and checkpoints are what they would have been.
 TEST_P(ForgottenHistory, IsRecalledWithWhatWasRefinedSince) {
     MovingAndResting pair(GetParam());
+    if (GetParam() % 2 == 1) pair.moving = loaded_again(pair.moving, GetParam());
     int recalled = 0;
     for (std::uint64_t round = 0; round < 2; ++round) {
         for (std::uint64_t k = 0; k < 3; ++k) {
-            const Selection selection = some(k == 1 ? 0.01 : 0.001, GetParam() + 10 * round + k);
+            const Selection selection = some(k == 1 ? 0.02 : 0.004, GetParam() + 10 * round + k);
             (void)pair.moving.refine_evenly(selection, forgetting);
             (void)pair.resting.refine(selection);
             pair.expect_step(selection, true);
@@ -120,6 +130,8 @@ TEST_P(ForgottenHistory, IsRecalledWithWhatWasRefinedSince) {
         EXPECT_EQ(test::world().sum(pair.moving.roots().size()),
                   test::world().sum(pair.resting.roots().size()));
         pair.expect_same_checkpoints();
+        scatter(pair.moving, 3 + round);
+        EXPECT_TRUE(pair.moving.collect() == pair.resting.collect());
         for (std::uint64_t k = 0; k < 2; ++k) {
             const Selection selection = some(0.7, GetParam() + 10 * round + k);
             (void)pair.moving.coarsen(selection);
@@ -129,7 +141,7 @@ TEST_P(ForgottenHistory, IsRecalledWithWhatWasRefinedSince) {
         pair.expect_same_checkpoints();
         ASSERT_FALSE(HasFailure());
     }
-    EXPECT_GE(recalled, test::world().size() > 1 ? 2 : 0);
+    EXPECT_GE(recalled, test::world().size() > 1 ? 1 : 0);
 }
 
 /// What is taken back in the midst of it is the upper part alone.

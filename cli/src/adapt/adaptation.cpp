@@ -214,13 +214,14 @@ void adapt(const AdaptationOptions& options, const Script& script,
     };
     Series series(options.series, world);
     series.append(adaptive, fields);
+    const bool tells_origin = options.verify || since.has_value() || tells_history(options.output);
     run_script(adaptive, script,
                {.input = read,
                 .has_steps = has_history,
                 .options = steps,
                 .balance = balance_of(options.parallel),
-                .needs_history = options.verify || since.has_value() || !options.series.empty() ||
-                                 tells_history(options.output),
+                .may_forget_history = options.series.empty(),
+                .recalls_history = tells_origin,
                 .on_step = follow,
                 .on_move = move_along,
                 .on_changed = [&] { series.append(adaptive, fields); },

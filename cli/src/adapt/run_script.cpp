@@ -44,24 +44,26 @@ double most_over_mean(const AdaptiveMesh& mesh) {
 }
 
 constexpr std::string_view why_not_more_even =
-    " (as long as a step or a file to come needs the history, a cell of the input moves whole)";
+    " (--series tells at each step what cells came from, so a cell of the input moves whole)";
+
+/// Collective. What the mesh has forgotten to move cells is known again.
+void recall_history(AdaptiveMesh& mesh, const ScriptRun& run) {
+    while (mesh.has_forgotten_history()) {
+        const distributed::Migration move = mesh.recall_history();
+        if (run.on_move) run.on_move(move);
+    }
+}
 
 class Runner {
 public:
-    /// What is known of the steps to come.
-    struct Rest {
-        bool changes_mesh;
-        bool needs_history;
-    };
-
-    Runner(AdaptiveMesh& mesh, const ScriptRun& run, bool is_refined_before, Rest rest)
+    /// `is_last` says that no step to come changes the mesh.
+    Runner(AdaptiveMesh& mesh, const ScriptRun& run, bool is_refined_before, bool is_last)
         : mesh_(&mesh),
           run_(&run),
           is_refined_before_(is_refined_before),
-          is_last_(!rest.changes_mesh),
-          may_forget_(!rest.needs_history),
+          is_last_(is_last),
           balance_(run.balance) {
-        if (balance_) balance_->may_forget_history = may_forget_;
+        if (balance_) balance_->may_forget_history = run.may_forget_history;
     }
 
     StepDone operator()(RefineStep step) {
@@ -76,6 +78,7 @@ public:
 
     StepDone operator()(CoarsenStep step) {
         complete(step.selection, step.typed.selection);
+        recall_history(*mesh_, *run_);
         const int levels = step.typed.levels;
         bool is_any_marked = false;
         const int done = coarsen(*mesh_, step, followers(levels), is_any_marked);
@@ -85,11 +88,12 @@ public:
 
     StepDone operator()(const RebalanceStep&) {
         const double before = most_over_mean(*mesh_);
-        const distributed::Migration move = mesh_->rebalance({.may_forget_history = may_forget_});
+        const bool may_forget = run_->may_forget_history;
+        const distributed::Migration move = mesh_->rebalance({.may_forget_history = may_forget});
         if (!move.changed()) {
             const bool is_uneven = before > distributed::BalanceOptions{}.most_over_mean;
             return {fmt::format("rebalanced, and no cell moved: most/mean cells {:.2f}{}", before,
-                                is_uneven && !may_forget_ ? why_not_more_even : ""),
+                                is_uneven && !may_forget ? why_not_more_even : ""),
                     {},
                     false};
         }
@@ -101,6 +105,7 @@ public:
     }
 
     StepDone operator()(const WriteStep& step) {
+        if (tells_history(step.path)) recall_history(*mesh_, *run_);
         return {fmt::format("wrote {}", step.path), write_result(*mesh_, *run_->fields, step.path),
                 false};
     }
@@ -124,25 +129,12 @@ private:
     const ScriptRun* run_;
     bool is_refined_before_;
     bool is_last_;
-    bool may_forget_;
     std::optional<distributed::BalanceOptions> balance_;
 };
 
 bool changes_cells(const ScriptStep& step) {
     return std::holds_alternative<RefineStep>(step.step) ||
            std::holds_alternative<CoarsenStep>(step.step);
-}
-
-/// To take cells back one must know what they came from, and some files say it.
-bool needs_history(const ScriptStep& step) {
-    const auto* const write = std::get_if<WriteStep>(&step.step);
-    return std::holds_alternative<CoarsenStep>(step.step) ||
-           (write != nullptr && tells_history(write->path));
-}
-
-Runner::Rest rest_of(std::span<const ScriptStep> steps, const ScriptRun& run) {
-    return {std::ranges::any_of(steps, changes_cells),
-            run.needs_history || std::ranges::any_of(steps, needs_history)};
 }
 
 }  // namespace
@@ -155,7 +147,8 @@ void run_script(AdaptiveMesh& mesh, const Script& script, const ScriptRun& run, 
         to_come = to_come.subspan(1);
         StepDone done;
         try {
-            done = std::visit(Runner(mesh, run, is_refined, rest_of(to_come, run)), step.step);
+            const bool is_last = std::ranges::none_of(to_come, changes_cells);
+            done = std::visit(Runner(mesh, run, is_refined, is_last), step.step);
         } catch (const InputError& error) {
             throw wrong_line(script, step, error.what());
         }
@@ -177,6 +170,7 @@ void run_script(AdaptiveMesh& mesh, const Script& script, const ScriptRun& run, 
         is_refined = is_refined || after.cells != before.cells;
         before = after;
     }
+    if (run.recalls_history) recall_history(mesh, run);
 }
 
 }  // namespace octetra::cli

@@ -17,7 +17,8 @@ struct ScriptRun {
     bool has_steps = false;  ///< has it steps behind it already?
     distributed::StepOptions options;
     std::optional<distributed::BalanceOptions> balance;  ///< do cells move before a level?
-    bool needs_history = true;  ///< does anybody ask, in the end, what cells came from?
+    bool may_forget_history = false;  ///< to move cells, until a step or a file needs it
+    bool recalls_history = false;     ///< after the last step, if it was forgotten
     std::function<void(const distributed::Adaptation&)> on_step = {};  ///< of each level
     std::function<void(const distributed::Migration&)> on_move = {};   ///< of cells between ranks
     std::function<void()> on_changed = {};  ///< after each step of refinement or coarsening

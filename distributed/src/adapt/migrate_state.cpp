@@ -15,6 +15,7 @@
 #include "comm/local_failure.hpp"
 #include "history/recall_history.hpp"
 #include "history/steps_of.hpp"
+#include "history/tagged_to_history.hpp"
 #include "level/incremental/adjacency.hpp"
 #include "migrate/border.hpp"
 #include "migrate/even_parts.hpp"
@@ -206,10 +207,12 @@ Migration recall_history(AdaptiveMesh::State& state) {
     std::optional<CanonicalOrder> order;
     failure.attempt([&] { order.emplace(state.mesh); });
     failure.agree(state.mesh.processes);
-    const std::vector<int> ranks = ranks_of_cells(state.mesh, before);
+    const std::vector<int> ranks = ranks_of_roots(state.mesh.processes, before.cell_ancestors,
+                                                  state.mesh.cell_ancestors.roots);
     Migration migration;
     std::optional<AdaptiveMesh::State> after =
         moved_state(state, order->cells_before(), ranks, migration);
+    bring_tagged_to_history(after->mesh, after->numbers.of_vertex, before);
     std::optional<History> history;  // made, even of nothing, it takes memory
     failure.attempt([&] { history = joined(before, after->mesh); });
     failure.agree(state.mesh.processes);

@@ -57,26 +57,24 @@ AncestorMap composed(const AncestorMap& before, const AncestorMap& since) {
 
 }  // namespace
 
-std::vector<int> ranks_of_cells(const DistributedMesh& mesh, const History& before) {
-    const Communicator& processes = mesh.processes;
+std::vector<int> ranks_of_roots(const Communicator& processes, const AncestorMap& before,
+                                const std::vector<std::uint64_t>& roots) {
     std::vector<int> ranks;
     all_or_none(processes, [&] {
-        const Homes homes = homes_of_blocks(mesh.input_cell_count, 1, processes.size());
+        const CanonicalRuns runs = canonical_runs(processes, before);
+        const Homes homes = homes_of_blocks(runs.count, 1, processes.size());
         const std::uint64_t first = homes.begin_of(processes.rank());
         std::vector<int> rank_of(static_cast<std::size_t>(homes.end_of(processes.rank()) - first));
-        {
-            const CanonicalRuns runs = canonical_runs(processes, before.cell_ancestors);
-            const auto inboxes = processes.all_to_all(
-                stretches_at_homes(runs, before.cell_ancestors, homes, processes.size()));
-            for (std::size_t rank = 0; rank < inboxes.size(); ++rank) {
-                for (const Stretch& stretch : inboxes[rank]) {
-                    std::fill(rank_of.data() + (stretch.begin - first),
-                              rank_of.data() + (stretch.end - first), static_cast<int>(rank));
-                }
+        const auto inboxes =
+            processes.all_to_all(stretches_at_homes(runs, before, homes, processes.size()));
+        for (std::size_t rank = 0; rank < inboxes.size(); ++rank) {
+            for (const Stretch& stretch : inboxes[rank]) {
+                std::fill(rank_of.data() + (stretch.begin - first),
+                          rank_of.data() + (stretch.end - first), static_cast<int>(rank));
             }
         }
         LocalFailure failure;
-        const auto requests = request(processes, homes, mesh.cell_ancestors.roots, failure);
+        const auto requests = request(processes, homes, roots, failure);
         ranks = fetch(processes, requests, rank_of, first, failure);
     });
     return ranks;

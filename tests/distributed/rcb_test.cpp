@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <initializer_list>
 #include <numeric>
 #include <random>
 #include <span>
@@ -46,8 +47,9 @@ void bisect_by_sorting(std::span<WeighedPoint> points, int begin, int end, std::
 }
 
 /// Numbers go up in threes.
-void expect_as_by_sorting(std::vector<WeighedPoint> points) {
-    for (const int parts : {1, 2, 3, 5, 8, 40}) {
+void expect_as_by_sorting(const std::vector<WeighedPoint>& points,
+                          std::initializer_list<int> numbers_of_parts = {1, 2, 3, 5, 8, 40}) {
+    for (const int parts : numbers_of_parts) {
         LocalFailure failure;
         const auto found = bisect_coordinates(Communicator(), points, parts, failure);
         ASSERT_FALSE(failure.found());
@@ -91,6 +93,24 @@ TEST(CoordinateBisection, TellsEqualCoordinatesApartByNumbers) {
         500, [&] { return random() % 2 == 0 ? 0.0 : -0.0; }, one));
 }
 
+/// More than processes tell each other one by one.
+TEST(CoordinateBisection, TellsManyPointsApartByNumbers) {
+    std::mt19937_64 random(4);
+    const auto coordinate = [&] { return static_cast<double>(random() % 3); };
+    expect_as_by_sorting(points_of(40'000, coordinate, one), {2, 3, 7});
+    expect_as_by_sorting(points_of(40'000, coordinate, [&] { return random() % 3; }), {2, 7, 50});
+}
+
+/// More than have many sums each.
+TEST(CoordinateBisection, MakesThousandsOfParts) {
+    std::mt19937_64 random(5);
+    std::uniform_real_distribution<double> anywhere(0, 1);
+    const auto coordinate = [&] { return anywhere(random); };
+    const auto lattice = [&] { return static_cast<double>(random() % 20); };
+    expect_as_by_sorting(points_of(9'000, coordinate, one), {1'500, 6'001});
+    expect_as_by_sorting(points_of(30'000, lattice, one), {1'500, 6'001});
+}
+
 TEST(CoordinateBisection, TakesCoordinatesOfAnySize) {
     std::mt19937_64 random(3);
     const auto coordinate = [&] {
@@ -108,7 +128,7 @@ TEST(CoordinateBisection, FindsAnAxisThatFewPointsTell) {
         100'000, [] { return 0.0; }, one);
     for (std::size_t i = 0; i < points.size(); ++i) points[i].point.x = static_cast<double>(i);
     points[77'777].point.z = 1e6;
-    expect_as_by_sorting(std::move(points));
+    expect_as_by_sorting(points);
 }
 
 }  // namespace

@@ -22,6 +22,7 @@
 #include "migrate/merge_parts.hpp"
 #include "migrate/migration_messages.hpp"
 #include "migrate/moved_numbers.hpp"
+#include "migrate/moved_sharing.hpp"
 #include "setup/find_interfaces.hpp"
 #include "sharing/sharing_builder.hpp"
 #include "sharing/vertex_sharing.hpp"
@@ -43,10 +44,14 @@ void check_ranks(const DistributedMesh& mesh, std::span<const int> rank_of_root)
     }
 }
 
-/// Collective. What stays and what comes, as one part that has no interfaces yet. Nothing where
-/// this process has failed, and on all where one had before.
-std::optional<MergedPart> move_roots(const DistributedMesh& mesh, std::span<const int> rank_of_root,
+/// Collective. What stays and what comes, as one part that has no interfaces yet, and where the
+/// vertices of the input go. Nothing where this process has failed, and on all where one had
+/// before.
+std::optional<MergedPart> move_roots(const AdaptiveMesh::State& state,
+                                     std::span<const int> rank_of_root,
+                                     std::vector<VertexDestination>& destinations,
                                      LocalFailure& failure) {
+    const DistributedMesh& mesh = state.mesh;
     const Communicator& processes = mesh.processes;
     const Phase phase(processes, "move roots");
     const HasLists has(mesh);
@@ -55,6 +60,7 @@ std::optional<MergedPart> move_roots(const DistributedMesh& mesh, std::span<cons
     std::vector<std::vector<std::byte>> outboxes;
     failure.attempt([&] {
         departures = departures_of(mesh, rank_of_root);
+        destinations = vertex_destinations(*departures, state.sharing);
         outboxes = packed_messages(*departures);
     });
     if (failure.max_unless_failed(processes, 0) == LocalFailure::somewhere) return merged;
@@ -78,15 +84,15 @@ struct Border {
     Sharing<VertexIndex> sharing;
 };
 
-/// Collective. Of a part whose vertices have their numbers.
+/// Collective. Of a part whose vertices have their numbers. sharing_of(mesh): of the input.
 std::optional<Border> find_border(const DistributedMesh& mesh, const CanonicalNumbers& numbers,
-                                  LocalFailure& failure) {
+                                  auto&& sharing_of, LocalFailure& failure) {
     const Phase phase(mesh.processes, "find border");
     std::optional<DistributedMesh> input;
     failure.attempt([&] { input = input_of(mesh); });
     failure.agree(mesh.processes);
-    const std::vector<Interface> of_input = find_interfaces(*input);
-    std::optional<Border> border(Border{{}, find_vertex_sharing(*input)});
+    std::optional<Border> border(Border{{}, sharing_of(*input)});
+    const std::vector<Interface> of_input = find_interfaces(*input, border->sharing);
     SharingBuilder<VertexIndex> shared(border->sharing, mesh.processes.rank());
     failure.attempt([&] {
         for (BorderWith& with : border_after_steps(mesh, of_input)) {
@@ -109,7 +115,8 @@ std::optional<AdaptiveMesh::State> moved_state(const AdaptiveMesh::State& state,
                                                Migration& migration) {
     const Communicator& processes = state.mesh.processes;
     LocalFailure failure;
-    std::optional<MergedPart> merged = move_roots(state.mesh, rank_of_root, failure);
+    std::vector<VertexDestination> destinations;
+    std::optional<MergedPart> merged = move_roots(state, rank_of_root, destinations, failure);
     failure.agree(processes);
     MovedEntities moved;
     failure.attempt([&] {
@@ -129,7 +136,10 @@ std::optional<AdaptiveMesh::State> moved_state(const AdaptiveMesh::State& state,
                               std::move(moved.vertices));
     });
     failure.agree(processes);
-    std::optional<Border> border = find_border(after->mesh, after->numbers, failure);
+    const auto sharing_of = [&](const DistributedMesh& input) {
+        return moved_sharing(input, state.sharing, state.mesh.input_vertices, destinations);
+    };
+    std::optional<Border> border = find_border(after->mesh, after->numbers, sharing_of, failure);
     after->mesh.interfaces = std::move(border->interfaces);
     after->sharing = std::move(border->sharing);
     return after;
@@ -142,7 +152,8 @@ std::optional<AdaptiveMesh::State> state_of(DistributedMesh& mesh) {
         const Phase phase(mesh.processes, "number vertices");
         numbers = canonical_numbers(mesh);
     }
-    std::optional<Border> border = find_border(mesh, numbers, failure);
+    const auto sharing_of = [](const DistributedMesh& input) { return find_vertex_sharing(input); };
+    std::optional<Border> border = find_border(mesh, numbers, sharing_of, failure);
     std::optional<AdaptiveMesh::State> state;
     failure.attempt([&] { state.emplace(); });
     failure.agree(mesh.processes);

@@ -43,4 +43,10 @@ private:
     }
 };
 
+/// Of a key from one to another.
+inline Search between(Key low, Key high, bool is_empty) {
+    if (is_empty) return {};
+    return {.low = low, .bits = static_cast<unsigned>(std::bit_width(high - low))};
+}
+
 }  // namespace octetra::distributed

@@ -52,10 +52,10 @@ struct WeighedPoints {
 /// same however many processes find them, and whichever has which points. Weights add up to less
 /// than 2^63.
 ///
-/// Of each level of the tree, processes reduce the extent of each box, and then as many arrays of
-/// sums, of 2^13 numbers for all boxes together or 2^8 for each, as keys have digits of so many
-/// bits: some five for coordinates, and some three where equal ones are told apart by their
-/// numbers. Where a process has failed or fails, the result is not to be used on any.
+/// Of each level of the tree, processes reduce the extent of each box, then arrays of sums, one a
+/// digit, of 2^13 numbers for all boxes together or four for each, until 2^11 points or fewer may
+/// be at a limit, and these: some six reductions, more where many coordinates are equal. Where a
+/// process has failed or fails, the result is not to be used on any.
 [[nodiscard]] std::vector<int> bisect_coordinates(const Communicator& processes,
                                                   const WeighedPoints& points, int parts,
                                                   LocalFailure& failure);

@@ -13,6 +13,7 @@
 
 #include "setup/ancestors_of_roots.hpp"
 #include "setup/find_interfaces.hpp"
+#include "sharing/vertex_sharing.hpp"
 
 namespace octetra::distributed {
 namespace {
@@ -299,7 +300,7 @@ DistributedMesh distribute(const Communicator& processes, Mesh mesh,
     take_share(share_out(processes, mesh, cell_to_rank), part);
     mesh = {};  // no longer needed, and large
     const Phase finding(processes, "interfaces");
-    part.interfaces = find_interfaces(part);
+    part.interfaces = find_interfaces(part, find_vertex_sharing(part));
     return part;
 }
 

@@ -22,6 +22,7 @@
 #include "setup/find_interfaces.hpp"
 #include "setup/number_check.hpp"
 #include "setup/sharers.hpp"
+#include "sharing/vertex_sharing.hpp"
 
 namespace octetra::distributed {
 namespace {
@@ -378,7 +379,7 @@ DistributedMesh distribute_parts(const Communicator& processes, MeshPart part) {
         take_vertices(part, *vertices, checked.keeps, mesh);
     });
     failure.agree(processes);
-    mesh.interfaces = find_interfaces(mesh);
+    mesh.interfaces = find_interfaces(mesh, find_vertex_sharing(mesh));
     return std::move(mesh);
 }
 

@@ -23,6 +23,7 @@
 #include "setup/sharers.hpp"
 #include "setup/stretch_corners.hpp"
 #include "setup/tagged_sides.hpp"
+#include "sharing/vertex_sharing.hpp"
 
 namespace octetra::distributed {
 namespace {
@@ -198,7 +199,7 @@ public:
     [[nodiscard]] std::optional<DistributedMesh> finish() && {
         const Phase phase(processes_, "interfaces");
         if (processes_.max(is_sound_ ? 0 : 1) == 1) return std::nullopt;
-        mesh_.interfaces = find_interfaces(mesh_, is_shared_);
+        mesh_.interfaces = find_interfaces(mesh_, find_vertex_sharing(mesh_, is_shared_));
         return std::move(mesh_);
     }
 

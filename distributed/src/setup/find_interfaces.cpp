@@ -1,9 +1,12 @@
 #include "setup/find_interfaces.hpp"
 
 #include <algorithm>
-#include <map>
+#include <array>
+#include <cstddef>
+#include <optional>
+#include <utility>
 
-#include "setup/sharers.hpp"
+#include "comm/local_failure.hpp"
 
 namespace octetra::distributed {
 namespace {
@@ -11,124 +14,187 @@ namespace {
 /// The processes that share each vertex, ascending, as pieces of one array.
 class VertexSharers {
 public:
-    /// Collective.
-    VertexSharers(const DistributedMesh& mesh, std::span<const std::uint8_t> may_be_shared,
-                  LocalFailure& failure) {
-        std::vector<std::array<std::uint64_t, 1>> keys;
-        std::vector<std::uint32_t> vertex_of;
-        failure.attempt([&] {
-            for (std::uint32_t v = 0; v < mesh.input_vertices.size(); ++v) {
-                if (!may_be_shared.empty() && may_be_shared[v] == 0) continue;
-                keys.push_back({static_cast<std::uint64_t>(mesh.input_vertices[v])});
-                vertex_of.push_back(v);
-            }
-        });
-        sharers_ = find_sharers(mesh.processes, keys, failure);
-        failure.attempt([&] {
-            for (Sharer& s : sharers_) s.key = vertex_of[s.key];  // the order stays
-            begin_.assign(mesh.points.size() + 1, 0);
-            for (const Sharer& s : sharers_) ++begin_[s.key + 1];
-            for (std::size_t v = 1; v < begin_.size(); ++v) begin_[v] += begin_[v - 1];
-            find_cells(mesh);
-        });
-    }
-
-    /// Those with two vertices or more that other processes have, ascending.
-    [[nodiscard]] std::span<const CellVertices> cells() const { return cells_; }
-
-    /// Is there another process that has all of these vertices?
-    template <std::size_t N>
-    [[nodiscard]] bool may_be_shared(const std::array<VertexIndex, N>& vertices) const {
-        return std::ranges::any_of(of(vertices.front()), [&](const Sharer& first) {
-            return std::ranges::all_of(vertices, [&](VertexIndex v) {
-                return std::ranges::binary_search(of(v), first.rank, {}, &Sharer::rank);
-            });
-        });
-    }
-
-private:
-    [[nodiscard]] std::span<const Sharer> of(VertexIndex v) const {
-        return std::span(sharers_).subspan(begin_[v.value()],
-                                           begin_[v.value() + 1U] - begin_[v.value()]);
-    }
-    void find_cells(const DistributedMesh& mesh) {
-        IndexVector<VertexIndex, std::uint8_t> is_shared;  // small enough for a cache
-        is_shared.resize(mesh.points.size());
-        for (const Sharer& s : sharers_) is_shared[VertexIndex{s.key}] = 1;
-        for (const CellVertices& cell : mesh.cells) {
-            const auto& [a, b, c, d] = cell;
-            if (is_shared[a] + is_shared[b] + is_shared[c] + is_shared[d] < 2) continue;
-            cells_.push_back(cell);
+    VertexSharers(const DistributedMesh& mesh, const Sharing<VertexIndex>& sharing)
+        : begin_(mesh.points.size() + 1, 0) {
+        for (const VertexIndex v : sharing.shared()) {
+            begin_[v.value() + 1U] = static_cast<std::uint32_t>(sharing.sharers(v).size());
+        }
+        for (std::size_t v = 1; v < begin_.size(); ++v) begin_[v] += begin_[v - 1];
+        ranks_.reserve(begin_.back());
+        for (const VertexIndex v : sharing.shared()) {
+            const auto sharers = sharing.sharers(v);
+            ranks_.insert(ranks_.end(), sharers.begin(), sharers.end());
         }
     }
 
-    std::vector<Sharer> sharers_;
-    std::vector<std::size_t> begin_;
-    std::vector<CellVertices> cells_;
+    [[nodiscard]] bool is_shared(VertexIndex v) const { return !of(v).empty(); }
+    /// Calls meet(rank) for each process that has all of these vertices.
+    template <std::size_t N>
+    void for_each_with_all(const std::array<VertexIndex, N>& vertices, auto&& meet) const {
+        for (const int rank : of(vertices.front())) {
+            const auto has = [&](VertexIndex v) { return std::ranges::binary_search(of(v), rank); };
+            if (std::ranges::all_of(vertices, has)) meet(rank);
+        }
+    }
+
+private:
+    [[nodiscard]] std::span<const int> of(VertexIndex v) const {
+        return std::span(ranks_).subspan(begin_[v.value()],
+                                         begin_[v.value() + 1U] - begin_[v.value()]);
+    }
+
+    std::vector<std::uint32_t> begin_;
+    std::vector<int> ranks_;
 };
+
+/// The cells with two shared vertices or more.
+std::vector<CellVertices> cells_at_border(const DistributedMesh& mesh,
+                                          const VertexSharers& sharers) {
+    IndexVector<VertexIndex, std::uint8_t> is_shared;  // small enough for a cache
+    is_shared.resize(mesh.points.size());
+    for (VertexIndex v{0}; v < mesh.points.end_index(); ++v) {
+        is_shared[v] = sharers.is_shared(v) ? 1 : 0;
+    }
+    std::vector<CellVertices> cells;
+    for (const CellVertices& cell : mesh.cells) {
+        const auto& [a, b, c, d] = cell;
+        if (is_shared[a] + is_shared[b] + is_shared[c] + is_shared[d] >= 2) cells.push_back(cell);
+    }
+    return cells;
+}
 
 template <std::size_t N>
 using VertexLists = std::vector<std::array<VertexIndex, N>>;
 
-/// The sides (edges or faces) of the cells, each as often as cells have it, that another process
-/// may have, too; their vertices ascending.
-template <std::size_t N, std::size_t Sides>
-VertexLists<N> candidates(const VertexSharers& sharers,
-                          const std::array<std::array<std::uint8_t, N>, Sides>& sides) {
-    VertexLists<N> found;
-    for (const CellVertices& cell : sharers.cells()) {
-        for (const auto& side : sides) {
-            std::array<VertexIndex, N> vertices;
-            for (std::size_t k = 0; k < N; ++k) vertices[k] = cell[side[k]];
-            if (!sharers.may_be_shared(vertices)) continue;
-            std::ranges::sort(vertices);
-            found.push_back(vertices);
-        }
-    }
-    return found;
-}
+/// What this process has with another one that has all its vertices, and so may have it, too. In
+/// ascending order of the vertices; each ascending.
+struct Candidates {
+    const std::vector<VertexIndex>* shared = nullptr;  ///< all vertices of both
+    VertexLists<2> edges;
+    VertexLists<3> faces;
+};
 
-/// Collective. Calls share(rank, vertices) for each of the sides that other processes really have,
-/// in ascending order of the vertices, which is the order of their global numbers.
-template <std::size_t N, std::size_t Sides>
-void find_shared(const DistributedMesh& mesh, const VertexSharers& sharers,
-                 const std::array<std::array<std::uint8_t, N>, Sides>& sides, LocalFailure& failure,
-                 auto&& share) {
-    VertexLists<N> found;
-    std::vector<std::array<std::uint64_t, N>> keys;
-    failure.attempt([&] {
-        found = candidates(sharers, sides);
+class CandidatesOfAll {
+public:
+    CandidatesOfAll(const DistributedMesh& mesh, const Sharing<VertexIndex>& sharing) {
+        for (const SharedWith<VertexIndex>& with : sharing.neighbours()) {
+            if (with.entities.size() < 2) continue;  // there it is as many
+            ranks.push_back(with.rank);
+            of_rank.push_back({&with.entities, {}, {}});
+        }
+        const VertexSharers sharers(mesh, sharing);
+        const std::vector<CellVertices> cells = cells_at_border(mesh, sharers);
+        find(cells, sharers, cell_edges, &Candidates::edges);
+        find(cells, sharers, cell_faces, &Candidates::faces);
+    }
+
+    std::vector<int> ranks;
+    std::vector<Candidates> of_rank;
+
+private:
+    /// Sides (edges or faces) of these cells.
+    template <std::size_t N, std::size_t Sides>
+    void find(const std::vector<CellVertices>& cells, const VertexSharers& sharers,
+              const std::array<std::array<std::uint8_t, N>, Sides>& sides,
+              VertexLists<N> Candidates::*list) {
+        VertexLists<N> found;
+        for (const CellVertices& cell : cells) {
+            for (const auto& side : sides) {
+                std::array<VertexIndex, N> vertices;
+                for (std::size_t k = 0; k < N; ++k) vertices[k] = cell[side[k]];
+                if (!std::ranges::all_of(vertices,
+                                         [&](VertexIndex v) { return sharers.is_shared(v); })) {
+                    continue;
+                }
+                std::ranges::sort(vertices);
+                found.push_back(vertices);
+            }
+        }
         std::ranges::sort(found);
         found.erase(std::unique(found.begin(), found.end()), found.end());
         for (const auto& vertices : found) {
-            auto& key = keys.emplace_back();
-            std::ranges::transform(vertices, key.begin(), [&](VertexIndex v) {
-                return static_cast<std::uint64_t>(mesh.input_vertices[v.value()]);
+            sharers.for_each_with_all(vertices, [&](int rank) {
+                const auto at = std::ranges::lower_bound(ranks, rank) - ranks.begin();
+                (of_rank[static_cast<std::size_t>(at)].*list).push_back(vertices);
             });
         }
+    }
+};
+
+using Places = std::vector<std::uint32_t>;
+
+/// Vertices by their places among those that this process has with another one, which are the same
+/// on both and ascend.
+template <std::size_t N>
+std::array<std::uint32_t, N> places_of(const std::array<VertexIndex, N>& vertices,
+                                       const std::vector<VertexIndex>& shared) {
+    std::array<std::uint32_t, N> places;
+    std::ranges::transform(vertices, places.begin(), [&](VertexIndex v) {
+        return static_cast<std::uint32_t>(std::ranges::lower_bound(shared, v) - shared.begin());
     });
-    const auto shared = find_sharers(mesh.processes, keys, failure);
-    failure.attempt([&] {
-        for (const Sharer& s : shared) share(s.rank, found[s.key]);
-    });
+    return places;
+}
+
+/// How many edges; then edges and faces.
+Places message_of(const Candidates& candidates) {
+    Places message{static_cast<std::uint32_t>(candidates.edges.size())};
+    message.reserve(1 + 2 * candidates.edges.size() + 3 * candidates.faces.size());
+    const auto append = [&](const auto& list) {
+        for (const auto& vertices : list) {
+            const auto places = places_of(vertices, *candidates.shared);
+            message.insert(message.end(), places.begin(), places.end());
+        }
+    };
+    append(candidates.edges);
+    append(candidates.faces);
+    return message;
+}
+
+/// Those that another process has told of, too. Both lists ascend.
+template <std::size_t N>
+VertexLists<N> common(const VertexLists<N>& own, const std::vector<VertexIndex>& shared,
+                      std::span<const std::uint32_t> told) {
+    VertexLists<N> common;
+    for (const auto& vertices : own) {
+        const auto places = places_of(vertices, shared);
+        const auto is_before = [&] {
+            return std::ranges::lexicographical_compare(told.first(N), places);
+        };
+        while (!told.empty() && is_before()) told = told.subspan(N);
+        if (told.empty()) break;
+        if (std::ranges::equal(told.first(N), places)) common.push_back(vertices);
+    }
+    return common;
 }
 
 }  // namespace
 
 std::vector<Interface> find_interfaces(const DistributedMesh& mesh,
-                                       std::span<const std::uint8_t> may_be_shared) {
+                                       const Sharing<VertexIndex>& sharing) {
     if (mesh.processes.size() == 1) return {};
     LocalFailure failure;
-    const VertexSharers sharers(mesh, may_be_shared, failure);
-    std::map<int, Interface> by_rank;
-    find_shared(mesh, sharers, cell_edges, failure,
-                [&](int rank, const EdgeVertices& edge) { by_rank[rank].edges.push_back(edge); });
-    find_shared(mesh, sharers, cell_faces, failure,
-                [&](int rank, const FacetVertices& face) { by_rank[rank].faces.push_back(face); });
+    std::optional<CandidatesOfAll> candidates;
+    std::vector<Places> outboxes;
+    failure.attempt([&] {
+        candidates.emplace(mesh, sharing);
+        for (const Candidates& of_one : candidates->of_rank) {
+            outboxes.push_back(message_of(of_one));
+        }
+    });
+    failure.agree(mesh.processes);
     std::vector<Interface> interfaces;
     failure.attempt([&] {
-        for (auto& [rank, interface] : by_rank) {
-            interface.rank = rank;
+        const auto inboxes = mesh.processes.exchange_with(candidates->ranks, outboxes);
+        for (std::size_t i = 0; i < inboxes.size(); ++i) {
+            const Candidates& own = candidates->of_rank[i];
+            const std::span<const std::uint32_t> told(inboxes[i]);
+            if (told.empty()) continue;  // a process that has failed
+            const std::size_t edges = std::size_t{2} * told.front();
+            Interface interface {
+                candidates->ranks[i], common(own.edges, *own.shared, told.subspan(1, edges)),
+                    common(own.faces, *own.shared, told.subspan(1 + edges))
+            };
+            if (interface.edges.empty() && interface.faces.empty()) continue;
             interfaces.push_back(std::move(interface));
         }
     });

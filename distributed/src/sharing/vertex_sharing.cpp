@@ -8,16 +8,20 @@
 
 namespace octetra::distributed {
 
-Sharing<VertexIndex> find_vertex_sharing(const DistributedMesh& mesh) {
+Sharing<VertexIndex> find_vertex_sharing(const DistributedMesh& mesh,
+                                         std::span<const std::uint8_t> may_be_shared) {
     LocalFailure failure;
     std::optional<Sharing<VertexIndex>> sharing;  // made, even of nothing, it takes memory
     std::optional<SharingBuilder<VertexIndex>> builder;
     std::vector<std::array<std::uint64_t, 1>> keys;
+    std::vector<VertexIndex> vertex_of;
     failure.attempt([&] {
         builder.emplace(sharing.emplace(), mesh.processes.rank());
         if (mesh.processes.size() == 1) return;
-        for (const GlobalVertex v : mesh.input_vertices) {
-            keys.push_back({static_cast<std::uint64_t>(v)});
+        for (std::size_t v = 0; v < mesh.input_vertices.size(); ++v) {
+            if (!may_be_shared.empty() && may_be_shared[v] == 0) continue;
+            keys.push_back({static_cast<std::uint64_t>(mesh.input_vertices[v])});
+            vertex_of.emplace_back(v);
         }
     });
     failure.agree(mesh.processes);
@@ -26,7 +30,7 @@ Sharing<VertexIndex> find_vertex_sharing(const DistributedMesh& mesh) {
     failure.attempt([&] {
         // By key, so the vertices of each process ascend, here as there.
         std::map<int, std::vector<VertexIndex>> by_rank;
-        for (const Sharer& s : sharers) by_rank[s.rank].push_back(VertexIndex{s.key});
+        for (const Sharer& s : sharers) by_rank[s.rank].push_back(vertex_of[s.key]);
         for (auto& [rank, vertices] : by_rank) builder->share(rank, std::move(vertices));
         builder->prepare([&](VertexIndex v) {
             return static_cast<std::uint64_t>(mesh.input_vertices[v.value()]);

@@ -1,0 +1,107 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include <octetra/distributed/communicator.hpp>
+
+#include "comm/local_failure.hpp"
+#include "partition/key_search.hpp"
+#include "partition/rcb.hpp"
+
+namespace octetra::distributed {
+
+/// Some points, to become parts begin .. end-1.
+struct Box {
+    int begin = 0;
+    int end = 0;
+
+    [[nodiscard]] bool is_part() const { return end - begin == 1; }
+    [[nodiscard]] int middle() const { return begin + (end - begin) / 2; }
+};
+
+/// Where boxes are cut: points below the coordinate are the first half's, and of those at it the
+/// ones of lower number. One of each box.
+struct BoxLimits {
+    std::vector<Key> coordinate;
+    std::vector<Key> number;
+
+    [[nodiscard]] bool is_below(std::size_t box, Key of_coordinate, Key of_number) const {
+        return of_coordinate < coordinate[box] ||
+               (of_coordinate == coordinate[box] && of_number < number[box]);
+    }
+};
+
+/// Finds the limits of all boxes of a level of the tree at once, digit by digit, first of the
+/// coordinates, then among equal ones of the numbers; each digit takes one reduction. As soon as
+/// few points are left that may be at a limit, all processes get these, and find it on their own.
+class LimitSearch {
+public:
+    /// The memory that reductions take is reserved.
+    LimitSearch(const Communicator& processes, const WeighedPoints& points, int parts);
+
+    /// What of the points is known: the box of each, and its coordinate along the box's axis.
+    struct Places {
+        std::span<const Box> boxes;
+        std::span<const int> box_of;
+        std::span<const Key> coordinate;
+    };
+
+    /// Collective, reductions alone: numbers, one more for what may have failed. Each place gets
+    /// the sum or the greatest of all processes. False, on all alike, where one has failed.
+    [[nodiscard]] bool sum(std::span<std::uint64_t> numbers, const LocalFailure& failure);
+    [[nodiscard]] bool max(std::span<std::uint64_t> numbers, const LocalFailure& failure);
+    /// Zeros, for one of these. Takes no memory.
+    [[nodiscard]] std::span<std::uint64_t> zeros(std::size_t count) noexcept;
+
+    /// Collective. `searches` has of each box between which coordinates its points are. False, on
+    /// all alike, where a process has failed.
+    [[nodiscard]] bool find(const Places& places, std::vector<Search>& searches,
+                            LocalFailure& failure);
+    [[nodiscard]] const BoxLimits& limits() const { return limits_; }
+
+private:
+    struct Left {
+        std::size_t box = 0;
+        Key coordinate = 0;
+        Key number = 0;
+        std::uint64_t weight = 0;
+
+        friend auto operator<=>(const Left&, const Left&) = default;
+    };
+    enum class By { coordinate, number };
+    enum class Found { nowhere, not_yet, all };
+
+    [[nodiscard]] std::size_t box_of(std::size_t i) const {
+        return static_cast<std::size_t>(places_.box_of[i]);
+    }
+    [[nodiscard]] std::uint64_t weight(std::size_t i) const {
+        return points_->weights.empty() ? 1 : points_->weights[i];
+    }
+    [[nodiscard]] Key key(std::size_t i, By by) const {
+        return by == By::coordinate ? places_.coordinate[i] : points_->number(i);
+    }
+    [[nodiscard]] unsigned digit_bits() const;
+    void for_each_left(By by, auto&& look_at) const;
+    void keep_left(By by, std::size_t count);
+    [[nodiscard]] Found find_by(By by, unsigned rounds, LocalFailure& failure);
+    [[nodiscard]] Found find_digit(By by, LocalFailure& failure);
+    [[nodiscard]] bool find_extent_of_numbers(LocalFailure& failure);
+    [[nodiscard]] bool find_among_few(By by, LocalFailure& failure);
+    void take_limits_among_few();
+
+    const Communicator* processes_;
+    const WeighedPoints* points_;
+    std::vector<std::uint64_t> numbers_;  // what is reduced
+    std::vector<Left> few_;               // of all processes
+    Places places_;
+    std::vector<Search>* searches_ = nullptr;
+    std::vector<std::uint64_t> target_;  // of each box, what is to come before the limit yet
+    std::vector<std::size_t> left_;      // those that may be at the limit, once they are few
+    bool are_few_here_ = false;
+    BoxLimits limits_;
+};
+
+}  // namespace octetra::distributed

@@ -94,9 +94,11 @@ Stage stage_of(const distributed::ProfiledPhase& phase) {
     const auto is_one_of = [&](std::initializer_list<std::string_view> names) {
         return std::ranges::find(names, phase.name) != names.end();
     };
+    const bool is_of_no_level = phase.level == 0;
     if (is_one_of({"read", "partition", "distribute"})) return reading;
-    if (is_one_of({"interfaces"}) && phase.level == 0) return reading;
-    return is_one_of({"number vertices", "write"}) ? writing : adapting;
+    if (is_one_of({"interfaces", "sharers"}) && is_of_no_level) return reading;
+    if (is_one_of({"number vertices"}) && is_of_no_level) return writing;
+    return is_one_of({"write"}) ? writing : adapting;
 }
 
 ordered_json of_each_rank(const std::vector<distributed::PhaseCounts>& ranks, auto member) {

@@ -76,6 +76,11 @@ bool is_option(std::string_view word) {
            std::string_view(".0123456789").find(word[1]) == std::string_view::npos;
 }
 
+/// And no subcommand of it, or step of a script.
+bool is_octetra(const CLI::App& app) {
+    return app.get_parent() == nullptr && app.get_require_subcommand_min() > 0;
+}
+
 std::string unknown_option(const Innermost& command, std::string_view word) {
     std::vector<std::string> names;
     for (const CLI::App* app = command.app; app != nullptr; app = falls_through_to(*app)) {
@@ -84,8 +89,10 @@ std::string unknown_option(const Innermost& command, std::string_view word) {
         }
     }
     const std::string_view name = word.substr(0, word.find('='));
-    return fmt::format("{} has no option {}{}", command.app->get_name(), name,
-                       did_you_mean(name, names));
+    const std::string has_none = is_octetra(*command.app)
+                                     ? "there is no option"
+                                     : command.app->get_name() + " has no option";
+    return fmt::format("{} {}{}", has_none, name, did_you_mean(name, names));
 }
 
 std::string unknown_subcommand(const Innermost& command, const std::string& word) {
@@ -93,8 +100,12 @@ std::string unknown_subcommand(const Innermost& command, const std::string& word
     for (const CLI::App* subcommand : command.app->get_subcommands({})) {
         names.push_back(subcommand->get_name());
     }
-    return fmt::format("{} takes one of {}, not '{}'{}", command.app->get_name(),
-                       fmt::join(names, ", "), word, did_you_mean(word, names));
+    const std::string is_none =
+        is_octetra(*command.app)
+            ? fmt::format("'{}' is none of {}", word, fmt::join(names, ", "))
+            : fmt::format("{} takes one of {}, not '{}'", command.app->get_name(),
+                          fmt::join(names, ", "), word);
+    return is_none + did_you_mean(word, names);
 }
 
 std::string unexpected_word(const Innermost& command, std::string_view word) {
@@ -116,8 +127,18 @@ std::string between(std::string_view text, std::string_view before, std::string_
     return std::string(text.substr(0, text.size() - after.size()));
 }
 
-/// What CLI11 says of an option that has too few values, or too many.
-std::string in_plain_words(std::string_view said) {
+/// "-n, --parts", of an option that goes by both.
+std::string both_names(const CLI::App& command, const std::string& name) {
+    const CLI::Option* const option = command.get_option_no_throw(name);
+    if (option == nullptr || option->get_snames().empty()) return name;
+    return fmt::format("-{}, {}", option->get_snames().front(), name);
+}
+
+/// What CLI11 says of an option that is not there, or has too few values, or too many.
+std::string in_plain_words(const CLI::App& command, std::string_view said) {
+    if (const std::string name = between(said, "", " is required"); name.starts_with("--")) {
+        return both_names(command, name) + " is required";
+    }
     const std::string_view option = said.substr(0, said.find_first_of(": "));
     if (said.ends_with(" was given a disallowed flag override")) {
         return fmt::format("--{} takes no value", option);
@@ -155,7 +176,7 @@ std::string what_is_wrong(const Innermost& command, const CLI::ParseError& error
     const bool has_extras = dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr;
     const bool lacks_something = dynamic_cast<const CLI::RequiredError*>(&error) != nullptr;
     if (words.empty() || !(lacks_subcommand || has_extras || lacks_something)) {
-        return in_plain_words(error.what());
+        return in_plain_words(*command.app, error.what());
     }
     if (lacks_subcommand) {
         return is_option(words.front()) ? unknown_option(command, words.front())
@@ -163,7 +184,8 @@ std::string what_is_wrong(const Innermost& command, const CLI::ParseError& error
     }
     const auto option = std::ranges::find_if(words, is_option);
     if (option != words.end()) return unknown_option(command, *option);
-    return has_extras ? unexpected_word(command, words.front()) : in_plain_words(error.what());
+    return has_extras ? unexpected_word(command, words.front())
+                      : in_plain_words(*command.app, error.what());
 }
 
 }  // namespace

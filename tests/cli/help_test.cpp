@@ -131,14 +131,15 @@ TEST(BadUsage, NamesTheWordThatIsNoSubcommand) {
     const TemporaryFolder folder;
     EXPECT_THAT(
         test::octetra("frobnicate gear.1.ele -o x.ele", folder).err,
-        StartsWith("octetra: octetra takes one of refine, adapt, coarsen, info, generate, convert, "
-                   "partition, verify, compare, not 'frobnicate'; see octetra --help\n"));
+        StartsWith(
+            "octetra: 'frobnicate' is none of refine, adapt, coarsen, info, generate, convert, "
+            "partition, verify, compare; see octetra --help\n"));
     EXPECT_THAT(test::octetra("generate sphear -o x.ele", folder).err,
                 StartsWith("octetra: generate takes one of kuhn, bcc, regular, random, slivers, "
                            "sphere, fichera, torus, gear, two-material, not 'sphear'; did you "
                            "mean sphere? See octetra generate --help\n"));
     EXPECT_THAT(test::octetra("--frobnicate", folder).err,
-                StartsWith("octetra: octetra has no option --frobnicate; see octetra --help\n"));
+                StartsWith("octetra: there is no option --frobnicate; see octetra --help\n"));
     EXPECT_THAT(test::octetra("", folder).err, HasSubstr("A subcommand is required"));
 }
 

@@ -199,7 +199,11 @@ TEST_F(Usage, OfTooFewAndTooManyValuesIsToldInOneLine) {
     expect_refused(refine, "--quiet=x", "--quiet takes no value; see octetra refine --help");
     expect_refused("generate kuhn 1 2 3 -o out.mesh", "4",
                    "N takes no more than 3 values, not 4; see octetra generate kuhn --help");
-    expect_refused("refine", "m.ele", "--output is required; see octetra refine --help");
+    expect_refused("refine", "m.ele", "-o, --output is required; see octetra refine --help");
+    expect_refused("partition", "m.ele", "-n, --parts is required; see octetra partition --help");
+    expect_refused("refine m.ele --all", "-o=x.mesh",
+                   "--output: '=x.mesh' begins with =; leave it out, or write ./=x.mesh; see "
+                   "octetra refine --help");
     expect_refused("refine m.ele --all --profile", "-o",
                    "--profile lacks its value, FILE: -o is an option; see octetra refine --help");
     expect_refused("adapt m.ele --script", "--output=a.ele",

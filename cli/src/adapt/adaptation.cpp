@@ -214,7 +214,7 @@ void adapt(const AdaptationOptions& options, const Script& script,
     };
     Series series(options.series, world);
     series.append(adaptive, fields);
-    const bool tells_origin = options.verify || since.has_value() || tells_history(options.output);
+    const bool tells_origin = since.has_value() || tells_history(options.output);
     run_script(adaptive, script,
                {.input = read,
                 .has_steps = has_history,

@@ -91,7 +91,9 @@ void add_output_option(CLI::App& subcommand, std::string& path) {
 
 CLI::Validator names_a_file() {
     const auto refusal = [](const std::string& name) {
-        return std::string(name.empty() ? "'' is no name of a file" : "");
+        if (name.empty()) return std::string("'' is no name of a file");
+        if (name.front() != '=') return std::string();
+        return fmt::format("'{}' begins with =; leave it out, or write ./{}", name, name);
     };
     return {refusal, ""};
 }

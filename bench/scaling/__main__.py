@@ -24,6 +24,8 @@ CASES = {"uniform": "all cells, one level",
          "moving": "the same, then three times coarsened behind and refined ahead as it moves"}
 MOST_MOVING = 64  # more take minutes: ranks wait for each other a thousand times, on few cores
 STAGES = ("reading", "adapting", "writing")
+ALONE = {9: 256, 14: 64, 22: 16, 35: 4}  # lattices that are about a part of the mesh on so many ranks
+FASTER = 3  # than the machine of the measurement
 WEAK_CELLS, STRONG_CELLS = 1e6, 1e9
 RANKS = [16, 64, 256, 1024, 4096, 16384]
 
@@ -54,6 +56,10 @@ def measure(build, ranks):
                                       check=True, stdout=subprocess.PIPE, text=True)
                 runs.append(json.loads(done.stdout))
                 print(case, n, "ranks", file=sys.stderr)
+        for size in ALONE:
+            subprocess.run([octetra, "generate", "kuhn", str(size), "-o", mesh, "--quiet"], check=True)
+            done = subprocess.run([program, mesh, "uniform", out], check=True, stdout=subprocess.PIPE, text=True)
+            runs.append(json.loads(done.stdout) | {"case": "alone"})
     MEASURED.write_text("[" + ",\n ".join(json.dumps(most_of(run)) for run in runs) + "]\n")
 
 
@@ -84,6 +90,8 @@ def measured_table(runs):
     rows = ["| case | ranks | cells of a rank, most | outside MPI, ms | messages | kB sent | calls of all | "
             "reading: ms, messages | writing: ms, messages | memory, MB |", "|---|" + "---:|" * 9]
     for run in runs:
+        if run["case"] == "alone":
+            continue
         adapting = run["adapting"]
         other = [f"{1000 * run[s]['computing_seconds']:.0f}, {run[s]['messages']:,}" for s in ("reading", "writing")]
         rows.append(f"| {run['case']} | {run['ranks']} | {run['most_cells']:,} | "
@@ -93,10 +101,20 @@ def measured_table(runs):
     return "\n".join(rows)
 
 
+def alone_table(runs):
+    rows = ["| cells | alone, ms | cells of a rank, most | ranks | on so many, ms |", "|---:|---:|---:|---:|---:|"]
+    by_ranks = {run["ranks"]: run for run in runs if run["case"] == "uniform"}
+    for part, ranks in zip((run for run in runs if run["case"] == "alone"), ALONE.values()):
+        many = by_ranks[ranks]
+        rows.append(f"| {part['cells']:,} | {1000 * part['adapting']['computing_seconds']:.1f} | "
+                    f"{many['most_cells']:,} | {ranks} | {1000 * many['adapting']['computing_seconds']:.1f} |")
+    return "\n".join(rows)
+
+
 def check_table(runs):
     rows = ["| case | ranks | measured, ms | model, ms |", "|---|---:|---:|---:|"]
     for run in runs:
-        if run["ranks"] <= 2:
+        if run["ranks"] <= 2 and run["case"] != "alone":
             rows.append(f"| {run['case']} | {run['ranks']} | {1000 * run['adapting']['wall_seconds']:.0f} | "
                         f"{1000 * run['adapting']['computing_seconds']:.0f} |")
     return "\n".join(rows)
@@ -106,10 +124,14 @@ def page():
     runs = json.loads(MEASURED.read_text())
 
     def stage_of(case, stage="adapting"):
-        return Stage([run for run in runs if run["case"] == case], stage)
+        alone = [run for run in runs if run["case"] == "alone"] if (case, stage) == ("uniform", "adapting") else []
+        return Stage([run for run in runs if run["case"] == case], stage, alone)
 
     def weak(stage, n, network):
         return weak_efficiency(stage, WEAK_CELLS, n, network)
+
+    def weak_faster(stage, n, network):
+        return weak_efficiency(stage, WEAK_CELLS, n, network, FASTER)
 
     def strong(stage, n, network):
         return strong_efficiency(stage, STRONG_CELLS, n, network)
@@ -117,6 +139,8 @@ def page():
     text = (pathlib.Path(__file__).parent / "page.md").read_text()
     for word, table in {
             "@weak@": efficiency_table(stage_of, weak, ""),
+            "@faster@": efficiency_table(stage_of, weak_faster, ""),
+            "@alone@": alone_table(runs),
             "@strong@": efficiency_table(stage_of, strong, ""),
             "@files@": "\n".join(
                 efficiency_table(lambda case, s=s: stage_of("uniform", s), weak, f"{s} ").split("\n")[2]

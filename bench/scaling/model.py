@@ -45,11 +45,15 @@ def with_ranks(points, ranks):
 class Stage:
     """What the runs of one case measured of a stage, as functions of ranks, or of the cells of a rank."""
 
-    def __init__(self, runs, stage):
+    def __init__(self, runs, stage, alone=()):
+        """`alone`: runs of one rank whose mesh is as large as a part, to know what a part takes that shares no caches."""
         def points(x, key, least_ranks):
             return [(x(run), run[stage][key]) for run in runs if run["ranks"] >= least_ranks]
 
         self._computing = points(lambda run: run["cells"] / run["ranks"], "computing_seconds", 1)
+        if alone:
+            own_caches = [run for run in runs if run["ranks"] == 1] + list(alone)
+            self._computing = [(run["cells"], run[stage]["computing_seconds"]) for run in own_caches]
         self._bytes = points(lambda run: run["cells"] / run["ranks"], "bytes", 4)
         self._messages = points(lambda run: run["ranks"], "messages", 4)
         self._calls = points(lambda run: run["ranks"], "collectives", 4)
@@ -69,20 +73,20 @@ class Stage:
         before, last = sorted(self._messages)[-2:]
         return last[1] * (ranks / most) ** (math.log(last[1] / before[1]) / math.log(most / before[0]))
 
-    def seconds(self, cells, ranks, network):
-        """Of a rank with that many cells, one of so many."""
+    def seconds(self, cells, ranks, network, faster=1):
+        """Of a rank with that many cells, one of so many; with processors so many times as fast."""
         if ranks == 1:
-            return self.computing(cells)
+            return self.computing(cells) / faster
         reduction = network.reduction * math.log2(ranks) / 10
-        return (self.computing(cells)
+        return (self.computing(cells) / faster
                 + self.messages(ranks) * 2 * network.overhead
                 + with_ranks(self._calls, ranks) * (network.latency + reduction)
                 + between(self._bytes, cells) * network.byte)
 
 
-def weak_efficiency(stage, cells, ranks, network):
+def weak_efficiency(stage, cells, ranks, network, faster=1):
     """Against one rank with as many cells, which sends nothing."""
-    return stage.computing(cells) / stage.seconds(cells, ranks, network)
+    return stage.computing(cells) / faster / stage.seconds(cells, ranks, network, faster)
 
 
 def strong_efficiency(stage, cells, ranks, network):

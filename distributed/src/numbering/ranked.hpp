@@ -16,6 +16,7 @@
 
 #include "comm/local_failure.hpp"
 #include "memory/huge_pages.hpp"
+#include "numbering/short_words.hpp"
 
 namespace octetra::distributed {
 
@@ -209,15 +210,18 @@ template <std::size_t N>
     };
     const std::uint64_t block = end_count / static_cast<std::uint64_t>(processes.size()) + 1;
     std::vector<Question> questions;
+    std::vector<ShortWords> sent;  // made before: who cannot send leaves others waiting
     failure.attempt([&] {
         questions = questions_about<N>(tuples, numbers, shared_vertices, block, processes.size());
+        sent = of_each(questions, shortened);
     });
     if (somewhere_failed()) return false;
 
     std::vector<std::vector<std::uint64_t>> answers;
     std::uint64_t count = 0;
     failure.attempt([&] {
-        const std::vector<Question> asked = processes.all_to_all(questions);
+        const auto come = processes.all_to_all(sent);
+        const std::vector<Question> asked = of_each(come, lengthened);
         Answers<N> found(asked);
         count = found.count();
         answers = std::move(found).take();
@@ -227,9 +231,12 @@ template <std::size_t N>
     for (auto& places : answers) {
         for (std::uint64_t& place : places) place += first;
     }
+    failure.attempt([&] { sent = of_each(answers, shortened); });
     if (somewhere_failed()) return false;
-    failure.attempt(
-        [&] { append_places<N>(list, tuples.size(), questions, processes.all_to_all(answers)); });
+    failure.attempt([&] {
+        const auto come = processes.all_to_all(sent);
+        append_places<N>(list, tuples.size(), questions, of_each(come, lengthened));
+    });
     return true;
 }
 

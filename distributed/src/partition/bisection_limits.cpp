@@ -25,30 +25,16 @@ std::uint64_t share_of_first(const Box& box, std::span<const std::uint64_t> weig
 }  // namespace
 
 LimitSearch::LimitSearch(const Communicator& processes, const WeighedPoints& points, int parts)
-    : processes_(&processes), points_(&points) {
+    : processes_(&processes),
+      points_(&points),
+      reduced_(std::max(2 * most_sums,
+                        (std::size_t{1} << least_bits) * static_cast<std::size_t>(parts)) +
+               1) {
     const auto boxes = static_cast<std::size_t>(parts);
-    numbers_.reserve(std::max(2 * most_sums, 6 * boxes) + 2);
     few_.reserve(few);
     target_.reserve(boxes);
     limits_.coordinate.reserve(boxes);
     limits_.number.reserve(boxes);
-}
-
-std::span<std::uint64_t> LimitSearch::zeros(std::size_t count) noexcept {
-    numbers_.assign(count + 1, 0);
-    return std::span(numbers_).first(count);
-}
-
-bool LimitSearch::sum(std::span<std::uint64_t> numbers, const LocalFailure& failure) {
-    numbers_[numbers.size()] = failure.found() ? 1 : 0;
-    processes_->sum(std::span(numbers_).first(numbers.size() + 1));
-    return numbers_[numbers.size()] == 0;
-}
-
-bool LimitSearch::max(std::span<std::uint64_t> numbers, const LocalFailure& failure) {
-    numbers_[numbers.size()] = failure.found() ? 1 : 0;
-    processes_->max(std::span(numbers_).first(numbers.size() + 1));
-    return numbers_[numbers.size()] == 0;
 }
 
 unsigned LimitSearch::digit_bits() const {
@@ -114,7 +100,7 @@ LimitSearch::Found LimitSearch::find_by(By by, unsigned rounds, LocalFailure& fa
 LimitSearch::Found LimitSearch::find_digit(By by, LocalFailure& failure) {
     const unsigned digit = digit_bits();
     const std::size_t boxes = searches_->size();
-    const auto sums = zeros((boxes << digit) + 1);
+    const auto sums = reduced_.zeros((boxes << digit) + 1);
     std::uint64_t& count = sums.back();
     std::vector<std::uint64_t> own;  // where each point weighs 1, they count them
     failure.attempt([&] {
@@ -125,7 +111,7 @@ LimitSearch::Found LimitSearch::find_digit(By by, LocalFailure& failure) {
         if (points_->weights.empty()) own.assign(sums.begin(), sums.end());
     });
     const std::size_t looked_at = count;
-    if (!sum(sums, failure)) return Found::nowhere;
+    if (!reduced_.sum(*processes_, failure)) return Found::nowhere;
     const bool is_first = target_.empty();
     std::size_t found = 0;
     for (std::size_t b = 0; b < boxes; ++b) {
@@ -145,7 +131,8 @@ LimitSearch::Found LimitSearch::find_digit(By by, LocalFailure& failure) {
 
 /// Collective. Looks for numbers from now on, among the points whose coordinates are the limits.
 bool LimitSearch::find_extent_of_numbers(LocalFailure& failure) {
-    const auto keys = zeros(2 * searches_->size());  // of each box the greatest and complement
+    const auto keys =
+        reduced_.zeros(2 * searches_->size());  // of each box the greatest and complement
     failure.attempt([&] {
         std::size_t count = 0;
         for_each_left(By::coordinate, [&](std::size_t i, std::size_t b) {
@@ -155,7 +142,7 @@ bool LimitSearch::find_extent_of_numbers(LocalFailure& failure) {
         });
         keep_left(By::coordinate, count);
     });
-    if (!max(keys, failure)) return false;
+    if (!reduced_.max(*processes_, failure)) return false;
     for (std::size_t b = 0; b < searches_->size(); ++b) {
         (*searches_)[b] = between(~keys[2 * b + 1], keys[2 * b], keys[2 * b + 1] == 0);
     }
@@ -167,7 +154,7 @@ bool LimitSearch::find_among_few(By by, LocalFailure& failure) {
     std::uint64_t count = 0;
     failure.attempt([&] { for_each_left(by, [&](std::size_t, std::size_t) { ++count; }); });
     std::uint64_t next = processes_->sum_before(count);
-    const auto words = zeros(words_of_one * few + 1);
+    const auto words = reduced_.zeros(words_of_one * few + 1);
     words.back() = count;
     failure.attempt([&] {
         for_each_left(by, [&](std::size_t i, std::size_t b) {
@@ -178,7 +165,7 @@ bool LimitSearch::find_among_few(By by, LocalFailure& failure) {
             of_one[3] = weight(i);
         });
     });
-    if (!sum(words, failure)) return false;
+    if (!reduced_.sum(*processes_, failure)) return false;
     few_.clear();
     for (std::size_t k = 0; k < words.back(); ++k) {
         const auto of_one = words.subspan(words_of_one * k, words_of_one);

@@ -8,6 +8,7 @@
 #include <octetra/distributed/communicator.hpp>
 
 #include "comm/local_failure.hpp"
+#include "comm/reduced_numbers.hpp"
 #include "partition/key_search.hpp"
 #include "partition/rcb.hpp"
 
@@ -39,7 +40,6 @@ struct BoxLimits {
 /// few points are left that may be at a limit, all processes get these, and find it on their own.
 class LimitSearch {
 public:
-    /// The memory that reductions take is reserved.
     LimitSearch(const Communicator& processes, const WeighedPoints& points, int parts);
 
     /// What of the points is known: the box of each, and its coordinate along the box's axis.
@@ -48,13 +48,6 @@ public:
         std::span<const int> box_of;
         std::span<const Key> coordinate;
     };
-
-    /// Collective, reductions alone: numbers, one more for what may have failed. Each place gets
-    /// the sum or the greatest of all processes. False, on all alike, where one has failed.
-    [[nodiscard]] bool sum(std::span<std::uint64_t> numbers, const LocalFailure& failure);
-    [[nodiscard]] bool max(std::span<std::uint64_t> numbers, const LocalFailure& failure);
-    /// Zeros, for one of these. Takes no memory.
-    [[nodiscard]] std::span<std::uint64_t> zeros(std::size_t count) noexcept;
 
     /// Collective. `searches` has of each box between which coordinates its points are. False, on
     /// all alike, where a process has failed.
@@ -94,8 +87,8 @@ private:
 
     const Communicator* processes_;
     const WeighedPoints* points_;
-    std::vector<std::uint64_t> numbers_;  // what is reduced
-    std::vector<Left> few_;               // of all processes
+    ReducedNumbers reduced_;
+    std::vector<Left> few_;  // of all processes
     Places places_;
     std::vector<Search>* searches_ = nullptr;
     std::vector<std::uint64_t> target_;  // of each box, what is to come before the limit yet

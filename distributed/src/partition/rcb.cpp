@@ -6,6 +6,7 @@
 #include <numeric>
 #include <span>
 
+#include "comm/reduced_numbers.hpp"
 #include "partition/bisection_limits.hpp"
 #include "partition/key_search.hpp"
 
@@ -19,6 +20,7 @@ public:
     Bisection(const Communicator& processes, const WeighedPoints& points, int parts)
         : processes_(&processes),
           points_(&points),
+          extremes_(6 * static_cast<std::size_t>(parts)),
           limits_(processes, points, parts),
           coordinate_(points.count),
           box_of_(points.count, 0),
@@ -94,7 +96,7 @@ private:
     /// it will be is guessed, as it takes time to have the points once more. False, on all
     /// processes alike, where one has failed.
     bool find_axes(LocalFailure& failure) {
-        const auto keys = limits_.zeros(6 * boxes_.size());  // the greatest ones and complements
+        const auto keys = extremes_.zeros(6 * boxes_.size());  // the greatest ones and complements
         failure.attempt([&] {
             std::vector<Extremes> extremes(boxes_.size());
             for_each_point([&](std::size_t i, const Point& p) {
@@ -109,7 +111,7 @@ private:
                 }
             }
         });
-        if (!limits_.max(keys, failure)) return false;
+        if (!extremes_.max(*processes_, failure)) return false;
         extents_.clear();
         searches_.clear();
         bool is_as_guessed = true;
@@ -170,6 +172,7 @@ private:
 
     const Communicator* processes_;
     const WeighedPoints* points_;
+    ReducedNumbers extremes_;
     LimitSearch limits_;
     std::vector<Key> coordinate_;  // along the axis of the point's box
     std::vector<int> box_of_;

@@ -13,7 +13,8 @@ function(octetra_compile_options target)
                                            # order of edges, otherwise in one place than in another.
                                            -ffp-contract=off)
   if(CMAKE_UNITY_BUILD)  # a file hides by its names what those before it have
-    target_compile_options(${target} PRIVATE -Wno-shadow)
+    target_compile_options(${target} PRIVATE -Wno-shadow
+                           $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)  # as below
   endif()
   if(OCTETRA_WARNINGS_AS_ERRORS)
     target_compile_options(${target} PRIVATE -Werror)

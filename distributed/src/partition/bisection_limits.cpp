@@ -15,7 +15,7 @@ constexpr std::size_t words_of_one = 4;
 constexpr std::size_t few = most_sums / words_of_one;
 
 /// How much of the weight of a box is to go to its first half.
-std::uint64_t share_of_first(const Box& box, std::span<const std::uint64_t> weights) {
+std::uint64_t share_of_first(const BisectionBox& box, std::span<const std::uint64_t> weights) {
     const std::uint64_t weight = std::accumulate(weights.begin(), weights.end(), Key{0});
     const auto all = static_cast<std::uint64_t>(box.end - box.begin);
     const auto first = static_cast<std::uint64_t>(box.middle() - box.begin);

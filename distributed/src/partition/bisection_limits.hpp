@@ -15,7 +15,7 @@
 namespace octetra::distributed {
 
 /// Some points, to become parts begin .. end-1.
-struct Box {
+struct BisectionBox {
     int begin = 0;
     int end = 0;
 
@@ -44,7 +44,7 @@ public:
 
     /// What of the points is known: the box of each, and its coordinate along the box's axis.
     struct Places {
-        std::span<const Box> boxes;
+        std::span<const BisectionBox> boxes;
         std::span<const int> box_of;
         std::span<const Key> coordinate;
     };

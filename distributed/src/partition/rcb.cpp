@@ -33,7 +33,7 @@ public:
     /// Collective. Cuts every box that is to be more than one part; false if there is none, or a
     /// process has failed.
     bool cut_boxes(LocalFailure& failure) {
-        if (std::ranges::all_of(boxes_, &Box::is_part)) return false;
+        if (std::ranges::all_of(boxes_, &BisectionBox::is_part)) return false;
         if (!find_axes(failure)) return false;
         if (!limits_.find({boxes_, box_of_, coordinate_}, searches_, failure)) return false;
         failure.attempt([&] { divide(); });
@@ -138,13 +138,13 @@ private:
     }
 
     void divide() {
-        std::vector<Box> boxes;
+        std::vector<BisectionBox> boxes;
         std::vector<std::size_t> guess;
         std::vector<int> first_half(boxes_.size());
         const BoxLimits& limits = limits_.limits();
         for (std::size_t b = 0; b < boxes_.size(); ++b) {
             first_half[b] = static_cast<int>(boxes.size());
-            const Box& box = boxes_[b];
+            const BisectionBox& box = boxes_[b];
             if (box.is_part()) {
                 boxes.push_back(box);
                 guess.push_back(axis_[b]);
@@ -176,7 +176,7 @@ private:
     LimitSearch limits_;
     std::vector<Key> coordinate_;  // along the axis of the point's box
     std::vector<int> box_of_;
-    std::vector<Box> boxes_;
+    std::vector<BisectionBox> boxes_;
     std::vector<std::size_t> axis_;
     std::vector<std::array<double, 3>> extents_;
     std::vector<Search> searches_;

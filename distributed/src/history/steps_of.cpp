@@ -1,5 +1,8 @@
 #include "history/steps_of.hpp"
 
+#include <algorithm>
+#include <array>
+#include <cstddef>
 #include <numeric>
 #include <utility>
 
@@ -80,15 +83,19 @@ AncestorMap undivided(const AncestorMap& ancestors) {
     return roots;
 }
 
+/// A corner stays at its position in every child that has it, and where there is another vertex,
+/// that is a newer one: at each position, the root's corner is the oldest of all descendants.
 template <class I, std::size_t N>
 IndexVector<I, std::array<VertexIndex, N>> roots_of(
-    const IndexVector<I, std::array<VertexIndex, N>>& list, const VertexLevels& levels) {
+    const IndexVector<I, std::array<VertexIndex, N>>& list, const AncestorMap& ancestors) {
     IndexVector<I, std::array<VertexIndex, N>> roots;
-    Families<N, Nothing> families(levels);
-    for (const auto& vertices : list) {
-        families.add(
-            vertices, {}, [](auto&&...) { return Nothing{}; },
-            [&](const auto& root, Nothing) { roots.push_back(root); });
+    roots.reserve(ancestors.roots.size());
+    for (std::size_t r = 0; r < ancestors.roots.size(); ++r) {
+        std::array<VertexIndex, N> root = list[I{ancestors.first[r]}];
+        for (I i{ancestors.first[r] + 1}; i < I{ancestors.first[r + 1]}; ++i) {
+            for (std::size_t k = 0; k < N; ++k) root[k] = std::min(root[k], list[i][k]);
+        }
+        roots.push_back(root);
     }
     return roots;
 }
@@ -117,7 +124,6 @@ DistributedMesh input_of(const DistributedMesh& mesh) {
     const auto vertex_count = static_cast<std::ptrdiff_t>(mesh.input_vertices.size());
     const auto attribute_count =
         vertex_count * static_cast<std::ptrdiff_t>(mesh.attributes_per_point);
-    const VertexLevels levels(mesh);
     DistributedMesh input;
     input.processes = mesh.processes;
     input.points.assign(mesh.points.begin(), mesh.points.begin() + vertex_count);
@@ -126,11 +132,11 @@ DistributedMesh input_of(const DistributedMesh& mesh) {
                                   mesh.point_attributes.begin() + attribute_count);
     input.input_vertices = mesh.input_vertices;
     input.input_vertex_markers = mesh.input_vertex_markers;
-    input.cells = roots_of(mesh.cells, levels);
+    input.cells = roots_of(mesh.cells, mesh.cell_ancestors);
     input.cell_ancestors = undivided(mesh.cell_ancestors);
-    input.facets = roots_of(mesh.facets, levels);
+    input.facets = roots_of(mesh.facets, mesh.facet_ancestors);
     input.facet_ancestors = undivided(mesh.facet_ancestors);
-    input.edges = roots_of(mesh.edges, levels);
+    input.edges = roots_of(mesh.edges, mesh.edge_ancestors);
     input.edge_ancestors = undivided(mesh.edge_ancestors);
     input.input_vertex_count = mesh.input_vertex_count;
     input.input_cell_count = mesh.input_cell_count;

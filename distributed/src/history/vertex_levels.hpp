@@ -22,7 +22,8 @@ public:
 
     [[nodiscard]] std::uint32_t of(VertexIndex v) const {
         const std::size_t last = begins_.size();
-        if (last > 0 && v >= begins_[last - 1]) return static_cast<std::uint32_t>(last);
+        if (last == 0 || v < begins_.front()) return 0;
+        if (v >= begins_[last - 1]) return static_cast<std::uint32_t>(last);
         return static_cast<std::uint32_t>(std::ranges::upper_bound(begins_, v) - begins_.begin());
     }
     /// The level of the newest of them: of a cell's vertices, that which made the cell.

@@ -1,7 +1,10 @@
 #include "migrate/border.hpp"
 
 #include <algorithm>
+#include <cstdint>
+#include <numeric>
 #include <utility>
+#include <vector>
 
 #include "history/vertex_levels.hpp"
 #include "pattern/triangle.hpp"
@@ -12,6 +15,8 @@ namespace {
 /// Midpoints by the edge that they halve, of the edges that may be shared: their ends are vertices
 /// of the shared edges and faces, or midpoints between such.
 class BorderMidpoints {
+    using Entry = std::pair<EdgeVertices, VertexIndex>;
+
 public:
     BorderMidpoints(const DistributedMesh& mesh, const std::vector<Interface>& of_input) {
         IndexVector<VertexIndex, std::uint8_t> is_border;
@@ -30,19 +35,25 @@ public:
             ++midpoint;
         }
         std::ranges::sort(midpoints_);
+        begin_.assign(mesh.points.size() + 1, 0);
+        for (const auto& [edge, m] : midpoints_) ++begin_[edge[0].value() + 1U];
+        std::partial_sum(begin_.begin(), begin_.end(), begin_.begin());
     }
 
     /// none() where the edge is not bisected.
     [[nodiscard]] VertexIndex of(VertexIndex a, VertexIndex b) const {
-        const EdgeVertices edge{std::min(a, b), std::max(a, b)};
-        const auto found = std::ranges::lower_bound(midpoints_, edge, {}, &Entry::first);
-        return found != midpoints_.end() && found->first == edge ? found->second
-                                                                 : VertexIndex::none();
+        const auto [low, high] = std::minmax(a, b);
+        const auto end = midpoints_.begin() + begin_[low.value() + 1U];
+        const auto found =
+            std::lower_bound(midpoints_.begin() + begin_[low.value()], end, high,
+                             [](const Entry& entry, VertexIndex v) { return entry.first[1] < v; });
+        if (found != end && found->first[1] == high) return found->second;
+        return VertexIndex::none();
     }
 
 private:
-    using Entry = std::pair<EdgeVertices, VertexIndex>;
-    std::vector<Entry> midpoints_;
+    std::vector<Entry> midpoints_;      ///< by edge
+    std::vector<std::uint32_t> begin_;  ///< of those whose edge has this lower end
 };
 
 /// Goes from edges and faces of the input to what became of them.

@@ -18,7 +18,16 @@ std::vector<int> ranks_of_tagged(const IndexVector<I, std::array<VertexIndex, N>
     std::vector<int> ranks(list.size(), -1);
     if (list.empty()) return ranks;
     const VertexBuckets<I, N> buckets(list, input.points.size());
+    IndexVector<VertexIndex, std::uint8_t> is_tagged;  // small enough for a cache
+    is_tagged.assign(input.points.size(), 0);
+    for (const auto& vertices : list) {
+        for (const VertexIndex v : vertices) is_tagged[v] = 1;
+    }
     for (CellIndex c{0}; c < input.cells.end_index(); ++c) {
+        const auto& [p, q, r, s] = input.cells[c];
+        if (is_tagged[p] + is_tagged[q] + is_tagged[r] + is_tagged[s] < static_cast<int>(N)) {
+            continue;
+        }
         for (const auto& side : sides) {
             std::array<VertexIndex, N> corners;
             for (std::size_t k = 0; k < N; ++k) corners[k] = input.cells[c][side[k]];

@@ -10,11 +10,15 @@ using Numbers = std::vector<std::uint32_t>;
 
 /// The processes that this one sends to or receives from, and itself.
 std::vector<int> partners_of(const SideOfMove& before, const SideOfMove& after) {
-    std::vector<int> ranks{before.mesh->processes.rank()};
-    ranks.insert(ranks.end(), before.rank_of_root.begin(), before.rank_of_root.end());
-    ranks.insert(ranks.end(), after.rank_of_root.begin(), after.rank_of_root.end());
-    std::ranges::sort(ranks);
-    ranks.erase(std::unique(ranks.begin(), ranks.end()), ranks.end());
+    const Communicator& processes = before.mesh->processes;
+    std::vector<bool> is_partner(static_cast<std::size_t>(processes.size()), false);
+    is_partner[static_cast<std::size_t>(processes.rank())] = true;
+    for (const int rank : before.rank_of_root) is_partner[static_cast<std::size_t>(rank)] = true;
+    for (const int rank : after.rank_of_root) is_partner[static_cast<std::size_t>(rank)] = true;
+    std::vector<int> ranks;
+    for (int rank = 0; rank < processes.size(); ++rank) {
+        if (is_partner[static_cast<std::size_t>(rank)]) ranks.push_back(rank);
+    }
     return ranks;
 }
 

@@ -84,11 +84,12 @@ Destinations vertex_destinations(const Departures& departures,
         for (const VertexIndex v : input.cells[c]) is_told[v.value()] = true;
     }
     Destinations destinations;
+    std::vector<int> last_rank(input.points.size(), -1);  // most repetitions follow each other
     for (CellIndex c{0}; c < input.cells.end_index(); ++c) {
+        const int rank = departures.rank_of_root[c.value()];
         for (const VertexIndex v : input.cells[c]) {
-            if (!is_told[v.value()]) continue;
-            destinations.push_back(
-                {input.input_vertices[v.value()], departures.rank_of_root[c.value()]});
+            if (!is_told[v.value()] || std::exchange(last_rank[v.value()], rank) == rank) continue;
+            destinations.push_back({input.input_vertices[v.value()], rank});
         }
     }
     sort_and_unite(destinations);

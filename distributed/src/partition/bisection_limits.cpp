@@ -102,13 +102,15 @@ LimitSearch::Found LimitSearch::find_digit(By by, LocalFailure& failure) {
     const std::size_t boxes = searches_->size();
     const auto sums = reduced_.zeros((boxes << digit) + 1);
     std::uint64_t& count = sums.back();
-    std::vector<std::uint64_t> own;  // where each point weighs 1, they count them
+    std::vector<std::uint32_t> own;  // how many points of this process each sum is of
     failure.attempt([&] {
+        own.resize(sums.size());
         for_each_left(by, [&](std::size_t i, std::size_t b) {
-            sums[(b << digit) + (*searches_)[b].digit_of(key(i, by), digit)] += weight(i);
+            const std::size_t at = (b << digit) + (*searches_)[b].digit_of(key(i, by), digit);
+            sums[at] += weight(i);
+            ++own[at];
             ++count;
         });
-        if (points_->weights.empty()) own.assign(sums.begin(), sums.end());
     });
     const std::size_t looked_at = count;
     if (!reduced_.sum(*processes_, failure)) return Found::nowhere;
@@ -119,11 +121,10 @@ LimitSearch::Found LimitSearch::find_digit(By by, LocalFailure& failure) {
         if (is_first) target_.push_back(share_of_first(places_.boxes[b], of_box));
         std::size_t d = 0;
         while (d + 1 < of_box.size() && of_box[d] <= target_[b]) target_[b] -= of_box[d++];
-        if (!own.empty()) found += own[(b << digit) + d];
+        found += own[(b << digit) + d];
         (*searches_)[b].take(places_.boxes[b].is_part() ? 0 : d, digit);
     }
     failure.attempt([&] {
-        if (own.empty()) for_each_left(by, [&](std::size_t, std::size_t) { ++found; });
         if (found <= looked_at / 4) keep_left(by, found);
     });
     return count <= few ? Found::all : Found::not_yet;

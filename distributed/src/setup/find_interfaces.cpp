@@ -123,25 +123,37 @@ private:
 
 using Places = std::vector<std::uint32_t>;
 
-/// Vertices by their places among those that this process has with another one, which are the same
-/// on both and ascend.
-template <std::size_t N>
-std::array<std::uint32_t, N> places_of(const std::array<VertexIndex, N>& vertices,
-                                       const std::vector<VertexIndex>& shared) {
-    std::array<std::uint32_t, N> places;
-    std::ranges::transform(vertices, places.begin(), [&](VertexIndex v) {
-        return static_cast<std::uint32_t>(std::ranges::lower_bound(shared, v) - shared.begin());
-    });
-    return places;
-}
+/// The places of vertices among those that this process has with another one, which are the same on
+/// both and ascend. The array is made once for all of them.
+class PlacesAmong {
+public:
+    explicit PlacesAmong(std::size_t vertex_count) { place_.resize(vertex_count); }
+
+    void look_at(const std::vector<VertexIndex>& shared) {
+        for (std::size_t k = 0; k < shared.size(); ++k) {
+            place_[shared[k]] = static_cast<std::uint32_t>(k);
+        }
+    }
+    template <std::size_t N>
+    [[nodiscard]] std::array<std::uint32_t, N> of(
+        const std::array<VertexIndex, N>& vertices) const {
+        std::array<std::uint32_t, N> places;
+        for (std::size_t k = 0; k < N; ++k) places[k] = place_[vertices[k]];
+        return places;
+    }
+
+private:
+    IndexVector<VertexIndex, std::uint32_t> place_;  ///< of the vertices looked at
+};
 
 /// How many edges; then edges and faces.
-Places message_of(const Candidates& candidates) {
+Places message_of(const Candidates& candidates, PlacesAmong& among) {
     Places message{static_cast<std::uint32_t>(candidates.edges.size())};
     message.reserve(1 + 2 * candidates.edges.size() + 3 * candidates.faces.size());
+    among.look_at(*candidates.shared);
     const auto append = [&](const auto& list) {
         for (const auto& vertices : list) {
-            const auto places = places_of(vertices, *candidates.shared);
+            const auto places = among.of(vertices);
             message.insert(message.end(), places.begin(), places.end());
         }
     };
@@ -152,11 +164,11 @@ Places message_of(const Candidates& candidates) {
 
 /// Those that another process has told of, too. Both lists ascend.
 template <std::size_t N>
-VertexLists<N> common(const VertexLists<N>& own, const std::vector<VertexIndex>& shared,
+VertexLists<N> common(const VertexLists<N>& own, const PlacesAmong& among,
                       std::span<const std::uint32_t> told) {
     VertexLists<N> common;
     for (const auto& vertices : own) {
-        const auto places = places_of(vertices, shared);
+        const auto places = among.of(vertices);
         const auto is_before = [&] {
             return std::ranges::lexicographical_compare(told.first(N), places);
         };
@@ -174,11 +186,13 @@ std::vector<Interface> find_interfaces(const DistributedMesh& mesh,
     if (mesh.processes.size() == 1) return {};
     LocalFailure failure;
     std::optional<CandidatesOfAll> candidates;
+    std::optional<PlacesAmong> among;
     std::vector<Places> outboxes;
     failure.attempt([&] {
         candidates.emplace(mesh, sharing);
+        among.emplace(mesh.points.size());
         for (const Candidates& of_one : candidates->of_rank) {
-            outboxes.push_back(message_of(of_one));
+            outboxes.push_back(message_of(of_one, *among));
         }
     });
     failure.agree(mesh.processes);
@@ -189,10 +203,11 @@ std::vector<Interface> find_interfaces(const DistributedMesh& mesh,
             const Candidates& own = candidates->of_rank[i];
             const std::span<const std::uint32_t> told(inboxes[i]);
             if (told.empty()) continue;  // a process that has failed
+            among->look_at(*own.shared);
             const std::size_t edges = std::size_t{2} * told.front();
             Interface interface {
-                candidates->ranks[i], common(own.edges, *own.shared, told.subspan(1, edges)),
-                    common(own.faces, *own.shared, told.subspan(1 + edges))
+                candidates->ranks[i], common(own.edges, *among, told.subspan(1, edges)),
+                    common(own.faces, *among, told.subspan(1 + edges))
             };
             if (interface.edges.empty() && interface.faces.empty()) continue;
             interfaces.push_back(std::move(interface));

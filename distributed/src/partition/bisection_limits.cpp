@@ -69,27 +69,33 @@ bool LimitSearch::find(const Places& places, std::vector<Search>& searches, Loca
     target_.clear();  // not known before all weights are added up
     limits_.coordinate.clear();
     limits_.number.clear();
-    const auto rounds_to_go = [&] {
-        const unsigned most = std::ranges::max(searches, {}, &Search::bits).bits;
-        return (most + digit_bits() - 1) / digit_bits();
-    };
     // All weights are added up in the first round.
     const Found by_coordinate = find_by(By::coordinate, std::max(1U, rounds_to_go()), failure);
     if (by_coordinate != Found::not_yet) return by_coordinate == Found::all;
     for (const Search& search : searches) limits_.coordinate.push_back(search.limit());
-    if (!find_extent_of_numbers(failure)) return false;
+    if (!find_extents(By::coordinate, By::number, failure)) return false;
     const Found by_number = find_by(By::number, rounds_to_go(), failure);
     if (by_number != Found::not_yet) return by_number == Found::all;
     for (const Search& search : searches) limits_.number.push_back(search.limit());
     return true;
 }
 
+unsigned LimitSearch::rounds_to_go() const {
+    const unsigned most = std::ranges::max(*searches_, {}, &Search::bits).bits;
+    return (most + digit_bits() - 1) / digit_bits();
+}
+
 LimitSearch::Found LimitSearch::find_by(By by, unsigned rounds, LocalFailure& failure) {
-    for (; rounds > 0; --rounds) {
+    for (unsigned done = 1; rounds > 0; ++done) {
         const Found found = find_digit(by, failure);
         if (found == Found::nowhere) return found;
         if (found == Found::all) {
             return find_among_few(by, failure) ? Found::all : Found::nowhere;
+        }
+        // In a lattice few different keys are left, or one, after few of their digits.
+        if (--rounds > 2 && done % 2 == 0) {
+            if (!find_extents(by, by, failure)) return Found::nowhere;
+            rounds = rounds_to_go();
         }
     }
     return Found::not_yet;
@@ -130,22 +136,24 @@ LimitSearch::Found LimitSearch::find_digit(By by, LocalFailure& failure) {
     return count <= few ? Found::all : Found::not_yet;
 }
 
-/// Collective. Looks for numbers from now on, among the points whose coordinates are the limits.
-bool LimitSearch::find_extent_of_numbers(LocalFailure& failure) {
+/// Collective. Looks for keys of this kind from now on, between those of the points that are left.
+bool LimitSearch::find_extents(By left, By kind, LocalFailure& failure) {
     const auto keys =
         reduced_.zeros(2 * searches_->size());  // of each box the greatest and complement
     failure.attempt([&] {
         std::size_t count = 0;
-        for_each_left(By::coordinate, [&](std::size_t i, std::size_t b) {
-            keys[2 * b] = std::max(keys[2 * b], points_->number(i));
-            keys[2 * b + 1] = std::max(keys[2 * b + 1], ~points_->number(i));
+        for_each_left(left, [&](std::size_t i, std::size_t b) {
+            keys[2 * b] = std::max(keys[2 * b], key(i, kind));
+            keys[2 * b + 1] = std::max(keys[2 * b + 1], ~key(i, kind));
             ++count;
         });
-        keep_left(By::coordinate, count);
+        keep_left(left, count);
     });
     if (!reduced_.max(*processes_, failure)) return false;
     for (std::size_t b = 0; b < searches_->size(); ++b) {
-        (*searches_)[b] = between(~keys[2 * b + 1], keys[2 * b], keys[2 * b + 1] == 0);
+        const bool is_empty = keys[2 * b] == 0 && keys[2 * b + 1] == 0;
+        if (is_empty && left == kind) continue;  // its limit is known
+        (*searches_)[b] = between(~keys[2 * b + 1], keys[2 * b], is_empty);
     }
     return true;
 }

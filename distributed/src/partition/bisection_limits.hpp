@@ -36,7 +36,8 @@ struct BoxLimits {
 };
 
 /// Finds the limits of all boxes of a level of the tree at once, digit by digit, first of the
-/// coordinates, then among equal ones of the numbers; each digit takes one reduction. As soon as
+/// coordinates, then among equal ones of the numbers; each digit takes one reduction, and after two
+/// of them another tells between which keys the points are that are left. As soon as
 /// few points are left that may be at a limit, all processes get these, and find it on their own.
 class LimitSearch {
 public:
@@ -77,11 +78,12 @@ private:
         return by == By::coordinate ? places_.coordinate[i] : points_->number(i);
     }
     [[nodiscard]] unsigned digit_bits() const;
+    [[nodiscard]] unsigned rounds_to_go() const;
     void for_each_left(By by, auto&& look_at) const;
     void keep_left(By by, std::size_t count);
     [[nodiscard]] Found find_by(By by, unsigned rounds, LocalFailure& failure);
     [[nodiscard]] Found find_digit(By by, LocalFailure& failure);
-    [[nodiscard]] bool find_extent_of_numbers(LocalFailure& failure);
+    [[nodiscard]] bool find_extents(By left, By kind, LocalFailure& failure);
     [[nodiscard]] bool find_among_few(By by, LocalFailure& failure);
     void take_limits_among_few();
 

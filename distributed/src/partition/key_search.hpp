@@ -18,14 +18,18 @@ inline double coordinate_of(Key key) {
     return std::bit_cast<double>(key >> 63U != 0 ? key & ~(std::uint64_t{1} << 63U) : ~key);
 }
 
-/// Where a key is looked for in each box: from `low` on, in numbers of so many bits; what has been
-/// found of it is `found`, but for the lowest `bits`.
+/// Where a key is looked for in each box: from `low` to `low + most`, in numbers of so many bits;
+/// what has been found of it is `found`, but for the lowest `bits`.
 struct Search {
     Key low = 0;
+    Key most = 0;
     Key found = 0;
     unsigned bits = 0;
 
-    [[nodiscard]] bool may_be(Key key) const { return above(key - low) == above(found); }
+    [[nodiscard]] bool may_be(Key key) const {
+        const Key difference = key - low;
+        return difference <= most && above(difference) == above(found);
+    }
     /// Of a key that it may be: the next digit.
     [[nodiscard]] std::size_t digit_of(Key key, unsigned digit_bits) const {
         return (key - low - found) >> rest(digit_bits);
@@ -46,7 +50,8 @@ private:
 /// Of a key from one to another.
 inline Search between(Key low, Key high, bool is_empty) {
     if (is_empty) return {};
-    return {.low = low, .bits = static_cast<unsigned>(std::bit_width(high - low))};
+    return {
+        .low = low, .most = high - low, .bits = static_cast<unsigned>(std::bit_width(high - low))};
 }
 
 }  // namespace octetra::distributed

@@ -99,17 +99,16 @@ void bind_adaptation(py::module_& module) {
                                "uint32 (vertices,), of coarsening: the number that each had.")
         .def(
             "transfer_vertices", &transfer_vertices, py::arg("values"),
-            "Values of a continuous, piecewise linear function: (vertices before, ...) of float64, "
-            "float32, int32 or int64 to (vertices now, ...), a new array. New vertices get the "
-            "mean "
-            "of the ends of their edge.")
+            "Values of a continuous, piecewise linear function: (vertices before, ...) of float64 "
+            "or float32 to (vertices now, ...), a new array. New vertices get the mean of the ends "
+            "of their edge, which whole numbers do not have: int32 and int64 only of coarsening.")
         .def(
             "transfer_cells", &transfer_cells, py::arg("values"), py::arg("how") = "copied",
             "Values of cells: (cells before, ...) of float64, float32, int32 or int64 to "
             "(cells now, ...), a new array. how: 'copied', each child the same (of coarsening, the "
-            "pieces' mean); 'averaged', each the same (the mean weighted by volumes); 'divided', "
-            "by "
-            "the children's shares in the volume (the sum).");
+            "pieces' mean, and of whole numbers what most of them have); 'averaged', each the same "
+            "(the mean weighted by volumes); 'divided', by the children's shares in the volume "
+            "(the sum). Whole numbers can be copied, and of coarsening added up.");
 }
 
 }  // namespace octetra::python

@@ -1,5 +1,7 @@
+#include <algorithm>
 #include <map>
 #include <random>
+#include <span>
 
 #include <gtest/gtest.h>
 
@@ -117,9 +119,53 @@ TEST_P(CoarseningMesh, KeepsValuesOfVerticesAndMakesThoseOfCellsFromTheirPieces)
     const auto means = step.transfer_cells(ones);
     const auto weighted = step.transfer_cells(ones, 1, CellValues::averaged);
     for (std::size_t c = 0; c < means.size(); ++c) {
-        EXPECT_NEAR(means[c], 1, 1e-12);
+        EXPECT_EQ(means[c], 1);
         EXPECT_EQ(weighted[c], 1);
     }
+}
+
+TEST(MergedValue, IsWhatAllPiecesHaveToTheBitAndElseTheirMeanInNoOrder) {
+    using distributed::merged_value;
+    const auto of = []<class T>(CellValues how, std::vector<distributed::PieceValue<T>> pieces) {
+        std::vector<T> found;
+        for (std::size_t k = 0; k < pieces.size(); ++k) {
+            std::ranges::rotate(pieces, pieces.begin() + 1);
+            auto rotated = pieces;
+            found.push_back(merged_value(std::span(rotated), how));
+        }
+        EXPECT_EQ(std::ranges::count(found, found[0]), std::ssize(found));
+        return found[0];
+    };
+    using Reals = std::vector<distributed::PieceValue<double>>;
+    using Wholes = std::vector<distributed::PieceValue<int>>;
+    EXPECT_EQ(of(CellValues::copied, Reals{{0.1, 1}, {0.1, 2}, {0.1, 2}}), 0.1);
+    EXPECT_EQ(of(CellValues::averaged, Reals{{0.1, 1}, {0.1, 2}, {0.1, 2}}), 0.1);
+    EXPECT_EQ(of(CellValues::copied, Reals{{3, 1}, {1, 2}, {2, 2}}), 1.0 / 3 + 2.0 / 3 + 1);
+    EXPECT_EQ(of(CellValues::averaged, Reals{{8, 1}, {4, 2}, {2, 2}}), 5.5);
+    EXPECT_EQ(of(CellValues::divided, Reals{{8, 1}, {4, 2}, {2, 2}}), 14);
+    EXPECT_EQ(of(CellValues::copied, Wholes{{7, 1}, {7, 2}, {7, 2}}), 7);
+    EXPECT_EQ(of(CellValues::copied, Wholes{{9, 1}, {-3, 2}, {9, 2}}), 9);
+    EXPECT_EQ(of(CellValues::copied, Wholes{{5, 1}, {5, 2}, {4, 2}, {4, 3}, {9, 3}}), 4);
+    EXPECT_EQ(of(CellValues::divided, Wholes{{7, 1}, {7, 2}, {-1, 2}}), 13);
+}
+
+TEST_P(CoarseningMesh, KeepsWholeNumbersThatAllPiecesHave) {
+    AdaptiveMesh mesh = shared_out(test::shaken_kuhn(3, 0.2, GetParam()), "random:5");
+    std::vector<int> tag(mesh.cells().size(), 7);
+    std::vector<double> tenth(mesh.cells().size(), 0.1);
+    for (const std::uint64_t k : {0U, 1U}) {
+        const Adaptation step = mesh.refine(some(0.05, GetParam() + k));
+        EXPECT_THROW((void)step.transfer_cells(tag, 1, CellValues::divided), std::invalid_argument);
+        EXPECT_THROW((void)step.transfer_vertices(std::vector<int>(step.vertex_count_before)),
+                     std::invalid_argument);
+        tag = step.transfer_cells(std::move(tag));
+        tenth = step.transfer_cells(std::move(tenth));
+    }
+    const Adaptation step = mesh.coarsen({.all = true});
+    ASSERT_TRUE(step.is_coarser());
+    EXPECT_THROW((void)step.transfer_cells(tag, 1, CellValues::averaged), std::invalid_argument);
+    EXPECT_EQ(step.transfer_cells(tag), std::vector<int>(mesh.cells().size(), 7));
+    EXPECT_EQ(step.transfer_cells(tenth), std::vector<double>(mesh.cells().size(), 0.1));
 }
 
 TEST_P(CoarseningMesh, TellsOfEveryFacetAndTaggedEdgeWhatItBecame) {

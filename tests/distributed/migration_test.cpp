@@ -179,13 +179,17 @@ TEST_P(MigratingMesh, RefusesValuesThatDoNotFitItOnAllProcesses) {
     std::mt19937_64 random(GetParam());
     AdaptiveMesh mesh = shared_out(input_of(GetParam()), "random:1");
     (void)mesh.refine(some(0.1, GetParam()));
-    const std::size_t count = mesh.cells().size() + (world().is_first() ? 1 : 0);
-    const Migration migration = mesh.migrate(random_targets(random).of(mesh.roots()));
-    if (!migration.changed()) return;
-    EXPECT_THROW((void)migration.cells(std::vector<double>(count)), InputError);
-    ValueLists<int> lists;
-    lists.begin.assign(count + 1, 0);
-    EXPECT_THROW((void)migration.cells(lists), InputError);
+    const std::vector<int> targets = random_targets(random).of(mesh.roots());
+    const std::vector<int> here(mesh.roots().size(), world().rank());
+    for (const std::vector<int>& ranks : {here, targets}) {  // also where nothing moves
+        const std::size_t count = mesh.cells().size() + (world().is_first() ? 1 : 0);
+        const Migration migration = mesh.migrate(ranks);
+        EXPECT_THROW((void)migration.cells(std::vector<double>(count)), InputError);
+        EXPECT_THROW((void)migration.cells(std::vector<double>(2 * count - 1), 2), InputError);
+        ValueLists<int> lists;
+        lists.begin.assign(count + 1, 0);
+        EXPECT_THROW((void)migration.cells(lists), InputError);
+    }
 }
 
 INSTANTIATE_TEST_SUITE_P(Seeds, MigratingMesh, testing::Range<std::uint64_t>(0, 6));

@@ -146,6 +146,19 @@ def test_values_go_along_with_every_step(mesh):
         told.transfer_cells(np.zeros(told.cells.count_before, complex))
 
 
+def test_whole_numbers_stay_what_they_are(mesh):
+    tags, tenths = np.full(len(mesh.cells), 7, np.int32), np.full(len(mesh.cells), 0.1)
+    for step in (mesh.refine, mesh.refine, mesh.coarsen):
+        told = step(near(mesh, 0.6))
+        if step == mesh.refine:
+            with pytest.raises(ValueError, match="mean"):
+                told.transfer_vertices(np.zeros(told.vertex_count_before, np.int64))
+            with pytest.raises(ValueError, match="divided"):
+                told.transfer_cells(tags, how="divided")
+        tags, tenths = told.transfer_cells(tags), told.transfer_cells(tenths)
+        assert np.all(tags == 7) and np.all(tenths == 0.1) and tags.dtype == np.int32
+
+
 def test_values_move_with_cells_and_vertices(mesh):
     mesh.refine(near(mesh, 0.5))
     tags = mesh.root_of_cells.astype("S5")

@@ -1,13 +1,8 @@
 #include "adapt/carried_fields.hpp"
 
-#include <algorithm>
-#include <compare>
 #include <concepts>
 #include <cstddef>
 #include <cstdint>
-#include <numeric>
-#include <optional>
-#include <span>
 #include <utility>
 #include <variant>
 
@@ -19,61 +14,17 @@ namespace {
 using distributed::Adaptation;
 using distributed::Field;
 
-/// The value of a cell whose pieces had these; none, where whole numbers differ. What it is does
-/// not depend on the order of the pieces, which is not the same on any number of processes.
+/// Of coarsening. Had cells that became one the same?
 template <class T>
-std::optional<T> value_of_whole(std::span<T> pieces) {
-    const auto less = [](T a, T b) { return std::strong_order(a, b) < 0; };
-    std::ranges::sort(pieces, less);
-    if (!less(pieces.front(), pieces.back())) return pieces.front();
-    if constexpr (std::floating_point<T>) {
-        const T count = static_cast<T>(pieces.size());
-        return std::accumulate(pieces.begin(), pieces.end(), T{0},
-                               [&](T sum, T value) { return sum + value / count; });
-    } else {
-        return std::nullopt;
-    }
-}
-
-/// The pieces of each whole, one whole after the other: pieces[first[w]] to pieces[first[w + 1]].
-struct PiecesOfWholes {
-    std::vector<std::size_t> first;
-    std::vector<std::uint32_t> pieces;
-};
-
-PiecesOfWholes pieces_of_wholes(const distributed::Succession& cells) {
+bool are_kept(const std::vector<T>& pieces, const std::vector<T>& wholes, std::size_t components,
+              const distributed::Succession& cells) {
     const auto whole_of = cells.whole_of();
-    PiecesOfWholes all{std::vector<std::size_t>(cells.count() + 1, 0),
-                       std::vector<std::uint32_t>(whole_of.size())};
-    for (const std::uint32_t whole : whole_of) ++all.first[whole + std::size_t{1}];
-    std::partial_sum(all.first.begin(), all.first.end(), all.first.begin());
-    std::vector<std::size_t> next = all.first;
-    for (std::size_t piece = 0; piece < whole_of.size(); ++piece) {
-        all.pieces[next[whole_of[piece]]++] = static_cast<std::uint32_t>(piece);
-    }
-    return all;
-}
-
-/// The values of wholes; none where those of whole numbers differ.
-template <class T>
-std::optional<std::vector<T>> merged(const std::vector<T>& values, std::size_t components,
-                                     const distributed::Succession& cells) {
-    const PiecesOfWholes all = pieces_of_wholes(cells);
-    std::vector<T> wholes;
-    wholes.reserve(cells.count() * components);
-    std::vector<T> of_pieces;
-    for (std::size_t whole = 0; whole < cells.count(); ++whole) {
+    for (std::size_t c = 0; c < whole_of.size(); ++c) {
         for (std::size_t k = 0; k < components; ++k) {
-            of_pieces.clear();
-            for (std::size_t p = all.first[whole]; p < all.first[whole + 1]; ++p) {
-                of_pieces.push_back(values[all.pieces[p] * components + k]);
-            }
-            const std::optional<T> value = value_of_whole(std::span<T>(of_pieces));
-            if (!value) return std::nullopt;
-            wholes.push_back(*value);
+            if (pieces[c * components + k] != wholes[whole_of[c] * components + k]) return false;
         }
     }
-    return wholes;
+    return true;
 }
 
 /// Carries one field on this process; false where it cannot be.
@@ -82,14 +33,15 @@ bool carry(Field& field, const Adaptation& step) {
         if (field.on == FieldOn::vertices) {
             if (!std::floating_point<T> && !step.is_coarser()) return false;
             values = step.transfer_vertices(std::move(values), field.components);
-        } else if (!step.is_coarser()) {
-            values = step.transfer_cells(std::move(values), field.components);
-        } else {
-            auto wholes = merged(values, field.components, step.cells);
-            if (!wholes) return false;
-            values = *std::move(wholes);
+            return true;
         }
-        return true;
+        if (std::floating_point<T> || !step.is_coarser()) {
+            values = step.transfer_cells(std::move(values), field.components);
+            return true;
+        }
+        const std::vector<T> pieces = std::move(values);
+        values = step.transfer_cells(pieces, field.components);
+        return are_kept(pieces, values, field.components, step.cells);
     };
     return std::visit(carry_values, field.values);
 }

@@ -55,6 +55,10 @@ Adaptation adaptation_of(PlannedLevel& plan, const DistributedMesh& mesh) {
 
 }  // namespace
 
+Migration unmoved(const DistributedMesh& mesh) {
+    return {mesh.processes, mesh.cells.size(), mesh.points.size()};
+}
+
 Adaptation unchanged(const DistributedMesh& mesh) {
     return {.changed = false,
             .cells = Succession(mesh.cells.size()),

@@ -46,6 +46,8 @@ struct AdaptiveMesh::State {
 
 /// What a step that changes nothing did.
 [[nodiscard]] Adaptation unchanged(const DistributedMesh& mesh);
+/// Of a move that leaves everything where it is.
+[[nodiscard]] Migration unmoved(const DistributedMesh& mesh);
 
 /// Collective. A step before which roots move, if processes would have too different numbers of
 /// cells.

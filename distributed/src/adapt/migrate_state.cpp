@@ -171,7 +171,8 @@ Migration migrate_state(AdaptiveMesh::State& state, std::span<const int> rank_of
     failure.attempt([&] { check_ranks(state.mesh, rank_of_root); });
     failure.agree(processes);
     const auto stays = [&](int rank) { return rank == processes.rank(); };
-    if (processes.max(std::ranges::all_of(rank_of_root, stays) ? 0 : 1) == 0) return {};
+    if (processes.max(std::ranges::all_of(rank_of_root, stays) ? 0 : 1) == 0)
+        return unmoved(state.mesh);
 
     std::optional<CanonicalOrder> order;
     failure.attempt([&] { order.emplace(state.mesh); });
@@ -190,7 +191,9 @@ Migration rebalance_state(AdaptiveMesh::State& state, const BalanceOptions& opti
     const auto count = static_cast<std::uint64_t>(state.mesh.cells.size());
     const auto mean =
         static_cast<double>(processes.sum(count)) / static_cast<double>(processes.size());
-    if (static_cast<double>(processes.max(count)) <= options.most_over_mean * mean) return {};
+    if (static_cast<double>(processes.max(count)) <= options.most_over_mean * mean) {
+        return unmoved(state.mesh);
+    }
     LocalFailure failure;
     std::optional<CanonicalOrder> order;
     failure.attempt([&] { order.emplace(state.mesh); });
@@ -199,7 +202,7 @@ Migration rebalance_state(AdaptiveMesh::State& state, const BalanceOptions& opti
     const auto weigh = [&] { return cells_of_roots(state.mesh); };
     const auto ranks =
         even_parts_or_roots(state.mesh, std::ref(weigh), options, roots, &state.numbers, failure);
-    if (!ranks) return {};
+    if (!ranks) return unmoved(state.mesh);
     if (roots != nullptr) state.make_room_for_history();
     const Phase phase(processes, "migrate");
     Migration migration;
@@ -211,7 +214,7 @@ Migration rebalance_state(AdaptiveMesh::State& state, const BalanceOptions& opti
 }
 
 Migration recall_history(AdaptiveMesh::State& state) {
-    if (state.forgotten.empty()) return {};
+    if (state.forgotten.empty()) return unmoved(state.mesh);
     const Phase phase(state.mesh.processes, "recall history");
     const History& before = state.forgotten.back();
     LocalFailure failure;

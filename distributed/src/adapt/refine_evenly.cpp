@@ -18,13 +18,14 @@ EvenStep refine_state_evenly(AdaptiveMesh::State& state, const std::function<Mar
     const int level = state.step_count + 1;
     const Phase phase(state.mesh.processes, "level", level);
     PlannedLevel plan = close_level(state.mesh, mark, level_of, tuning);
-    if (!plan.changes_anything()) return {Migration(), unchanged(state.mesh)};
+    if (!plan.changes_anything()) return {unmoved(state.mesh), unchanged(state.mesh)};
     const SynchronisationCounts counts = plan.counts;
     std::optional<UnevenLevel> uneven =
         uneven_level(state.mesh, plan, balance, level_of, tuning, state.waited, &state.numbers);
     if (!uneven) {
+        Migration nothing = unmoved(state.mesh);  // of the mesh as it is before the level
         bisect_level(plan, state.mesh, level_of, level);
-        return {Migration(), state.take(plan)};
+        return {std::move(nothing), state.take(plan)};
     }
     if (uneven->roots != nullptr) state.make_room_for_history();
     MovedLevel moved = moved_level(state, *uneven, level_of, tuning);

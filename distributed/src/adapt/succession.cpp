@@ -47,4 +47,17 @@ Succession Succession::of_merges(std::size_t count, std::vector<std::uint32_t> w
     return succession;
 }
 
+PiecesOfWholes pieces_of_wholes(const Succession& merges) {
+    const auto whole_of = merges.whole_of();
+    PiecesOfWholes all{std::vector<std::uint32_t>(merges.count() + 1, 0),
+                       std::vector<std::uint32_t>(whole_of.size())};
+    for (const std::uint32_t whole : whole_of) ++all.first[whole + std::size_t{1}];
+    std::partial_sum(all.first.begin(), all.first.end(), all.first.begin());
+    std::vector<std::uint32_t> next = all.first;
+    for (std::uint32_t piece = 0; piece < whole_of.size(); ++piece) {
+        all.pieces[next[whole_of[piece]]++] = piece;
+    }
+    return all;
+}
+
 }  // namespace octetra::distributed

@@ -21,6 +21,16 @@ void check(const Communicator& processes, std::size_t count, std::size_t needed)
                     processes.rank(), count, needed));
 }
 
+void check(const Communicator& processes, std::span<const std::uint64_t> begin, std::size_t values,
+           std::size_t needed) {
+    check(processes, begin.size(), needed + 1);
+    if (begin.front() != 0 || !std::ranges::is_sorted(begin)) {
+        throw InputError(
+            fmt::format("rank {}: lists of values begin at 0, and ascend", processes.rank()));
+    }
+    check(processes, values, begin.back());
+}
+
 void copy(std::byte* to, const std::byte* from, std::size_t size) {
     if (size > 0) std::memcpy(to, from, size);
 }
@@ -34,11 +44,27 @@ void sum_up(std::vector<std::uint64_t>& lengths) {
 
 }  // namespace
 
+void Migration::check_values(const Entities& entities, std::size_t count) const {
+    if (!fits_) return;
+    LocalFailure failure;
+    failure.attempt([&] { check(processes_, count, entities.count_before); });
+    failure.agree(processes_);
+}
+
+void Migration::check_lists(const Entities& entities, std::span<const std::uint64_t> begin,
+                            std::size_t count) const {
+    if (!fits_) return;
+    LocalFailure failure;
+    failure.attempt([&] { check(processes_, begin, count, entities.count_before); });
+    failure.agree(processes_);
+}
+
 void Migration::move_values(const Entities& entities, std::span<const std::byte> values,
                             std::size_t size, const Allocate& allocate) const {
     LocalFailure failure;
     failure.attempt([&] {
-        if (size > 0) check(processes_, values.size() / size, entities.count_before);
+        if (size == 0) return;
+        check(processes_, (values.size() + size - 1) / size, entities.count_before);
     });
     const auto pack = [&](const std::vector<std::uint32_t>& sent) {
         MessageBytes message(sent.size() * size);
@@ -65,14 +91,7 @@ void Migration::move_lists(const Entities& entities, std::span<const std::uint64
                            std::vector<std::uint64_t>& begin_after,
                            const Allocate& allocate) const {
     LocalFailure failure;
-    failure.attempt([&] {
-        check(processes_, begin.size(), entities.count_before + 1);
-        if (begin.front() != 0 || !std::ranges::is_sorted(begin)) {
-            throw InputError(
-                fmt::format("rank {}: lists of values begin at 0, and ascend", processes_.rank()));
-        }
-        check(processes_, values.size() / size, begin.back());
-    });
+    failure.attempt([&] { check(processes_, begin, values.size() / size, entities.count_before); });
     // Of each entity the length of its list, and then all lists.
     const auto pack = [&](const std::vector<std::uint32_t>& sent) {
         std::size_t length = sent.size() * sizeof(std::uint64_t);

@@ -8,18 +8,11 @@
 #include <vector>
 
 #include <octetra/core/mesh.hpp>
+#include <octetra/distributed/merged_values.hpp>
 #include <octetra/distributed/refine.hpp>
 #include <octetra/distributed/succession.hpp>
 
 namespace octetra::distributed {
-
-/// What the children of a cell get of a value that it had; and of values that pieces had, what
-/// their whole gets.
-enum class CellValues {
-    copied,    ///< each the same, and the mean: an indicator, a level
-    averaged,  ///< each the same, and the mean weighted by volumes: a density
-    divided,   ///< by their shares in its volume, and the sum: a mass, a count
-};
 
 /// What a step of an AdaptiveMesh did to this process's part: for everything that there is now,
 /// what it was before. All numbers are local. It stays valid whatever becomes of the mesh. No
@@ -47,12 +40,17 @@ struct Adaptation {
     /// Values of a continuous, piecewise linear function (P1), `components` for each vertex: of new
     /// vertices the mean of the edge's ends, which is what the function is there; of vertices that
     /// stay, their own. Takes the values, and gives them back with more behind, or fewer. Throws
-    /// std::invalid_argument where they do not fit.
+    /// std::invalid_argument where they do not fit, or are to be refined and are whole numbers,
+    /// which have no mean.
     template <class T>
     [[nodiscard]] std::vector<T> transfer_vertices(std::vector<T> values,
                                                    std::size_t components = 1) const {
         check(values.size(), vertex_count_before, components);
         if (is_coarser()) return kept(std::move(values), components);
+        if (std::is_integral_v<T>) {
+            throw std::invalid_argument(
+                "whole numbers of an edge's ends have no mean for its midpoint");
+        }
         for (const auto& [a, b] : new_vertex_ends) {
             for (std::size_t k = 0; k < components; ++k) {
                 values.push_back(
@@ -63,8 +61,9 @@ struct Adaptation {
     }
 
     /// Values of cells, `components` for each. Takes time in proportion to the cells that changed
-    /// where they keep their numbers. Throws std::invalid_argument where the values do not fit, or
-    /// T is no kind of number and they are to be divided or were pieces.
+    /// where they keep their numbers. Throws std::invalid_argument where the values do not fit,
+    /// where T is no kind of number and they are to be divided or were pieces, and where they are
+    /// whole numbers of which a mean or shares are wanted.
     template <class T>
     [[nodiscard]] std::vector<T> transfer_cells(std::vector<T> values, std::size_t components = 1,
                                                 CellValues children = CellValues::copied) const {
@@ -73,8 +72,12 @@ struct Adaptation {
         if (!is_number && (is_coarser() || children == CellValues::divided)) {
             throw std::invalid_argument("values of this type can be copied, and nothing else");
         }
+        if (std::is_integral_v<T> && (children == CellValues::averaged ||
+                                      (children == CellValues::divided && !is_coarser()))) {
+            throw std::invalid_argument("whole numbers cannot be averaged, nor divided");
+        }
         if constexpr (is_number) {
-            if (is_coarser()) return merged(values, components, children);
+            if (is_coarser()) return merged_values(values, components, cells, children);
         }
         const auto share = [&](const T& value, [[maybe_unused]] unsigned halvings) {
             if constexpr (is_number) {
@@ -124,32 +127,6 @@ private:
         }
         values.resize(vertices_before.size() * components);
         return values;
-    }
-
-    template <class T>
-    std::vector<T> merged(const std::vector<T>& values, std::size_t components,
-                          CellValues how) const {
-        const auto whole_of = cells.whole_of();
-        std::vector<std::uint8_t> pieces(cells.count(), 0);
-        for (const std::uint32_t whole : whole_of) ++pieces[whole];
-        std::vector<T> wholes(cells.count() * components);
-        for (std::size_t c = 0; c < whole_of.size(); ++c) {
-            const std::uint32_t whole = whole_of[c];
-            for (std::size_t k = 0; k < components; ++k) {
-                const T& value = values[c * components + k];
-                T& sum = wholes[whole * components + k];
-                if (pieces[whole] == 1) {
-                    sum = value;
-                } else if (how == CellValues::averaged) {
-                    sum += value / static_cast<T>(1U << cells.halvings()[c]);
-                } else if (how == CellValues::copied) {
-                    sum += value / static_cast<T>(pieces[whole]);
-                } else {
-                    sum += value;
-                }
-            }
-        }
-        return wholes;
     }
 
     static void check(std::size_t size, std::size_t count, std::size_t components) {

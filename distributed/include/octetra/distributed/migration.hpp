@@ -30,7 +30,7 @@ struct ValueLists {
 /// InputError where values do not fit the mesh as it was, OutOfMemory if one process has no memory.
 class Migration {
 public:
-    /// Nothing has moved: values stay as they are.
+    /// Nothing has moved, of whatever mesh: values stay as they are.
     Migration() = default;
 
     /// Has anything moved, on any process? The same on all.
@@ -73,9 +73,17 @@ public:
         std::size_t count_after = 0;
         std::vector<Message> messages;  ///< one for each partner
     };
+    /// Nothing has moved of a part with so many cells and vertices: values that fit it stay as they
+    /// are.
+    Migration(Communicator processes, std::size_t cell_count, std::size_t vertex_count)
+        : fits_(true),
+          processes_(std::move(processes)),
+          cells_{cell_count, cell_count, {}},
+          vertices_{vertex_count, vertex_count, {}} {}
     /// Partners ascend by rank, and are mutual; each process is one of its own.
     Migration(Communicator processes, std::vector<int> partners, Entities cells, Entities vertices)
         : changed_(true),
+          fits_(true),
           processes_(std::move(processes)),
           partners_(std::move(partners)),
           cells_(std::move(cells)),
@@ -85,6 +93,10 @@ private:
     /// Makes room for so many values, and says where.
     using Allocate = std::function<std::byte*(std::size_t)>;
 
+    /// Collective. Where nothing has moved.
+    void check_values(const Entities& entities, std::size_t count) const;
+    void check_lists(const Entities& entities, std::span<const std::uint64_t> begin,
+                     std::size_t count) const;
     /// Collective. Each entity has `size` bytes of `values`.
     void move_values(const Entities& entities, std::span<const std::byte> values, std::size_t size,
                      const Allocate& allocate) const;
@@ -97,7 +109,12 @@ private:
     [[nodiscard]] std::vector<T> moved(const Entities& entities, std::vector<T> values,
                                        std::size_t components) const {
         static_assert(std::is_trivially_copyable_v<T> && !std::is_same_v<T, bool>);
-        if (!changed_) return values;
+        if (!changed_) {
+            if (components > 0) {
+                check_values(entities, (values.size() + components - 1) / components);
+            }
+            return values;
+        }
         std::vector<T> after;
         move_values(entities, std::as_bytes(std::span(values)), components * sizeof(T),
                     [&](std::size_t count) {
@@ -109,7 +126,10 @@ private:
     template <class T>
     [[nodiscard]] ValueLists<T> moved(const Entities& entities, ValueLists<T> lists) const {
         static_assert(std::is_trivially_copyable_v<T> && !std::is_same_v<T, bool>);
-        if (!changed_) return lists;
+        if (!changed_) {
+            check_lists(entities, lists.begin, lists.values.size());
+            return lists;
+        }
         ValueLists<T> after{.begin = {}, .values = {}};  // which takes no memory yet
         move_lists(entities, lists.begin, std::as_bytes(std::span(lists.values)), sizeof(T),
                    after.begin, [&](std::size_t count) {
@@ -120,6 +140,7 @@ private:
     }
 
     bool changed_ = false;
+    bool fits_ = false;  ///< a mesh, whose counts are known
     Communicator processes_;
     std::vector<int> partners_;
     Entities cells_;

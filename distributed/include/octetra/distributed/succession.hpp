@@ -107,4 +107,13 @@ private:
     std::vector<std::uint8_t> halvings_;
 };
 
+/// The pieces of each whole, one whole after the other: of number w, pieces[first[w]] to
+/// pieces[first[w + 1] - 1].
+struct PiecesOfWholes {
+    std::vector<std::uint32_t> first;
+    std::vector<std::uint32_t> pieces;
+};
+/// Of coarsening.
+[[nodiscard]] PiecesOfWholes pieces_of_wholes(const Succession& merges);
+
 }  // namespace octetra::distributed

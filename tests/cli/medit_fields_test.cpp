@@ -72,6 +72,24 @@ protected:
 
 constexpr auto ball = " --sphere 0.1,0.2,0.3,0.5 --levels 2 ";
 
+/// The format goes column by column through the upper triangle; VTK has the diagonal first.
+TEST_F(MeditFields, OfSymmetricTensorsAreInTheOrderOfVtkAndGoBackAsTheyCame) {
+    const AdaptiveMesh mesh = AdaptiveMesh::read(Communicator(), folder / "m.mesh");
+    std::ofstream sol(folder / "t.sol");
+    sol << "MeshVersionFormatted 2\nDimension 3\nSolAtVertices\n"
+        << mesh.points().size() << "\n1 3\n";
+    std::vector<double> expected;
+    for (std::size_t v = 0; v < mesh.points().size(); ++v) {
+        sol << "11 12 22 13 23 33\n";
+        expected.insert(expected.end(), {11, 22, 33, 12, 23, 13});
+    }
+    sol << "End\n";
+    sol.close();
+    EXPECT_EQ(std::get<0>(mesh.read_fields(folder / "t.sol").at(0).values), expected);
+    run("convert m.mesh u.mesh --fields t.sol");
+    EXPECT_THAT(content_of(folder / "u.sol"), HasSubstr("11 12 22 13 23 33\n"));
+}
+
 TEST_F(MeditFields, AreMeansAtMidpointsAndTheParentsOnCells) {
     run("refine m.mesh --fields m.sol" + std::string(ball) + "-o fine.mesh --maps p.txt");
     const AdaptiveMesh mesh = AdaptiveMesh::read(Communicator(), folder / "fine.mesh");

@@ -113,6 +113,16 @@ class ByH5py(Case):
         self.assertEqual(self.values(grids["mesh"].find("Geometry/DataItem")).shape, (27, 3))
 
 
+    def test_finds_symmetric_tensors_in_the_order_of_rows(self):
+        self.octetra("generate", "kuhn", "1", "-o", "k.mesh")
+        (self.path / "t.sol").write_text("MeshVersionFormatted 2 Dimension 3 SolAtVertices 8 1 3\n" +
+                                         "11 12 22 13 23 33\n" * 8 + "End\n")
+        self.octetra("convert", "k.mesh", "k.xdmf", "--fields", "t.sol")
+        attribute = self.grids("k.xdmf")["mesh"].find("Attribute[@Name='sol_1']")
+        self.assertEqual(attribute.get("AttributeType"), "Tensor6")
+        self.assertEqual(self.values(attribute.find("DataItem")).tolist(), [[11, 12, 13, 22, 23, 33]] * 8)
+
+
 class ByMeshio(Case):
     def test_finds_points_cells_and_fields(self):
         """It reads one grid."""

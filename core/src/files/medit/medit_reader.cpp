@@ -331,7 +331,7 @@ std::string note_on_skipped(const std::filesystem::path& path, std::uint64_t lin
 }
 
 std::string note_on_missing_end(const std::filesystem::path& path) {
-    return fmt::format("{}: the file ends without the keyword End", path.native());
+    return fmt::format("{}: the file ends without the keyword End: was it cut off?", path.native());
 }
 
 Mesh read_medit(const std::filesystem::path& path, const ReadOptions& options) {

@@ -1,14 +1,21 @@
 #include "files/medit/sol_sections.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numeric>
 
 #include <fmt/format.h>
 
+#include <octetra/core/files/sol_files.hpp>
 #include <octetra/core/point.hpp>
 
 namespace octetra {
+
+std::size_t place_in_sol(std::size_t component, std::size_t components) {
+    constexpr std::array<std::size_t, 6> of_symmetric{0, 2, 5, 1, 4, 3};
+    return components == of_symmetric.size() ? of_symmetric.at(component) : component;
+}
 
 std::int32_t sol_type(std::size_t components) {
     const auto found = std::ranges::find(sol_components, components);

@@ -57,7 +57,8 @@ void put_column(std::span<const std::byte> bytes, const Column& column, std::siz
     for (std::size_t i = 0; i < bytes.size() / sizeof(T); ++i) {
         T value;
         std::memcpy(&value, bytes.data() + i * sizeof(T), sizeof(T));
-        rows[i / components * width + column.at + i % components] = static_cast<double>(value);
+        const std::size_t place = place_in_sol(i % components, components);
+        rows[i / components * width + column.at + place] = static_cast<double>(value);
     }
 }
 

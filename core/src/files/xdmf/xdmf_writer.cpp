@@ -1,5 +1,8 @@
 #include "files/xdmf/xdmf.hpp"
 
+#include <array>
+#include <cstddef>
+#include <cstring>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -17,6 +20,27 @@ namespace octetra {
 namespace {
 
 namespace fs = std::filesystem;
+
+/// A symmetric tensor, xx, yy, zz, xy, yz, xz as in VTK, as xx, xy, xz, yy, yz, zz; all else as it
+/// is.
+VtuArray in_order_of_xdmf(VtuArray array) {
+    static constexpr std::array<std::size_t, 6> component_at{0, 3, 5, 1, 4, 2};
+    if (array.components != component_at.size()) return array;
+    const auto in_order_of_vtk = std::move(array.bytes_of_slice);
+    array.bytes_of_slice = [in_order_of_vtk, size = array.value_size](const Window& window,
+                                                                      std::vector<char>& out) {
+        std::vector<char> bytes;
+        in_order_of_vtk(window, bytes);
+        out.resize(bytes.size());
+        for (std::size_t row = 0; row < bytes.size(); row += component_at.size() * size) {
+            for (std::size_t k = 0; k < component_at.size(); ++k) {
+                std::memcpy(out.data() + row + k * size,
+                            bytes.data() + row + component_at[k] * size, size);
+            }
+        }
+    };
+    return array;
+}
 
 /// Both files as they grow: the groups and datasets of one, and the text of the other that names
 /// them. DOLFINx asks for grids by name, and of a grid of tags for its only attribute.
@@ -86,7 +110,7 @@ private:
                         const std::vector<VtuArray>& arrays) {
         for (std::size_t k = 0; k < arrays.size(); ++k) {
             put_attribute(arrays[k].name, center,
-                          add(fmt::format("{}/{}", group, k + 1), arrays[k]));
+                          add(fmt::format("{}/{}", group, k + 1), in_order_of_xdmf(arrays[k])));
         }
     }
 

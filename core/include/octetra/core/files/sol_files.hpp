@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -21,6 +22,10 @@ namespace octetra {
 /// Can such a file hold this field, to the bit? Those of 1, 3, 6 or 9 components can be held but
 /// for whole numbers of 64 bits.
 [[nodiscard]] bool sol_can_hold(const FieldFacts& field);
+
+/// Where in the row of a field of so many components this one stands. A symmetric tensor is xx, yy,
+/// zz, xy, yz, xz as in VTK, and in Medit's files column by column, xx, xy, yy, xz, yz, zz.
+[[nodiscard]] std::size_t place_in_sol(std::size_t component, std::size_t components);
 
 /// What the field of vertices, or of cells, is called that is the number-th in its list, counted
 /// from 1: "sol_1" ...

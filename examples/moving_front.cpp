@@ -7,6 +7,7 @@
 //     front.mesh
 #include <mpi.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>

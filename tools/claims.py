@@ -51,7 +51,9 @@ def page_of(sections):
              "What Octetra promises, and the tests that fail if it is not so. Made by "
              "`tools/claims.py --write` of", "`tests/claims.txt`; do not edit. "
              "[TESTING.md](../TESTING.md) says how to run a test; `grep -rn CASE tests/` finds one by",
-             "the last part of its name."]
+             "the last part of its name. Cases of programs that run under mpirun have no test of their own:",
+             "`tests/support/mpirun.sh 3 build/release/tests/distributed/test_equality",
+             "--gtest_filter='*LatticeFullOfTies*'` runs one of them on 3 ranks."]
     for heading, claims in sections:
         lines += ["", f"## {heading}", "", "| claim | tests |", "|---|---|"]
         lines += [f"| {claim} | {', '.join(f'`{test}`' for test in tests)} |"

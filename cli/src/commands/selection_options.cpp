@@ -1,6 +1,8 @@
 #include "commands/selection_options.hpp"
 
 #include <limits>
+#include <string>
+#include <vector>
 
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
@@ -45,13 +47,16 @@ bool is_tag(const std::string& text) {
     return text.empty() || text.find_first_of("0123456789+- ") == 0;
 }
 
-Marker tag_of(const std::string& name, const std::vector<GroupName>& groups) {
+/// One name may be that of several groups.
+std::vector<Marker> tags_of(const std::string& name, const std::vector<GroupName>& groups) {
+    std::vector<Marker> tags;
     std::string known;
     for (const GroupName& group : groups) {
         if (group.dimension != 3) continue;
-        if (group.name == name) return group.tag;
+        if (group.name == name) tags.push_back(group.tag);
         known += (known.empty() ? "" : ", ") + group.name;
     }
+    if (!tags.empty()) return tags;
     if (known.empty()) {
         throw InputError(fmt::format(
             "--region: no group of cells of this mesh has a name, and '{}' is no tag", name));
@@ -143,8 +148,12 @@ void complete_selection(Selection& selection, const SelectionOptions& options,
     check_regions(options, mesh.has_regions);
     selection.regions.clear();
     for (const std::string& text : options.regions) {
-        selection.regions.push_back(is_tag(text) ? parse_tag(text)
-                                                 : tag_of(text, mesh.group_names.list()));
+        if (is_tag(text)) {
+            selection.regions.push_back(parse_tag(text));
+        } else {
+            const auto tags = tags_of(text, mesh.group_names.list());
+            selection.regions.insert(selection.regions.end(), tags.begin(), tags.end());
+        }
     }
     if (!options.cells_file.empty()) {
         selection.cells = read_cell_list(options.cells_file, mesh.index_base, mesh.cells);

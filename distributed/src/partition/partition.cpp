@@ -168,8 +168,9 @@ std::vector<int> from_file(const std::filesystem::path& path, std::size_t cells,
         const auto [stop, error] = std::from_chars(line.data(), end, number);
         if (error != std::errc{} || stop != end || number >= static_cast<unsigned>(parts)) {
             throw InputError(
-                fmt::format("{}:{}: a part number from 0 to {} expected, as there are {} parts",
-                            path.native(), line_number, parts - 1, parts));
+                fmt::format("{}:{}: a part number from 0 to {} expected, as there are {} parts "
+                            "(octetra partition -n {} makes such a file)",
+                            path.native(), line_number, parts - 1, parts, parts));
         }
         part.push_back(static_cast<int>(number));
     }

@@ -17,7 +17,11 @@ std::string refined_line(int levels, int ranks) {
 void note_idle_levels(const RefineOptions& options, int levels) {
     if (options.refinement.levels == 0) return note("--levels 0: the mesh stays as it is");
     if (levels == options.refinement.levels) return;
-    note(levels == 0 ? std::string("no cell was marked: the mesh stays as it is")
+    const bool asks_for_regions = !options.refinement.selection.regions.empty();
+    note(levels == 0 ? fmt::format("no cell was marked: the mesh stays as it is{}",
+                                   asks_for_regions ? "; octetra info MESH shows how many cells "
+                                                      "each region has"
+                                                    : "")
                      : fmt::format("no cell was marked any more after level {} of {}", levels,
                                    options.refinement.levels));
 }

@@ -14,7 +14,7 @@ namespace {
     if (version == "4" || version == "4.0") {
         reader.fail(
             "version 4.0 is not supported: save the mesh in a newer one, with gmsh FILE.msh -save "
-            "-format msh41");
+            "-format msh41 -o NEW.msh");
     }
     reader.fail(fmt::format("versions 2.2 and 4.1 are supported, not {}", shown(version)));
 }
@@ -26,7 +26,7 @@ FormatLine read_format_line(LineReader& reader) {
     if (reader.line().starts_with("$NOD")) {
         reader.fail(
             "version 1 is not supported: save the mesh in a newer one, with gmsh FILE.msh -save "
-            "-format msh41");
+            "-format msh41 -o NEW.msh");
     }
     if (reader.line() != "$MeshFormat") {
         reader.fail(

@@ -190,6 +190,12 @@ TEST(MeditReader, TakesAFileThatLacksEndAndSaysSo) {
     EXPECT_THAT(note, HasSubstr("without the keyword End"));
 }
 
+TEST(MeditReader, RefusesAFileThatEndsBeforeItsTetrahedra) {
+    EXPECT_THAT(test::thrown_by<InputError>([&] { (void)read_medit_text(head + vertices); }),
+                HasSubstr("before the section Tetrahedra, and without the keyword End"));
+    EXPECT_TRUE(read_medit_text(head + vertices + "End\n").cells.empty());  // it may have none
+}
+
 TEST(MeditReader, SaysOnlyOneThingOfAFileThatIsAllHead) {
     EXPECT_THROW((void)read_medit_text(head, {.note = [](const auto& n) { FAIL() << n; }}),
                  InputError);

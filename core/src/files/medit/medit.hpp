@@ -22,12 +22,16 @@ namespace octetra {
 void stream_medit(const std::filesystem::path& path, MeshSink& sink, const ReadOptions& options);
 void stream_meshb(const std::filesystem::path& path, MeshSink& sink, const ReadOptions& options);
 
-/// What a reader says of a section that is not kept, and of a file without the last keyword.
+/// What a reader says of a section that is not kept.
 [[nodiscard]] std::string note_on_skipped(const std::filesystem::path& path, std::uint64_t line,
                                           std::uint64_t count, std::string_view keyword);
 /// The same of a section of a binary file, of which only the keyword's code is known.
 [[nodiscard]] std::string note_on_section(const std::filesystem::path& path,
                                           std::uint64_t keyword_at, std::int32_t code);
+/// Why a file is refused that has neither the keyword End nor a section Tetrahedra.
+inline constexpr std::string_view ends_early =
+    "the file ends before the section Tetrahedra, and without the keyword End: was it cut off?";
+/// Of a file that lacks that keyword alone.
 [[nodiscard]] std::string note_on_missing_end(const std::filesystem::path& path);
 
 /// Collective. Returns what of the mesh the format cannot hold, in a sentence, or nothing.

@@ -85,6 +85,7 @@ private:
         const std::string keyword{tokens_.text()};
         if (keyword.empty()) {
             if (vertices_.keyword_line == 0) reader_.fail("there is no section Vertices");
+            if (tetrahedra_.keyword_line == 0) reader_.fail(std::string(ends_early));
             options_->note(note_on_missing_end(reader_.path()));
             return false;
         }

@@ -150,7 +150,8 @@ MeditPlan medit_plan(const fs::path& path, const std::vector<NumberedLine>& keyw
             leave_it_to_one_process();
         }
     }
-    if (plan.vertices.is_there == 0) leave_it_to_one_process();
+    const bool ends_too_early = plan.has_end == 0 && plan.tetrahedra.is_there == 0;
+    if (plan.vertices.is_there == 0 || ends_too_early) leave_it_to_one_process();
     return plan;
 }
 

@@ -51,6 +51,7 @@ py::dict dict_of(const quality::MeshStatistics& found) {
     all["boundary_area"] = found.boundary_area;
     all["regions"] = sizes(found.regions);
     all["facet_markers"] = sizes(found.facet_markers);
+    all["edge_markers"] = sizes(found.edge_markers);
     all["edge_length"] = range(found.edge_length);
     all["cell_volume"] = range(found.cell_volume);
     all["face_angle"] = range(found.face_angle);
@@ -102,8 +103,8 @@ void bind_quality(py::module_& module) {
         "statistics", &statistics, py::arg("mesh"),
         "Collective. What `octetra info` tells of the whole mesh, on all ranks; the first "
         "one must have the memory for it. Ranges are (least, greatest), or None where there "
-        "is no cell; regions and facet_markers are {tag: (count, volume or area)}; angles "
-        "are in degrees.");
+        "is no cell; regions, facet_markers and edge_markers are {tag: (count, volume, area or "
+        "length)}; angles are in degrees.");
 }
 
 }  // namespace octetra::python

@@ -169,6 +169,22 @@ std::vector<TagTotal> measure_facets(const Mesh& mesh) {
     return totals.ascending();
 }
 
+std::vector<TagTotal> measure_tagged_edges(const Mesh& mesh) {
+    TagTotals totals;
+    if (mesh.edge_markers.empty()) return {};
+    for (EdgeIndex e{0}; e < mesh.edges.end_index(); ++e) {
+        const auto& [a, b] = mesh.edges[e];
+        totals.add(mesh.edge_markers[e], distance(mesh.points[a], mesh.points[b]));
+    }
+    return totals.ascending();
+}
+
+FeatureCounts count_features(const Mesh& mesh) {
+    FeatureCounts counts;
+    for (const Feature feature : all_features) counts[feature] = mesh.features[feature].size();
+    return counts;
+}
+
 std::int64_t euler_characteristic(const EntityCounts& counts) {
     const auto plus = static_cast<std::int64_t>(counts.vertices - counts.unused_vertices);
     const auto minus = static_cast<std::int64_t>(counts.edges);
@@ -202,6 +218,8 @@ MeshStatistics measure(const Mesh& mesh) {
     measure_faces(mesh, out);
     measure_cells(mesh, out);
     out.facet_markers = measure_facets(mesh);
+    out.edge_markers = measure_tagged_edges(mesh);
+    out.counts.features = count_features(mesh);
     out.counts.components = count_components(mesh);
     out.counts.euler_characteristic = euler_characteristic(out.counts);
     if (!mesh.cells.empty()) {

@@ -415,6 +415,21 @@ TEST(Measure, FacetMarkersHaveTheirTaggedFacetsAndAreas) {
     expect_total(s.facet_markers[1], 2, 2, 1);
 }
 
+TEST(Measure, EdgeMarkersHaveTheirTaggedEdgesAndLengthsAndFeaturesAreCounted) {
+    Mesh mesh = mesh_of(cube_corner);
+    mesh.edges = {{VertexIndex{0}, VertexIndex{1}}, {VertexIndex{1}, VertexIndex{3}}};
+    mesh.edge_markers = {4, -1};
+    mesh.features[Feature::ridges] = {0, 1};
+    mesh.features[Feature::required_vertices] = {3};
+    const MeshStatistics s = measure(mesh);
+    ASSERT_EQ(s.edge_markers.size(), 2);
+    expect_total(s.edge_markers[0], -1, 1, std::sqrt(2.0));
+    expect_total(s.edge_markers[1], 4, 1, 1);
+    EXPECT_EQ(s.counts.features[Feature::ridges], 2);
+    EXPECT_EQ(s.counts.features[Feature::required_vertices], 1);
+    EXPECT_EQ(s.counts.features[Feature::corners], 0);
+}
+
 TEST(Measure, WithoutTagsAndMarkersThereAreNoTotals) {
     Mesh mesh = mesh_of(cube_corner);
     mesh.facets = {facet(0, 1, 2)};
@@ -424,6 +439,7 @@ TEST(Measure, WithoutTagsAndMarkersThereAreNoTotals) {
     EXPECT_EQ(s.counts.tagged_edges, 2);
     EXPECT_THAT(s.regions, IsEmpty());
     EXPECT_THAT(s.facet_markers, IsEmpty());
+    EXPECT_THAT(s.edge_markers, IsEmpty());
 }
 
 }  // namespace

@@ -101,6 +101,15 @@ void add_counts(Table& table, const quality::EntityCounts& counts) {
     table.row("Euler characteristic", fmt::format("{}", counts.euler_characteristic));
 }
 
+/// What Medit's files single out; nothing where there is none.
+void add_features(Table& table, const FeatureCounts& counts) {
+    if (!has_any(counts)) return;
+    table.heading("Features", "count");
+    for (const Feature feature : all_features) {
+        if (counts[feature] > 0) table.row(name_of(feature), shown(counts[feature]));
+    }
+}
+
 void add_extent(Table& table, const quality::MeshStatistics& s) {
     table.heading("Extent, in the mesh's units", "minimum", "maximum", "size");
     const auto row = [&](const char* name, double low, double high) {
@@ -188,6 +197,8 @@ std::string format_table(const quality::MeshStatistics& s, const std::vector<Gro
     add_extent(table, s);
     add_tags(table, s.regions, "Region", "cells", "volume", 3, names);
     add_tags(table, s.facet_markers, "Facet marker", "facets", "area", 2, names);
+    add_tags(table, s.edge_markers, "Edge marker", "edges", "length", 1, names);
+    add_features(table, s.counts.features);
     add_shapes(table, s);
     add_adjacency(table, s.adjacency);
     table.histogram("Dihedral angle, degrees", s.dihedral_histogram);

@@ -23,6 +23,9 @@
 ///                          group that has one also its name
 ///     facet_markers        [{marker, facets, area}, ...] ascending by marker, of tagged facets;
 ///                          likewise
+///     edge_markers         [{marker, edges, length}, ...] of tagged edges; likewise
+///     features             {corners, required_vertices, ridges, required_edges, required_facets,
+///                          required_cells}: how many
 ///     edge_length          {min, max}, or null
 ///     cell_volume          {min, max}, or null
 ///     face_angle           {min, max} in degrees, or null

@@ -1,4 +1,6 @@
+#include <algorithm>
 #include <optional>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -34,6 +36,16 @@ Json json(const quality::Adjacency& adjacency) {
             {"faces_per_edge", adjacency.faces_per_edge},
             {"max_cells_at_edge", adjacency.max_cells_at_edge},
             {"max_cells_at_vertex", adjacency.max_cells_at_vertex}};
+}
+
+Json json(const FeatureCounts& counts) {
+    Json out = Json::object();
+    for (const Feature feature : all_features) {
+        std::string name(name_of(feature));
+        std::ranges::replace(name, ' ', '_');
+        out[name] = counts[feature];
+    }
+    return out;
 }
 
 Json json(const CheckpointFacts& facts) {
@@ -93,6 +105,8 @@ std::string format_json(const quality::MeshStatistics& s, const CheckpointFacts*
              {"boundary_area", s.boundary_area},
              {"regions", json(s.regions, "tag", "cells", "volume", 3, names)},
              {"facet_markers", json(s.facet_markers, "marker", "facets", "area", 2, names)},
+             {"edge_markers", json(s.edge_markers, "marker", "edges", "length", 1, names)},
+             {"features", json(s.counts.features)},
              {"edge_length", json(s.edge_length)},
              {"cell_volume", json(s.cell_volume)},
              {"face_angle", json(s.face_angle)},

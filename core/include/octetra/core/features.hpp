@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -29,6 +30,14 @@ inline constexpr std::array<Feature, feature_count> all_features{
 [[nodiscard]] constexpr std::size_t dimension_of(Feature feature) {
     constexpr std::array<std::size_t, feature_count> dimensions{0, 0, 1, 1, 2, 3};
     return dimensions.at(static_cast<std::size_t>(feature));
+}
+
+/// "corners", "required vertices" ...
+[[nodiscard]] constexpr std::string_view name_of(Feature feature) {
+    constexpr std::array<std::string_view, feature_count> names{
+        "corners",        "required vertices", "ridges",
+        "required edges", "required facets",   "required cells"};
+    return names.at(static_cast<std::size_t>(feature));
 }
 
 /// Something for each feature.

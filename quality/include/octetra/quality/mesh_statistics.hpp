@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include <octetra/core/features.hpp>
 #include <octetra/core/mesh.hpp>
 #include <octetra/core/selection.hpp>
 
@@ -24,6 +25,7 @@ struct EntityCounts {
     std::size_t tagged_facets = 0;
     std::size_t tagged_edges = 0;
     std::size_t unused_vertices = 0;  ///< vertices of no cell
+    FeatureCounts features;           ///< corners, ridges, and what is required
     /// Sets of cells that hang together; sharing one vertex is enough.
     std::size_t components = 0;
     /// Vertices - edges + faces - cells, without the unused vertices: 1 for a ball.
@@ -32,7 +34,8 @@ struct EntityCounts {
     friend bool operator==(const EntityCounts&, const EntityCounts&) = default;
 };
 
-/// The cells of one region tag and their volume, or the tagged facets of one marker and their area.
+/// The cells of one region tag and their volume, or the tagged facets of one marker and their area,
+/// or the tagged edges and their length.
 struct TagTotal {
     Marker tag = 0;
     std::size_t count = 0;
@@ -73,6 +76,7 @@ struct MeshStatistics {
     std::vector<TagTotal> regions;        ///< ascending by tag; empty where the mesh has no tags
     double boundary_area = 0;             ///< of the boundary faces, tagged or not
     std::vector<TagTotal> facet_markers;  ///< likewise; of the tagged facets only
+    std::vector<TagTotal> edge_markers;   ///< likewise; of the tagged edges only
 
     std::optional<Range> edge_length;
     std::optional<Range> cell_volume;

@@ -72,6 +72,12 @@ protected:
 
 constexpr auto ball = " --sphere 0.1,0.2,0.3,0.5 --levels 2 ";
 
+TEST_F(MeditFields, AreMissedWhereAFileHasNone) {
+    std::ofstream(folder / "none.sol") << "MeshVersionFormatted 2\nDimension 3\nEnd\n";
+    EXPECT_THAT(test::octetra("convert m.mesh o.vtu --fields none.sol", folder).err,
+                HasSubstr("none.sol: there are no fields of vertices or cells"));
+}
+
 /// The format goes column by column through the upper triangle; VTK has the diagonal first.
 TEST_F(MeditFields, OfSymmetricTensorsAreInTheOrderOfVtkAndGoBackAsTheyCame) {
     const AdaptiveMesh mesh = AdaptiveMesh::read(Communicator(), folder / "m.mesh");

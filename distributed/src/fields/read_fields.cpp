@@ -99,6 +99,9 @@ std::vector<Field> read_fields(const DistributedMesh& mesh, std::span<const Cell
     }
     if (processes.is_first()) {
         for (const std::string& what : read.notes) note(what);
+        if (fields.empty()) {
+            note(fmt::format("{}: there are no fields of vertices or cells", path.native()));
+        }
     }
     return fields;
 }

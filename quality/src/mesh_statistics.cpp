@@ -219,7 +219,7 @@ MeshStatistics measure(const Mesh& mesh) {
     measure_cells(mesh, out);
     out.facet_markers = measure_facets(mesh);
     out.edge_markers = measure_tagged_edges(mesh);
-    out.counts.features = count_features(mesh);
+    out.features = count_features(mesh);
     out.counts.components = count_components(mesh);
     out.counts.euler_characteristic = euler_characteristic(out.counts);
     if (!mesh.cells.empty()) {

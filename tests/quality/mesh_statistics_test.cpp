@@ -425,9 +425,9 @@ TEST(Measure, EdgeMarkersHaveTheirTaggedEdgesAndLengthsAndFeaturesAreCounted) {
     ASSERT_EQ(s.edge_markers.size(), 2);
     expect_total(s.edge_markers[0], -1, 1, std::sqrt(2.0));
     expect_total(s.edge_markers[1], 4, 1, 1);
-    EXPECT_EQ(s.counts.features[Feature::ridges], 2);
-    EXPECT_EQ(s.counts.features[Feature::required_vertices], 1);
-    EXPECT_EQ(s.counts.features[Feature::corners], 0);
+    EXPECT_EQ(s.features[Feature::ridges], 2);
+    EXPECT_EQ(s.features[Feature::required_vertices], 1);
+    EXPECT_EQ(s.features[Feature::corners], 0);
 }
 
 TEST(Measure, WithoutTagsAndMarkersThereAreNoTotals) {

@@ -198,7 +198,7 @@ std::string format_table(const quality::MeshStatistics& s, const std::vector<Gro
     add_tags(table, s.regions, "Region", "cells", "volume", 3, names);
     add_tags(table, s.facet_markers, "Facet marker", "facets", "area", 2, names);
     add_tags(table, s.edge_markers, "Edge marker", "edges", "length", 1, names);
-    add_features(table, s.counts.features);
+    add_features(table, s.features);
     add_shapes(table, s);
     add_adjacency(table, s.adjacency);
     table.histogram("Dihedral angle, degrees", s.dihedral_histogram);

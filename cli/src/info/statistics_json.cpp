@@ -106,7 +106,7 @@ std::string format_json(const quality::MeshStatistics& s, const CheckpointFacts*
              {"regions", json(s.regions, "tag", "cells", "volume", 3, names)},
              {"facet_markers", json(s.facet_markers, "marker", "facets", "area", 2, names)},
              {"edge_markers", json(s.edge_markers, "marker", "edges", "length", 1, names)},
-             {"features", json(s.counts.features)},
+             {"features", json(s.features)},
              {"edge_length", json(s.edge_length)},
              {"cell_volume", json(s.cell_volume)},
              {"face_angle", json(s.face_angle)},

@@ -25,7 +25,6 @@ struct EntityCounts {
     std::size_t tagged_facets = 0;
     std::size_t tagged_edges = 0;
     std::size_t unused_vertices = 0;  ///< vertices of no cell
-    FeatureCounts features;           ///< corners, ridges, and what is required
     /// Sets of cells that hang together; sharing one vertex is enough.
     std::size_t components = 0;
     /// Vertices - edges + faces - cells, without the unused vertices: 1 for a ball.
@@ -87,6 +86,8 @@ struct MeshStatistics {
     Histogram eta_histogram{0, 1, 10};
 
     std::optional<Adjacency> adjacency;
+
+    FeatureCounts features;  ///< how many corners and ridges, and what is required
 };
 
 /// Needs vertex numbers in range and nothing else of the invariants of struct Mesh. Memory beside

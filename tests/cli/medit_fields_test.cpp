@@ -184,7 +184,7 @@ TEST_F(MeditFields, OfEveryVersionAndByteOrderAreRefined) {
         std::vector<double> tensors;
         for (const auto& [x, y, z] : mesh.points()) {
             heights.push_back(x + 2 * y + 4 * z);
-            for (const double value : {1 + x, 0.5 * y, 2.0, 0.0, -0.25 * z, 3.0}) {
+            for (const double value : {1 + x, 2.0, 3.0, 0.5 * y, -0.25 * z, 0.0}) {
                 tensors.push_back(value);
             }
         }

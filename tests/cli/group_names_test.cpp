@@ -90,6 +90,18 @@ TEST_F(GroupNames, StandForTheTagsOfRegions) {
     EXPECT_EQ(test::octetra("verify " + mesh + "tag.msh --region 2 --levels 2", folder).status, 1);
 }
 
+TEST_F(GroupNames, OfSeveralGroupsStandForAllOfThem) {
+    std::string text = test::content_of(folder / "gmsh-box-22.msh");
+    const std::size_t at = text.find("\"air above\"");
+    ASSERT_NE(at, std::string::npos);
+    (void)folder.write("same.msh", text.replace(at, 11, "\"steel\""));
+    (void)run("refine same.msh --region steel -o name.msh");
+    (void)run("refine same.msh --region 2 --region 7 -o tags.msh");
+    EXPECT_EQ(test::content_of(folder / "name.msh"), test::content_of(folder / "tags.msh"));
+    (void)run("refine same.msh --region 7 -o one.msh");
+    EXPECT_NE(test::content_of(folder / "name.msh"), test::content_of(folder / "one.msh"));
+}
+
 TEST_F(GroupNames, ThatNoGroupHasAreRefusedWithThoseThereAre) {
     for (const int ranks : {0, 2}) {
         const std::string command = "refine gmsh-box-41b.msh --region steal -o x.msh";

@@ -31,8 +31,9 @@ public:
                 fields_.push_back({"f", list.on, FieldType::float64, components});
                 auto& values = values_.emplace_back();
                 for (std::size_t row = 0; row < list.values.size(); row += list.width()) {
-                    const double* const first = list.values.data() + row + at;
-                    values.insert(values.end(), first, first + components);
+                    for (std::size_t k = 0; k < components; ++k) {
+                        values.push_back(list.values[row + at + place_in_sol(k, components)]);
+                    }
                 }
                 at += components;
             }

@@ -90,11 +90,11 @@ TEST(Json, HasTheNamesThatTheHeaderPromises) {
     const json out = json::parse(format_json(sample()));
     for (const char* name :
          {"counts", "bounding_box", "volume", "boundary_area", "regions", "facet_markers",
-          "edge_length", "cell_volume", "face_angle", "dihedral_angle", "eta", "dihedral_histogram",
-          "eta_histogram", "adjacency"}) {
+          "edge_markers", "features", "edge_length", "cell_volume", "face_angle", "dihedral_angle",
+          "eta", "dihedral_histogram", "eta_histogram", "adjacency"}) {
         EXPECT_TRUE(out.contains(name)) << name;
     }
-    EXPECT_EQ(out.size(), 14);
+    EXPECT_EQ(out.size(), 16);
     EXPECT_EQ(out["counts"].size(), 11);
     EXPECT_EQ(out["adjacency"].size(), 6);
 }

@@ -26,7 +26,7 @@ struct FieldRows {
     std::vector<std::size_t> components;  ///< of each field
     std::uint64_t count = 0;              ///< rows of the whole
     std::uint64_t first = 0;              ///< number of the first row that this process has
-    std::vector<double> values;           ///< of its rows, one after the other
+    std::vector<double> values;           ///< of its rows as the file has them; see place_in_sol()
 
     [[nodiscard]] std::size_t width() const {
         return std::accumulate(components.begin(), components.end(), std::size_t{0});

@@ -129,7 +129,7 @@ TEST(MergedValue, IsWhatAllPiecesHaveToTheBitAndElseTheirMeanInNoOrder) {
     const auto of = []<class T>(CellValues how, std::vector<distributed::PieceValue<T>> pieces) {
         std::vector<T> found;
         for (std::size_t k = 0; k < pieces.size(); ++k) {
-            std::ranges::rotate(pieces, pieces.begin() + 1);
+            std::rotate(pieces.begin(), pieces.begin() + 1, pieces.end());
             auto rotated = pieces;
             found.push_back(merged_value(std::span(rotated), how));
         }

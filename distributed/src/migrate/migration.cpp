@@ -44,10 +44,11 @@ void sum_up(std::vector<std::uint64_t>& lengths) {
 
 }  // namespace
 
-void Migration::check_values(const Entities& entities, std::size_t count) const {
+void Migration::check_values(const Entities& entities, std::size_t count,
+                             std::size_t components) const {
     if (!fits_) return;
     LocalFailure failure;
-    failure.attempt([&] { check(processes_, count, entities.count_before); });
+    failure.attempt([&] { check(processes_, count, entities.count_before * components); });
     failure.agree(processes_);
 }
 
@@ -60,11 +61,12 @@ void Migration::check_lists(const Entities& entities, std::span<const std::uint6
 }
 
 void Migration::move_values(const Entities& entities, std::span<const std::byte> values,
-                            std::size_t size, const Allocate& allocate) const {
+                            std::size_t components, std::size_t size,
+                            const Allocate& allocate) const {
     LocalFailure failure;
     failure.attempt([&] {
         if (size == 0) return;
-        check(processes_, (values.size() + size - 1) / size, entities.count_before);
+        check(processes_, values.size() / (size / components), entities.count_before * components);
     });
     const auto pack = [&](const std::vector<std::uint32_t>& sent) {
         MessageBytes message(sent.size() * size);

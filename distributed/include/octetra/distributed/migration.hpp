@@ -94,12 +94,12 @@ private:
     using Allocate = std::function<std::byte*(std::size_t)>;
 
     /// Collective. Where nothing has moved.
-    void check_values(const Entities& entities, std::size_t count) const;
+    void check_values(const Entities& entities, std::size_t count, std::size_t components) const;
     void check_lists(const Entities& entities, std::span<const std::uint64_t> begin,
                      std::size_t count) const;
-    /// Collective. Each entity has `size` bytes of `values`.
-    void move_values(const Entities& entities, std::span<const std::byte> values, std::size_t size,
-                     const Allocate& allocate) const;
+    /// Collective. Each entity has `components` values of `size` bytes together.
+    void move_values(const Entities& entities, std::span<const std::byte> values,
+                     std::size_t components, std::size_t size, const Allocate& allocate) const;
     /// Collective. As ValueLists; a value has `size` bytes.
     void move_lists(const Entities& entities, std::span<const std::uint64_t> begin,
                     std::span<const std::byte> values, std::size_t size,
@@ -110,13 +110,11 @@ private:
                                        std::size_t components) const {
         static_assert(std::is_trivially_copyable_v<T> && !std::is_same_v<T, bool>);
         if (!changed_) {
-            if (components > 0) {
-                check_values(entities, (values.size() + components - 1) / components);
-            }
+            if (components > 0) check_values(entities, values.size(), components);
             return values;
         }
         std::vector<T> after;
-        move_values(entities, std::as_bytes(std::span(values)), components * sizeof(T),
+        move_values(entities, std::as_bytes(std::span(values)), components, components * sizeof(T),
                     [&](std::size_t count) {
                         after.resize(count * components);
                         return std::as_writable_bytes(std::span(after)).data();

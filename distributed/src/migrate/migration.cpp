@@ -46,7 +46,7 @@ void sum_up(std::vector<std::uint64_t>& lengths) {
 
 void Migration::check_values(const Entities& entities, std::size_t count,
                              std::size_t components) const {
-    if (!fits_) return;
+    if (!knows_counts_) return;
     LocalFailure failure;
     failure.attempt([&] { check(processes_, count, entities.count_before * components); });
     failure.agree(processes_);
@@ -54,7 +54,7 @@ void Migration::check_values(const Entities& entities, std::size_t count,
 
 void Migration::check_lists(const Entities& entities, std::span<const std::uint64_t> begin,
                             std::size_t count) const {
-    if (!fits_) return;
+    if (!knows_counts_) return;
     LocalFailure failure;
     failure.attempt([&] { check(processes_, begin, count, entities.count_before); });
     failure.agree(processes_);

@@ -76,14 +76,14 @@ public:
     /// Nothing has moved of a part with so many cells and vertices: values that fit it stay as they
     /// are.
     Migration(Communicator processes, std::size_t cell_count, std::size_t vertex_count)
-        : fits_(true),
+        : knows_counts_(true),
           processes_(std::move(processes)),
           cells_{cell_count, cell_count, {}},
           vertices_{vertex_count, vertex_count, {}} {}
     /// Partners ascend by rank, and are mutual; each process is one of its own.
     Migration(Communicator processes, std::vector<int> partners, Entities cells, Entities vertices)
         : changed_(true),
-          fits_(true),
+          knows_counts_(true),
           processes_(std::move(processes)),
           partners_(std::move(partners)),
           cells_(std::move(cells)),
@@ -138,7 +138,7 @@ private:
     }
 
     bool changed_ = false;
-    bool fits_ = false;  ///< a mesh, whose counts are known
+    bool knows_counts_ = false;  ///< of a mesh, which values are to fit
     Communicator processes_;
     std::vector<int> partners_;
     Entities cells_;

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include <octetra/core/huge_pages.hpp>
+
 namespace octetra {
 namespace {
 
@@ -17,7 +19,10 @@ using ByVertices = std::pair<CellVertices, CellIndex>;
 }  // namespace
 
 RepeatedCells::RepeatedCells(std::uint64_t cell_count)
-    : word_count_(cell_count / 4 + 1), seen_(word_count_, 0) {}
+    : word_count_(cell_count / 4 + 1) {
+    reserve_in_huge_pages(seen_, word_count_);  // looked at anywhere
+    seen_.resize(word_count_, 0);
+}
 
 /// All that wait.
 void RepeatedCells::look_up() {

@@ -3,7 +3,7 @@
 #include <octetra/distributed/adaptive_mesh.hpp>
 
 #include "adapt/mesh_state.hpp"
-#include "memory/huge_pages.hpp"
+#include <octetra/core/huge_pages.hpp>
 
 namespace octetra::distributed {
 namespace {

@@ -8,7 +8,7 @@
 
 #include "adapt/step_options.hpp"
 #include "comm/local_failure.hpp"
-#include "memory/huge_pages.hpp"
+#include <octetra/core/huge_pages.hpp>
 #include "sharing/sharing_builder.hpp"
 #include "sharing/vertex_sharing.hpp"
 

@@ -146,7 +146,7 @@ std::vector<int> parts_by_coordinates(const Communicator& processes, const Share
                                     {.count = roots.size(),
                                      .points = some,
                                      .number = [&](std::size_t i) { return roots[i].number; },
-                                     .weights = share.weights},
+                                     .weight = [&](std::size_t i) { return share.weights[i]; }},
                                     processes.size(), failure);
     failure.agree(processes);
     return parts;

@@ -12,7 +12,7 @@
 #include "coarsen/kept_vertices.hpp"
 #include "coarsen/level_shares.hpp"
 #include "history/families.hpp"
-#include "memory/huge_pages.hpp"
+#include <octetra/core/huge_pages.hpp>
 
 namespace octetra::distributed {
 

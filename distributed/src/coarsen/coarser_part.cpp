@@ -11,7 +11,7 @@
 #include "coarsen/level_shares.hpp"
 #include "comm/local_failure.hpp"
 #include "history/vertex_levels.hpp"
-#include "memory/huge_pages.hpp"
+#include <octetra/core/huge_pages.hpp>
 
 namespace octetra::distributed {
 namespace {

@@ -13,7 +13,7 @@
 
 #include "coarsen/coarser_list.hpp"
 #include "level/incremental/unordered_list.hpp"
-#include "memory/huge_pages.hpp"
+#include <octetra/core/huge_pages.hpp>
 
 namespace octetra::distributed {
 

@@ -6,7 +6,7 @@
 #include <octetra/distributed/distributed_mesh.hpp>
 
 #include "mark/selection_bounds.hpp"
-#include "memory/huge_pages.hpp"
+#include <octetra/core/huge_pages.hpp>
 
 namespace octetra::distributed {
 
@@ -21,7 +21,7 @@ public:
 
     /// After this, append() does not fail for a mesh of so many cells.
     void make_room(std::size_t cell_count) {
-        octetra::distributed::make_room(boxes_, (cell_count + size - 1) / size);
+        octetra::make_room(boxes_, (cell_count + size - 1) / size);
     }
 
     /// Takes in the mesh's cells from this one on.

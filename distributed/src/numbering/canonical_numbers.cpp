@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "memory/huge_pages.hpp"
+#include <octetra/core/huge_pages.hpp>
 #include "numbering/ranked.hpp"
 #include "sharing/vertex_sharing.hpp"
 

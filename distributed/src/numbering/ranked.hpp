@@ -15,7 +15,7 @@
 #include <octetra/distributed/distributed_mesh.hpp>
 
 #include "comm/local_failure.hpp"
-#include "memory/huge_pages.hpp"
+#include <octetra/core/huge_pages.hpp>
 #include "numbering/short_words.hpp"
 
 namespace octetra::distributed {

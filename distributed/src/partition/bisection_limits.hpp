@@ -72,7 +72,7 @@ private:
         return static_cast<std::size_t>(places_.box_of[i]);
     }
     [[nodiscard]] std::uint64_t weight(std::size_t i) const {
-        return points_->weights.empty() ? 1 : points_->weights[i];
+        return points_->weight ? points_->weight(i) : 1;
     }
     [[nodiscard]] Key key(std::size_t i, By by) const {
         return by == By::coordinate ? places_.coordinate[i] : points_->number(i);

@@ -120,17 +120,19 @@ std::vector<int> by_graph(const Mesh& mesh, int parts, PartitionMethod method,
 std::vector<int> by_coordinates(const Mesh& mesh, int parts, const std::vector<float>& weights) {
     if (!weights.empty()) check_weights(mesh.cells.size(), weights);
     const float least = weights.empty() ? 1 : std::ranges::min(weights);
-    const std::vector<std::uint64_t> of_points = whole_weights(weights, least);
     const auto places = [&](std::size_t first, std::span<Point> points) {
         for (Point& point : points) {
             const auto& [a, b, c, d] = mesh.cells[CellIndex{first++}];
             point = place_of({mesh.points[a], mesh.points[b], mesh.points[c], mesh.points[d]});
         }
     };
-    const WeighedPoints points{.count = mesh.cells.size(),
-                               .points = places,
-                               .number = [](std::size_t i) { return i; },
-                               .weights = of_points};
+    WeighedPoints points{.count = mesh.cells.size(),
+                         .points = places,
+                         .number = [](std::size_t i) { return i; },
+                         .weight = {}};
+    if (!weights.empty()) {
+        points.weight = [&](std::size_t i) { return whole_weight(weights[i], least); };
+    }
     LocalFailure failure;
     std::vector<int> part = bisect_coordinates(Communicator(), points, parts, failure);
     failure.agree(Communicator());

@@ -3,8 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <limits>
-#include <numeric>
 #include <span>
+
+#include <octetra/core/huge_pages.hpp>
 
 #include "comm/reduced_numbers.hpp"
 #include "partition/bisection_limits.hpp"
@@ -22,10 +23,12 @@ public:
           points_(&points),
           extremes_(6 * static_cast<std::size_t>(parts)),
           limits_(processes, points, parts),
-          coordinate_(points.count),
-          box_of_(points.count, 0),
           boxes_{{0, parts}},
           axis_{longest(extent_of_some())} {
+        reserve_in_huge_pages(coordinate_, points.count);
+        coordinate_.resize(points.count);
+        reserve_in_huge_pages(box_of_, points.count);
+        box_of_.resize(points.count, 0);
         searches_.reserve(static_cast<std::size_t>(parts));
         extents_.reserve(static_cast<std::size_t>(parts));
     }
@@ -184,16 +187,6 @@ private:
 
 }  // namespace
 
-std::vector<std::uint64_t> whole_weights(std::span<const float> weights, float least) {
-    constexpr double most = 0x1p+30;  // the sum of 2^32 of them is to fit
-    std::vector<std::uint64_t> whole(weights.size());
-    std::ranges::transform(weights, whole.begin(), [&](float weight) {
-        return static_cast<std::uint64_t>(
-            std::min(most, 1000.0 * static_cast<double>(weight) / static_cast<double>(least)));
-    });
-    return whole;
-}
-
 std::vector<int> bisect_coordinates(const Communicator& processes, const WeighedPoints& points,
                                     int parts, LocalFailure& failure) {
     std::vector<Bisection> bisection;
@@ -210,15 +203,13 @@ std::vector<int> bisect_coordinates(const Communicator& processes,
                                     const std::vector<WeighedPoint>& points, int parts,
                                     LocalFailure& failure) {
     WeighedPoints by_place;
-    std::vector<std::uint64_t> weights;
     failure.attempt([&] {
         by_place.count = points.size();
         by_place.points = [&](std::size_t first, std::span<Point> places) {
             for (Point& place : places) place = points[first++].point;
         };
         by_place.number = [&](std::size_t i) { return points[i].number; };
-        for (const WeighedPoint& point : points) weights.push_back(point.weight);
-        by_place.weights = weights;
+        by_place.weight = [&](std::size_t i) { return points[i].weight; };
     });
     return bisect_coordinates(processes, by_place, parts, failure);
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -39,12 +40,16 @@ struct WeighedPoints {
     /// level of the tree, in order, and a few again.
     std::function<void(std::size_t first, std::span<Point> points)> points;
     std::function<std::uint64_t(std::size_t)> number;
-    std::span<const std::uint64_t> weights;  ///< or empty: each weighs 1
+    std::function<std::uint64_t(std::size_t)> weight;  ///< or none: each weighs 1
 };
 
-/// Weights as whole numbers, the least of all of them, which is `least`, about a thousand. They are
-/// positive and finite; what is more than a million times the least is as much as that.
-[[nodiscard]] std::vector<std::uint64_t> whole_weights(std::span<const float> weights, float least);
+/// A weight as a whole number, the least of all, which is `least`, a thousand. Both are positive
+/// and finite; what is more than a million times the least is as much as that.
+[[nodiscard]] inline std::uint64_t whole_weight(float weight, float least) {
+    constexpr double most = 0x1p+30;  // the sum of 2^32 of them is to fit
+    return static_cast<std::uint64_t>(
+        std::min(most, 1000.0 * static_cast<double>(weight) / static_cast<double>(least)));
+}
 
 /// Collective. Recursive coordinate bisection: boxes are cut across their longest extent into two
 /// whose weights are as their numbers of parts, until each is one part. Returns the part, 0 to

@@ -65,18 +65,22 @@ private:
 
 using Weigh = std::function<std::vector<float>(const CellsToWeigh&)>;
 
-/// Collective. What rcb is to take the cells of this process's stretch for: empty where they weigh
-/// the same.
-std::vector<std::uint64_t> weights_of(const Communicator& processes, const MeshStretch& stretch,
-                                      const StretchCorners& corners, const Weigh& weigh,
-                                      LocalFailure& failure) {
+/// What rcb is to take cells for.
+struct Weights {
+    std::vector<float> of_cells;  // of this process's stretch; empty where all weigh the same
+    float least = 1;              // of all processes
+};
+
+/// Collective.
+Weights weights_of(const Communicator& processes, const MeshStretch& stretch,
+                   const StretchCorners& corners, const Weigh& weigh, LocalFailure& failure) {
     if (!weigh) return {};
     const std::size_t count = stretch.lists.cells.size();
-    const std::vector<float> weights = weigh({.processes = processes,
-                                              .first_number = stretch.first_cell,
-                                              .cells = corners.cells(),
-                                              .points = corners.points(),
-                                              .regions = stretch.lists.regions});
+    std::vector<float> weights = weigh({.processes = processes,
+                                        .first_number = stretch.first_cell,
+                                        .cells = corners.cells(),
+                                        .points = corners.points(),
+                                        .regions = stretch.lists.regions});
     if (processes.max(weights.empty() ? 0 : 1) == 0) return {};
     constexpr std::uint64_t complement = 0xffff'ffff;
     std::uint64_t least = complement;  // by bits, which positive numbers are ordered by
@@ -88,11 +92,7 @@ std::vector<std::uint64_t> weights_of(const Communicator& processes, const MeshS
     });
     failure.agree(processes);
     least = complement - processes.max(complement - least);
-    std::vector<std::uint64_t> whole;
-    failure.attempt([&] {
-        whole = whole_weights(weights, std::bit_cast<float>(static_cast<std::uint32_t>(least)));
-    });
-    return whole;
+    return {std::move(weights), std::bit_cast<float>(static_cast<std::uint32_t>(least))};
 }
 
 /// As even in numbers as can be.
@@ -215,15 +215,19 @@ private:
         CellPlaces places(corners);
         std::vector<int> parts;
         if (method == PartitionMethod::rcb) {
-            const auto weights = weights_of(processes_, stretch_, corners, weigh, failure_);
-            parts = bisect_coordinates(
-                processes_,
-                {.count = stretch_.lists.cells.size(),
-                 .points = [&](std::size_t first,
-                               std::span<Point> some) { places.write(first, some); },
-                 .number = [&](std::size_t i) { return stretch_.first_cell + i; },
-                 .weights = weights},
-                processes_.size(), failure_);
+            const Weights weights = weights_of(processes_, stretch_, corners, weigh, failure_);
+            WeighedPoints points{
+                .count = stretch_.lists.cells.size(),
+                .points = [&](std::size_t first,
+                              std::span<Point> some) { places.write(first, some); },
+                .number = [&](std::size_t i) { return stretch_.first_cell + i; },
+                .weight = {}};
+            if (!weights.of_cells.empty()) {
+                points.weight = [&](std::size_t i) {
+                    return whole_weight(weights.of_cells[i], weights.least);
+                };
+            }
+            parts = bisect_coordinates(processes_, points, processes_.size(), failure_);
         } else {
             failure_.attempt([&] { parts = parts_by_number(processes_, stretch_); });
         }

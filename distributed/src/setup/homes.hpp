@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include <octetra/core/huge_pages.hpp>
 #include <octetra/distributed/communicator.hpp>
 
 #include "comm/local_failure.hpp"
@@ -122,7 +123,7 @@ template <class T, class Number>
         answers.clear();
         std::size_t count = 0;
         for (const auto& answer : come) count += answer.size();
-        values.reserve(count);
+        reserve_in_huge_pages(values, count);
         for (auto& answer : come) {
             values.insert(values.end(), answer.begin(), answer.end());
             std::vector<T>().swap(answer);

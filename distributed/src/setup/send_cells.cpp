@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "memory/huge_pages.hpp"
+#include <octetra/core/huge_pages.hpp>
 
 namespace octetra::distributed {
 namespace {
@@ -64,31 +64,43 @@ CellsOfPart send_cells(const Communicator& processes, const MeshStretch& stretch
         boxes.resize(static_cast<std::size_t>(processes.size()));
     });
     const Mesh& lists = stretch.lists;
-    const std::uint64_t rounds = processes.max((parts.size() + at_once - 1) / at_once);
-    for (std::size_t begin = 0, round = 0; round < rounds; ++round) {
-        const std::size_t end = std::min(parts.size(), begin + at_once);
-        failure.attempt([&] {
-            for (auto& box : boxes) box.clear();
-            for (std::size_t i = begin; i < end; ++i) {
-                boxes[static_cast<std::size_t>(parts[i])].push_back(
-                    {corners.numbers_of(i), static_cast<std::uint32_t>(stretch.first_cell + i),
-                     lists.regions.empty() ? Marker{0} : lists.regions[CellIndex{i}]});
+    const auto put = [&](std::uint64_t i, const CellToSend& cell) {
+        part.cells[CellIndex{i}] = cell.vertices;
+        part.numbers[i] = cell.number;
+        if (!part.regions.empty()) part.regions[i] = cell.region;
+    };
+    const auto own = static_cast<std::size_t>(processes.rank());
+    const auto leaving = static_cast<std::uint64_t>(std::ranges::count_if(
+        parts, [&](int part_of_one) { return part_of_one != processes.rank(); }));
+    const std::uint64_t rounds = processes.max((leaving + at_once - 1) / at_once);
+    std::size_t i = 0;
+    // What stays is put in its place at once: in a mesh whose file is well ordered, most.
+    const auto take_own_and_fill_boxes = [&] {
+        for (auto& box : boxes) box.clear();
+        for (std::size_t in_boxes = 0; i < parts.size() && in_boxes < at_once; ++i) {
+            const CellToSend cell{corners.numbers_of(i),
+                                  static_cast<std::uint32_t>(stretch.first_cell + i),
+                                  lists.regions.empty() ? Marker{0} : lists.regions[CellIndex{i}]};
+            const auto to = static_cast<std::size_t>(parts[i]);
+            if (to == own) {
+                put(next[own]++, cell);
+            } else {
+                boxes[to].push_back(cell);
+                ++in_boxes;
             }
-        });
+        }
+    };
+    for (std::uint64_t round = 0; round < rounds; ++round) {
+        failure.attempt(take_own_and_fill_boxes);
         failure.agree(processes);
         failure.attempt([&] {
             const auto come = processes.all_to_all(boxes);
             for (std::size_t rank = 0; rank < come.size(); ++rank) {
-                for (const CellToSend& cell : come[rank]) {
-                    const std::uint64_t i = next[rank]++;
-                    part.cells[CellIndex{i}] = cell.vertices;
-                    part.numbers[i] = cell.number;
-                    if (!part.regions.empty()) part.regions[i] = cell.region;
-                }
+                for (const CellToSend& cell : come[rank]) put(next[rank]++, cell);
             }
         });
-        begin = end;
     }
+    failure.attempt(take_own_and_fill_boxes);
     failure.agree(processes);
     return part;
 }

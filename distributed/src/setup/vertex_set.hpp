@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include <octetra/core/huge_pages.hpp>
 #include <octetra/core/index.hpp>
 
 namespace octetra::distributed {
@@ -72,7 +73,7 @@ public:
     /// Ascending.
     [[nodiscard]] std::vector<std::uint32_t> numbers() const {
         std::vector<std::uint32_t> numbers;
-        numbers.reserve(size_);
+        reserve_in_huge_pages(numbers, size_);
         for (std::size_t word = 0; word < bits_.size(); ++word) {
             for (std::uint64_t bits = bits_[word]; bits != 0; bits &= bits - 1) {
                 numbers.push_back(first_ + static_cast<std::uint32_t>(64 * word) +
@@ -116,6 +117,7 @@ private:
     void list_places() {
         places_.clear();
         if (size_ < 16 * bits_.size()) return;
+        reserve_in_huge_pages(places_, 64 * bits_.size());
         places_.resize(64 * bits_.size());
         std::uint32_t place = 0;
         for (const std::uint32_t number : numbers()) {

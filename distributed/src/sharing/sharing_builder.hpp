@@ -9,7 +9,7 @@
 
 #include <octetra/distributed/sharing.hpp>
 
-#include "memory/huge_pages.hpp"
+#include <octetra/core/huge_pages.hpp>
 
 namespace octetra::distributed {
 

@@ -4,6 +4,7 @@
 
 #include <octetra/core/checkpoint_blocks.hpp>
 #include <octetra/core/error.hpp>
+#include <octetra/core/huge_pages.hpp>
 
 namespace octetra {
 namespace {
@@ -13,7 +14,7 @@ IndexVector<I, std::array<VertexIndex, N>> read_lists(const CheckpointReader& fi
                                                       Section section) {
     IndexVector<I, std::array<VertexIndex, N>> lists;
     const std::uint64_t count = shape_of(file.facts(), section).count;
-    lists.reserve(count);
+    reserve_in_huge_pages(lists, count);
     for (const auto& numbers : file.read_vertices<N>(section, 0, count)) {
         lists.push_back(indices_of(numbers));
     }

@@ -4,6 +4,8 @@
 
 #include <fmt/format.h>
 
+#include <octetra/core/huge_pages.hpp>
+
 #include "files/checks/conflicts.hpp"
 #include "files/checks/tagged_entities.hpp"
 #include "files/input/in_order.hpp"
@@ -41,8 +43,8 @@ void MeshIntake::make_room(const EntityKind<I, N>& kind, std::uint64_t count) {
     const std::size_t needed = list.size() + count;
     if (needed <= list.capacity()) return;
     const std::size_t room = std::max(needed, list.size() + list.size() / 2);
-    list.reserve(room);
-    markers.reserve(room);
+    reserve_in_huge_pages(list, room);
+    reserve_in_huge_pages(markers, room);
 }
 
 template <class I, std::size_t N>

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include <octetra/core/huge_pages.hpp>
+
 namespace octetra {
 
 bool GrowingMesh::means_something(const std::vector<Marker>& markers) const {
@@ -15,9 +17,9 @@ void GrowingMesh::expect_points(std::uint64_t count, std::size_t attributes, boo
     facts_.attributes_per_point = attributes;
     if (is_streaming()) points_stretch_ = MeshSink::longest_stretch / (1 + attributes);
     const std::size_t at_once = std::min<std::size_t>(count, points_stretch_);
-    mesh.points.reserve(at_once);
-    mesh.point_attributes.reserve(at_once * attributes);
-    mesh.point_markers.reserve(has_markers ? at_once : 0);
+    reserve_in_huge_pages(mesh.points, at_once);
+    reserve_in_huge_pages(mesh.point_attributes, at_once * attributes);
+    reserve_in_huge_pages(mesh.point_markers, has_markers ? at_once : 0);
     if (is_streaming() && streams_points()) sink_->expect_points(count, attributes, has_markers);
 }
 
@@ -36,8 +38,8 @@ void GrowingMesh::expect(const EntityKind<I, N>& kind, std::uint64_t count, bool
     facts_.*kind.count = count;
     if (is_streaming()) entity_stretch_ = MeshSink::longest_stretch;
     const std::size_t at_once = std::min<std::size_t>(count, entity_stretch_);
-    (mesh.*kind.list).reserve(at_once);
-    (mesh.*kind.markers).reserve(has_markers ? at_once : 0);
+    reserve_in_huge_pages(mesh.*kind.list, at_once);
+    reserve_in_huge_pages(mesh.*kind.markers, has_markers ? at_once : 0);
     if (is_streaming() && streams_others()) (sink_->*kind.expect)(count, has_markers);
 }
 

@@ -97,7 +97,7 @@ std::string wrong_reference(std::string_view what, std::int64_t reference) {
 }
 
 template <class List>
-auto make_room(List& list, std::size_t count) {
+auto grow(List& list, std::size_t count) {
     const std::size_t before = list.size();
     list.resize(before + count);
     return std::span(list).subspan(before);
@@ -137,8 +137,8 @@ void MeshbRows::append_points_of(std::uint64_t first, std::uint64_t count, Mesh&
     while (count > 0) {
         const auto rows = reader_->take_rows(count, row_size, "a vertex");
         const std::size_t some = rows.size() / row_size;
-        const auto points = make_room(mesh.points, some);
-        const auto markers = make_room(mesh.point_markers, some);
+        const auto points = grow(mesh.points, some);
+        const auto markers = grow(mesh.point_markers, some);
         if (!take_points<Numbers>(rows.data(), points, markers.data())) {
             refuse_point<Numbers>(rows.data(), first);
         }
@@ -181,8 +181,8 @@ void MeshbRows::append_of(const EntityKind<I, N>& kind, std::uint64_t first, std
     while (count > 0) {
         const auto rows = reader_->take_rows(count, row_size, "an entry");
         const std::size_t some = rows.size() / row_size;
-        const auto entities = make_room(mesh.*kind.list, some);
-        const auto markers = make_room(mesh.*kind.markers, some);
+        const auto entities = grow(mesh.*kind.list, some);
+        const auto markers = grow(mesh.*kind.markers, some);
         if (!take_entities<Numbers, N>(rows.data(), lists_->vertices.count, entities,
                                        markers.data())) {
             refuse_entity<Numbers, N>(rows.data(), first);

@@ -9,6 +9,8 @@
 #include <utility>
 #include <vector>
 
+#include <octetra/core/huge_pages.hpp>
+
 #include "files/gmsh/left_out.hpp"
 #include "files/gmsh/wrong_row.hpp"
 #include "files/input/growing_mesh.hpp"
@@ -24,8 +26,8 @@ public:
     explicit StretchIntake(Mesh& lists) : lists_(&lists) {}
 
     void expect_nodes(std::uint64_t count) {
-        tags_.reserve(count);
-        lists_->points.reserve(count);
+        reserve_in_huge_pages(tags_, count);
+        reserve_in_huge_pages(lists_->points, count);
     }
     void take_tag(std::uint64_t tag, std::uint64_t /*place*/, std::uint64_t /*step*/) {
         tags_.push_back(tag);
@@ -42,8 +44,8 @@ public:
         const std::size_t needed = list.size() + count;
         if (needed <= list.capacity()) return;
         const std::size_t room = std::max(needed, list.size() + list.size() / 2);
-        list.reserve(room);
-        (lists_->*kind.markers).reserve(room);
+        reserve_in_huge_pages(list, room);
+        reserve_in_huge_pages(lists_->*kind.markers, room);
     }
     static constexpr std::size_t most_at_once = 128;
     template <class I, std::size_t N>

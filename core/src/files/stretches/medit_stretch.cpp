@@ -4,6 +4,8 @@
 #include <stdexcept>
 #include <string_view>
 
+#include <octetra/core/huge_pages.hpp>
+
 #include "files/input/fields.hpp"
 #include "files/input/growing_mesh.hpp"
 #include "files/input/input_file.hpp"
@@ -165,8 +167,8 @@ public:
         read_share(
             plan_->vertices, 4,
             [&](std::size_t room) {
-                lists.points.reserve(room);
-                lists.point_markers.reserve(room);
+                reserve_in_huge_pages(lists.points, room);
+                reserve_in_huge_pages(lists.point_markers, room);
             },
             [&](Fields& fields, const LineReader&) {
                 const double x = fields.coordinate("x");
@@ -240,8 +242,8 @@ private:
         read_share(
             section, N + 1,
             [&](std::size_t room) {
-                list.reserve(room);
-                markers.reserve(room);
+                reserve_in_huge_pages(list, room);
+                reserve_in_huge_pages(markers, room);
             },
             read_entry);
     }

@@ -2,6 +2,8 @@
 #include <cstring>
 #include <stdexcept>
 
+#include <octetra/core/huge_pages.hpp>
+
 #include "files/input/byte_reader.hpp"
 #include "files/input/growing_mesh.hpp"
 #include "files/medit/entry_places.hpp"
@@ -33,13 +35,13 @@ void read_shares(const std::filesystem::path& path, const MeshbLists& sections,
     Mesh& lists = stretch.lists;
     const RowShare points = share_of_rows(sections.vertices.count, group);
     stretch.first_vertex = points.first;
-    lists.points.reserve(points.count);
-    lists.point_markers.reserve(points.count);
+    reserve_in_huge_pages(lists.points, points.count);
+    reserve_in_huge_pages(lists.point_markers, points.count);
     rows.append_points(points.first, points.count, lists);
     const auto read = [&](const auto& kind, const MeshbSection& section) {
         const RowShare share = share_of_rows(section.count, group);
-        (lists.*kind.list).reserve(share.count);
-        (lists.*kind.markers).reserve(share.count);
+        reserve_in_huge_pages(lists.*kind.list, share.count);
+        reserve_in_huge_pages(lists.*kind.markers, share.count);
         rows.append(kind, share.first, share.count, lists);
         refuse_repeated_vertices(lists.*kind.list);
         return share.first;
@@ -49,7 +51,7 @@ void read_shares(const std::filesystem::path& path, const MeshbLists& sections,
     stretch.first_edge = read(edge_kind, sections.edges);
     for (const Feature feature : all_features) {
         const RowShare share = share_of_rows(sections.features[feature].count, group);
-        lists.features[feature].reserve(share.count);
+        reserve_in_huge_pages(lists.features[feature], share.count);
         rows.append_numbers(feature, share.first, share.count, lists.features[feature]);
     }
 }

@@ -1,6 +1,8 @@
 #include <array>
 #include <string_view>
 
+#include <octetra/core/huge_pages.hpp>
+
 #include "files/input/fields.hpp"
 #include "files/input/growing_mesh.hpp"
 #include "files/input/line_reader.hpp"
@@ -133,9 +135,9 @@ private:
         const FileStretch share = share_of(file, plan_->points);
         const std::size_t room = room_for(head.count, share.size(), plan_->points.bytes.size());
         lists.attributes_per_point = head.attributes;
-        lists.points.reserve(room);
-        lists.point_attributes.reserve(room * head.attributes);
-        lists.point_markers.reserve(room * head.markers);
+        reserve_in_huge_pages(lists.points, room);
+        reserve_in_huge_pages(lists.point_attributes, room * head.attributes);
+        reserve_in_huge_pages(lists.point_markers, room * head.markers);
         points_ = read_share(file, share, head.field_count(),
                              [&](Fields& fields, auto&) { read_point(fields, head, lists); });
     }
@@ -145,8 +147,8 @@ private:
         const EleHead& head = plan_->ele;
         const FileStretch share = share_of(file, plan_->cells);
         const std::size_t room = room_for(head.count, share.size(), plan_->cells.bytes.size());
-        lists.cells.reserve(room);
-        lists.regions.reserve(room * head.attributes);
+        reserve_in_huge_pages(lists.cells, room);
+        reserve_in_huge_pages(lists.regions, room * head.attributes);
         const auto read_cell = [&](Fields& fields, const LineReader& reader) {
             const CellVertices cell = read_vertices<4>(fields, reader, numbers());
             for (const auto& [i, j] : cell_edges) {
@@ -165,8 +167,8 @@ private:
         const fs::path file = companion(*path_, extension);
         const FileStretch share = share_of(file, body);
         const std::size_t room = room_for(head.count, share.size(), body.bytes.size());
-        (lists.*kind.list).reserve(room);
-        (lists.*kind.markers).reserve(room * head.markers);
+        reserve_in_huge_pages(lists.*kind.list, room);
+        reserve_in_huge_pages(lists.*kind.markers, room * head.markers);
         const bool goes_on = body.has_adjacent_cells == 1;
         first = read_share(
             file, share, 1 + N + head.markers, [&](Fields& fields, const LineReader& reader) {

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "level/midpoints.hpp"
-#include "memory/huge_pages.hpp"
+#include <octetra/core/huge_pages.hpp>
 
 namespace octetra::distributed {
 namespace {

@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "memory/huge_pages.hpp"
+#include <octetra/core/huge_pages.hpp>
 
 namespace octetra::distributed {
 

@@ -10,7 +10,7 @@
 #include "level/full_sweep/bisect_edges.hpp"
 #include "level/full_sweep/bisect_interfaces.hpp"
 #include "level/rounding_margin.hpp"
-#include "memory/huge_pages.hpp"
+#include <octetra/core/huge_pages.hpp>
 #include "pattern/triangle.hpp"
 
 namespace octetra::distributed {

@@ -4,7 +4,7 @@
 
 #include <octetra/distributed/profile.hpp>
 
-#include "memory/huge_pages.hpp"
+#include <octetra/core/huge_pages.hpp>
 
 namespace octetra::distributed {
 

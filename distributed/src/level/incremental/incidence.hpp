@@ -9,7 +9,7 @@
 
 #include <octetra/core/mesh.hpp>
 
-#include "memory/huge_pages.hpp"
+#include <octetra/core/huge_pages.hpp>
 
 namespace octetra::distributed {
 
@@ -41,7 +41,7 @@ public:
     }
     /// After this, so many more entities can be appended without a failure.
     void make_room(std::size_t added) {
-        octetra::distributed::make_room(links_, links_.size() + N * added);
+        octetra::make_room(links_, links_.size() + N * added);
     }
     void append(const Vertices& vertices) {
         const std::size_t i = links_.size() / N;

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "level/rounding_margin.hpp"
-#include "memory/huge_pages.hpp"
+#include <octetra/core/huge_pages.hpp>
 #include "pattern/triangle.hpp"
 
 namespace octetra::distributed {

@@ -39,10 +39,10 @@ public:
         std::size_t total = 0;
         for (std::size_t i = 0; i < interfaces.size(); ++i) {
             auto& list = list_of(interfaces[i]);
-            octetra::distributed::make_room(list, list.size() + added[i]);
+            octetra::make_room(list, list.size() + added[i]);
             total += added[i];
         }
-        octetra::distributed::make_room(places_, places_.size() + total);
+        octetra::make_room(places_, places_.size() + total);
         incidence_.make_room(total);
     }
 

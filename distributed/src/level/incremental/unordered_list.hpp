@@ -8,7 +8,7 @@
 #include <octetra/distributed/distributed_mesh.hpp>
 
 #include "level/incremental/incidence.hpp"
-#include "memory/huge_pages.hpp"
+#include <octetra/core/huge_pages.hpp>
 
 namespace octetra::distributed {
 
@@ -54,8 +54,8 @@ public:
     void set_vertex_count(std::size_t count) { incidence_.set_vertex_count(count); }
     /// After this, replace() does not fail for so many pieces beyond the first ones.
     void make_room(std::size_t added, List& list) {
-        octetra::distributed::make_room(list, list.size() + added);
-        octetra::distributed::make_room(places_, list.size() + added);
+        octetra::make_room(list, list.size() + added);
+        octetra::make_room(places_, list.size() + added);
         incidence_.make_room(added);
     }
 

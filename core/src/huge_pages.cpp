@@ -1,10 +1,10 @@
-#include "memory/huge_pages.hpp"
+#include <octetra/core/huge_pages.hpp>
 
 #include <sys/mman.h>
 
 #include <cstdint>
 
-namespace octetra::distributed {
+namespace octetra {
 
 void prefer_huge_pages([[maybe_unused]] void* memory, [[maybe_unused]] std::size_t bytes) {
 #ifdef MADV_HUGEPAGE
@@ -17,4 +17,4 @@ void prefer_huge_pages([[maybe_unused]] void* memory, [[maybe_unused]] std::size
 #endif
 }
 
-}  // namespace octetra::distributed
+}  // namespace octetra

@@ -2,7 +2,7 @@
 
 #include <cstddef>
 
-namespace octetra::distributed {
+namespace octetra {
 
 /// Asks the system to back this memory with huge pages where it leaves that to programs, before the
 /// memory is first written to. A level writes to as much new memory as its result takes, and being
@@ -10,7 +10,7 @@ namespace octetra::distributed {
 /// the wish is not granted nothing is lost.
 void prefer_huge_pages(void* memory, std::size_t bytes);
 
-/// reserve() for what a level is about to fill.
+/// reserve() for what is about to be filled.
 template <class Vector>
 void reserve_in_huge_pages(Vector& list, std::size_t count) {
     if (count <= list.capacity()) return;
@@ -34,4 +34,4 @@ void make_room(Vector& list, std::size_t count) {
     if (count > list.capacity()) reserve_with_room(list, count);
 }
 
-}  // namespace octetra::distributed
+}  // namespace octetra

@@ -165,7 +165,8 @@ std::vector<BadBytes> bad_bytes() {
     const MeshbFile cell = MeshbFile(corner()).cell();
     std::vector<BadBytes> cases{
         {"Empty", "", 0, "the file ends where the number 1 should be"},
-        {"Text", "MeshVersionFormatted 2\n", 0, "begins with the number 1"},
+        {"Text", "MeshVersionFormatted 2\n", 0, "text file: name it .mesh"},
+        {"Begin", "Nothing of the kind\n", 0, "begins with the number 1"},
         {"OnlyOne", bytes_of(std::int32_t{1}), 4, "ends where the format's version should be"},
         {"VersionZero", bytes_of(std::int32_t{1}, std::int32_t{0}), 4, "versions 1 to 4, not 0"},
         {"VersionFive", bytes_of(std::int32_t{1}, std::int32_t{5}), 4, "versions 1 to 4, not 5"},

@@ -253,6 +253,8 @@ TEST(TetgenReader, RefusesWhatIsNotAFile) {
                 HasSubstr("is not a file"));
     EXPECT_THAT(test::thrown_by<InputError>([&] { (void)read_mesh(folder / "m.stl"); }),
                 HasSubstr("is named by its extension"));
+    EXPECT_THAT(test::thrown_by<InputError>([&] { (void)read_mesh(folder / "m.MESH"); }),
+                HasSubstr("(with its history); all in lower case"));
 }
 
 TEST(TetgenReader, ReportsWhatIsThereAndCannotBeOpened) {

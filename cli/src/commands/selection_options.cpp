@@ -86,7 +86,7 @@ void add_selection_options(CLI::App& subcommand, SelectionOptions& options,
         ->group(group);
     subcommand
         .add_option("--region", options.regions,
-                    "cells with this region tag, or of the group with this name (.msh)")
+                    "cells with this region tag, or of the groups with this name (.msh, .octetra)")
         ->type_name("TAG")
         ->allow_extra_args(false)
         ->group(group);

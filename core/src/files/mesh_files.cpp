@@ -2,6 +2,8 @@
 
 #include <array>
 #include <optional>
+#include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -40,6 +42,17 @@ Format format_of(const fs::path& path) {
     return Format::unknown;
 }
 
+/// What to say of an extension that would be known in lower case.
+std::string_view hint_at_case(const fs::path& path) {
+    std::string extension = path.extension().native();
+    for (char& c : extension) {
+        if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+    }
+    const fs::path lowered("mesh" + extension);
+    const bool is_known = format_of(lowered) != Format::unknown || is_checkpoint(lowered);
+    return is_known ? "; all in lower case" : "";
+}
+
 /// Why a mesh cannot be read from this file, if its format is none of those that are read.
 [[noreturn]] void refuse_to_read(const fs::path& path) {
     if (is_checkpoint(path)) {
@@ -54,8 +67,8 @@ Format format_of(const fs::path& path) {
     }
     throw InputError(fmt::format(
         "{}: a mesh to read is named by its extension: .ele or .node (TetGen), .mesh or .meshb "
-        "(Medit), .msh (Gmsh), .octetra (with its history)",
-        path.native()));
+        "(Medit), .msh (Gmsh), .octetra (with its history){}",
+        path.native(), hint_at_case(path)));
 }
 
 }  // namespace
@@ -197,8 +210,8 @@ void check_writable(const fs::path& path, int pieces) {
         throw InputError(
             fmt::format("{}: a mesh to write is named by its extension: .ele or .node "
                         "(TetGen), .mesh or .meshb (Medit), .msh (Gmsh), .vtu, .pvtu or .vtkhdf "
-                        "(VTK), .xdmf (XDMF and HDF5), .octetra (with its history)",
-                        path.native()));
+                        "(VTK), .xdmf (XDMF and HDF5), .octetra (with its history){}",
+                        path.native(), hint_at_case(path)));
     }
     check_places(path, pieces);
 }

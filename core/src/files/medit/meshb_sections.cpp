@@ -1,5 +1,8 @@
 #include "files/medit/meshb_sections.hpp"
 
+#include <array>
+#include <bit>
+#include <cstdint>
 #include <string_view>
 
 #include <fmt/format.h>
@@ -10,6 +13,10 @@ MeshbSections::MeshbSections(ByteReader& reader) : reader_(&reader) {
     const auto one = reader_->take<std::int32_t>("the number 1");
     reader_->swap_bytes(one == 0x01000000);
     if (one != 1 && !reader_->swaps_bytes()) {
+        constexpr std::array text{'M', 'e', 's', 'h'};  // MeshVersionFormatted
+        if (std::bit_cast<std::array<char, 4>>(one) == text) {
+            reader_->fail("this is a text file: name it .mesh", 0);
+        }
         reader_->fail(fmt::format("a binary Medit file begins with the number 1, of 32 bits in "
                                   "either byte order, not with {}",
                                   one),

@@ -38,20 +38,24 @@ void LocalEdgeSet::number(double most) {
         for (const Interface& interface : mesh_->interfaces) {
             for (const auto& [a, b] : interface.edges) is_near_[a] = is_near_[b] = 1;
         }
-        const auto count = std::ranges::count_if(
-            mesh_->cells, [this](const CellVertices& cell) { return is_near(cell); });
-        if (static_cast<double>(count) < most * static_cast<double>(mesh_->cells.size())) {
-            std::vector<CellIndex> cells;
-            cells.reserve(static_cast<std::size_t>(count));
-            for (CellIndex c{0}; c < mesh_->cells.end_index(); ++c) {
-                if (is_near(mesh_->cells[c])) cells.push_back(c);
-            }
-            numbering_ = EdgeNumbering(mesh_->points.size(), mesh_->cells, std::move(cells));
+        if (auto cells = near_cells(most * static_cast<double>(mesh_->cells.size()))) {
+            numbering_ = EdgeNumbering(mesh_->points.size(), mesh_->cells, *std::move(cells));
             return;
         }
         is_near_ = {};
     }
     numbering_ = EdgeNumbering(mesh_->points.size(), mesh_->cells);
+}
+
+/// Nothing unless they are less than `most`.
+std::optional<std::vector<CellIndex>> LocalEdgeSet::near_cells(double most) const {
+    std::vector<CellIndex> cells;
+    for (CellIndex c{0}; c < mesh_->cells.end_index(); ++c) {
+        if (!is_near(mesh_->cells[c])) continue;
+        cells.push_back(c);
+        if (static_cast<double>(cells.size()) >= most) return std::nullopt;
+    }
+    return cells;
 }
 
 /// Takes in the vertices next to those that are near.

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include <octetra/distributed/distributed_mesh.hpp>
@@ -42,6 +43,7 @@ public:
 private:
     void number(double most);
     void add_ring();
+    [[nodiscard]] std::optional<std::vector<CellIndex>> near_cells(double most) const;
     [[nodiscard]] bool is_near(const CellVertices& cell) const {
         const auto& [a, b, c, d] = cell;
         return (is_near_[a] | is_near_[b] | is_near_[c] | is_near_[d]) != 0;

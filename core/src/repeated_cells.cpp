@@ -18,8 +18,7 @@ using ByVertices = std::pair<CellVertices, CellIndex>;
 
 }  // namespace
 
-RepeatedCells::RepeatedCells(std::uint64_t cell_count)
-    : word_count_(cell_count / 4 + 1) {
+RepeatedCells::RepeatedCells(std::uint64_t cell_count) : word_count_(cell_count / 4 + 1) {
     reserve_in_huge_pages(seen_, word_count_);  // looked at anywhere
     seen_.resize(word_count_, 0);
 }

@@ -1,9 +1,9 @@
 #include <utility>
 
+#include <octetra/core/huge_pages.hpp>
 #include <octetra/distributed/adaptive_mesh.hpp>
 
 #include "adapt/mesh_state.hpp"
-#include <octetra/core/huge_pages.hpp>
 
 namespace octetra::distributed {
 namespace {

@@ -4,11 +4,11 @@
 #include <utility>
 #include <vector>
 
+#include <octetra/core/huge_pages.hpp>
 #include <octetra/distributed/profile.hpp>
 
 #include "adapt/step_options.hpp"
 #include "comm/local_failure.hpp"
-#include <octetra/core/huge_pages.hpp>
 #include "sharing/sharing_builder.hpp"
 #include "sharing/vertex_sharing.hpp"
 

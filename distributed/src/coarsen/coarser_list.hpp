@@ -7,12 +7,12 @@
 #include <span>
 #include <vector>
 
+#include <octetra/core/huge_pages.hpp>
 #include <octetra/distributed/distributed_mesh.hpp>
 
 #include "coarsen/kept_vertices.hpp"
 #include "coarsen/level_shares.hpp"
 #include "history/families.hpp"
-#include <octetra/core/huge_pages.hpp>
 
 namespace octetra::distributed {
 

@@ -5,13 +5,14 @@
 #include <span>
 #include <utility>
 
+#include <octetra/core/huge_pages.hpp>
+
 #include "coarsen/coarser_interfaces.hpp"
 #include "coarsen/coarser_list.hpp"
 #include "coarsen/family_division.hpp"
 #include "coarsen/level_shares.hpp"
 #include "comm/local_failure.hpp"
 #include "history/vertex_levels.hpp"
-#include <octetra/core/huge_pages.hpp>
 
 namespace octetra::distributed {
 namespace {

@@ -9,11 +9,11 @@
 #include <utility>
 #include <vector>
 
+#include <octetra/core/huge_pages.hpp>
 #include <octetra/distributed/succession.hpp>
 
 #include "coarsen/coarser_list.hpp"
 #include "level/incremental/unordered_list.hpp"
-#include <octetra/core/huge_pages.hpp>
 
 namespace octetra::distributed {
 

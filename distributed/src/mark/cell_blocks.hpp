@@ -3,10 +3,10 @@
 #include <cstddef>
 #include <vector>
 
+#include <octetra/core/huge_pages.hpp>
 #include <octetra/distributed/distributed_mesh.hpp>
 
 #include "mark/selection_bounds.hpp"
-#include <octetra/core/huge_pages.hpp>
 
 namespace octetra::distributed {
 

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include <octetra/core/huge_pages.hpp>
+
 #include "numbering/ranked.hpp"
 #include "sharing/vertex_sharing.hpp"
 

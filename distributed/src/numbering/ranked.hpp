@@ -11,11 +11,11 @@
 #include <utility>
 #include <vector>
 
+#include <octetra/core/huge_pages.hpp>
 #include <octetra/distributed/communicator.hpp>
 #include <octetra/distributed/distributed_mesh.hpp>
 
 #include "comm/local_failure.hpp"
-#include <octetra/core/huge_pages.hpp>
 #include "numbering/short_words.hpp"
 
 namespace octetra::distributed {

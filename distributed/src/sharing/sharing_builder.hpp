@@ -7,9 +7,8 @@
 #include <utility>
 #include <vector>
 
-#include <octetra/distributed/sharing.hpp>
-
 #include <octetra/core/huge_pages.hpp>
+#include <octetra/distributed/sharing.hpp>
 
 namespace octetra::distributed {
 

@@ -3,8 +3,9 @@
 #include <algorithm>
 #include <vector>
 
-#include "level/midpoints.hpp"
 #include <octetra/core/huge_pages.hpp>
+
+#include "level/midpoints.hpp"
 
 namespace octetra::distributed {
 namespace {

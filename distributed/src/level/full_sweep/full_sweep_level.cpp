@@ -5,12 +5,12 @@
 #include <span>
 #include <utility>
 
+#include <octetra/core/huge_pages.hpp>
 #include <octetra/distributed/profile.hpp>
 
 #include "level/full_sweep/bisect_edges.hpp"
 #include "level/full_sweep/bisect_interfaces.hpp"
 #include "level/rounding_margin.hpp"
-#include <octetra/core/huge_pages.hpp>
 #include "pattern/triangle.hpp"
 
 namespace octetra::distributed {

@@ -2,9 +2,8 @@
 
 #include <algorithm>
 
-#include <octetra/distributed/profile.hpp>
-
 #include <octetra/core/huge_pages.hpp>
+#include <octetra/distributed/profile.hpp>
 
 namespace octetra::distributed {
 

@@ -7,9 +7,8 @@
 #include <utility>
 #include <vector>
 
-#include <octetra/core/mesh.hpp>
-
 #include <octetra/core/huge_pages.hpp>
+#include <octetra/core/mesh.hpp>
 
 namespace octetra::distributed {
 
@@ -40,9 +39,7 @@ public:
         if (!heads_.empty()) heads_.resize(count);
     }
     /// After this, so many more entities can be appended without a failure.
-    void make_room(std::size_t added) {
-        octetra::make_room(links_, links_.size() + N * added);
-    }
+    void make_room(std::size_t added) { octetra::make_room(links_, links_.size() + N * added); }
     void append(const Vertices& vertices) {
         const std::size_t i = links_.size() / N;
         links_.resize(links_.size() + N);

@@ -5,8 +5,9 @@
 #include <utility>
 #include <vector>
 
-#include "level/rounding_margin.hpp"
 #include <octetra/core/huge_pages.hpp>
+
+#include "level/rounding_margin.hpp"
 #include "pattern/triangle.hpp"
 
 namespace octetra::distributed {

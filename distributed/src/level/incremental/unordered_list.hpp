@@ -5,10 +5,10 @@
 #include <utility>
 #include <vector>
 
+#include <octetra/core/huge_pages.hpp>
 #include <octetra/distributed/distributed_mesh.hpp>
 
 #include "level/incremental/incidence.hpp"
-#include <octetra/core/huge_pages.hpp>
 
 namespace octetra::distributed {
 

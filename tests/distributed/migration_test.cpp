@@ -189,6 +189,37 @@ TEST_P(MigratingMesh, RefusesValuesThatDoNotFitItOnAllProcesses) {
         ValueLists<int> lists;
         lists.begin.assign(count + 1, 0);
         EXPECT_THROW((void)migration.cells(lists), InputError);
+        EXPECT_THROW((void)migration.cells(std::vector<double>(1), 0), InputError);
+        EXPECT_TRUE(migration.cells(std::vector<double>(), 0).empty());
+    }
+}
+
+TEST_P(MigratingMesh, RefusesValuesOfAnotherSizeOnOneProcess) {
+    if (world().size() == 1) return;  // there is no other
+    std::mt19937_64 random(GetParam());
+    AdaptiveMesh mesh = shared_out(input_of(GetParam()), "random:1");
+    (void)mesh.refine(some(0.1, GetParam()));
+    const std::vector<int> targets = random_targets(random).of(mesh.roots());
+    const std::vector<int> here(mesh.roots().size(), world().rank());
+    const bool is_odd = world().rank() == world().size() - 1;
+    for (const std::vector<int>& ranks : {here, targets}) {  // also where nothing moves
+        const std::size_t count = mesh.cells().size();
+        const Migration migration = mesh.migrate(ranks);
+        const std::size_t components = is_odd ? 2 : 3;
+        EXPECT_THROW(
+            (void)migration.cells(std::vector<double>(components * count, 1.0), components),
+            InputError);
+        ValueLists<int> integers;
+        integers.begin.assign(count + 1, 0);
+        ValueLists<double> reals;
+        reals.begin.assign(count + 1, 0);
+        if (is_odd) {
+            EXPECT_THROW((void)migration.cells(integers), InputError);
+        } else {
+            EXPECT_THROW((void)migration.cells(reals), InputError);
+        }
+        const auto well = migration.cells(std::vector<double>(count, 1.0));
+        EXPECT_EQ(well, std::vector<double>(mesh.cells().size(), 1.0));
     }
 }
 
@@ -211,6 +242,20 @@ TEST(MigratingToWhereNobodyIs, IsRefusedOnAllProcessesAndChangesNothing) {
     EXPECT_TRUE(before == test::SeenMesh(mesh));
 }
 
+TEST(DistributingMesh, RefusesWhatIsNotARankForEachCell) {
+    if (world().size() == 1) return;  // it takes the mesh over as it is
+    const Mesh mesh = input_of(1);
+    const auto refused = [&](std::size_t count, int last) {
+        std::vector<int> ranks(count, 0);
+        ranks.back() = last;
+        EXPECT_THROW((void)AdaptiveMesh::distribute(world(), mesh, ranks), InputError);
+    };
+    refused(mesh.cells.size(), world().size());
+    refused(mesh.cells.size(), -1);
+    refused(mesh.cells.size() - 1, 0);
+    refused(mesh.cells.size() + 1, 0);
+}
+
 TEST(RebalancingMesh, WithABallRefinedIsEvenAndNotMovedAgain) {
     AdaptiveMesh mesh = shared_out(test::shaken_kuhn(8, 0.2, 1), "block");
     for (int k = 0; k < 3; ++k) (void)mesh.refine({.spheres = {{{1, 1, 1}, 2.0}}});
@@ -221,6 +266,16 @@ TEST(RebalancingMesh, WithABallRefinedIsEvenAndNotMovedAgain) {
     EXPECT_TRUE(world().size() == 1 || uneven > 1.3);
     EXPECT_TRUE(mesh.collect() == before);
     EXPECT_FALSE(mesh.rebalance().changed());
+}
+
+/// What is refined as often as that in some cells of few is cut badly by coordinates alone.
+TEST(RebalancingMesh, OfFewHeavyRootsIsEvenWhereTheyLetIt) {
+    AdaptiveMesh mesh = shared_out(test::shaken_kuhn(2, 0.2, 1), "block");
+    for (int k = 0; k < 4; ++k) (void)mesh.refine({.spheres = {{{1, 1, 1}, 0.9}}});
+    const Mesh before = mesh.collect();
+    (void)mesh.rebalance({.most_over_mean = 1.02});
+    EXPECT_LE(most_over_mean(mesh), 1.02);
+    EXPECT_TRUE(mesh.collect() == before);
 }
 
 TEST(RebalancingMesh, LeavesMostCellsWhereTheyAre) {

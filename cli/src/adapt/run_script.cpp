@@ -54,6 +54,15 @@ void recall_history(AdaptiveMesh& mesh, const ScriptRun& run) {
     }
 }
 
+/// Collective. And what was moved for it alone is even again, as far as that goes.
+void recall_history_and_balance(AdaptiveMesh& mesh, const ScriptRun& run) {
+    if (!mesh.has_forgotten_history()) return;
+    recall_history(mesh, run);
+    if (!run.balance) return;
+    const distributed::Migration move = mesh.rebalance({});
+    if (move.changed() && run.on_move) run.on_move(move);
+}
+
 class Runner {
 public:
     /// `is_last` says that no step to come changes the mesh.
@@ -78,7 +87,7 @@ public:
 
     StepDone operator()(CoarsenStep step) {
         complete(step.selection, step.typed.selection);
-        recall_history(*mesh_, *run_);
+        recall_history_and_balance(*mesh_, *run_);
         const int levels = step.typed.levels;
         bool is_any_marked = false;
         const int done = coarsen(*mesh_, step, followers(levels), is_any_marked);
@@ -105,7 +114,7 @@ public:
     }
 
     StepDone operator()(const WriteStep& step) {
-        if (tells_history(step.path)) recall_history(*mesh_, *run_);
+        if (tells_history(step.path)) recall_history_and_balance(*mesh_, *run_);
         return {fmt::format("wrote {}", step.path), write_result(*mesh_, *run_->fields, step.path),
                 false};
     }

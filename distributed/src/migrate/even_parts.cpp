@@ -7,6 +7,7 @@
 #include <octetra/distributed/profile.hpp>
 
 #include "history/steps_of.hpp"
+#include "migrate/heavy_roots.hpp"
 #include "partition/rcb.hpp"
 
 namespace octetra::distributed {
@@ -44,9 +45,10 @@ std::vector<int> matched(std::vector<ShareOfPart> shares, std::size_t process_co
     return rank_of_part;
 }
 
-/// Collective. The most that any process would have.
-std::uint64_t most_after(const Communicator& processes, std::span<const int> ranks,
-                         std::span<const std::uint64_t> weights, LocalFailure& failure) {
+/// Collective. What each process would have. Nothing where one has failed or fails.
+std::vector<std::uint64_t> loads_after(const Communicator& processes, std::span<const int> ranks,
+                                       std::span<const std::uint64_t> weights,
+                                       LocalFailure& failure) {
     std::vector<std::uint64_t> loads;
     failure.attempt([&] {
         loads.assign(static_cast<std::size_t>(processes.size()), 0);
@@ -54,9 +56,9 @@ std::uint64_t most_after(const Communicator& processes, std::span<const int> ran
             loads[static_cast<std::size_t>(ranks[r])] += weights[r];
         }
     });
-    if (failure.max_unless_failed(processes, 0) == LocalFailure::somewhere) return 0;
+    if (failure.max_unless_failed(processes, 0) == LocalFailure::somewhere) return {};
     processes.sum(std::span(loads));
-    return *std::ranges::max_element(loads);
+    return loads;
 }
 
 }  // namespace
@@ -97,7 +99,8 @@ std::vector<std::uint64_t> cells_of_roots(const DistributedMesh& mesh) {
 }
 
 std::optional<EvenParts> even_parts(const DistributedMesh& mesh,
-                                    std::span<const std::uint64_t> weights, LocalFailure& failure) {
+                                    std::span<const std::uint64_t> weights, double most_over_mean,
+                                    LocalFailure& failure) {
     const Communicator& processes = mesh.processes;
     const Phase phase(processes, "find even parts");
     std::vector<WeighedPoint> centroids;
@@ -119,8 +122,12 @@ std::optional<EvenParts> even_parts(const DistributedMesh& mesh,
     const auto rank_of_part = ranks_of_parts(processes, ranks, weights, failure);
     if (rank_of_part.empty()) return std::nullopt;
     for (int& rank : ranks) rank = rank_of_part[static_cast<std::size_t>(rank)];
-    const std::uint64_t most = most_after(processes, ranks, weights, failure);
-    if (failure.max_unless_failed(processes, 0) == LocalFailure::somewhere) return std::nullopt;
+    auto loads = loads_after(processes, ranks, weights, failure);
+    if (loads.empty()) return std::nullopt;
+    if (!relieve_of_heavy_roots(processes, weights, ranks, loads, most_over_mean, failure)) {
+        return std::nullopt;
+    }
+    const std::uint64_t most = *std::ranges::max_element(loads);
     if (most >= processes.max(weight_here)) return std::nullopt;
     return EvenParts{std::move(ranks), most};
 }

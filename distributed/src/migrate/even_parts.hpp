@@ -18,12 +18,13 @@ struct EvenParts {
 
 /// Collective. For each root of this process, of a mesh in canonical order, the process that is to
 /// have it so that all have about the same weight: by recursive coordinate bisection, the parts
-/// given to processes so that much stays where it is. `weights` are those of this process's roots.
+/// given to processes so that much stays where it is; and where one would have more than so many
+/// times the mean, heavy roots move on. `weights` are those of this process's roots.
 /// Nothing, on all processes, where the one that has most would not have less, or where a process
 /// has failed or fails.
 [[nodiscard]] std::optional<EvenParts> even_parts(const DistributedMesh& mesh,
                                                   std::span<const std::uint64_t> weights,
-                                                  LocalFailure& failure);
+                                                  double most_over_mean, LocalFailure& failure);
 
 /// How many cells each root of this process has become, of a mesh in canonical order.
 [[nodiscard]] std::vector<std::uint64_t> cells_of_roots(const DistributedMesh& mesh);

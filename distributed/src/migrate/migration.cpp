@@ -23,12 +23,31 @@ void check(const Communicator& processes, std::size_t count, std::size_t needed)
 
 void check(const Communicator& processes, std::span<const std::uint64_t> begin, std::size_t values,
            std::size_t needed) {
-    check(processes, begin.size(), needed + 1);
+    if (begin.size() != needed + 1) {
+        throw InputError(fmt::format(
+            "rank {}: {} beginnings of lists do not fit the mesh as it was before its cells moved; "
+            "it takes {}, the last of which is the number of values",
+            processes.rank(), begin.size(), needed + 1));
+    }
     if (begin.front() != 0 || !std::ranges::is_sorted(begin)) {
         throw InputError(
             fmt::format("rank {}: lists of values begin at 0, and ascend", processes.rank()));
     }
     check(processes, values, begin.back());
+}
+
+/// Collective. Processes that moved values of different sizes would take each other's for their
+/// own.
+void check_alike(const Communicator& processes, std::uint64_t size, LocalFailure& failure) {
+    constexpr std::uint64_t complement = LocalFailure::somewhere - 1;
+    const std::uint64_t most = failure.max_unless_failed(processes, size);
+    const std::uint64_t least = failure.max_unless_failed(processes, complement - size);
+    failure.agree(processes);
+    if (most == complement - least) return;
+    throw InputError(fmt::format(
+        "values of {} bytes are moved on one rank, and of {} on another: all ranks move values of "
+        "one type, and as many components of it",
+        complement - least, most));
 }
 
 void copy(std::byte* to, const std::byte* from, std::size_t size) {
@@ -44,30 +63,29 @@ void sum_up(std::vector<std::uint64_t>& lengths) {
 
 }  // namespace
 
-void Migration::check_values(const Entities& entities, std::size_t count,
-                             std::size_t components) const {
+void Migration::check_values(const Entities& entities, std::size_t count, std::size_t components,
+                             std::size_t size) const {
     if (!knows_counts_) return;
     LocalFailure failure;
     failure.attempt([&] { check(processes_, count, entities.count_before * components); });
-    failure.agree(processes_);
+    check_alike(processes_, size, failure);
 }
 
 void Migration::check_lists(const Entities& entities, std::span<const std::uint64_t> begin,
-                            std::size_t count) const {
+                            std::size_t count, std::size_t size) const {
     if (!knows_counts_) return;
     LocalFailure failure;
     failure.attempt([&] { check(processes_, begin, count, entities.count_before); });
-    failure.agree(processes_);
+    check_alike(processes_, size, failure);
 }
 
 void Migration::move_values(const Entities& entities, std::span<const std::byte> values,
                             std::size_t components, std::size_t size,
                             const Allocate& allocate) const {
     LocalFailure failure;
-    failure.attempt([&] {
-        if (size == 0) return;
-        check(processes_, values.size() / (size / components), entities.count_before * components);
-    });
+    const std::size_t count = size == 0 ? values.size() : values.size() / (size / components);
+    failure.attempt([&] { check(processes_, count, entities.count_before * components); });
+    check_alike(processes_, size, failure);
     const auto pack = [&](const std::vector<std::uint32_t>& sent) {
         MessageBytes message(sent.size() * size);
         for (std::size_t k = 0; k < sent.size(); ++k) {
@@ -94,6 +112,7 @@ void Migration::move_lists(const Entities& entities, std::span<const std::uint64
                            const Allocate& allocate) const {
     LocalFailure failure;
     failure.attempt([&] { check(processes_, begin, values.size() / size, entities.count_before); });
+    check_alike(processes_, size, failure);
     // Of each entity the length of its list, and then all lists.
     const auto pack = [&](const std::vector<std::uint32_t>& sent) {
         std::size_t length = sent.size() * sizeof(std::uint64_t);

@@ -37,8 +37,8 @@ void check_sizes(const DistributedMesh& mesh, std::span<const Field> fields) {
         const std::size_t entities = on_vertices ? mesh.points.size() : mesh.cells.size();
         if (value_count(field) != entities * field.components) {
             throw InputError(
-                fmt::format("field '{}' has {} values; {} with {} components take {}", field.name,
-                            value_count(field),
+                fmt::format("rank {}: field '{}' has {} values; {} with {} components take {}",
+                            mesh.processes.rank(), field.name, value_count(field),
                             fmt::format("{} {}", entities, on_vertices ? "vertices" : "cells"),
                             field.components, entities * field.components));
         }

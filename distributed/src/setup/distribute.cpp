@@ -7,6 +7,9 @@
 #include <utility>
 #include <vector>
 
+#include <fmt/format.h>
+
+#include <octetra/core/error.hpp>
 #include <octetra/core/vertex_buckets.hpp>
 #include <octetra/distributed/distributed_mesh.hpp>
 #include <octetra/distributed/profile.hpp>
@@ -218,6 +221,18 @@ private:
     IndexVector<VertexIndex, VertexIndex> local_;  ///< its number there
 };
 
+void check_ranks(const Mesh& mesh, const std::vector<int>& cell_to_rank, int rank_count) {
+    if (cell_to_rank.size() != mesh.cells.size()) {
+        throw InputError(fmt::format("{} ranks for {} cells: each cell takes one",
+                                     cell_to_rank.size(), mesh.cells.size()));
+    }
+    for (const int rank : cell_to_rank) {
+        if (rank >= 0 && rank < rank_count) continue;
+        throw InputError(
+            fmt::format("a cell is to go to rank {}, and there are {}", rank, rank_count));
+    }
+}
+
 /// Collective. The first process sends each other one its share, and keeps its own; it holds no
 /// more than one share at a time beside the mesh.
 Share share_out(const Communicator& processes, const Mesh& mesh,
@@ -281,6 +296,9 @@ void take_over(Mesh mesh, DistributedMesh& part) {
 DistributedMesh distribute(const Communicator& processes, Mesh mesh,
                            const std::vector<int>& cell_to_rank) {
     const Phase phase(processes, "distribute");
+    processes.on_first([&] {
+        if (processes.size() > 1) check_ranks(mesh, cell_to_rank, processes.size());
+    });
     auto [facts, group_names] = shared_facts(processes, mesh);
 
     DistributedMesh part;

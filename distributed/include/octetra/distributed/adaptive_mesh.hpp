@@ -255,9 +255,10 @@ public:
     void append_to(MeshSeries& series, double time, std::span<const Field> fields = {}) const;
     /// Collective. Writes a checkpoint, `.octetra`: the input, what each step did, and `fields`,
     /// values of this mesh's vertices and cells. The file is the same whatever the number of
-    /// processes and the partition. It is written beside its place, brought to the disk, and then
-    /// renamed: whatever happens meanwhile, a file that was there is there still, or the new one.
-    /// Throws InputError where a field does not fit the mesh or the processes have different ones.
+    /// processes and the partition, unless has_forgotten_history(). It is written beside its place,
+    /// brought to the disk, and then renamed: whatever happens meanwhile, a file that was there is
+    /// there still, or the new one. Throws InputError where a field does not fit the mesh or the
+    /// processes have different ones.
     void save(const std::filesystem::path& path, std::span<const Field> fields = {}) const;
     /// Collective. The first process gets the whole mesh in the order of files, the others an empty
     /// one. Throws InputError where 32 bits cannot number it.

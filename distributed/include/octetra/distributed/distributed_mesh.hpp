@@ -101,7 +101,8 @@ struct DistributedMesh {
 /// Collective. Gives each cell of a mesh that the first process has to the process that
 /// `cell_to_rank` names; tagged facets and edges go to the process of the first cell that has them.
 /// The other processes' mesh and cell_to_rank are not looked at. A group of one process takes the
-/// mesh over as it is.
+/// mesh over as it is. Throws InputError, on all, where cell_to_rank has not one rank for each
+/// cell.
 [[nodiscard]] DistributedMesh distribute(const Communicator& processes, Mesh mesh,
                                          const std::vector<int>& cell_to_rank);
 

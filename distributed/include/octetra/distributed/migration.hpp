@@ -27,7 +27,8 @@ struct ValueLists {
 /// brings along what a program has for each. It stays valid whatever becomes of the mesh.
 ///
 /// All processes call its functions, in the same order. They throw alike on all processes:
-/// InputError where values do not fit the mesh as it was, OutOfMemory if one process has no memory.
+/// InputError where values do not fit the mesh as it was, or are of different sizes on two
+/// processes; OutOfMemory if one process has no memory.
 class Migration {
 public:
     /// Nothing has moved, of whatever mesh: values stay as they are.
@@ -94,9 +95,10 @@ private:
     using Allocate = std::function<std::byte*(std::size_t)>;
 
     /// Collective. Where nothing has moved.
-    void check_values(const Entities& entities, std::size_t count, std::size_t components) const;
+    void check_values(const Entities& entities, std::size_t count, std::size_t components,
+                      std::size_t size) const;
     void check_lists(const Entities& entities, std::span<const std::uint64_t> begin,
-                     std::size_t count) const;
+                     std::size_t count, std::size_t size) const;
     /// Collective. Each entity has `components` values of `size` bytes together.
     void move_values(const Entities& entities, std::span<const std::byte> values,
                      std::size_t components, std::size_t size, const Allocate& allocate) const;
@@ -110,7 +112,7 @@ private:
                                        std::size_t components) const {
         static_assert(std::is_trivially_copyable_v<T> && !std::is_same_v<T, bool>);
         if (!changed_) {
-            if (components > 0) check_values(entities, values.size(), components);
+            check_values(entities, values.size(), components, components * sizeof(T));
             return values;
         }
         std::vector<T> after;
@@ -125,7 +127,7 @@ private:
     [[nodiscard]] ValueLists<T> moved(const Entities& entities, ValueLists<T> lists) const {
         static_assert(std::is_trivially_copyable_v<T> && !std::is_same_v<T, bool>);
         if (!changed_) {
-            check_lists(entities, lists.begin, lists.values.size());
+            check_lists(entities, lists.begin, lists.values.size(), sizeof(T));
             return lists;
         }
         ValueLists<T> after{.begin = {}, .values = {}};  // which takes no memory yet

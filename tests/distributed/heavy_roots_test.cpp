@@ -1,0 +1,82 @@
+#include "migrate/heavy_roots.hpp"
+
+#include <algorithm>
+#include <cstdint>
+#include <numeric>
+#include <random>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+namespace octetra::distributed {
+namespace {
+
+/// Roots on processes at random, some of which have a part that no root here stands for.
+struct Placed {
+    explicit Placed(std::uint64_t seed) {
+        std::mt19937_64 random(seed);
+        const std::size_t processes = 1 + random() % 6;
+        for (std::size_t rank = 0; rank < processes; ++rank) loads.push_back(random() % 50);
+        for (std::size_t count = random() % 40; count > 0; --count) {
+            const auto rank = static_cast<int>(random() % processes);
+            roots.push_back({random() % 30, rank});
+            loads[static_cast<std::size_t>(rank)] += roots.back().weight;
+        }
+    }
+    [[nodiscard]] std::uint64_t most() const { return std::ranges::max(loads); }
+
+    std::vector<std::uint64_t> loads;
+    std::vector<PlacedRoot> roots;
+};
+
+/// Do the loads of processes follow from where roots are, as they did before?
+bool are_loads_of(const Placed& after, const Placed& before) {
+    std::vector<std::uint64_t> loads = before.loads;
+    for (std::size_t i = 0; i < before.roots.size(); ++i) {
+        if (after.roots[i].weight != before.roots[i].weight) return false;
+        loads[static_cast<std::size_t>(before.roots[i].rank)] -= before.roots[i].weight;
+        loads[static_cast<std::size_t>(after.roots[i].rank)] += before.roots[i].weight;
+    }
+    return loads == after.loads;
+}
+
+TEST(HeavyRoots, MoveUntilNoneOfTheFullestMakesItAndTheEmptiestLess) {
+    for (std::uint64_t seed = 0; seed < 2000; ++seed) {
+        const Placed before(seed);
+        Placed after = before;
+        relieve(after.loads, after.roots, 0);
+        ASSERT_TRUE(are_loads_of(after, before)) << "seed " << seed;
+        ASSERT_LE(after.most(), before.most()) << "seed " << seed;
+        const auto most = std::ranges::max_element(after.loads);
+        const auto least = std::ranges::min_element(after.loads);
+        for (const PlacedRoot& root : after.roots) {
+            if (root.rank != static_cast<int>(most - after.loads.begin())) continue;
+            ASSERT_TRUE(root.weight == 0 || *least + root.weight >= *most) << "seed " << seed;
+        }
+    }
+}
+
+TEST(HeavyRoots, StayWhereNobodyHasMoreThanTheGoal) {
+    for (std::uint64_t seed = 0; seed < 2000; ++seed) {
+        const Placed before(seed);
+        Placed after = before;
+        relieve(after.loads, after.roots, before.most());
+        ASSERT_EQ(after.loads, before.loads) << "seed " << seed;
+        const std::uint64_t goal = before.most() - before.most() / 8;
+        relieve(after.loads, after.roots, goal);
+        Placed further = after;
+        if (after.most() <= goal) relieve(further.loads, further.roots, goal);
+        ASSERT_EQ(further.loads, after.loads) << "seed " << seed;
+    }
+}
+
+TEST(HeavyRoots, OfEqualWeightsAreSharedOutEvenly) {
+    Placed all(0);
+    all.loads = {12, 0, 0, 0};
+    all.roots.assign(12, {1, 0});
+    relieve(all.loads, all.roots, 3);
+    EXPECT_EQ(all.loads, (std::vector<std::uint64_t>{3, 3, 3, 3}));
+}
+
+}  // namespace
+}  // namespace octetra::distributed

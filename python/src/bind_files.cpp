@@ -110,7 +110,8 @@ void bind_files(py::module_& module, MeshClass& mesh) {
         "Collective. A mesh that save() has written, on any number of ranks, with its history. It "
         "goes on as if it had never been away.");
     module.def("load_with_fields", &load_with_fields, path, comm, py::kw_only(), partition,
-               "Collective. The same, and the fields that were saved with it: the mesh, those of "
+               "Collective. A mesh that save() has written, and the fields that were saved with "
+               "it: the mesh, those of "
                "vertices and those of cells, {name: (n,) or (n, components)}.");
     const py::arg_v vertex_fields = py::arg("vertex_fields") = py::none();
     const py::arg_v cell_fields = py::arg("cell_fields") = py::none();

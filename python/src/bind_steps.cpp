@@ -171,7 +171,7 @@ void bind_steps(py::module_&, MeshClass& mesh) {
             "where it was more than once. Roots go to the ranks on which they were cells, with all "
             "that has become of them, and are descendants again.")
         .def("migrate", &migrate, py::arg("rank_of_root"),
-             "Collective. The same to where a program wants them: (roots,), the rank that is to "
+             "Collective. Cells go to where a program wants them: (roots,), the rank that is to "
              "have each of `roots`.");
 }
 

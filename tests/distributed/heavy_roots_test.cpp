@@ -78,5 +78,13 @@ TEST(HeavyRoots, OfEqualWeightsAreSharedOutEvenly) {
     EXPECT_EQ(all.loads, (std::vector<std::uint64_t>{3, 3, 3, 3}));
 }
 
+TEST(HeavyRoots, MoveByWhatLeavesTwoMostAlikeAndNotByWeight) {
+    Placed all(0);
+    all.loads = {20, 10};
+    all.roots = {{9, 0}, {5, 0}};
+    relieve(all.loads, all.roots, 0);
+    EXPECT_EQ(all.loads, (std::vector<std::uint64_t>{15, 15}));
+}
+
 }  // namespace
 }  // namespace octetra::distributed

@@ -59,7 +59,8 @@ void recall_history_and_balance(AdaptiveMesh& mesh, const ScriptRun& run) {
     if (!mesh.has_forgotten_history()) return;
     recall_history(mesh, run);
     if (!run.balance) return;
-    const distributed::Migration move = mesh.rebalance({});
+    const distributed::Migration move =
+        mesh.rebalance({.most_over_mean = run.balance->most_over_mean});
     if (move.changed() && run.on_move) run.on_move(move);
 }
 

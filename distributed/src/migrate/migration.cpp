@@ -1,6 +1,7 @@
 #include <octetra/distributed/migration.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cstring>
 
 #include <fmt/format.h>
@@ -40,14 +41,17 @@ void check(const Communicator& processes, std::span<const std::uint64_t> begin, 
 /// own.
 void check_alike(const Communicator& processes, std::uint64_t size, LocalFailure& failure) {
     constexpr std::uint64_t complement = LocalFailure::somewhere - 1;
-    const std::uint64_t most = failure.max_unless_failed(processes, size);
-    const std::uint64_t least = failure.max_unless_failed(processes, complement - size);
-    failure.agree(processes);
-    if (most == complement - least) return;
+    std::array<std::uint64_t, 2> extremes{size, complement - size};
+    if (failure.found()) extremes.fill(LocalFailure::somewhere);
+    processes.max(std::span(extremes));
+    if (extremes[0] == LocalFailure::somewhere) failure.agree(processes);
+    const std::uint64_t most = extremes[0];
+    const std::uint64_t least = complement - extremes[1];
+    if (most == least) return;
     throw InputError(fmt::format(
         "values of {} bytes are moved on one rank, and of {} on another: all ranks move values of "
         "one type, and as many components of it",
-        complement - least, most));
+        least, most));
 }
 
 void copy(std::byte* to, const std::byte* from, std::size_t size) {

@@ -39,6 +39,7 @@ public:
     /// From one cell on; first of all cells, in order.
     void write(std::size_t first, std::span<Point> places) {
         for (std::size_t k = 0; k < places.size(); ++k) {
+            corners_->ask_for(first + k + 16);
             const Corners at = corners_->of(first + k);
             places[k] = place_of(at);
             if (first + k != judged_ || !are_positive_) continue;

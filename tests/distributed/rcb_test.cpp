@@ -31,7 +31,8 @@ void bisect_by_sorting(std::span<WeighedPoint> points, int begin, int end, std::
             std::ranges::minmax(points, {}, [&](const auto& one) { return along(k, one.point); });
         extent[k] = along(k, most.point) / 2 - along(k, least.point) / 2;
     }
-    const auto axis = static_cast<std::size_t>(std::ranges::max_element(extent) - extent.begin());
+    const double enough = std::ranges::max(extent) * (63.0 / 64);
+    const std::size_t axis = extent[2] >= enough ? 2 : extent[1] >= enough ? 1 : 0;
     std::ranges::sort(points, {}, [&](const WeighedPoint& one) {
         return std::tuple(along(axis, one.point), one.number);
     });
@@ -129,6 +130,19 @@ TEST(CoordinateBisection, FindsAnAxisThatFewPointsTell) {
     for (std::size_t i = 0; i < points.size(); ++i) points[i].point.x = static_cast<double>(i);
     points[77'777].point.z = 1e6;
     expect_as_by_sorting(points);
+}
+
+/// So a process that reads a stretch of a lattice keeps what it has read.
+TEST(CoordinateBisection, CutsACubeBetweenItsLastLayers) {
+    std::vector<WeighedPoint> points;
+    for (std::uint64_t i = 0; i < 512; ++i) {
+        const auto at = [&](std::uint64_t k) { return static_cast<double>(k % 8) / 7; };
+        points.push_back({.point = {1.01 * at(i), at(i / 8), at(i / 64)}, .number = i});
+    }
+    LocalFailure failure;
+    const auto parts = bisect_coordinates(Communicator(), points, 2, failure);
+    EXPECT_TRUE(std::ranges::is_sorted(parts));
+    EXPECT_EQ(std::ranges::count(parts, 0), 256);
 }
 
 }  // namespace

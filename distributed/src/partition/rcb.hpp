@@ -51,11 +51,11 @@ struct WeighedPoints {
         std::min(most, 1000.0 * static_cast<double>(weight) / static_cast<double>(least)));
 }
 
-/// Collective. Recursive coordinate bisection: boxes are cut across their longest extent into two
-/// whose weights are as their numbers of parts, until each is one part. Returns the part, 0 to
-/// parts-1, of each of this process's points. All is done in whole numbers, so the parts are the
-/// same however many processes find them, and whichever has which points. Weights add up to less
-/// than 2^63.
+/// Collective. Recursive coordinate bisection: boxes are cut across their longest extent, the last
+/// of those within a 64th of it, into two whose weights are as their numbers of parts, until each
+/// is one part. Returns the part, 0 to parts-1, of each of this process's points. All is done in
+/// whole numbers, so the parts are the same however many processes find them, and whichever has
+/// which points. Weights add up to less than 2^63.
 ///
 /// Of each level of the tree, processes reduce the extent of each box, then arrays of sums, one a
 /// digit, of 2^13 numbers for all boxes together or four for each, until 2^11 points or fewer may

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
@@ -14,7 +15,7 @@
 
 namespace octetra::distributed {
 
-/// Values for one process's slice, and their positions there, ascending.
+/// Values for one process's slice, and their positions there, ascending, no two alike.
 template <class T>
 class ValuesOfSlice {
 public:
@@ -52,11 +53,18 @@ private:
 
 namespace detail {
 
-/// What a message begins with. Then come the values, and where they go: run by run where positions
-/// follow each other, or one by one if that takes no more.
+/// How a message tells where its values go, whichever takes least.
+enum class Told : std::uint64_t {
+    one_by_one,  ///< a position of each
+    by_runs,     ///< runs of positions that follow each other
+    by_bits      ///< a bit of each position, as far as there are any
+};
+
+/// What a message begins with. Then come the values, and where they go.
 struct SliceHead {
     std::uint64_t values;
-    std::uint64_t runs;  ///< 0: each value has a position
+    Told told;
+    std::uint64_t count;  ///< of positions, runs, or words of 64 bits
 };
 struct SliceRun {
     std::uint32_t position;
@@ -85,27 +93,53 @@ inline void put_runs(std::byte* place, std::span<const std::uint32_t> positions)
     }
 }
 
+inline void put_bits(std::byte* place, std::span<const std::uint32_t> positions) {
+    std::uint64_t bits = 0;
+    std::uint32_t word = 0;
+    for (const std::uint32_t position : positions) {
+        for (; word < position / 64; ++word) {
+            place = put_bytes(place, &bits, sizeof bits);
+            bits = 0;
+        }
+        bits |= std::uint64_t{1} << position % 64;
+    }
+    put_bytes(place, &bits, sizeof bits);
+}
+
+/// Of positions, of which there is at least one; and in how many bytes it is told.
+inline std::pair<SliceHead, std::size_t> head_of(std::span<const std::uint32_t> positions) {
+    std::size_t runs = 1;
+    for (std::size_t i = 1; i < positions.size(); ++i) {
+        runs += std::size_t{positions[i] != positions[i - 1] + 1};
+    }
+    const std::size_t words = positions.back() / 64 + 1;
+    SliceHead head{positions.size(), Told::one_by_one, positions.size()};
+    std::size_t size = positions.size_bytes();
+    const auto is_less = [&](Told told, std::size_t count, std::size_t size_of_one) {
+        if (count * size_of_one >= size) return;
+        head.told = told;
+        head.count = count;
+        size = count * size_of_one;
+    };
+    is_less(Told::by_runs, runs, sizeof(SliceRun));
+    is_less(Told::by_bits, words, sizeof(std::uint64_t));
+    return {head, size};
+}
+
 }  // namespace detail
 
 template <class T>
 [[nodiscard]] std::vector<std::byte> packed(const ValuesOfSlice<T>& all) {
     const auto positions = all.positions();
     if (positions.empty()) return {};
-    std::size_t runs = 1;
-    for (std::size_t i = 1; i < positions.size(); ++i) {
-        runs += std::size_t{positions[i] != positions[i - 1] + 1};
-    }
-    const std::size_t size_of_runs = runs * sizeof(detail::SliceRun);
-    const bool by_runs = size_of_runs < positions.size_bytes();
-    const detail::SliceHead head{positions.size(), by_runs ? runs : 0};
-    std::vector<std::byte> bytes(sizeof head + all.values().size_bytes() +
-                                 (by_runs ? size_of_runs : positions.size_bytes()));
+    const auto [head, size] = detail::head_of(positions);
+    std::vector<std::byte> bytes(sizeof head + all.values().size_bytes() + size);
     std::byte* place = detail::put_bytes(bytes.data(), &head, sizeof head);
     place = detail::put_bytes(place, all.values().data(), all.values().size_bytes());
-    if (by_runs) {
-        detail::put_runs(place, positions);
-    } else {
-        detail::put_bytes(place, positions.data(), positions.size_bytes());
+    switch (head.told) {
+        case detail::Told::one_by_one: detail::put_bytes(place, positions.data(), size); break;
+        case detail::Told::by_runs: detail::put_runs(place, positions); break;
+        case detail::Told::by_bits: detail::put_bits(place, positions); break;
     }
     return bytes;
 }
@@ -117,17 +151,27 @@ void unpack(std::span<const std::byte> bytes, auto&& place) {
     const auto head = detail::read_from<detail::SliceHead>(bytes.data());
     const std::byte* value = bytes.data() + sizeof head;
     const std::byte* where = value + head.values * sizeof(T);
-    if (head.runs == 0) {
-        for (std::uint64_t i = 0; i < head.values; ++i) {
-            place(detail::read_from<std::uint32_t>(where + i * sizeof(std::uint32_t)),
-                  detail::read_from<T>(value + i * sizeof(T)));
-        }
-        return;
-    }
-    for (std::uint64_t r = 0; r < head.runs; ++r, where += sizeof(detail::SliceRun)) {
-        const auto run = detail::read_from<detail::SliceRun>(where);
-        for (std::uint32_t k = 0; k < run.count; ++k, value += sizeof(T)) {
-            place(run.position + k, detail::read_from<T>(value));
+    const auto next = [&]<class Where>(Where) {
+        return detail::read_from<Where>(std::exchange(where, where + sizeof(Where)));
+    };
+    const auto put = [&](std::uint32_t position) {
+        place(position, detail::read_from<T>(std::exchange(value, value + sizeof(T))));
+    };
+    for (std::uint64_t i = 0; i < head.count; ++i) {
+        switch (head.told) {
+            case detail::Told::one_by_one: put(next(std::uint32_t{})); break;
+            case detail::Told::by_runs: {
+                const auto run = next(detail::SliceRun{});
+                for (std::uint32_t k = 0; k < run.count; ++k) put(run.position + k);
+                break;
+            }
+            case detail::Told::by_bits: {
+                const auto first = static_cast<std::uint32_t>(64 * i);
+                for (auto bits = next(std::uint64_t{}); bits != 0; bits &= bits - 1) {
+                    put(first + static_cast<std::uint32_t>(std::countr_zero(bits)));
+                }
+                break;
+            }
         }
     }
 }

@@ -11,16 +11,63 @@ constexpr std::uint64_t most_heavy = 4096;
 /// And none that is less than such a part of a mean load.
 constexpr std::uint64_t parts_of_mean = 64;
 
-/// Of the roots of one process the one that leaves two, one of which has `gap` more, most alike;
-/// roots.end() if none makes the most of them less.
-auto best_to_move(std::span<PlacedRoot> roots, int from, std::uint64_t gap) {
-    const auto left = [gap](std::uint64_t weight) {  // what one has more than the other then
+/// The fullest process and the emptiest, and how much more the first has.
+struct Uneven {
+    int fullest = 0;
+    int emptiest = 0;
+    std::uint64_t gap = 0;
+
+    /// What one has more than the other when so much more goes than comes.
+    [[nodiscard]] std::uint64_t left(std::uint64_t weight) const {
         return weight > gap - weight ? 2 * weight - gap : gap - 2 * weight;
-    };
-    auto best = roots.end();
-    for (auto root = roots.begin(); root != roots.end(); ++root) {
-        if (root->rank != from || root->weight == 0 || root->weight >= gap) continue;
-        if (best == roots.end() || left(root->weight) < left(best->weight)) best = root;
+    }
+    [[nodiscard]] bool helps(std::uint64_t weight) const { return weight > 0 && weight < gap; }
+};
+
+/// A root that goes from the fullest to the emptiest, and one that comes for it, if any.
+struct Exchange {
+    PlacedRoot* goes = nullptr;
+    PlacedRoot* comes = nullptr;
+
+    [[nodiscard]] std::uint64_t weight() const {
+        return goes->weight - (comes == nullptr ? 0 : comes->weight);
+    }
+};
+
+/// The one that leaves the two most alike; without a root that goes if none makes the most less.
+Exchange best_move(std::span<PlacedRoot> roots, const Uneven& uneven) {
+    Exchange best;
+    for (PlacedRoot& root : roots) {
+        if (root.rank != uneven.fullest || !uneven.helps(root.weight)) continue;
+        if (best.goes == nullptr || uneven.left(root.weight) < uneven.left(best.weight())) {
+            best.goes = &root;
+        }
+    }
+    return best;
+}
+
+/// The same of two roots, each of which takes the other's place.
+Exchange best_swap(std::span<PlacedRoot> roots, const Uneven& uneven) {
+    std::vector<PlacedRoot*> of_emptiest;
+    for (PlacedRoot& root : roots) {
+        if (root.rank == uneven.emptiest) of_emptiest.push_back(&root);
+    }
+    std::ranges::stable_sort(of_emptiest, {}, &PlacedRoot::weight);
+    Exchange best;
+    for (PlacedRoot& root : roots) {
+        if (root.rank != uneven.fullest) continue;
+        // The best are those next to what leaves both the same.
+        const std::uint64_t wanted = root.weight - std::min(root.weight, uneven.gap / 2);
+        const auto next = std::ranges::lower_bound(of_emptiest, wanted, {}, &PlacedRoot::weight);
+        const auto first = next == of_emptiest.begin() ? next : next - 1;
+        const auto last = next == of_emptiest.end() ? next : next + 1;
+        for (auto comes = first; comes != last; ++comes) {
+            const Exchange swap{&root, *comes};
+            if ((*comes)->weight >= root.weight || !uneven.helps(swap.weight())) continue;
+            if (best.goes == nullptr || uneven.left(swap.weight()) < uneven.left(best.weight())) {
+                best = swap;
+            }
+        }
     }
     return best;
 }
@@ -33,12 +80,15 @@ void relieve(std::vector<std::uint64_t>& loads, std::span<PlacedRoot> roots, std
         const auto most = std::ranges::max_element(loads);
         const auto least = std::ranges::min_element(loads);
         if (most == loads.end() || *most <= goal) return;
-        const auto root =
-            best_to_move(roots, static_cast<int>(most - loads.begin()), *most - *least);
-        if (root == roots.end()) return;
-        *most -= root->weight;
-        *least += root->weight;
-        root->rank = static_cast<int>(least - loads.begin());
+        const Uneven uneven{static_cast<int>(most - loads.begin()),
+                            static_cast<int>(least - loads.begin()), *most - *least};
+        Exchange best = best_move(roots, uneven);
+        if (best.goes == nullptr) best = best_swap(roots, uneven);
+        if (best.goes == nullptr) return;
+        *most -= best.weight();
+        *least += best.weight();
+        best.goes->rank = uneven.emptiest;
+        if (best.comes != nullptr) best.comes->rank = uneven.fullest;
     }
 }
 

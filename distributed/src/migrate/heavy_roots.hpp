@@ -17,8 +17,8 @@ struct PlacedRoot {
 };
 
 /// Moves roots from whoever has most to whoever has least, as long as that makes the most less, and
-/// more than `goal`: each time the one that leaves these two most alike. `loads` are those of all
-/// processes, with more than the roots given.
+/// more than `goal`: each time the one that leaves these two most alike. Where none does, two take
+/// each other's place. `loads` are those of all processes, with more than the roots given.
 void relieve(std::vector<std::uint64_t>& loads, std::span<PlacedRoot> roots, std::uint64_t goal);
 
 /// Collective. The same of this process's roots, of which the heavy ones may move, some thousand of

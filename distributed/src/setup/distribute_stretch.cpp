@@ -161,12 +161,10 @@ public:
         });
         const Phase phase(processes_, "distribute");
         CellsOfPart part = send_cells(processes_, stretch_, *corners, parts, failure_);
-        stretch_.lists.cells = {};
-        stretch_.lists.regions = {};
         mesh_.cells = std::move(part.cells);
         failure_.attempt([&] {
-            mesh_.cell_ancestors = ancestors_of_roots({part.numbers.begin(), part.numbers.end()},
-                                                      std::move(part.regions));
+            mesh_.cell_ancestors =
+                ancestors_of_roots(std::move(part.numbers), std::move(part.regions));
         });
         failure_.agree(processes_);
     }

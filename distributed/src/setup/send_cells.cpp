@@ -1,6 +1,8 @@
 #include "setup/send_cells.hpp"
 
 #include <algorithm>
+#include <numeric>
+#include <utility>
 
 #include <octetra/core/huge_pages.hpp>
 
@@ -39,68 +41,129 @@ std::vector<std::uint64_t> counts_to_come(const Communicator& processes,
     return counts;
 }
 
-}  // namespace
+/// The cells of a part while they come together: those that stay at the front of what was read,
+/// what comes from others in lists until there is room between them.
+class Gathering {
+public:
+    Gathering(const Communicator& processes, MeshStretch& stretch, const StretchCorners& corners,
+              const std::vector<int>& parts)
+        : own_(static_cast<std::size_t>(processes.rank())),
+          stretch_(&stretch),
+          corners_(&corners),
+          parts_(&parts) {}
 
-CellsOfPart send_cells(const Communicator& processes, const MeshStretch& stretch,
-                       const StretchCorners& corners, const std::vector<int>& parts,
-                       LocalFailure& failure) {
-    constexpr std::size_t at_once = std::size_t{1} << 15U;
-    CellsOfPart part;
-    // The stretches come in the order of the ranks, and each in its own.
-    std::vector<std::uint64_t> next = counts_to_come(processes, parts, failure);
-    std::vector<std::vector<CellToSend>> boxes;
-    failure.attempt([&] {
-        std::uint64_t count = 0;
-        for (std::uint64_t& n : next) {
-            const std::uint64_t from_one = n;
-            n = count;
-            count += from_one;
+    /// Makes room for all that there will be.
+    void make_room(const std::vector<std::uint64_t>& counts) {
+        const auto own = counts.begin() + static_cast<std::ptrdiff_t>(own_);
+        before_ = std::accumulate(counts.begin(), own, std::uint64_t{0});
+        const std::uint64_t count = std::accumulate(own, counts.end(), before_);
+        reserve_in_huge_pages(cells(), count);
+        if (has_regions()) reserve_in_huge_pages(regions(), count);
+        reserve_in_huge_pages(numbers_, count);
+        numbers_.resize(count);
+        come_.resize(counts.size());
+        for (std::size_t rank = 0; rank < counts.size(); ++rank) {
+            if (rank != own_) come_[rank].reserve(counts[rank]);
         }
-        reserve_in_huge_pages(part.cells, count);
-        reserve_in_huge_pages(part.numbers, count);
-        part.cells.resize(count);
-        part.numbers.resize(count);
-        if (stretch.facts.has_regions) part.regions.resize(count);
-        boxes.resize(static_cast<std::size_t>(processes.size()));
-    });
-    const Mesh& lists = stretch.lists;
-    const auto put = [&](std::uint64_t i, const CellToSend& cell) {
-        part.cells[CellIndex{i}] = cell.vertices;
-        part.numbers[i] = cell.number;
-        if (!part.regions.empty()) part.regions[i] = cell.region;
-    };
-    const auto own = static_cast<std::size_t>(processes.rank());
-    const auto leaving = static_cast<std::uint64_t>(std::ranges::count_if(
-        parts, [&](int part_of_one) { return part_of_one != processes.rank(); }));
-    const std::uint64_t rounds = processes.max((leaving + at_once - 1) / at_once);
-    std::size_t i = 0;
-    // What stays is put in its place at once: in a mesh whose file is well ordered, most.
-    const auto take_own_and_fill_boxes = [&] {
-        for (auto& box : boxes) box.clear();
-        for (std::size_t in_boxes = 0; i < parts.size() && in_boxes < at_once; ++i) {
-            const CellToSend cell{corners.numbers_of(i),
-                                  static_cast<std::uint32_t>(stretch.first_cell + i),
-                                  lists.regions.empty() ? Marker{0} : lists.regions[CellIndex{i}]};
-            const auto to = static_cast<std::size_t>(parts[i]);
-            if (to == own) {
-                put(next[own]++, cell);
+        boxes_.resize(counts.size());
+    }
+    [[nodiscard]] const std::vector<std::vector<CellToSend>>& boxes() const { return boxes_; }
+
+    /// Goes on through the cells read, until so many that leave are in boxes.
+    void fill_boxes(std::size_t at_once) {
+        for (auto& box : boxes_) box.clear();
+        for (std::size_t in_boxes = 0; next_ < parts_->size() && in_boxes < at_once; ++next_) {
+            const CellVertices vertices = corners_->numbers_of(next_);
+            const std::uint64_t number = stretch_->first_cell + next_;
+            const Marker region = has_regions() ? regions()[CellIndex{next_}] : Marker{0};
+            const auto to = static_cast<std::size_t>((*parts_)[next_]);
+            if (to == own_) {
+                stay(vertices, number, region);
             } else {
-                boxes[to].push_back(cell);
+                boxes_[to].push_back({vertices, static_cast<std::uint32_t>(number), region});
                 ++in_boxes;
             }
         }
-    };
-    for (std::uint64_t round = 0; round < rounds; ++round) {
-        failure.attempt(take_own_and_fill_boxes);
-        failure.agree(processes);
-        failure.attempt([&] {
-            const auto come = processes.all_to_all(boxes);
-            for (std::size_t rank = 0; rank < come.size(); ++rank) {
-                for (const CellToSend& cell : come[rank]) put(next[rank]++, cell);
-            }
-        });
     }
-    failure.attempt(take_own_and_fill_boxes);
+    void take(const std::vector<std::vector<CellToSend>>& inboxes) {
+        for (std::size_t rank = 0; rank < inboxes.size(); ++rank) {
+            come_[rank].insert(come_[rank].end(), inboxes[rank].begin(), inboxes[rank].end());
+        }
+    }
+
+    /// The stretches come in the order of the ranks, and each in its own.
+    [[nodiscard]] CellsOfPart put_together() && {
+        make_room_before(cells());
+        if (has_regions()) make_room_before(regions());
+        std::size_t i = 0;
+        for (std::size_t rank = 0; rank < come_.size(); ++rank) {
+            if (rank == own_) i += stayed_;
+            for (const CellToSend& cell : come_[rank]) {
+                cells()[CellIndex{i}] = cell.vertices;
+                if (has_regions()) regions()[CellIndex{i}] = cell.region;
+                numbers_[i++] = cell.number;
+            }
+        }
+        return {std::move(cells()), std::move(numbers_), std::move(regions())};
+    }
+
+private:
+    [[nodiscard]] IndexVector<CellIndex, CellVertices>& cells() const {
+        return stretch_->lists.cells;
+    }
+    [[nodiscard]] IndexVector<CellIndex, Marker>& regions() const {
+        return stretch_->lists.regions;
+    }
+    [[nodiscard]] bool has_regions() const { return stretch_->facts.has_regions; }
+
+    /// Where a cell is written that was read before, or is the one that was just read.
+    void stay(const CellVertices& vertices, std::uint64_t number, Marker region) {
+        cells()[CellIndex{stayed_}] = vertices;
+        if (has_regions()) regions()[CellIndex{stayed_}] = region;
+        numbers_[before_ + stayed_++] = number;
+    }
+    void make_room_before(auto& list) {
+        list.resize(std::max(list.size(), numbers_.size()));
+        const auto begin = list.begin();
+        std::move_backward(begin, begin + static_cast<std::ptrdiff_t>(stayed_),
+                           begin + static_cast<std::ptrdiff_t>(before_ + stayed_));
+        list.resize(numbers_.size());
+    }
+
+    std::size_t own_;
+    MeshStretch* stretch_;
+    const StretchCorners* corners_;
+    const std::vector<int>* parts_;
+    std::uint64_t before_ = 0;  // cells from lower ranks
+    std::size_t stayed_ = 0;
+    std::size_t next_ = 0;
+    std::vector<std::uint64_t> numbers_;
+    std::vector<std::vector<CellToSend>> boxes_;
+    std::vector<std::vector<CellToSend>> come_;
+};
+
+}  // namespace
+
+CellsOfPart send_cells(const Communicator& processes, MeshStretch& stretch,
+                       const StretchCorners& corners, const std::vector<int>& parts,
+                       LocalFailure& failure) {
+    constexpr std::size_t at_once = std::size_t{1} << 15U;
+    const std::vector<std::uint64_t> counts = counts_to_come(processes, parts, failure);
+    Gathering gathering(processes, stretch, corners, parts);
+    failure.attempt([&] { gathering.make_room(counts); });
+    const auto leaving = static_cast<std::uint64_t>(
+        std::ranges::count_if(parts, [&](int part) { return part != processes.rank(); }));
+    const std::uint64_t rounds = processes.max((leaving + at_once - 1) / at_once);
+    for (std::uint64_t round = 0; round < rounds; ++round) {
+        failure.attempt([&] { gathering.fill_boxes(at_once); });
+        failure.agree(processes);
+        failure.attempt([&] { gathering.take(processes.all_to_all(gathering.boxes())); });
+    }
+    CellsOfPart part;
+    failure.attempt([&] {
+        gathering.fill_boxes(at_once);
+        part = std::move(gathering).put_together();
+    });
     failure.agree(processes);
     return part;
 }

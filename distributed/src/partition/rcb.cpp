@@ -24,7 +24,8 @@ public:
           extremes_(6 * static_cast<std::size_t>(parts)),
           limits_(processes, points, parts),
           boxes_{{0, parts}},
-          axis_{longest(extent_of_some())} {
+          some_(extremes_of_some()),
+          axis_{0} {
         reserve_in_huge_pages(coordinate_, points.count);
         coordinate_.resize(points.count);
         reserve_in_huge_pages(box_of_, points.count);
@@ -32,6 +33,10 @@ public:
         searches_.reserve(static_cast<std::size_t>(parts));
         extents_.reserve(static_cast<std::size_t>(parts));
     }
+
+    /// Which axis will be the longest is guessed from a few points of each process.
+    void tell_some(std::span<Key, 6> keys) const { some_.put(keys); }
+    void guess_axis(std::span<const Key, 6> of_all) { axis_[0] = longest(extent_between(of_all)); }
 
     /// Collective. Cuts every box that is to be more than one part; false if there is none, or a
     /// process has failed.
@@ -63,18 +68,6 @@ private:
         }
     }
 
-    /// Of a few points here and there.
-    [[nodiscard]] std::array<double, 3> extent_of_some() const {
-        constexpr std::size_t wanted = 256;
-        Extremes extremes;
-        for (std::size_t k = 0; k < wanted && points_->count > 0; ++k) {
-            Point one;
-            points_->points(points_->count * k / wanted, std::span(&one, 1));
-            extremes.take(one);
-        }
-        return extremes.extent();
-    }
-
     struct Extremes {
         static constexpr double most = std::numeric_limits<double>::infinity();
         std::array<double, 3> low{most, most, most};
@@ -87,49 +80,66 @@ private:
                 high[k] = std::max(high[k], place[k]);
             }
         }
-        [[nodiscard]] bool empty() const { return low[0] > high[0]; }
-        [[nodiscard]] std::array<double, 3> extent() const {
-            std::array<double, 3> extent{};
-            for (std::size_t k = 0; k < 3 && !empty(); ++k) extent[k] = high[k] / 2 - low[k] / 2;
-            return extent;
+        /// As keys of which the greatest of all processes are those of all points: of an extreme
+        /// its own or, of the lowest, its complement; zeros where there are no points.
+        void put(std::span<Key, 6> keys) const {
+            if (low[0] > high[0]) return;
+            for (std::size_t k = 0; k < 3; ++k) {
+                keys[2 * k] = key_of(high[k]);
+                keys[2 * k + 1] = ~key_of(low[k]);
+            }
         }
     };
+
+    [[nodiscard]] static bool is_empty(std::span<const Key, 6> keys) {
+        return std::ranges::all_of(keys, [](Key key) { return key == 0; });
+    }
+    /// Half of each, as the whole might overflow.
+    [[nodiscard]] static std::array<double, 3> extent_between(std::span<const Key, 6> keys) {
+        std::array<double, 3> extent{};
+        for (std::size_t k = 0; k < 3 && !is_empty(keys); ++k) {
+            extent[k] = coordinate_of(keys[2 * k]) / 2 - coordinate_of(~keys[2 * k + 1]) / 2;
+        }
+        return extent;
+    }
+
+    /// Of a few points here and there.
+    [[nodiscard]] Extremes extremes_of_some() const {
+        constexpr std::size_t wanted = 256;
+        Extremes extremes;
+        for (std::size_t k = 0; k < wanted && points_->count > 0; ++k) {
+            Point one;
+            points_->points(points_->count * k / wanted, std::span(&one, 1));
+            extremes.take(one);
+        }
+        return extremes;
+    }
 
     /// Collective. The longest extent of each box; and of each point its coordinate there. Which
     /// it will be is guessed, as it takes time to have the points once more. False, on all
     /// processes alike, where one has failed.
     bool find_axes(LocalFailure& failure) {
-        const auto keys = extremes_.zeros(6 * boxes_.size());  // the greatest ones and complements
+        const auto keys = extremes_.zeros(6 * boxes_.size());
+        const auto of_box = [keys](std::size_t b) { return keys.subspan(6 * b).first<6>(); };
         failure.attempt([&] {
             std::vector<Extremes> extremes(boxes_.size());
             for_each_point([&](std::size_t i, const Point& p) {
                 extremes[box_of(i)].take(p);
                 coordinate_[i] = key_of(along(axis_[box_of(i)], p));
             });
-            for (std::size_t b = 0; b < boxes_.size(); ++b) {
-                if (extremes[b].empty()) continue;
-                for (std::size_t k = 0; k < 3; ++k) {
-                    keys[6 * b + 2 * k] = key_of(extremes[b].high[k]);
-                    keys[6 * b + 2 * k + 1] = ~key_of(extremes[b].low[k]);
-                }
-            }
+            for (std::size_t b = 0; b < boxes_.size(); ++b) extremes[b].put(of_box(b));
         });
         if (!extremes_.max(*processes_, failure)) return false;
         extents_.clear();
         searches_.clear();
         bool is_as_guessed = true;
         for (std::size_t b = 0; b < boxes_.size(); ++b) {
-            const auto of_box = keys.subspan(6 * b, 6);
-            std::array<double, 3> extent{};
-            const bool is_empty = std::ranges::all_of(of_box, [](Key k) { return k == 0; });
-            for (std::size_t k = 0; k < 3 && !is_empty; ++k) {
-                extent[k] =
-                    coordinate_of(of_box[2 * k]) / 2 - coordinate_of(~of_box[2 * k + 1]) / 2;
-            }
-            is_as_guessed = is_as_guessed && axis_[b] == longest(extent);
-            axis_[b] = longest(extent);
-            extents_.push_back(extent);
-            searches_.push_back(between(~of_box[2 * axis_[b] + 1], of_box[2 * axis_[b]], is_empty));
+            const std::size_t guess = axis_[b];
+            extents_.push_back(extent_between(of_box(b)));
+            axis_[b] = longest(extents_.back());
+            is_as_guessed = is_as_guessed && axis_[b] == guess;
+            const auto along_axis = of_box(b).subspan(2 * axis_[b], 2);
+            searches_.push_back(between(~along_axis[1], along_axis[0], is_empty(of_box(b))));
         }
         failure.attempt([&] {
             if (is_as_guessed) return;
@@ -185,6 +195,7 @@ private:
     std::vector<Key> coordinate_;  // along the axis of the point's box
     std::vector<int> box_of_;
     std::vector<BisectionBox> boxes_;
+    Extremes some_;
     std::vector<std::size_t> axis_;
     std::vector<std::array<double, 3>> extents_;
     std::vector<Search> searches_;
@@ -195,8 +206,13 @@ private:
 std::vector<int> bisect_coordinates(const Communicator& processes, const WeighedPoints& points,
                                     int parts, LocalFailure& failure) {
     std::vector<Bisection> bisection;
-    failure.attempt([&] { bisection.emplace_back(processes, points, parts); });
-    if (failure.max_unless_failed(processes, 0) == LocalFailure::somewhere) return {};
+    std::array<Key, 7> told{};  // what is guessed from, and whether a process has failed
+    const auto keys = std::span(told).first<6>();
+    failure.attempt([&] { bisection.emplace_back(processes, points, parts).tell_some(keys); });
+    if (failure.found()) told.back() = 1;
+    processes.max(std::span(told));
+    if (told.back() != 0) return {};
+    bisection.front().guess_axis(keys);
     while (bisection.front().cut_boxes(failure)) {
     }
     std::vector<int> part_of;

@@ -25,8 +25,8 @@ inline Selection some(double share, std::uint64_t seed) {
 }
 
 /// A mesh with everything, and with a vertex of no cell.
-inline Mesh input_of(std::uint64_t seed) {
-    Mesh mesh = test::marked_lattice(4, seed);
+inline Mesh input_of(std::uint64_t seed, std::size_t cubes = 4) {
+    Mesh mesh = test::marked_lattice(cubes, seed);
     mesh.points.push_back({9, 9, 9});
     mesh.point_markers.push_back(7);
     mesh.point_attributes.insert(mesh.point_attributes.end(), {1.5, 2.5});
@@ -45,10 +45,10 @@ struct MovingAndResting {
     AdaptiveMesh resting;
     test::ReferenceSteps reference;
 
-    explicit MovingAndResting(std::uint64_t seed)
-        : moving(shared_out(input_of(seed), "random:" + std::to_string(seed))),
-          resting(shared_out(input_of(seed), "block")),
-          reference(input_of(seed)) {}
+    explicit MovingAndResting(std::uint64_t seed, std::size_t cubes = 4)
+        : moving(shared_out(input_of(seed, cubes), "random:" + std::to_string(seed))),
+          resting(shared_out(input_of(seed, cubes), "block")),
+          reference(input_of(seed, cubes)) {}
 
     /// Collective. After both have done a step: is it the reference's?
     void expect_step(const Selection& selection, bool refines) {

@@ -1,4 +1,5 @@
 #include <optional>
+#include <string>
 #include <utility>
 
 #include "bind.hpp"
@@ -8,11 +9,16 @@
 namespace octetra::python {
 namespace {
 
-/// Collective. Values of any type go as bytes.
+/// Collective. Values of any type go as bytes, so those of two types would be taken for each other.
 py::array moved(const Moved& move, const py::object& given, std::size_t count, const char* what,
                 auto&& bring) {
     std::optional<Values> values;
-    convert_on_each(move.processes, [&] { values = values_for(given, count, what); });
+    std::string type;
+    convert_on_each(move.processes, [&] {
+        values = values_for(given, count, what);
+        type = py::str(values->array.dtype()).cast<std::string>();
+    });
+    check_same(move.processes, type, "type of the values");
     return values->like(without_gil([&] { return bring(values->copy(), values->bytes()); }));
 }
 

@@ -93,21 +93,24 @@ void convert_on_each(const distributed::Communicator& processes,
 std::filesystem::path common_path(const distributed::Communicator& processes,
                                   const py::object& given) {
     std::filesystem::path path;
-    std::vector<char> of_first;
-    convert_on_each(processes, [&] {
-        path = given.cast<std::filesystem::path>();
-        of_first.assign(path.native().begin(), path.native().end());
-    });
+    convert_on_each(processes, [&] { path = given.cast<std::filesystem::path>(); });
+    check_same(processes, path.native(), "path");
+    return path;
+}
+
+void check_same(const distributed::Communicator& processes, const std::string& own,
+                const char* what) {
     without_gil([&] {
+        std::vector<char> of_first;
+        processes.on_each([&] { of_first.assign(own.begin(), own.end()); });
         processes.broadcast(of_first);
         processes.on_each([&] {
-            if (std::ranges::equal(of_first, path.native())) return;
+            if (std::ranges::equal(of_first, own)) return;
             throw InputError(fmt::format(
-                "rank {}: the path is {}, and {} on rank 0: all ranks pass the same",
-                processes.rank(), path.native(), std::string(of_first.begin(), of_first.end())));
+                "rank {}: the {} is {}, and {} on rank 0: all ranks pass the same",
+                processes.rank(), what, own, std::string(of_first.begin(), of_first.end())));
         });
     });
-    return path;
 }
 
 }  // namespace octetra::python

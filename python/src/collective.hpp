@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <filesystem>
 #include <functional>
+#include <string>
 #include <utility>
 
 #include <pybind11/pybind11.h>
@@ -32,6 +33,10 @@ void convert_here(const distributed::Communicator& processes, const std::functio
 /// exception of Python's too, is thrown on all, as InputError or OutOfMemory, and names the rank.
 void convert_on_each(const distributed::Communicator& processes,
                      const std::function<void()>& convert);
+
+/// Collective. Throws InputError on all ranks where this is not the same on all, with `what` it is.
+void check_same(const distributed::Communicator& processes, const std::string& own,
+                const char* what);
 
 /// Collective. What `path` says, a str or an os.PathLike, which must be the same on all ranks.
 [[nodiscard]] std::filesystem::path common_path(const distributed::Communicator& processes,

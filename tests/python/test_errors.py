@@ -74,6 +74,7 @@ WORDS = {
     "a cell that is not there": "cells: 1000000 is marked, and this rank has",
     "a share that is no number": "most_over_mean: .*, from 1; given is nan",
     "a share below the mean": "most_over_mean: .*, from 1; given is 0.5",
+    "a partition": "rank .: partition takes lepp, .*, not 'half'",
     "a checkpoint by another name": r"mesh.vtu: save\(\) writes a checkpoint, .*write\(\) writes",
 }
 
@@ -88,6 +89,18 @@ def test_what_is_wrong_on_one_rank_is_raised_alike_on_all(mesh, case):
     assert np.array_equal(mesh.points, points) and np.array_equal(mesh.cells, cells)
     mesh.refine(near(mesh, 0.5))
     assert mesh.verify()
+
+
+@pytest.mark.skipif(world.size == 1, reason="ranks have different types")
+@pytest.mark.parametrize("moves", [False, True])
+def test_values_of_two_types_do_not_move(mesh, moves):
+    before = cells_of(mesh)
+    move = mesh.migrate(np.full(len(mesh.roots), 0 if moves else world.rank))
+    assert move.changed == moves
+    words = f"rank {world.size - 1}: the type of the values is int64, and float64 on rank 0"
+    with pytest.raises(octetra.InputError, match=words):
+        move.cells(np.ones(before, wrong_here(np.int64, float)))
+    assert len(move.cells(np.ones(before))) == cells_of(mesh)
 
 
 PATHS = {

@@ -42,8 +42,16 @@ void add_rebalance_option(CLI::App& subcommand, ParallelOptions& options,
         ->group(group);
 }
 
+distributed::Partition partition_named(const std::string& word) {
+    try {
+        return distributed::parse_partition(word);
+    } catch (const InputError& error) {
+        throw InputError(std::string("--") + error.what());
+    }
+}
+
 distributed::Partition partition_of(const ParallelOptions& options) {
-    return distributed::parse_partition(options.partition.value_or("rcb"));
+    return partition_named(options.partition.value_or("rcb"));
 }
 
 distributed::Synchronisation synchronisation_of(const ParallelOptions& options) {

@@ -25,6 +25,9 @@ void add_synchronisation_option(CLI::App& subcommand, ParallelOptions& options,
                                 const std::string& group);
 void add_rebalance_option(CLI::App& subcommand, ParallelOptions& options, const std::string& group);
 
+/// What a word of --partition means. Throws InputError.
+[[nodiscard]] distributed::Partition partition_named(const std::string& word);
+
 /// What they mean, or the default. Throw InputError.
 [[nodiscard]] distributed::Partition partition_of(const ParallelOptions& options);
 [[nodiscard]] distributed::Synchronisation synchronisation_of(const ParallelOptions& options);

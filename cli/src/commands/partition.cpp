@@ -16,6 +16,7 @@
 #include "commands/files_apart.hpp"
 #include "commands/mesh_options.hpp"
 #include "commands/number_options.hpp"
+#include "commands/parallel_options.hpp"
 #include "commands/refinement_options.hpp"
 #include "grouped.hpp"
 #include "terminal.hpp"
@@ -90,7 +91,7 @@ void print_expected(const std::vector<int>& cell_to_part, const std::vector<floa
 }
 
 void partition(const PartitionOptions& options) {
-    const auto method = distributed::parse_partition(options.method);
+    const auto method = partition_named(options.method);
     if (!options.output.empty()) check_side_file("-o", options.output);
     check_files_apart(
         {mesh_named("MESH", options.input.path), file_named("--partition", method.path),

@@ -139,7 +139,7 @@ std::vector<int> by_coordinates(const Mesh& mesh, int parts, const std::vector<f
     return part;
 }
 
-std::vector<int> by_lot(std::size_t cells, int parts, std::uint64_t seed) {
+std::vector<int> at_random(std::size_t cells, int parts, std::uint64_t seed) {
     std::mt19937_64 random(seed);
     std::vector<int> part(cells);
     for (int& p : part) p = static_cast<int>(random() % static_cast<std::uint64_t>(parts));
@@ -200,7 +200,7 @@ Partition parse_partition(const std::string& text) {
         if (error == std::errc{} && stop == end) return partition;
     }
     throw InputError(fmt::format(
-        "--partition takes lepp, dual, rcb, block, random:SEED or file:PATH, not '{}'", text));
+        "partition takes lepp, dual, rcb, block, random:SEED or file:PATH, not '{}'", text));
 }
 
 std::vector<int> partition_cells(const Mesh& mesh, int parts, const Partition& partition,
@@ -211,7 +211,7 @@ std::vector<int> partition_cells(const Mesh& mesh, int parts, const Partition& p
         case PartitionMethod::dual: return by_graph(mesh, parts, partition.method, weights);
         case PartitionMethod::rcb: return by_coordinates(mesh, parts, weights);
         case PartitionMethod::block: return equal_blocks(cells, parts);
-        case PartitionMethod::random: return by_lot(cells, parts, partition.seed);
+        case PartitionMethod::random: return at_random(cells, parts, partition.seed);
         case PartitionMethod::file: return from_file(partition.path, cells, parts);
     }
     return {};

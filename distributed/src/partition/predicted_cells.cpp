@@ -106,7 +106,7 @@ public:
     /// First: takes memory.
     void expect_one_of_each() { expected_.assign(cells_->count(), 1); }
 
-    void add_by_lot(double share) {
+    void add_at_random(double share) {
         const double of_all = std::pow(1 + share * (of_one_ - 1), levels_);
         std::ranges::fill(expected_, static_cast<float>(std::min(of_all, full_)));
     }
@@ -209,7 +209,7 @@ std::vector<float> predicted_cells(const CellsToWeigh& cells, const Selection& s
     std::vector<std::size_t> cut;
     failure.attempt([&] {
         prediction.expect_one_of_each();
-        if (selection.random) prediction.add_by_lot(selection.random->fraction);
+        if (selection.random) prediction.add_at_random(selection.random->fraction);
         prediction.add_tagged(selection);
         if (selection.max_volume) prediction.add_larger_than(*selection.max_volume);
         bodies.take(selection);

@@ -63,5 +63,9 @@ inline constexpr std::array<MeditKeyword, 6> other_cell_shapes{{{"Quadrilaterals
 
 inline constexpr std::array<MeditKeyword, 3> second_order_sections{
     {{"TetrahedraP2", 30}, {"TrianglesP2", 24}, {"EdgesP2", 25}}};
+/// What is said of one of them.
+inline constexpr std::string_view no_second_order =
+    "second-order elements ({}) are not supported: have the mesh made with elements of first "
+    "order, in Gmsh by -order 1";
 
 }  // namespace octetra

@@ -128,7 +128,7 @@ private:
         }
         if (std::ranges::find(second_order_sections, keyword, &MeditKeyword::keyword) !=
             second_order_sections.end()) {
-            reader_.fail(fmt::format("second-order elements ({}) are not supported", keyword));
+            reader_.fail(fmt::format(no_second_order, keyword));
         }
         if (std::ranges::find(other_cell_shapes, keyword, &MeditKeyword::keyword) !=
             other_cell_shapes.end()) {

@@ -76,8 +76,7 @@ private:
             return found == keywords.end() ? std::string_view{} : found->keyword;
         };
         if (const auto name = named(second_order_sections); !name.empty()) {
-            reader_->fail(fmt::format("second-order elements ({}) are not supported", name),
-                          record.keyword_at);
+            reader_->fail(fmt::format(no_second_order, name), record.keyword_at);
         }
         if (const auto name = named(other_cell_shapes); !name.empty()) {
             if (sections_.take_count() == 0) return;

@@ -54,8 +54,8 @@ EleHead read_ele_head(LineReader& reader) {
                        {0, 4, 0});
     if (corners == 10) {
         reader.fail(
-            "these are second-order cells (10 vertices each); only those with 4 are "
-            "supported");
+            "these are second-order cells (10 vertices each); only those with 4 are supported, "
+            "which tetgen makes without -o2");
     }
     if (corners != 4) reader.fail(fmt::format("4 vertices per cell expected, {} found", corners));
     if (attributes > 1) {

@@ -211,15 +211,12 @@ class Package(unittest.TestCase):
         home = self.folder / "home"
         loop = home / "loop"
         loop.mkdir(parents=True)
-        environment = {**os.environ, "HOME": str(home), "OMPI_ALLOW_RUN_AS_ROOT": "1",
-                       "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1",
-                       "OMPI_MCA_rmaps_base_oversubscribe": "1",
-                       "OMPI_MCA_btl_vader_single_copy_mechanism": "none",
-                       "OMPI_MCA_hwloc_base_binding_policy": "none"}
+        environment = {**os.environ, "HOME": str(home)}
+        settings = f"set -a; . {source}/tools/mpi.env; set +a\n"
         block = blocks_of_tutorial()
 
         def follow(commands, folder):
-            return run("bash", "-e", "-c", commands, cwd=folder, env=environment)
+            return run("bash", "-e", "-c", settings + commands, cwd=folder, env=environment)
 
         # The checkout stays as it is, and the program is there already; to compile it well takes longer.
         install = block("cmake -S .").replace("build/mine", str(self.folder / "mine")).replace(

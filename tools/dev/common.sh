@@ -68,6 +68,14 @@ take_numbers() {
     done
 }
 
+# Exports the settings of mpirun for runs on this machine.
+use_mpi_on_this_machine() {
+    set -a
+    # shellcheck source=tools/mpi.env
+    source "$root/tools/mpi.env"
+    set +a
+}
+
 # ---- packages ------------------------------------------------------------------------------------
 
 # The packages in these sections of packages.txt, one per line.

@@ -37,10 +37,7 @@ in_short() {
 # The same refinement on 1 to 4 ranks and by the serial reference, compared byte by byte.
 demo_of_ranks() {
     local ranks extension
-    # What mpirun asks for where it is root, and where there are fewer cores than ranks; and in many
-    # containers the kernel does not let one process copy from another's memory.
-    export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1
-    export OMPI_MCA_rmaps_base_oversubscribe=1 OMPI_MCA_btl_vader_single_copy_mechanism=none
+    use_mpi_on_this_machine
     run octetra refine demo/gear.1.ele --sphere 1,0,0.15,0.4 --levels 2 --engine reference \
         -o demo/reference.1.ele
     for ranks in 1 2 3 4; do

@@ -1,6 +1,7 @@
 """Runs programs and says what came of it."""
 
 import os
+import pathlib
 import subprocess
 import time
 from dataclasses import dataclass
@@ -8,12 +9,16 @@ from dataclasses import dataclass
 TIMEOUT = 600  # seconds; a run that hangs is a failure, not a wait for ever
 TOO_LONG = 124  # the status of such a run
 
-# What mpirun asks for as root and for more ranks than cores; and in many containers the kernel does
-# not let one process copy from another's memory.
-MPI_ENVIRONMENT = {
-    "OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1",
-    "OMPI_MCA_rmaps_base_oversubscribe": "1", "OMPI_MCA_btl_vader_single_copy_mechanism": "none",
-}
+SETTINGS = pathlib.Path(__file__).resolve().parent.parent / "mpi.env"
+
+
+def mpi_environment():
+    """The settings of mpirun for runs on one machine, by name."""
+    lines = (line.strip() for line in SETTINGS.read_text().splitlines())
+    return dict(line.split("=", 1) for line in lines if line and not line.startswith("#"))
+
+
+MPI_ENVIRONMENT = mpi_environment()
 
 
 class Failure(Exception):

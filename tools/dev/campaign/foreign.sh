@@ -6,7 +6,7 @@ source "$root/tools/dev/common.sh"
 # is no refinement by bisection.
 foreign_commands() {
     local shape levels
-    export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1
+    use_mpi_on_this_machine
     for shape in "kuhn 3" "fichera" "two-material" "random 500"; do
         # shellcheck disable=SC2086  # the shape's parameters
         run octetra generate $shape -o made.mesh

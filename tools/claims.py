@@ -96,6 +96,8 @@ def tests_of(build):
             continue
         names.add(plain(name))
         names.add(re.sub(r"\.\d+_ranks$", "", name))
+        if any(argument.startswith("--gtest_filter=") for argument in command) and len(command) == 3:
+            programs.add((name.split(".")[0], command[0]))  # a suite of a program of GoogleTest
         if command and command[0].endswith("/mpirun.sh"):  # MPIRUN RANKS [-x VARIABLE] PROGRAM ARGUMENTS...
             program = command[2:]
             while program[0] == "-x":

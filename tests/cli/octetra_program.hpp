@@ -1,6 +1,8 @@
 #pragma once
 
+#include <cstdlib>
 #include <string>
+#include <vector>
 
 #include "support/run_program.hpp"
 
@@ -16,6 +18,14 @@ inline Outcome octetra_on(int ranks, const std::string& arguments, const Tempora
     return run_program(words(std::string(OCTETRA_SOURCE_DIR "/tests/support/mpirun.sh ") +
                              std::to_string(ranks) + " " + OCTETRA_PROGRAM + " " + arguments),
                        folder.path());
+}
+
+/// The numbers of ranks on which to repeat a comparison: with OCTETRA_EVERY_RANK_COUNT in the
+/// environment, as
+/// `./dev campaign nightly` sets it, all of these; otherwise the first alone.
+inline std::vector<int> rank_counts(std::vector<int> ranks) {
+    if (std::getenv("OCTETRA_EVERY_RANK_COUNT") == nullptr) ranks.resize(1);
+    return ranks;
 }
 
 inline std::size_t occurrences(const std::string& text, const std::string& part) {

@@ -45,7 +45,7 @@ TEST_F(Parallel, WritesTheSameBytesOnAnyNumberOfRanksAndByTheReference) {
     const std::vector<std::string> ways{"", "--sync gateway --partition dual",
                                         "--partition random:7 --rebalance never",
                                         "--partition block --rebalance 0"};
-    for (const int ranks : {1, 2, 3, 4}) {
+    for (const int ranks : test::rank_counts({3, 1, 2, 4})) {
         for (const std::string& how : ways) {
             if (ranks < 3 && how != ways[static_cast<std::size_t>(ranks - 1)]) continue;
             const auto run = octetra_on(ranks, refine + how + " -o p.ele --maps p.txt", folder);

@@ -55,6 +55,14 @@ TEST_F(RefineCube, SchemesSelectLessAndLess) {
     EXPECT_GT(eight, four);
     EXPECT_GT(four, two);
     EXPECT_GT(two, 3072U);
+    for (const std::string made : {"8t", "4t", "2t"}) {
+        (void)cells_after(folder, sphere + made);
+        for (const std::string asked : {"8t", "4t", "2t"}) {
+            EXPECT_EQ(test::octetra("verify cube.ele fine.ele " + sphere + asked, folder).status,
+                      made == asked ? 0 : 1)
+                << made << " judged as " << asked;
+        }
+    }
 }
 
 TEST_F(RefineCube, InTwoRunsIsTheSameBytesAsInOne) {

@@ -25,17 +25,18 @@ TEST_P(BadUsage, EndsInStatus2AndOneMessage) {
 
 INSTANTIATE_TEST_SUITE_P(
     CommandLines, BadUsage,
-    testing::Values("frobnicate", "build --fast", "build relaese", "test --slow", "test A B",
-                    "campaign frobnicate", "campaign frobnicate --help", "campaign --minutes 9",
-                    "campaign fuzz --minutes", "campaign fuzz --minutes 0",
-                    "campaign fuzz --minutes 00", "campaign fuzz --minutes x", "campaign fuzz 5",
-                    "campaign worlds --minutes 0", "campaign worlds --from 0",
-                    "campaign worlds --from 263", "campaign shrink", "campaign shrink a.ele",
-                    "campaign shrink no-such-file.json", "campaign shrink a.json b.json",
-                    "campaign shrink a.json --minutes 0", "campaign shrink a.json --ranks 0",
-                    "campaign shrink a.json --ranks", "campaign shrink --slow 1 a.json",
-                    "campaign files --minutes 0", "campaign packages --minutes 0",
-                    "campaign packages now", "format --slow", "docs now", "clean all"));
+    testing::Values("frobnicate", "build --fast", "build relaese", "test --slow",
+                    "test --quick --sanitized", "test A B", "campaign frobnicate",
+                    "campaign frobnicate --help", "campaign --minutes 9", "campaign fuzz --minutes",
+                    "campaign fuzz --minutes 0", "campaign fuzz --minutes 00",
+                    "campaign fuzz --minutes x", "campaign fuzz 5", "campaign worlds --minutes 0",
+                    "campaign worlds --from 0", "campaign worlds --from 263", "campaign shrink",
+                    "campaign shrink a.ele", "campaign shrink no-such-file.json",
+                    "campaign shrink a.json b.json", "campaign shrink a.json --minutes 0",
+                    "campaign shrink a.json --ranks 0", "campaign shrink a.json --ranks",
+                    "campaign shrink --slow 1 a.json", "campaign files --minutes 0",
+                    "campaign packages --minutes 0", "campaign packages now", "format --slow",
+                    "docs now", "clean all"));
 
 /// What a verb needs is neither installed nor built for that.
 class Help : public testing::TestWithParam<std::pair<std::string, std::string>> {};

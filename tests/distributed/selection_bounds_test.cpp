@@ -66,10 +66,22 @@ TEST(SelectionBounds, PassOverWhatIsFarAway) {
 
 TEST(SelectionBounds, EndsWhereSpheresAndBoxesEnd) {
     const SelectionBounds reach({.spheres = {{{0, 0, 0}, 1}}, .boxes = {{{2, 2, 2}, {3, 3, 3}}}});
-    EXPECT_EQ(reach.sides_beyond({-0.999, 0, 2.999}), 0);
-    EXPECT_EQ(reach.sides_beyond({-1.001, 0, 3.001}), 0b100001);
-    EXPECT_EQ(reach.sides_beyond({3.001, -1.001, 0}), 0b000110);
-    // Beyond it each, but not on the same side.
+    const auto is_beyond_one_side = [&](const Point& a, const Point& b) {
+        return sides_in_common(reach, {a, b, a, b}) != 0;
+    };
+    const Point inside{0, 0, 0};
+    for (double Point::*x : {&Point::x, &Point::y, &Point::z}) {
+        for (const auto& [within, beyond] : {std::pair{-0.999, -1.001}, {2.999, 3.001}}) {
+            Point near = inside;
+            Point far = inside;
+            near.*x = within;
+            far.*x = beyond;
+            EXPECT_FALSE(is_beyond_one_side(near, near)) << within;
+            EXPECT_TRUE(is_beyond_one_side(far, far)) << beyond;
+            EXPECT_FALSE(is_beyond_one_side(far, inside)) << beyond;
+        }
+    }
+    // Each corner is beyond a side, but no side is common to all.
     const Corners around{{{-5, 0, 0}, {5, 0, 0}, {0, 5, 0}, {0, -5, 1}}};
     EXPECT_EQ(sides_in_common(reach, around), 0);
     EXPECT_EQ(SelectionBounds({.spheres = {{{0, 0, 0}, infinity}}}).sides_beyond({1e308, 0, 0}), 0);

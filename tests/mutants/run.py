@@ -119,7 +119,7 @@ def configure():
         shutil.rmtree(build)  # made for a checkout that was elsewhere
     # A fault may leave a name unused, which is no concern here.
     command = ["cmake", "--preset", "release", "-S", tree, "-B", build, "-DOCTETRA_TESTS=ON",
-               "-DOCTETRA_BENCH=OFF", "-DOCTETRA_WARNINGS_AS_ERRORS=OFF"]
+               "-DOCTETRA_TEST_TIER=nightly", "-DOCTETRA_BENCH=OFF", "-DOCTETRA_WARNINGS_AS_ERRORS=OFF"]
     done = subprocess.run(command, cwd=tree, stdout=subprocess.DEVNULL)
     if done.returncode != 0:
         die("the copy cannot be configured")

@@ -1,7 +1,7 @@
 # Writes a file for ctest: of a program of GoogleTest's the suites that a filter leaves, each a test. To start a
 # process for every case would take longer than most cases do.
-#   cmake -D PROGRAM=... -D PREFIX=... -D FILTER=... -D LABEL=... -D OUTPUT=... -P discover_suites.cmake
-# They are called <prefix><suite>, slow ones <prefix><suite>.slow. Each writes <prefix><suite>.xml into OUTPUT's
+#   cmake -D PROGRAM=... -D PREFIX=... -D FILTER=... -D TIER=... -D OUTPUT=... -P discover_suites.cmake
+# They are called <prefix><suite>, and <prefix><suite>.<tier> in the tiers above quick. Each writes <prefix><suite>.xml into OUTPUT's
 # folder: how many cases there were, and what became of them.
 
 execute_process(COMMAND ${PROGRAM} --gtest_list_tests --gtest_filter=${FILTER}
@@ -24,11 +24,11 @@ foreach(suite IN LISTS suites)
   list(JOIN cases_of_${suite} ":" cases)
   set(name "${PREFIX}${suite}")
   string(REPLACE "/" "_" report "${name}.xml")
-  if(LABEL STREQUAL "slow")
-    string(APPEND name ".slow")
+  if(NOT TIER STREQUAL "quick")
+    string(APPEND name ".${TIER}")
   endif()
   string(APPEND script "add_test([=[${name}]=] [=[${PROGRAM}]=] [=[--gtest_filter=${cases}]=]"
                        " [=[--gtest_output=xml:${folder}/${report}]=])\n"
-                       "set_tests_properties([=[${name}]=] PROPERTIES TIMEOUT 900 LABELS [=[suite;${LABEL}]=])\n")
+                       "set_tests_properties([=[${name}]=] PROPERTIES TIMEOUT 900 LABELS ${TIER})\n")
 endforeach()
 file(WRITE ${OUTPUT} "${script}")

@@ -128,7 +128,11 @@ TEST(FaceAngles, AreTakenForLargeEnoughByIntervalsFrom30DegreesUp) {
         }
     }
     EXPECT_EQ(arithmetic.exact, 0U);
-    EXPECT_EQ(arithmetic.filtered, 9U);
+    const std::array<Point, 3> narrow{at(0, 0), at(1, 0), at(1, 0.36)};  // 19.8 degrees
+    for (const auto& whole : {right, half, turned}) {                    // of 45 degrees
+        EXPECT_FALSE(exact::keeps_half_of_smallest_angle(narrow, whole, arithmetic));
+    }
+    EXPECT_TRUE(exact::keeps_half_of_smallest_angle(narrow, narrow, arithmetic));
 }
 
 TEST(Depths, HaveTheKnownQualitiesOfTheTieFreeExample) {

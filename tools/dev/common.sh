@@ -178,4 +178,5 @@ configure() {
     step "configure $folder" cmake --preset "$preset" -B "build/$folder" "$@"
 }
 
-build() { step "build $1" cmake --build "build/$1" --parallel "$jobs"; }
+# build FOLDER [TARGET]
+build() { step "build $1" cmake --build "build/$1" --parallel "$jobs" ${2:+--target "$2"}; }

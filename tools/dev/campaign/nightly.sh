@@ -1,0 +1,17 @@
+# ./dev campaign nightly: every test with both builds, and what only a release has to pass
+# shellcheck shell=bash
+source "$root/tools/dev/common.sh"
+source "$root/tools/dev/testing.sh"
+
+if (($# > 0)); then bad_usage "campaign nightly takes no arguments"; fi
+export OCTETRA_EVERY_RANK_COUNT=1  # comparisons of the command line are made on every number of ranks
+need_test_packages
+need sanitizers valgrind
+if build_and_test release release nightly "-DOCTETRA_BENCH=$(on_if_installed bench)" \
+    "-DOCTETRA_PEERS=$(on_if_installed peers)"; then
+    check "headers compile alone" cmake --build build/release --parallel "$jobs" \
+        --target all_verify_interface_header_sets
+fi
+build_and_test asan-ubsan-nightly asan-ubsan nightly -DOCTETRA_CLI=ON -DOCTETRA_TETGEN=ON || true
+check_formatting
+summary

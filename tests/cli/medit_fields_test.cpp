@@ -1,5 +1,3 @@
-#include <unistd.h>
-
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
@@ -14,6 +12,7 @@
 #include <octetra/distributed/adaptive_mesh.hpp>
 
 #include "cli/octetra_program.hpp"
+#include "support/full_disk.hpp"
 #include "support/thrown.hpp"
 
 /// Fields in Medit's files of values, through the program.
@@ -243,8 +242,7 @@ TEST_F(MeditFields, AreWrittenWithTheMeshOrNoneOfBothIs) {
     for (const std::string binary : {"", "b"}) {
         for (const std::string full : {"mesh", "sol"}) {
             const std::string name = "full." + full + binary;
-            std::filesystem::create_symlink(
-                "/dev/full", folder / (name + "." + std::to_string(::getpid()) + ".tmp"));
+            const test::FullDisk disk(name + ".");
             EXPECT_THAT(test::thrown_by<SystemError>(
                             [&] { (void)mesh.write(folder / ("full.mesh" + binary), fields); }),
                         HasSubstr(name + ": writing failed: No space left on device"));

@@ -15,6 +15,7 @@
 #include <octetra/core/files/mesh_files.hpp>
 #include <octetra/core/maps.hpp>
 
+#include "support/full_disk.hpp"
 #include "support/meshes.hpp"
 #include "support/temporary_folder.hpp"
 #include "support/thrown.hpp"
@@ -99,13 +100,10 @@ TEST(WriteMesh, RefusesUnknownExtensionsAndMissingFolders) {
 }
 
 TEST(WriteMesh, ReportsAFullDiskAndLeavesNothing) {
-    // Every write to /dev/full fails with "No space left on device".
     const TemporaryFolder folder;
     const Mesh mesh = test::kuhn(4, 4, 4);
     for (const std::string extension : {"ele", "mesh", "meshb", "vtu", "vtkhdf", "xdmf", "h5"}) {
-        const auto temporary =
-            folder / ("a." + extension + "." + std::to_string(::getpid()) + ".tmp");
-        std::filesystem::create_symlink("/dev/full", temporary);
+        const test::FullDisk disk("a." + extension + ".");
         const std::string name = extension == "h5" ? "a.xdmf" : "a." + extension;  // its values
         EXPECT_THAT(test::thrown_by<SystemError>([&] { (void)write_mesh(mesh, folder / name); }),
                     HasSubstr("a." + extension + ": writing failed: No space left on device"));
@@ -118,8 +116,7 @@ TEST(WriteText, ReplacesAFileWholeOrNotAtAll) {
     write_text("one\n", folder / "a.json");
     write_text("two\n", folder / "a.json");
     EXPECT_EQ(test::content_of(folder / "a.json"), "two\n");
-    const auto temporary = folder / ("a.json." + std::to_string(::getpid()) + ".tmp");
-    std::filesystem::create_symlink("/dev/full", temporary);
+    const test::FullDisk disk("a.json.");
     EXPECT_THAT(test::thrown_by<SystemError>([&] { write_text("three", folder / "a.json"); }),
                 HasSubstr("No space left on device"));
     EXPECT_EQ(test::content_of(folder / "a.json"), "two\n");

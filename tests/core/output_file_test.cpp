@@ -1,4 +1,9 @@
+#include <sys/syscall.h>
+#include <unistd.h>
+
 #include <algorithm>
+#include <cstring>
+#include <filesystem>
 #include <random>
 #include <string>
 #include <string_view>
@@ -7,10 +12,29 @@
 #include <gtest/gtest.h>
 
 #include <octetra/core/error.hpp>
+#include <octetra/core/files/lists.hpp>
 
 #include "files/output/output_file.hpp"
 #include "support/temporary_folder.hpp"
 #include "verify/thread_group.hpp"
+
+namespace {
+
+/// The first random bytes of a temporary name, as many times as there is need for them; then those
+/// of the system.
+int predicted_names = 0;
+
+}  // namespace
+
+/// Takes the place of the C library's function in the whole program.
+int getentropy(void* bytes, size_t size) noexcept {
+    if (predicted_names == 0) {
+        return ::syscall(SYS_getrandom, bytes, size, 0) == static_cast<long>(size) ? 0 : -1;
+    }
+    --predicted_names;
+    std::memset(bytes, 0x5a, size);
+    return 0;
+}
 
 /// The bytes below the mesh writers, in amounts that only meshes of many gigabytes have.
 namespace octetra {
@@ -99,6 +123,51 @@ TEST(OutputFile, OfAGroupHasWhatAllHavePutInOrderHoweverTheirTurnsEnd) {
         });
         EXPECT_TRUE(test::content_of(folder / "a") == expected) << ranks << " ranks";
     }
+}
+
+constexpr const char* predicted_name = "a.5a5a5a5a5a5a.tmp";
+
+TEST(OutputFile, WritesToNoFileThatHasItsTemporaryName) {
+    const test::TemporaryFolder folder;
+    test::write_file(folder / "other", "as it was");
+    for (const bool is_link : {true, false}) {
+        const std::filesystem::path planted = folder / predicted_name;
+        if (is_link) {
+            std::filesystem::create_symlink("other", planted);
+        } else {
+            test::write_file(planted, "of another program");
+        }
+        predicted_names = 2;
+        write_text("text", folder / "a");
+        EXPECT_EQ(predicted_names, 0) << "other names have been tried";
+        EXPECT_EQ(test::content_of(folder / "a"), "text");
+        EXPECT_EQ(test::content_of(folder / "other"), "as it was");
+        EXPECT_EQ(test::content_of(planted), is_link ? "as it was" : "of another program");
+        EXPECT_EQ(std::filesystem::is_symlink(planted), is_link);
+        std::filesystem::remove(planted);
+    }
+}
+
+TEST(OutputFile, OfAGroupIsTheOneThatTheFirstRankHasCreated) {
+    const test::TemporaryFolder folder;
+    test::write_file(folder / predicted_name, "of another program");
+    predicted_names = 1;
+    test::run_together(3, [&](const ProcessGroup& group) {
+        OutputFile out(folder / "a", group);
+        out.put(static_cast<char>('0' + group.rank()));
+        out.commit();
+    });
+    EXPECT_EQ(test::content_of(folder / "a"), "012");
+    EXPECT_EQ(test::content_of(folder / predicted_name), "of another program");
+}
+
+TEST(OutputFile, EndsWhereAllTemporaryNamesAreTakenAndRemovesNone) {
+    const test::TemporaryFolder folder;
+    test::write_file(folder / predicted_name, "of another program");
+    predicted_names = 1000;
+    EXPECT_THROW(OutputFile(folder / "a"), SystemError);
+    predicted_names = 0;
+    EXPECT_EQ(test::content_of(folder / predicted_name), "of another program");
 }
 
 /// What a rank puts of its stretch, piece by piece.

@@ -17,6 +17,7 @@
 #include <octetra/core/files/mesh_files.hpp>
 #include <octetra/core/maps.hpp>
 
+#include "support/full_disk.hpp"
 #include "support/meshes.hpp"
 #include "support/temporary_folder.hpp"
 #include "support/thrown.hpp"
@@ -153,9 +154,7 @@ TEST(OutputLinks, ThatCannotBeWrittenLeaveWhatTheyPointTo) {
     fs::create_directory(folder / "store");
     test::write_file(folder / "store/b.mesh", "as it was");
     fs::create_symlink("store/b.mesh", folder / "a.mesh");
-    // The temporary file stands beside what is written; every write to /dev/full fails.
-    fs::create_symlink("/dev/full",
-                       folder / ("store/b.mesh." + std::to_string(::getpid()) + ".tmp"));
+    const test::FullDisk disk("b.mesh.");  // the temporary file is beside the target of the link
     EXPECT_THAT(test::thrown_by<SystemError>(
                     [&] { (void)write_mesh(test::kuhn(1, 1, 1), folder / "a.mesh"); }),
                 HasSubstr("a.mesh: writing failed: No space left on device"));

@@ -22,13 +22,6 @@ namespace {
 
 constexpr std::size_t buffer_size = std::size_t{1} << 20U;
 
-/// A name that no other run uses at the same time, and that all processes of this one know.
-std::filesystem::path temporary_beside(const std::filesystem::path& place,
-                                       const ProcessGroup& group) {
-    const auto number = group.of_first(static_cast<std::uint64_t>(::getpid()));
-    return fmt::format("{}.{}.tmp", place.native(), number);
-}
-
 /// Owner and group as far as the system allows. Where the group is another, it gets no more than
 /// everybody had.
 void pass_on_permissions(const struct stat& old, int file) {
@@ -56,8 +49,6 @@ OutputFile::OutputFile(std::filesystem::path path, const ProcessGroup& group)
     : group_(&group),
       path_(std::move(path)),
       place_(place_of(path_)),
-      temporary_(temporary_beside(place_, group)),
-      unfinished_(temporary_),
       buffer_(buffer_size),
       room_(buffer_size) {
     try {
@@ -65,11 +56,12 @@ OutputFile::OutputFile(std::filesystem::path path, const ProcessGroup& group)
             failure_ = fmt::format("{}: {}", path_.native(), what);
         }
         agree();
-        if (group_->is_first()) open();
+        const std::uint64_t number = group_->is_first() ? create() : 0;
         agree();
-        if (!group_->is_first()) open();
+        const std::uint64_t number_of_first = group_->of_first(number);
+        if (!group_->is_first()) open_created(number_of_first);
         agree();
-    } catch (const SystemError&) {
+    } catch (...) {
         if (file_ >= 0) ::close(file_);
         if (group_->is_first() && file_ >= 0) ::unlink(temporary_.c_str());
         throw;
@@ -211,15 +203,39 @@ void OutputFile::make_room(std::size_t size) {
     room_ = buffer_.size();
 }
 
-void OutputFile::open() {
-    // What others may not read they may not read before it is complete, either.
+void OutputFile::name_temporary(std::uint64_t number) {
+    temporary_ = fmt::format("{}.{:012x}.tmp", place_.native(), number);
+    unfinished_.reset();
+    unfinished_.emplace(temporary_);
+}
+
+/// Returns the random number in the name of the temporary file. A predictable name could be planted
+/// as a link to another file, or be in use by a program of the same process number in another
+/// container.
+std::uint64_t OutputFile::create() {
+    // Readers without access to the replaced file have none to the incomplete one, either.
     const bool replaces = ::access(place_.c_str(), F_OK) == 0;
     const mode_t mode = replaces ? 0600 : 0666;  // less what the umask takes away
-    const int create = group_->is_first() ? O_CREAT | O_TRUNC : 0;
-    file_ = ::open(temporary_.c_str(), O_WRONLY | O_CLOEXEC | create, mode);
-    if (file_ >= 0) return;
-    fail(group_->is_first() ? "cannot be written"
-                            : "cannot be written by all ranks; do they share this folder?");
+    std::uint64_t number = 0;
+    constexpr int most_attempts = 100;
+    for (int attempt = 0; attempt < most_attempts; ++attempt) {
+        if (::getentropy(&number, sizeof number) != 0) break;
+        number >>= 16U;
+        name_temporary(number);
+        file_ =
+            ::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, mode);
+        if (file_ >= 0) return number;
+        if (errno != EEXIST) break;
+    }
+    fail("cannot be written");
+    return number;
+}
+
+/// The file that the first process has created.
+void OutputFile::open_created(std::uint64_t number) {
+    name_temporary(number);
+    file_ = ::open(temporary_.c_str(), O_WRONLY | O_NOFOLLOW | O_CLOEXEC);
+    if (file_ < 0) fail("cannot be written by all ranks; do they share this folder?");
 }
 
 void OutputFile::write_at(std::uint64_t position, const void* data, std::size_t size) {

@@ -99,17 +99,19 @@ private:
     [[nodiscard]] std::uint64_t place_of_turn();
     [[nodiscard]] std::uint64_t place_in_group(std::uint64_t size);
     void write_kept();
-    void open();
+    void name_temporary(std::uint64_t number);
+    std::uint64_t create();
+    void open_created(std::uint64_t number);
     void rename();
     void write_at(std::uint64_t position, const void* data, std::size_t size);
     void fail(std::string_view doing);
     void agree();
 
     const ProcessGroup* group_;
-    std::filesystem::path path_;   ///< as it was named
-    std::filesystem::path place_;  ///< where its links lead
-    std::filesystem::path temporary_;
-    UnfinishedFile unfinished_;
+    std::filesystem::path path_;       ///< as it was named
+    std::filesystem::path place_;      ///< where its links lead
+    std::filesystem::path temporary_;  ///< the place, a random number and ".tmp"
+    std::optional<UnfinishedFile> unfinished_;
     int file_ = -1;
     std::vector<char> buffer_;
     std::size_t room_ = 0;  ///< so much of the buffer may be used before something must be done

@@ -19,6 +19,10 @@ std::string wrong_in(const std::vector<GroupName>& names) {
             return fmt::format("the name of group {} of dimension {} cannot be shown", group.tag,
                                group.dimension);
         }
+        if (group.name == untagged_group_name) {
+            return fmt::format("the name {} of group {} of dimension {} is reserved", group.name,
+                               group.tag, group.dimension);
+        }
         groups.emplace_back(group.dimension, group.tag);
     }
     std::ranges::sort(groups);

@@ -89,6 +89,23 @@ class ByGmsh(Case):
         self.run_octetra("convert", "b.msh", "b.mesh")
         self.assertEqual(named_by_points(self.path / "b.mesh"), named_by_points(self.path / "a.mesh"))
 
+    def test_saves_and_refines_cells_without_a_tag(self):
+        """Where the facets have markers: Gmsh saves only elements of groups, if there are any."""
+        self.run_octetra("generate", "gear", "-o", "gear.1.ele")
+        self.run_octetra("convert", "gear.1.ele", "gear.mesh")
+        expected = named_by_points(self.path / "gear.mesh")
+        for form in FORMATS:
+            for again in ["msh41", "msh22"]:
+                with self.subTest(form + " as " + again):
+                    self.run_octetra("convert", "gear.mesh", "a.msh", "--msh-format", form)
+                    self.gmsh("a.msh", "-save", "-bin", "-format", again, "-o", "b.msh")
+                    self.run_octetra("convert", "b.msh", "b.mesh")
+                    self.assertTrue(named_by_points(self.path / "b.mesh") == expected)
+                    self.gmsh("a.msh", "-refine", "-format", again, "-o", "c.msh")
+                    self.run_octetra("convert", "c.msh", "c.mesh")
+                    fine, coarse = sections(self.path / "c.mesh"), sections(self.path / "gear.mesh")
+                    self.assertEqual(len(fine["Tetrahedra"]), 8 * len(coarse["Tetrahedra"]))
+                    self.assertEqual({row[-1] for row in fine["Tetrahedra"]}, {"0"})
 
     def test_keeps_the_names_of_groups(self):
         """In what is written, and in what Gmsh makes of it."""
@@ -105,6 +122,18 @@ class ByGmsh(Case):
 
 
 class ByMeshio(Case):
+    def test_finds_cells_without_a_tag_in_a_group_of_their_own(self):
+        self.run_octetra("generate", "gear", "-o", "gear.1.ele")
+        for form in FORMATS:
+            with self.subTest(form):
+                self.run_octetra("convert", "gear.1.ele", "a.msh", "--msh-format", form)
+                mesh = meshio.read(self.path / "a.msh")
+                tag, dimension = mesh.field_data["octetra:untagged"]
+                self.assertEqual(dimension, 3)
+                groups = [set(tags) for block, tags in zip(mesh.cells, mesh.cell_data["gmsh:physical"])
+                          if block.type == "tetra"]
+                self.assertEqual(groups, [{tag}])
+
     def test_finds_the_same_points_and_elements_with_the_same_groups(self):
         import numpy
         lists = sections(self.path / "box.mesh")

@@ -49,6 +49,21 @@ TEST(GmshNames, AreReadFromTextAndBinaryFiles) {
     }
 }
 
+/// Gmsh may have given the group to a reversed entity.
+TEST(GmshNames, OfElementsWithoutAMarkerAreTheReservedOne) {
+    const std::string names = "$PhysicalNames\n2\n3 7 \"octetra:untagged\"\n2 7 \"wall\"\n" +
+                              std::string("$EndPhysicalNames\n");
+    Mesh expected = unnamed_cell();
+    expected.regions.clear();
+    expected.group_names = {{2, 7, "wall"}};
+    for (const std::string& file :
+         {gmsh_head_2 + names + gmsh_nodes_2 + gmsh_cell_2,
+          gmsh_head_2 + names + gmsh_nodes_2 + "$Elements\n1\n1 4 2 -7 1 1 2 3 4\n$EndElements\n",
+          test::gmsh_binary_4().insert(binary_head, names)}) {
+        EXPECT_EQ(test::read_gmsh(file).mesh, expected);
+    }
+}
+
 TEST(GmshNames, AreReadIfTheyAreNoLongerThanALineMayBe) {
     for (const std::size_t length : {std::size_t{100'000}, std::size_t{2'000'000}}) {
         Mesh expected = unnamed_cell();

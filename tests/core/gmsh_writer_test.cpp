@@ -178,7 +178,8 @@ TEST(GmshWriter, WritesWhatIsSaidOfVersion4) {
     EXPECT_EQ(write_mesh(mesh, folder / "a.msh", {.msh = {.is_text = true}}), "");
     EXPECT_EQ(content_of(folder / "a.msh"),
               "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n"
-              "$Entities\n0 0 2 1\n1 0 0 0 1 1 1 0 0\n2 0 0 0 1 1 1 1 5 0\n1 0 0 0 1 1 1 1 7 0\n"
+              "$PhysicalNames\n1\n2 1 \"octetra:untagged\"\n$EndPhysicalNames\n"
+              "$Entities\n0 0 2 1\n1 0 0 0 1 1 1 1 1 0\n2 0 0 0 1 1 1 1 5 0\n1 0 0 0 1 1 1 1 7 0\n"
               "$EndEntities\n"
               "$Nodes\n1 4 1 4\n3 1 0 4\n1\n2\n3\n4\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n$EndNodes\n"
               "$Elements\n3 3 1 3\n2 2 2 1\n1 1 2 3\n2 1 2 1\n2 1 2 4\n3 1 4 1\n3 1 2 3 4\n"
@@ -186,14 +187,45 @@ TEST(GmshWriter, WritesWhatIsSaidOfVersion4) {
     EXPECT_EQ(write_mesh(mesh, folder / "a.msh", {.msh = {.is_2 = true, .is_text = true}}), "");
     EXPECT_EQ(content_of(folder / "a.msh"),
               "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n"
+              "$PhysicalNames\n1\n2 1 \"octetra:untagged\"\n$EndPhysicalNames\n"
               "$Nodes\n4\n1 0 0 0\n2 1 0 0\n3 0 1 0\n4 0 0 1\n$EndNodes\n"
-              "$Elements\n3\n1 2 2 5 2 1 2 3\n2 2 2 0 1 1 2 4\n3 4 2 7 1 1 2 3 4\n$EndElements\n");
+              "$Elements\n3\n1 2 2 5 2 1 2 3\n2 2 2 1 1 1 2 4\n3 4 2 7 1 1 2 3 4\n$EndElements\n");
     mesh.facets.clear();
     mesh.facet_markers.clear();
     EXPECT_EQ(write_mesh(mesh, folder / "a.msh"), "");
     EXPECT_EQ(content_of(folder / "a.msh"), test::gmsh_binary_4());
     EXPECT_EQ(write_mesh(mesh, folder / "a.msh", {.msh = {.is_2 = true}}), "");
     EXPECT_EQ(content_of(folder / "a.msh"), test::gmsh_binary_2());
+}
+
+/// Gmsh saves and refines only what is in a group, if anything is.
+TEST(GmshWriter, GivesUntaggedElementsAGroupOfTheirOwnWhereOthersAreTagged) {
+    Mesh mesh = test::kuhn(2, 2, 2);
+    test::list_boundary(mesh);
+    mesh.index_base = 1;
+    mesh.facet_markers.assign(mesh.facets.size(), 1);
+    mesh.group_names = {{3, 1, "empty"}, {3, -2, "reversed"}};
+    const auto names_and_read = [&](const Mesh& written, const MshFormat& format) {
+        const TemporaryFolder folder;
+        (void)write_mesh(written, folder / "a.msh", {.msh = format});
+        EXPECT_EQ(read_mesh(folder / "a.msh"), written) << kind_of(format);
+        test::expect_right_stretches(folder / "a.msh");
+        return content_of(folder / "a.msh");
+    };
+    Mesh mixed = mesh;
+    mixed.regions.assign(mesh.cells.size(), 0);
+    mixed.regions[CellIndex{3}] = -3;
+    Mesh cells_tagged = mixed;
+    cells_tagged.facet_markers.clear();
+    for (const MshFormat& format : all_formats) {
+        EXPECT_THAT(names_and_read(mesh, format), HasSubstr("\n3 3 \"octetra:untagged\"\n"));
+        EXPECT_THAT(names_and_read(mixed, format), HasSubstr("\n3 4 \"octetra:untagged\"\n"));
+        EXPECT_THAT(names_and_read(cells_tagged, format),
+                    AllOf(HasSubstr("\n2 1 \"octetra:untagged\"\n3 4 \"octetra:untagged\"\n")));
+        Mesh nothing_tagged = mesh;
+        nothing_tagged.facet_markers.clear();
+        EXPECT_THAT(names_and_read(nothing_tagged, format), Not(HasSubstr("octetra:untagged")));
+    }
 }
 
 TEST(GmshWriter, WritesTheNamesOfGroups) {

@@ -12,7 +12,8 @@ namespace octetra {
 struct GroupName {
     std::int32_t dimension = 0;  ///< 0 vertices, 1 edges, 2 facets, 3 cells
     std::int32_t tag = 0;        ///< a region tag or marker
-    std::string name;            ///< UTF-8, without control characters; not empty
+    std::string
+        name;  ///< UTF-8, without control characters; not empty. Reserved: "octetra:untagged"
 
     friend bool operator==(const GroupName&, const GroupName&) = default;
 };

@@ -1,8 +1,10 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <cstdlib>
 #include <cstring>
 #include <limits>
+#include <set>
 #include <span>
 #include <string>
 #include <string_view>
@@ -11,6 +13,7 @@
 
 #include <fmt/format.h>
 
+#include <octetra/core/check_group_names.hpp>
 #include <octetra/core/error.hpp>
 
 #include "files/gmsh/element_types.hpp"
@@ -35,7 +38,9 @@ struct ElementList : EntityList<N> {
     std::uint64_t type;
     MarkerRuns runs{};
     std::uint64_t first_tag = 1;
+    Marker untagged = 0;  ///< the group of elements without a marker; 0: none
 
+    [[nodiscard]] Marker group_of(Marker marker) const { return marker == 0 ? untagged : marker; }
     [[nodiscard]] std::int32_t dimension() const { return static_cast<std::int32_t>(N) - 1; }
     /// Entities are numbered from 1, by their markers.
     [[nodiscard]] std::int32_t entity_of(Marker marker) const {
@@ -58,6 +63,7 @@ public:
         find_runs(tetrahedra_);
         triangles_.first_tag = 1 + lines_.count;
         tetrahedra_.first_tag = triangles_.first_tag + triangles_.count;
+        find_untagged_groups();
         // Every node lies on an entity.
         if (tetrahedra_.runs.markers.empty()) tetrahedra_.runs.markers.push_back(0);
     }
@@ -65,7 +71,7 @@ public:
     void write() {
         on_first([&] {
             put_format();
-            put_group_names(numbers_, facts_.group_names.list());
+            put_group_names(numbers_, names_);
         });
         is_2_ ? write_2() : write_4();
     }
@@ -101,6 +107,33 @@ private:
             };
         }
         list.runs = find_marker_runs(list.count, group_, markers);
+    }
+
+    /// Gmsh saves only elements of groups, if there are any: then all elements need one.
+    void find_untagged_groups() {
+        names_ = facts_.group_names.list();
+        const auto has_tagged = [](const auto& list) {
+            return std::ranges::any_of(list.runs.markers,
+                                       [](Marker marker) { return marker != 0; });
+        };
+        if (!has_tagged(lines_) && !has_tagged(triangles_) && !has_tagged(tetrahedra_)) return;
+        find_untagged_group(lines_);
+        find_untagged_group(triangles_);
+        find_untagged_group(tetrahedra_);
+    }
+    /// Of elements without a marker: the lowest number from 1 that no group of the dimension has.
+    template <std::size_t N>
+    void find_untagged_group(ElementList<N>& list) {
+        if (!std::ranges::binary_search(list.runs.markers, 0)) return;
+        std::set<std::int64_t> taken;
+        for (const Marker marker : list.runs.markers) taken.insert(std::abs(std::int64_t{marker}));
+        for (const GroupName& group : facts_.group_names.list()) {
+            if (group.dimension == list.dimension())
+                taken.insert(std::abs(std::int64_t{group.tag}));
+        }
+        list.untagged = 1;
+        while (taken.contains(list.untagged)) ++list.untagged;
+        names_.push_back({list.dimension(), list.untagged, std::string(untagged_group_name)});
     }
 
     void put_format() {
@@ -143,8 +176,9 @@ private:
         for (const Marker marker : list.runs.markers) {
             put_all(list.entity_of(marker), box.low.x, box.low.y, box.low.z, box.high.x, box.high.y,
                     box.high.z);
-            put_all(std::uint64_t{marker != 0});
-            if (marker != 0) numbers_.put(marker);
+            const Marker group = list.group_of(marker);
+            put_all(std::uint64_t{group != 0});
+            if (group != 0) numbers_.put(group);
             put_row(std::uint64_t{0});  // entities on its boundary
         }
     }
@@ -252,7 +286,7 @@ private:
             const std::uint64_t rows = stretches.length_of(group_.rank());
             if (!numbers_.is_text()) return rows * (1 + std::size_t{tags} + N) * sizeof(type);
             const auto bytes_of_tags = [&](Marker marker) {
-                return text_length(marker) + text_length(list.entity_of(marker)) + 2;
+                return text_length(list.group_of(marker)) + text_length(list.entity_of(marker)) + 2;
             };
             return bytes_of_row_numbers(stretches, group_.rank(), list.first_tag) +
                    rows * (text_length(type) + text_length(tags) + 2) +
@@ -268,7 +302,7 @@ private:
                 const Marker marker = markers.empty() ? 0 : markers[i];
                 put_number_2(list.first_tag + number++);
                 if (numbers_.is_text()) put_all(type, tags);
-                put_all(marker, list.entity_of(marker));
+                put_all(list.group_of(marker), list.entity_of(marker));
                 for (const std::uint64_t vertex : elements[i]) put_number_2(vertex + 1);
                 numbers_.end_row();
             }
@@ -282,6 +316,7 @@ private:
     const MeshFacts& facts_;
     const ProcessGroup& group_;
     bool is_2_;
+    std::vector<GroupName> names_;
     ElementList<2> lines_{list_of_edges(facts_), line_type};
     ElementList<3> triangles_{list_of_facets(facts_), triangle_type};
     ElementList<4> tetrahedra_{list_of_cells(facts_), tetrahedron_type};

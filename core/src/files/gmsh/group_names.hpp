@@ -10,6 +10,7 @@
 
 #include <fmt/format.h>
 
+#include <octetra/core/check_group_names.hpp>
 #include <octetra/core/checkpoint_blocks.hpp>
 #include <octetra/core/mesh.hpp>
 
@@ -22,10 +23,27 @@ namespace octetra::gmsh {
 /// first and the last quotation mark.
 [[nodiscard]] std::optional<GroupName> parse_group_name(std::string_view line);
 
+/// The groups named untagged_group_name, whose elements have no marker.
+class UntaggedGroups {
+public:
+    void add(std::int32_t dimension, Marker tag) { groups_.emplace_back(dimension, tag); }
+    /// The marker of an element of this group. A negative tag is that of a reversed entity.
+    [[nodiscard]] Marker marker_of(std::int32_t dimension, Marker tag) const {
+        const auto is_untagged = [&](const std::pair<std::int32_t, Marker>& group) {
+            const std::int64_t wide = group.second;
+            return group.first == dimension && (tag == wide || tag == -wide);
+        };
+        return std::ranges::any_of(groups_, is_untagged) ? 0 : tag;
+    }
+
+private:
+    std::vector<std::pair<std::int32_t, Marker>> groups_;
+};
+
 /// Reads the names, each of a group of its own. Those that cannot be shown, or are empty, are left
 /// out; returns how many these are.
 template <class Input>
-std::uint64_t read_group_names(Input& in, std::vector<GroupName>& names) {
+std::uint64_t read_group_names(Input& in, std::vector<GroupName>& names, UntaggedGroups& untagged) {
     const std::uint64_t count = in.count_line("the number of names");
     in.check_count(count, 3, 4, "names");
     std::uint64_t left_out = 0;
@@ -36,7 +54,9 @@ std::uint64_t read_group_names(Input& in, std::vector<GroupName>& names) {
             in.fail("the name of a group is a line of its dimension, its tag and \"the name\"");
         }
         groups.emplace_back(group->dimension, group->tag);
-        if (group->name.empty() || !is_name(group->name)) {
+        if (group->name == untagged_group_name) {
+            untagged.add(group->dimension, group->tag);
+        } else if (group->name.empty() || !is_name(group->name)) {
             ++left_out;
         } else {
             names.push_back(std::move(*group));

@@ -66,7 +66,8 @@ WrongRow MeshIntake::take(const EntityKind<I, N>& kind,
         if (left < rows.size()) return {left, "the file has changed while it was read"};
     }
     of_kind.count += rows.size();
-    append(kind, std::span<const std::array<VertexIndex, N>>(vertices), marker);
+    append(kind, std::span<const std::array<VertexIndex, N>>(vertices),
+           untagged_.marker_of(N - 1, marker));
     return {};
 }
 

@@ -44,7 +44,7 @@ public:
     /// The names of groups.
     template <class Input>
     void take_names(Input& in) {
-        left_out_.names = read_group_names(in, growing_->mesh.group_names);
+        left_out_.names = read_group_names(in, growing_->mesh.group_names, untagged_);
     }
 
     void expect_nodes(std::uint64_t count) { growing_->expect_points(count, 0, false); }
@@ -125,6 +125,7 @@ private:
     std::optional<RepeatedCells> repeated_cells_;
     LeftOut left_out_;
     std::string missing_;  // what take() said of a node
+    UntaggedGroups untagged_;
 };
 
 }  // namespace octetra::gmsh

@@ -71,8 +71,9 @@ private:
         if (!progress_->all_well()) return false;
         switch (section) {
             case SectionKind::names: {
-                progress_->attempt(
-                    [&] { intake_.left_out.names = read_group_names(*in_, names_); });
+                progress_->attempt([&] {
+                    intake_.left_out.names = read_group_names(*in_, names_, intake_.untagged);
+                });
                 break;
             }
             case SectionKind::entities: {

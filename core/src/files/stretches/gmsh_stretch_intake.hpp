@@ -11,6 +11,7 @@
 
 #include <octetra/core/huge_pages.hpp>
 
+#include "files/gmsh/group_names.hpp"
 #include "files/gmsh/left_out.hpp"
 #include "files/gmsh/wrong_row.hpp"
 #include "files/input/growing_mesh.hpp"
@@ -53,6 +54,7 @@ public:
                                 std::span<const std::array<std::uint64_t, N>> rows, Marker marker,
                                 std::uint64_t /*place*/, std::uint64_t /*step*/) {
         for (std::size_t i = 0; i < rows.size(); ++i) {
+        const Marker kept_marker = untagged.marker_of(N - 1, marker);
             std::array<VertexIndex, N> vertices;
             for (std::size_t k = 0; k < N; ++k) {
                 vertices[k] = node_tags_->stand_in(rows[i][k]);
@@ -62,7 +64,7 @@ public:
                 }
             }
             (lists_->*kind.list).push_back(vertices);
-            (lists_->*kind.markers).push_back(marker);
+            (lists_->*kind.markers).push_back(kept_marker);
         }
         return {};
     }
@@ -75,6 +77,7 @@ public:
     LeftOut left_out;
 
 private:
+    UntaggedGroups untagged;
     Mesh* lists_;
     std::vector<std::uint64_t> tags_;
     const NodeTags* node_tags_ = nullptr;

@@ -78,6 +78,9 @@ INSTANTIATE_TEST_SUITE_P(
         {"VersionFive", "MeshVersionFormatted 5\nDimension 3\n", 1, "versions 1 to 4, not 5"},
         {"OnlyHead", head, 2, "no section Vertices"},
         {"Dimension", "MeshVersionFormatted 2 Dimension 2", 1, "dimension 3 expected, 2 found"},
+        {"OfMfem", "MFEM mesh v1.0\n\ndimension\n3\n", 1, "this is a mesh of MFEM; of .mesh files"},
+        {"BehindParallelSections", whole_cell + "ParallelCommunicatorVertices\n1 1 0\nx\nEnd\n", 14,
+         "a keyword expected, 'x' found"},
         {"UnknownKeyword", head + vertices + "Tetraheda\n0\nEnd\n", 9, "'Tetraheda' found"},
         {"ExtraNumber", head + "Vertices\n1\n0 0 0 0 0\nEnd\n", 5, "a keyword expected, '0' found"},
         {"MissingNumber", head + "Vertices\n2\n0 0 0 0\n0 0 0\nEnd\n", 7,
@@ -181,6 +184,29 @@ TEST(MeditReader, SkipsWhatItDoesNotKeepAndSaysSo) {
     EXPECT_EQ(mesh, read_medit_text(good));
     EXPECT_THAT(note, HasSubstr("m.mesh:9: the 2 entries of NormalAtVertices are not kept"));
     EXPECT_THAT(note, HasSubstr("the 1 entries of Normals are not kept"));
+}
+
+/// As ParMmg writes them behind a part of a mesh.
+TEST(MeditReader, SkipsTheSectionsOfParallelCommunicatorsAndSaysSo) {
+    for (const std::string kind : {"Triangle", "Vertex"}) {
+        const std::string items = kind == "Vertex" ? "Vertices" : "Triangles";
+        const std::string sections = "NumberOfPartitions\n3\n\nParallel" + kind +
+                                     "Communicators\n2\n1 2\n2 1\n\nParallelCommunicator" + items +
+                                     "\n1 1 0\n2 -1 0\n1 3 1\n";
+        for (const std::string& text : {head + sections + vertices + cells + "End\n",
+                                        whole_cell + sections + "\nEnd\n", whole_cell + sections}) {
+            std::vector<std::string> notes;
+            EXPECT_EQ(read_medit_text(text, {.note = [&](const auto& n) { notes.push_back(n); }}),
+                      read_medit_text(good));
+            const bool has_end = text.ends_with("End\n");
+            ASSERT_EQ(notes.size(), has_end ? 3U : 4U);
+            EXPECT_THAT(notes[0], HasSubstr("the section NumberOfPartitions is not kept"));
+            EXPECT_THAT(notes[1],
+                        HasSubstr("the 2 entries of Parallel" + kind + "Communicators are not"));
+            EXPECT_THAT(notes[2],
+                        HasSubstr("the section ParallelCommunicator" + items + " is not kept"));
+        }
+    }
 }
 
 TEST(MeditReader, TakesAFileThatLacksEndAndSaysSo) {

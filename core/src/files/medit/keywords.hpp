@@ -44,14 +44,25 @@ struct SkippedSection {
     std::size_t numbers_per_entry;
     std::int32_t code;
 };
-inline constexpr std::array<SkippedSection, 7> skipped_sections{
+inline constexpr std::array<SkippedSection, 14> skipped_sections{
     {{"Normals", 3, 60},
      {"NormalAtVertices", 2, 20},
      {"NormalAtTriangleVertices", 3, 21},
      {"Tangents", 3, 59},
      {"TangentAtVertices", 2, 61},
      {"SubDomainFromGeom", 4, 29},
-     {"SubDomainFromMesh", 4, no_code}}};
+     {"SubDomainFromMesh", 4, no_code},
+     {"VertexOnGeometricVertex", 2, 31},
+     {"VertexOnGeometricEdge", 3, 32},
+     {"VertexOnGeometricTriangle", 4, 33},
+     {"VertexOnGeometricQuadrilateral", 4, 34},
+     {"EdgeOnGeometricEdge", 2, 35},
+     {"ParallelTriangleCommunicators", 2, no_code},
+     {"ParallelVertexCommunicators", 2, no_code}}};
+
+/// Keywords of ParMmg without a number of entries: numbers follow up to the next keyword.
+inline constexpr std::array<std::string_view, 3> sections_without_count{
+    {"NumberOfPartitions", "ParallelCommunicatorTriangles", "ParallelCommunicatorVertices"}};
 
 /// Of some there are two spellings.
 inline constexpr std::array<MeditKeyword, 6> other_cell_shapes{{{"Quadrilaterals", 7},

@@ -25,6 +25,9 @@ void stream_meshb(const std::filesystem::path& path, MeshSink& sink, const ReadO
 /// What a reader says of a section that is not kept.
 [[nodiscard]] std::string note_on_skipped(const std::filesystem::path& path, std::uint64_t line,
                                           std::uint64_t count, std::string_view keyword);
+/// The same of a section without a number of entries.
+[[nodiscard]] std::string note_on_skipped(const std::filesystem::path& path, std::uint64_t line,
+                                          std::string_view keyword);
 /// The same of a section of a binary file, of which only the keyword's code is known.
 [[nodiscard]] std::string note_on_section(const std::filesystem::path& path,
                                           std::uint64_t keyword_at, std::int32_t code);

@@ -15,6 +15,9 @@ namespace octetra {
 /// Throws InputError unless the file begins as one of Medit's.
 inline void take_medit_head(Tokens& tokens, const LineReader& reader) {
     if (const std::string_view token = tokens.text(); token != "MeshVersionFormatted") {
+        if (token == "MFEM") {
+            reader.fail("this is a mesh of MFEM; of .mesh files only those of Medit are read");
+        }
         reader.fail(
             fmt::format("a Medit file begins with MeshVersionFormatted, not {}; if it is binary, "
                         "its name should end in .meshb or .solb",

@@ -4,6 +4,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -82,7 +83,7 @@ public:
 private:
     /// Reads one section; false at the end.
     bool read_section() {
-        const std::string keyword{tokens_.text()};
+        const std::string keyword = next_keyword();
         if (keyword.empty()) {
             if (vertices_.keyword_line == 0) reader_.fail("there is no section Vertices");
             if (tetrahedra_.keyword_line == 0) reader_.fail(std::string(ends_early));
@@ -110,6 +111,11 @@ private:
         return true;
     }
 
+    std::string next_keyword() {
+        if (keyword_ahead_.empty()) return std::string(tokens_.text());
+        return std::exchange(keyword_ahead_, {});
+    }
+
     void read_other(const std::string& keyword) {
         const std::uint64_t line = reader_.line_number();
         const std::size_t feature = feature_with(&MeditKeyword::keyword, std::string_view(keyword));
@@ -126,6 +132,9 @@ private:
             }
             return;
         }
+        if (std::ranges::find(sections_without_count, keyword) != sections_without_count.end()) {
+            return skip_numbers(keyword);
+        }
         if (std::ranges::find(second_order_sections, keyword, &MeditKeyword::keyword) !=
             second_order_sections.end()) {
             reader_.fail(fmt::format(no_second_order, keyword));
@@ -138,6 +147,17 @@ private:
                 line);
         }
         reader_.fail(fmt::format("a keyword expected, {} found", shown(keyword)));
+    }
+
+    /// Up to the next keyword.
+    void skip_numbers(std::string_view section) {
+        options_->note(note_on_skipped(reader_.path(), reader_.line_number(), section));
+        const auto is_number = [](std::string_view token) {
+            return token.find_first_not_of("0123456789+-") == std::string_view::npos;
+        };
+        std::string_view token = tokens_.text();
+        while (!token.empty() && is_number(token)) token = tokens_.text();
+        keyword_ahead_ = token;
     }
 
     void read_feature(Feature feature) {
@@ -310,6 +330,7 @@ private:
 
     LineReader reader_;
     Tokens tokens_;
+    std::string keyword_ahead_;  ///< read, but not begun; empty: none
     const ReadOptions* options_;
     GrowingMesh growing_;
     Mesh& mesh_ = growing_.mesh;
@@ -329,6 +350,11 @@ std::string note_on_skipped(const std::filesystem::path& path, std::uint64_t lin
                             std::uint64_t count, std::string_view keyword) {
     return fmt::format("{}:{}: the {} entries of {} are not kept", path.native(), line, count,
                        keyword);
+}
+
+std::string note_on_skipped(const std::filesystem::path& path, std::uint64_t line,
+                            std::string_view keyword) {
+    return fmt::format("{}:{}: the section {} is not kept", path.native(), line, keyword);
 }
 
 std::string note_on_missing_end(const std::filesystem::path& path) {

@@ -153,8 +153,6 @@ INSTANTIATE_TEST_SUITE_P(
          "13: ", "the cell has the same vertex twice"},
         {"TriangleVertexTwice", gmsh_head_2 + gmsh_nodes_2 + "$Elements\n1\n1 2 2 7 1 1 2 1\n",
          "13: ", "the triangle has the same vertex twice"},
-        {"LineVertexTwice", gmsh_head_2 + gmsh_nodes_2 + "$Elements\n1\n1 1 2 7 1 2 2\n",
-         "13: ", "the line has the same vertex twice"},
         {"Inverted", gmsh_head_2 + gmsh_nodes_2 + "$Elements\n1\n1 4 2 7 1 2 1 3 4\n",
          "13: ", "the cell is inverted"},
         {"CellTwice",
@@ -165,6 +163,8 @@ INSTANTIATE_TEST_SUITE_P(
          gmsh_head_2 + gmsh_nodes_2 +
              "$Elements\n2\n1 2 2 7 1 1 2 3\n2 2 2 7 1 1 2 4\n$EndElements\n",
          "13: ", "there are triangles and no tetrahedra: mesh with gmsh -3"},
+        {"CommentsWithoutEnd", "$Comments\nof its maker\n" + gmsh_head_2,
+         "5: ", "the file ends within the section 'Comments'"},
         {"TriangleOfNoCell",
          gmsh_head_2 + replaced(gmsh_nodes_2, "$Nodes\n4\n", "$Nodes\n5\n5 9 9 9\n") +
              "$Elements\n2\n1 4 2 7 1 1 2 3 4\n2 2 2 7 1 1 2 5\n$EndElements\n",

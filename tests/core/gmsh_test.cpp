@@ -254,6 +254,49 @@ TEST(GmshReader, SkipsSectionsOfBinaryFilesByTheirEnd) {
     }
 }
 
+TEST(GmshReader, SkipsSectionsOfBinaryFilesThatEndWithoutALineEnd) {
+    for (const std::size_t size : {0U, 1U, 65519U, 65524U, 65530U, 65535U, 65536U}) {
+        const test::GmshRead found = test::read_gmsh(test::gmsh_binary_4() + "$NodeData\n" +
+                                                     std::string(size, '\1') + "$EndNodeData\n");
+        EXPECT_EQ(found.mesh, one_cell());
+        EXPECT_THAT(found.notes, ElementsAre(HasSubstr("'NodeData'")));
+    }
+    for (std::string file : {test::gmsh_binary_2(), test::gmsh_binary_4()}) {
+        for (const std::string section : {"MeshFormat", "Entities", "Nodes", "Elements"}) {
+            const std::size_t end = file.find("\n$End" + section);
+            if (end != std::string::npos) file.erase(end, 1);
+        }
+        EXPECT_EQ(read_content(file), one_cell());
+    }
+}
+
+TEST(GmshReader, SkipsCommentsBeforeTheFormat) {
+    const std::string comments = "$Comments\n$MeshFormat of its maker\n\n$EndComments\n";
+    for (const std::string& file :
+         {gmsh_head_2 + gmsh_nodes_2 + gmsh_cell_2, test::gmsh_binary_2(), test::gmsh_binary_4()}) {
+        const test::GmshRead found = test::read_gmsh(comments + comments + file);
+        EXPECT_EQ(found.mesh, one_cell());
+        EXPECT_THAT(found.notes, IsEmpty());
+    }
+}
+
+TEST(GmshReader, SkipsLinesThatHaveOneNodeTwiceAndSaysHowMany) {
+    const std::string rows_2 =
+        "10 1 2 5 1 1 2\n14 1 2 5 1 2 2\n15 1 2 6 1 2 2\n16 1 2 6 1 2 3\n11 4 2 7 1 1 2 3 4\n";
+    const std::string rows_4 = "1 1 1 4\n10 1 2\n14 2 2\n15 2 2\n16 2 3\n3 1 4 1\n11 1 2 3 4\n";
+    for (const std::string& file :
+         {gmsh_head_2 + gmsh_nodes_2 + "$Elements\n5\n" + rows_2 + "$EndElements\n",
+          gmsh_head_4 + gmsh_nodes_4 + "$Elements\n2 5 10 16\n" + rows_4 + "$EndElements\n"}) {
+        const test::GmshRead found = test::read_gmsh(file);
+        EXPECT_THAT(found.mesh.edges, ElementsAre(EdgeVertices{VertexIndex{0}, VertexIndex{1}},
+                                                  EdgeVertices{VertexIndex{1}, VertexIndex{2}}));
+        EXPECT_EQ(found.mesh.cells, one_cell().cells);
+        EXPECT_THAT(
+            found.notes,
+            ElementsAre(EndsWith("m.msh: 2 lines have the same node twice and are not kept")));
+    }
+}
+
 TEST(GmshReader, PutsPartitionsTogetherWithoutWhatLiesBetweenThem) {
     const test::GmshRead found = test::read_gmsh(
         gmsh_head_4 + gmsh_entities_4 +

@@ -37,11 +37,10 @@ void BinaryInput::refuse_coordinate(std::string_view what) {
             begin);
 }
 
-/// Looks for the line that ends the section: what the section holds is not known, and may well
-/// have no lines.
+/// Looks for the end of the section, which may follow its bytes without a line end: the content of
+/// the section is not known.
 void BinaryInput::skip_section(std::string_view name) {
-    const std::string end = fmt::format("\n$End{}", name);
-    reader_->seek(reader_->position() - 1);  // an empty section ends on the line that follows
+    const std::string end = fmt::format("$End{}", name);
     constexpr std::uint64_t at_once = std::uint64_t{1} << 16U;
     while (reader_->remaining() >= end.size()) {
         const std::uint64_t begin = reader_->position();
@@ -49,7 +48,7 @@ void BinaryInput::skip_section(std::string_view name) {
         const auto* bytes = reinterpret_cast<const char*>(reader_->take_bytes(size, end));
         if (const std::size_t found = std::string_view(bytes, size).find(end);
             found != std::string_view::npos) {
-            reader_->seek(begin + found + 1);
+            reader_->seek(begin + found);
             return end_section(name);
         }
         reader_->seek(begin + size - (end.size() - 1));  // the end may begin in these bytes

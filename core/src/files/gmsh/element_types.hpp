@@ -36,6 +36,12 @@ struct ElementType {
 /// Why a file cannot be read if it has elements of this type; else nothing.
 [[nodiscard]] std::string refusal_of_type(std::uint64_t number);
 
+/// Has a line the same node twice? Gmsh makes such lines where a curve is a single point.
+template <std::size_t N>
+[[nodiscard]] bool is_degenerate_line(const std::array<std::uint64_t, N>& nodes) {
+    return N == 2 && nodes.front() == nodes.back();
+}
+
 /// "tetrahedra"
 [[nodiscard]] std::string_view plural(Shape shape);
 

@@ -19,10 +19,19 @@ namespace {
     reader.fail(fmt::format("versions 2.2 and 4.1 are supported, not {}", shown(version)));
 }
 
+/// Goes to the first line behind sections of comments.
+void pass_over_comments(LineReader& reader) {
+    while (reader.next() && reader.line() == "$Comments") {
+        do {
+            if (!reader.next()) reader.fail("the file ends within the section 'Comments'");
+        } while (reader.line() != "$EndComments");
+    }
+}
+
 }  // namespace
 
 FormatLine read_format_line(LineReader& reader) {
-    (void)reader.next();
+    pass_over_comments(reader);
     if (reader.line().starts_with("$NOD")) {
         reader.fail(
             "version 1 is not supported: save the mesh in a newer one, with gmsh FILE.msh -save "

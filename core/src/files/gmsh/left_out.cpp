@@ -30,4 +30,5 @@ void tell_of_entities(std::uint64_t in_several, const std::string& path,
                      path, in_several));
 }
 
+    tell_of(left_out.degenerate_lines, "lines have the same node twice and are not kept");
 }  // namespace octetra::gmsh

@@ -14,6 +14,7 @@ namespace octetra::gmsh {
 struct LeftOut {
     std::array<std::uint64_t, shape_count> of_shape{};  ///< elements that a mesh has not
     std::uint64_t interfaces = 0;                       ///< elements between partitions
+    std::uint64_t degenerate_lines = 0;                 ///< lines of one node twice
     std::uint64_t names = 0;
     std::uint64_t in_another_group = 0;     ///< elements that are listed again
     std::uint64_t of_missing_entities = 0;  ///< elements whose groups are not known

@@ -57,7 +57,9 @@ WrongRow MeshIntake::take(const EntityKind<I, N>& kind,
     const auto found = missing.what.empty() ? vertices : vertices.first(missing.row);
     Taken& of_kind = taken(kind);
     if (!options_->only_syntax) {
-        if (const WrongRow wrong = judge(found); !wrong.what.empty()) return wrong;
+        if constexpr (N > 2) {
+            if (const WrongRow wrong = judge(found); !wrong.what.empty()) return wrong;
+        }
         of_kind.places.add(place, step, found.size());
     }
     if (!missing.what.empty()) return missing;
@@ -100,13 +102,6 @@ WrongRow MeshIntake::judge(std::span<const FacetVertices> facets) {
     for (std::size_t i = 0; i < facets.size(); ++i) {
         const auto& [a, b, c] = facets[i];
         if (a == b || b == c || c == a) return {i, "the triangle has the same vertex twice"};
-    }
-    return {};
-}
-
-WrongRow MeshIntake::judge(std::span<const EdgeVertices> edges) {
-    for (std::size_t i = 0; i < edges.size(); ++i) {
-        if (edges[i][0] == edges[i][1]) return {i, "the line has the same vertex twice"};
     }
     return {};
 }

@@ -78,6 +78,7 @@ public:
                                 std::uint64_t place, std::uint64_t step);
     /// Count elements that are not kept: of another kind, between partitions, listed again.
     void skip(Shape shape, std::uint64_t count) { left_out_.add(shape, count); }
+    void skip_degenerate_line() { ++left_out_.degenerate_lines; }
     void skip_interface(std::uint64_t count) { left_out_.interfaces += count; }
     void skip_in_another_group() { ++left_out_.in_another_group; }
     void note_missing_entity(std::uint64_t count) { left_out_.of_missing_entities += count; }
@@ -108,7 +109,6 @@ private:
                                       std::span<std::array<VertexIndex, N>> found);
     [[nodiscard]] WrongRow judge(std::span<CellVertices> cells);
     [[nodiscard]] static WrongRow judge(std::span<const FacetVertices> facets);
-    [[nodiscard]] static WrongRow judge(std::span<const EdgeVertices> edges);
     template <class I, std::size_t N>
     void append(const EntityKind<I, N>& kind, std::span<const std::array<VertexIndex, N>> vertices,
                 Marker marker);

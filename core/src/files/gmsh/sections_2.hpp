@@ -310,6 +310,7 @@ private:
     template <class I, std::size_t N>
     void keep(const EntityKind<I, N>& kind, const std::array<std::uint64_t, N>& nodes,
               std::uint64_t step, OfKind<N>& of) {
+        if (is_degenerate_line(nodes)) return intake_->skip_degenerate_line();
         ListedRun<N>& run = of.run;
         if (physical_ != run.last.physical) {
             of.know_last_nodes();

@@ -220,7 +220,12 @@ void keep_rows_4(Input& in, const EntityKind<I, N>& kind, Marker marker, std::ui
     batch.fill([&] {
         for (std::uint64_t i = 0; i < count; ++i) {
             const std::uint64_t place = in.begin_row("an element");
-            in.row(batch.next_row(kind), "a node of an element");
+            auto& nodes = batch.next_row(kind);
+            in.row(nodes, "a node of an element");
+            if (is_degenerate_line(nodes)) {
+                intake.skip_degenerate_line();
+                continue;
+            }
             batch.add(kind, marker, place, Input::row_step((1 + N) * sizeof(std::uint64_t)));
         }
     });

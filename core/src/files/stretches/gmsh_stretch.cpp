@@ -323,6 +323,7 @@ private:
         LeftOut all = intake_.left_out;  // names are the same on all
         for (std::uint64_t& count : all.of_shape) count = group().sum(count);
         all.interfaces = group().sum(all.interfaces);
+        all.degenerate_lines = group().sum(all.degenerate_lines);
         all.in_another_group = group().sum(all.in_another_group);
         all.of_missing_entities = group().sum(all.of_missing_entities);
         progress_->attempt([&] {

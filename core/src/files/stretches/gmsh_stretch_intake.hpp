@@ -53,8 +53,8 @@ public:
     [[nodiscard]] WrongRow take(const EntityKind<I, N>& kind,
                                 std::span<const std::array<std::uint64_t, N>> rows, Marker marker,
                                 std::uint64_t /*place*/, std::uint64_t /*step*/) {
-        for (std::size_t i = 0; i < rows.size(); ++i) {
         const Marker kept_marker = untagged.marker_of(N - 1, marker);
+        for (std::size_t i = 0; i < rows.size(); ++i) {
             std::array<VertexIndex, N> vertices;
             for (std::size_t k = 0; k < N; ++k) {
                 vertices[k] = node_tags_->stand_in(rows[i][k]);
@@ -69,15 +69,16 @@ public:
         return {};
     }
     void skip(Shape shape, std::uint64_t count) { left_out.add(shape, count); }
+    void skip_degenerate_line() { ++left_out.degenerate_lines; }
     void skip_interface(std::uint64_t count) { left_out.interfaces += count; }
     void skip_in_another_group() { ++left_out.in_another_group; }
     void note_missing_entity(std::uint64_t count) { left_out.of_missing_entities += count; }
 
     /// By this process.
     LeftOut left_out;
+    UntaggedGroups untagged;
 
 private:
-    UntaggedGroups untagged;
     Mesh* lists_;
     std::vector<std::uint64_t> tags_;
     const NodeTags* node_tags_ = nullptr;

@@ -163,6 +163,11 @@ INSTANTIATE_TEST_SUITE_P(
          gmsh_head_2 + gmsh_nodes_2 +
              "$Elements\n2\n1 2 2 7 1 1 2 3\n2 2 2 7 1 1 2 4\n$EndElements\n",
          "13: ", "there are triangles and no tetrahedra: mesh with gmsh -3"},
+        {"TrianglesOfSecondOrderAlone",
+         gmsh_head_4 + gmsh_nodes_4 + "$Elements\n1 1 1 1\n2 1 9 1\n1 1 2 3 1 2 3\n$EndElements\n",
+         "20: ", "there are triangles and no tetrahedra: mesh with gmsh -3"},
+        {"LinesAlone", gmsh_head_2 + gmsh_nodes_2 + "$Elements\n1\n1 1 2 7 1 2 2\n$EndElements\n",
+         "14: ", "there are lines and no tetrahedra"},
         {"CommentsWithoutEnd", "$Comments\nof its maker\n" + gmsh_head_2,
          "5: ", "the file ends within the section 'Comments'"},
         {"TriangleOfNoCell",

@@ -93,6 +93,7 @@ public:
         reader_->fail(what, place);
     }
     [[nodiscard]] std::string place() const { return reader_->path().native(); }
+    [[nodiscard]] std::uint64_t end_place() const { return reader_->position(); }
     static constexpr bool has_lines = false;
 
     /// For who reads rows anywhere: where what follows stands, and how to get to another place.

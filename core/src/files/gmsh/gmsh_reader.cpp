@@ -44,9 +44,9 @@ public:
             read_section(name);
         }
         order_.end([this](const std::string& what) { in_->fail(what); });
-        intake_.check(Input::has_lines, [this](const std::string& what, std::uint64_t place) {
-            in_->fail_at(what, place);
-        });
+        intake_.check(
+            Input::has_lines, in_->end_place(),
+            [this](const std::string& what, std::uint64_t place) { in_->fail_at(what, place); });
         tell_of_entities(groups_.in_several(), path.native(), options_->note);
         intake_.tell_notes(path.native());
         return intake_.counts();

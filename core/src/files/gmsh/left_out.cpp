@@ -1,10 +1,24 @@
 #include "files/gmsh/left_out.hpp"
 
+#include <algorithm>
 #include <string_view>
 
 #include <fmt/format.h>
 
 namespace octetra::gmsh {
+
+std::string wrong_without_cells(std::uint64_t cells, std::uint64_t facets,
+                                const LeftOut& left_out) {
+    const auto left = std::ranges::max_element(left_out.of_shape);
+    if (cells > 0 || facets + *left + left_out.degenerate_lines == 0) return {};
+    Shape shape = Shape::line;
+    if (*left > 0) shape = static_cast<Shape>(left - left_out.of_shape.begin());
+    if (facets > 0) shape = Shape::triangle;
+    return fmt::format(
+        "there are {} and no tetrahedra: mesh with gmsh -3; where anything is in a physical "
+        "group, the volumes must be in one, too",
+        plural(shape));
+}
 
 void tell(const LeftOut& left_out, const std::string& path,
           const std::function<void(const std::string&)>& note) {
@@ -16,6 +30,7 @@ void tell(const LeftOut& left_out, const std::string& path,
                 fmt::format("elements that are {} are not kept", plural(static_cast<Shape>(k))));
     }
     tell_of(left_out.interfaces, "elements between partitions are not kept");
+    tell_of(left_out.degenerate_lines, "lines have the same node twice and are not kept");
     tell_of(left_out.names, "names of groups are empty, or no UTF-8 text, and are not kept");
     tell_of(left_out.in_another_group,
             "elements are in more physical groups than one: the first is kept");
@@ -30,5 +45,4 @@ void tell_of_entities(std::uint64_t in_several, const std::string& path,
                      path, in_several));
 }
 
-    tell_of(left_out.degenerate_lines, "lines have the same node twice and are not kept");
 }  // namespace octetra::gmsh

@@ -24,6 +24,10 @@ struct LeftOut {
     }
 };
 
+/// What is wrong with a file that has elements, but no cells; empty: nothing.
+[[nodiscard]] std::string wrong_without_cells(std::uint64_t cells, std::uint64_t facets,
+                                              const LeftOut& left_out);
+
 /// Tells of it in sentences about the file `path`.
 void tell(const LeftOut& left_out, const std::string& path,
           const std::function<void(const std::string&)>& note);

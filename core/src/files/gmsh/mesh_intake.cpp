@@ -126,7 +126,7 @@ void MeshIntake::elements_complete() {
     growing_->all_complete(cell_kind);
 }
 
-void MeshIntake::check(bool has_lines, const Fail& fail) {
+void MeshIntake::check(bool has_lines, std::uint64_t end_place, const Fail& fail) {
     if (options_->only_syntax) return;
     const Mesh& mesh = growing_->mesh;
     const auto lines_of = [has_lines](const Taken& taken) {
@@ -140,11 +140,9 @@ void MeshIntake::check(bool has_lines, const Fail& fail) {
         fail(describe_wrong(wrong, name, markers, mesh, lines_of(of_kind)),
              of_kind.places.of(wrong.entry.value()));
     };
-    if (mesh.cells.empty() && !mesh.facets.empty()) {
-        fail(
-            "there are triangles and no tetrahedra: mesh with gmsh -3; where anything is in a "
-            "physical group, the volumes must be in one, too",
-            facets_.places.of(0));
+    if (const std::string wrong = wrong_without_cells(cells_.count, facets_.count, left_out_);
+        !wrong.empty()) {
+        fail(wrong, facets_.count > 0 ? facets_.places.of(0) : end_place);
     }
     if (repeated_cells_) {
         const CellPair pair = repeated_cells_->find(mesh.cells, mesh.points.size());

@@ -86,8 +86,9 @@ public:
 
     /// Checks what must be seen as a whole. Calls fail(what, place) for what is wrong; `has_lines`:
     /// places are lines of text, which a message may name beside the one where it stands.
+    /// `end_place`: the end of the file.
     using Fail = std::function<void(const std::string& what, std::uint64_t place)>;
-    void check(bool has_lines, const Fail& fail);
+    void check(bool has_lines, std::uint64_t end_place, const Fail& fail);
     /// Tells of what was not kept, or was changed, of the file of this name.
     void tell_notes(const std::string& path) const;
 
@@ -124,8 +125,8 @@ private:
     CellCheck cell_check_;
     std::optional<RepeatedCells> repeated_cells_;
     LeftOut left_out_;
-    std::string missing_;  // what take() said of a node
     UntaggedGroups untagged_;
+    std::string missing_;  // what take() said of a node
 };
 
 }  // namespace octetra::gmsh

@@ -107,6 +107,8 @@ public:
     [[nodiscard]] std::string place() const {
         return fmt::format("{}:{}", reader_->path().native(), reader_->line_number());
     }
+    /// The place where the file ends, once it is read.
+    [[nodiscard]] std::uint64_t end_place() const { return reader_->line_number(); }
     /// Can a message call a place a line?
     static constexpr bool has_lines = true;
 

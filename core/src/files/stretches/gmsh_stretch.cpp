@@ -320,7 +320,7 @@ private:
     }
 
     bool tell_notes() {
-        LeftOut all = intake_.left_out;  // names are the same on all
+        LeftOut& all = intake_.left_out;  // names are the same on all
         for (std::uint64_t& count : all.of_shape) count = group().sum(count);
         all.interfaces = group().sum(all.interfaces);
         all.degenerate_lines = group().sum(all.degenerate_lines);
@@ -335,7 +335,9 @@ private:
     }
 
     bool settle(const MeshFacts& counts) {
-        if (counts.cells == 0 && counts.facets > 0) return false;  // in words of its own
+        if (!wrong_without_cells(counts.cells, counts.facets, intake_.left_out).empty()) {
+            return false;  // the first process names the place
+        }
         settle_facts(counts, group(), stretch_);
         progress_->attempt(
             [&] { stretch_.facts.group_names = SharedGroupNames(std::move(names_)); });

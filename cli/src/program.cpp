@@ -36,7 +36,7 @@ void handle_signals() {
     // Beyond a limit on file sizes a write then fails like one to a full disk, and is cleaned up
     // after, rather than that the signal ends the program.
     std::signal(SIGXFSZ, SIG_IGN);
-    // A pipe that nobody reads any more is a stream that cannot be written: the mesh still can.
+    // Output to a pipe without a reader is lost, but the work goes on and files are written.
     std::signal(SIGPIPE, SIG_IGN);
     for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
         // Who is started to ignore a signal, as by nohup, goes on ignoring it.

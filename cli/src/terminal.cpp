@@ -1,6 +1,7 @@
 #include "terminal.hpp"
 
 #include <fcntl.h>
+#include <poll.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -13,6 +14,12 @@ namespace octetra::cli {
 namespace {
 
 bool is_closed(int stream) { return ::fcntl(stream, F_GETFD) < 0 && errno == EBADF; }
+
+/// Has the reader of the pipe closed it?
+bool is_without_reader(int stream) {
+    pollfd state{stream, POLLOUT, 0};
+    return ::poll(&state, 1, 0) == 1 && (state.revents & POLLERR) != 0;
+}
 
 void print_to(std::FILE* stream, std::string_view text) {
     // What fails here is remembered by the stream.
@@ -38,7 +45,7 @@ void print_text(std::string_view text) { print_to(stdout, text); }
 bool stdout_was_written() {
     std::cout.flush();  // CLI11 prints help and version there
     std::fflush(stdout);
-    return std::ferror(stdout) == 0 && std::cout.good();
+    return (std::ferror(stdout) == 0 && std::cout.good()) || is_without_reader(STDOUT_FILENO);
 }
 
 void print_error_text(std::string_view text) {

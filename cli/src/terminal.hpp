@@ -23,7 +23,8 @@ void print(fmt::format_string<const Values&...> format, const Values&... values)
     print_text(fmt::format(format, values...));
 }
 
-/// Has everything been written that was printed so far?
+/// Has everything been written that was printed so far? A pipe whose reader has closed it, as head
+/// does, counts as written: the reader has all that it asked for.
 [[nodiscard]] bool stdout_was_written();
 
 void print_error_text(std::string_view text);

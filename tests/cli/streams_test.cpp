@@ -141,9 +141,18 @@ TEST_F(Streams, ThatNobodyReadsDoNotEndTheWork) {
          "(sleep 0.3; exec " OCTETRA_PROGRAM " refine gear.ele --all -o out.mesh) | true; "
          "exit ${PIPESTATUS[0]}"},
         folder.path());
-    EXPECT_EQ(piped.status, 3);
-    EXPECT_EQ(piped.err, "octetra: standard output cannot be written\n");
+    EXPECT_EQ(piped.status, 0);
+    EXPECT_EQ(piped.err, "");
     EXPECT_TRUE(take("out.mesh") == test::content_of(folder / "fine.mesh"));
+    for (const auto& [arguments, status] : std::vector<std::pair<std::string, int>>{
+             {"info gear.ele", 0}, {"--help", 0}, {"compare gear.ele fine.mesh", 1}}) {
+        const auto run = test::run_program({"/bin/bash", "-c",
+                                            "(sleep 0.3; exec " OCTETRA_PROGRAM " " + arguments +
+                                                ") | true; exit ${PIPESTATUS[0]}"},
+                                           folder.path());
+        EXPECT_EQ(run.status, status) << arguments;
+        EXPECT_EQ(run.err, "") << arguments;
+    }
     const auto errors_piped =
         test::run_program({"/bin/bash", "-c",
                            "(sleep 0.3; exec " OCTETRA_PROGRAM " info nothing.ele) 2>&1 | true; "

@@ -1,5 +1,6 @@
 #include <array>
 #include <filesystem>
+#include <regex>
 #include <set>
 #include <sstream>
 #include <string>
@@ -280,6 +281,44 @@ TEST_F(Adapt, WritesTheSameBytesByTheReference) {
         expect_done(adapt(mesh, script, "--engine reference -o r.mesh"));
         expect_same("d.mesh", "r.mesh");
         EXPECT_TRUE(test::content_of(folder / "between.ele") == between);
+    }
+}
+
+/// Words for words, but for the seconds.
+std::string without_seconds(std::string text) {
+    return std::regex_replace(text, std::regex(" +[0-9.]+ s"), "");
+}
+
+TEST_F(Adapt, WritesParentsAndSaysTheSameByTheReference) {
+    for (const std::string name : {"f.vtu", "f.pvtu", "f.vtkhdf", "f.xdmf", "f.msh"}) {
+        const std::string script =
+            "refine --sphere 0,0,0,0.6 --levels 2\n"
+            "coarsen --sphere 0,0,0,0.35\n"
+            "write between." +
+            name.substr(2) +
+            "\n"
+            "coarsen --sphere 9,9,9,0.35 --levels 2\n"
+            "rebalance\n"
+            "refine --random 0.05\n";
+        (void)folder.write("s.txt", script);
+        const std::string command = "adapt m.ele --script s.txt -o " + name;
+        const test::Outcome run = test::octetra(command, folder);
+        expect_done(run);
+        std::vector<std::string> names{name, "between." + name.substr(2)};
+        if (name == "f.xdmf") names.insert(names.end(), {"f.h5", "between.h5"});
+        if (name == "f.pvtu") names.insert(names.end(), {"f_0.vtu", "between_0.vtu"});
+        std::vector<std::string> contents;
+        for (const std::string& file : names) {
+            contents.push_back(test::content_of(folder / file));
+            std::filesystem::remove(folder / file);
+        }
+        const test::Outcome by_reference = test::octetra(command + " --engine reference", folder);
+        expect_done(by_reference);
+        EXPECT_EQ(without_seconds(by_reference.out), without_seconds(run.out));
+        EXPECT_EQ(by_reference.err, run.err);
+        for (std::size_t i = 0; i < names.size(); ++i) {
+            EXPECT_TRUE(test::content_of(folder / names[i]) == contents[i]) << names[i];
+        }
     }
 }
 

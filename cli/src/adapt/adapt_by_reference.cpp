@@ -1,6 +1,7 @@
 #include "adapt/adapt_by_reference.hpp"
 
 #include <algorithm>
+#include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
@@ -9,6 +10,8 @@
 
 #include <octetra/core/error.hpp>
 #include <octetra/core/files/checkpoint.hpp>
+#include <octetra/core/files/mesh_files.hpp>
+#include <octetra/core/mesh_source.hpp>
 #include <octetra/reference/history.hpp>
 
 #include "adapt/check_files.hpp"
@@ -43,14 +46,23 @@ bool is_any_marked(const CellMarks& marks) {
 class AdaptedByReference {
 public:
     AdaptedByReference(Mesh input, std::uint64_t max_cells)
-        : history_{std::move(input), {}}, mesh_(history_.input), max_cells_(max_cells) {}
+        : history_{std::move(input), {}},
+          refined_(reference::replay(history_).back()),
+          max_cells_(max_cells) {}
 
-    [[nodiscard]] const Mesh& mesh() const { return mesh_; }
+    [[nodiscard]] const Mesh& mesh() const { return refined_.mesh; }
+    /// Returns what of the mesh the format cannot hold, in sentences.
+    [[nodiscard]] std::vector<std::string> write(const std::string& path) const {
+        WholeMesh source(refined_.mesh, &refined_.maps);
+        std::string lost = write_mesh(source, path);
+        if (lost.empty()) return {};
+        return {std::move(lost)};
+    }
 
     /// How many levels changed anything.
     int refine(const Selection& selection, Scheme scheme, int levels) {
         // A list of cells means those of the mesh before the first level, and their descendants.
-        Refinement since = as_input(mesh_);
+        Refinement since = as_input(mesh());
         for (int level = 1; level <= levels; ++level) {
             const CellMarks marks = reference::marked_cells(since, selection);
             const auto parents = parents_after(marks, scheme);
@@ -59,7 +71,7 @@ public:
             for (const CellIndex parent : parents) {
                 ancestors.push_back(since.maps.cell_to_parent[parent]);
             }
-            since = {mesh_, {.cell_to_parent = std::move(ancestors)}};
+            since = {mesh(), {.cell_to_parent = std::move(ancestors)}};
         }
         return levels;
     }
@@ -67,7 +79,7 @@ public:
     /// The same. `is_any` gets whether the last level marked any cell.
     int coarsen(const Selection& selection, bool outside, int levels, bool& is_any) {
         for (int level = 1; level <= levels; ++level) {
-            CellMarks marks = reference::marked_cells(as_input(mesh_), selection);
+            CellMarks marks = reference::marked_cells(as_input(mesh()), selection);
             if (outside) {
                 for (char& mark : marks) mark = mark == 0 ? 1 : 0;
             }
@@ -86,19 +98,19 @@ private:
         for (CellIndex c{0}; c < marks.end_index(); ++c) {
             if (marks[c] != 0) listed.cells.push_back(GlobalCell{c.value()});
         }
-        return reference::refine(mesh_, listed, scheme, 1, max_cells_).maps.cell_to_parent;
+        return reference::refine(mesh(), listed, scheme, 1, max_cells_).maps.cell_to_parent;
     }
 
     /// Did it change anything?
     bool take(History next) {
         if (next.steps == history_.steps) return false;
-        mesh_ = reference::replay(next).back().mesh;
+        refined_ = std::move(reference::replay(next).back());
         history_ = std::move(next);
         return true;
     }
 
     History history_;
-    Mesh mesh_;
+    Refinement refined_;  ///< the mesh, and the maps from the input to it
     std::uint64_t max_cells_;
 };
 
@@ -121,11 +133,10 @@ public:
         return {levels_done("coarsened", done), idle_levels(done, levels, why_not_coarser(is_any))};
     }
     StepDone operator()(const RebalanceStep&) const {
-        return {"rebalanced: the reference has one rank", {}, false};
+        return {"rebalanced, and no cell moved: most/mean cells 1.00", {}, false};
     }
     StepDone operator()(const WriteStep& step) const {
-        write_output(adapted_->mesh(), step.path);
-        return {fmt::format("wrote {}", step.path), {}, false};
+        return {fmt::format("wrote {}", step.path), adapted_->write(step.path), false};
     }
 
 private:
@@ -160,15 +171,17 @@ void refuse_what_the_reference_lacks(const AdaptationOptions& options, const Scr
 
 void run(AdaptedByReference& adapted, const Script& script, bool quiet, Stopwatch& watch) {
     for (const ScriptStep& step : script.steps) {
+        const Mesh& mesh = adapted.mesh();
+        const std::string was = words_before(mesh.points.size(), mesh.cells.size());
         StepDone done;
         try {
             done = std::visit(ReferenceRunner(adapted), step.step);
         } catch (const InputError& error) {
             throw wrong_line(script, step, error.what());
         }
-        const Mesh& mesh = adapted.mesh();
         report_line(quiet, fmt::format("{}:{} {}", script.path.native(), step.line, done.what),
-                    mesh.points.size(), mesh.cells.size(), watch.lap());
+                    mesh.points.size(), mesh.cells.size(), watch.lap(),
+                    done.changes_mesh ? was : "");
         for (const std::string& remark : done.remarks) {
             note(wrong_line(script, step, remark).what());
         }
@@ -186,7 +199,7 @@ void adapt_by_reference(const AdaptationOptions& options, const Script& script) 
     report_line(options.quiet, fmt::format("read {}", options.input.path),
                 adapted.mesh().points.size(), adapted.mesh().cells.size(), watch.lap());
     run(adapted, script, options.quiet, watch);
-    write_output(adapted.mesh(), options.output);
+    for (const std::string& what : adapted.write(options.output)) note(what);
     report_line(options.quiet, fmt::format("wrote {}", options.output),
                 adapted.mesh().points.size(), adapted.mesh().cells.size(), watch.lap());
 }

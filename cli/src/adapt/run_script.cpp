@@ -19,7 +19,6 @@
 #include "adapt/write_result.hpp"
 #include "commands/mesh_options.hpp"
 #include "commands/report_line.hpp"
-#include "grouped.hpp"
 
 namespace octetra::cli {
 namespace {
@@ -165,8 +164,7 @@ void run_script(AdaptiveMesh& mesh, const Script& script, const ScriptRun& run, 
         if (done.changes_mesh && run.on_changed) run.on_changed();
         const Counts after = counts_of(mesh);
         if (mesh.processes().is_first()) {
-            const std::string was =
-                fmt::format("  (before: {}, {})", grouped(before.vertices), grouped(before.cells));
+            const std::string was = words_before(before.vertices, before.cells);
             const std::string doing =
                 script.path.empty()
                     ? done.what

@@ -2,10 +2,16 @@
 
 #include <fmt/format.h>
 
+#include "grouped.hpp"
+
 namespace octetra::cli {
 
 std::string levels_done(std::string_view done, int levels) {
     return fmt::format("{}, {} level{}", done, levels, levels == 1 ? "" : "s");
+}
+
+std::string words_before(std::uint64_t vertices, std::uint64_t cells) {
+    return fmt::format("  (before: {}, {})", grouped(vertices), grouped(cells));
 }
 
 std::vector<std::string> idle_levels(int done, int levels, std::string_view reason) {

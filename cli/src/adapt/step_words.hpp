@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -15,6 +16,9 @@ struct StepDone {
 
 /// "refined, 2 levels"
 [[nodiscard]] std::string levels_done(std::string_view done, int levels);
+
+/// "  (before: 1,026, 3,103)", of the numbers of vertices and cells
+[[nodiscard]] std::string words_before(std::uint64_t vertices, std::uint64_t cells);
 
 /// Why fewer levels than were asked for changed anything; nothing if all did.
 [[nodiscard]] std::vector<std::string> idle_levels(int done, int levels, std::string_view reason);

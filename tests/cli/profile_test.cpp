@@ -148,6 +148,30 @@ TEST_F(Profiled, RunsOfAnyNumberOfRanksSayWhereTheTimeWent) {
     }
 }
 
+TEST_F(Profiled, RefinementsOfAHistoryHaveTheirLevels) {
+    const auto cells_of_levels = [&](const std::string& options, int ranks) {
+        const auto run = test::octetra_on(ranks, options + " --profile p.json", folder);
+        EXPECT_EQ(run.status, 0) << run.err;
+        std::vector<std::pair<int, int>> cells;
+        const Json profile = json("p.json");
+        for (const Json& level : profile.at("levels")) {
+            EXPECT_EQ(level.at("cells").at("of_rank").size(), static_cast<std::size_t>(ranks));
+            cells.emplace_back(level.at("level"), level.at("cells").at("sum"));
+        }
+        return cells;
+    };
+    const std::string sphere = " --sphere 1,0,0.15,0.4 --levels 2 ";
+    for (const int ranks : {1, 3}) {
+        using testing::ElementsAre;
+        using testing::Pair;
+        const auto cells = cells_of_levels("refine gear.1.ele" + sphere + "-o p.mesh", ranks);
+        EXPECT_THAT(cells, ElementsAre(Pair(0, 3103), Pair(1, testing::Gt(3103)), Pair(2, 18246)));
+        EXPECT_EQ(cells_of_levels("refine gear.1.ele" + sphere + "-o p.octetra", ranks), cells);
+        const auto more = cells_of_levels("refine p.octetra --all -o q.octetra", ranks);
+        EXPECT_THAT(more, ElementsAre(Pair(2, 18246), Pair(3, testing::Gt(8 * 18000))));
+    }
+}
+
 /// The sphere is in one corner of the gear. Shares of the input that are equal in their cells would
 /// leave nearly all of the result to one rank.
 TEST_F(Profiled, RunsShareOutWhatIsRefined) {

@@ -9,6 +9,7 @@
 
 #include "adapt/step_options.hpp"
 #include "comm/local_failure.hpp"
+#include "profile/recorder.hpp"
 #include "sharing/sharing_builder.hpp"
 #include "sharing/vertex_sharing.hpp"
 
@@ -89,6 +90,7 @@ Adaptation AdaptiveMesh::State::refine(const std::function<MarkedCells()>& mark,
     const RefineOptions refine_options = level_options(options);
     const int level = step_count + 1;
     const Phase phase(mesh.processes, "level", level);
+    note_cells_before_level();
     PlannedLevel plan = plan_level(mesh, mark, refine_options, tuning, level);
     return plan.changes_anything() ? take(plan) : unchanged(mesh);
 }
@@ -114,6 +116,8 @@ Adaptation AdaptiveMesh::State::take(PlannedLevel& plan) {
     failure.attempt([&] {
         const Phase maps(mesh.processes, "maps");
         adaptation = adaptation_of(plan, mesh);
+        note_cells(mesh.processes, step_count + 1, plan.level->cell_count_afterwards(),
+                   plan.judged + plan.level->cells_touched());
     });
     failure.agree(mesh.processes);
 
@@ -122,6 +126,12 @@ Adaptation AdaptiveMesh::State::take(PlannedLevel& plan) {
     new_numbers.keep();
     ++step_count;
     return adaptation;
+}
+
+void AdaptiveMesh::State::note_cells_before_level() const {
+    if (Profile* const profile = mesh.processes.profile()) {
+        profile->note_first_cells(step_count, mesh.cells.size());
+    }
 }
 
 void AdaptiveMesh::State::make_room_for_history() {

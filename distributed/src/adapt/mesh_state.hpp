@@ -35,6 +35,8 @@ struct AdaptiveMesh::State {
     /// Collective. What a level of this mesh brings, once it is ready to be committed. The level is
     /// committed then.
     Adaptation take(PlannedLevel& plan);
+    /// For a profile, before the first level that is in it.
+    void note_cells_before_level() const;
     /// Collective. For the part that `roots` have, before move_on().
     void make_room_for_history();
     /// Goes on as `after`, which is this state with cells that moved; `roots`, or null: they are

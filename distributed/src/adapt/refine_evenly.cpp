@@ -17,6 +17,7 @@ EvenStep refine_state_evenly(AdaptiveMesh::State& state, const std::function<Mar
     const RefineOptions level_of = level_options(options);
     const int level = state.step_count + 1;
     const Phase phase(state.mesh.processes, "level", level);
+    state.note_cells_before_level();
     PlannedLevel plan = close_level(state.mesh, mark, level_of, tuning);
     if (!plan.changes_anything()) return {unmoved(state.mesh), unchanged(state.mesh)};
     const SynchronisationCounts counts = plan.counts;

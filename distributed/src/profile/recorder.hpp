@@ -39,6 +39,10 @@ public:
     void end_communication();
     [[nodiscard]] PhaseCounts& counts() { return current().counts; }
     void note_cells(int level, std::uint64_t cells, std::uint64_t touched);
+    /// Before a level: notes the cells if no level has been noted.
+    void note_first_cells(int level, std::uint64_t cells) {
+        if (levels_.empty()) note_cells(level, cells, 0);
+    }
 
     /// Books the last stretch of time. No phase may be open; throws std::logic_error.
     void finish();

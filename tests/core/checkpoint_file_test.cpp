@@ -1,3 +1,4 @@
+#include <cstring>
 #include <random>
 
 #include <gmock/gmock.h>
@@ -179,6 +180,25 @@ TEST(CheckpointFile, MadeUpWithRightHashesIsReadOrRefused) {
     }
     EXPECT_GT(read, 0);  // some of these are other meshes
     EXPECT_LT(read, 4000);
+}
+
+TEST(CheckpointFile, WhoseTableHasOtherFiguresOfAStepIsRefusedByPlace) {
+    const test::TemporaryFolder folder;
+    const std::string good = test::content_of(write_example(folder / "a.octetra"));
+    std::uint64_t table = 0;
+    std::memcpy(&table, good.data() + good.size() - 32, sizeof table);
+    for (std::size_t number = 0; number < 6; ++number) {
+        std::string bad = good;
+        ++bad[table + 80 + 8 * number];
+        test::seal(bad);
+        const auto path = folder.write("bad.octetra", bad);
+        const std::string what = test::thrown_by<InputError>([&] { (void)read_checkpoint(path); });
+        const std::size_t step = number / 3;
+        const std::string place = path.native() + ": at byte " +
+                                  std::to_string(table + 80 + 24 * step) + ": the table has ";
+        EXPECT_EQ(what.find(place), 0) << what;
+        EXPECT_NE(what.find(" cells before step " + std::to_string(step + 1)), std::string::npos);
+    }
 }
 
 /// By another byte in the names of groups, or in what stands before them in the table.

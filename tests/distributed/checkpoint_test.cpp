@@ -3,6 +3,7 @@
 #include <cstring>
 #include <random>
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -19,6 +20,7 @@
 #include "support/meshes.hpp"
 #include "support/refinement.hpp"
 #include "support/sealed_checkpoint.hpp"
+#include "support/thrown.hpp"
 
 /// AdaptiveMesh::save and load.
 namespace octetra::distributed {
@@ -233,6 +235,64 @@ TEST(CheckpointThatIsMadeUp, IsReadOrRefusedByAllRanks) {
         refused += is_refused(folder / "bad.octetra") ? 1 : 0;
     }
     EXPECT_GT(refused, 20);
+}
+
+/// Of all three figures of a step each rank has only its share in the cuts.
+TEST(CheckpointWhoseTableHasOtherFiguresOfAStep, IsRefusedByAllRanksAlike) {
+    const test::SharedFolder folder;
+    AdaptiveMesh mesh = shared_out(world(), test::marked_lattice(12, 1), "block");  // some blocks
+    for (const std::uint64_t seed : {1U, 2U}) (void)mesh.refine(some(0.1, seed));
+    mesh.save(folder / "good.octetra");
+    EXPECT_FALSE(is_refused(folder / "good.octetra"));
+    for (std::size_t number = 0; number < 6; ++number) {
+        std::uint64_t table = 0;
+        world().on_first([&] {
+            std::string bad = test::content_of(folder / "good.octetra");
+            std::memcpy(&table, bad.data() + bad.size() - 32, sizeof table);
+            ++bad[table + 80 + 8 * number];
+            test::seal(bad);
+            test::write_file(folder / "bad.octetra", bad);
+        });
+        const auto path = folder / "bad.octetra";
+        const std::string expected = fmt::format("{}: at byte {}: the table has ", path.native(),
+                                                 world().of_first(table) + 80 + 24 * (number / 3));
+        const std::string what =
+            test::thrown_by<InputError>([&] { (void)AdaptiveMesh::load(world(), path); });
+        EXPECT_EQ(what.find(expected), 0) << what;
+    }
+}
+
+/// The message is that of the only rank, whatever the number of ranks.
+TEST(CheckpointWithATaggedSideOfNoCell, IsRefusedByAllRanksAlike) {
+    const test::SharedFolder folder;
+    Mesh whole = test::marked_lattice(12, 1);
+    AdaptiveMesh mesh = shared_out(world(), whole, "block");
+    mesh.save(folder / "good.octetra");
+    const std::uint64_t vertices = whole.points.size();
+    for (const bool is_edge : {true, false}) {
+        const std::uint64_t number = is_edge ? whole.edges.size() / 2 : whole.facets.size() / 2;
+        const std::uint64_t last = vertices - 1;  // far from the first vertex
+        world().on_first([&] {
+            std::string bad = test::content_of(folder / "good.octetra");
+            const CheckpointReader reader(folder / "good.octetra");
+            std::uint64_t position = sizeof(CheckpointHeader);
+            const Section section = is_edge ? Section::edges : Section::facets;
+            for (std::size_t s = 0; s < static_cast<std::size_t>(section); ++s) {
+                const SectionShape shape = shape_of(reader.facts(), static_cast<Section>(s));
+                position += shape.count * shape.entity_size;
+            }
+            const std::array<std::uint32_t, 2> ends{0, static_cast<std::uint32_t>(last)};
+            std::memcpy(bad.data() + position + number * (is_edge ? 8 : 12), ends.data(), 8);
+            test::seal(bad);
+            test::write_file(folder / "bad.octetra", bad);
+        });
+        const auto path = folder / "bad.octetra";
+        const std::string what =
+            test::thrown_by<InputError>([&] { (void)AdaptiveMesh::load(world(), path); });
+        EXPECT_EQ(what,
+                  fmt::format("{}: block {} of the {}: number {} belongs to no cell", path.native(),
+                              number / block_length, is_edge ? "edges" : "facets", number));
+    }
 }
 
 TEST(CheckpointFields, ThatDoNotFitAreRefusedOnAllRanksAndNothingIsWritten) {

@@ -71,10 +71,11 @@ public:
 
     Roots roots;
     std::vector<std::uint64_t> weights;  ///< the cells that each root has become
+    std::vector<StepFacts> found;        ///< what the cuts that were read have of each step
 
 private:
     void take_block(std::uint64_t block) {
-        const auto steps = file_->read_cuts(block);
+        const auto steps = file_->read_cuts(block, found);
         RootsApart<RunList> apart({steps.begin(), steps.end()});
         const std::uint64_t first = block * block_length - begin_;
         const std::uint64_t length = shape_of(file_->facts(), Section::cuts).length_of(block);
@@ -98,6 +99,31 @@ std::vector<std::uint64_t> vertices_of(const Roots& roots) {
     std::ranges::sort(numbers);
     numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
     return numbers;
+}
+
+/// Collective. Is what the table has of each step what the cuts of all processes have?
+void check_steps(const Communicator& processes, const CheckpointReader& file,
+                 const ShareOfFile& share, LocalFailure& failure) {
+    if (file.facts().steps.empty()) return;
+    std::vector<std::uint64_t> numbers;
+    failure.attempt([&] {
+        numbers.resize(3 * file.facts().steps.size());
+        for (std::size_t t = 0; t < share.found.size(); ++t) {
+            const StepFacts& step = share.found[t];
+            std::ranges::copy(std::array{step.cells_before, step.cells_cut, step.bytes},
+                              numbers.begin() + static_cast<std::ptrdiff_t>(3 * t));
+        }
+    });
+    failure.agree(processes);
+    processes.sum(std::span(numbers));
+    failure.attempt([&] {
+        std::vector<StepFacts> found;
+        for (std::size_t k = 0; k < numbers.size(); k += 3) {
+            found.push_back({numbers[k], numbers[k + 1], numbers[k + 2]});
+        }
+        file.check_steps(found);
+    });
+    failure.agree(processes);
 }
 
 /// What this process reads of the vertices.
@@ -298,6 +324,7 @@ LoadedPart load_part(const Communicator& processes, const CheckpointReader& file
         vertices.emplace(processes, file);
     });
     failure.agree(processes);
+    check_steps(processes, file, *share, failure);
     const bool by_coordinates = partition.method == PartitionMethod::rcb || processes.size() == 1;
     const auto parts = by_coordinates ? parts_by_coordinates(processes, *share, *vertices, failure)
                                       : parts_of_whole(processes, *share, path, partition);

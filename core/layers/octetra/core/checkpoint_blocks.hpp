@@ -154,8 +154,11 @@ public:
     [[nodiscard]] std::vector<Point> read_points(std::uint64_t begin, std::uint64_t end) const;
 
     /// How each step cuts what the roots of a block have become. For each step as many cells as the
-    /// steps before it have made.
-    [[nodiscard]] std::vector<std::vector<CutRun>> read_cuts(std::uint64_t block) const;
+    /// steps before it have made. Adds what the block has of each step to `found`.
+    [[nodiscard]] std::vector<std::vector<CutRun>> read_cuts(std::uint64_t block,
+                                                             std::vector<StepFacts>& found) const;
+    /// Throws InputError where the table has other figures of a step than all blocks together.
+    void check_steps(const std::vector<StepFacts>& found) const;
 
     /// Throws InputError: what is wrong with a block.
     [[noreturn]] void fail(Section section, std::uint64_t block, const std::string& what) const;

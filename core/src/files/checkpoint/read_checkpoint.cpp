@@ -52,8 +52,9 @@ Mesh read_input(const CheckpointReader& file) {
 
 void append_cuts(const CheckpointReader& file, std::vector<std::vector<std::uint8_t>>& steps) {
     const std::uint64_t blocks = shape_of(file.facts(), Section::cuts).blocks();
+    std::vector<StepFacts> found(steps.size());
     for (std::uint64_t b = 0; b < blocks; ++b) {
-        const auto cuts = file.read_cuts(b);
+        const auto cuts = file.read_cuts(b, found);
         for (std::size_t t = 0; t < steps.size(); ++t) {
             for (const CutRun& run : cuts[t]) {
                 if (run.count >= VertexIndex::limit - steps[t].size()) {
@@ -64,6 +65,7 @@ void append_cuts(const CheckpointReader& file, std::vector<std::vector<std::uint
             }
         }
     }
+    file.check_steps(found);
 }
 
 }  // namespace

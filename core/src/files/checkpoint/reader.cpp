@@ -49,12 +49,14 @@ CheckpointTrailer read_trailer(const InputFile& file) {
 struct CheckpointReader::Parts {
     InputFile file;
     CheckpointFacts facts;
+    std::uint64_t table_begin = 0;
     std::vector<BlockEntry> blocks;
     std::vector<std::uint64_t> begin;              ///< of each block
     std::vector<std::size_t> first_of_section{0};  ///< among the blocks
 
     explicit Parts(const std::filesystem::path& path) : file(path) {
         const CheckpointTrailer trailer = read_trailer(file);
+        table_begin = trailer.table_begin;
         const auto table = file.read(trailer.table_begin, trailer.table_size);
         if (hash_of(table) != trailer.table_hash) {
             file.fail("the checkpoint is damaged: its table has not the hash that it should have");
@@ -162,7 +164,8 @@ std::vector<Point> CheckpointReader::read_points(std::uint64_t begin, std::uint6
     return points;
 }
 
-std::vector<std::vector<CutRun>> CheckpointReader::read_cuts(std::uint64_t block) const {
+std::vector<std::vector<CutRun>> CheckpointReader::read_cuts(std::uint64_t block,
+                                                             std::vector<StepFacts>& found) const {
     const auto raw = read_block(Section::cuts, block);
     std::span<const std::uint8_t> rest(reinterpret_cast<const std::uint8_t*>(raw.data()),
                                        raw.size());
@@ -171,9 +174,12 @@ std::vector<std::vector<CutRun>> CheckpointReader::read_cuts(std::uint64_t block
     };
     std::vector<std::vector<CutRun>> steps(facts().steps.size());
     std::uint64_t cells = shape_of(facts(), Section::cuts).length_of(block);
+    found.resize(steps.size());
     for (std::size_t t = 0; t < steps.size(); ++t) {
         std::uint64_t size = 0;
         if (!take_number(rest, size) || size > rest.size()) refuse(t);
+        found[t].cells_before += cells;
+        found[t].bytes += size;
         if (size == 0) {
             steps[t].push_back({0, cells});
             continue;
@@ -185,6 +191,7 @@ std::vector<std::vector<CutRun>> CheckpointReader::read_cuts(std::uint64_t block
             if (run.count == 0 || run.count > cells - told) refuse(t);
             told += run.count;
             made += run.count * child_count_of(run.cut);
+            if (run.cut != 0) found[t].cells_cut += run.count;
             steps[t].push_back(run);
         }
         if (told != cells || made > facts().cells_now) refuse(t);
@@ -193,6 +200,18 @@ std::vector<std::vector<CutRun>> CheckpointReader::read_cuts(std::uint64_t block
     }
     if (!rest.empty()) fail(Section::cuts, block, "it is longer than what it says of the steps");
     return steps;
+}
+
+void CheckpointReader::check_steps(const std::vector<StepFacts>& found) const {
+    for (std::size_t t = 0; t < found.size(); ++t) {
+        const StepFacts& said = facts().steps[t];
+        if (said == found[t]) continue;
+        parts_->file.fail(fmt::format(
+            "at byte {}: the table has {} cells before step {}, {} of them cut, in {} bytes; the "
+            "cuts have {}, {} and {}",
+            parts_->table_begin + byte_of_step(t), said.cells_before, t + 1, said.cells_cut,
+            said.bytes, found[t].cells_before, found[t].cells_cut, found[t].bytes));
+    }
 }
 
 CheckpointFacts read_checkpoint_facts(const std::filesystem::path& path) {

@@ -160,6 +160,12 @@ std::size_t section_count(const CheckpointFacts& facts) {
     return first_field + facts.fields.size();
 }
 
+std::size_t byte_of_step(std::size_t step) {
+    constexpr std::size_t numbers_before = 10;
+    constexpr std::size_t numbers_of_step = 3;
+    return (numbers_before + numbers_of_step * step) * sizeof(std::uint64_t);
+}
+
 std::vector<std::byte> table_of(const CheckpointFacts& facts,
                                 const std::vector<BlockEntry>& blocks) {
     std::vector<std::byte> bytes;

@@ -48,6 +48,9 @@ struct BlockEntry {
 
 [[nodiscard]] std::size_t section_count(const CheckpointFacts& facts);
 
+/// Where the figures of a step are in the table.
+[[nodiscard]] std::size_t byte_of_step(std::size_t step);
+
 /// The table: the facts, and the blocks in the order of the file.
 [[nodiscard]] std::vector<std::byte> table_of(const CheckpointFacts& facts,
                                               const std::vector<BlockEntry>& blocks);

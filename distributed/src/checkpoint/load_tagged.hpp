@@ -6,6 +6,8 @@
 #include <utility>
 #include <vector>
 
+#include <fmt/format.h>
+
 #include <octetra/core/checkpoint_blocks.hpp>
 #include <octetra/distributed/communicator.hpp>
 
@@ -118,9 +120,39 @@ template <std::size_t N, std::size_t Sides>
     return tagged;
 }
 
+/// Collective. Throws, on all processes alike, where a facet or edge of the file is a side of no
+/// cell: the processes that have one tell the process that has read it.
+template <std::size_t N>
+void check_all_are_sides(const Communicator& processes, const CheckpointReader& file,
+                         Section section, const std::vector<Tagged<N>>& tagged,
+                         LocalFailure& failure) {
+    const Homes homes =
+        homes_of_blocks(shape_of(file.facts(), section).count, block_length, processes.size());
+    std::vector<std::vector<std::uint64_t>> outboxes;
+    failure.attempt([&] {
+        outboxes.resize(static_cast<std::size_t>(processes.size()));
+        for (const Tagged<N>& one : tagged) {
+            outboxes[static_cast<std::size_t>(homes.rank_of(one.number))].push_back(one.number);
+        }
+    });
+    failure.agree(processes);
+    failure.attempt([&] {
+        const std::uint64_t begin = homes.begin_of(processes.rank());
+        std::vector<bool> is_side(homes.end_of(processes.rank()) - begin, false);
+        for (const auto& inbox : processes.all_to_all(outboxes)) {
+            for (const std::uint64_t number : inbox) is_side[number - begin] = true;
+        }
+        const auto stray = std::ranges::find(is_side, false);
+        if (stray == is_side.end()) return;
+        const std::uint64_t number = begin + static_cast<std::uint64_t>(stray - is_side.begin());
+        file.fail(section, number / block_length,
+                  fmt::format("number {} belongs to no cell", number));
+    });
+    failure.agree(processes);
+}
+
 /// Collective. The facets or edges that are sides of this process's cells. Each goes from who has
 /// read it to the home of one of its vertices, and from there to all that have asked for that one.
-/// Where a process has failed, the result is not to be used on any.
 template <std::size_t N, std::size_t Sides>
 [[nodiscard]] std::vector<Tagged<N>> bring_tagged(
     const Communicator& processes, const CheckpointReader& file, const Homes& vertex_homes,
@@ -130,6 +162,8 @@ template <std::size_t N, std::size_t Sides>
     const auto come = send_to_parts(processes, requests, at_home, failure);
     std::vector<Tagged<N>> tagged;
     failure.attempt([&] { tagged = sides_among(come, cells, sides); });
+    failure.agree(processes);
+    check_all_are_sides(processes, file, section, tagged, failure);
     return tagged;
 }
 

@@ -15,10 +15,11 @@ Refinement refine(const Mesh& mesh, const Selection& selection, Scheme scheme, i
     return result;
 }
 
-std::vector<Refinement> replay(const History& history) {
+std::vector<Refinement> replay(const History& history, std::size_t max_cells) {
     std::vector<Refinement> meshes{unrefined(history.input)};
     for (const auto& edges : history.steps) {
-        meshes.push_back(bisect_mesh(meshes.back(), edges, static_cast<int>(meshes.size())));
+        const auto level = static_cast<int>(meshes.size());
+        meshes.push_back(bisect_mesh(meshes.back(), edges, level, max_cells));
     }
     return meshes;
 }

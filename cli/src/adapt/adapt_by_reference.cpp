@@ -1,6 +1,7 @@
 #include "adapt/adapt_by_reference.hpp"
 
 #include <algorithm>
+#include <functional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -63,55 +64,69 @@ public:
     int refine(const Selection& selection, Scheme scheme, int levels) {
         // A list of cells means those of the mesh before the first level, and their descendants.
         Refinement since = as_input(mesh());
-        for (int level = 1; level <= levels; ++level) {
+        return repeat(levels, [&] {
             const CellMarks marks = reference::marked_cells(since, selection);
-            const auto parents = parents_after(marks, scheme);
-            if (!take(reference::refined(history_, marks, scheme))) return level - 1;
+            if (!take(reference::refined(history_, marks, scheme))) return false;
             IndexVector<CellIndex, CellIndex> ancestors;
-            for (const CellIndex parent : parents) {
+            for (const CellIndex parent : parents_after(since.mesh, marks, scheme)) {
                 ancestors.push_back(since.maps.cell_to_parent[parent]);
             }
             since = {mesh(), {.cell_to_parent = std::move(ancestors)}};
-        }
-        return levels;
+            return true;
+        });
     }
 
     /// The same. `is_any` gets whether the last level marked any cell.
     int coarsen(const Selection& selection, bool outside, int levels, bool& is_any) {
-        for (int level = 1; level <= levels; ++level) {
+        return repeat(levels, [&] {
             CellMarks marks = reference::marked_cells(as_input(mesh()), selection);
             if (outside) {
                 for (char& mark : marks) mark = mark == 0 ? 1 : 0;
             }
             is_any = is_any_marked(marks);
-            if (!take(reference::coarsened(history_, marks))) return level - 1;
+            return take(reference::coarsened(history_, marks));
+        });
+    }
+
+private:
+    /// Takes levels of a step until one changes nothing. Returns how many changed anything.
+    int repeat(int levels, const std::function<bool()>& take_level) {
+        const bool was_changed = is_changed_;
+        for (int level = 1; level <= levels; ++level) {
+            try {
+                if (!take_level()) return level - 1;
+            } catch (const InputError& error) {
+                if (!was_changed) throw;
+                throw InputError(naming_the_level(error.what(), level, levels));
+            }
         }
         return levels;
     }
 
-private:
-    /// Of each cell of the mesh that refining these makes, which has no more than the cells that
-    /// are allowed.
-    [[nodiscard]] IndexVector<CellIndex, CellIndex> parents_after(const CellMarks& marks,
-                                                                  Scheme scheme) const {
+    /// Of each cell of the mesh that refining these makes.
+    [[nodiscard]] static IndexVector<CellIndex, CellIndex> parents_after(const Mesh& mesh,
+                                                                         const CellMarks& marks,
+                                                                         Scheme scheme) {
         Selection listed;
         for (CellIndex c{0}; c < marks.end_index(); ++c) {
             if (marks[c] != 0) listed.cells.push_back(GlobalCell{c.value()});
         }
-        return reference::refine(mesh(), listed, scheme, 1, max_cells_).maps.cell_to_parent;
+        return reference::refine(mesh, listed, scheme, 1).maps.cell_to_parent;
     }
 
     /// Did it change anything?
     bool take(History next) {
         if (next.steps == history_.steps) return false;
-        refined_ = std::move(reference::replay(next).back());
+        refined_ = std::move(reference::replay(next, max_cells_).back());
         history_ = std::move(next);
+        is_changed_ = true;
         return true;
     }
 
     History history_;
     Refinement refined_;  ///< the mesh, and the maps from the input to it
     std::uint64_t max_cells_;
+    bool is_changed_ = false;  ///< by any level
 };
 
 /// What a step does.

@@ -7,11 +7,10 @@
 #include <utility>
 #include <vector>
 
-#include <fmt/format.h>
-
 #include <octetra/core/error.hpp>
 
 #include "adapt/marked_cells.hpp"
+#include "adapt/step_words.hpp"
 
 namespace octetra::cli {
 namespace {
@@ -26,9 +25,7 @@ Adaptation naming_the_level(int level, int levels, const Followers& followers, a
         return take_step();
     } catch (const InputError& error) {
         if (!followers.is_refined_before) throw;
-        throw InputError(fmt::format(
-            "{} (levels count all steps that have made this mesh; this is level {} of {} here)",
-            error.what(), level, levels));
+        throw InputError(cli::naming_the_level(error.what(), level, levels));
     }
 }
 

@@ -14,6 +14,12 @@ std::string words_before(std::uint64_t vertices, std::uint64_t cells) {
     return fmt::format("  (before: {}, {})", grouped(vertices), grouped(cells));
 }
 
+std::string naming_the_level(std::string_view what, int level, int levels) {
+    return fmt::format(
+        "{} (levels count all steps that have made this mesh; this is level {} of {} here)", what,
+        level, levels);
+}
+
 std::vector<std::string> idle_levels(int done, int levels, std::string_view reason) {
     if (levels == 0) return {"--levels 0: the mesh stays as it is"};
     if (done == levels) return {};

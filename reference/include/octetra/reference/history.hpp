@@ -19,8 +19,10 @@ struct History {
 };
 
 /// The mesh before the first step, after it, and so on: the last one is the history's. Each has
-/// every number and bit that refinement gave it. Throws InputError as refine() does.
-[[nodiscard]] std::vector<Refinement> replay(const History& history);
+/// every number and bit that refinement gave it. Throws InputError as refine() does, a step being a
+/// level.
+[[nodiscard]] std::vector<Refinement> replay(const History& history,
+                                             std::size_t max_cells = any_number);
 
 /// One for each cell of a mesh: not 0 where it is marked.
 using CellMarks = IndexVector<CellIndex, char>;

@@ -55,6 +55,10 @@ py::array array_over(const py::dtype& type, std::vector<py::ssize_t> shape, cons
     return array;
 }
 
+py::array booleans(std::vector<std::uint8_t> bytes) {
+    return array_of(std::move(bytes)).attr("view")("bool");
+}
+
 template <class V>
 std::vector<V> values_of(const std::string& name, const py::handle& given) {
     using Number = typename Numbers<V>::Number;

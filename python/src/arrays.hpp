@@ -71,6 +71,9 @@ template <class T, class Allocator>
     return view(std::span<const T>(*kept), kept);
 }
 
+/// Bytes that are 0 or 1 as booleans, without a copy.
+[[nodiscard]] py::array booleans(std::vector<std::uint8_t> bytes);
+
 /// Whole numbers of any type, or any real ones where those of V are real, as values: of shape (n,),
 /// or (n, numbers of a value). None of them for None. Throws InputError where a number or the shape
 /// does not fit; `name` is what the caller calls them.

@@ -22,6 +22,7 @@ void bind_sharing(py::module_& module, MeshClass& mesh);
 void bind_sides(py::module_& module, MeshClass& mesh);
 void bind_ghosts(py::module_& module, MeshClass& mesh);
 void bind_quality(py::module_& module);
+void bind_vertex_sets(MeshClass& mesh);
 void bind_series(py::module_& module, MeshClass& mesh);
 void bind_verify(py::module_& module, MeshClass& mesh);
 

@@ -17,11 +17,6 @@
 namespace octetra::python {
 namespace {
 
-/// Bytes that are 0 or 1 as booleans, without a copy.
-py::array booleans(std::vector<std::uint8_t> bytes) {
-    return array_of(std::move(bytes)).attr("view")("bool");
-}
-
 using Estimate = std::vector<std::uint8_t> (*)(const od::Communicator&, std::span<const double>,
                                                double);
 

@@ -71,13 +71,20 @@ py::array update_copies(const SharedEntities& of, const py::object& given) {
     return exchanged<std::byte>(of, *values, update);
 }
 
-enum class Operation { sum, min, max };
+bool is_boolean(const Values& values) { return values.array.dtype().kind() == 'b'; }
 
-Operation operation_of(const std::string& name) {
+enum class Operation { sum, min, max, either };
+
+Operation operation_for(const Values& values, const std::string& name) {
+    if (is_boolean(values)) {
+        if (name == "or") return Operation::either;
+        throw InputError("operation: booleans are combined by 'or' alone");
+    }
+    with_number_type(values.array, [](auto) {});
     if (name == "sum") return Operation::sum;
     if (name == "min") return Operation::min;
     if (name == "max") return Operation::max;
-    throw InputError("operation: 'sum', 'min' or 'max'");
+    throw InputError("operation: 'sum', 'min' or 'max', and of booleans 'or'");
 }
 
 template <class T>
@@ -91,9 +98,15 @@ py::array combine(const SharedEntities& of, const py::object& given, const std::
     auto operation = Operation::sum;
     convert_on_each(of.processes, [&] {
         values = values_for(given, of.count, "entities");
-        with_number_type(values->array, [](auto) {});
-        operation = operation_of(name);
+        operation = operation_for(*values, name);
     });
+    if (is_boolean(*values)) {
+        return exchanged<std::uint8_t>(
+            of, *values, [&](const auto& sharing, auto& copy, std::size_t components) {
+                od::combine_everywhere(of.processes, sharing, of.count, copy, std::logical_or<>{},
+                                       components);
+            });
+    }
     return with_number_type(values->array, [&]<class T>(T) {
         const auto combine_all = [&](const auto& sharing, auto& copy, std::size_t components) {
             od::combine_everywhere(
@@ -127,7 +140,8 @@ void bind_sharing(py::module_& module, MeshClass& mesh) {
             "combine", &combine, py::arg("values"), py::arg("operation") = "sum",
             "Collective. Values (n, ...) of float64, float32, int32 or int64, combined over all "
             "ranks that have an entity, the same on all of them: what assembly needs. A new array. "
-            "operation: 'sum', 'min' or 'max'.");
+            "operation: 'sum', 'min' or 'max'; of booleans 'or', true on all ranks that have the "
+            "entity where it is true on one.");
     mesh.def_property_readonly(
         "vertex_sharing",
         [](const Mesh& m) {

@@ -80,6 +80,7 @@ PYBIND11_MODULE(_octetra, module) {
     bind_sides(module, mesh);
     bind_ghosts(module, mesh);
     bind_quality(module);
+    bind_vertex_sets(mesh);
     bind_series(module, mesh);
     bind_verify(module, mesh);
 }

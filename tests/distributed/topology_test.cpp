@@ -1,13 +1,16 @@
 #include <algorithm>
+#include <functional>
 #include <map>
 #include <set>
 #include <tuple>
 
 #include <fmt/format.h>
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <octetra/core/error.hpp>
 #include <octetra/distributed/adaptive_mesh.hpp>
+#include <octetra/distributed/exchange.hpp>
 
 #include "distributed/marked_mesh.hpp"
 #include "distributed/world.hpp"
@@ -210,6 +213,102 @@ TEST_P(Topology, HasGhostCellsByFaceAndByVertexAndTheirValues) {
                 EXPECT_EQ(words, fmt::format("rank 0: {} values for cells, and {} are needed",
                                              2 * own + 1, 2 * own));
             }
+        }
+    }
+}
+
+/// For each vertex of this process whether `is_in_set` holds for its number in the whole mesh.
+std::vector<std::uint8_t> flags_of(const AdaptiveMesh& mesh,
+                                   const std::function<bool(std::uint64_t)>& is_in_set) {
+    std::vector<std::uint8_t> flags;
+    for (std::size_t v = 0; v < mesh.points().size(); ++v) {
+        flags.push_back(is_in_set(number_of(mesh, VertexIndex{v})) ? 1 : 0);
+    }
+    return flags;
+}
+
+/// How many flags a process would miss that marks the vertices of its own faces alone.
+std::size_t missed_by_own_faces(const AdaptiveMesh& mesh, std::vector<std::uint8_t> flags) {
+    for (const auto& [cell, face] : mesh.boundary()) {
+        for (const std::uint8_t k : cell_faces[face]) {
+            flags[mesh.cells()[cell.value()][k].value()] = 0;
+        }
+    }
+    return static_cast<std::size_t>(std::ranges::count(flags, 1));
+}
+
+TEST_P(Topology, KnowsEachBoundaryVertexAlsoWhereAnotherProcessHasTheFace) {
+    std::size_t missed = 0;
+    for (const AdaptiveMesh& mesh : meshes()) {
+        std::map<Numbers<3>, int> cells_at;
+        for (const KnownCell& cell : cells_of_all(mesh)) {
+            for (const auto& face : cell_faces) ++cells_at[side_of(cell.vertices, face)];
+        }
+        std::set<std::uint64_t> expected;
+        for (const auto& [face, count] : cells_at) {
+            if (count == 1) expected.insert(face.begin(), face.end());
+        }
+        const auto flags = mesh.boundary_vertices();
+        EXPECT_EQ(flags, flags_of(mesh, [&](auto v) { return expected.contains(v); }));
+        missed += missed_by_own_faces(mesh, flags);
+    }
+    if (GetParam() != PartitionMethod::random) return;  // parts of one piece may miss none
+    EXPECT_EQ(test::world().sum(missed) > 0, test::world().size() > 1);
+}
+
+TEST_P(Topology, KnowsTheVerticesOfAMarkerOnAllProcessesThatHaveThem) {
+    for (const AdaptiveMesh& mesh : meshes()) {
+        const std::vector<Marker> vertex_markers = mesh.vertex_markers();
+        const Mesh whole = mesh.collect();
+        for (const Marker marker : {-4, 1, 3, 99}) {
+            std::array<std::set<std::uint64_t>, 4> sets;
+            const auto collect = [&](const auto& list, const auto& markers, auto& set) {
+                for (std::size_t i = 0; i < list.size(); ++i) {
+                    if (markers.at(i) != marker) continue;
+                    for (const VertexIndex v : list.at(i)) set.insert(v.value());
+                }
+            };
+            for (std::size_t v = 0; v < whole.points.size(); ++v) {
+                if (whole.point_markers.at(v) == marker) sets[0].insert(v);
+            }
+            collect(whole.edges, whole.edge_markers, sets[1]);
+            collect(whole.facets, whole.facet_markers, sets[2]);
+            collect(whole.cells, whole.regions, sets[3]);
+            for (int dimension = 0; dimension < 4; ++dimension) {
+                auto& set = sets.at(static_cast<std::size_t>(dimension));
+                std::vector<std::uint64_t> numbers(set.begin(), set.end());
+                test::world().broadcast(numbers);
+                const auto expected = flags_of(
+                    mesh, [&](std::uint64_t v) { return std::ranges::binary_search(numbers, v); });
+                EXPECT_EQ(mesh.vertices_of(marker, dimension), expected) << marker << dimension;
+            }
+        }
+        std::vector<Marker> all_markers(whole.point_markers.begin(), whole.point_markers.end());
+        test::world().broadcast(all_markers);
+        ASSERT_EQ(vertex_markers.size(), mesh.points().size());
+        for (std::size_t v = 0; v < vertex_markers.size(); ++v) {
+            EXPECT_EQ(vertex_markers[v], all_markers.at(number_of(mesh, VertexIndex{v})));
+        }
+        EXPECT_EQ(mesh.vertices_of("r"), mesh.vertices_of(3, 3));
+        EXPECT_EQ(mesh.vertices_of("\"outer\" wall # 1"), mesh.vertices_of(-4, 2));
+        EXPECT_THAT(test::thrown_by<InputError>([&] { (void)mesh.vertices_of("wall"); }),
+                    testing::HasSubstr("no group is named 'wall'; the groups are a region"));
+        EXPECT_EQ(test::thrown_by<InputError>([&] { (void)mesh.vertices_of(1, 4); }),
+                  "a dimension is one of 0, 1, 2 and 3, not 4");
+    }
+}
+
+TEST_P(Topology, SetsAFlagWhereOneOfTheProcessesHasSetIt) {
+    for (const AdaptiveMesh& mesh : meshes()) {
+        std::vector<std::uint8_t> flags(mesh.points().size(), 0);
+        for (std::size_t v = 0; v < flags.size(); ++v) {
+            const bool is_shared = !mesh.vertex_sharing().sharers(VertexIndex{v}).empty();
+            flags[v] = is_shared && mesh.vertex_sharing().is_owned(VertexIndex{v}) ? 1 : 0;
+        }
+        combine_everywhere(mesh.processes(), mesh.vertex_sharing(), flags.size(), flags,
+                           std::logical_or<>{});
+        for (std::size_t v = 0; v < flags.size(); ++v) {
+            EXPECT_EQ(flags[v] != 0, !mesh.vertex_sharing().sharers(VertexIndex{v}).empty());
         }
     }
 }

@@ -123,6 +123,13 @@ def test_a_path_that_differs_by_rank_is_refused(folder, mesh, call):
     assert list(folder.iterdir()) == [folder / "cube.mesh"]
 
 
+@pytest.mark.skipif(world.size == 1, reason="ranks have different markers")
+def test_a_marker_that_differs_by_rank_is_refused(mesh):
+    words = f"rank {world.size - 1}: the marker or group is 2 of dimension 2, and 1 of dimension 2 on"
+    with pytest.raises(octetra.InputError, match=words):
+        mesh.vertices_of(wrong_here(2, 1))
+
+
 def test_errors_are_also_pythons_own(mesh):
     assert issubclass(octetra.InputError, ValueError) and issubclass(octetra.InputError, octetra.Error)
     assert issubclass(octetra.SystemFailure, RuntimeError)

@@ -52,6 +52,43 @@ def test_values_are_combined_over_all_that_have_a_vertex(fine, kind):
         assert sharing.combine(rank, operation).tolist() == expected
 
 
+def test_booleans_are_true_on_all_that_have_a_vertex_where_they_are_on_one(fine):
+    sharing = fine.vertex_sharing
+    mine = np.zeros((len(fine.points), 2), bool)
+    mine[:, 1] = sharing.owners == world.rank
+    found = sharing.combine(mine, "or")
+    assert found.dtype == bool and not found[:, 0].any() and found[:, 1].all()
+    with pytest.raises(octetra.InputError, match="by 'or' alone"):
+        sharing.combine(mine)
+
+
+def numbers_anywhere(mesh, vertices):
+    """The numbers in the whole mesh of these vertices of all ranks."""
+    return np.unique(np.concatenate(world.allgather(mesh.vertex_numbers[vertices])))
+
+
+def test_sets_of_vertices_are_complete_on_all_ranks(fine):
+    cells, opposite = fine.boundary()
+    faces = [np.delete(fine.cells[c], f) for c, f in zip(cells, opposite)]
+    own = np.unique(np.array(faces, int))
+    found = fine.boundary_vertices()
+    assert found.dtype == bool
+    assert np.array_equal(found, np.isin(fine.vertex_numbers, numbers_anywhere(fine, own)))
+    assert world.size == 1 or total(int(found.sum()) - len(own)) > 0
+    marked = 0
+    for marker in np.unique(np.concatenate(world.allgather(fine.facet_markers))):
+        own = np.unique(fine.facets[fine.facet_markers == marker])
+        found = fine.vertices_of(marker)
+        assert np.array_equal(found, np.isin(fine.vertex_numbers, numbers_anywhere(fine, own)))
+        marked += total(int(found.sum()))
+    assert marked > 0
+    assert not fine.vertices_of(12345).any() and not fine.vertices_of(1, dimension=1).any()
+    with pytest.raises(octetra.InputError, match="the mesh has no named groups"):
+        fine.vertices_of("wall")
+    with pytest.raises(octetra.InputError, match="a dimension is one of 0, 1, 2 and 3, not 7"):
+        fine.vertices_of(1, dimension=7)
+
+
 def test_edges_and_faces_are_numbered_alike_on_all_ranks(fine):
     for sides, per_cell, corners in ((fine.number_edges(), 6, 2), (fine.number_faces(), 4, 3)):
         assert sides.vertices.shape == (len(sides.numbers), corners)

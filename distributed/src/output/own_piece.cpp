@@ -5,50 +5,11 @@
 
 #include <octetra/distributed/exchange.hpp>
 
-#include "level/known_marker.hpp"
+#include "numbering/vertex_markers.hpp"
 #include "output/check_fields.hpp"
 
 namespace octetra::distributed {
 namespace {
-
-/// Collective. The markers of this process's vertices, as they are in the whole mesh: all that is
-/// known of a vertex meets at a process that its number decides.
-std::vector<Marker> agreed_markers(const DistributedMesh& mesh, const CanonicalNumbers& numbers) {
-    const auto process_count = static_cast<std::size_t>(mesh.processes.size());
-    const std::uint64_t block = numbers.vertex_count / process_count + 1;
-    struct Known {
-        std::uint64_t number;
-        MidpointMarker marker;
-    };
-    std::vector<std::vector<Known>> outboxes(process_count);
-    for (VertexIndex v{0}; v < mesh.points.end_index(); ++v) {
-        const auto number = static_cast<std::uint64_t>(numbers.of_vertex[v]);
-        outboxes[number / block].push_back({number, known_marker(mesh, v)});
-    }
-    const auto inboxes = mesh.processes.all_to_all(outboxes);
-    const std::uint64_t first = block * static_cast<std::uint64_t>(mesh.processes.rank());
-    std::vector<MidpointMarker> told(block);
-    std::vector<bool> met(block, false);
-    for (const auto& inbox : inboxes) {
-        for (const auto& [number, marker] : inbox) {
-            const std::uint64_t i = number - first;
-            if (!met[i] || tells_more(marker, told[i])) told[i] = marker;
-            met[i] = true;
-        }
-    }
-    std::vector<std::vector<Marker>> replies(process_count);
-    for (std::size_t r = 0; r < process_count; ++r) {
-        for (const Known& known : inboxes[r]) {
-            replies[r].push_back(told[known.number - first].marker);
-        }
-    }
-    // Vertices are in canonical order, so the answers come in theirs.
-    std::vector<Marker> markers;
-    for (const auto& answers : mesh.processes.all_to_all(replies)) {
-        markers.insert(markers.end(), answers.begin(), answers.end());
-    }
-    return markers;
-}
 
 /// Calls emit(root) for each cell of the window.
 void for_each_root(const AncestorMap& ancestors, const Window& window, auto&& emit) {
@@ -84,7 +45,7 @@ OwnPiece::OwnPiece(const DistributedMesh& mesh, const OrderedLists& lists,
     facts_.edges = mesh.edges.size();
     facts_.first_midpoint = facts_.vertices;
     facts_.has_vertex_numbers = true;
-    if (whole.has_point_markers) point_markers_ = agreed_markers(mesh, numbers);
+    if (whole.has_point_markers) point_markers_ = vertex_markers(mesh, numbers);
 }
 
 std::span<const Point> OwnPiece::points(const Window& w) { return slice(mesh_->points, w); }

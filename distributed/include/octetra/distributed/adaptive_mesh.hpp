@@ -7,6 +7,7 @@
 #include <memory>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <octetra/core/error.hpp>
@@ -220,8 +221,28 @@ public:
     // is then.
 
     /// The faces of this process's cells that are on the boundary of the whole mesh, tagged or not,
-    /// by cell. Not collective.
+    /// by cell. Not collective. Other processes may have vertices of these faces without having the
+    /// faces: see boundary_vertices().
     [[nodiscard]] std::vector<BoundaryFace> boundary() const;
+    // Sets of vertices, for boundary conditions: a byte for each vertex of this process, 1 for the
+    // vertices of the set and 0 for the others. A process may have a vertex of a boundary face or
+    // of a tagged facet without having the face, so the sets are combined over all processes that
+    // have the vertex; a set that is made of one process's boundary() or facets() lacks vertices.
+
+    /// Collective. The vertices of the boundary of the whole mesh.
+    [[nodiscard]] std::vector<std::uint8_t> boundary_vertices() const;
+    /// Collective. The vertices of the entities of this dimension that have this marker: of tagged
+    /// facets (2), of tagged edges (1), of cells by their region tag (3), or the vertices that have
+    /// the marker themselves (0). No vertices where no entity has the marker. Both arguments are
+    /// the same on all processes. Throws InputError for another dimension.
+    [[nodiscard]] std::vector<std::uint8_t> vertices_of(Marker marker, int dimension = 2) const;
+    /// Collective. The vertices of the entities of the groups with this name, of any dimension. The
+    /// name is the same on all processes. Throws InputError where no group has it.
+    [[nodiscard]] std::vector<std::uint8_t> vertices_of(std::string_view group) const;
+    /// Collective. The marker of each vertex of this process; empty where the input has no vertex
+    /// markers. It is the one that files show, equal on all processes that have the vertex.
+    [[nodiscard]] std::vector<Marker> vertex_markers() const;
+
     /// Collective. What is behind each face of this process's cells, also on other processes.
     [[nodiscard]] FaceNeighbours face_neighbours() const;
     /// Collective. All edges, or faces, of this process's cells, with their numbers in the whole

@@ -105,7 +105,8 @@ void combine_at_owner(const Communicator& processes, const Sharing<I>& sharing,
 }
 
 /// Collective. Combines the values of all copies of each entity, and gives all copies the result:
-/// what assembly needs. Throws as update_copies().
+/// what assembly needs. With std::logical_or<> a flag (bool, std::uint8_t) is set on all processes
+/// that have the entity where it is set on one of them. Throws as update_copies().
 template <class I, class T, class Operation>
 void combine_everywhere(const Communicator& processes, const Sharing<I>& sharing,
                         std::size_t entity_count, std::span<T> values, Operation operation,

@@ -1,0 +1,74 @@
+#include "numbering/vertex_markers.hpp"
+
+#include "comm/local_failure.hpp"
+#include "level/known_marker.hpp"
+
+namespace octetra::distributed {
+namespace {
+
+/// What a process knows of the marker of a vertex.
+struct Known {
+    std::uint64_t number;
+    MidpointMarker marker;
+};
+
+/// The markers of a block of vertex numbers, as replies to all that have sent what they know.
+std::vector<std::vector<Marker>> replies_to(const std::vector<std::vector<Known>>& inboxes,
+                                            std::uint64_t first, std::uint64_t block) {
+    std::vector<MidpointMarker> merged(block);
+    std::vector<bool> met(block, false);
+    for (const auto& inbox : inboxes) {
+        for (const auto& [number, marker] : inbox) {
+            const std::uint64_t i = number - first;
+            if (!met[i] || tells_more(marker, merged[i])) merged[i] = marker;
+            met[i] = true;
+        }
+    }
+    std::vector<std::vector<Marker>> replies(inboxes.size());
+    for (std::size_t r = 0; r < inboxes.size(); ++r) {
+        replies[r].reserve(inboxes[r].size());
+        for (const Known& known : inboxes[r]) {
+            replies[r].push_back(merged[known.number - first].marker);
+        }
+    }
+    return replies;
+}
+
+}  // namespace
+
+/// All that is known of a vertex is sent to a process that its number determines.
+std::vector<Marker> vertex_markers(const DistributedMesh& mesh, const CanonicalNumbers& numbers) {
+    const Communicator& processes = mesh.processes;
+    // A process without vertices has no markers either.
+    const bool has_markers = !mesh.input_vertex_markers.empty() || !mesh.midpoint_markers.empty();
+    if (processes.max(has_markers ? 1 : 0) == 0) return {};
+    const auto process_count = static_cast<std::size_t>(processes.size());
+    const std::uint64_t block = numbers.vertex_count / process_count + 1;
+    std::vector<std::vector<Known>> known;
+    std::vector<std::vector<Marker>> replies;
+    std::vector<Marker> markers;
+    LocalFailure failure;
+    failure.attempt([&] {
+        known.resize(process_count);
+        for (VertexIndex v{0}; v < mesh.points.end_index(); ++v) {
+            const auto number = static_cast<std::uint64_t>(numbers.of_vertex[v]);
+            known[number / block].push_back({number, known_marker(mesh, v)});
+        }
+    });
+    failure.agree(processes);
+    failure.attempt([&] {
+        const auto inboxes = processes.all_to_all(known);
+        replies = replies_to(inboxes, block * static_cast<std::uint64_t>(processes.rank()), block);
+    });
+    failure.agree(processes);
+    failure.attempt([&] {
+        // Vertices are in canonical order, so the concatenated answers are in theirs.
+        for (const auto& answers : processes.all_to_all(replies)) {
+            markers.insert(markers.end(), answers.begin(), answers.end());
+        }
+    });
+    failure.agree(processes);
+    return markers;
+}
+
+}  // namespace octetra::distributed

@@ -5,7 +5,7 @@ the front leaves heat where it is. The heat of a cell is divided over the pieces
 where pieces become one again; so what there is of it in the end is what was left.
 
     python3 -m octetra generate kuhn 8 -o cube.mesh
-    mpirun -n 4 python3 moving_front.py cube.mesh 50 front
+    mpirun -n 4 python3 -m mpi4py moving_front.py cube.mesh 50 front
 
 writes front.vtkhdf, all meshes; front.mesh, the last one; and front.png, the bottom of some. The picture
 takes matplotlib (Debian: python3-matplotlib); several ranks take mpi4py. examples/moving_front.cpp is the
@@ -79,9 +79,8 @@ def over_all_ranks(numbers, operation):
 
 def bottom_of(mesh, density):
     """Of the faces at z = 0, on the first rank: corners, (n, 3, 2), and the density of their cells."""
-    cells, opposite = mesh.boundary()
-    others = np.array([[1, 2, 3], [0, 2, 3], [0, 1, 3], [0, 1, 2]])[opposite]
-    corners = mesh.points[np.take_along_axis(mesh.cells[cells], others, axis=1)]
+    cells, _ = mesh.boundary()
+    corners = mesh.points[mesh.boundary_faces()]
     low = np.all(corners[:, :, 2] == 0, axis=1)
     mine = corners[low, :, :2], density[cells[low]]
     if mesh.rank_count == 1:

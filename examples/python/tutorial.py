@@ -1,7 +1,7 @@
 """From a mesh to pictures: read, mark by a function of coordinates, refine, look at the angles, save.
 
     python3 tutorial.py gear.mesh              on one rank
-    mpirun -n 4 python3 tutorial.py gear.mesh  on four, with the same files
+    mpirun -n 4 python3 -m mpi4py tutorial.py gear.mesh  on four, with the same files
 
 Pictures take matplotlib (Debian: python3-matplotlib); several ranks take mpi4py.
 """
@@ -63,9 +63,7 @@ def draw_surface(path, mesh):
     from matplotlib.figure import Figure
     from mpl_toolkits.mplot3d.art3d import Poly3DCollection
 
-    cells, opposite = mesh.boundary()
-    others = np.array([[1, 2, 3], [0, 2, 3], [0, 1, 3], [0, 1, 2]])[opposite]
-    triangles = mesh.points[np.take_along_axis(mesh.cells[cells], others, axis=1)]
+    triangles = mesh.points[mesh.boundary_faces()]
     figure = Figure(figsize=(7, 6))
     axes = figure.add_subplot(projection="3d")
     axes.add_collection3d(Poly3DCollection(triangles, facecolor="aliceblue", edgecolor="steelblue",

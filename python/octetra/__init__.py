@@ -25,6 +25,8 @@ from ._octetra import (
     Succession as Succession,
     SystemFailure as SystemFailure,
     Verdict as Verdict,
+    cell_edges as cell_edges,
+    cell_faces as cell_faces,
     from_arrays as from_arrays,
     load as load,
     load_with_fields as load_with_fields,

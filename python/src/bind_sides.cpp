@@ -1,6 +1,9 @@
+#include <algorithm>
 #include <array>
+#include <cstdint>
 #include <memory>
 #include <span>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -16,6 +19,7 @@ template <class Sides>
 struct NumberedSides {
     od::Communicator processes;
     Sides sides;
+    std::vector<std::array<std::int8_t, 4>> outward;  ///< of faces; see bind_outward()
 };
 
 template <class Sides>
@@ -28,15 +32,17 @@ void bind_class(py::module_& module, const char* name) {
             return view(std::span(values.data(), values.size()), numbered);
         };
     };
-    py::class_<Numbered, std::shared_ptr<Numbered>>(
-        module, name, "All edges or faces of this rank's cells: a picture of the mesh as it was.")
-        .def_property_readonly("vertices", list(&Sides::vertices),
-                               "uint32 (n, 2 or 3): their vertices on this rank, ascending.")
+    py::class_<Numbered, std::shared_ptr<Numbered>> made(
+        module, name, "All edges or faces of this rank's cells: a picture of the mesh as it was.");
+    made.def_property_readonly("vertices", list(&Sides::vertices),
+                               "int32 (n, 2 or 3): their vertices on this rank, ascending, as "
+                               "their numbers in the whole mesh do: the direction of an edge and "
+                               "the normal of a face are the same on all ranks.")
         .def_property_readonly("of_cells", list(&Sides::of_cell),
-                               "uint32 (cells, 6 or 4): those of each cell; edges in the order 01, "
+                               "int32 (cells, 6 or 4): those of each cell; edges in the order 01, "
                                "02, 03, 12, 13, 23, face i opposite vertex i.")
         .def_property_readonly("numbers", list(&Sides::numbers),
-                               "uint64 (n,): their numbers in the whole mesh, the same on any "
+                               "int64 (n,): their numbers in the whole mesh, the same on any "
                                "number of ranks.")
         .def_property_readonly(
             "count", [](const Numbered& numbered) { return numbered.sides.count; },
@@ -50,13 +56,37 @@ void bind_class(py::module_& module, const char* name) {
                                           Pointer(numbered), &sharing)};
             },
             "Who else has them, and who owns them.");
+    if constexpr (std::is_same_v<Sides, od::MeshFaces>) {
+        made.def_property_readonly(
+            "outward",
+            [](const std::shared_ptr<Numbered>& numbered) {
+                return view(std::span(std::as_const(numbered->outward)), numbered);
+            },
+            "int8 (cells, 4): 1 where the normal of the face, by the right-hand rule on "
+            "`vertices`, points out of the cell, -1 where it points into the cell.");
+    }
+}
+
+/// Of each face of each cell 1 or -1.
+std::vector<std::array<std::int8_t, 4>> signs_of_faces(const od::AdaptiveMesh& mesh) {
+    std::vector<std::array<std::int8_t, 4>> signs;
+    signs.reserve(mesh.cells().size());
+    for (const CellVertices& cell : mesh.cells()) {
+        auto& of_cell = signs.emplace_back();
+        for (std::size_t face = 0; face < 4; ++face) {
+            of_cell[face] = od::points_outward(cell, face) ? 1 : -1;
+        }
+    }
+    return signs;
 }
 
 template <class Sides>
 std::shared_ptr<NumberedSides<Sides>> number(Mesh& mesh, Sides (od::AdaptiveMesh::*made)() const) {
     return mesh.ask([&](const od::AdaptiveMesh& now) {
-        return std::make_shared<NumberedSides<Sides>>(
-            NumberedSides<Sides>{now.processes(), (now.*made)()});
+        auto numbered = std::make_shared<NumberedSides<Sides>>(
+            NumberedSides<Sides>{now.processes(), (now.*made)(), {}});
+        if constexpr (std::is_same_v<Sides, od::MeshFaces>) numbered->outward = signs_of_faces(now);
+        return numbered;
     });
 }
 
@@ -85,11 +115,30 @@ py::tuple boundary(const Mesh& mesh) {
     return py::make_tuple(array_of(std::move(cells)), array_of(std::move(faces)));
 }
 
+py::array boundary_faces(const Mesh& mesh) {
+    const od::AdaptiveMesh& now = mesh.now();
+    std::vector<FacetVertices> faces;
+    for (const auto& [cell, face] : now.boundary()) {
+        faces.push_back(od::outward_face(now.cells()[cell.value()], face));
+    }
+    return array_of(std::move(faces));
+}
+
+/// A table of the corners of a cell, as an array of the module.
+template <std::size_t N, std::size_t Sides>
+py::array table(const std::array<std::array<std::uint8_t, N>, Sides>& sides) {
+    std::vector<std::array<std::int32_t, N>> rows(Sides);
+    for (std::size_t i = 0; i < Sides; ++i) std::ranges::copy(sides[i], rows[i].begin());
+    return array_of(std::move(rows));
+}
+
 }  // namespace
 
 void bind_sides(py::module_& module, MeshClass& mesh) {
     bind_class<od::MeshEdges>(module, "Edges");
     bind_class<od::MeshFaces>(module, "Faces");
+    module.attr("cell_edges") = table(cell_edges);
+    module.attr("cell_faces") = table(od::outward_faces);
     mesh.def(
             "number_edges", [](Mesh& m) { return number(m, &od::AdaptiveMesh::number_edges); },
             "Collective. All edges of this rank's cells, tagged or not.")
@@ -98,11 +147,19 @@ void bind_sides(py::module_& module, MeshClass& mesh) {
             "Collective. All faces of this rank's cells, tagged or not.")
         .def("face_neighbours", &face_neighbours,
              "Collective. What is behind each face of this rank's cells, face i opposite vertex i: "
-             "int32 (cells, 4), the rank that has the cell there, -1 on the boundary; and uint32 "
-             "(cells, 4), its number on that rank.")
+             "int32 (cells, 4), the rank that has the cell there, -1 on the boundary; and int32 "
+             "(cells, 4), its number on that rank, or -1.")
         .def("boundary", &boundary,
-             "The faces of this rank's cells on the boundary of the whole mesh: uint32 (n,), the "
-             "cells, and uint8 (n,), the vertex of the cell that is opposite.");
+             "The faces of this rank's cells on the boundary of the whole mesh: int32 (n,), the "
+             "cells, and uint8 (n,), the vertex of the cell that is opposite.")
+        .def("boundary_faces", &boundary_faces,
+             "int32 (n, 3): the vertices of the faces of boundary(), in its order. The normal by "
+             "the right-hand rule points outward.")
+        .def(
+            "oriented_facets", [](const Mesh& m) { return array_of(m.now().oriented_facets()); },
+            "int32 (facets, 3): the vertices of the tagged facets. The normal, by the right-hand "
+            "rule, of a facet on the boundary of the whole mesh points outward; vertices of a "
+            "facet inside ascend, as those of number_faces() do. Made when asked for.");
 }
 
 }  // namespace octetra::python

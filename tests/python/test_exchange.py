@@ -103,6 +103,44 @@ def test_edges_and_faces_are_numbered_alike_on_all_ranks(fine):
         assert whole == set(map(tuple, np.sort(first, axis=1).tolist()))
 
 
+def normals(mesh, faces):
+    a, b, c = (mesh.points[faces[:, k]] for k in range(3))
+    return np.cross(b - a, c - a)
+
+
+def test_boundary_faces_and_facets_are_oriented_outward(fine):
+    cells, opposite = fine.boundary()
+    faces = fine.boundary_faces()
+    assert faces.dtype == np.int32 and faces.shape == (len(cells), 3)
+    inward = fine.points[fine.cells[cells, opposite]] - fine.points[faces[:, 0]]
+    assert np.all((normals(fine, faces) * inward).sum(axis=1) < 0)
+    corners = octetra.cell_faces[opposite]
+    assert np.array_equal(np.take_along_axis(fine.cells[cells], corners, axis=1), faces)
+    flux = (normals(fine, faces) * fine.points[faces[:, 0]]).sum() / 2
+    assert total(flux) == pytest.approx(3)  # three times the volume
+    oriented = {tuple(np.sort(f)): f.tolist() for f in faces}
+    for facet, listed in zip(fine.oriented_facets(), fine.facets):
+        assert facet.tolist() == oriented[tuple(np.sort(listed))]  # all are on the boundary
+
+
+def test_signs_of_faces_say_to_which_side_their_normals_point(fine):
+    faces = fine.number_faces()
+    assert faces.outward.dtype == np.int8
+    for f in range(4):
+        of_cell = faces.vertices[faces.of_cells[:, f]]
+        inward = fine.points[fine.cells[:, f]] - fine.points[of_cell[:, 0]]
+        leaves = -np.sign((normals(fine, of_cell) * inward).sum(axis=1))
+        assert np.array_equal(leaves, faces.outward[:, f])
+    both_sides = np.zeros(len(faces.vertices), np.int64)
+    np.add.at(both_sides, faces.of_cells, faces.outward)  # of two cells one sees the normal leave
+    both_sides = faces.sharing.combine(both_sides)
+    own = faces.sharing.owners == world.rank
+    assert total(int(np.abs(both_sides[own]).sum())) == total(len(fine.boundary_faces()))
+    ends = fine.cells[:, octetra.cell_edges]
+    edges = fine.number_edges()
+    assert np.array_equal(np.sort(ends, axis=2), edges.vertices[edges.of_cells])
+
+
 def test_neighbours_are_mutual_and_the_boundary_is_where_there_are_none(fine):
     ranks, cells = fine.face_neighbours()
     assert ranks.shape == cells.shape == (len(fine.cells), 4)

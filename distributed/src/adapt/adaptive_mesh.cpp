@@ -17,6 +17,7 @@
 #include "topology/face_neighbours.hpp"
 #include "topology/find_ghosts.hpp"
 #include "topology/number_sides.hpp"
+#include "topology/orient_facets.hpp"
 
 namespace octetra::distributed {
 
@@ -170,6 +171,10 @@ std::vector<Marker> AdaptiveMesh::edge_markers() const {
     const DistributedMesh& mesh = state_->mesh;
     return all_markers<EdgeIndex>(
         mesh.edge_ancestors, mesh.adjacency ? &mesh.adjacency->edges : nullptr, mesh.edges.size());
+}
+
+std::vector<FacetVertices> AdaptiveMesh::oriented_facets() const {
+    return orient_facets(state_->mesh);
 }
 
 std::uint64_t AdaptiveMesh::vertex_count() const { return state_->numbers.vertex_count; }

@@ -195,6 +195,11 @@ public:
     [[nodiscard]] std::vector<Marker> regions() const;
     [[nodiscard]] std::span<const FacetVertices> facets() const;  ///< tagged ones
     [[nodiscard]] std::vector<Marker> facet_markers() const;
+    /// The vertices of the tagged facets in an order that orients them: the normal, by the
+    /// right-hand rule, of a facet on the boundary of the whole mesh points outward; the vertices
+    /// of a facet inside ascend, as those of number_faces() do. facets() has them in the order of
+    /// the input, which is that of files and orients nothing. Takes time in proportion to the part.
+    [[nodiscard]] std::vector<FacetVertices> oriented_facets() const;
     [[nodiscard]] std::span<const EdgeVertices> edges() const;  ///< tagged ones
     [[nodiscard]] std::vector<Marker> edge_markers() const;
 

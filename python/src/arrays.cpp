@@ -75,7 +75,7 @@ std::vector<V> values_of(const std::string& name, const py::handle& given) {
         refuse(name, wanted, array);
     }
     const auto numbers = py::array_t<Number, py::array::c_style | py::array::forcecast>(array);
-    if (!is_real && !numbers.attr("__eq__")(array).attr("all")().template cast<bool>()) {
+    if constexpr (Numbers<V>::is_index) {
         const py::object least = array.attr("min")();
         if (std::is_unsigned_v<Number> && least.attr("__lt__")(0).template cast<bool>()) {
             throw InputError(fmt::format("{}: numbers from 0; given is {}", name,

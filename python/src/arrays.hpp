@@ -20,31 +20,42 @@ namespace octetra::python {
 
 namespace py = pybind11;
 
-/// What numpy sees in a value of the library: so many numbers, one beside the other.
+/// What numpy sees in a value of the library: so many numbers, one beside the other. Indices are
+/// signed, int32 on a rank and int64 in the whole mesh, as petsc4py and DOLFINx have them; the bits
+/// are those of the library's unsigned types, and an index that stands for "none" is -1.
 template <class T>
 struct Numbers {
     using Number = T;
     static constexpr std::size_t count = 1;
-};
-template <class Role>
-struct Numbers<Index<Role>> {
-    using Number = std::uint32_t;
-    static constexpr std::size_t count = 1;
+    static constexpr bool is_index = false;
 };
 template <>
-struct Numbers<distributed::GlobalVertex> {
-    using Number = std::uint64_t;
+struct Numbers<std::uint32_t> {
+    using Number = std::int32_t;
     static constexpr std::size_t count = 1;
+    static constexpr bool is_index = true;
 };
+template <>
+struct Numbers<std::uint64_t> {
+    using Number = std::int64_t;
+    static constexpr std::size_t count = 1;
+    static constexpr bool is_index = true;
+};
+template <class Role>
+struct Numbers<Index<Role>> : Numbers<std::uint32_t> {};
+template <>
+struct Numbers<distributed::GlobalVertex> : Numbers<std::uint64_t> {};
 template <>
 struct Numbers<Point> {
     using Number = double;
     static constexpr std::size_t count = 3;
+    static constexpr bool is_index = false;
 };
 template <class T, std::size_t N>
 struct Numbers<std::array<T, N>> {
     using Number = typename Numbers<T>::Number;
     static constexpr std::size_t count = N;
+    static constexpr bool is_index = Numbers<T>::is_index;
 };
 
 /// An array of shape (n, ...) over memory that `owner` keeps, which the array keeps.

@@ -1,8 +1,14 @@
+#include <cstdint>
+#include <limits>
 #include <string>
 #include <tuple>
 #include <vector>
 
+#include <mpi.h>
 #include <pybind11/stl.h>
+
+#include <octetra/core/error.hpp>
+#include <octetra/distributed/mpi.hpp>
 
 #include "arrays.hpp"
 #include "bind.hpp"
@@ -10,10 +16,14 @@
 namespace octetra::python {
 namespace {
 
-/// A view of one of the mesh's own arrays.
+/// A view of one of the mesh's own arrays, whose indices must fit into int32.
 auto view_of(Mesh::Array array, auto span_of) {
     return [=](Mesh& mesh) {
         const auto span = span_of(mesh.now());
+        constexpr std::size_t most = std::numeric_limits<std::int32_t>::max();
+        if (mesh.vertex_count() > most || mesh.cell_count() > most) {
+            throw SystemError("a rank has more than 2,147,483,647 vertices or cells");
+        }
         return view(span, mesh.hold(array));
     };
 }
@@ -23,22 +33,24 @@ void bind_part(MeshClass& mesh) {
     mesh.def_property_readonly("points",
                                view_of(Mesh::points, [](const M& m) { return m.points(); }),
                                "float64 (vertices, 3): where this rank's vertices are.")
-        .def_property_readonly("cells", view_of(Mesh::cells, [](const M& m) { return m.cells(); }),
-                               "uint32 (cells, 4): the vertices of this rank's cells.")
+        .def_property_readonly(
+            "cells", view_of(Mesh::cells, [](const M& m) { return m.cells(); }),
+            "int32 (cells, 4): the vertices of this rank's cells, positively oriented.")
         .def_property_readonly("facets",
                                view_of(Mesh::facets, [](const M& m) { return m.facets(); }),
-                               "uint32 (facets, 3): the vertices of this rank's tagged facets. A "
-                               "facet is on one rank.")
+                               "int32 (facets, 3): the vertices of this rank's tagged facets, in "
+                               "the order of files, which orients nothing: see "
+                               "oriented_facets(). A facet is on one rank.")
         .def_property_readonly(
             "edges", view_of(Mesh::edges, [](const M& m) { return m.edges(); }),
-            "uint32 (edges, 2): the vertices of this rank's tagged edges. An edge is on one rank.")
+            "int32 (edges, 2): the vertices of this rank's tagged edges. An edge is on one rank.")
         .def_property_readonly(
             "vertex_numbers",
             view_of(Mesh::vertex_numbers, [](const M& m) { return m.vertex_numbers(); }),
-            "uint64 (vertices,): their numbers in the whole mesh, in the order of files.")
+            "int64 (vertices,): their numbers in the whole mesh, in the order of files.")
         .def_property_readonly(
             "roots", view_of(Mesh::roots, [](const M& m) { return m.roots(); }),
-            "uint64 (roots,): the numbers of the cells of the input whose descendants this rank "
+            "int64 (roots,): the numbers of the cells of the input whose descendants this rank "
             "has, ascending.");
 }
 
@@ -62,11 +74,44 @@ void bind_tags(MeshClass& mesh) {
             "int32 (edges,), or (0,) where the input has none. Made when asked for.")
         .def_property_readonly(
             "root_of_cells", [](const Mesh& m) { return array_of(m.now().root_of_cells()); },
-            "uint32 (cells,): of each cell the place of its root in `roots`. Made when asked for.")
+            "int32 (cells,): of each cell the place of its root in `roots`. Made when asked for.")
         .def_property_readonly("group_names", &group_names,
                                "What the input's file calls groups of entities with the same tag: "
                                "[(dimension, tag, name)], 3 for cells, 2 for facets, 1 for edges "
                                "and 0 for vertices. The same on all ranks.");
+}
+
+/// Shape (vertices, attributes).
+py::array vertex_attributes(const Mesh& mesh) {
+    const auto values = mesh.now().vertex_attributes();
+    const auto columns = static_cast<py::ssize_t>(mesh.now().attributes_per_vertex());
+    return array_of(std::vector<double>(values.begin(), values.end()))
+        .attr("reshape")(static_cast<py::ssize_t>(mesh.vertex_count()), columns);
+}
+
+/// The mesh's communicator, which belongs to the mesh, as mpi4py's object.
+py::object comm_of_mesh(const Mesh& mesh) {
+    const auto handle = MPI_Comm_c2f(od::comm_of(mesh.processes()));
+    return py::module_::import("mpi4py.MPI").attr("Comm").attr("f2py")(handle);
+}
+
+void bind_numbers(MeshClass& mesh) {
+    mesh.def(
+            "cell_numbers",
+            [](Mesh& m) {
+                return array_of(m.ask([](const auto& now) { return now.cell_numbers(); }));
+            },
+            "Collective. int64 (cells,): the numbers of this rank's cells in the whole mesh, in "
+            "the order of files: the same on any number of ranks.")
+        .def_property_readonly(
+            "vertex_attributes", &vertex_attributes,
+            "float64 (vertices, attributes): the nodal attributes of the input; midpoints have the "
+            "mean of the ends of their edge. Made when asked for.")
+        .def_property_readonly(
+            "comm", &comm_of_mesh,
+            "The communicator of the mesh, of mpi4py: the ranks of the `comm` that the mesh was "
+            "made with, in their order. It belongs to the mesh and is valid as long as the mesh "
+            "lives; comm.Dup() is the program's own.");
 }
 
 }  // namespace
@@ -74,6 +119,7 @@ void bind_tags(MeshClass& mesh) {
 void bind_arrays(MeshClass& mesh) {
     bind_part(mesh);
     bind_tags(mesh);
+    bind_numbers(mesh);
     mesh.def_property_readonly(
             "rank", [](const Mesh& m) { return m.processes().rank(); },
             "This process's rank in the communicator of the mesh.")

@@ -64,20 +64,20 @@ void bind_ghosts(py::module_& module, MeshClass& mesh) {
         module, "Ghosts",
         "A layer of other ranks' cells around this one's: a picture of the mesh as it was.")
         .def_property_readonly("cells", list(&od::GhostLayer::cells),
-                               "uint32 (ghosts, 4): their vertices; those of `points` are numbered "
+                               "int32 (ghosts, 4): their vertices; those of `points` are numbered "
                                "behind this rank's own.")
         .def_property_readonly(
             "owner_ranks", [](const Ghosts& all) { return of_owners(all, &Owner::rank); },
             "int32 (ghosts,): the ranks that have them.")
         .def_property_readonly(
             "owner_cells", [](const Ghosts& all) { return of_owners(all, &Owner::cell); },
-            "uint32 (ghosts,): their numbers there.")
+            "int32 (ghosts,): their numbers there.")
         .def_property_readonly("regions", list(&od::GhostLayer::regions),
                                "int32 (ghosts,), or (0,) where the input has none.")
         .def_property_readonly("points", list(&od::GhostLayer::points),
                                "float64 (n, 3): vertices that this rank does not have.")
         .def_property_readonly("vertex_numbers", list(&od::GhostLayer::vertex_numbers),
-                               "uint64 (n,): their numbers in the whole mesh.")
+                               "int64 (n,): their numbers in the whole mesh.")
         .def(
             "values", &ghost_values, py::arg("values"),
             "Collective. Values of this rank's cells, (cells, ...) of any numbers, to those of the "

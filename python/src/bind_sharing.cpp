@@ -6,6 +6,7 @@
 #include <vector>
 
 #include <octetra/distributed/exchange.hpp>
+#include <octetra/distributed/index_map.hpp>
 
 #include "arrays.hpp"
 #include "bind.hpp"
@@ -117,9 +118,64 @@ py::array combine(const SharedEntities& of, const py::object& given, const std::
     });
 }
 
+/// An IndexMap of entities of any kind.
+struct IndexMap {
+    std::vector<std::uint32_t> entities;
+    std::size_t owned_count = 0;
+    std::vector<int> copy_owners;
+    std::vector<std::uint64_t> numbers;
+    std::vector<std::uint64_t> rank_begin;
+
+    template <class I>
+    explicit IndexMap(od::IndexMap<I> map)
+        : owned_count(map.owned_count),
+          copy_owners(std::move(map.copy_owners)),
+          numbers(std::move(map.numbers)),
+          rank_begin(std::move(map.rank_begin)) {
+        for (const I i : map.entities) entities.push_back(i.value());
+    }
+};
+using IndexMapPointer = std::shared_ptr<IndexMap>;
+
+IndexMapPointer index_map(const SharedEntities& of) {
+    return without_gil([&] {
+        return std::visit(
+            [&](const auto& sharing) {
+                return std::make_shared<IndexMap>(
+                    od::make_index_map(of.processes, *sharing, of.count));
+            },
+            of.sharing);
+    });
+}
+
+void bind_index_map(py::module_& module) {
+    const auto list = [](auto of) {
+        return [of](const IndexMapPointer& map) {
+            return view(std::span(std::as_const((*map).*of)), map);
+        };
+    };
+    py::class_<IndexMap, IndexMapPointer>(
+        module, "IndexMap",
+        "A numbering in which what a rank owns has consecutive numbers, rank by rank, as vectors "
+        "and matrices of PETSc and DOLFINx have. It depends on the partition, unlike the numbers "
+        "of files.")
+        .def_property_readonly("entities", list(&IndexMap::entities),
+                               "int32 (n,): this rank's own first, ascending, then the copies, by "
+                               "the rank of their owner.")
+        .def_readonly("owned_count", &IndexMap::owned_count, "How many are this rank's own.")
+        .def_property_readonly("copy_owners", list(&IndexMap::copy_owners),
+                               "int32 (n - owned_count,): the owners of entities[owned_count:].")
+        .def_property_readonly("numbers", list(&IndexMap::numbers),
+                               "int64 (n,): the number of each, by local number.")
+        .def_property_readonly("rank_begin", list(&IndexMap::rank_begin),
+                               "int64 (ranks + 1,): rank r owns the numbers rank_begin[r] to "
+                               "rank_begin[r + 1] - 1.");
+}
+
 }  // namespace
 
 void bind_sharing(py::module_& module, MeshClass& mesh) {
+    bind_index_map(module);
     py::class_<SharedEntities>(
         module, "Sharing",
         "Which vertices, edges or faces of this rank others have, too: a picture of the mesh as it "
@@ -127,12 +183,14 @@ void bind_sharing(py::module_& module, MeshClass& mesh) {
         .def_property_readonly("owners", &owners,
                                "int32 (n,): the rank that owns each entity. Made when asked for.")
         .def_property_readonly("shared", &shared,
-                               "uint32 (k,): those that other ranks have, too; ascending.")
+                               "int32 (k,): those that other ranks have, too; ascending.")
         .def_property_readonly("with_rank", &with_each,
-                               "{rank: uint32 (k,)}: what each other rank has, too; both have it "
+                               "{rank: int32 (k,)}: what each other rank has, too; both have it "
                                "listed in the same order.")
         .def("sharers", &sharers, py::arg("entity"),
              "int32 (k,): the other ranks that have this one, ascending.")
+        .def("index_map", &index_map,
+             "Collective. Consecutive numbers for what each rank owns, and the numbers of copies.")
         .def("update_copies", &update_copies, py::arg("values"),
              "Collective. Values (n, ...) of any numbers, of which every copy has got its owner's: "
              "a new array.")
@@ -142,6 +200,14 @@ void bind_sharing(py::module_& module, MeshClass& mesh) {
             "ranks that have an entity, the same on all of them: what assembly needs. A new array. "
             "operation: 'sum', 'min' or 'max'; of booleans 'or', true on all ranks that have the "
             "entity where it is true on one.");
+    mesh.def(
+        "cell_index_map",
+        [](Mesh& m) {
+            return m.ask([](const od::AdaptiveMesh& now) {
+                return std::make_shared<IndexMap>(now.cell_index_map());
+            });
+        },
+        "Collective. Consecutive numbers for this rank's cells, of which there are no copies.");
     mesh.def_property_readonly(
         "vertex_sharing",
         [](const Mesh& m) {

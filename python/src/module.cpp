@@ -4,6 +4,7 @@
 #include <pybind11/pybind11.h>
 
 #include <octetra/core/error.hpp>
+#include <octetra/core/version.hpp>
 
 #include "bind.hpp"
 
@@ -59,6 +60,7 @@ void bind_errors(py::module_& module) {
 
 PYBIND11_MODULE(_octetra, module) {
     module.doc() = "The compiled part of octetra.";
+    module.attr("__version__") = version();
     py::options options;
     options.disable_enum_members_docstring();
     bind_errors(module);
@@ -69,7 +71,7 @@ PYBIND11_MODULE(_octetra, module) {
         "is said. Arrays are read-only and no copies; they stay as they are when the "
         "mesh moves on, which then has new ones. Collective methods are called by all "
         "ranks in the same order, and raise alike on all of them.");
-    bind_adaptation(module);
+    bind_adaptation(module, mesh);
     bind_migration(module);
     bind_arrays(mesh);
     bind_files(module, mesh);

@@ -10,6 +10,7 @@
 
 #include <octetra/core/orientation.hpp>
 #include <octetra/distributed/adaptive_mesh.hpp>
+#include <octetra/distributed/index_map.hpp>
 
 #include "distributed/adaptive_steps.hpp"
 #include "distributed/marked_mesh.hpp"
@@ -136,6 +137,103 @@ TEST(Orientation, OfEdgesAndFacesIsTheSameOnAllProcesses) {
             for (std::size_t f = 0; f < 4; ++f) {
                 EXPECT_EQ(points_outward(cell, f),
                           leaves_behind(mesh, faces.vertices[faces.of_cell[c][f]], cell[f]));
+            }
+        }
+    }
+}
+
+/// Holds a contiguous numbering against what all processes say; key(i) names an entity.
+template <class I>
+void expect_contiguous(const IndexMap<I>& map, const Sharing<I>& sharing, std::size_t count,
+                       auto&& key) {
+    const auto rank = static_cast<std::size_t>(test::world().rank());
+    ASSERT_EQ(map.entities.size(), count);
+    ASSERT_EQ(map.numbers.size(), count);
+    ASSERT_EQ(map.rank_begin.size(), static_cast<std::size_t>(test::world().size()) + 1);
+    EXPECT_EQ(map.copy_owners.size(), count - map.owned_count);
+    EXPECT_EQ(map.rank_begin[rank + 1] - map.rank_begin[rank], map.owned_count);
+    EXPECT_EQ(std::set(map.entities.begin(), map.entities.end()).size(), count);
+    struct Entry {
+        std::array<std::uint64_t, 4> key;
+        std::uint64_t number;
+    };
+    std::vector<Entry> own;
+    for (std::size_t k = 0; k < count; ++k) {
+        const I i = map.entities[k];
+        const std::uint64_t number = map.numbers[i.value()];
+        if (k < map.owned_count) {
+            EXPECT_TRUE(sharing.is_owned(i));
+            EXPECT_EQ(number, map.rank_begin[rank] + k);
+        } else {
+            const int owner = map.copy_owners[k - map.owned_count];
+            EXPECT_EQ(owner, sharing.owner(i));
+            EXPECT_TRUE(number >= map.rank_begin[static_cast<std::size_t>(owner)] &&
+                        number < map.rank_begin[static_cast<std::size_t>(owner) + 1]);
+        }
+        own.push_back({key(i), number});
+    }
+    std::map<std::array<std::uint64_t, 4>, std::uint64_t> seen;
+    std::set<std::uint64_t> numbers;
+    for (const auto& of_one : test::of_all(own)) {
+        for (const auto& [entity, number] : of_one) {
+            EXPECT_EQ(seen.try_emplace(entity, number).first->second, number);
+            numbers.insert(number);
+        }
+    }
+    EXPECT_EQ(numbers.size(), seen.size());
+    EXPECT_EQ(map.rank_begin.back(), numbers.size());
+}
+
+TEST(IndexMap, NumbersWhatAProcessOwnsConsecutivelyAndCopiesAsTheirOwnersDo) {
+    for (const AdaptiveMesh& mesh : numbered_meshes()) {
+        const std::size_t vertices = mesh.points().size();
+        expect_contiguous(make_index_map(test::world(), mesh.vertex_sharing(), vertices),
+                          mesh.vertex_sharing(), vertices, [&](VertexIndex v) {
+                              return std::array<std::uint64_t, 4>{global_number(mesh, v), 0, 0, 0};
+                          });
+        const auto check = [&](const auto& sides) {
+            expect_contiguous(make_index_map(test::world(), sides.sharing, sides.vertices.size()),
+                              sides.sharing, sides.vertices.size(), [&](auto i) {
+                                  return std::array<std::uint64_t, 4>{sides.numbers[i], 0, 0, 0};
+                              });
+        };
+        check(mesh.number_edges());
+        check(mesh.number_faces());
+        const IndexMap<CellIndex> cells = mesh.cell_index_map();
+        EXPECT_EQ(cells.owned_count, mesh.cells().size());
+        const auto rank = static_cast<std::size_t>(test::world().rank());
+        for (std::size_t c = 0; c < cells.owned_count; ++c) {
+            EXPECT_EQ(cells.numbers[c], cells.rank_begin[rank] + c);
+        }
+        EXPECT_EQ(cells.rank_begin.back(), test::world().sum(mesh.cells().size()));
+    }
+}
+
+TEST(CellNumbers, AreThoseOfTheWholeMeshInTheOrderOfFiles) {
+    for (const AdaptiveMesh& mesh : numbered_meshes()) {
+        std::vector<CellVertices> whole;
+        for (const CellVertices& cell : mesh.collect().cells) whole.push_back(cell);
+        test::world().broadcast(whole);
+        const std::vector<std::uint64_t> numbers = mesh.cell_numbers();
+        ASSERT_EQ(numbers.size(), mesh.cells().size());
+        for (std::size_t c = 0; c < numbers.size(); ++c) {
+            const auto own = global_numbers(mesh, mesh.cells()[c]);
+            ASSERT_TRUE(std::ranges::equal(whole.at(numbers[c]), own, {},
+                                           [](VertexIndex v) { return std::uint64_t{v.value()}; }));
+        }
+    }
+}
+
+TEST(VertexAttributes, AreThoseOfFiles) {
+    for (const AdaptiveMesh& mesh : numbered_meshes()) {
+        std::vector<double> whole = mesh.collect().point_attributes;
+        test::world().broadcast(whole);
+        ASSERT_EQ(mesh.attributes_per_vertex(), 2U);
+        ASSERT_EQ(mesh.vertex_attributes().size(), 2 * mesh.points().size());
+        for (std::size_t v = 0; v < mesh.points().size(); ++v) {
+            for (std::size_t k = 0; k < 2; ++k) {
+                EXPECT_EQ(mesh.vertex_attributes()[2 * v + k],
+                          whole.at(2 * global_number(mesh, VertexIndex{v}) + k));
             }
         }
     }

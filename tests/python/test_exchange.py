@@ -141,6 +141,28 @@ def test_signs_of_faces_say_to_which_side_their_normals_point(fine):
     assert np.array_equal(np.sort(ends, axis=2), edges.vertices[edges.of_cells])
 
 
+def test_what_a_rank_owns_is_numbered_consecutively(fine):
+    edges, faces = fine.number_edges(), fine.number_faces()
+    for sharing, names in ((fine.vertex_sharing, fine.vertex_numbers), (edges.sharing, edges.numbers),
+                           (faces.sharing, faces.numbers)):
+        index_map = sharing.index_map()
+        begin, end = index_map.rank_begin[world.rank:world.rank + 2]
+        assert index_map.rank_begin.dtype == index_map.numbers.dtype == np.int64
+        assert len(index_map.rank_begin) == world.size + 1
+        own = index_map.entities[:index_map.owned_count]
+        assert np.array_equal(index_map.numbers[own], np.arange(begin, end))
+        assert np.array_equal(np.flatnonzero(sharing.owners == world.rank), own)
+        copies = index_map.entities[index_map.owned_count:]
+        assert np.array_equal(sharing.owners[copies], index_map.copy_owners)
+        pairs = np.unique(np.concatenate(world.allgather(
+            np.stack([names, index_map.numbers], axis=1))), axis=0)
+        assert np.array_equal(np.sort(pairs[:, 1]), np.arange(index_map.rank_begin[-1]))
+    cells = fine.cell_index_map()
+    assert cells.rank_begin[-1] == fine.count_cells() and cells.owned_count == len(fine.cells)
+    files = np.concatenate(world.allgather(fine.cell_numbers()))
+    assert np.array_equal(np.sort(files), np.arange(fine.count_cells()))
+
+
 def test_neighbours_are_mutual_and_the_boundary_is_where_there_are_none(fine):
     ranks, cells = fine.face_neighbours()
     assert ranks.shape == cells.shape == (len(fine.cells), 4)

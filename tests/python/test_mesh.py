@@ -6,11 +6,12 @@ import sys
 import numpy as np
 import pytest
 from conftest import command, near, run_alone, total, world
+from mpi4py import MPI
 
 import octetra
 
-ARRAYS = {"points": (np.float64, 3), "cells": (np.uint32, 4), "facets": (np.uint32, 3),
-          "edges": (np.uint32, 2), "vertex_numbers": (np.uint64, None), "roots": (np.uint64, None)}
+ARRAYS = {"points": (np.float64, 3), "cells": (np.int32, 4), "facets": (np.int32, 3),
+          "edges": (np.int32, 2), "vertex_numbers": (np.int64, None), "roots": (np.int64, None)}
 
 
 def test_arrays_have_the_types_and_shapes_that_are_documented(mesh):
@@ -97,6 +98,24 @@ def test_one_tetrahedron_is_made_of_lists(folder):
     assert mesh.count_cells() == 8
     assert mesh.regions.tolist() == [7] * (8 if mine else 0)
     assert mesh.verify()
+
+
+def test_a_mesh_tells_its_communicator_attributes_and_markers(folder):
+    mine = world.rank == 0
+    mesh = octetra.from_arrays([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]],
+                               [[0, 1, 2, 3]] if mine else [], point_markers=[5, 6, 7, 8],
+                               point_attributes=[[0, 1], [1, 2], [2, 3], [3, 4]])
+    mesh.refine([1] if mine else [])
+    n = len(mesh.points)
+    assert mesh.vertex_attributes.shape == (n, 2)
+    assert np.allclose(mesh.vertex_attributes[:, 1], mesh.points @ [1, 2, 3] + 1 if n else [])
+    assert mesh.vertex_markers().tolist() == ([5, 6, 7, 8] + 6 * [0])[:n]
+    assert mesh.vertices_of(6, dimension=0).tolist() == [v == 1 for v in range(n)]
+    assert MPI.Comm.Compare(mesh.comm, world) == MPI.CONGRUENT
+    assert mesh.comm.allreduce(len(mesh.cells)) == 8
+    alone = octetra.from_arrays(np.zeros((0, 3)), [], comm=MPI.COMM_SELF)
+    assert (alone.comm.size, alone.vertex_attributes.shape) == (1, (0, 0))
+    assert octetra.__version__.count(".") == 2
 
 
 def test_the_communicator_says_which_ranks_have_a_mesh(cube):

@@ -56,7 +56,7 @@ def test_uses_of_the_module_are_checked_by_mypy(tmp_path):
     done = subprocess.run([sys.executable, "-m", "mypy", "--strict", "uses.py"], cwd=tmp_path,
                           capture_output=True, text=True, check=False)
     assert done.returncode == 0, done.stdout
-    assert "unsignedinteger" in done.stdout and "signedinteger" in done.stdout
+    assert "signedinteger" in done.stdout and "unsignedinteger" not in done.stdout
     (tmp_path / "uses.py").write_text(USES + "mesh.refine(marks=mesh)\nmesh.cell\n")
     done = subprocess.run([sys.executable, "-m", "mypy", "uses.py"], cwd=tmp_path,
                           capture_output=True, text=True, check=False)

@@ -8,7 +8,7 @@ from . import Mesh
 
 _Tags = Optional[Tuple[NDArray[np.int32], NDArray[np.int32]]]
 _Tagged = Optional[Tuple[int, NDArray[np.int32], NDArray[np.int32]]]
-_Numbers = NDArray[np.uint32]
+_Numbers = NDArray[np.int32]
 
 def to_mesh(mesh: Mesh, ghosts: Optional[str],
             tags: bool) -> Tuple[Any, _Tags, _Tags, _Numbers, _Numbers]: ...

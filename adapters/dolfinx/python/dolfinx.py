@@ -24,7 +24,7 @@ from . import _dolfinx, _octetra
 __all__ = ["NONE", "Handover", "carry", "from_mesh", "function", "parents", "to_mesh", "vertex_values"]
 
 #: In Handover.vertices, of a node that only ghost cells have.
-NONE = np.uint32(2**32 - 1)
+NONE = np.int32(-1)
 
 
 class Handover(typing.NamedTuple):
@@ -33,8 +33,8 @@ class Handover(typing.NamedTuple):
     mesh: Any  #: the dolfinx.mesh.Mesh
     cell_tags: Any  #: its MeshTags of regions, of ghost cells, too; None where there are none
     facet_tags: Any  #: its MeshTags of facets, on all ranks that have a facet; None where there are none
-    cells: NDArray[np.uint32]  #: of each DOLFINx cell that this rank owns, the cell of octetra.Mesh
-    vertices: NDArray[np.uint32]  #: of each row of mesh.geometry.x the vertex of octetra.Mesh, or NONE
+    cells: NDArray[np.int32]  #: of each DOLFINx cell that this rank owns, the cell of octetra.Mesh
+    vertices: NDArray[np.int32]  #: of each row of mesh.geometry.x the vertex of octetra.Mesh, or NONE
 
 
 def to_mesh(mesh: _octetra.Mesh, *, ghosts: Optional[str] = "face", tags: bool = True) -> Handover:
@@ -118,7 +118,7 @@ def parents(step: _octetra.Adaptation, before: Handover,
     dolfinx_cell = np.empty(len(before.cells), np.int32)
     dolfinx_cell[before.cells] = np.arange(len(before.cells))
     cells = dolfinx_cell[step.cells.parents][after.cells]
-    old = np.arange(step.vertex_count_before, dtype=np.uint32)
+    old = np.arange(step.vertex_count_before, dtype=np.int32)
     ends = np.concatenate([np.stack([old, old], axis=1), step.new_vertex_ends])
     child = ends[_corners(after)]
     parent = _corners(before)[cells]

@@ -14,6 +14,7 @@
 #include "adapt/marks.hpp"
 #include "adapt/mesh_state.hpp"
 #include "comm/local_failure.hpp"
+#include "numbering/cell_numbers.hpp"
 #include "topology/face_neighbours.hpp"
 #include "topology/find_ghosts.hpp"
 #include "topology/number_sides.hpp"
@@ -175,6 +176,18 @@ std::vector<Marker> AdaptiveMesh::edge_markers() const {
 
 std::vector<FacetVertices> AdaptiveMesh::oriented_facets() const {
     return orient_facets(state_->mesh);
+}
+std::span<const double> AdaptiveMesh::vertex_attributes() const {
+    return state_->mesh.point_attributes;
+}
+std::size_t AdaptiveMesh::attributes_per_vertex() const {
+    return state_->mesh.attributes_per_point;
+}
+std::vector<std::uint64_t> AdaptiveMesh::cell_numbers() const {
+    return distributed::cell_numbers(state_->mesh);
+}
+IndexMap<CellIndex> AdaptiveMesh::cell_index_map() const {
+    return make_index_map(processes(), Sharing<CellIndex>(), cells().size());
 }
 
 std::uint64_t AdaptiveMesh::vertex_count() const { return state_->numbers.vertex_count; }

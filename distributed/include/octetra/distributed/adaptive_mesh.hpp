@@ -22,6 +22,7 @@
 #include <octetra/distributed/distributed_mesh.hpp>
 #include <octetra/distributed/field.hpp>
 #include <octetra/distributed/ghosts.hpp>
+#include <octetra/distributed/index_map.hpp>
 #include <octetra/distributed/mesh_part.hpp>
 #include <octetra/distributed/migration.hpp>
 #include <octetra/distributed/out_of_memory.hpp>
@@ -202,6 +203,10 @@ public:
     [[nodiscard]] std::vector<FacetVertices> oriented_facets() const;
     [[nodiscard]] std::span<const EdgeVertices> edges() const;  ///< tagged ones
     [[nodiscard]] std::vector<Marker> edge_markers() const;
+    /// Values of the input's nodal attributes, attributes_per_vertex() for each vertex; midpoints
+    /// have the mean of the ends of their edge.
+    [[nodiscard]] std::span<const double> vertex_attributes() const;
+    [[nodiscard]] std::size_t attributes_per_vertex() const;
 
     /// For programs whose views of the part are to stay as they are while the mesh goes on: before
     /// a step, the mesh takes copies of these arrays to go on with, and gives away those that its
@@ -215,6 +220,12 @@ public:
     /// Of each vertex of this process, its number in the whole mesh: in the canonical order, which
     /// is that of files.
     [[nodiscard]] std::span<const GlobalVertex> vertex_numbers() const;
+    /// Collective. Of each cell of this process, its number in the whole mesh, in the order of
+    /// files: the same on any number of processes. Takes time in proportion to the part.
+    [[nodiscard]] std::vector<std::uint64_t> cell_numbers() const;
+    /// Collective. Consecutive numbers for the cells of each process, rank by rank; there are no
+    /// copies. make_index_map() does the same for vertices, edges and faces.
+    [[nodiscard]] IndexMap<CellIndex> cell_index_map() const;
     /// What the input's file calls groups of entities with the same tag; the same on all processes.
     [[nodiscard]] const std::vector<GroupName>& group_names() const;
     /// Who else has this process's vertices, and who owns them. Sums of floating-point values over

@@ -1,6 +1,12 @@
 #include <memory>
+#include <optional>
 #include <string>
+#include <type_traits>
 #include <utility>
+
+#include <fmt/format.h>
+
+#include <octetra/distributed/conservative_transfer.hpp>
 
 #include "arrays.hpp"
 #include "bind.hpp"
@@ -21,7 +27,7 @@ od::CellValues cell_values(const std::string& how) {
 
 py::array transfer_vertices(const Adaptation& step, const py::object& given) {
     const Values values = values_for(given, step->vertex_count_before, "vertices before the step");
-    return with_number_type(values.array, [&]<class T>(T) {
+    return with_field_type(values.array, [&]<class T>(T) {
         return values.like(without_gil([&, own = values.copy<T>()]() mutable {
             return step->transfer_vertices(std::move(own), values.components);
         }));
@@ -30,7 +36,7 @@ py::array transfer_vertices(const Adaptation& step, const py::object& given) {
 
 py::array transfer_cells(const Adaptation& step, const py::object& given, const std::string& how) {
     const Values values = values_for(given, step->cells.count_before(), "cells before the step");
-    return with_number_type(values.array, [&]<class T>(T) {
+    return with_field_type(values.array, [&]<class T>(T) {
         return values.like(without_gil([&, own = values.copy<T>()]() mutable {
             return step->transfer_cells(std::move(own), values.components, cell_values(how));
         }));
@@ -52,11 +58,11 @@ void bind_succession(py::module_& module) {
         .def_property_readonly("keeps_numbers", &od::Succession::keeps_numbers,
                                "Has all that was not bisected its number still?")
         .def_property_readonly("parents", &parents,
-                               "uint32 (count,), of refinement: what each is, or is a piece of. "
+                               "int32 (count,), of refinement: what each is, or is a piece of. "
                                "Made when asked for.")
         .def_property_readonly(
             "whole_of", [](const Succession& of) { return view(of->whole_of(), of); },
-            "uint32 (count_before,), of coarsening: what each became, or is a piece of; (0,) of "
+            "int32 (count_before,), of coarsening: what each became, or is a piece of; (0,) of "
             "refinement.")
         .def_property_readonly(
             "halvings", [](const Succession& of) { return view(of->halvings(), of); },
@@ -65,10 +71,43 @@ void bind_succession(py::module_& module) {
             "each; else (0,).");
 }
 
+/// Collective. All ranks pass values of one type and shape.
+py::array transfer_conservatively(Mesh& mesh, const Adaptation& step, const py::object& given) {
+    std::optional<Values> values;
+    std::string type;
+    convert_on_each(mesh.processes(), [&] {
+        values = values_for(given, step->vertex_count_before, "vertices before the step");
+        const char kind = values->array.dtype().kind();
+        if (kind != 'f' && kind != 'c') throw InputError("values have a real or complex type");
+        with_field_type(values->array, [](auto) {});
+        type = fmt::format("{}, {} values for each vertex",
+                           py::str(values->array.dtype()).cast<std::string>(), values->components);
+    });
+    check_same(mesh.processes(), type, "type of the values");
+    return with_field_type(values->array, [&]<class T>(T) -> py::array {
+        if constexpr (std::is_integral_v<T>) {
+            return {};
+        } else {
+            return values->like(mesh.ask([&, own = values->copy<T>()](
+                                             const od::AdaptiveMesh& now) mutable {
+                return od::transfer_conservatively(now, *step, std::move(own), values->components);
+            }));
+        }
+    });
+}
+
 }  // namespace
 
-void bind_adaptation(py::module_& module) {
+void bind_adaptation(py::module_& module, MeshClass& mesh) {
     bind_succession(module);
+    mesh.def("transfer_conservatively", &transfer_conservatively, py::arg("step").none(false),
+             py::arg("values"),
+             "Collective. Values of a continuous, piecewise linear function, (vertices before, "
+             "...) of float64, float32, complex128 or complex64, to (vertices now, ...), a new "
+             "array, with the same integral over the whole mesh. step: the mesh's last one. Of "
+             "coarsening, what the function deviates from its interpolant at a vertex that went "
+             "is given to the ends of the edge that the vertex halved; a function that is linear "
+             "there stays as it is.");
     const auto succession = [](od::Succession od::Adaptation::*of) {
         return [of](const Adaptation& step) { return Succession(step, &((*step).*of)); };
     };
@@ -93,22 +132,24 @@ void bind_adaptation(py::module_& module) {
         .def_readonly("vertex_count_before", &od::Adaptation::vertex_count_before,
                       "This rank's vertices before the step.")
         .def_property_readonly("new_vertex_ends", list(&od::Adaptation::new_vertex_ends),
-                               "uint32 (new vertices, 2): the ends of the edge that each halves; "
+                               "int32 (new vertices, 2): the ends of the edge that each halves; "
                                "vertex_count_before is the number of the first.")
         .def_property_readonly("vertices_before", list(&od::Adaptation::vertices_before),
-                               "uint32 (vertices,), of coarsening: the number that each had.")
+                               "int32 (vertices,), of coarsening: the number that each had.")
         .def(
             "transfer_vertices", &transfer_vertices, py::arg("values"),
-            "Values of a continuous, piecewise linear function: (vertices before, ...) of float64 "
-            "or float32 to (vertices now, ...), a new array. New vertices get the mean of the ends "
-            "of their edge, which whole numbers do not have: int32 and int64 only of coarsening.")
-        .def(
-            "transfer_cells", &transfer_cells, py::arg("values"), py::arg("how") = "copied",
-            "Values of cells: (cells before, ...) of float64, float32, int32 or int64 to "
-            "(cells now, ...), a new array. how: 'copied', each child the same (of coarsening, the "
-            "pieces' mean, and of whole numbers what most of them have); 'averaged', each the same "
-            "(the mean weighted by volumes); 'divided', by the children's shares in the volume "
-            "(the sum). Whole numbers can be copied, and of coarsening added up.");
+            "Values of a continuous, piecewise linear function: (vertices before, ...) of float64, "
+            "float32, complex128 or complex64 to (vertices now, ...), a new array. New vertices "
+            "get the mean of the ends of their edge, which whole numbers do not have: int32 and "
+            "int64 only of coarsening. Coarsening keeps the values of the vertices that stay, and "
+            "so changes the integral; Mesh.transfer_conservatively() keeps it.")
+        .def("transfer_cells", &transfer_cells, py::arg("values"), py::arg("how") = "copied",
+             "Values of cells: (cells before, ...) of float64, float32, complex128, complex64, "
+             "int32 or int64 to (cells now, ...), a new array. how: 'copied', each child the same "
+             "(of coarsening, the pieces' mean weighted by volumes, which keeps the integral, and "
+             "of whole numbers what most of them have); 'averaged', as 'copied', but whole numbers "
+             "are refused; 'divided', by the children's shares in the volume "
+             "(the sum). Whole numbers can be copied, and of coarsening added up.");
 }
 
 }  // namespace octetra::python

@@ -103,6 +103,13 @@ void bind_numbers(MeshClass& mesh) {
             },
             "Collective. int64 (cells,): the numbers of this rank's cells in the whole mesh, in "
             "the order of files: the same on any number of ranks.")
+        .def(
+            "vertex_volumes",
+            [](Mesh& m) {
+                return array_of(m.ask([](const auto& now) { return now.vertex_volumes(); }));
+            },
+            "Collective. float64 (vertices,): a quarter of the volume of all cells at each vertex, "
+            "of other ranks, too: the lumped mass of P1 elements.")
         .def_property_readonly(
             "vertex_attributes", &vertex_attributes,
             "float64 (vertices, attributes): the nodal attributes of the input; midpoints have the "

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <complex>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -7,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include <pybind11/complex.h>
 #include <pybind11/numpy.h>
 
 #include <octetra/core/error.hpp>
@@ -48,7 +50,7 @@ struct Values {
                                 const std::string& entities);
 
 /// Calls work(T()) with T the type of the numbers: float64, float32, int32 or int64. Throws
-/// InputError for others.
+/// InputError for others. The types of fields in files.
 auto with_number_type(const py::array& array, auto&& work) {
     const auto is = [&](const py::dtype& type) { return array.dtype().equal(type); };
     if (is(py::dtype::of<double>())) return work(double());
@@ -57,6 +59,14 @@ auto with_number_type(const py::array& array, auto&& work) {
     if (is(py::dtype::of<std::int64_t>())) return work(std::int64_t());
     throw InputError("values of type " + py::str(array.dtype()).cast<std::string>() +
                      ": only float64, float32, int32 and int64; astype() makes them so");
+}
+
+/// The same, of complex128 and complex64, too.
+auto with_field_type(const py::array& array, auto&& work) {
+    const auto is = [&](const py::dtype& type) { return array.dtype().equal(type); };
+    if (is(py::dtype::of<std::complex<double>>())) return work(std::complex<double>());
+    if (is(py::dtype::of<std::complex<float>>())) return work(std::complex<float>());
+    return with_number_type(array, work);
 }
 
 }  // namespace octetra::python

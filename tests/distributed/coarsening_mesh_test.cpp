@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <complex>
 #include <map>
 #include <random>
 #include <span>
@@ -100,6 +101,7 @@ TEST_P(CoarseningMesh, KeepsValuesOfVerticesAndMakesThoseOfCellsFromTheirPieces)
         mass.push_back(density.back() * cell_volume(c));
         total += mass.back();
     }
+    const std::vector<double> before = density;
     const std::vector<double> ones(mesh.cells().size(), 1);
     const Adaptation step = mesh.coarsen(some(0.9, GetParam()));
     ASSERT_TRUE(step.changed && step.is_coarser());
@@ -116,6 +118,7 @@ TEST_P(CoarseningMesh, KeepsValuesOfVerticesAndMakesThoseOfCellsFromTheirPieces)
         EXPECT_NEAR(density[c] * cell_volume(c), mass[c], 1e-12);
     }
     EXPECT_NEAR(kept, total, 1e-9);
+    EXPECT_EQ(density, step.transfer_cells(before, 1));  // the mean by volumes is the default
     const auto means = step.transfer_cells(ones);
     const auto weighted = step.transfer_cells(ones, 1, CellValues::averaged);
     for (std::size_t c = 0; c < means.size(); ++c) {
@@ -138,11 +141,18 @@ TEST(MergedValue, IsWhatAllPiecesHaveToTheBitAndElseTheirMeanInNoOrder) {
     };
     using Reals = std::vector<distributed::PieceValue<double>>;
     using Wholes = std::vector<distributed::PieceValue<int>>;
+    using Complex = std::complex<double>;
+    using Complexes = std::vector<distributed::PieceValue<Complex>>;
     EXPECT_EQ(of(CellValues::copied, Reals{{0.1, 1}, {0.1, 2}, {0.1, 2}}), 0.1);
     EXPECT_EQ(of(CellValues::averaged, Reals{{0.1, 1}, {0.1, 2}, {0.1, 2}}), 0.1);
-    EXPECT_EQ(of(CellValues::copied, Reals{{3, 1}, {1, 2}, {2, 2}}), 1.0 / 3 + 2.0 / 3 + 1);
+    EXPECT_EQ(of(CellValues::copied, Reals{{3, 1}, {1, 2}, {2, 2}}), 2.25);
     EXPECT_EQ(of(CellValues::averaged, Reals{{8, 1}, {4, 2}, {2, 2}}), 5.5);
     EXPECT_EQ(of(CellValues::divided, Reals{{8, 1}, {4, 2}, {2, 2}}), 14);
+    const Complexes complexes{{{8, 1e16}, 1}, {{4, 1}, 2}, {{4, -1e16}, 2}};
+    EXPECT_EQ(of(CellValues::copied, complexes).real(), 6);
+    EXPECT_EQ(of(CellValues::divided, complexes).real(), 16);
+    EXPECT_EQ(of(CellValues::copied, Complexes{{{0.1, 0.3}, 1}, {{0.1, 0.3}, 1}}),
+              Complex(0.1, 0.3));
     EXPECT_EQ(of(CellValues::copied, Wholes{{7, 1}, {7, 2}, {7, 2}}), 7);
     EXPECT_EQ(of(CellValues::copied, Wholes{{9, 1}, {-3, 2}, {9, 2}}), 9);
     EXPECT_EQ(of(CellValues::copied, Wholes{{5, 1}, {5, 2}, {4, 2}, {4, 3}, {9, 3}}), 4);

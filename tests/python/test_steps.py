@@ -143,7 +143,33 @@ def test_values_go_along_with_every_step(mesh):
     with pytest.raises(ValueError):
         told.transfer_vertices(np.zeros(told.vertex_count_before + 1))
     with pytest.raises(octetra.InputError):
-        told.transfer_cells(np.zeros(told.cells.count_before, complex))
+        told.transfer_cells(np.zeros(told.cells.count_before, np.int16))
+
+
+def integral(mesh, u):
+    return total((volumes(mesh)[:, None] * u[mesh.cells]).sum() / 4)
+
+
+def test_coarsening_keeps_integrals_where_it_is_asked_to(mesh):
+    for _ in range(2):
+        mesh.refine(near(mesh, 0.6))
+    u = np.sin(40 * mesh.points[:, 0]) + 1j * np.cos(30 * mesh.points[:, 1])
+    q = np.exp(1j * centroids(mesh)[:, 2] * 50)
+    expected, of_cells = integral(mesh, u), total((q * volumes(mesh)).sum())
+    step = mesh.coarsen(near(mesh, 0.5))
+    owned = mesh.vertex_sharing.owners == world.rank
+    assert step.changed and np.isclose(total(mesh.vertex_volumes()[owned].sum()), 1)
+    interpolated = step.transfer_vertices(u)
+    kept = mesh.transfer_conservatively(step, u)
+    assert kept.dtype == interpolated.dtype == np.complex128
+    assert abs(integral(mesh, kept) - expected) < 1e-13 < 1e-6 < abs(
+        integral(mesh, interpolated) - expected)
+    assert abs(total((step.transfer_cells(q) * volumes(mesh)).sum()) - of_cells) < 1e-13
+    with pytest.raises(octetra.InputError, match="real or complex"):
+        mesh.transfer_conservatively(step, np.zeros(step.vertex_count_before, np.int64))
+    mesh.refine(near(mesh, 0.3))
+    with pytest.raises(octetra.InputError, match="did not lead to the mesh as it is"):
+        mesh.transfer_conservatively(step, u)
 
 
 def test_whole_numbers_stay_what_they_are(mesh):

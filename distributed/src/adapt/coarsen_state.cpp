@@ -9,6 +9,7 @@
 #include "coarsen/coarser_part.hpp"
 #include "coarsen/incremental_coarsening.hpp"
 #include "coarsen/kept_vertices.hpp"
+#include "coarsen/removed_vertices.hpp"
 #include "comm/local_failure.hpp"
 #include "level/incremental/adjacency.hpp"
 #include "level/incremental/suits_incremental_level.hpp"
@@ -39,14 +40,12 @@ Sharing<VertexIndex> sharing_after(const Sharing<VertexIndex>& sharing, const Ke
     return after;
 }
 
-Adaptation adaptation_of(std::size_t vertex_count_before, CoarserPart& part) {
-    Adaptation adaptation;
+void describe(std::size_t vertex_count_before, CoarserPart& part, Adaptation& adaptation) {
     adaptation.changed = true;
     adaptation.cells = std::move(part.cells);
     adaptation.facets = std::move(part.facets);
     adaptation.edges = std::move(part.edges);
     adaptation.vertex_count_before = vertex_count_before;
-    return adaptation;
 }
 
 /// What a process does with the lists of its own part, in one of two ways.
@@ -106,6 +105,8 @@ Adaptation coarsen_state(AdaptiveMesh::State& state, const std::function<MarkedC
     failure.attempt([&] {
         part = coarser_vertices(mesh, kept);
         lists.plan(mesh, kept, tuning, *part);
+        adaptation.removed_vertices =
+            removed_vertices(mesh, kept, *part, lists.incremental != nullptr);
     });
     failure.agree(processes);
     drop_empty_levels(mesh, *part);
@@ -118,7 +119,7 @@ Adaptation coarsen_state(AdaptiveMesh::State& state, const std::function<MarkedC
     failure.agree(processes);
 
     const std::size_t levels_before = mesh.level_begin.size();
-    adaptation = adaptation_of(mesh.points.size(), *part);
+    describe(mesh.points.size(), *part, adaptation);
     lists.commit(mesh, *part);
     commit_vertices(mesh, *part);
     commit_numbers(numbers, *part, state.numbers);

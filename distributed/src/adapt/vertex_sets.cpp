@@ -10,6 +10,7 @@
 #include <fmt/ranges.h>
 
 #include <octetra/core/error.hpp>
+#include <octetra/core/selection.hpp>
 #include <octetra/distributed/adaptive_mesh.hpp>
 #include <octetra/distributed/exchange.hpp>
 
@@ -111,6 +112,23 @@ std::vector<std::uint8_t> AdaptiveMesh::vertices_of(std::string_view group) cons
         for (std::size_t v = 0; v < flags.size(); ++v) flags[v] |= of_one[v];
     }
     return flags;
+}
+
+std::vector<double> AdaptiveMesh::vertex_volumes() const {
+    std::vector<double> volumes;
+    LocalFailure failure;
+    failure.attempt([&] {
+        volumes.assign(points().size(), 0);
+        for (const CellVertices& cell : cells()) {
+            Corners corners;
+            for (std::size_t k = 0; k < 4; ++k) corners[k] = points()[cell[k].value()];
+            const double share = volume(corners) / 4;
+            for (const VertexIndex v : cell) volumes[v.value()] += share;
+        }
+    });
+    failure.agree(processes());
+    combine_everywhere(processes(), vertex_sharing(), volumes.size(), volumes, std::plus<>{});
+    return volumes;
 }
 
 std::vector<Marker> AdaptiveMesh::vertex_markers() const {

@@ -14,6 +14,15 @@
 
 namespace octetra::distributed {
 
+/// A vertex that coarsening has removed: the midpoint of an edge whose ends stay.
+struct RemovedVertex {
+    VertexIndex before;  ///< the number that it had
+    EdgeVertices ends;   ///< of the edge that it halved, by the numbers that they have now
+    /// A quarter of the volume of those cells of this process that had the vertex: this process's
+    /// part of the integral of its hat function.
+    double volume = 0;
+};
+
 /// What a step of an AdaptiveMesh did to this process's part: for everything that there is now,
 /// what it was before. All numbers are local. It stays valid whatever becomes of the mesh. No
 /// function is collective.
@@ -32,6 +41,8 @@ struct Adaptation {
     std::vector<EdgeVertices> new_vertex_ends;
     /// Of coarsening: for each vertex, the number that it had.
     std::vector<VertexIndex> vertices_before;
+    /// Of coarsening: this process's vertices that are no more, ascending.
+    std::vector<RemovedVertex> removed_vertices;
     SynchronisationCounts synchronisation;
 
     /// Was this coarsening?
@@ -39,9 +50,11 @@ struct Adaptation {
 
     /// Values of a continuous, piecewise linear function (P1), `components` for each vertex: of new
     /// vertices the mean of the edge's ends, which is what the function is there; of vertices that
-    /// stay, their own. Takes the values, and gives them back with more behind, or fewer. Throws
-    /// std::invalid_argument where they do not fit, or are to be refined and are whole numbers,
-    /// which have no mean.
+    /// stay, their own. Refinement so keeps the function, and coarsening interpolates it: its
+    /// integral changes, unless it is linear where vertices went. transfer_conservatively() keeps
+    /// the integral. T is a real or complex type. Takes the values, and gives them back with more
+    /// behind, or fewer. Throws std::invalid_argument where they do not fit, or are to be refined
+    /// and are whole numbers, which have no mean.
     template <class T>
     [[nodiscard]] std::vector<T> transfer_vertices(std::vector<T> values,
                                                    std::size_t components = 1) const {
@@ -54,16 +67,19 @@ struct Adaptation {
         for (const auto& [a, b] : new_vertex_ends) {
             for (std::size_t k = 0; k < components; ++k) {
                 values.push_back(
-                    (values[a.value() * components + k] + values[b.value() * components + k]) / 2);
+                    (values[a.value() * components + k] + values[b.value() * components + k]) /
+                    Real<T>(2));
             }
         }
         return values;
     }
 
-    /// Values of cells, `components` for each. Takes time in proportion to the cells that changed
-    /// where they keep their numbers. Throws std::invalid_argument where the values do not fit,
-    /// where T is no kind of number and they are to be divided or were pieces, and where they are
-    /// whole numbers of which a mean or shares are wanted.
+    /// Values of cells, `components` for each. By default children get the value of their parent,
+    /// and coarsening takes the mean of the pieces weighted by volumes, so that the integral of a
+    /// piecewise constant function is kept, but for rounding. Takes time in proportion to the cells
+    /// that changed where they keep their numbers. Throws std::invalid_argument where the values do
+    /// not fit, where T is no kind of number and they are to be divided or were pieces, and where
+    /// they are whole numbers of which a mean or shares are wanted.
     template <class T>
     [[nodiscard]] std::vector<T> transfer_cells(std::vector<T> values, std::size_t components = 1,
                                                 CellValues children = CellValues::copied) const {
@@ -82,7 +98,7 @@ struct Adaptation {
         const auto share = [&](const T& value, [[maybe_unused]] unsigned halvings) {
             if constexpr (is_number) {
                 if (children == CellValues::divided) {
-                    return static_cast<T>(value / static_cast<T>(1U << halvings));
+                    return static_cast<T>(value / static_cast<Real<T>>(1U << halvings));
                 }
             }
             return value;

@@ -255,6 +255,10 @@ public:
     /// Collective. The vertices of the entities of the groups with this name, of any dimension. The
     /// name is the same on all processes. Throws InputError where no group has it.
     [[nodiscard]] std::vector<std::uint8_t> vertices_of(std::string_view group) const;
+    /// Collective. For each vertex of this process a quarter of the volume of all cells of the
+    /// whole mesh that have it: the integral of its hat function, the lumped mass of P1 elements.
+    /// Equal on all processes that have the vertex.
+    [[nodiscard]] std::vector<double> vertex_volumes() const;
     /// Collective. The marker of each vertex of this process; empty where the input has no vertex
     /// markers. It is the one that files show, equal on all processes that have the vertex.
     [[nodiscard]] std::vector<Marker> vertex_markers() const;

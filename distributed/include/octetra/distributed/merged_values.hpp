@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <compare>
+#include <complex>
 #include <concepts>
 #include <cstddef>
 #include <cstdint>
@@ -17,12 +18,42 @@ namespace octetra::distributed {
 /// their whole gets. What all pieces have the whole has, too, to the bit, but where they are added
 /// up. What it gets does not depend on the number of processes.
 enum class CellValues {
-    copied,  ///< each the same, and the mean: an indicator. Of whole numbers (a level, a tag) what
-             ///< most pieces have, and of several such the least
-    averaged,  ///< each the same, and the mean weighted by volumes: a density; no whole numbers
+    copied,    ///< each the same, and the mean weighted by volumes, which keeps the integral: a
+               ///< density, an average over the cell. Of whole numbers (a level, a tag) what most
+               ///< pieces have, and of several such the least
+    averaged,  ///< as copied, but whole numbers are refused
     divided,   ///< by their shares in its volume, and the sum: a mass. Whole numbers (a count) have
                ///< no shares, and can only be added up
 };
+
+/// Is T std::complex of a floating-point type?
+template <class T>
+inline constexpr bool is_complex = false;
+template <std::floating_point R>
+inline constexpr bool is_complex<std::complex<R>> = true;
+
+/// The type of the real and imaginary parts of T; of a T that is not complex, T.
+template <class T>
+struct RealOf {
+    using Type = T;
+};
+template <class R>
+struct RealOf<std::complex<R>> {
+    using Type = R;
+};
+template <class T>
+using Real = typename RealOf<T>::Type;
+
+/// A strict order of numbers that tells all bits apart; complex ones by their real parts first.
+template <class T>
+[[nodiscard]] std::strong_ordering order_of(const T& a, const T& b) {
+    if constexpr (is_complex<T>) {
+        const std::strong_ordering real = std::strong_order(a.real(), b.real());
+        return real != 0 ? real : std::strong_order(a.imag(), b.imag());
+    } else {
+        return std::strong_order(a, b);
+    }
+}
 
 /// A value of a piece, which its whole had been halved so often for.
 template <class T>
@@ -35,9 +66,9 @@ struct PieceValue {
 /// processes; values of other types stay as they are. Have all the same?
 template <class T>
 [[nodiscard]] bool sort_and_compare(std::span<PieceValue<T>> pieces) {
-    if constexpr (std::is_arithmetic_v<T>) {
+    if constexpr (std::is_arithmetic_v<T> || is_complex<T>) {
         const auto order = [](const PieceValue<T>& a, const PieceValue<T>& b) {
-            return std::strong_order(a.value, b.value);
+            return order_of(a.value, b.value);
         };
         std::ranges::sort(pieces, [&](const PieceValue<T>& a, const PieceValue<T>& b) {
             return order(a, b) != 0 ? order(a, b) < 0 : a.halvings < b.halvings;
@@ -77,10 +108,8 @@ template <class T>
     for (const PieceValue<T>& piece : pieces) {
         if (how == CellValues::divided) {
             sum += piece.value;
-        } else if (how == CellValues::averaged) {
-            sum += piece.value / static_cast<T>(1U << piece.halvings);
         } else {
-            sum += piece.value / static_cast<T>(static_cast<unsigned>(pieces.size()));
+            sum += piece.value / static_cast<Real<T>>(1U << piece.halvings);
         }
     }
     return sum;

@@ -1,0 +1,74 @@
+#pragma once
+
+#include <concepts>
+#include <cstddef>
+#include <functional>
+#include <vector>
+
+#include <octetra/core/error.hpp>
+#include <octetra/distributed/adaptation.hpp>
+#include <octetra/distributed/adaptive_mesh.hpp>
+#include <octetra/distributed/exchange.hpp>
+
+namespace octetra::distributed {
+
+/// Collective. Values of a continuous, piecewise linear function (P1), `components` for each vertex
+/// of this process before `step`, which is the last step of `mesh`: those of a function on the mesh
+/// as it is now with the same integral over the whole mesh, but for rounding.
+///
+/// Refinement keeps the function itself. Coarsening keeps the values of the vertices that stay and
+/// adds a correction: with I the interpolation at the vertices that stay, P its prolongation to the
+/// mesh before, and lumped masses M before and m now, the result is I u + m^-1 P^T M (u - P I u).
+/// What the function deviates from its interpolant at a vertex that went is so given, in equal
+/// halves, to the two ends of the edge that the vertex halved. Where the function is linear on the
+/// cells as they are now, it stays as it is. It may leave the range of its values.
+///
+/// T is a floating-point or complex type. Copies of a vertex get equal values. Throws InputError on
+/// all processes where on one the values do not fit the mesh before the step, or the step does not
+/// lead to the mesh as it is.
+template <class T>
+requires(std::floating_point<T> || is_complex<T>)
+    [[nodiscard]] std::vector<T> transfer_conservatively(const AdaptiveMesh& mesh,
+                                                         const Adaptation& step,
+                                                         std::vector<T> values,
+                                                         std::size_t components = 1) {
+    std::vector<T> after;
+    std::vector<T> corrections;
+    mesh.processes().on_each([&] {
+        if (values.size() != step.vertex_count_before * components) {
+            throw InputError("values do not fit the mesh as it was before the step");
+        }
+        const std::size_t count = step.is_coarser()
+                                      ? step.vertices_before.size()
+                                      : step.vertex_count_before + step.new_vertex_ends.size();
+        if (count != mesh.points().size() || step.cells.count() != mesh.cells().size()) {
+            throw InputError("the step did not lead to the mesh as it is");
+        }
+        after = step.transfer_vertices(values, components);
+        if (!step.is_coarser()) return;
+        corrections.assign(after.size(), T{});
+        for (const auto& [before, ends, volume] : step.removed_vertices) {
+            const auto& [a, b] = ends;
+            for (std::size_t k = 0; k < components; ++k) {
+                const T mean =
+                    (after[a.value() * components + k] + after[b.value() * components + k]) /
+                    Real<T>(2);
+                const T half = (values[before.value() * components + k] - mean) *
+                               static_cast<Real<T>>(volume / 2);
+                corrections[a.value() * components + k] += half;
+                corrections[b.value() * components + k] += half;
+            }
+        }
+    });
+    if (!step.is_coarser()) return after;
+    const std::vector<double> volumes = mesh.vertex_volumes();
+    combine_everywhere(mesh.processes(), mesh.vertex_sharing(), volumes.size(), corrections,
+                       std::plus<>{}, components);
+    for (std::size_t i = 0; i < after.size(); ++i) {
+        if (corrections[i] == T{}) continue;
+        after[i] += corrections[i] / static_cast<Real<T>>(volumes[i / components]);
+    }
+    return after;
+}
+
+}  // namespace octetra::distributed

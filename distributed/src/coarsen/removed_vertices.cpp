@@ -1,0 +1,34 @@
+#include "coarsen/removed_vertices.hpp"
+
+#include <algorithm>
+
+#include <octetra/core/selection.hpp>
+
+namespace octetra::distributed {
+
+std::vector<RemovedVertex> removed_vertices(const DistributedMesh& mesh, const KeptVertices& kept,
+                                            const CoarserPart& part, bool in_place) {
+    std::vector<RemovedVertex> removed;
+    const std::size_t input_count = mesh.input_vertices.size();
+    for (VertexIndex v = part.first_gone; v < mesh.points.end_index(); ++v) {
+        if (kept[v] != 0) continue;
+        // A cell at the end of an edge that goes as well would have been bisected since.
+        const auto& [low, high] = mesh.midpoint_to_edge[v.value() - input_count];
+        removed.push_back({v, {part.vertex_after[low], part.vertex_after[high]}, 0});
+    }
+    for (CellIndex c{0}; c < mesh.cells.end_index(); ++c) {
+        if (in_place && part.cells.halvings()[c.value()] == 0) continue;  // still a whole cell
+        const CellVertices& cell = mesh.cells[c];
+        if (std::ranges::all_of(cell, [&](VertexIndex v) { return kept[v] != 0; })) continue;
+        Corners corners;
+        for (std::size_t k = 0; k < 4; ++k) corners[k] = mesh.points[cell[k]];
+        const double share = volume(corners) / 4;
+        for (const VertexIndex v : cell) {
+            if (kept[v] != 0) continue;
+            std::ranges::lower_bound(removed, v, {}, &RemovedVertex::before)->volume += share;
+        }
+    }
+    return removed;
+}
+
+}  // namespace octetra::distributed

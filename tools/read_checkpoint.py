@@ -35,6 +35,7 @@ class File:
         self.fields = [self.field() for _ in range(self.numbers(1)[0])]
         self.group_names = [self.group_name() for _ in range(self.numbers(1)[0] if self.counts[8] & 16 else 0)]
         self.features = self.numbers(6) if self.counts[8] & 32 else []
+        self.state = self.saved_state() if self.counts[8] & 64 else None
         self.block_begin = 16
 
     def numbers(self, count):
@@ -51,6 +52,12 @@ class File:
         """Of a physical group: its dimension, its tag and the name."""
         dimension, tag, length = self.numbers(3)
         return dimension, tag - (tag >> 63 << 64), self.text(length)
+
+    def saved_state(self):
+        """The time, the step and the text of the program."""
+        time, step, length = struct.unpack_from("<dqQ", self.table, self.next)
+        self.next += 24
+        return time, step, self.text(length)
 
     def text(self, length):
         self.next += length

@@ -33,4 +33,5 @@ from ._octetra import (
     load as load,
     load_with_fields as load_with_fields,
     read as read,
+    saved_state as saved_state,
 )

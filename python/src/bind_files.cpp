@@ -1,4 +1,6 @@
+#include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <tuple>
 #include <utility>
@@ -6,6 +8,7 @@
 
 #include <fmt/format.h>
 #include <pybind11/stl.h>
+#include <pybind11/stl/filesystem.h>
 
 #include <octetra/core/error.hpp>
 #include <octetra/core/files/checkpoint.hpp>
@@ -75,17 +78,42 @@ std::string write(Mesh& mesh, const py::object& path, const py::object& vertex_f
                    });
 }
 
+/// None where nothing is given.
+std::optional<SavedState> state_of(const py::object& time, const py::object& step,
+                                   const py::object& text) {
+    if (time.is_none() && step.is_none() && text.is_none()) return std::nullopt;
+    SavedState state;
+    if (!time.is_none()) state.time = time.cast<double>();
+    if (!step.is_none()) state.step = step.cast<std::int64_t>();
+    if (!text.is_none()) state.text = text.cast<std::string>();
+    return state;
+}
+
+/// What a checkpoint has of save(..., time=, step=, text=).
+py::object saved_state(const Path& path) {
+    const std::optional<SavedState> state = read_checkpoint_facts(path).state;
+    if (!state) return py::none();
+    py::dict all;
+    all["time"] = state->time;
+    all["step"] = state->step;
+    all["text"] = state->text;
+    return all;
+}
+
 void save(Mesh& mesh, const py::object& path, const py::object& vertex_fields,
-          const py::object& cell_fields) {
+          const py::object& cell_fields, const py::object& time, const py::object& step,
+          const py::object& text) {
+    std::optional<SavedState> state;
+    convert_on_each(mesh.processes(), [&] { state = state_of(time, step, text); });
     written(mesh, path, vertex_fields, cell_fields,
-            [](const od::AdaptiveMesh& now, const Path& to, const auto& fields) {
+            [&](const od::AdaptiveMesh& now, const Path& to, const auto& fields) {
                 if (!is_checkpoint(to)) {
                     throw InputError(fmt::format(
                         "{}: save() writes a checkpoint, which is named .octetra; write() writes "
                         "files of other formats",
                         to.native()));
                 }
-                now.save(to, fields);
+                now.save(to, fields, state);
             });
 }
 
@@ -122,8 +150,16 @@ void bind_files(py::module_& module, MeshClass& mesh) {
              "int64 of shape (vertices, ...) or (cells, ...). Returns what the "
              "format could not hold, or ''.")
         .def("save", &save, path, py::kw_only(), vertex_fields, cell_fields,
+             py::arg("time") = py::none(), py::arg("step") = py::none(),
+             py::arg("text") = py::none(),
              "Collective. Writes a checkpoint, .octetra: the input, what each step did, and "
-             "fields, as of write(). The same file on any number of ranks.");
+             "fields, as of write(). The same file on any number of ranks. time, a number, step, "
+             "a whole number, and text, such as JSON, are the program's own, the same on all "
+             "ranks: saved_state() has them again.");
+    module.def("saved_state", &saved_state, path,
+               "What save() was given with this checkpoint: {'time': float, 'step': int, 'text': "
+               "str}, or None where it was given nothing. Reads the table of the file alone; not "
+               "collective.");
 }
 
 }  // namespace octetra::python

@@ -86,7 +86,8 @@ std::filesystem::path write_example(const std::filesystem::path& path) {
                              .cells_now = cells + 3,
                              .steps = std::vector<StepFacts>(2),
                              .fields = {{"u", FieldOn::vertices, FieldType::int32, 2}},
-                             .group_names = mesh.group_names});
+                             .group_names = mesh.group_names,
+                             .state = SavedState{0.25, -3, "{\n\t\"dt\": 0.1}"}});
     writer.put_input(source);
     std::vector<std::byte> block;
     writer.put_section(Section::cuts, [&](const Window&) {
@@ -113,6 +114,7 @@ TEST(CheckpointFile, GivesBackWhatWasPut) {
     EXPECT_EQ(read.steps[1][1], 6);
     EXPECT_EQ(read.facts.steps[0], (StepFacts{cells, cells, 2}));
     EXPECT_EQ(read.facts.steps[1].cells_cut, 2);
+    EXPECT_EQ(read.facts.state, (SavedState{0.25, -3, "{\n\t\"dt\": 0.1}"}));
     const CheckpointReader reader(path);
     EXPECT_EQ(reader.read<std::int32_t>(field_section(0), 1, 3),
               (std::vector<std::int32_t>{3, 4, 5, 6}));

@@ -156,6 +156,7 @@ TEST(CheckpointOfAMeshThatIsTheInput, HasNoSteps) {
     const test::SharedFolder folder;
     const Mesh input = input_of(1);
     shared_out(world(), input, "block").save(folder / "input.octetra");
+    EXPECT_EQ(read_checkpoint_facts(folder / "input.octetra").state, std::nullopt);
     const AdaptiveMesh loaded = AdaptiveMesh::load(world(), folder / "input.octetra");
     EXPECT_TRUE(loaded.collect() == input || !world().is_first());
 }

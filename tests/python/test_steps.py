@@ -5,7 +5,7 @@ import pathlib
 
 import numpy as np
 import pytest
-from conftest import centroids, command, near, total, world
+from conftest import PROGRAM, centroids, command, near, run_alone, total, world
 from mpi4py import MPI
 
 import octetra
@@ -267,6 +267,31 @@ def test_a_mesh_is_saved_with_fields_and_goes_on(folder, mesh):
         m.coarsen(near(m, 0.3))
         m.write(folder / f"{number}.mesh")
         assert same(folder / f"{number}.mesh", folder / "0.mesh")
+
+
+def test_a_checkpoint_keeps_the_time_the_step_and_a_text(folder, mesh):
+    mesh.refine(near(mesh, 0.5))
+    mesh.save(folder / "plain.octetra")
+    mesh.save(folder / "state.octetra", time=0.5, step=-7, text='{"dt": 0.1,\n "name": "Größe"}')
+    assert octetra.saved_state(folder / "plain.octetra") is None
+    assert octetra.saved_state(folder / "state.octetra") == {
+        "time": 0.5, "step": -7, "text": '{"dt": 0.1,\n "name": "Größe"}'}
+    sizes = [(folder / f"{name}.octetra").stat().st_size for name in ("plain", "state")]
+    assert sizes[1] - sizes[0] == 24 + len('{"dt": 0.1,\n "name": "Größe"}'.encode())
+    again = octetra.load(folder / "state.octetra")
+    again.write(folder / "again.mesh")
+    mesh.write(folder / "mesh.mesh")
+    assert same(folder / "again.mesh", folder / "mesh.mesh")
+    if world.rank == 0:
+        shown = run_alone(PROGRAM, "info", folder / "state.octetra")
+        assert "time 0.5, step -7" in shown and '"name": "Größe"}' in shown
+    for wrong in ({"time": float("nan")}, {"text": "\x1b[2J"}, {"step": 2**70}, {"time": "late"}):
+        with pytest.raises(octetra.InputError):
+            mesh.save(folder / "state.octetra", **wrong)
+    if world.size > 1:
+        with pytest.raises(octetra.InputError, match="different times, steps or texts"):
+            mesh.save(folder / "state.octetra", step=world.rank)
+    assert octetra.saved_state(folder / "state.octetra")["step"] == -7
 
 
 def test_one_name_may_be_on_vertices_and_on_cells(folder, mesh, monkeypatch):

@@ -24,6 +24,9 @@ void print_history(const CheckpointFacts& facts) {
             field.components == 1 ? "1 component" : fmt::format("{} components", field.components),
             field.on == FieldOn::vertices ? "vertices" : "cells");
     }
+    if (!facts.state) return;
+    print("time {}, step {}\n", facts.state->time, facts.state->step);
+    if (!facts.state->text.empty()) print("text: {}\n", facts.state->text);
 }
 
 }  // namespace octetra::cli

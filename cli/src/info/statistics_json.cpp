@@ -61,7 +61,12 @@ Json json(const CheckpointFacts& facts) {
                           {"on", field.on == FieldOn::vertices ? "vertices" : "cells"},
                           {"components", field.components}});
     }
-    return {{"steps", std::move(steps)}, {"fields", std::move(fields)}};
+    Json out{{"steps", std::move(steps)}, {"fields", std::move(fields)}};
+    if (facts.state) {
+        out["state"] = {
+            {"time", facts.state->time}, {"step", facts.state->step}, {"text", facts.state->text}};
+    }
+    return out;
 }
 
 Json json(const quality::EntityCounts& counts) {

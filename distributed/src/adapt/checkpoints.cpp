@@ -79,7 +79,8 @@ auto naming(const std::filesystem::path& path, auto&& work) {
 
 }  // namespace
 
-void AdaptiveMesh::save(const std::filesystem::path& path, std::span<const Field> fields) const {
+void AdaptiveMesh::save(const std::filesystem::path& path, std::span<const Field> fields,
+                        const std::optional<SavedState>& state) const {
     LocalFailure failure;
     DistributedMesh& mesh = state_->mesh;
     std::unique_ptr<CanonicalOrder> order;
@@ -96,6 +97,7 @@ void AdaptiveMesh::save(const std::filesystem::path& path, std::span<const Field
                        .numbers = &state_->numbers,
                        .sharing = &state_->sharing,
                        .input = input.get(),
+                       .state = &state,
                        .steps = steps},
                       fields, path);
 }

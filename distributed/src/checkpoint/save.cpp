@@ -1,10 +1,13 @@
 #include "checkpoint/save.hpp"
 
 #include <algorithm>
+#include <bit>
+#include <string>
 #include <utility>
 #include <vector>
 
 #include <octetra/core/checkpoint_blocks.hpp>
+#include <octetra/core/error.hpp>
 #include <octetra/core/files/places.hpp>
 #include <octetra/distributed/profile.hpp>
 
@@ -35,7 +38,8 @@ CheckpointFacts facts_of(const SavedMesh& saved, const MeshFacts& input,
                           .cells_now = cells_now,
                           .steps = std::vector<StepFacts>(saved.steps.size()),
                           .fields = {},
-                          .group_names = input.group_names.list()};
+                          .group_names = input.group_names.list(),
+                          .state = *saved.state};
     std::ranges::transform(fields, std::back_inserter(facts.fields),
                            [](const Field& field) { return facts_of(field); });
     return facts;
@@ -135,12 +139,28 @@ void put_cuts(CheckpointWriter& writer, const SavedMesh& saved) {
     }
 }
 
+/// Collective. Throws where the state cannot be saved, or is not the same on all processes.
+void check_state(const Communicator& processes, const std::optional<SavedState>& state) {
+    std::vector<std::uint8_t> bytes;
+    if (state) {
+        if (const std::string wrong = wrong_in(*state); !wrong.empty()) throw InputError(wrong);
+        append_number(std::bit_cast<std::uint64_t>(state->time), bytes);
+        append_number(static_cast<std::uint64_t>(state->step), bytes);
+        bytes.insert(bytes.end(), state->text.begin(), state->text.end());
+    }
+    std::vector<std::uint8_t> of_first = bytes;
+    processes.broadcast(of_first);
+    if (processes.max(of_first == bytes ? 0 : 1) == 0) return;
+    throw InputError("processes have different times, steps or texts for a checkpoint");
+}
+
 /// Collective. A process may fail anywhere in it.
 void write_checkpoint(const SavedMesh& saved, std::span<const Field> fields,
                       const std::filesystem::path& path) {
     const Communicator& processes = saved.mesh->processes;
     check_sizes(*saved.mesh, fields);
     check_same(processes, fields);
+    check_state(processes, *saved.state);
     if (processes.is_first()) check_place(path);
 
     CanonicalSlices input(*saved.input);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -22,6 +23,7 @@ struct SavedMesh {
     const CanonicalNumbers* numbers = nullptr;
     const Sharing<VertexIndex>* sharing = nullptr;
     const DistributedMesh* input = nullptr;
+    const std::optional<SavedState>* state = nullptr;
     std::span<const CutRuns> steps;  ///< each in the canonical order of the cells before it
 };
 

@@ -1,4 +1,6 @@
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <optional>
 #include <string_view>
 
@@ -75,6 +77,15 @@ std::string name_of(const CheckpointFacts& facts, Section section) {
     }
     const FieldFacts& field = facts.fields[static_cast<std::size_t>(section) - first_field];
     return "values of " + shown(field.name);
+}
+
+std::string wrong_in(const SavedState& state) {
+    if (!std::isfinite(state.time)) return "the time of a checkpoint is not finite";
+    std::string text = state.text;
+    std::ranges::replace_if(
+        text, [](char c) { return c == '\n' || c == '\r' || c == '\t'; }, ' ');
+    if (!is_name(text)) return "the text of a checkpoint is no UTF-8, or has a control character";
+    return {};
 }
 
 bool is_name(std::string_view text) {

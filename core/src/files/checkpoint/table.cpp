@@ -1,6 +1,7 @@
 #include "files/checkpoint/table.hpp"
 
 #include <array>
+#include <bit>
 #include <cstring>
 #include <limits>
 #include <string>
@@ -24,13 +25,14 @@ constexpr std::uint64_t facet_markers = 4;
 constexpr std::uint64_t edge_markers = 8;
 constexpr std::uint64_t group_names = 16;
 constexpr std::uint64_t features = 32;
+constexpr std::uint64_t state = 64;
 
 std::uint64_t flags_of(const CheckpointFacts& facts) {
     return (facts.has_point_markers ? point_markers : 0U) | (facts.has_regions ? regions : 0U) |
            (facts.has_facet_markers ? facet_markers : 0U) |
            (facts.has_edge_markers ? edge_markers : 0U) |
            (facts.group_names.empty() ? 0U : group_names) |
-           (has_any(facts.features) ? features : 0U);
+           (has_any(facts.features) ? features : 0U) | (facts.state ? state : 0U);
 }
 
 void put(std::vector<std::byte>& bytes, const void* data, std::size_t size) {
@@ -112,6 +114,22 @@ void read_group_names(Table& table, std::vector<GroupName>& names) {
     if (const std::string wrong = wrong_in(names); !wrong.empty()) table.fail(wrong);
 }
 
+void put_state(std::vector<std::byte>& bytes, const SavedState& saved) {
+    put(bytes, &saved.time, sizeof saved.time);
+    put(bytes, static_cast<std::uint64_t>(saved.step));
+    put(bytes, saved.text.size());
+    put(bytes, saved.text.data(), saved.text.size());
+}
+
+SavedState read_state(Table& table) {
+    SavedState saved;
+    saved.time = std::bit_cast<double>(table.number());
+    saved.step = static_cast<std::int64_t>(table.number());
+    saved.text = table.text();
+    if (const std::string wrong = wrong_in(saved); !wrong.empty()) table.fail(wrong);
+    return saved;
+}
+
 void read_facts(Table& table, CheckpointFacts& facts) {
     for (std::uint64_t* count : {&facts.vertices, &facts.cells, &facts.facets, &facts.edges,
                                  &facts.vertices_now, &facts.cells_now}) {
@@ -119,7 +137,7 @@ void read_facts(Table& table, CheckpointFacts& facts) {
     }
     facts.attributes_per_point = table.number_to(1U << 20U, "attributes of a vertex");
     facts.index_base = static_cast<std::uint32_t>(table.number_to(1, "as the index base"));
-    const std::uint64_t flags = table.number_to(63, "as flags");
+    const std::uint64_t flags = table.number_to(127, "as flags");
     facts.has_point_markers = (flags & point_markers) != 0;
     facts.has_regions = (flags & regions) != 0;
     facts.has_facet_markers = (flags & facet_markers) != 0;
@@ -139,10 +157,12 @@ void read_facts(Table& table, CheckpointFacts& facts) {
         if (!is_name(field.name)) table.fail("the name of a field cannot be shown");
     }
     if ((flags & group_names) != 0) read_group_names(table, facts.group_names);
-    if ((flags & features) == 0) return;
-    for (const Feature f : all_features) {
-        facts.features[f] = table.number_to(entities_with(f, facts), "entities with a feature");
+    if ((flags & features) != 0) {
+        for (const Feature f : all_features) {
+            facts.features[f] = table.number_to(entities_with(f, facts), "entities with a feature");
+        }
     }
+    if ((flags & state) != 0) facts.state = read_state(table);
 }
 
 }  // namespace
@@ -193,6 +213,7 @@ std::vector<std::byte> table_of(const CheckpointFacts& facts,
     if (has_any(facts.features)) {  // else as files were before there were any
         for (const std::uint64_t count : facts.features) put(bytes, count);
     }
+    if (facts.state) put_state(bytes, *facts.state);
     put(bytes, blocks.data(), blocks.size() * sizeof(BlockEntry));
     return bytes;
 }

@@ -5,6 +5,7 @@
 #include <functional>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -298,9 +299,11 @@ public:
     /// values of this mesh's vertices and cells. The file is the same whatever the number of
     /// processes and the partition, unless has_forgotten_history(). It is written beside its place,
     /// brought to the disk, and then renamed: whatever happens meanwhile, a file that was there is
-    /// there still, or the new one. Throws InputError where a field does not fit the mesh or the
-    /// processes have different ones.
-    void save(const std::filesystem::path& path, std::span<const Field> fields = {}) const;
+    /// there still, or the new one. `state`, the same on all processes, goes into the file too;
+    /// read_checkpoint_facts() of octetra/core/files/checkpoint.hpp has it again. Throws InputError
+    /// where a field does not fit the mesh or the processes have different fields or states.
+    void save(const std::filesystem::path& path, std::span<const Field> fields = {},
+              const std::optional<SavedState>& state = std::nullopt) const;
     /// Collective. The first process gets the whole mesh in the order of files, the others an empty
     /// one. Throws InputError where 32 bits cannot number it.
     [[nodiscard]] Mesh collect() const;

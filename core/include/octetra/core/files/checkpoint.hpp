@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -19,6 +20,17 @@ struct StepFacts {
     std::uint64_t bytes = 0;  ///< that it takes in the file
 
     friend bool operator==(const StepFacts&, const StepFacts&) = default;
+};
+
+/// What a program saves with a mesh in order to go on from there.
+struct SavedState {
+    double time = 0;  ///< finite
+    std::int64_t step = 0;
+    /// A text of the program's own, such as JSON: UTF-8, without control characters but line ends
+    /// and tabs.
+    std::string text;
+
+    friend bool operator==(const SavedState&, const SavedState&) = default;
 };
 
 /// What a checkpoint says of itself.
@@ -43,6 +55,7 @@ struct CheckpointFacts {
     std::vector<StepFacts> steps;
     std::vector<FieldFacts> fields;
     std::vector<GroupName> group_names;
+    std::optional<SavedState> state;  ///< none where the program has saved none
 
     friend bool operator==(const CheckpointFacts&, const CheckpointFacts&) = default;
 };

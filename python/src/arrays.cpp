@@ -26,6 +26,12 @@ bool is_whole(const py::array& array) {
                                  py::str(given.attr("shape")).cast<std::string>()));
 }
 
+/// Has an array of whole numbers more than one value beside 0?
+bool has_several_values(const py::array& array) {
+    const py::object set = array[array.attr("__ne__")(0)];
+    return py::len(set) > 0 && set.attr("min")().not_equal(set.attr("max")());
+}
+
 /// The marks of this many cells, none of them set.
 using Bytes = py::array_t<std::uint8_t>;
 
@@ -77,10 +83,12 @@ std::vector<V> values_of(const std::string& name, const py::handle& given) {
     const auto numbers = py::array_t<Number, py::array::c_style | py::array::forcecast>(array);
     if constexpr (Numbers<V>::is_index) {
         const py::object least = array.attr("min")();
-        if (std::is_unsigned_v<Number> && least.attr("__lt__")(0).template cast<bool>()) {
+        if (least.attr("__lt__")(0).template cast<bool>()) {
             throw InputError(fmt::format("{}: numbers from 0; given is {}", name,
                                          py::str(least).cast<std::string>()));
         }
+    }
+    if (!is_real && !numbers.attr("__eq__")(array).attr("all")().template cast<bool>()) {
         refuse(name, fmt::format("numbers that fit into {} bits", 8 * sizeof(Number)), array);
     }
     std::vector<V> values(static_cast<std::size_t>(array.shape(0)));
@@ -126,8 +134,15 @@ Marks marks_of(const py::handle& given, std::size_t cell_count) {
     }
     if (array.ndim() != 1 || static_cast<std::size_t>(array.size()) != cell_count ||
         !(is_boolean || is_whole(array))) {
-        refuse("marks", fmt::format("a boolean or whole number for each of {} cells", cell_count),
+        const char* const hint = is_whole(array) ? " (numbers of cells are passed as cells=)" : "";
+        refuse("marks",
+               fmt::format("a boolean or whole number for each of {} cells{}", cell_count, hint),
                array);
+    }
+    if (!is_boolean && has_several_values(array)) {
+        throw InputError(
+            "marks: whole numbers are 0 or one other value, which means true, and these have "
+            "several, as numbers of cells have; numbers of cells are passed as cells=");
     }
     if (!is_boolean) array = array.attr("__ne__")(0);
     return owned(

@@ -1,7 +1,15 @@
 #include <array>
+#include <cstdint>
+#include <functional>
 #include <memory>
 #include <numeric>
+#include <string_view>
 #include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include <octetra/core/error.hpp>
 
 #include <octetra/distributed/mesh_part.hpp>
 
@@ -54,6 +62,19 @@ od::MeshPart part_of(const Given& given) {
     return part;
 }
 
+/// Of no points 0.
+std::uint64_t hash_of(const std::vector<Point>& points) {
+    if (points.empty()) return 0;
+    const auto* const bytes = reinterpret_cast<const char*>(points.data());
+    return std::hash<std::string_view>{}({bytes, points.size() * sizeof(Point)});
+}
+
+/// Collective. Are there two ranks with different hashes, but for 0?
+bool have_different_points(const od::Communicator& processes, std::uint64_t hash) {
+    const std::uint64_t greatest = processes.max(hash);
+    return greatest != ~processes.max(hash == 0 ? ~greatest : ~hash);
+}
+
 MeshPointer mesh_of(const Given& given, std::uint32_t index_base, const py::object& comm) {
     const od::Communicator processes = processes_of(comm);
     od::MeshPart part;
@@ -61,8 +82,18 @@ MeshPointer mesh_of(const Given& given, std::uint32_t index_base, const py::obje
         part = part_of(given);
         part.index_base = index_base;
     });
+    const std::uint64_t hash = given.vertex_numbers.is_none() ? hash_of(part.points) : 0;
     return without_gil([&] {
-        return std::make_shared<Mesh>(od::AdaptiveMesh::from_parts(processes, std::move(part)));
+        try {
+            return std::make_shared<Mesh>(od::AdaptiveMesh::from_parts(processes, std::move(part)));
+        } catch (const InputError& error) {  // the same on all ranks
+            if (!have_different_points(processes, hash)) throw;
+            throw InputError(fmt::format(
+                "{}; vertex_numbers is None, which numbers the points of each rank from 0, and "
+                "ranks pass different points: a part of a mesh is passed with "
+                "vertex_numbers=mesh.vertex_numbers and mesh.vertex_numbers[mesh.cells]",
+                error.what()));
+        }
     });
 }
 

@@ -139,8 +139,9 @@ void bind_steps(py::module_&, MeshClass& mesh) {
     mesh.def("refine", &refine, no_marks, py::kw_only(), no_cells, scheme, max_cells,
              "Collective. One step of 8T-LE refinement: of the marked cells and what closure "
              "adds.\n\n"
-             "marks: (cells,), booleans, or whole numbers of any type of which others than 0 mean "
-             "true; None on a rank that marks nothing. cells, instead: numbers of cells of this "
+             "marks: (cells,), booleans, or whole numbers of any type, 0 or one other value that "
+             "means true; None on a rank that marks nothing. cells, instead: numbers of cells of "
+             "this "
              "rank, in any order. scheme: '8t', '4t' or '2t'. A step that would make more than "
              "max_cells cells of the whole mesh is refused.")
         .def(

@@ -5,6 +5,10 @@
 #include <utility>
 #include <variant>
 
+#include <fmt/format.h>
+
+#include <octetra/core/error.hpp>
+
 #include "values.hpp"
 
 namespace octetra::python {
@@ -15,11 +19,15 @@ void append(std::vector<distributed::Field>& fields, const py::object& given, Fi
     if (given.is_none()) return;
     for (const auto& item : given.cast<py::dict>()) {
         const auto name = item.first.cast<std::string>();
-        const Values values =
-            values_for(item.second, count, on == FieldOn::cells ? "cells" : "vertices");
-        with_number_type(values.array, [&]<class T>(T) {
-            fields.push_back({name, on, values.components, values.copy<T>()});
-        });
+        try {
+            const Values values =
+                values_for(item.second, count, on == FieldOn::cells ? "cells" : "vertices");
+            with_number_type(values.array, [&]<class T>(T) {
+                fields.push_back({name, on, values.components, values.copy<T>()});
+            });
+        } catch (const InputError& error) {
+            throw InputError(fmt::format("field '{}': {}", name, error.what()));
+        }
     }
 }
 

@@ -58,6 +58,8 @@ CASES = {
     "a kind of ghosts": lambda m: m.ghosts(wrong_here("edge", "face")),
     "a file that is not there": lambda m: octetra.read(wrong_here("no.mesh", "no.mesh")),
     "a partition": lambda m: octetra.load("no.octetra", partition=wrong_here("half", "rcb")),
+    "numbers of cells as marks": lambda m: m.refine(wrong_here(np.arange(cells_of(m)), None)),
+    "few numbers of cells as marks": lambda m: m.refine(wrong_here([3, 1], None)),
     "an inverted cell": lambda m: octetra.from_arrays(
         [[0, 0, 0], [0, 1, 0], [1, 0, 0], [0, 0, 1]], wrong_here([[0, 1, 2, 3]], [])),
     "points in a plane": lambda m: octetra.from_arrays(np.zeros((4, wrong_here(2, 3))), []),
@@ -74,6 +76,10 @@ WORDS = {
     "a cell that is not there": "cells: 1000000 is marked, and this rank has",
     "a share that is no number": "most_over_mean: .*, from 1; given is nan",
     "a share below the mean": "most_over_mean: .*, from 1; given is 0.5",
+    "a field of another size": r"field 'u': values of shape \(\d+,\) for \d+ vertices",
+    "a field of complex numbers": "field 'u': values of type complex128: only float64",
+    "numbers of cells as marks": "marks: .* several, as numbers of cells have; .* as cells=",
+    "few numbers of cells as marks": r"marks: .* cells \(numbers of cells are passed as cells=\); given",
     "a partition": "rank .: partition takes lepp, .*, not 'half'",
     "a checkpoint by another name": r"mesh.vtu: save\(\) writes a checkpoint, .*write\(\) writes",
 }
@@ -89,6 +95,14 @@ def test_what_is_wrong_on_one_rank_is_raised_alike_on_all(mesh, case):
     assert np.array_equal(mesh.points, points) and np.array_equal(mesh.cells, cells)
     mesh.refine(near(mesh, 0.5))
     assert mesh.verify()
+
+
+@pytest.mark.skipif(world.size == 1, reason="one rank has all points")
+def test_a_part_by_local_numbers_is_refused_with_the_cause(mesh):
+    words = "vertex_numbers is None, .* ranks pass different points: .*mesh.vertex_numbers.mesh.cells"
+    with pytest.raises(octetra.InputError, match=words) as raised:
+        octetra.from_arrays(mesh.points, mesh.cells)
+    assert len(set(world.allgather(str(raised.value)))) == 1
 
 
 @pytest.mark.skipif(world.size == 1, reason="ranks have different types")

@@ -158,8 +158,8 @@ std::vector<std::uint8_t> on_sides(const od::AdaptiveMesh& mesh) {
             flags[mesh.cells()[cell.value()][k].value()] = 1;
         }
     }
-    od::combine_everywhere(mesh.processes(), mesh.vertex_sharing(), flags.size(), std::span(flags),
-                           [](std::uint8_t a, std::uint8_t b) { return std::max(a, b); });
+    od::combine_everywhere(mesh.processes(), mesh.vertex_sharing(), flags.size(), flags,
+                           std::logical_or<>{});
     return flags;
 }
 

@@ -1,7 +1,7 @@
 """Adaptive finite elements in DOLFINx, refined by Octetra or by DOLFINx itself.
 
-    mpirun -n 4 python3 adaptive_poisson.py --refine octetra --steps 8
-    mpirun -n 4 python3 adaptive_poisson.py --refine dolfinx --steps 8
+    mpirun -n 4 python3 -m mpi4py adaptive_poisson.py --refine octetra --steps 8
+    mpirun -n 4 python3 -m mpi4py adaptive_poisson.py --refine dolfinx --steps 8
 
 -laplace u = 0 on the L-shaped prism ((-1, 1)^2 without [0, 1) x (-1, 0]) x (0, 1), where u = r^(2/3)
 sin(2 theta / 3) is given on the sides, and nothing flows through bottom and top: that of

@@ -1,7 +1,7 @@
 """Poisson's equation, -div grad u = 1 with u = 0 on the boundary, by linear elements in petsc4py: in each step the
 mesh becomes a DMPlex, PETSc solves on it, and the cells where the solution changes most are refined.
 
-    mpirun -n 4 python3 petsc_poisson.py cube.mesh 3
+    mpirun -n 4 python3 -m mpi4py petsc_poisson.py cube.mesh 3
 
 Options of PETSc go behind: -pc_type gamg -ksp_monitor.
 """

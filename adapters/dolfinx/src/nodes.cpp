@@ -4,9 +4,10 @@
 #include <cstddef>
 #include <limits>
 #include <span>
+#include <utility>
 
 #include <octetra/core/error.hpp>
-#include <octetra/distributed/exchange.hpp>
+#include <octetra/distributed/index_map.hpp>
 
 namespace octetra::dolfinx {
 namespace {
@@ -29,48 +30,26 @@ void check_counts(const od::AdaptiveMesh& mesh, const od::GhostLayer* ghosts) {
     }
 }
 
-/// Of this rank's vertices: its own first, then the others' by owner, as the owner lists them.
-void number_vertices(const od::AdaptiveMesh& mesh, Nodes& nodes) {
-    constexpr std::int32_t foreign = -1;
-    nodes.of_vertex.assign(mesh.points().size(), 0);
+/// This rank's own vertices first, then the others', with the numbers that their owners give them.
+void number_vertices(const od::AdaptiveMesh& mesh, od::IndexMap<VertexIndex> map, Nodes& nodes) {
+    Numbering& numbering = nodes.numbering;
     for (const auto& with : mesh.vertex_sharing().neighbours()) {
-        for (const VertexIndex v : with.received) nodes.of_vertex[v.value()] = foreign;
-        if (!with.received.empty()) nodes.numbering.sources.push_back(with.rank);
-        if (!with.owned.empty()) nodes.numbering.destinations.push_back(with.rank);
+        if (!with.received.empty()) numbering.sources.push_back(with.rank);
+        if (!with.owned.empty()) numbering.destinations.push_back(with.rank);
     }
-    nodes.vertices.reserve(nodes.of_vertex.size());
-    const auto append = [&](std::size_t vertex) {
-        nodes.of_vertex[vertex] = static_cast<std::int32_t>(nodes.vertices.size());
-        nodes.vertices.emplace_back(vertex);
-    };
-    for (std::size_t v = 0; v < nodes.of_vertex.size(); ++v) {
-        if (nodes.of_vertex[v] != foreign) append(v);
-    }
-    nodes.numbering.own_count = static_cast<std::int32_t>(nodes.vertices.size());
-    for (const auto& with : mesh.vertex_sharing().neighbours()) {
-        for (const VertexIndex v : with.received) {
-            append(v.value());
-            nodes.numbering.owners.push_back(with.rank);
+    numbering.own_count = static_cast<std::int32_t>(map.owned_count);
+    numbering.first = static_cast<std::int64_t>(
+        map.rank_begin[static_cast<std::size_t>(mesh.processes().rank())]);
+    nodes.vertices = std::move(map.entities);
+    nodes.of_vertex.resize(nodes.vertices.size());
+    for (std::size_t node = 0; node < nodes.vertices.size(); ++node) {
+        const std::size_t vertex = nodes.vertices[node].value();
+        nodes.of_vertex[vertex] = static_cast<std::int32_t>(node);
+        if (node >= map.owned_count) {
+            numbering.ghosts.push_back(static_cast<std::int64_t>(map.numbers[vertex]));
         }
     }
-}
-
-/// Collective. Asks the owners for the numbers of their vertices.
-void number_ghosts(const od::AdaptiveMesh& mesh, Nodes& nodes) {
-    Numbering& numbering = nodes.numbering;
-    numbering.first = static_cast<std::int64_t>(
-        mesh.processes().sum_before(static_cast<std::uint64_t>(numbering.own_count)));
-    std::vector<std::int64_t> numbers;
-    mesh.processes().on_each([&] {
-        numbers.reserve(nodes.of_vertex.size());
-        for (const std::int32_t node : nodes.of_vertex) numbers.push_back(numbering.first + node);
-        numbering.ghosts.resize(numbering.owners.size());
-    });
-    od::update_copies(mesh.processes(), mesh.vertex_sharing(), numbers.size(), numbers);
-    const auto own_count = static_cast<std::size_t>(numbering.own_count);
-    for (std::size_t k = 0; k < numbering.ghosts.size(); ++k) {
-        numbering.ghosts[k] = numbers[nodes.vertices[own_count + k].value()];
-    }
+    numbering.owners = std::move(map.copy_owners);
 }
 
 SentCell sent_cell(const od::AdaptiveMesh& mesh, const Nodes& nodes, CellIndex cell) {
@@ -143,10 +122,11 @@ Nodes number_nodes(const od::AdaptiveMesh& mesh, const od::GhostLayer* ghosts) {
     Nodes nodes;
     mesh.processes().on_each([&] {
         check_counts(mesh, ghosts);
-        number_vertices(mesh, nodes);
         nodes.cell_numbering.own_count = static_cast<std::int32_t>(mesh.cells().size());
     });
-    number_ghosts(mesh, nodes);
+    od::IndexMap<VertexIndex> map =
+        od::make_index_map(mesh.processes(), mesh.vertex_sharing(), mesh.points().size());
+    mesh.processes().on_each([&] { number_vertices(mesh, std::move(map), nodes); });
     nodes.cell_numbering.first =
         static_cast<std::int64_t>(mesh.processes().sum_before(mesh.cells().size()));
     if (ghosts != nullptr) number_ghost_cells(mesh, *ghosts, nodes);

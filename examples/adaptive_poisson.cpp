@@ -24,6 +24,7 @@
 #include <octetra/distributed/adaptive_mesh.hpp>
 #include <octetra/distributed/estimator_marks.hpp>
 #include <octetra/distributed/exchange.hpp>
+#include <octetra/distributed/index_map.hpp>
 #include <octetra/distributed/mpi.hpp>
 
 namespace od = octetra::distributed;
@@ -137,15 +138,13 @@ struct Dofs {
 };
 
 Dofs number_dofs(const od::AdaptiveMesh& mesh) {
+    const od::IndexMap<VertexIndex> map =
+        od::make_index_map(mesh.processes(), mesh.vertex_sharing(), mesh.points().size());
     Dofs dofs;
-    const auto& sharing = mesh.vertex_sharing();
-    for (std::size_t v = 0; v < mesh.points().size(); ++v) {
-        if (sharing.is_owned(VertexIndex{v})) dofs.own.push_back(v);
+    dofs.number.assign(map.numbers.begin(), map.numbers.end());
+    for (std::size_t k = 0; k < map.owned_count; ++k) {
+        dofs.own.push_back(map.entities[k].value());
     }
-    auto next = static_cast<PetscInt>(mesh.processes().sum_before(dofs.own.size()));
-    dofs.number.resize(mesh.points().size());
-    for (const std::size_t v : dofs.own) dofs.number[v] = next++;
-    od::update_copies(mesh.processes(), sharing, dofs.number.size(), std::span(dofs.number));
     return dofs;
 }
 

@@ -9,6 +9,7 @@
 #include <octetra/verify/verify.hpp>
 
 #include "exact/predicates.hpp"
+#include "hubs/axial_view.hpp"
 #include "mesh/checks.hpp"
 #include "support/meshes.hpp"
 #include "verify/hub_meshes.hpp"
@@ -39,12 +40,14 @@ double effort_of_validity(const Mesh& mesh) {
 
 /// Eight times as many cells take a little more than eight times as much looking, and not 64 times
 /// as much.
-TEST_P(HubTest, IsSearchedInProportionToItsCellsAndTheirLogarithm) {
-    const Mesh small = GetParam().make(2000);
-    const Mesh large = GetParam().make(16000);
+void expect_n_log_n(const Mesh& small, const Mesh& large, double most) {
     const double effort = effort_of_validity(large);
     EXPECT_LT(effort / effort_of_validity(small), 1.5 * n_log_n(large) / n_log_n(small));
-    EXPECT_LT(effort, 100 * n_log_n(large));
+    EXPECT_LT(effort, most * n_log_n(large));
+}
+
+TEST_P(HubTest, IsSearchedInProportionToItsCellsAndTheirLogarithm) {
+    expect_n_log_n(GetParam().make(2000), GetParam().make(16000), 100);
 }
 
 /// Where things are slender in all directions and of all lengths, more of them are side by side:
@@ -63,14 +66,21 @@ TEST_P(HubTest, RefinedIsSearchedInFarLessThanTheSquareOfItsCells) {
     expect_far_less_than_the_square(refined(500), refined(4000));
 }
 
-TEST(RoughHub, IsSearchedInFarLessThanTheSquareOfItsCells) {
+/// The other corners have all angles about the axis, and at one angle all directions: so directions
+/// alone would leave about the square root of all edges for each face.
+TEST(RoughHub, IsSearchedInProportionToItsCellsAndTheirLogarithm) {
     using test::rough_cells_around_edge;
-    expect_far_less_than_the_square(rough_cells_around_edge(2000), rough_cells_around_edge(16000));
+    expect_n_log_n(rough_cells_around_edge(2000), rough_cells_around_edge(16000), 100);
+}
+
+/// Then the axis has vertices within, and those beyond the next one are seen along it.
+TEST(RoughHub, RefinedAtRandomIsSearchedInProportionToItsCellsAndTheirLogarithm) {
     const auto refined = [](std::size_t cells) {
-        return reference::refine(rough_cells_around_edge(cells), {.all = true}, Scheme::eight, 1)
+        return reference::refine(test::rough_cells_around_edge(cells),
+                                 {.random = RandomShare{.fraction = 0.1}}, Scheme::eight, 2)
             .mesh;
     };
-    expect_far_less_than_the_square(refined(500), refined(4000));
+    expect_n_log_n(refined(500), refined(4000), 100);
 }
 
 TEST_P(HubTest, AndItsRefinementAreJudgedValidByAnyNumberOfProcesses) {
@@ -149,12 +159,75 @@ TEST(Hubs, ChangeNothingOfWhatIsFound) {
     for (std::size_t round = 0; round < (OCTETRA_SANITIZED ? 200U : 2000U); ++round) {
         const Hub& hub = test::hubs[round % test::hubs.size()];
         Mesh mesh = round % 3 == 0 ? test::kuhn(2, 1, 1) : hub.make(8 + random() % 24);
+        if (round % 4 == 1) {  // a hub's edge has vertices within then
+            mesh =
+                reference::refine(mesh, {.random = RandomShare{0.1, round}}, Scheme::two, 1).mesh;
+        }
         for (std::size_t moves = random() % 4; moves > 0; --moves) move_at_random(mesh, random);
         drop_flat_cells(mesh);
         ASSERT_NO_FATAL_FAILURE(expect_same_with_hubs(mesh, fmt::format("round {}", round)));
         if (!verify_mesh(mesh).valid()) ++broken;
     }
     EXPECT_GT(broken, OCTETRA_SANITIZED ? 100 : 1000);
+}
+
+Direction direction_of(Vector v) {
+    const double length = std::sqrt(dot(v, v));
+    return {times(v, 1 / length), few_roundings};
+}
+
+/// Rays in all directions, some of which are almost those of the axis, to both sides; so are some
+/// of the common directions.
+TEST(AxialView, MeetsWhateverHasADirectionInCommon) {
+    std::mt19937_64 random(2718);
+    std::uniform_real_distribution<double> number(-1, 1);
+    std::size_t apart = 0;
+    for (int round = 0; round < 100'000; ++round) {
+        const auto any = [&] {
+            return direction_of({number(random), number(random), number(random)}).unit;
+        };
+        const Vector axis = any();
+        const auto ray = [&] {
+            Vector v = any();
+            if (random() % 3 == 0) {
+                const double away = std::ldexp(1, -static_cast<int>(random() % 56));
+                for (std::size_t k = 0; k < 3; ++k) v[k] = axis[k] + away * v[k];
+                if (random() % 2 == 0) v = times(v, -1);
+            }
+            return direction_of(v);
+        };
+        const auto combined = [&](const Direction& r, const Direction& s) {
+            const double share = std::abs(number(random));
+            Vector sum{};
+            for (std::size_t k = 0; k < 3; ++k) {
+                sum[k] = share * r.unit[k] + (1 - share) * s.unit[k];
+            }
+            return direction_of(sum);
+        };
+        /// So that s is between r and the result.
+        const auto beyond = [&](const Direction& r, const Direction& s) {
+            const double share = std::abs(number(random));
+            Vector difference{};
+            for (std::size_t k = 0; k < 3; ++k) difference[k] = s.unit[k] - share * r.unit[k];
+            return direction_of(difference);
+        };
+        const AxialView view(axis);
+        const std::array entity{ray(), ray()};
+        const Bounds bounds = view.bounds_of_entity(entity);
+        // On a side of the cone, or within: `middle` is between two rays, and the common direction
+        // between `middle` and the third.
+        const Direction common = combined(entity[0], entity[1]);
+        const Direction first = ray();
+        ASSERT_TRUE(view.wanted(std::array{first, ray(), common}).meets(bounds)) << round;
+        const Direction middle = beyond(first, common);
+        const Bounds common_alone = view.bounds_of_entity(std::array{common});
+        ASSERT_TRUE(view.wanted(std::array{first, middle}).meets(common_alone)) << round;
+        const Direction second = ray();
+        const Direction third = beyond(second, middle);
+        ASSERT_TRUE(view.wanted(std::array{first, second, third}).meets(bounds)) << round;
+        if (!view.wanted(std::array{ray(), ray(), ray()}).meets(bounds)) ++apart;
+    }
+    EXPECT_GT(apart, 1000U);
 }
 
 /// Cells anywhere, large and small, that share nothing or much: what they have in common with a hub

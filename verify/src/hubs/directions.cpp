@@ -5,16 +5,7 @@
 namespace octetra::verify {
 namespace {
 
-/// More than what roundings add up to in a few operations on numbers up to 1.
-constexpr double few_roundings = 0x1p-48;
-
-double dot(const Vector& u, const Vector& v) { return u[0] * v[0] + u[1] * v[1] + u[2] * v[2]; }
-Vector cross(const Vector& u, const Vector& v) {
-    return {u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]};
-}
-Vector times(const Vector& u, double factor) {
-    return {u[0] * factor, u[1] * factor, u[2] * factor};
-}
+Vector plus(const Vector& u, const Vector& v) { return {u[0] + v[0], u[1] + v[1], u[2] + v[2]}; }
 /// u without its part along v, of length 1.
 Vector part_across(const Vector& u, const Vector& v) {
     const double along = dot(u, v);
@@ -64,21 +55,36 @@ Bounds bounds_of_directions(std::span<const Direction> directions) {
     return bounds;
 }
 
-Cone::Cone(std::span<const Direction> rays) : count_(rays.size()) {
-    Vector sum{};
-    for (std::size_t k = 0; k < count_; ++k) {
-        if (!rays[k].is_known()) return;
-        rays_[k] = rays[k].unit;
-        error_ = std::max(error_, rays[k].error);
-        for (std::size_t i = 0; i < 3; ++i) sum[i] += rays_[k][i];
+double least_cosine(std::span<const Direction> rays) {
+    double error = 0;
+    for (const Direction& ray : rays) {
+        if (!ray.is_known()) return 0;
+        error = std::max(error, ray.error);
     }
-    const double length = std::sqrt(dot(sum, sum));
-    if (length == 0) return;
-    double least = 1;
-    for (std::size_t k = 0; k < count_; ++k) least = std::min(least, dot(sum, rays_[k]) / length);
-    least -= 2 * (error_ + few_roundings);
+    double best = 0;
+    const auto try_middle = [&](const Vector& sum) {
+        const double length = std::sqrt(dot(sum, sum));
+        if (length == 0) return;
+        double least = 1;
+        for (const Direction& ray : rays) least = std::min(least, dot(sum, ray.unit) / length);
+        best = std::max(best, least - 2 * (error + few_roundings));
+    };
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+        for (std::size_t k = 0; k < i; ++k) try_middle(plus(rays[i].unit, rays[k].unit));
+    }
+    if (rays.size() == 1) try_middle(rays[0].unit);
+    if (rays.size() == 3) try_middle(plus(plus(rays[0].unit, rays[1].unit), rays[2].unit));
+    return best;
+}
+
+Cone::Cone(std::span<const Direction> rays) : count_(rays.size()) {
+    const double least = least_cosine(rays);
     if (least < 0x1p-10) return;
     tightness_ = least;
+    for (std::size_t k = 0; k < count_; ++k) {
+        rays_[k] = rays[k].unit;
+        error_ = std::max(error_, rays[k].error);
+    }
     add_planes();
 }
 

@@ -1,10 +1,13 @@
 #pragma once
 
 #include <algorithm>
+#include <optional>
+#include <span>
 #include <tuple>
 #include <utility>
 #include <vector>
 
+#include "hubs/axial_view.hpp"
 #include "hubs/directions.hpp"
 #include "hubs/hubs.hpp"
 #include "lookup/box_tree.hpp"
@@ -13,7 +16,8 @@ namespace octetra::verify {
 
 /// Edges, faces or cells at hubs or near them, findable by what they may meet elsewhere. Their
 /// boxes would tell little; their directions from there do, as what does not cross lies side by
-/// side. So for each hub there is a tree of boxes around directions. Keeps a pointer to the points.
+/// side. So for each hub there is a tree of boxes around directions: in cylindrical coordinates
+/// where the hub has an axis, else in x, y and z. Keeps a pointer to the points.
 template <std::size_t N>
 class Fans {
 public:
@@ -31,8 +35,9 @@ public:
         }
     };
 
-    Fans(const IndexVector<VertexIndex, Point>& points, std::vector<Entity> entities)
-        : points_(&points), fans_(fans_of(std::move(entities))), boxes_(boxes_of_fans()) {}
+    Fans(const IndexVector<VertexIndex, Point>& points, const Hubs& hubs,
+         std::vector<Entity> entities)
+        : points_(&points), fans_(fans_of(std::move(entities), hubs)), boxes_(boxes_of_fans()) {}
 
     [[nodiscard]] bool empty() const { return fans_.empty(); }
 
@@ -48,23 +53,35 @@ public:
             const Fan& fan = fans_[number];
             const auto is_of_apex = [&](VertexIndex v) { return fan.apex.has(v); };
             if (fan.at_apex && std::any_of(vertices.begin(), vertices.end(), is_of_apex)) return;
-            std::array<Direction, M> rays;
-            const Cone cone({rays.data(), directions_of(fan, vertices, rays)});
-            fan.directions.for_each_meeting(CountingCone{cone, &looked_at}, [&](std::uint32_t i) {
+            const auto visit_if_close = [&](std::uint32_t i) {
                 if (bounds_of_vertices(fan.entities[i].vertices).meets(box)) {
                     visit(fan.entities[i]);
                 }
-            });
+            };
+            std::array<Direction, M> directions;
+            const std::span rays(directions.data(), directions_of(fan, vertices, directions));
+            if (fan.axial) {
+                const auto wanted = fan.axial->wanted(rays);
+                const auto meets = [&](const Bounds& b) { return wanted.meets(b); };
+                fan.directions.for_each_meeting(Counting{meets, &looked_at}, visit_if_close);
+            } else {
+                const Cone cone(rays);
+                const auto meets = [&](const Bounds& b) { return !cone.misses(b); };
+                fan.directions.for_each_meeting(Counting{meets, &looked_at}, visit_if_close);
+            }
         });
     }
 
 private:
-    struct CountingCone {
-        Cone cone;
+    template <class Meets>
+    struct Counting {
+        Meets may_meet;
         std::uint64_t* looked_at;
+
+        Counting(Meets test, std::uint64_t* count) : may_meet(test), looked_at(count) {}
         [[nodiscard]] bool meets(const Bounds& directions) const {
             ++*looked_at;
-            return !cone.misses(directions);
+            return may_meet(directions);
         }
     };
 
@@ -72,6 +89,7 @@ private:
         Apex apex;
         bool at_apex = false;  ///< all entities, or none
         Viewpoint viewpoint;
+        std::optional<AxialView> axial;  ///< if the directions are seen about an axis
         std::vector<Entity> entities;
         BoxTree directions;
     };
@@ -85,13 +103,15 @@ private:
 
     /// Of an entity's vertices but those of the apex: what lies between these and the others has
     /// directions between those of the others.
-    [[nodiscard]] Bounds directions_box(const Entity& entity, const Viewpoint& from) const {
+    [[nodiscard]] Bounds directions_box(const Entity& entity, const Viewpoint& from,
+                                        const std::optional<AxialView>& axial) const {
         std::array<Direction, N> directions;
         std::size_t count = 0;
         for (const VertexIndex v : entity.vertices) {
             if (!entity.apex.has(v)) directions[count++] = from.towards((*points_)[v]);
         }
-        return bounds_of_directions({directions.data(), count});
+        const std::span rays(directions.data(), count);
+        return axial ? axial->bounds_of_entity(rays) : bounds_of_directions(rays);
     }
 
     /// The same of other vertices; returns how many there are.
@@ -105,7 +125,7 @@ private:
         return count;
     }
 
-    [[nodiscard]] std::vector<Fan> fans_of(std::vector<Entity> entities) const {
+    [[nodiscard]] std::vector<Fan> fans_of(std::vector<Entity> entities, const Hubs& hubs) const {
         const auto key = [](const Entity& e) {
             return std::tuple(e.apex, e.is_at_apex(), e.vertices, e.number);
         };
@@ -116,15 +136,18 @@ private:
             const Apex apex = next->apex;
             const bool at_apex = next->is_at_apex();
             const Viewpoint viewpoint = viewpoint_of(apex, *points_);
+            std::optional<AxialView> axial;
+            if (const auto axis = hubs.axis_at(apex)) axial.emplace(*axis);
             std::vector<Entity> members;
             std::vector<Bounds> directions;
             for (; next != entities.end() && next->apex == apex && next->is_at_apex() == at_apex;
                  ++next) {
                 members.push_back(*next);
-                directions.push_back(directions_box(*next, viewpoint));
+                directions.push_back(directions_box(*next, viewpoint, axial));
             }
-            fans.push_back({apex, at_apex, viewpoint, std::move(members),
-                            BoxTree(std::move(directions), BoxTree::Cut::most_room)});
+            const auto cut = axial ? BoxTree::Cut::longest_side : BoxTree::Cut::most_room;
+            fans.push_back({apex, at_apex, viewpoint, axial, std::move(members),
+                            BoxTree(std::move(directions), cut)});
         }
         return fans;
     }

@@ -120,13 +120,29 @@ void Hubs::find_near_hubs(const JudgedMesh& judged) {
     }
 }
 
+std::vector<Hubs::Axis>::const_iterator Hubs::first_axis_at(VertexIndex hub) const {
+    return std::lower_bound(axes_.begin(), axes_.end(), hub,
+                            [](const Axis& s, VertexIndex v) { return s.hub < v; });
+}
+
 /// Calls visit(apex) for a hub, and for the edges there that are hubs.
 void Hubs::for_each_view(VertexIndex hub, bool from_edges, auto&& visit) const {
     visit(Apex{hub, VertexIndex::none()});
     if (!from_edges) return;
-    auto axis = std::lower_bound(axes_.begin(), axes_.end(), hub,
-                                 [](const Axis& s, VertexIndex v) { return s.hub < v; });
-    for (; axis != axes_.end() && axis->hub == hub; ++axis) visit(axis->edge);
+    for (auto axis = first_axis_at(hub); axis != axes_.end() && axis->hub == hub; ++axis)
+        visit(axis->edge);
+}
+
+std::optional<Vector> Hubs::axis_at(const Apex& apex) const {
+    Apex edge = apex;
+    if (!apex.is_edge()) {
+        const auto axis = first_axis_at(apex.a);
+        if (axis == axes_.end() || axis->hub != apex.a) return std::nullopt;
+        edge = axis->edge;
+    }
+    const Direction direction = Viewpoint((*points_)[edge.a]).towards((*points_)[edge.b]);
+    if (!direction.is_known()) return std::nullopt;
+    return direction.unit;
 }
 
 Apex Hubs::apex_of(std::span<const VertexIndex> entity) const {
@@ -165,9 +181,14 @@ Apex Hubs::apex_near(std::span<const VertexIndex> entity) const {
     Bounds box;
     for (const VertexIndex v : entity) box.take((*points_)[v]);
     const double length = longest_side(box);
+    std::array<VertexIndex, 4 * NearHubs{}.size()> met;  // neighbours mostly know the same hubs
+    std::size_t met_count = 0;
     for (const VertexIndex v : entity) {
         for (const VertexIndex hub : near_[v.value()]) {
             if (hub.is_none()) break;
+            const auto end = met.begin() + static_cast<std::ptrdiff_t>(met_count);
+            if (std::find(met.begin(), end, hub) != end) continue;
+            met[met_count++] = hub;
             for_each_view(hub, entity.size() > 2, [&](const Apex& apex) {
                 const View view = view_from(apex, entity, *points_);
                 if (!(slender * view.width < length) || view.room >= least) return;

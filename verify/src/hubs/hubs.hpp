@@ -37,6 +37,10 @@ public:
     /// box. Edges are looked at from vertices only.
     [[nodiscard]] Apex apex_of(std::span<const VertexIndex> entity) const;
 
+    /// Where the axis of an apex leads that many cells surround: the apex itself if it is an edge,
+    /// or the first edge at a vertex that is a hub. Nothing if there is none, or it is unknown.
+    [[nodiscard]] std::optional<Vector> axis_at(const Apex& apex) const;
+
 private:
     /// Some of the hubs that are nearest to a vertex, counted in edges.
     using NearHubs = std::array<VertexIndex, 4>;
@@ -48,6 +52,7 @@ private:
     void find_axes(const JudgedMesh& judged);
     void find_near_hubs(const JudgedMesh& judged);
 
+    [[nodiscard]] std::vector<Axis>::const_iterator first_axis_at(VertexIndex hub) const;
     [[nodiscard]] bool is_hub(VertexIndex v) const { return degree_[v.value()] > many_; }
     [[nodiscard]] Apex apex_at(std::span<const VertexIndex> entity) const;
     [[nodiscard]] Apex apex_near(std::span<const VertexIndex> entity) const;

@@ -43,7 +43,7 @@ public:
             places.for_each_meeting(bounds_of(judged_.corners(c)),
                                     [&](std::uint32_t number) { judge(vertices_[number], c); });
         }
-        const Fans<4> cells(mesh_.points, std::move(at_hubs));
+        const Fans<4> cells(mesh_.points, hubs_, std::move(at_hubs));
         if (cells.empty()) return;
         for (const VertexIndex v : vertices_) {
             step();
@@ -169,8 +169,8 @@ private:
             const bool on_boundary = std::binary_search(edges_.begin(), edges_.end(), edge);
             (on_boundary ? boundary : inner).push_back({apex, edge});
         });
-        const Fans<2> boundary_edges(mesh_.points, std::move(boundary));
-        const Fans<2> inner_edges(mesh_.points, std::move(inner));
+        const Fans<2> boundary_edges(mesh_.points, hubs_, std::move(boundary));
+        const Fans<2> inner_edges(mesh_.points, hubs_, std::move(inner));
         const auto look_for = [&](const Fans<2>& edges, const FacetVertices& face) {
             edges.for_each_near(face, looked_at(),
                                 [&](const Fans<2>::Entity& edge) { judge(edge.vertices, face); });
@@ -194,8 +194,8 @@ private:
         };
         for (const FacetVertices& face : faces_) sort_into(boundary, face);
         for_each_inner_face([&](const FacetVertices& face) { sort_into(inner, face); });
-        const Fans<3> boundary_faces(mesh_.points, std::move(boundary));
-        const Fans<3> inner_faces(mesh_.points, std::move(inner));
+        const Fans<3> boundary_faces(mesh_.points, hubs_, std::move(boundary));
+        const Fans<3> inner_faces(mesh_.points, hubs_, std::move(inner));
         const auto look_for = [&](const Fans<3>& faces, const EdgeVertices& edge) {
             faces.for_each_near(edge, looked_at(),
                                 [&](const Fans<3>::Entity& face) { judge(edge, face.vertices); });

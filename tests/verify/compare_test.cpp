@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 
 #include <gtest/gtest.h>
 
@@ -120,6 +121,39 @@ TEST(Compare, CountsAllDifferencesAndDescribesSome) {
     EXPECT_EQ(comparison.differences[0].in_a, "region 3");
     EXPECT_EQ(comparison.differences[0].in_b, "region 8");
     EXPECT_EQ(comparison.differences[0].corners.size(), 4U);
+}
+
+TEST(Compare, FindsZerosOfAnotherSignEqualAndNotIdentical) {
+    Mesh mesh = tagged();
+    mesh.attributes_per_point = 1;
+    mesh.point_attributes.assign(mesh.points.size(), 0);
+    ASSERT_EQ(mesh.points[VertexIndex{0}].x, 0);
+    Mesh of_points = mesh;
+    of_points.points[VertexIndex{0}].x = -0.0;
+    Mesh of_attributes = mesh;
+    of_attributes.point_attributes[2] = -0.0;
+    for (const Mesh& other : {of_points, of_attributes}) {
+        EXPECT_EQ(compare(mesh, other).likeness, Likeness::up_to_numbering);
+        EXPECT_TRUE(compare(mesh, other).only_signs_of_zeros_differ);
+        EXPECT_EQ(compare(other, other).likeness, Likeness::identical);
+        Mesh from_one = other;
+        from_one.index_base = 1;
+        EXPECT_EQ(compare(mesh, from_one).likeness, Likeness::up_to_numbering);
+        EXPECT_FALSE(compare(mesh, from_one).only_index_base_differs);
+    }
+    EXPECT_FALSE(compare(mesh, mesh).only_signs_of_zeros_differ);
+}
+
+TEST(Compare, FindsAttributesThatAreNoNumbersEqual) {
+    Mesh mesh = tagged();
+    mesh.attributes_per_point = 1;
+    mesh.point_attributes.assign(mesh.points.size(), std::nan(""));
+    EXPECT_EQ(compare(mesh, mesh).likeness, Likeness::identical);
+    Mesh moved = mesh;
+    std::swap(moved.cells[CellIndex{0}], moved.cells[CellIndex{1}]);
+    EXPECT_EQ(compare(mesh, moved).likeness, Likeness::up_to_numbering);
+    moved.point_attributes[2] = 1;
+    EXPECT_EQ(compare(mesh, moved).likeness, Likeness::different);
 }
 
 /// Two cells that share three places: at one face, or at a crack, by vertices of their own.

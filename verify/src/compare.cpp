@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <cmath>
 #include <compare>
 #include <string_view>
 #include <tuple>
@@ -74,8 +75,16 @@ struct Item {
     unsigned features = 0;  ///< a bit for each that it has
 
     [[nodiscard]] auto place() const { return std::tie(corners, colours); }
-    [[nodiscard]] auto tags() const { return std::tie(turned, marker, attributes, features); }
+    [[nodiscard]] auto tags() const { return std::tie(turned, marker, features); }
 };
+
+/// By value: -0 equals 0, and what is not a number equals itself and follows all numbers.
+bool is_less(double a, double b) { return a < b || (!std::isnan(a) && std::isnan(b)); }
+bool is_equal(double a, double b) { return a == b || (std::isnan(a) && std::isnan(b)); }
+
+bool are_equal(const std::vector<double>& a, const std::vector<double>& b) {
+    return std::equal(a.begin(), a.end(), b.begin(), b.end(), is_equal);
+}
 
 template <std::size_t N>
 bool comes_before(const Item<N>& a, const Item<N>& b) {
@@ -83,7 +92,10 @@ bool comes_before(const Item<N>& a, const Item<N>& b) {
     if (a.colours != b.colours) return a.colours < b.colours;
     if (a.turned != b.turned) return b.turned;
     if (a.marker != b.marker) return a.marker < b.marker;
-    if (a.attributes != b.attributes) return a.attributes < b.attributes;
+    if (!are_equal(a.attributes, b.attributes)) {
+        return std::lexicographical_compare(a.attributes.begin(), a.attributes.end(),
+                                            b.attributes.begin(), b.attributes.end(), is_less);
+    }
     return a.features < b.features;
 }
 
@@ -187,7 +199,7 @@ public:
                 report(kind, b[k], "absent", shown(b[k], tag));
                 ++k;
             } else {
-                if (a[i].tags() != b[k].tags()) {
+                if (a[i].tags() != b[k].tags() || !are_equal(a[i].attributes, b[k].attributes)) {
                     const bool turned = a[i].turned != b[k].turned;
                     report(kind, a[i], shown(a[i], tag, turned), shown(b[k], tag, turned));
                 }
@@ -213,22 +225,41 @@ private:
     std::size_t kept_of_kind_ = 0;
 };
 
-/// All of a mesh but what files call its groups, and its first vertex.
-auto lists_of(const Mesh& mesh) {
+/// All of a mesh but coordinates, attributes, what files call its groups, and its first vertex.
+auto whole_numbers_of(const Mesh& mesh) {
     const auto& [points, point_markers, attributes_per_point, point_attributes, cells, regions,
                  facets, facet_markers, edges, edge_markers, features, group_names, index_base] =
         mesh;
-    return std::tie(points, point_markers, attributes_per_point, point_attributes, cells, regions,
-                    facets, facet_markers, edges, edge_markers, features);
+    return std::tie(point_markers, attributes_per_point, cells, regions, facets, facet_markers,
+                    edges, edge_markers, features);
+}
+
+bool are_reals_equal(const Mesh& a, const Mesh& b) {
+    return a.points == b.points && are_equal(a.point_attributes, b.point_attributes);
+}
+
+/// Of equal reals: do all zeros have the same sign?
+bool have_zeros_same_signs(const Mesh& a, const Mesh& b) {
+    const auto same = [](double x, double y) {
+        return std::isnan(x) || std::signbit(x) == std::signbit(y);
+    };
+    const auto same_point = [&](const Point& p, const Point& q) {
+        return same(p.x, q.x) && same(p.y, q.y) && same(p.z, q.z);
+    };
+    return std::equal(a.points.begin(), a.points.end(), b.points.begin(), same_point) &&
+           std::equal(a.point_attributes.begin(), a.point_attributes.end(),
+                      b.point_attributes.begin(), same);
 }
 
 }  // namespace
 
 Comparison compare(const Mesh& a, const Mesh& b, std::size_t kept) {
     Comparison result;
-    const bool same_lists = lists_of(a) == lists_of(b);
-    if (same_lists && a.index_base == b.index_base) return result;
-    result.only_index_base_differs = same_lists;
+    const bool same_lists = whole_numbers_of(a) == whole_numbers_of(b) && are_reals_equal(a, b);
+    const bool same_zeros = same_lists && have_zeros_same_signs(a, b);
+    if (same_zeros && a.index_base == b.index_base) return result;
+    result.only_index_base_differs = same_zeros;
+    result.only_signs_of_zeros_differ = same_lists && a.index_base == b.index_base;
     const bool coincident = has_coincident_vertices(a) || has_coincident_vertices(b);
     const Colours of_a = colours_of(a, coincident);
     const Colours of_b = colours_of(b, coincident);

@@ -147,10 +147,13 @@ void print_comparison(const verify::Comparison& comparison, const std::string& a
     if (more > 0) print("and {} more differences\n", grouped(more));
     constexpr std::array<std::string_view, 3> answers{"identical", "the same up to numbering",
                                                       "different"};
-    print("{}, {}: {}{}\n", a, b, answers[static_cast<std::size_t>(comparison.likeness)],
-          comparison.only_index_base_differs
-              ? ": one counts from 0, the other from 1, and nothing else differs"
-              : "");
+    std::string_view only;
+    if (comparison.only_index_base_differs) {
+        only = ": one counts from 0, the other from 1, and nothing else differs";
+    } else if (comparison.only_signs_of_zeros_differ) {
+        only = ": some zeros have another sign, and nothing else differs";
+    }
+    print("{}, {}: {}{}\n", a, b, answers[static_cast<std::size_t>(comparison.likeness)], only);
 }
 
 }  // namespace octetra::cli

@@ -11,8 +11,9 @@
 namespace octetra::verify {
 
 enum class Likeness : std::uint8_t {
-    identical,        ///< entity by entity, number by number
-    up_to_numbering,  ///< the same vertices, cells, tags and lists, otherwise numbered
+    identical,        ///< entity by entity, number by number, with the same signs of zeros
+    up_to_numbering,  ///< the same vertices, cells, tags and lists, of equal values, with other
+                      ///< numbers or other signs of zeros
     different,
 };
 
@@ -28,6 +29,8 @@ struct Comparison {
     Likeness likeness = Likeness::identical;
     /// They would be identical if both counted from the same number.
     bool only_index_base_differs = false;
+    /// They would be identical if coordinates and attributes that are -0 were 0.
+    bool only_signs_of_zeros_differ = false;
     std::uint64_t difference_count = 0;
     std::vector<Difference> differences;  ///< the first of each kind, in order of coordinates
 };

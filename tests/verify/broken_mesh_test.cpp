@@ -80,10 +80,6 @@ const std::vector<MeshCase> broken_meshes{
                      const CellVertices c = m.cells[cell(5)];
                      test::append_cell(m, {c[2], c[0], c[3], c[1]}, cell(5));
                  }),
-    of_two_cubes(Code::unused_vertex, "far_away",
-                 [](Mesh& m) {
-                     (void)test::append_vertex(m, {9, 9, 9});
-                 }),
     of_two_cubes(Code::coincident_vertices, "unmerged",
                  [](Mesh& m) { test::unmerge_vertex(m, cell(2), 0); }),
     of_two_cubes(Code::stray_facet, "across",
@@ -208,6 +204,20 @@ const std::vector<MeshCase> broken_meshes{
      }},
 };
 INSTANTIATE_TEST_SUITE_P(, BrokenMesh, testing::ValuesIn(broken_meshes), name_of<MeshCase>);
+
+/// Also inside a cell, and at the place of another vertex.
+TEST(Vertices, OfNoCellAreNotedAndKeepNoCheckFromRunning) {
+    Mesh mesh = test::kuhn(2, 1, 1);
+    const auto point = [&](std::size_t i) { return mesh.points[mesh.cells[cell(0)][i]]; };
+    mesh.points.push_back({9, 9, 9});
+    mesh.points.push_back(midpoint(midpoint(point(0), point(1)), midpoint(point(2), point(3))));
+    mesh.points.push_back(mesh.points[vertex(0)]);
+    const Verdict verdict = test::judged_by_all(mesh);
+    EXPECT_TRUE(verdict.valid());
+    EXPECT_EQ(verdict.facts.unused_vertices, 3U);
+    EXPECT_EQ(test::check_named(verdict, "vertices").note, "3 vertices belong to no cell");
+    EXPECT_EQ(test::check_named(verdict, "boundary crossings").status, Status::passed);
+}
 
 TEST(Facets, MayBeListedTwiceWithOneMarker) {
     Mesh mesh = two_cubes();

@@ -41,10 +41,10 @@ inline std::string text_of(const verify::Verdict& verdict) {
         text += fmt::format(": {}; {}\n", violation.found, violation.expected);
     }
     const verify::Facts& f = verdict.facts;
-    text += fmt::format("facts {} {} {} {} {} {} {} {} {} {} {} {}\n", f.vertices, f.cells, f.edges,
-                        f.faces, f.boundary_faces, f.singular_edges, f.singular_vertices,
-                        f.bisected_edges, f.rounded_midpoints, f.cells_kept, f.deepest,
-                        f.rounding_bound);
+    text += fmt::format("facts {} {} {} {} {} {} {} {} {} {} {} {} {}\n", f.vertices, f.cells,
+                        f.edges, f.faces, f.boundary_faces, f.singular_edges, f.singular_vertices,
+                        f.unused_vertices, f.bisected_edges, f.rounded_midpoints, f.cells_kept,
+                        f.deepest, f.rounding_bound);
     text += fmt::format("angles {}\ncoarse {}\n", text_of(verdict.angles),
                         text_of(verdict.coarse_angles));
     for (const auto* sums : {&verdict.volumes, &verdict.areas}) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 
 #include <octetra/verify/verify.hpp>
 
@@ -15,6 +16,14 @@ inline std::string codes_of(const verify::Verdict& verdict) {
         codes += name(static_cast<verify::Code>(code));
     }
     return codes;
+}
+
+/// The check of this name; an empty one if there is none.
+inline verify::Check check_named(const verify::Verdict& verdict, std::string_view name) {
+    for (const verify::Check& check : verdict.checks) {
+        if (check.name == name) return check;
+    }
+    return {};
 }
 
 }  // namespace octetra::test

@@ -13,8 +13,8 @@ void judge(JudgedMesh& judged, const VerifyOptions& options, Findings& findings)
     judged.keeps_cells = false;
     findings.run("well-formed", [&] { return check_well_formed(judged, findings); });
     findings.run("markers", [&] { return check_tagged_markers(judged, findings); });
-    const bool no_coincidence =
-        findings.run("vertices", [&] { return check_vertices(judged, {}, findings); });
+    const bool no_coincidence = findings.run(
+        "vertices", [&] { return check_vertices(judged, {}, Unused::noted, findings); });
     const bool oriented =
         findings.run("orientation", [&] { return check_orientation(judged, findings); });
     const bool faced = findings.run("faces", [&] { return check_faces(judged, findings); });

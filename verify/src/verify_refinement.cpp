@@ -49,10 +49,7 @@ void tolerate_sides_of_cracks(const Mesh& fine, const Descent& descent,
 /// no coarse cell, and by coincident vertices of the coarse mesh (at a crack, say) and midpoints
 /// between such, as far as they halve edges of their own.
 std::vector<char> inherited_freedom(const Mesh& coarse, const Mesh& fine, const Descent& descent) {
-    std::vector<char> used(coarse.points.size(), 0);
-    for (const CellVertices& cell : coarse.cells) {
-        for (const VertexIndex v : cell) used[v.value()] = 1;
-    }
+    const std::vector<char> used = used_vertices(coarse);
     std::vector<VertexIndex> by_place;
     for (VertexIndex v{0}; v < coarse.points.end_index(); ++v) by_place.push_back(v);
     std::sort(by_place.begin(), by_place.end(),
@@ -88,10 +85,12 @@ std::vector<char> inherited_freedom(const Mesh& coarse, const Mesh& fine, const 
     return tolerated;
 }
 
+/// Among the vertices of cells.
 bool has_coincident_vertices(const JudgedMesh& judged) {
+    const std::vector<char> used = used_vertices(judged.mesh);
     std::vector<Point> points;
-    for (const Point& p : judged.mesh.points) {
-        if (judged.domain.owns(p)) points.push_back(p);
+    for (VertexIndex v{0}; v < judged.mesh.points.end_index(); ++v) {
+        if (used[v.value()] != 0 && judged.owns(v)) points.push_back(judged.mesh.points[v]);
     }
     std::sort(points.begin(), points.end());
     return std::adjacent_find(points.begin(), points.end()) != points.end();
@@ -183,7 +182,7 @@ private:
     void judge_descendants(const Descent& descent, Lines& lines) {
         findings_.run("vertices", [&] {
             return check_vertices(fine_, inherited_freedom(coarse_.mesh, fine_.mesh, descent),
-                                  findings_);
+                                  Unused::violation, findings_);
         });
         const bool covered =
             findings_.run("cover", [&] { return check_cover(coarse_, fine_, descent, findings_); });

@@ -38,6 +38,7 @@ Json json(const verify::Facts& facts, bool of_refinement) {
              {"edges", facts.edges},
              {"faces", facts.faces},
              {"boundary_faces", facts.boundary_faces},
+             {"unused_vertices", facts.unused_vertices},
              {"singular_edges", facts.singular_edges},
              {"singular_vertices", facts.singular_vertices}};
     if (of_refinement) {

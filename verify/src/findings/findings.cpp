@@ -32,6 +32,7 @@ void join(Facts& a, const Facts& b) {
     a.edges += b.edges;
     a.faces += b.faces;
     a.boundary_faces += b.boundary_faces;
+    a.unused_vertices += b.unused_vertices;
     a.singular_edges += b.singular_edges;
     a.singular_vertices += b.singular_vertices;
     a.bisected_edges += b.bisected_edges;

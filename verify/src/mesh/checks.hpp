@@ -27,9 +27,13 @@ std::string check_well_formed(JudgedMesh& judged, Findings& findings);
 /// No facet or edge listed twice with different markers.
 std::string check_tagged_markers(const JudgedMesh& judged, Findings& findings);
 
-/// Unused and coincident vertices, except those of which tolerated(v) holds.
+/// Whether a vertex that no cell has is a violation, or counted and mentioned in the note.
+enum class Unused : std::uint8_t { noted, violation };
+
+/// Unused and coincident vertices, except those of which tolerated(v) holds. Counts the unused ones
+/// that are no violation.
 std::string check_vertices(const JudgedMesh& judged, const std::vector<char>& tolerated,
-                           Findings& findings);
+                           Unused unused, Findings& findings);
 
 /// Every cell positive, exactly. Fills `sign`.
 std::string check_orientation(JudgedMesh& judged, Findings& findings);

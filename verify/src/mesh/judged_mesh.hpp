@@ -76,6 +76,15 @@ struct JudgedMesh {
     return inversions % 2 == 0;
 }
 
+/// Of each vertex: 1 if a cell has it, else 0.
+[[nodiscard]] inline std::vector<char> used_vertices(const Mesh& mesh) {
+    std::vector<char> used(mesh.points.size(), 0);
+    for (const CellVertices& cell : mesh.cells) {
+        for (const VertexIndex v : cell) used[v.value()] = 1;
+    }
+    return used;
+}
+
 /// A mesh that this process has all of.
 [[nodiscard]] inline JudgedMesh judged_whole(const Mesh& mesh, Which which) {
     return {

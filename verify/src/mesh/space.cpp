@@ -17,10 +17,7 @@ class HangingCheck {
 public:
     HangingCheck(const JudgedMesh& judged, Findings& findings)
         : judged_(judged), mesh_(judged.mesh), findings_(findings), hubs_(judged) {
-        std::vector<char> used(mesh_.points.size(), 0);
-        for (const CellVertices& cell : mesh_.cells) {
-            for (const VertexIndex v : cell) used[v.value()] = 1;
-        }
+        const std::vector<char> used = used_vertices(mesh_);
         for (VertexIndex v{0}; v < mesh_.points.end_index(); ++v) {
             if (used[v.value()] != 0 && judged.owns(v)) vertices_.push_back(v);
         }

@@ -190,17 +190,19 @@ std::string check_tagged_markers(const JudgedMesh& judged, Findings& findings) {
 }
 
 std::string check_vertices(const JudgedMesh& judged, const std::vector<char>& tolerated,
-                           Findings& findings) {
+                           Unused unused, Findings& findings) {
     const Mesh& mesh = judged.mesh;
-    std::vector<char> used(mesh.points.size(), 0);
-    for (const CellVertices& cell : mesh.cells) {
-        for (const VertexIndex v : cell) used[v.value()] = 1;
-    }
+    const std::vector<char> used = used_vertices(mesh);
     const auto is_tolerated = [&](VertexIndex v) {
         return !tolerated.empty() && tolerated[v.value()] != 0;
     };
+    Facts& facts = findings.facts();
     for (VertexIndex v{0}; v < mesh.points.end_index(); ++v) {
-        if (used[v.value()] != 0 || is_tolerated(v) || !judged.owns(v)) continue;
+        if (used[v.value()] != 0 || !judged.owns(v)) continue;
+        if (unused == Unused::noted || is_tolerated(v)) {
+            ++facts.unused_vertices;
+            continue;
+        }
         findings.add(Code::unused_vertex, [&]() -> Findings::Description {
             return {{entity(v, judged.which)}, "no cell has it", "a corner of some cell"};
         });
@@ -226,7 +228,10 @@ std::string check_vertices(const JudgedMesh& judged, const std::vector<char>& to
                     "one vertex at each place"};
         });
     }
-    return {};
+    const std::uint64_t count = sum(findings.group(), facts.unused_vertices);
+    if (count == 0) return {};
+    return count == 1 ? "1 vertex belongs to no cell"
+                      : fmt::format("{} vertices belong to no cell", count);
 }
 
 }  // namespace octetra::verify

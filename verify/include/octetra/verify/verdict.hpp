@@ -40,6 +40,7 @@ struct Facts {
     std::uint64_t edges = 0;
     std::uint64_t faces = 0;
     std::uint64_t boundary_faces = 0;
+    std::uint64_t unused_vertices = 0;    ///< of no cell; of a refinement, inherited
     std::uint64_t singular_edges = 0;     ///< boundary edges with other than two boundary faces
     std::uint64_t singular_vertices = 0;  ///< whose cells fill neither a ball nor a half of one
     // of a refinement

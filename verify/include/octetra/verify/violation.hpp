@@ -19,7 +19,7 @@ enum class Code : std::uint8_t {
     not_finite,           ///< a coordinate is infinite or not a number
     repeated_vertex,      ///< a cell, facet or edge has a vertex twice
     repeated_cell,        ///< two cells have the same vertices
-    unused_vertex,        ///< a vertex of no cell
+    unused_vertex,        ///< in a refinement, a vertex of no cell that the coarse mesh has not
     coincident_vertices,  ///< two vertices at one place
     stray_facet,          ///< a tagged facet is a face of no cell
     stray_edge,           ///< a tagged edge is an edge of no cell

@@ -138,6 +138,10 @@ TEST_F(Verify, FailsWhereAFileHasLostWhatItsFormatCanHold) {
     EXPECT_THAT(
         expect_status(0, "verify " + coarse + " tagged.mesh").out,
         HasSubstr("attributes             skipped  the format of the fine mesh has no place"));
+    expect_status(0, "refine " + coarse + " --all -o tagged.msh --quiet");
+    EXPECT_THAT(
+        expect_status(0, "verify " + coarse + " tagged.msh").out,
+        HasSubstr("vertex markers         skipped  the format of the fine mesh has no place"));
     std::filesystem::remove(folder / "tagged.1.face");
     std::filesystem::remove(folder / "tagged.1.edge");
     EXPECT_THAT(expect_status(1, "verify " + coarse + " tagged.1.ele").out,

@@ -312,6 +312,17 @@ TEST(Tags, AttributesMayBeLostToAFormatWithoutAPlaceForThem) {
     EXPECT_EQ(status_of(verdict, "attributes"), Status::skipped);
 }
 
+TEST(Tags, VertexMarkersMayBeLostToAFormatWithoutAPlaceForThem) {
+    Refined r;
+    r.coarse.point_markers.assign(r.coarse.points.size(), 7);
+    r.fine.mesh.point_markers.clear();
+    EXPECT_EQ(codes_of(r.judge()), "wrong_vertex_marker");
+    r.options.vertex_markers_lost = "no place";
+    const Verdict verdict = r.judge();
+    EXPECT_EQ(codes_of(verdict), "");
+    EXPECT_EQ(status_of(verdict, "vertex markers"), Status::skipped);
+}
+
 INSTANTIATE_TEST_SUITE_P(, BrokenRefinement, testing::ValuesIn(broken_refinements),
                          name_of<RefinementCase>);
 

@@ -199,7 +199,7 @@ private:
                           [&] { return check_face_angles(coarse_, fine_, descent, findings_); });
             findings_.verdict().by_depth = measure_by_depth(fine_, descent);
         }
-        check_tags(coarse_, fine_, lines, descent, options_.attributes_lost, findings_);
+        check_tags(coarse_, fine_, lines, descent, options_, findings_);
         if (options_.fast) {
             findings_.skip("sums by tag", not_fast);
         } else if (const std::string failed = findings_.what_failed(); !failed.empty()) {

@@ -80,9 +80,9 @@ verify::VerifyOptions options_of(const VerifyCommandOptions& given) {
                            parse_scheme(given.refinement), given.refinement.levels};
     }
     const std::string& fine = given.before.empty() ? given.second : given.first;
-    if (!fine.empty() && !can_hold_attributes(fine)) {
-        options.attributes_lost = "the format of the fine mesh has no place for them";
-    }
+    const std::string no_place = "the format of the fine mesh has no place for them";
+    if (!fine.empty() && !can_hold_attributes(fine)) options.attributes_lost = no_place;
+    if (!fine.empty() && !can_hold_vertex_markers(fine)) options.vertex_markers_lost = no_place;
     if (given.second.empty() && options.request) {
         throw InputError("verify: a selection can only be checked of COARSE and REFINED");
     }

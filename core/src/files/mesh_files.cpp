@@ -188,6 +188,8 @@ bool can_hold_attributes(const fs::path& path) {
     return format != Format::medit && format != Format::meshb && format != Format::gmsh;
 }
 
+bool can_hold_vertex_markers(const fs::path& path) { return format_of(path) != Format::gmsh; }
+
 bool can_hold_fields(const fs::path& path) {
     const Format format = format_of(path);
     return format == Format::vtu || format == Format::pvtu || format == Format::vtkhdf ||

@@ -25,9 +25,9 @@ std::string check_volumes(const JudgedMesh& coarse, const JudgedMesh& fine, cons
                           Findings& findings);
 
 /// Region tags, markers and attributes are those that are inherited. If the fine mesh has no
-/// attributes, and `attributes_lost` says why it cannot, they are not checked.
+/// attributes or vertex markers, and the options say why it cannot, these are not checked.
 void check_tags(const JudgedMesh& coarse, const JudgedMesh& fine, Lines& lines,
-                const Descent& descent, std::string_view attributes_lost, Findings& findings);
+                const Descent& descent, const VerifyOptions& options, Findings& findings);
 
 /// A parent map says what is found here.
 std::string check_maps(const RefinementMaps& maps, const JudgedMesh& coarse, const JudgedMesh& fine,

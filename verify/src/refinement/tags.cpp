@@ -12,39 +12,41 @@ namespace {
 class TagCheck {
 public:
     TagCheck(const JudgedMesh& coarse, const JudgedMesh& fine, Lines& lines, const Descent& descent,
-             std::string_view attributes_lost, Findings& findings)
+             const VerifyOptions& options, Findings& findings)
         : coarse_(coarse.mesh),
           fine_(fine.mesh),
           judged_fine_(fine),
           lines_(lines),
           descent_(descent),
-          attributes_lost_(attributes_lost),
+          options_(options),
           findings_(findings) {}
 
     void run() {
         check("region tags", coarse_.regions.empty(), fine_.regions.empty(), [&] { regions(); });
         check("facets", coarse_.facets.empty(), fine_.facets.empty(), [&] { facets(); });
         check("edges", coarse_.edges.empty(), fine_.edges.empty(), [&] { edges(); });
-        check("vertex markers", coarse_.point_markers.empty(), fine_.point_markers.empty(),
-              [&] { vertex_markers(); });
-        if (coarse_.attributes_per_point > 0 && fine_.attributes_per_point == 0 &&
-            !attributes_lost_.empty()) {
-            findings_.skip("attributes", attributes_lost_);
-        } else {
-            check("attributes", coarse_.attributes_per_point == 0, fine_.attributes_per_point == 0,
-                  [&] { attributes(); });
-        }
+        check(
+            "vertex markers", coarse_.point_markers.empty(), fine_.point_markers.empty(),
+            [&] { vertex_markers(); }, options_.vertex_markers_lost);
+        check(
+            "attributes", coarse_.attributes_per_point == 0, fine_.attributes_per_point == 0,
+            [&] { attributes(); }, options_.attributes_lost);
     }
 
 private:
     /// What the coarse mesh has not, nothing can inherit; what the fine mesh has not counts as 0,
-    /// or as listing nothing.
-    void check(std::string_view name, bool coarse_has_none, bool fine_has_none, auto&& judge) {
+    /// or as listing nothing, unless `lost` says why it cannot have any.
+    void check(std::string_view name, bool coarse_has_none, bool fine_has_none, auto&& judge,
+               std::string_view lost = {}) {
         coarse_has_none = !any(findings_.group(), !coarse_has_none);
         fine_has_none = !any(findings_.group(), !fine_has_none);
         if (coarse_has_none && fine_has_none) return;
         if (coarse_has_none) {
             findings_.skip(name, "the coarse mesh has none");
+            return;
+        }
+        if (fine_has_none && !lost.empty()) {
+            findings_.skip(name, lost);
             return;
         }
         findings_.run(name, [&] {
@@ -256,15 +258,15 @@ private:
     const JudgedMesh& judged_fine_;
     Lines& lines_;
     const Descent& descent_;
-    std::string_view attributes_lost_;
+    const VerifyOptions& options_;
     Findings& findings_;
 };
 
 }  // namespace
 
 void check_tags(const JudgedMesh& coarse, const JudgedMesh& fine, Lines& lines,
-                const Descent& descent, std::string_view attributes_lost, Findings& findings) {
-    TagCheck(coarse, fine, lines, descent, attributes_lost, findings).run();
+                const Descent& descent, const VerifyOptions& options, Findings& findings) {
+    TagCheck(coarse, fine, lines, descent, options, findings).run();
 }
 
 }  // namespace octetra::verify

@@ -40,6 +40,8 @@ struct VerifyOptions {
     /// Why a fine mesh without attributes could not have any (its file's format, say). Empty: it
     /// could, and it is a fault if the coarse mesh has some.
     std::string attributes_lost;
+    /// The same of vertex markers.
+    std::string vertex_markers_lost;
     /// Hears, now and then, which check is running and what share of it is done, from 0 to 1: of
     /// what this process does.
     Progress progress;

@@ -73,6 +73,9 @@ void stream_mesh(const std::filesystem::path& path, MeshSink& sink,
 /// Can files with this extension hold attributes of vertices?
 [[nodiscard]] bool can_hold_attributes(const std::filesystem::path& path);
 
+/// Can files with this extension hold markers of vertices?
+[[nodiscard]] bool can_hold_vertex_markers(const std::filesystem::path& path);
+
 /// Can mesh files with this extension hold fields? (Checkpoints, which are written otherwise, can;
 /// those of a Medit mesh go into a file beside it, see sol_files.hpp.)
 [[nodiscard]] bool can_hold_fields(const std::filesystem::path& path);

@@ -26,6 +26,7 @@
 namespace octetra::verify {
 namespace {
 
+using test::check_named;
 using test::codes_of;
 
 const std::vector<Scheme> schemes{Scheme::eight, Scheme::four, Scheme::two};
@@ -206,7 +207,7 @@ TEST(Refinement, MayBeFinerOnOneSideOfACrack) {
 
 /// A lattice slit half through: the edges from the slit's tip to its two sides lie in one place,
 /// too.
-TEST(Refinement, MayHaveACrackWithATip) {
+Mesh lattice_with_slit() {
     Mesh coarse = test::kuhn(2, 2, 2);
     std::map<VertexIndex, VertexIndex> upper;  // of the slit's vertices, those of the cells above
     for (VertexIndex v{0}; v < VertexIndex{27}; ++v) {
@@ -220,10 +221,46 @@ TEST(Refinement, MayHaveACrackWithATip) {
             if (upper.contains(v)) v = upper[v];
         }
     }
+    return coarse;
+}
+
+TEST(Refinement, MayHaveACrackWithATip) {
+    const Mesh coarse = lattice_with_slit();
     for (const Scheme scheme : schemes) {
         const Request request{{.all = true}, scheme, 2};
         const Mesh fine = reference::refine(coarse, request.selection, scheme, 2).mesh;
         EXPECT_EQ(codes_of(test::judged_by_all(coarse, fine, {.request = request})), "");
+    }
+}
+
+TEST(Refinement, OfACrackedMeshIsFoundFromGeometryHoweverItIsNumbered) {
+    const Mesh coarse = lattice_with_slit();
+    const Request request{{.spheres = {{{0, 0, 1.2}, 1}}}, Scheme::eight, 2};
+    const Mesh fine = reference::refine(coarse, request.selection, request.scheme, 2).mesh;
+    for (const std::uint64_t seed : {1U, 2U, 3U}) {
+        const Mesh other = renumbered(fine, seed);
+        EXPECT_EQ(codes_of(test::judged_by_all(coarse, other, {.request = request})), "");
+        Mesh closed = other;  // a vertex of one side taken for one of the other
+        std::map<Point, VertexIndex> first;
+        for (CellVertices& cell : closed.cells) {
+            for (VertexIndex& v : cell) v = first.try_emplace(closed.points[v], v).first->second;
+        }
+        EXPECT_FALSE(verify_refinement(coarse, closed).valid());
+    }
+}
+
+TEST(Refinement, MayInheritVerticesOfNoCellWithANote) {
+    Mesh coarse = test::kuhn(1, 1, 1);
+    coarse.points.push_back({9, 9, 9});
+    coarse.points.push_back(coarse.points[VertexIndex{0}]);
+    const Request request{{.all = true}, Scheme::eight, 1};
+    const Mesh fine = reference::refine(coarse, request.selection, request.scheme, 1).mesh;
+    for (const Mesh& other : {fine, renumbered(fine, 1), renumbered(fine, 2)}) {
+        const Verdict verdict = test::judged_by_all(coarse, other, {.request = request});
+        EXPECT_EQ(codes_of(verdict), "");
+        EXPECT_EQ(verdict.facts.unused_vertices, 2U);
+        EXPECT_EQ(check_named(verdict, "vertices").note, "2 vertices belong to no cell");
+        EXPECT_EQ(check_named(verdict, "hanging vertices").status, Status::passed);
     }
 }
 

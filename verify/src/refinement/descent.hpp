@@ -41,7 +41,8 @@ struct Descent {
 };
 
 /// Finds every coarse vertex in the fine mesh: by number, if the first vertices of the fine mesh
-/// are the coarse ones, else by place.
+/// are the coarse ones, else by place; and, where several fine vertices lie there, by the cells
+/// that have them.
 std::string find_coarse_vertices(const JudgedMesh& coarse, const JudgedMesh& fine,
                                  const Places& places, Descent& descent, Findings& findings);
 

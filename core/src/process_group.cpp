@@ -5,6 +5,8 @@
 #include <new>
 #include <utility>
 
+#include <fmt/format.h>
+
 #include <octetra/core/error.hpp>
 
 namespace octetra {
@@ -98,6 +100,22 @@ void ProcessGroup::agree(const std::string& failure) const {
     for (const Bytes& one : all) {
         if (one.size() > 1) throw SystemError(text_of(one, 1));
     }
+}
+
+void ProcessGroup::check_same(std::string_view name, const std::string& value) const {
+    Bytes own(value.size());
+    std::memcpy(own.data(), value.data(), value.size());
+    const std::vector<Bytes> all = of_all(std::move(own));
+    for (std::size_t r = 1; r < all.size(); ++r) {
+        check_same_as_first(static_cast<int>(r), name, text_of(all[r], 0), text_of(all[0], 0));
+    }
+}
+
+void ProcessGroup::check_same_as_first(int rank, std::string_view name, std::string_view value,
+                                       std::string_view of_first) {
+    if (value == of_first) return;
+    throw InputError(fmt::format("rank {}: the {} is {}, and {} on rank 0: all ranks pass the same",
+                                 rank, name, value, of_first));
 }
 
 const ProcessGroup& ProcessGroup::alone() {

@@ -1,5 +1,4 @@
 #include <memory>
-#include <optional>
 #include <span>
 #include <string>
 #include <utility>
@@ -41,13 +40,12 @@ py::array of_owners(const Ghosts& ghosts, T od::GhostLayer::Owner::*member) {
 }
 
 py::array ghost_values(const Ghosts& ghosts, const py::object& given) {
-    std::optional<Values> own;
-    convert_on_each(ghosts.processes,
-                    [&] { own = values_for(given, ghosts.layer.own_cell_count, "cells"); });
-    return own->like(without_gil([&] {
-        const auto* bytes = static_cast<const std::byte*>(own->array.data());
-        return ghosts.layer.values(ghosts.processes, std::span(bytes, own->count * own->bytes()),
-                                   own->bytes());
+    const Values own =
+        values_on_each(ghosts.processes, given, ghosts.layer.own_cell_count, "cells");
+    return own.like(without_gil([&] {
+        const auto* bytes = static_cast<const std::byte*>(own.array.data());
+        return ghosts.layer.values(ghosts.processes, std::span(bytes, own.count * own.bytes()),
+                                   own.bytes());
     }));
 }
 

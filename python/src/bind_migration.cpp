@@ -1,5 +1,3 @@
-#include <optional>
-#include <string>
 #include <utility>
 
 #include "bind.hpp"
@@ -9,17 +7,11 @@
 namespace octetra::python {
 namespace {
 
-/// Collective. Values of any type go as bytes, so those of two types would be taken for each other.
+/// Collective.
 py::array moved(const Moved& move, const py::object& given, std::size_t count, const char* what,
                 auto&& bring) {
-    std::optional<Values> values;
-    std::string type;
-    convert_on_each(move.processes, [&] {
-        values = values_for(given, count, what);
-        type = py::str(values->array.dtype()).cast<std::string>();
-    });
-    check_same(move.processes, type, "type of the values");
-    return values->like(without_gil([&] { return bring(values->copy(), values->bytes()); }));
+    const Values values = values_on_each(move.processes, given, count, what);
+    return values.like(without_gil([&] { return bring(values.copy(), values.bytes()); }));
 }
 
 py::array moved_cells(const Moved& move, const py::object& values) {

@@ -1,9 +1,10 @@
 #include <algorithm>
 #include <functional>
-#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
+
+#include <fmt/format.h>
 
 #include <octetra/distributed/exchange.hpp>
 #include <octetra/distributed/index_map.hpp>
@@ -64,12 +65,11 @@ py::array exchanged(const SharedEntities& of, const Values& values, auto&& excha
 }
 
 py::array update_copies(const SharedEntities& of, const py::object& given) {
-    std::optional<Values> values;
-    convert_on_each(of.processes, [&] { values = values_for(given, of.count, "entities"); });
+    const Values values = values_on_each(of.processes, given, of.count, "entities");
     const auto update = [&](const auto& sharing, auto& copy, std::size_t components) {
         od::update_copies(of.processes, sharing, of.count, copy, components);
     };
-    return exchanged<std::byte>(of, *values, update);
+    return exchanged<std::byte>(of, values, update);
 }
 
 bool is_boolean(const Values& values) { return values.array.dtype().kind() == 'b'; }
@@ -95,26 +95,26 @@ T combined(Operation operation, T a, T b) {
 }
 
 py::array combine(const SharedEntities& of, const py::object& given, const std::string& name) {
-    std::optional<Values> values;
     auto operation = Operation::sum;
-    convert_on_each(of.processes, [&] {
-        values = values_for(given, of.count, "entities");
-        operation = operation_for(*values, name);
-    });
-    if (is_boolean(*values)) {
+    const Values values =
+        values_on_each(of.processes, given, of.count, "entities", [&](const Values& own) {
+            operation = operation_for(own, name);
+            return fmt::format(", combined by '{}'", name);
+        });
+    if (is_boolean(values)) {
         return exchanged<std::uint8_t>(
-            of, *values, [&](const auto& sharing, auto& copy, std::size_t components) {
+            of, values, [&](const auto& sharing, auto& copy, std::size_t components) {
                 od::combine_everywhere(of.processes, sharing, of.count, copy, std::logical_or<>{},
                                        components);
             });
     }
-    return with_number_type(values->array, [&]<class T>(T) {
+    return with_number_type(values.array, [&]<class T>(T) {
         const auto combine_all = [&](const auto& sharing, auto& copy, std::size_t components) {
             od::combine_everywhere(
                 of.processes, sharing, of.count, copy,
                 [=](T a, T b) { return combined(operation, a, b); }, components);
         };
-        return exchanged<T>(of, *values, combine_all);
+        return exchanged<T>(of, values, combine_all);
     });
 }
 

@@ -1,12 +1,10 @@
 #include "collective.hpp"
 
-#include <algorithm>
 #include <cstdint>
 #include <cstring>
 #include <memory>
 #include <new>
 #include <string>
-#include <vector>
 
 #include <fmt/format.h>
 #include <mpi.h>
@@ -100,17 +98,7 @@ std::filesystem::path common_path(const distributed::Communicator& processes,
 
 void check_same(const distributed::Communicator& processes, const std::string& own,
                 const char* what) {
-    without_gil([&] {
-        std::vector<char> of_first;
-        processes.on_each([&] { of_first.assign(own.begin(), own.end()); });
-        processes.broadcast(of_first);
-        processes.on_each([&] {
-            if (std::ranges::equal(of_first, own)) return;
-            throw InputError(fmt::format(
-                "rank {}: the {} is {}, and {} on rank 0: all ranks pass the same",
-                processes.rank(), what, own, std::string(of_first.begin(), of_first.end())));
-        });
-    });
+    without_gil([&] { processes.check_same(what, own); });
 }
 
 }  // namespace octetra::python

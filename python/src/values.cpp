@@ -1,6 +1,10 @@
 #include "values.hpp"
 
+#include <optional>
+
 #include <fmt/format.h>
+
+#include "collective.hpp"
 
 namespace octetra::python {
 
@@ -25,6 +29,24 @@ Values values_for(const py::handle& given, std::size_t wanted, const std::string
         components *= static_cast<std::size_t>(array.shape(k));
     }
     return {array, wanted, components};
+}
+
+Values values_on_each(const distributed::Communicator& processes, const py::handle& given,
+                      std::size_t wanted, const std::string& entities,
+                      const std::function<std::string(const Values&)>& way) {
+    std::optional<Values> values;
+    std::string type;
+    convert_on_each(processes, [&] {
+        values = values_for(given, wanted, entities);
+        type = py::str(values->array.dtype()).cast<std::string>();
+        for (py::ssize_t k = 1; k < values->array.ndim(); ++k) {
+            type += fmt::format("{}{}", k == 1 ? " of shape (n, " : ", ", values->array.shape(k));
+        }
+        if (values->array.ndim() > 1) type += ")";
+        if (way) type += way(*values);
+    });
+    check_same(processes, type, "type of the values");
+    return *std::move(values);
 }
 
 }  // namespace octetra::python

@@ -3,6 +3,7 @@
 #include <complex>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <string>
 #include <utility>
@@ -12,6 +13,7 @@
 #include <pybind11/numpy.h>
 
 #include <octetra/core/error.hpp>
+#include <octetra/distributed/communicator.hpp>
 
 #include "arrays.hpp"
 
@@ -48,6 +50,14 @@ struct Values {
 /// Throws InputError unless there are values for `wanted` of these entities, not Python's objects.
 [[nodiscard]] Values values_for(const py::handle& given, std::size_t wanted,
                                 const std::string& entities);
+
+/// Collective. The same where all ranks pass values of one type and shape, but for the number of
+/// entities, in one `way`; throws InputError on all ranks else. Values go as bytes, and those of
+/// two types would be taken for each other.
+[[nodiscard]] Values values_on_each(const distributed::Communicator& processes,
+                                    const py::handle& given, std::size_t wanted,
+                                    const std::string& entities,
+                                    const std::function<std::string(const Values&)>& way = {});
 
 /// Calls work(T()) with T the type of the numbers: float64, float32, int32 or int64. Throws
 /// InputError for others. The types of fields in files.

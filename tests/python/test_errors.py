@@ -117,6 +117,51 @@ def test_values_of_two_types_do_not_move(mesh, moves):
     assert len(move.cells(np.ones(before))) == cells_of(mesh)
 
 
+# The last rank passes another kind of values, or another argument, than the others.
+DIFFERENT = {
+    "values of another type": lambda m: m.vertex_sharing.update_copies(
+        np.ones(len(m.points), wrong_here(np.int64, float))),
+    "values of another shape": lambda m: m.vertex_sharing.update_copies(
+        np.ones((len(m.points), 3) if last else len(m.points))),
+    "values of another shape to combine": lambda m: m.vertex_sharing.combine(
+        np.ones((len(m.points), 3) if last else len(m.points))),
+    "values of another type to combine": lambda m: m.vertex_sharing.combine(
+        np.ones(len(m.points), wrong_here(np.float32, float))),
+    "another operation": lambda m: m.vertex_sharing.combine(
+        np.ones(len(m.points)), wrong_here("max", "sum")),
+    "values of ghosts of another shape": lambda m: m.ghosts().values(
+        np.ones((cells_of(m), 3) if last else cells_of(m))),
+    "values of ghosts of another type": lambda m: m.ghosts().values(
+        np.ones(cells_of(m), wrong_here(np.int64, float))),
+    "other ghosts": lambda m: m.ghosts(wrong_here("vertex", "face")),
+    "another partition": lambda m: octetra.read(
+        "cube.mesh", partition=wrong_here("block", "rcb")),
+    "another angle": lambda m: m.verify(min_dihedral=wrong_here(1.0, None)),
+    "another speed": lambda m: m.verify(fast=wrong_here(True, False)),
+}
+
+
+@pytest.mark.skipif(world.size == 1, reason="there is no other rank")
+@pytest.mark.parametrize("case", DIFFERENT)
+def test_an_argument_that_differs_on_one_rank_is_refused_alike_on_all(mesh, case):
+    with pytest.raises(octetra.InputError, match=f"^rank {world.size - 1}: the .* on rank 0") as raised:
+        DIFFERENT[case](mesh)
+    said = world.allgather(str(raised.value))
+    assert said == [said[0]] * world.size
+    assert mesh.verify()
+
+
+def test_an_intercommunicator_is_refused():
+    if world.size == 1:
+        pytest.skip("it joins two groups")
+    half = world.Split(world.rank % 2)
+    both = half.Create_intercomm(0, world, 1 - world.rank % 2)
+    with pytest.raises(octetra.InputError, match="^an intercommunicator joins two groups"):
+        octetra.read("cube.mesh", both)
+    both.Free()
+    half.Free()
+
+
 PATHS = {
     "read": lambda m, path: octetra.read(path),
     "load": lambda m, path: octetra.load(path),

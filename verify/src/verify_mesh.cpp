@@ -1,9 +1,11 @@
 #include <octetra/verify/verify.hpp>
 
 #include "measures/angles.hpp"
+
 #include "measures/sums.hpp"
 #include "mesh/checks.hpp"
 #include "parts/mesh_part.hpp"
+#include "same_options.hpp"
 
 namespace octetra::verify {
 namespace {
@@ -62,6 +64,7 @@ Verdict verify_mesh(const Mesh& mesh, const VerifyOptions& options) {
 }
 
 Verdict verify_mesh(MeshSlice mesh, const ProcessGroup& group, const VerifyOptions& options) {
+    check_same_options(group, options);
     Findings findings(options.kept_per_code, group, options.progress);
     if (!findings.run("numbers in range",
                       [&] { return check_slice_ranges(mesh, Which::fine, findings); })) {

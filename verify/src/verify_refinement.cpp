@@ -5,11 +5,13 @@
 #include <utility>
 
 #include "judge_refinement.hpp"
+
 #include "measures/angles.hpp"
 #include "measures/sums.hpp"
 #include "mesh/checks.hpp"
 #include "parts/mesh_part.hpp"
 #include "refinement/checks.hpp"
+#include "same_options.hpp"
 
 namespace octetra::verify {
 namespace {
@@ -257,6 +259,7 @@ Verdict verify_refinement(const Mesh& coarse, const Mesh& fine, const VerifyOpti
 
 Verdict verify_refinement(MeshSlice coarse, MeshSlice fine, const ProcessGroup& group,
                           const VerifyOptions& options) {
+    check_same_options(group, options);
     Findings findings(options.kept_per_code, group, options.progress);
     const auto in_range = [&](const MeshSlice& slice, Which which) {
         return findings.run(name_of_range_check(which),

@@ -14,6 +14,7 @@
 #include "checkpoint/load_fields.hpp"
 #include "checkpoint/save.hpp"
 #include "comm/local_failure.hpp"
+#include "comm/same_arguments.hpp"
 #include "history/cut_marks.hpp"
 #include "history/cut_roots.hpp"
 #include "history/steps_of.hpp"
@@ -107,7 +108,7 @@ AdaptiveMesh AdaptiveMesh::load(const Communicator& processes, const std::filesy
     LocalFailure failure;
     std::unique_ptr<CheckpointReader> file;
     failure.attempt([&] { file = std::make_unique<CheckpointReader>(path); });
-    failure.agree(processes);
+    agree_on_same(processes, failure, "partition", [&] { return text_of(partition); });
     LoadedPart part = load_part(processes, *file, path, partition);
     auto state = naming(path, [&] {
         auto made = std::make_unique<State>(distribute_parts(processes, std::move(part.input)));

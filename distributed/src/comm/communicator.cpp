@@ -8,6 +8,7 @@
 #include <cstdlib>
 #include <memory>
 
+#include <octetra/core/error.hpp>
 #include <octetra/distributed/mpi.hpp>
 
 #include "comm/all_or_none.hpp"
@@ -139,6 +140,14 @@ void Communicator::gather_everywhere(std::span<const std::byte> bytes, std::span
 }
 
 Communicator communicator_of(MPI_Comm comm) {
+    if (comm == MPI_COMM_NULL) throw InputError("MPI_COMM_NULL has no processes");
+    int is_intercommunicator = 0;
+    MPI_Comm_test_inter(comm, &is_intercommunicator);
+    if (is_intercommunicator != 0) {
+        throw InputError(
+            "an intercommunicator joins two groups of processes, and a mesh needs one: "
+            "MPI_Intercomm_merge makes one of them");
+    }
     return Communicator(std::make_shared<const Communicator::Mpi>(comm));
 }
 

@@ -1,7 +1,6 @@
 #include <octetra/distributed/migration.hpp>
 
 #include <algorithm>
-#include <array>
 #include <cstring>
 
 #include <fmt/format.h>
@@ -9,6 +8,7 @@
 #include <octetra/core/error.hpp>
 
 #include "comm/local_failure.hpp"
+#include "comm/value_kinds.hpp"
 #include "migrate/exchange_entities.hpp"
 
 namespace octetra::distributed {
@@ -37,23 +37,6 @@ void check(const Communicator& processes, std::span<const std::uint64_t> begin, 
     check(processes, values, begin.back());
 }
 
-/// Collective. Processes that moved values of different sizes would take each other's for their
-/// own.
-void check_alike(const Communicator& processes, std::uint64_t size, LocalFailure& failure) {
-    constexpr std::uint64_t complement = LocalFailure::somewhere - 1;
-    std::array<std::uint64_t, 2> extremes{size, complement - size};
-    if (failure.found()) extremes.fill(LocalFailure::somewhere);
-    processes.max(std::span(extremes));
-    if (extremes[0] == LocalFailure::somewhere) failure.agree(processes);
-    const std::uint64_t most = extremes[0];
-    const std::uint64_t least = complement - extremes[1];
-    if (most == least) return;
-    throw InputError(fmt::format(
-        "values of {} bytes are moved on one rank, and of {} on another: all ranks move values of "
-        "one type, and as many components of it",
-        least, most));
-}
-
 void copy(std::byte* to, const std::byte* from, std::size_t size) {
     if (size > 0) std::memcpy(to, from, size);
 }
@@ -67,29 +50,30 @@ void sum_up(std::vector<std::uint64_t>& lengths) {
 
 }  // namespace
 
-void Migration::check_values(const Entities& entities, std::size_t count, std::size_t components,
-                             std::size_t size) const {
+void Migration::check_values(const Entities& entities, std::size_t count,
+                             const detail::ValueKind& kind) const {
     if (!knows_counts_) return;
     LocalFailure failure;
-    failure.attempt([&] { check(processes_, count, entities.count_before * components); });
-    check_alike(processes_, size, failure);
+    failure.attempt([&] { check(processes_, count, entities.count_before * kind.components); });
+    agree_on_kind(processes_, failure, kind);
 }
 
 void Migration::check_lists(const Entities& entities, std::span<const std::uint64_t> begin,
-                            std::size_t count, std::size_t size) const {
+                            std::size_t count, const detail::ValueKind& kind) const {
     if (!knows_counts_) return;
     LocalFailure failure;
     failure.attempt([&] { check(processes_, begin, count, entities.count_before); });
-    check_alike(processes_, size, failure);
+    agree_on_kind(processes_, failure, kind);
 }
 
 void Migration::move_values(const Entities& entities, std::span<const std::byte> values,
-                            std::size_t components, std::size_t size,
-                            const Allocate& allocate) const {
+                            const detail::ValueKind& kind, const Allocate& allocate) const {
+    const std::size_t size = kind.entry_size();
     LocalFailure failure;
-    const std::size_t count = size == 0 ? values.size() : values.size() / (size / components);
-    failure.attempt([&] { check(processes_, count, entities.count_before * components); });
-    check_alike(processes_, size, failure);
+    failure.attempt([&] {
+        check(processes_, values.size() / kind.size, entities.count_before * kind.components);
+    });
+    agree_on_kind(processes_, failure, kind);
     const auto pack = [&](const std::vector<std::uint32_t>& sent) {
         MessageBytes message(sent.size() * size);
         for (std::size_t k = 0; k < sent.size(); ++k) {
@@ -101,6 +85,8 @@ void Migration::move_values(const Entities& entities, std::span<const std::byte>
         std::byte* const after = allocate(entities.count_after);
         for (std::size_t p = 0; p < messages.size(); ++p) {
             const auto& received = entities.messages[p].received;
+            check_message_size(processes_, partners_[p], messages[p].size(),
+                               received.size() * size);
             for (std::size_t k = 0; k < received.size(); ++k) {
                 if (received[k] == repeated) continue;
                 copy(after + received[k] * size, messages[p].data() + k * size, size);
@@ -111,12 +97,13 @@ void Migration::move_values(const Entities& entities, std::span<const std::byte>
 }
 
 void Migration::move_lists(const Entities& entities, std::span<const std::uint64_t> begin,
-                           std::span<const std::byte> values, std::size_t size,
+                           std::span<const std::byte> values, const detail::ValueKind& kind,
                            std::vector<std::uint64_t>& begin_after,
                            const Allocate& allocate) const {
+    const std::size_t size = kind.size;
     LocalFailure failure;
     failure.attempt([&] { check(processes_, begin, values.size() / size, entities.count_before); });
-    check_alike(processes_, size, failure);
+    agree_on_kind(processes_, failure, kind);
     // Of each entity the length of its list, and then all lists.
     const auto pack = [&](const std::vector<std::uint32_t>& sent) {
         std::size_t length = sent.size() * sizeof(std::uint64_t);
@@ -138,10 +125,18 @@ void Migration::move_lists(const Entities& entities, std::span<const std::uint64
         copy(reinterpret_cast<std::byte*>(&count), message.data() + k * sizeof count, sizeof count);
         return count;
     };
+    const auto expected_size = [&](const MessageBytes& message, std::size_t list_count) {
+        std::size_t bytes = list_count * sizeof(std::uint64_t);
+        if (message.size() < bytes) return bytes;
+        for (std::size_t k = 0; k < list_count; ++k) bytes += length_at(message, k) * size;
+        return bytes;
+    };
     const auto take = [&](const std::vector<MessageBytes>& messages) {
         begin_after.assign(entities.count_after, 0);
         for (std::size_t p = 0; p < messages.size(); ++p) {
             const auto& received = entities.messages[p].received;
+            check_message_size(processes_, partners_[p], messages[p].size(),
+                               expected_size(messages[p], received.size()));
             for (std::size_t k = 0; k < received.size(); ++k) {
                 if (received[k] != repeated) begin_after[received[k]] = length_at(messages[p], k);
             }

@@ -203,6 +203,18 @@ Partition parse_partition(const std::string& text) {
         "partition takes lepp, dual, rcb, block, random:SEED or file:PATH, not '{}'", text));
 }
 
+std::string text_of(const Partition& partition) {
+    switch (partition.method) {
+        case PartitionMethod::rcb: return "rcb";
+        case PartitionMethod::lepp: return "lepp";
+        case PartitionMethod::dual: return "dual";
+        case PartitionMethod::block: return "block";
+        case PartitionMethod::random: return fmt::format("random:{}", partition.seed);
+        case PartitionMethod::file: return fmt::format("file:{}", partition.path.native());
+    }
+    return {};
+}
+
 std::vector<int> partition_cells(const Mesh& mesh, int parts, const Partition& partition,
                                  const std::vector<float>& weights) {
     const std::size_t cells = mesh.cells.size();

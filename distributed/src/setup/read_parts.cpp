@@ -10,6 +10,7 @@
 #include <octetra/distributed/profile.hpp>
 
 #include "comm/local_failure.hpp"
+#include "comm/same_arguments.hpp"
 #include "setup/distribute_stretch.hpp"
 
 namespace octetra::distributed {
@@ -108,6 +109,8 @@ DistributedMesh read_on_first(const Communicator& processes, const std::filesyst
 
 DistributedMesh read_parts(const Communicator& processes, const std::filesystem::path& path,
                            const Partition& partition, const ReadPartsOptions& options) {
+    LocalFailure none;
+    agree_on_same(processes, none, "partition", [&] { return text_of(partition); });
     if (processes.size() > 1 && works_by_stretches(partition.method) && !options.read.only_syntax) {
         auto mesh = read_together(processes, path, partition.method, options);
         if (mesh) return std::move(*mesh);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <string>
 
 #include <fmt/format.h>
 
@@ -9,6 +10,8 @@
 #include <octetra/core/vertex_buckets.hpp>
 
 #include "comm/local_failure.hpp"
+#include "comm/same_arguments.hpp"
+#include "comm/value_kinds.hpp"
 
 namespace octetra::distributed {
 namespace {
@@ -141,7 +144,8 @@ GhostLayer find_ghosts(const DistributedMesh& mesh, const CanonicalNumbers& numb
             }
         }
     });
-    failure.agree(processes);
+    agree_on_same(processes, failure, "argument by",
+                  [&] { return std::string(by == GhostsBy::face ? "face" : "vertex"); });
     failure.attempt([&] {
         take(mesh, numbers, processes.exchange_with(ranks, outboxes), with_regions, layer);
     });
@@ -150,18 +154,20 @@ GhostLayer find_ghosts(const DistributedMesh& mesh, const CanonicalNumbers& numb
 }
 
 void GhostLayer::exchange(const Communicator& processes, std::span<const std::byte> own,
-                          std::size_t value_size, std::size_t components,
-                          std::span<std::byte> ghosts) const {
-    const std::size_t entry_size = value_size * components;
+                          const detail::ValueKind& kind,
+                          const std::function<std::byte*()>& allocate) const {
+    const std::size_t entry_size = kind.entry_size();
+    std::byte* ghosts = nullptr;
     std::vector<int> ranks;
     std::vector<std::vector<std::byte>> outboxes;
     LocalFailure failure;
     failure.attempt([&] {
         if (own.size() != own_cell_count * entry_size) {
             throw InputError(fmt::format("rank {}: {} values for cells, and {} are needed",
-                                         processes.rank(), own.size() / value_size,
-                                         own_cell_count * components));
+                                         processes.rank(), own.size() / kind.size,
+                                         own_cell_count * kind.components));
         }
+        ghosts = allocate();
         for (const Exchange& with : exchanges) {
             ranks.push_back(with.rank);
             auto& outbox = outboxes.emplace_back(with.sent.size() * entry_size);
@@ -171,13 +177,14 @@ void GhostLayer::exchange(const Communicator& processes, std::span<const std::by
             }
         }
     });
-    failure.agree(processes);
-    failure.attempt([&] { outboxes = processes.exchange_with(ranks, outboxes); });
-    failure.agree(processes);
-    std::size_t offset = 0;
-    for (const auto& inbox : outboxes) {
-        if (!inbox.empty()) std::memcpy(ghosts.data() + offset, inbox.data(), inbox.size());
-        offset += inbox.size();
+    agree_on_kind(processes, failure, kind);
+    std::vector<std::vector<std::byte>> inboxes;
+    failure.attempt([&] { inboxes = processes.exchange_with(ranks, outboxes); });
+    agree_on_sizes(processes, failure, ranks, inboxes,
+                   [&](std::size_t n) { return exchanges[n].received * entry_size; });
+    for (const auto& inbox : inboxes) {
+        if (!inbox.empty()) std::memcpy(ghosts, inbox.data(), inbox.size());
+        ghosts += inbox.size();
     }
 }
 

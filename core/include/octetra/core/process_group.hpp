@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <functional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace octetra {
@@ -53,6 +54,14 @@ public:
     /// Throws a SystemError on all processes if one of them has met a failure, "" being none: that
     /// of the lowest rank which has.
     void agree(const std::string& failure) const;
+
+    /// Throws InputError on all processes, in the same words, unless all pass the same `value` of
+    /// the argument called `name`.
+    virtual void check_same(std::string_view name, const std::string& value) const;
+    /// For those who implement it. Not collective: throws InputError unless `value`, which process
+    /// `rank` passes, is that of the first process.
+    static void check_same_as_first(int rank, std::string_view name, std::string_view value,
+                                    std::string_view of_first);
 
     /// For what one process does on its own.
     [[nodiscard]] static const ProcessGroup& alone();

@@ -113,7 +113,8 @@ public:
     /// than its part at any time, unless the partition is of another method than rcb. Into
     /// `fields`, null on all processes or on none, come those that were saved with it.
     ///
-    /// Throws InputError where the file is damaged or no checkpoint, on all processes alike.
+    /// Throws InputError where the file is damaged or no checkpoint, or processes pass different
+    /// partitions, on all processes alike.
     [[nodiscard]] static AdaptiveMesh load(
         const Communicator& processes, const std::filesystem::path& path,
         const Partition& partition = {.method = PartitionMethod::rcb},
@@ -270,7 +271,8 @@ public:
     /// mesh, sharers and owners.
     [[nodiscard]] MeshEdges number_edges() const;
     [[nodiscard]] MeshFaces number_faces() const;
-    /// Collective. A layer of other processes' cells around this one's.
+    /// Collective. A layer of other processes' cells around this one's. Throws InputError where
+    /// processes pass a different `by`.
     [[nodiscard]] GhostLayer ghosts(GhostsBy by) const;
 
     /// Collective. The fields of a file of Medit's, `.sol` or `.solb`, with values of this mesh's

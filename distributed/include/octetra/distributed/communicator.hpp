@@ -7,6 +7,7 @@
 #include <memory>
 #include <span>
 #include <string>
+#include <string_view>
 #include <type_traits>
 #include <utility>
 #include <vector>
@@ -52,6 +53,7 @@ public:
         broadcast(bytes);
         return bytes;
     }
+    void check_same(std::string_view name, const std::string& value) const override;
 
     /// Collective. Each number becomes the sum of those at its place on all processes, which have
     /// equally many, fewer than 2^31. Needs no memory.

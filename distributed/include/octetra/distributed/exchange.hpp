@@ -9,6 +9,7 @@
 
 #include <octetra/distributed/communicator.hpp>
 #include <octetra/distributed/sharing.hpp>
+#include <octetra/distributed/value_kind.hpp>
 
 /// Values on shared entities, brought from process to process. `values` has `components` values for
 /// each of this process's entities of the kind (vertices, say), by local number.
@@ -20,11 +21,13 @@ namespace detail {
 struct ValueExchange {
     std::size_t neighbour_count = 0;
     std::function<int(std::size_t n)> rank;
-    std::function<std::size_t(std::size_t n)> bytes_sent;
+    std::function<std::size_t(std::size_t n)> entities_sent;
+    std::function<std::size_t(std::size_t n)> entities_received;
     std::function<void(std::size_t n, std::byte* message)> pack;
     std::function<void(std::size_t n, const std::byte* message)> unpack;
-    std::size_t value_count = 0;  ///< that there are, and that are needed
-    std::size_t value_count_needed = 0;
+    std::size_t value_count = 0;
+    std::size_t entity_count = 0;
+    ValueKind kind;
 };
 
 /// Collective. Throws alike on all processes, before anything is unpacked.
@@ -34,7 +37,7 @@ void exchange_values(const Communicator& processes, const ValueExchange& exchang
 template <class I, class T>
 void exchange_shared(const Communicator& processes, const Sharing<I>& sharing,
                      std::vector<I> SharedWith<I>::*sent, std::vector<I> SharedWith<I>::*received,
-                     std::size_t entity_count, std::span<T> values, std::size_t components,
+                     std::size_t entity_count, std::span<T> values, const ValueKind& kind,
                      auto take) {
     static_assert(std::is_trivially_copyable_v<T>);
     // The functions refer to this alone: then they take no memory, for want of which one process
@@ -46,15 +49,14 @@ void exchange_shared(const Communicator& processes, const Sharing<I>& sharing,
         std::span<T> values;
         std::size_t components;
         decltype(take) take_value;
-    } all{sharing.neighbours(), sent, received, values, components, take};
+    } all{sharing.neighbours(), sent, received, values, kind.components, take};
     exchange_values(
         processes,
         {.neighbour_count = all.neighbours.size(),
          .rank = [&all](std::size_t n) { return all.neighbours[n].rank; },
-         .bytes_sent =
-             [&all](std::size_t n) {
-                 return (all.neighbours[n].*all.sent).size() * all.components * sizeof(T);
-             },
+         .entities_sent = [&all](std::size_t n) { return (all.neighbours[n].*all.sent).size(); },
+         .entities_received =
+             [&all](std::size_t n) { return (all.neighbours[n].*all.received).size(); },
          .pack =
              [&all](std::size_t n, std::byte* message) {
                  const std::size_t entry_size = all.components * sizeof(T);
@@ -75,7 +77,8 @@ void exchange_shared(const Communicator& processes, const Sharing<I>& sharing,
                  }
              },
          .value_count = values.size(),
-         .value_count_needed = entity_count * components});
+         .entity_count = entity_count,
+         .kind = kind});
 }
 
 }  // namespace detail
@@ -83,12 +86,13 @@ void exchange_shared(const Communicator& processes, const Sharing<I>& sharing,
 /// Collective. Every copy of an entity's values gets those of its owner.
 ///
 /// Throws InputError on all processes if `values` of one has not `components` values for each of
-/// its `entity_count` entities; nothing has been changed then.
+/// its `entity_count` entities, or if two processes pass different kinds of values: another T,
+/// another number of components, other entities. Nothing has been changed then.
 template <class I, class T>
 void update_copies(const Communicator& processes, const Sharing<I>& sharing,
                    std::size_t entity_count, std::span<T> values, std::size_t components = 1) {
     detail::exchange_shared(processes, sharing, &SharedWith<I>::owned, &SharedWith<I>::received,
-                            entity_count, values, components,
+                            entity_count, values, detail::kind_of<T, I>(components),
                             [](T& value, const T& come) { value = come; });
 }
 
@@ -99,8 +103,10 @@ template <class I, class T, class Operation>
 void combine_at_owner(const Communicator& processes, const Sharing<I>& sharing,
                       std::size_t entity_count, std::span<T> values, Operation operation,
                       std::size_t components = 1) {
+    detail::ValueKind kind = detail::kind_of<T, I>(components);
+    kind.operation = &typeid(Operation);
     detail::exchange_shared(processes, sharing, &SharedWith<I>::received, &SharedWith<I>::owned,
-                            entity_count, values, components,
+                            entity_count, values, kind,
                             [&](T& value, const T& come) { value = operation(value, come); });
 }
 

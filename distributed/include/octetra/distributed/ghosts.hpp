@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <type_traits>
 #include <utility>
@@ -10,6 +11,7 @@
 #include <octetra/core/mesh.hpp>
 #include <octetra/distributed/communicator.hpp>
 #include <octetra/distributed/distributed_mesh.hpp>
+#include <octetra/distributed/value_kind.hpp>
 
 namespace octetra::distributed {
 
@@ -44,14 +46,18 @@ struct GhostLayer {
     std::vector<Exchange> exchanges;
 
     /// Collective. The values of the ghost cells, of `components` values for each of this process's
-    /// cells. Throws InputError on all processes where they do not fit on one.
+    /// cells. Throws InputError on all processes where the values of one do not fit its cells, or
+    /// where two processes pass another T or another number of components.
     template <class T>
     [[nodiscard]] std::vector<T> values(const Communicator& processes, std::span<const T> own,
                                         std::size_t components = 1) const {
         static_assert(std::is_trivially_copyable_v<T>);
-        std::vector<T> ghosts(cells.size() * components);
-        exchange(processes, std::as_bytes(own), sizeof(T), components,
-                 std::as_writable_bytes(std::span(ghosts)));
+        std::vector<T> ghosts;
+        const std::size_t count = cells.size() * components;
+        exchange(processes, std::as_bytes(own), detail::kind_of<T, CellIndex>(components), [&] {
+            ghosts.resize(count);
+            return std::as_writable_bytes(std::span(ghosts)).data();
+        });
         return ghosts;
     }
     template <class T>
@@ -63,9 +69,9 @@ struct GhostLayer {
     std::size_t own_cell_count = 0;
 
 private:
+    /// allocate() makes room for the values of the ghosts; it is called once.
     void exchange(const Communicator& processes, std::span<const std::byte> own,
-                  std::size_t value_size, std::size_t components,
-                  std::span<std::byte> ghosts) const;
+                  const detail::ValueKind& kind, const std::function<std::byte*()>& allocate) const;
 };
 
 }  // namespace octetra::distributed

@@ -9,7 +9,9 @@
 #include <utility>
 #include <vector>
 
+#include <octetra/core/index.hpp>
 #include <octetra/distributed/communicator.hpp>
+#include <octetra/distributed/value_kind.hpp>
 
 namespace octetra::distributed {
 
@@ -27,8 +29,9 @@ struct ValueLists {
 /// brings along what a program has for each. It stays valid whatever becomes of the mesh.
 ///
 /// All processes call its functions, in the same order. They throw alike on all processes:
-/// InputError where values do not fit the mesh as it was, or are of different sizes on two
-/// processes; OutOfMemory if one process has no memory.
+/// InputError where values do not fit the mesh as it was, or two processes pass different kinds of
+/// values: another T, another number of components, lists, values of other entities; OutOfMemory if
+/// one process has no memory.
 class Migration {
 public:
     /// Nothing has moved, of whatever mesh: values stay as they are.
@@ -95,44 +98,53 @@ private:
     using Allocate = std::function<std::byte*(std::size_t)>;
 
     /// Collective. Where nothing has moved.
-    void check_values(const Entities& entities, std::size_t count, std::size_t components,
-                      std::size_t size) const;
+    void check_values(const Entities& entities, std::size_t count,
+                      const detail::ValueKind& kind) const;
     void check_lists(const Entities& entities, std::span<const std::uint64_t> begin,
-                     std::size_t count, std::size_t size) const;
-    /// Collective. Each entity has `components` values of `size` bytes together.
+                     std::size_t count, const detail::ValueKind& kind) const;
+    /// Collective.
     void move_values(const Entities& entities, std::span<const std::byte> values,
-                     std::size_t components, std::size_t size, const Allocate& allocate) const;
-    /// Collective. As ValueLists; a value has `size` bytes.
+                     const detail::ValueKind& kind, const Allocate& allocate) const;
+    /// Collective. As ValueLists.
     void move_lists(const Entities& entities, std::span<const std::uint64_t> begin,
-                    std::span<const std::byte> values, std::size_t size,
+                    std::span<const std::byte> values, const detail::ValueKind& kind,
                     std::vector<std::uint64_t>& begin_after, const Allocate& allocate) const;
+
+    template <class T>
+    [[nodiscard]] detail::ValueKind kind_of(const Entities& entities,
+                                            std::size_t components) const {
+        return &entities == &cells_ ? detail::kind_of<T, CellIndex>(components)
+                                    : detail::kind_of<T, VertexIndex>(components);
+    }
 
     template <class T>
     [[nodiscard]] std::vector<T> moved(const Entities& entities, std::vector<T> values,
                                        std::size_t components) const {
         static_assert(std::is_trivially_copyable_v<T> && !std::is_same_v<T, bool>);
+        const detail::ValueKind kind = kind_of<T>(entities, components);
         if (!changed_) {
-            check_values(entities, values.size(), components, components * sizeof(T));
+            check_values(entities, values.size(), kind);
             return values;
         }
         std::vector<T> after;
-        move_values(entities, std::as_bytes(std::span(values)), components, components * sizeof(T),
-                    [&](std::size_t count) {
-                        after.resize(count * components);
-                        return std::as_writable_bytes(std::span(after)).data();
-                    });
+        move_values(entities, std::as_bytes(std::span(values)), kind, [&](std::size_t count) {
+            after.resize(count * components);
+            return std::as_writable_bytes(std::span(after)).data();
+        });
         return after;
     }
     template <class T>
     [[nodiscard]] ValueLists<T> moved(const Entities& entities, ValueLists<T> lists) const {
         static_assert(std::is_trivially_copyable_v<T> && !std::is_same_v<T, bool>);
+        detail::ValueKind kind = kind_of<T>(entities, 1);
+        kind.are_lists = true;
         if (!changed_) {
-            check_lists(entities, lists.begin, lists.values.size(), sizeof(T));
+            check_lists(entities, lists.begin, lists.values.size(), kind);
             return lists;
         }
         ValueLists<T> after{.begin = {}, .values = {}};  // which takes no memory yet
-        move_lists(entities, lists.begin, std::as_bytes(std::span(lists.values)), sizeof(T),
-                   after.begin, [&](std::size_t count) {
+        move_lists(entities, lists.begin, std::as_bytes(std::span(lists.values)), kind, after.begin,
+                   [&](std::size_t count) {
                        after.values.resize(count);
                        return std::as_writable_bytes(std::span(after.values)).data();
                    });

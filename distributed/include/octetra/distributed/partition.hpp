@@ -34,6 +34,8 @@ struct Partition {
 
 /// "rcb", "lepp", "dual", "block", "random:SEED" or "file:PATH". Throws InputError.
 [[nodiscard]] Partition parse_partition(const std::string& text);
+/// The other way.
+[[nodiscard]] std::string text_of(const Partition& partition);
 
 /// The part, 0 to parts-1, of each cell; parts may be empty. By lepp, dual and rcb, parts are
 /// about equal in the sum of their cells' weights, such as predicted_cells() finds, as far as no

@@ -29,8 +29,8 @@ struct ReadPartsOptions {
 /// read so, the first process reads all of it and shares it out. Such files are those with
 /// something to refuse or, as options may ask, to mend, and in the Medit format those with entities
 /// that do not have a line each. The words of an error are read_mesh()'s, on all processes;
-/// `ReadOptions::note` is called on the first. Throws OutOfMemory where a process has no memory for
-/// what it is to read.
+/// `ReadOptions::note` is called on the first. Throws InputError where processes pass different
+/// partitions, and OutOfMemory where a process has no memory for what it is to read.
 [[nodiscard]] DistributedMesh read_parts(const Communicator& processes,
                                          const std::filesystem::path& path,
                                          const Partition& partition,

@@ -58,7 +58,8 @@ struct VerifyOptions {
 /// Collective in the group. The same of a mesh that no process need have all of: each judges what
 /// lies in a part of space. The verdict is the same but for `seconds` and `arithmetic`, as what
 /// lies between two parts is looked at by both; whole on the first process, without violations on
-/// the others. Takes the memory of about a part and what surrounds it, in every process.
+/// the others. Takes the memory of about a part and what surrounds it, in every process. Throws
+/// InputError on all processes where two pass different options.
 [[nodiscard]] Verdict verify_mesh(MeshSlice mesh, const ProcessGroup& group,
                                   const VerifyOptions& options = {});
 

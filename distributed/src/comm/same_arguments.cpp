@@ -1,0 +1,43 @@
+#include "comm/same_arguments.hpp"
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+namespace octetra::distributed {
+namespace {
+
+/// Collective. The values differ; throws InputError.
+void throw_difference(const Communicator& processes, std::string_view name,
+                      const std::string& own) {
+    std::vector<char> of_first;
+    processes.on_each([&] { of_first.assign(own.begin(), own.end()); });
+    processes.broadcast(of_first);
+    processes.on_each([&] {
+        ProcessGroup::check_same_as_first(processes.rank(), name, own,
+                                          {of_first.data(), of_first.size()});
+    });
+}
+
+}  // namespace
+
+void Communicator::check_same(std::string_view name, const std::string& value) const {
+    LocalFailure none;
+    agree_on_same(*this, none, name, [&] { return value; });
+}
+
+void agree_on_same(const Communicator& processes, LocalFailure& failure, std::string_view name,
+                   const std::function<std::string()>& value) {
+    std::string own;
+    failure.attempt([&] { own = value(); });
+    // All hashes are equal if the greatest is the least, which is found as the greatest complement.
+    constexpr std::uint64_t greatest = LocalFailure::somewhere - 1;
+    const std::uint64_t hash = std::hash<std::string>()(own) / 2;
+    std::array<std::uint64_t, 2> extremes{hash, greatest - hash};
+    if (failure.found()) extremes.fill(LocalFailure::somewhere);
+    processes.max(std::span(extremes));
+    if (extremes[0] == LocalFailure::somewhere) failure.agree(processes);
+    if (extremes[0] != greatest - extremes[1]) throw_difference(processes, name, own);
+}
+
+}  // namespace octetra::distributed

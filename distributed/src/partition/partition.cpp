@@ -79,8 +79,12 @@ std::vector<int> partition_graph(CellGraph graph, int parts) {
     static_assert(sizeof(idx_t) == sizeof(std::int32_t));
     std::vector<int> node_to_part(graph.node_weights.size());
     const int status = run_metis(graph, parts, node_to_part);
-    // Neither wrong input nor a want of memory, which have their own: METIS has met a SIGTERM.
-    if (status == METIS_ERROR) std::raise(SIGTERM);
+    // Wrong input and a lack of memory have a status of their own. METIS takes a SIGTERM of the
+    // process for an error of its own, and keeps it.
+    if (status == METIS_ERROR) {
+        throw SystemError(
+            "METIS could not partition the mesh: it has met an error, or the process a SIGTERM");
+    }
     if (status != METIS_OK) throw SystemError("METIS could not partition the mesh");
     std::vector<int> cell_to_part(graph.cell_to_node.size());
     for (std::size_t c = 0; c < cell_to_part.size(); ++c) {

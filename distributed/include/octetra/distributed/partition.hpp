@@ -41,7 +41,9 @@ struct Partition {
 /// about equal in the sum of their cells' weights, such as predicted_cells() finds, as far as no
 /// single cell outweighs a part; without weights, in their number. Not collective: one process
 /// decides. Throws InputError where a part file does not fit the mesh, METIS cannot count so many
-/// cells, or there are weights but not one for each cell, positive and finite.
+/// cells, or there are weights but not one for each cell, positive and finite; SystemError where
+/// METIS fails. METIS takes a SIGTERM that comes while it works for a failure: it ends in the
+/// SystemError, and no other handler gets it.
 [[nodiscard]] std::vector<int> partition_cells(const Mesh& mesh, int parts,
                                                const Partition& partition,
                                                const std::vector<float>& weights = {});

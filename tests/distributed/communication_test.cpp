@@ -4,8 +4,10 @@
 #include <vector>
 
 #include <gtest/gtest.h>
+#include <mpi.h>
 
 #include <octetra/core/files/mesh_files.hpp>
+#include <octetra/distributed/mpi.hpp>
 #include <octetra/distributed/partition.hpp>
 #include <octetra/distributed/profile.hpp>
 #include <octetra/distributed/read_parts.hpp>
@@ -216,6 +218,36 @@ TEST(Communication, OfReadingAFileOfOneCellDoesNotGrowWithTheProcesses) {
         const std::uint64_t here = test::mpi_counts().messages - before.messages;
         EXPECT_LE(test::world().sum(here), 40U) << name;
     }
+}
+
+TEST(DuplicateOfACommunicator, IsUsedAgainOnceNoProcessUsesItAnyMore) {
+    const Communicator& world = test::world();
+    if (world.size() == 1) GTEST_SKIP() << "one process needs none";
+    Communicator first = communicator_of(MPI_COMM_WORLD);
+    const MPI_Comm used = comm_of(first);
+    if (world.rank() == world.size() - 1) first = Communicator();  // sooner than the others
+    Communicator second = communicator_of(MPI_COMM_WORLD);
+    EXPECT_NE(comm_of(second), used);
+    first = Communicator();
+    second = Communicator();
+    MPI_Comm same_processes = MPI_COMM_NULL;
+    MPI_Comm_split(MPI_COMM_WORLD, 0, world.rank(), &same_processes);
+    const Communicator third = communicator_of(same_processes);
+    MPI_Comm_free(&same_processes);
+    EXPECT_EQ(comm_of(third), used);
+    EXPECT_EQ(third.sum(std::uint64_t{1}), static_cast<std::uint64_t>(world.size()));
+}
+
+TEST(DuplicateOfACommunicator, IsNotUsedForTheSameProcessesInAnotherOrder) {
+    const Communicator& world = test::world();
+    if (world.size() == 1) GTEST_SKIP() << "one process has no order";
+    (void)communicator_of(MPI_COMM_WORLD);
+    MPI_Comm backwards = MPI_COMM_NULL;
+    MPI_Comm_split(MPI_COMM_WORLD, 0, -world.rank(), &backwards);
+    const Communicator reversed = communicator_of(backwards);
+    MPI_Comm_free(&backwards);
+    EXPECT_EQ(reversed.rank(), world.size() - 1 - world.rank());
+    EXPECT_EQ(reversed.of_rank(0, world.rank()), world.size() - 1);
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include <array>
 #include <cstdlib>
 #include <memory>
+#include <new>
 
 #include <octetra/core/error.hpp>
 #include <octetra/distributed/mpi.hpp>
@@ -35,8 +36,7 @@ std::uint64_t reduced(std::uint64_t number, MPI_Op operation, MPI_Comm comm, Pro
 }  // namespace
 
 Communicator::Communicator() = default;
-Communicator::Communicator(std::shared_ptr<const Mpi> mpi)
-    : mpi_(mpi->size == 1 ? nullptr : std::move(mpi)) {}
+Communicator::Communicator(std::shared_ptr<const Mpi> mpi) : mpi_(std::move(mpi)) {}
 
 int Communicator::rank() const { return mpi_ ? mpi_->rank : 0; }
 int Communicator::size() const { return mpi_ ? mpi_->size : 1; }
@@ -148,7 +148,16 @@ Communicator communicator_of(MPI_Comm comm) {
             "an intercommunicator joins two groups of processes, and a mesh needs one: "
             "MPI_Intercomm_merge makes one of them");
     }
-    return Communicator(std::make_shared<const Communicator::Mpi>(comm));
+    int size = 0;
+    MPI_Comm_size(comm, &size);
+    if (size == 1) return {};
+    std::shared_ptr<Communicator::Mpi> group;
+    try {
+        group = std::make_shared<Communicator::Mpi>(comm);
+    } catch (const std::bad_alloc&) {  // is thrown below, on all processes
+    }
+    if (!Communicator::Mpi::give_duplicate(comm, group.get())) throw std::bad_alloc();
+    return Communicator(std::move(group));
 }
 
 MPI_Comm comm_of(const Communicator& processes) {

@@ -24,19 +24,28 @@ struct SentCell {
     Marker region = 0;
 };
 
+/// A cell is seen once, also where it has several entities in common with a neighbour.
+void add_once(std::vector<CellIndex>& sent, CellIndex c) {
+    if (sent.empty() || sent.back() != c) sent.push_back(c);
+}
+
 /// The cells that each neighbour sees, ascending.
 std::vector<GhostLayer::Exchange> seen_by_vertex(const DistributedMesh& mesh,
                                                  const Sharing<VertexIndex>& sharing) {
     std::vector<GhostLayer::Exchange> exchanges;
-    std::vector<std::uint8_t> is_shared(mesh.points.size());
+    std::vector<std::size_t> exchange_of_rank(static_cast<std::size_t>(mesh.processes.size()));
     for (const SharedWith<VertexIndex>& with : sharing.neighbours()) {
-        std::ranges::fill(is_shared, std::uint8_t{0});
-        for (const VertexIndex v : with.entities) is_shared[v.value()] = 1;
-        auto& exchange = exchanges.emplace_back();
-        exchange.rank = with.rank;
-        for (CellIndex c{0}; c < mesh.cells.end_index(); ++c) {
-            const auto shared = [&](VertexIndex v) { return is_shared[v.value()] != 0; };
-            if (std::ranges::any_of(mesh.cells[c], shared)) exchange.sent.push_back(c);
+        exchange_of_rank[static_cast<std::size_t>(with.rank)] = exchanges.size();
+        exchanges.push_back({.rank = with.rank, .sent = {}});
+    }
+    std::vector<std::uint8_t> is_shared(mesh.points.size());
+    for (const VertexIndex v : sharing.shared()) is_shared[v.value()] = 1;
+    for (CellIndex c{0}; c < mesh.cells.end_index(); ++c) {
+        for (const VertexIndex v : mesh.cells[c]) {
+            if (is_shared[v.value()] == 0) continue;
+            for (const int rank : sharing.sharers(v)) {
+                add_once(exchanges[exchange_of_rank[static_cast<std::size_t>(rank)]].sent, c);
+            }
         }
     }
     return exchanges;
@@ -60,8 +69,7 @@ std::vector<GhostLayer::Exchange> seen_by_face(const DistributedMesh& mesh) {
         const CellVertices& cell = mesh.cells[c];
         for (const auto& [i, j, k] : cell_faces) {
             shared.find({cell[i], cell[j], cell[k]}, [&](FacetIndex face) {
-                auto& sent = exchanges[exchange_of_face[face.value()]].sent;
-                if (sent.empty() || sent.back() != c) sent.push_back(c);
+                add_once(exchanges[exchange_of_face[face.value()]].sent, c);
             });
         }
     }

@@ -7,6 +7,7 @@
 #include <mpi.h>
 
 #include <octetra/core/files/mesh_files.hpp>
+#include <octetra/core/mesh_stretch.hpp>
 #include <octetra/distributed/mpi.hpp>
 #include <octetra/distributed/partition.hpp>
 #include <octetra/distributed/profile.hpp>
@@ -218,6 +219,30 @@ TEST(Communication, OfReadingAFileOfOneCellDoesNotGrowWithTheProcesses) {
         const std::uint64_t here = test::mpi_counts().messages - before.messages;
         EXPECT_LE(test::world().sum(here), 40U) << name;
     }
+}
+
+/// The blocks of nodes and of elements are found one after the other, by one process for all.
+TEST(Communication, OfReadingBlocksOfGmshTakesNoMoreCallsOfAllWithMoreProcesses) {
+    const Communicator& world = test::world();
+    if (world.size() < 3) GTEST_SKIP() << "there are no two groups";
+    const test::SharedFolder folder;
+    const std::filesystem::path file = folder / "m.msh";
+    world.on_first([&] { (void)write_mesh(test::shaken_kuhn(3, 0.2, 1), file); });
+    const auto calls_of_all = [&](const Communicator& group) {
+        const test::MpiCounts before = test::mpi_counts();
+        EXPECT_TRUE(read_stretch(file, group).has_value());
+        return test::mpi_counts().collectives - before.collectives;
+    };
+    const bool is_in_pair = world.rank() < 2;
+    MPI_Comm part = MPI_COMM_NULL;
+    MPI_Comm_split(comm_of(world), is_in_pair ? 0 : MPI_UNDEFINED, world.rank(), &part);
+    std::uint64_t in_pair = 0;
+    if (is_in_pair) {
+        in_pair = calls_of_all(communicator_of(part));
+        MPI_Comm_free(&part);
+    }
+    const std::uint64_t in_world = calls_of_all(world);
+    if (is_in_pair) EXPECT_EQ(in_world, in_pair);
 }
 
 TEST(DuplicateOfACommunicator, IsUsedAgainOnceNoProcessUsesItAnyMore) {

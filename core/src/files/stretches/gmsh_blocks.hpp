@@ -3,14 +3,16 @@
 #include <algorithm>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <stdexcept>
+#include <vector>
 
 #include "files/stretches/progress.hpp"
 #include "files/stretches/shares.hpp"
 
 /// Sections that are made of blocks, each behind a head that says how many rows it has: so a block
-/// is found from the one before. Processes share out the rows, and tell the next where its first
-/// ones are. None keeps heads: there may be as many as rows.
+/// is found from the one before. The first process reads the heads and finds where the rows of each
+/// process begin. None keeps heads: there may be as many as rows.
 namespace octetra::gmsh {
 
 /// A place between two blocks.
@@ -34,27 +36,32 @@ struct BlockShare {
     BlockStart end;
 };
 
-/// Collective. `read_head(at)` gives a ReadBlock. `begin` is the same on all processes.
-[[nodiscard]] inline BlockShare share_blocks(Progress& progress, const RowShare& mine,
-                                             BlockStart begin, auto&& read_head) {
-    const ProcessGroup& group = progress.group();
-    BlockShare share;
-    const auto find_end_of_mine = [&] {
-        while (begin.blocks_left > 0) {
-            const BlockStart next = read_head(begin).next;
-            if (next.first_row > mine.first + mine.count) break;
-            begin = next;
+/// Collective. Of a section of so many rows. `read_head(at)` gives a ReadBlock; the first process
+/// reads each head once, and all others receive where they begin. `begin` is the same on all
+/// processes. Nothing, on all processes, if something has failed.
+[[nodiscard]] inline std::optional<BlockShare> share_blocks(Progress& progress,
+                                                            std::uint64_t row_count,
+                                                            BlockStart begin, auto&& read_head) {
+    const int size = progress.group().size();
+    std::vector<BlockStart> starts;  // of each process, and where the section ends
+    progress.attempt([&] {
+        starts.resize(static_cast<std::size_t>(size) + 1);
+        if (!progress.group().is_first()) return;
+        std::optional<BlockStart> next;
+        for (int rank = 0; rank <= size; ++rank) {
+            const std::uint64_t row = share_of_rows(row_count, rank, size).first;
+            while (begin.blocks_left > 0) {
+                if (!next) next = read_head(begin).next;
+                if (next->first_row > row) break;
+                begin = *next;
+                next.reset();
+            }
+            starts[static_cast<std::size_t>(rank)] = begin;
         }
-    };
-    for (int rank = 0; rank < group.size(); ++rank) {
-        if (rank == group.rank()) {
-            share.own = begin;
-            progress.attempt(find_end_of_mine);
-        }
-        begin = of_rank(group, rank, begin);
-    }
-    share.end = begin;
-    return share;
+    });
+    if (!take_from_first(progress, std::span(starts))) return std::nullopt;
+    const auto own = static_cast<std::size_t>(progress.group().rank());
+    return BlockShare{starts[own], starts.back()};
 }
 
 /// Reads a process's rows: `read_rows(block, first, count)` is called for those of each block, the

@@ -134,12 +134,11 @@ private:
 
     bool read_nodes_by_blocks() {
         BlockStart begin;
-        RowShare mine;
         progress_->attempt([&] {
             const SectionTotals totals = read_node_totals_4(*in_);
             begin = {in_->here(), 0, totals.blocks};
             node_count_ = totals.entries;
-            mine = take_node_share();
+            take_node_share();
         });
         constexpr std::uint64_t tag_step = Input::row_step(NodeBlock::tag_bytes);
         const auto point_step = [](const NodeBlock& block) {
@@ -162,7 +161,7 @@ private:
             read_node_points_4(*in_, of.block, count, intake_);
             in_->end_rows();
         };
-        return read_shared_blocks(begin, mine, read_head, read_rows) && nodes_complete();
+        return read_shared_blocks(begin, node_count_, read_head, read_rows) && nodes_complete();
     }
 
     RowShare take_node_share() {
@@ -220,7 +219,7 @@ private:
             read_element_rows_4(*in_, of.block, rows, intake_);
             in_->end_rows();
         };
-        return read_shared_blocks(begin, share_of_rows(count, group()), read_head, read_rows);
+        return read_shared_blocks(begin, count, read_head, read_rows);
     }
 
     /// Of a text file of version 2.
@@ -268,7 +267,7 @@ private:
             in_->go_to(of.rows + first * row_bytes(of.block));
             elements.read_rows(of.block, rows);
         };
-        return read_shared_blocks(begin, share_of_rows(count, group()), read_head, read_rows);
+        return read_shared_blocks(begin, count, read_head, read_rows);
     }
 
     template <class I, std::size_t N>
@@ -286,14 +285,15 @@ private:
         return true;
     }
 
-    /// A section of blocks, of whose rows `mine` are this process's.
-    bool read_shared_blocks(const BlockStart& begin, const RowShare& mine, auto&& read_head,
+    /// A section of blocks with so many rows, of which this process reads its share.
+    bool read_shared_blocks(const BlockStart& begin, std::uint64_t row_count, auto&& read_head,
                             auto&& read_rows) {
         if (!progress_->all_well()) return false;
-        const BlockShare share = share_blocks(*progress_, mine, begin, read_head);
+        const auto share = share_blocks(*progress_, row_count, begin, read_head);
+        if (!share) return false;
         progress_->attempt([&] {
-            read_blocks(mine, share.own, read_head, read_rows);
-            in_->go_to(share.end.place);
+            read_blocks(share_of_rows(row_count, group()), share->own, read_head, read_rows);
+            in_->go_to(share->end.place);
         });
         return progress_->all_well();
     }

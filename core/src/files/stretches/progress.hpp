@@ -1,11 +1,9 @@
 #pragma once
 
-#include <array>
-#include <bit>
-#include <cstdint>
 #include <cstring>
 #include <exception>
 #include <new>
+#include <span>
 #include <type_traits>
 #include <utility>
 #include <vector>
@@ -50,30 +48,24 @@ private:
     std::exception_ptr no_memory_;
 };
 
-/// Collective. Gives all what the first process has, bit by bit. False, on all processes, if
-/// something has failed.
+/// Collective. Gives all processes the values of the first one, as many as each has, bit by bit.
+/// False, on all processes, if something has failed.
 template <class T>
-[[nodiscard]] bool take_from_first(Progress& progress, T& value) {
+[[nodiscard]] bool take_from_first(Progress& progress, std::span<T> values) {
     static_assert(std::is_trivially_copyable_v<T>);
     ProcessGroup::Bytes bytes;
     progress.attempt([&] {
-        bytes.resize(sizeof value);
-        std::memcpy(bytes.data(), &value, sizeof value);
+        bytes.resize(values.size_bytes());
+        std::memcpy(bytes.data(), values.data(), bytes.size());
     });
     if (!progress.all_well()) return false;
     bytes = progress.group().of_first(std::move(bytes));
-    std::memcpy(&value, bytes.data(), sizeof value);
+    std::memcpy(values.data(), bytes.data(), values.size_bytes());
     return true;
 }
-
-/// Collective. What the process `rank` has, bit by bit, whole words.
 template <class T>
-[[nodiscard]] T of_rank(const ProcessGroup& group, int rank, const T& value) {
-    static_assert(std::is_trivially_copyable_v<T> && sizeof(T) % sizeof(std::uint64_t) == 0);
-    std::array<std::uint64_t, sizeof(T) / sizeof(std::uint64_t)> words{};
-    if (group.rank() == rank) std::memcpy(words.data(), &value, sizeof value);
-    for (std::uint64_t& word : words) word = group.sum(word);
-    return std::bit_cast<T>(words);
+[[nodiscard]] bool take_from_first(Progress& progress, T& value) {
+    return take_from_first(progress, std::span(&value, 1));
 }
 
 /// Collective. What each process has, bit by bit, in their order. Of no use unless all_well().

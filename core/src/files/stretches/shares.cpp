@@ -42,12 +42,16 @@ FileStretch share_of_lines(const std::filesystem::path& path, const FileStretch&
 }
 
 RowShare share_of_rows(std::uint64_t count, const ProcessGroup& group) {
-    const auto processes = static_cast<std::uint64_t>(group.size());
-    const auto begin = [&](int rank) {
-        const auto r = static_cast<std::uint64_t>(rank);
-        return count / processes * r + std::min(count % processes, r);
+    return share_of_rows(count, group.rank(), group.size());
+}
+
+RowShare share_of_rows(std::uint64_t count, int rank, int processes) {
+    const auto size = static_cast<std::uint64_t>(processes);
+    const auto begin = [&](int r) {
+        const auto shares = static_cast<std::uint64_t>(r);
+        return count / size * shares + std::min(count % size, shares);
     };
-    return {begin(group.rank()), begin(group.rank() + 1) - begin(group.rank())};
+    return {begin(rank), begin(rank + 1) - begin(rank)};
 }
 
 }  // namespace octetra

@@ -3,6 +3,7 @@
 #include <utility>
 #include <vector>
 
+#include <octetra/core/standard_arithmetic.hpp>
 #include <octetra/quality/mesh_statistics.hpp>
 #include <octetra/quality/shape.hpp>
 
@@ -18,6 +19,7 @@ py::array of_cells(const Mesh& mesh, T (*measure)(const Corners&)) {
     const auto points = mesh.now().points();
     std::vector<T> all;
     all.reserve(mesh.cell_count());
+    const StandardArithmetic standard;
     for (const CellVertices& cell : mesh.now().cells()) {
         Corners corners;
         for (std::size_t k = 0; k < 4; ++k) corners[k] = points[cell[k].value()];

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <map>
 
+#include <octetra/core/standard_arithmetic.hpp>
 #include <octetra/quality/shape.hpp>
 
 #include "cell_sides.hpp"
@@ -207,6 +208,7 @@ void average(const EntityCounts& counts, Adjacency& adjacency) {
 }  // namespace
 
 MeshStatistics measure(const Mesh& mesh) {
+    const StandardArithmetic standard;
     MeshStatistics out;
     Adjacency adjacency;
     out.counts.vertices = mesh.points.size();

@@ -1,5 +1,6 @@
 #include <algorithm>
 
+#include <octetra/core/standard_arithmetic.hpp>
 #include <octetra/reference/history.hpp>
 
 #include "bisect.hpp"
@@ -80,6 +81,7 @@ History without(const History& history, const VertexSet& kept) {
 }  // namespace
 
 History coarsened(const History& history, const CellMarks& may_go) {
+    const StandardArithmetic standard;
     const std::vector<Refinement> meshes = replay(history);
     std::vector<Step> steps;
     for (std::size_t t = 0; t < history.steps.size(); ++t) {

@@ -1,10 +1,13 @@
 #include "mark_edges.hpp"
 
+#include <octetra/core/standard_arithmetic.hpp>
+
 #include "closure.hpp"
 
 namespace octetra::reference {
 
 CellMarks marked_cells(const Refinement& refined, const Selection& selection) {
+    const StandardArithmetic standard;
     const Mesh& mesh = refined.mesh;
     CellMarks marks(mesh.cells.size(), false);
     for (CellIndex c{0}; c < mesh.cells.end_index(); ++c) {

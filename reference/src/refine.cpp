@@ -1,5 +1,7 @@
 #include <octetra/reference/history.hpp>
 
+#include <octetra/core/standard_arithmetic.hpp>
+
 #include "bisect.hpp"
 #include "mark_edges.hpp"
 
@@ -7,6 +9,7 @@ namespace octetra::reference {
 
 Refinement refine(const Mesh& mesh, const Selection& selection, Scheme scheme, int levels,
                   std::size_t max_cells) {
+    const StandardArithmetic standard;
     Refinement result = unrefined(mesh);
     for (int level = 1; level <= levels; ++level) {
         const auto edges = edges_to_bisect(result.mesh, marked_cells(result, selection), scheme);
@@ -16,6 +19,7 @@ Refinement refine(const Mesh& mesh, const Selection& selection, Scheme scheme, i
 }
 
 std::vector<Refinement> replay(const History& history, std::size_t max_cells) {
+    const StandardArithmetic standard;
     std::vector<Refinement> meshes{unrefined(history.input)};
     for (const auto& edges : history.steps) {
         const auto level = static_cast<int>(meshes.size());
@@ -25,6 +29,7 @@ std::vector<Refinement> replay(const History& history, std::size_t max_cells) {
 }
 
 History refined(const History& history, const CellMarks& marked, Scheme scheme) {
+    const StandardArithmetic standard;
     const auto edges = edges_to_bisect(replay(history).back().mesh, marked, scheme);
     History longer = history;
     if (!edges.empty()) longer.steps.push_back(edges);

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <initializer_list>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -13,6 +14,8 @@
 #include <octetra/quality/shape.hpp>
 
 #include "compensated_sum.hpp"
+#include "support/hostile_arithmetic.hpp"
+#include "support/meshes.hpp"
 
 namespace octetra::quality {
 namespace {
@@ -440,6 +443,17 @@ TEST(Measure, WithoutTagsAndMarkersThereAreNoTotals) {
     EXPECT_THAT(s.regions, IsEmpty());
     EXPECT_THAT(s.facet_markers, IsEmpty());
     EXPECT_THAT(s.edge_markers, IsEmpty());
+}
+
+TEST(Measure, IsTheSameInAnyFloatingPointEnvironment) {
+    Mesh mesh = test::shaken_kuhn(2, 0.2, 1);
+    mesh.points[VertexIndex{0}].x = 1e-310;
+    const auto work = [&] {
+        const MeshStatistics s = measure(mesh);
+        return std::tuple(s.counts, s.volume, s.edge_length, s.cell_volume, s.dihedral_angle,
+                          s.face_angle, s.eta->mean, s.bounding_box->low.x);
+    };
+    EXPECT_TRUE(test::in_hostile_arithmetic(work) == work());
 }
 
 }  // namespace

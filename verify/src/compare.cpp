@@ -11,6 +11,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <octetra/core/standard_arithmetic.hpp>
+
 namespace octetra::verify {
 namespace {
 
@@ -254,6 +256,7 @@ bool have_zeros_same_signs(const Mesh& a, const Mesh& b) {
 }  // namespace
 
 Comparison compare(const Mesh& a, const Mesh& b, std::size_t kept) {
+    const StandardArithmetic standard;
     Comparison result;
     const bool same_lists = whole_numbers_of(a) == whole_numbers_of(b) && are_reals_equal(a, b);
     const bool same_zeros = same_lists && have_zeros_same_signs(a, b);

@@ -5,7 +5,10 @@
 
 #include <fmt/format.h>
 
+#include <octetra/core/standard_arithmetic.hpp>
+
 #include "coarsening/checks.hpp"
+
 #include "judge_refinement.hpp"
 
 namespace octetra::verify {
@@ -41,6 +44,7 @@ void judge_remainder(const Mesh& input, const StepCuts& steps, const CoarseningR
 Verdict verify_coarsening(const Mesh& input, const StepCuts& steps,
                           const CoarseningRequest& request, const Mesh& after,
                           const VerifyOptions& options) {
+    const StandardArithmetic standard;
     Findings findings(options.kept_per_code, ProcessGroup::alone(), options.progress);
     VerifyOptions of_refinement = options;
     of_refinement.request.reset();

@@ -1,5 +1,7 @@
 #include <octetra/verify/verify.hpp>
 
+#include <octetra/core/standard_arithmetic.hpp>
+
 #include "measures/angles.hpp"
 
 #include "measures/sums.hpp"
@@ -53,6 +55,7 @@ void judge(JudgedMesh& judged, const VerifyOptions& options, Findings& findings)
 }  // namespace
 
 Verdict verify_mesh(const Mesh& mesh, const VerifyOptions& options) {
+    const StandardArithmetic standard;
     Findings findings(options.kept_per_code, ProcessGroup::alone(), options.progress);
     JudgedMesh judged = judged_whole(mesh, Which::fine);
     if (findings.run("numbers in range", [&] {
@@ -64,6 +67,7 @@ Verdict verify_mesh(const Mesh& mesh, const VerifyOptions& options) {
 }
 
 Verdict verify_mesh(MeshSlice mesh, const ProcessGroup& group, const VerifyOptions& options) {
+    const StandardArithmetic standard;
     check_same_options(group, options);
     Findings findings(options.kept_per_code, group, options.progress);
     if (!findings.run("numbers in range",

@@ -4,6 +4,8 @@
 #include <optional>
 #include <utility>
 
+#include <octetra/core/standard_arithmetic.hpp>
+
 #include "judge_refinement.hpp"
 
 #include "measures/angles.hpp"
@@ -252,6 +254,7 @@ bool judge_refinement(const Mesh& coarse, const Mesh& fine, const VerifyOptions&
 }
 
 Verdict verify_refinement(const Mesh& coarse, const Mesh& fine, const VerifyOptions& options) {
+    const StandardArithmetic standard;
     Findings findings(options.kept_per_code, ProcessGroup::alone(), options.progress);
     (void)judge_refinement(coarse, fine, options, findings);
     return findings.finish();
@@ -259,6 +262,7 @@ Verdict verify_refinement(const Mesh& coarse, const Mesh& fine, const VerifyOpti
 
 Verdict verify_refinement(MeshSlice coarse, MeshSlice fine, const ProcessGroup& group,
                           const VerifyOptions& options) {
+    const StandardArithmetic standard;
     check_same_options(group, options);
     Findings findings(options.kept_per_code, group, options.progress);
     const auto in_range = [&](const MeshSlice& slice, Which which) {

@@ -13,6 +13,7 @@
 #include <octetra/core/files/checkpoint.hpp>
 #include <octetra/core/files/places.hpp>
 #include <octetra/core/files/sol_files.hpp>
+#include <octetra/core/standard_arithmetic.hpp>
 
 #include "files/gmsh/gmsh.hpp"
 #include "files/medit/medit.hpp"
@@ -74,6 +75,7 @@ std::string_view hint_at_case(const fs::path& path) {
 }  // namespace
 
 Mesh read_mesh(const fs::path& path, const ReadOptions& options) {
+    const StandardArithmetic standard;
     const Format format = format_of(path);
     if (format == Format::tetgen) return read_tetgen(path, options);
     if (format == Format::medit) return read_medit(path, options);
@@ -83,6 +85,7 @@ Mesh read_mesh(const fs::path& path, const ReadOptions& options) {
 }
 
 void stream_mesh(const fs::path& path, MeshSink& sink, const ReadOptions& options) {
+    const StandardArithmetic standard;
     const ReadOptions as_it_stands{.only_syntax = true, .note = options.note};
     const Format format = format_of(path);
     if (format == Format::tetgen) return stream_tetgen(path, sink, as_it_stands);
@@ -175,10 +178,12 @@ std::string write_lists(MeshSource& mesh, const fs::path& path, const WriteOptio
 }  // namespace
 
 std::string write_mesh(MeshSource& mesh, const fs::path& path, const WriteOptions& options) {
+    const StandardArithmetic standard;
     return all_lost(write_lists(mesh, path, options), mesh, path);
 }
 
 std::string write_mesh(const Mesh& mesh, const fs::path& path, const WriteOptions& options) {
+    const StandardArithmetic standard;
     WholeMesh source(mesh);
     return write_mesh(source, path, options);
 }
@@ -199,6 +204,7 @@ bool can_hold_fields(const fs::path& path) {
 bool is_in_pieces(const fs::path& path) { return format_of(path) == Format::pvtu; }
 
 std::string write_pieces(MeshSource& piece, const ProcessGroup& group, const fs::path& path) {
+    const StandardArithmetic standard;
     group.on_first([&] { check_writable(path, group.size()); });
     return all_lost(write_pvtu(piece, group, path), piece, path);
 }

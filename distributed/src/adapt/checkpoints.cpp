@@ -6,6 +6,7 @@
 
 #include <octetra/core/checkpoint_blocks.hpp>
 #include <octetra/core/error.hpp>
+#include <octetra/core/standard_arithmetic.hpp>
 #include <octetra/distributed/adaptive_mesh.hpp>
 #include <octetra/distributed/profile.hpp>
 
@@ -82,6 +83,7 @@ auto naming(const std::filesystem::path& path, auto&& work) {
 
 void AdaptiveMesh::save(const std::filesystem::path& path, std::span<const Field> fields,
                         const std::optional<SavedState>& state) const {
+    const StandardArithmetic standard;
     LocalFailure failure;
     DistributedMesh& mesh = state_->mesh;
     std::unique_ptr<CanonicalOrder> order;
@@ -105,6 +107,7 @@ void AdaptiveMesh::save(const std::filesystem::path& path, std::span<const Field
 
 AdaptiveMesh AdaptiveMesh::load(const Communicator& processes, const std::filesystem::path& path,
                                 const Partition& partition, std::vector<Field>* fields) {
+    const StandardArithmetic standard;
     LocalFailure failure;
     std::unique_ptr<CheckpointReader> file;
     failure.attempt([&] { file = std::make_unique<CheckpointReader>(path); });

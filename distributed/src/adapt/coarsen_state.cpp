@@ -2,6 +2,7 @@
 #include <optional>
 #include <utility>
 
+#include <octetra/core/standard_arithmetic.hpp>
 #include <octetra/distributed/profile.hpp>
 
 #include "adapt/mesh_state.hpp"
@@ -79,6 +80,7 @@ struct Lists {
 
 Adaptation coarsen_state(AdaptiveMesh::State& state, const std::function<MarkedCells()>& mark,
                          const Tuning& tuning) {
+    const StandardArithmetic standard;
     DistributedMesh& mesh = state.mesh;
     const Communicator& processes = mesh.processes;
     const Phase phase(processes, "coarsen");

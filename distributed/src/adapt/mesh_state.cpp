@@ -5,6 +5,7 @@
 #include <vector>
 
 #include <octetra/core/huge_pages.hpp>
+#include <octetra/core/standard_arithmetic.hpp>
 #include <octetra/distributed/profile.hpp>
 
 #include "adapt/step_options.hpp"
@@ -79,13 +80,24 @@ RefineOptions level_options(const StepOptions& options) {
             .on_level = {}};
 }
 
-AdaptiveMesh::State::State(DistributedMesh part)
-    : mesh(std::move(part)),
-      numbers(input_numbers(mesh)),
-      sharing(in_phase(mesh.processes, "sharers", [&] { return find_vertex_sharing(mesh); })) {}
+std::unique_ptr<AdaptiveMesh::State> AdaptiveMesh::State::make(DistributedMesh part) {
+    const Communicator processes = part.processes;
+    std::unique_ptr<State> state;
+    LocalFailure failure;
+    failure.attempt([&] {
+        state = std::make_unique<State>();
+        state->mesh = std::move(part);
+        state->numbers = input_numbers(state->mesh);
+    });
+    failure.agree(processes);
+    state->sharing =
+        in_phase(processes, "sharers", [&] { return find_vertex_sharing(state->mesh); });
+    return state;
+}
 
 Adaptation AdaptiveMesh::State::refine(const std::function<MarkedCells()>& mark,
                                        const StepOptions& options, const Tuning& tuning) {
+    const StandardArithmetic standard;
     check_same(mesh.processes, options);
     const RefineOptions refine_options = level_options(options);
     const int level = step_count + 1;

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include <octetra/core/error.hpp>
+#include <octetra/core/standard_arithmetic.hpp>
 #include <octetra/distributed/profile.hpp>
 
 #include "adapt/even_roots.hpp"
@@ -165,6 +166,7 @@ std::optional<AdaptiveMesh::State> state_of(DistributedMesh& mesh) {
 }
 
 Migration migrate_state(AdaptiveMesh::State& state, std::span<const int> rank_of_root) {
+    const StandardArithmetic standard;
     const Communicator& processes = state.mesh.processes;
     const Phase phase(processes, "migrate");
     LocalFailure failure;
@@ -186,6 +188,7 @@ Migration migrate_state(AdaptiveMesh::State& state, std::span<const int> rank_of
 }
 
 Migration rebalance_state(AdaptiveMesh::State& state, const BalanceOptions& options) {
+    const StandardArithmetic standard;
     const Communicator& processes = state.mesh.processes;
     check_same(processes, options);
     const auto count = static_cast<std::uint64_t>(state.mesh.cells.size());
@@ -214,6 +217,7 @@ Migration rebalance_state(AdaptiveMesh::State& state, const BalanceOptions& opti
 }
 
 Migration recall_history(AdaptiveMesh::State& state) {
+    const StandardArithmetic standard;
     if (state.forgotten.empty()) return unmoved(state.mesh);
     const Phase phase(state.mesh.processes, "recall history");
     const History& before = state.forgotten.back();

@@ -3,6 +3,7 @@
 #include <functional>
 #include <utility>
 
+#include <octetra/core/standard_arithmetic.hpp>
 #include <octetra/distributed/profile.hpp>
 
 #include "adapt/even_level.hpp"
@@ -44,6 +45,7 @@ std::size_t move_and_bisect(DistributedMesh& mesh, UnevenLevel uneven, const Ref
 
 SynchronisationCounts refine(DistributedMesh& mesh, const Selection& selection,
                              const RefineOptions& options, const Tuning& tuning) {
+    const StandardArithmetic standard;
     SynchronisationCounts total;
     if (options.balance) {
         const Phase phase(mesh.processes, "select");

@@ -1,6 +1,7 @@
 #include <memory>
 #include <utility>
 
+#include <octetra/core/standard_arithmetic.hpp>
 #include <octetra/distributed/profile.hpp>
 
 #include "adapt/even_level.hpp"
@@ -12,6 +13,7 @@ namespace octetra::distributed {
 EvenStep refine_state_evenly(AdaptiveMesh::State& state, const std::function<MarkedCells()>& mark,
                              const BalanceOptions& balance, const StepOptions& options,
                              const Tuning& tuning) {
+    const StandardArithmetic standard;
     check_same(state.mesh.processes, options);
     check_same(state.mesh.processes, balance);
     const RefineOptions level_of = level_options(options);

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include <octetra/core/error.hpp>
+#include <octetra/core/standard_arithmetic.hpp>
 
 #include "comm/local_failure.hpp"
 #include "estimate/exact_sum.hpp"
@@ -114,6 +115,7 @@ void mark_from(std::uint64_t threshold, std::span<const double> indicators,
 
 std::vector<std::uint8_t> mark_bulk(const Communicator& processes,
                                     std::span<const double> indicators, double theta) {
+    const StandardArithmetic standard;
     std::vector<std::uint8_t> marks;
     std::vector<std::uint64_t> descending;
     std::optional<RankedSums> sums;
@@ -140,6 +142,7 @@ std::vector<std::uint8_t> mark_bulk(const Communicator& processes,
 
 std::vector<std::uint8_t> mark_maximum(const Communicator& processes,
                                        std::span<const double> indicators, double share) {
+    const StandardArithmetic standard;
     std::vector<std::uint8_t> marks;
     prepare(processes, indicators, {"share", share, 0, "[0, 1]"},
             [&] { marks.resize(indicators.size()); });
@@ -153,6 +156,7 @@ std::vector<std::uint8_t> mark_maximum(const Communicator& processes,
 
 std::vector<std::uint8_t> mark_fraction(const Communicator& processes,
                                         std::span<const double> indicators, double fraction) {
+    const StandardArithmetic standard;
     std::vector<std::uint8_t> marks;
     std::vector<std::uint64_t> descending;
     const Parameter share{"fraction", fraction, std::numeric_limits<double>::denorm_min(),

@@ -16,6 +16,7 @@
 
 #include <octetra/core/error.hpp>
 #include <octetra/core/selection.hpp>
+#include <octetra/core/standard_arithmetic.hpp>
 
 #include "comm/local_failure.hpp"
 #include "partition/cell_graph.hpp"
@@ -221,6 +222,7 @@ std::string text_of(const Partition& partition) {
 
 std::vector<int> partition_cells(const Mesh& mesh, int parts, const Partition& partition,
                                  const std::vector<float>& weights) {
+    const StandardArithmetic standard;
     const std::size_t cells = mesh.cells.size();
     switch (partition.method) {
         case PartitionMethod::lepp:

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <set>
 
+#include <octetra/core/standard_arithmetic.hpp>
 #include <octetra/distributed/partition.hpp>
 
 #include "partition/inner_faces.hpp"
@@ -120,6 +121,7 @@ private:
 
 PartitionStatistics measure_partition(const Mesh& mesh, const std::vector<int>& cell_to_part,
                                       int parts) {
+    const StandardArithmetic standard;
     return Measurement(mesh, cell_to_part, parts).result();
 }
 

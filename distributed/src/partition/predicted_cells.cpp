@@ -7,6 +7,8 @@
 #include <cstdint>
 #include <utility>
 
+#include <octetra/core/standard_arithmetic.hpp>
+
 #include "comm/local_failure.hpp"
 #include "mark/selection_bounds.hpp"
 
@@ -202,6 +204,7 @@ CellsToWeigh cells_to_weigh(const Mesh& mesh) {
 
 std::vector<float> predicted_cells(const CellsToWeigh& cells, const Selection& selection,
                                    Scheme scheme, int levels) {
+    const StandardArithmetic standard;
     if (selection.all || levels < 1) return {};
     LocalFailure failure;
     Prediction prediction(cells, scheme, levels);
@@ -227,6 +230,7 @@ std::vector<float> predicted_cells(const CellsToWeigh& cells, const Selection& s
 
 std::vector<float> predicted_cells(const Mesh& mesh, const Selection& selection, Scheme scheme,
                                    int levels) {
+    const StandardArithmetic standard;
     return predicted_cells(cells_to_weigh(mesh), selection, scheme, levels);
 }
 

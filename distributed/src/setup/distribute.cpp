@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include <octetra/core/error.hpp>
+#include <octetra/core/standard_arithmetic.hpp>
 #include <octetra/core/vertex_buckets.hpp>
 #include <octetra/distributed/distributed_mesh.hpp>
 #include <octetra/distributed/profile.hpp>
@@ -295,6 +296,7 @@ void take_over(Mesh mesh, DistributedMesh& part) {
 
 DistributedMesh distribute(const Communicator& processes, Mesh mesh,
                            const std::vector<int>& cell_to_rank) {
+    const StandardArithmetic standard;
     const Phase phase(processes, "distribute");
     processes.on_first([&] {
         if (processes.size() > 1) check_ranks(mesh, cell_to_rank, processes.size());

@@ -13,6 +13,7 @@
 #include <octetra/core/error.hpp>
 #include <octetra/core/orientation.hpp>
 #include <octetra/core/positive_filter.hpp>
+#include <octetra/core/standard_arithmetic.hpp>
 #include <octetra/core/vertex_buckets.hpp>
 #include <octetra/distributed/mesh_part.hpp>
 #include <octetra/distributed/profile.hpp>
@@ -320,6 +321,7 @@ void take_vertices(const MeshPart& part, const PartVertices& vertices,
 }  // namespace
 
 DistributedMesh distribute_parts(const Communicator& processes, MeshPart part) {
+    const StandardArithmetic standard;
     const Phase phase(processes, "distribute");
     LocalFailure failure;
     failure.attempt([&] { check_sizes(processes, part); });

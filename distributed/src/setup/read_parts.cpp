@@ -7,6 +7,7 @@
 
 #include <octetra/core/error.hpp>
 #include <octetra/core/mesh_stretch.hpp>
+#include <octetra/core/standard_arithmetic.hpp>
 #include <octetra/distributed/profile.hpp>
 
 #include "comm/local_failure.hpp"
@@ -109,6 +110,7 @@ DistributedMesh read_on_first(const Communicator& processes, const std::filesyst
 
 DistributedMesh read_parts(const Communicator& processes, const std::filesystem::path& path,
                            const Partition& partition, const ReadPartsOptions& options) {
+    const StandardArithmetic standard;
     LocalFailure none;
     agree_on_same(processes, none, "partition", [&] { return text_of(partition); });
     if (processes.size() > 1 && works_by_stretches(partition.method) && !options.read.only_syntax) {

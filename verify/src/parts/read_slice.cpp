@@ -7,6 +7,7 @@
 #include <octetra/core/error.hpp>
 #include <octetra/core/files/mesh_files.hpp>
 #include <octetra/core/files/mesh_sink.hpp>
+#include <octetra/core/standard_arithmetic.hpp>
 #include <octetra/verify/mesh_slice.hpp>
 
 #include "parts/exchange.hpp"
@@ -258,6 +259,7 @@ void read_and_hand_on(const std::filesystem::path& path, const ReadOptions& opti
 
 MeshSlice read_slice(const std::filesystem::path& path, const ReadOptions& options,
                      const ProcessGroup& group) {
+    const StandardArithmetic standard;
     Receiver receiver;
     if (group.is_first()) {
         read_and_hand_on(path, options, group, receiver);

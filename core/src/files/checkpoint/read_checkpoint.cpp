@@ -5,6 +5,7 @@
 #include <octetra/core/checkpoint_blocks.hpp>
 #include <octetra/core/error.hpp>
 #include <octetra/core/huge_pages.hpp>
+#include <octetra/core/standard_arithmetic.hpp>
 
 namespace octetra {
 namespace {
@@ -71,6 +72,7 @@ void append_cuts(const CheckpointReader& file, std::vector<std::vector<std::uint
 }  // namespace
 
 Checkpoint read_checkpoint(const std::filesystem::path& path) {
+    const StandardArithmetic standard;
     const CheckpointReader file(path);
     const CheckpointFacts& facts = file.facts();
     if (std::max({facts.vertices, facts.cells, facts.facets, facts.edges}) >= VertexIndex::limit) {

@@ -6,6 +6,7 @@
 
 #include <octetra/core/files/sol_files.hpp>
 #include <octetra/core/sol_fields.hpp>
+#include <octetra/core/standard_arithmetic.hpp>
 
 #include "files/input/byte_reader.hpp"
 #include "files/medit/medit.hpp"
@@ -98,6 +99,7 @@ SolFields read_solb(const std::filesystem::path& path,
 }  // namespace
 
 SolFields read_sol(const std::filesystem::path& path, const std::optional<EntityCounts>& expected) {
+    const StandardArithmetic standard;
     if (path.extension() == ".solb") return read_solb(path, expected);
     return SolTextReader(path, expected).read();
 }

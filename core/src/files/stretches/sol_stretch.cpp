@@ -3,6 +3,7 @@
 #include <utility>
 
 #include <octetra/core/sol_fields.hpp>
+#include <octetra/core/standard_arithmetic.hpp>
 
 #include "files/input/byte_reader.hpp"
 #include "files/input/fields.hpp"
@@ -141,6 +142,7 @@ std::optional<SolFields> read_binary_stretch(const fs::path& path, const EntityC
 
 std::optional<SolFields> read_sol_stretch(const fs::path& path, const EntityCounts& expected,
                                           const ProcessGroup& group) {
+    const StandardArithmetic standard;
     if (path.extension() == ".solb") return read_binary_stretch(path, expected, group);
     return read_text_stretch(path, expected, group);
 }

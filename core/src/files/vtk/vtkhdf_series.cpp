@@ -14,6 +14,7 @@
 
 #include <octetra/core/error.hpp>
 #include <octetra/core/files/places.hpp>
+#include <octetra/core/standard_arithmetic.hpp>
 
 #include "files/hdf5/hdf5_writer.hpp"
 #include "files/input/input_file.hpp"
@@ -300,6 +301,7 @@ MeshSeries::MeshSeries(const fs::path& path, const ProcessGroup& group) {
 MeshSeries::~MeshSeries() = default;
 
 void MeshSeries::append(MeshSource& mesh, double time) {
+    const StandardArithmetic standard;
     Parts& parts = *parts_;
     if (!std::isfinite(time) || (!parts.steps.empty() && !(time > parts.steps.back().time))) {
         throw InputError(
@@ -318,6 +320,7 @@ void MeshSeries::append(MeshSource& mesh, double time) {
 }
 
 std::string MeshSeries::commit() {
+    const StandardArithmetic standard;
     if (parts_->steps.empty()) {
         throw InputError(fmt::format("{}: there is no step to write", parts_->path.native()));
     }

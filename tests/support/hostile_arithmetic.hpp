@@ -1,0 +1,67 @@
+#pragma once
+
+#include <cfenv>
+#ifdef __SSE2__
+#include <xmmintrin.h>
+#endif
+
+#include <gtest/gtest.h>
+
+namespace octetra::test {
+
+/// While an object of this class lives, the floating-point environment is as unlike the default one
+/// as the system lets it be: results are rounded upwards, subnormal numbers are taken for 0, as in
+/// programs that are linked with -ffast-math, and all exceptions trap.
+class HostileArithmetic {
+public:
+    HostileArithmetic() {
+        std::fegetenv(&before_);
+        std::feclearexcept(FE_ALL_EXCEPT);
+        std::fesetround(FE_UPWARD);
+#ifdef __SSE2__
+        _mm_setcsr(_mm_getcsr() | flush_to_zero);
+#endif
+#ifdef __GLIBC__
+        ::feenableexcept(FE_ALL_EXCEPT);
+#endif
+    }
+    ~HostileArithmetic() { std::fesetenv(&before_); }
+    HostileArithmetic(const HostileArithmetic&) = delete;
+    HostileArithmetic& operator=(const HostileArithmetic&) = delete;
+    HostileArithmetic(HostileArithmetic&&) = delete;
+    HostileArithmetic& operator=(HostileArithmetic&&) = delete;
+
+    /// Is the environment still the same?
+    [[nodiscard]] static bool is_in_force() {
+        bool is = std::fegetround() == FE_UPWARD;
+#ifdef __SSE2__
+        is = is && (_mm_getcsr() & flush_to_zero) == flush_to_zero;
+#endif
+#ifdef __GLIBC__
+        const int untrapped = FE_ALL_EXCEPT & ~::fegetexcept();
+        // Some processors cannot trap.
+        is = is && (untrapped == 0 || ::feenableexcept(FE_ALL_EXCEPT) == -1);
+#endif
+        return is;
+    }
+
+private:
+    static constexpr unsigned flush_to_zero = 0x8040;  // of results and of operands
+
+    std::fenv_t before_{};
+};
+
+/// What `work` returns in such an environment, which it must leave as it is.
+auto in_hostile_arithmetic(auto&& work) {
+    bool is_left = false;
+    auto result = [&] {
+        const HostileArithmetic hostile;
+        auto of_work = work();
+        is_left = HostileArithmetic::is_in_force();
+        return of_work;
+    }();
+    EXPECT_TRUE(is_left);
+    return result;
+}
+
+}  // namespace octetra::test

@@ -128,7 +128,10 @@ void bind_from_arrays(py::module_& module) {
         "0 .. n-1, where all ranks pass all points or there is one rank. point_markers: (n,). "
         "point_attributes: (n,) or (n, a). cell_numbers, facet_numbers, edge_numbers: of the whole "
         "mesh, ascending; None on all ranks: the first rank's come first. index_base: what files "
-        "call the first vertex, 0 or 1. A rank without a part passes empty arrays.");
+        "call the first vertex, 0 or 1. A rank without a part passes empty arrays. InputError "
+        "where "
+        "ranks contradict each other, also in points, markers and attributes of a vertex; not "
+        "checked is whether two ranks pass the same cell, which verify() finds.");
 }
 
 }  // namespace octetra::python

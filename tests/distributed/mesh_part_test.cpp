@@ -189,6 +189,14 @@ TEST(MeshPart, ThatIsWrongOnOneProcessIsRefusedOnAllWithTheSameWords) {
     EXPECT_THAT(refused([](MeshPart& p) { std::swap(p.cells[1][2], p.cells[1][3]); }),
                 HasSubstr("cell 1 is inverted"));
     EXPECT_THAT(refused([](MeshPart& p) { p.cells[1][2] = p.cells[1][3]; }), HasSubstr("flat"));
+    EXPECT_THAT(refused([](MeshPart& p) {
+                    p.cells.push_back(p.cells[1]);
+                    std::swap(p.cells.back()[0], p.cells.back()[1]);
+                    std::swap(p.cells.back()[2], p.cells.back()[3]);
+                    p.regions.push_back(0);
+                    p.cell_numbers.push_back(p.cell_numbers.back() + 1);
+                }),
+                HasSubstr("has the vertices of cell 1"));
     EXPECT_THAT(refused([](MeshPart& p) { p.cell_numbers[0] = p.cell_numbers[1]; }),
                 HasSubstr("ascend"));
     EXPECT_THAT(refused([](MeshPart& p) { p.cell_numbers.back() = 1000; }), HasSubstr("too large"));
@@ -218,6 +226,7 @@ TEST(MeshPart, ThatIsWrongOnOneProcessIsRefusedOnAllWithTheSameWords) {
 }
 
 TEST(MeshPart, ThatContradictsAnotherIsRefused) {
+    using testing::AllOf;
     using testing::HasSubstr;
     if (test::world().size() == 1) return;
     // Vertex 0 is on all processes.
@@ -228,6 +237,11 @@ TEST(MeshPart, ThatContradictsAnotherIsRefused) {
                     p.points[static_cast<std::size_t>(place_of_0(p))].x -= 0x1p-40;
                 }),
                 HasSubstr("vertex 0: ranks 0 and"));
+    EXPECT_THAT(refused([&](MeshPart& p) {
+                    const auto place = static_cast<std::size_t>(place_of_0(p));
+                    p.point_attributes[(place + 1) * p.attributes_per_point - 1] += 0.5;
+                }),
+                AllOf(HasSubstr("vertex 0: ranks 0 and"), HasSubstr("different attributes")));
     EXPECT_THAT(refused([&](MeshPart& p) { p.attributes_per_point = 0, p.point_attributes = {}; }),
                 HasSubstr("attributes"));
     for (const auto& spoil : std::vector<std::function<void(GroupName&)>>{

@@ -13,6 +13,7 @@
 #include <octetra/core/error.hpp>
 #include <octetra/core/orientation.hpp>
 #include <octetra/core/positive_filter.hpp>
+#include <octetra/core/repeated_cells.hpp>
 #include <octetra/core/standard_arithmetic.hpp>
 #include <octetra/core/vertex_buckets.hpp>
 #include <octetra/distributed/mesh_part.hpp>
@@ -75,6 +76,17 @@ std::uint64_t hash_of(const std::vector<GroupName>& names) {
             hash = (hash ^ part) * 0x9e3779b97f4a7c15U;
             hash ^= hash >> 32U;
         }
+    }
+    return hash;
+}
+
+/// Of equal attributes of a vertex the same.
+std::uint64_t hash_of_attributes(const MeshPart& part, std::size_t vertex) {
+    std::uint64_t hash = 0;
+    for (std::size_t k = 0; k < part.attributes_per_point; ++k) {
+        const double value = part.point_attributes[vertex * part.attributes_per_point + k];
+        hash = (hash ^ std::bit_cast<std::uint64_t>(value + 0.0)) * 0x9e3779b97f4a7c15U;  // -0 is 0
+        hash ^= hash >> 32U;
     }
     return hash;
 }
@@ -160,6 +172,7 @@ IndexVector<CellIndex, CellVertices> cells_by_place(const Communicator& processe
                                                     const MeshPart& part, PartVertices& vertices) {
     IndexVector<CellIndex, CellVertices> cells;
     cells.reserve(part.cells.size());
+    RepeatedCells repeated(part.cells.size());
     PositiveFilter filter;
     filter.add(part.points);
     for (std::size_t c = 0; c < part.cells.size(); ++c) {
@@ -173,6 +186,12 @@ IndexVector<CellIndex, CellVertices> cells_by_place(const Communicator& processe
         }
         vertices.use(cell);
         cells.push_back(cell);
+        repeated.add(cell);
+    }
+    if (const CellPair pair = repeated.find(cells, vertices.numbers().size());
+        !pair.cell.is_none()) {
+        refuse(processes, "cell {} has the vertices of cell {}", pair.cell.value(),
+               pair.earlier.value());
     }
     return cells;
 }
@@ -356,7 +375,8 @@ DistributedMesh distribute_parts(const Communicator& processes, MeshPart part) {
         [&](std::size_t place) { return part.points[vertices->at(place)]; },
         [&](std::size_t place) {
             return part.point_markers.empty() ? Marker{0} : part.point_markers[vertices->at(place)];
-        });
+        },
+        [&](std::size_t place) { return hash_of_attributes(part, vertices->at(place)); });
     mesh.input_vertex_count = checked.count;
     mesh.input_cell_count = processes.sum(part.cells.size());
     const std::uint64_t first_cell = processes.sum_before(part.cells.size());

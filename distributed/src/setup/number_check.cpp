@@ -16,6 +16,7 @@ struct Listed {
     Point point;
     Marker marker = 0;
     std::uint32_t is_used = 0;
+    std::uint64_t hash_of_attributes = 0;
 };
 
 bool same(const Listed& a, const Listed& b) {
@@ -62,6 +63,9 @@ std::vector<std::vector<std::uint8_t>> answers_to(const std::vector<std::vector<
                 throw InputError(
                     fmt::format("vertex {}: ranks {} and {} have different points or markers",
                                 listed.number, of.first, rank));
+            } else if (of.listed.hash_of_attributes != listed.hash_of_attributes) {
+                throw InputError(fmt::format("vertex {}: ranks {} and {} have different attributes",
+                                             listed.number, of.first, rank));
             }
             of.is_used = of.is_used || listed.is_used != 0;
         }
@@ -83,11 +87,11 @@ std::vector<std::vector<std::uint8_t>> answers_to(const std::vector<std::vector<
 
 }  // namespace
 
-CheckedVertices check_vertices(const Communicator& processes,
-                               const std::vector<std::uint64_t>& numbers,
-                               const std::vector<std::uint8_t>& used,
-                               const std::function<Point(std::size_t)>& point_at,
-                               const std::function<Marker(std::size_t)>& marker_at) {
+CheckedVertices check_vertices(
+    const Communicator& processes, const std::vector<std::uint64_t>& numbers,
+    const std::vector<std::uint8_t>& used, const std::function<Point(std::size_t)>& point_at,
+    const std::function<Marker(std::size_t)>& marker_at,
+    const std::function<std::uint64_t(std::size_t)>& hash_of_attributes_at) {
     // The greatest number must not make anybody ask for memory that no list accounts for.
     const std::uint64_t listed = processes.sum(numbers.size());
     const std::uint64_t greatest = processes.max(numbers.empty() ? 0 : numbers.back());
@@ -104,7 +108,7 @@ CheckedVertices check_vertices(const Communicator& processes,
         outboxes.resize(static_cast<std::size_t>(processes.size()));
         for (std::size_t i = 0; i < numbers.size(); ++i) {
             outboxes[numbers[i] / block.length].push_back(
-                {numbers[i], point_at(i), marker_at(i), used[i]});
+                {numbers[i], point_at(i), marker_at(i), used[i], hash_of_attributes_at(i)});
         }
     });
     failure.agree(processes);

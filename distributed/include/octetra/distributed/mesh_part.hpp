@@ -23,7 +23,7 @@ struct MeshPart {
     std::size_t attributes_per_point = 0;
     std::vector<double> point_attributes;  ///< attributes_per_point for each vertex
 
-    /// Every cell of the whole mesh is on one process.
+    /// Every cell of the whole mesh is on one process, once.
     std::vector<std::array<std::uint64_t, 4>> cells;
     std::vector<Marker> regions;  ///< or empty
     /// Numbers of the cells in the whole mesh, 0 .. n-1 over all processes, ascending on each; or
@@ -48,9 +48,11 @@ struct MeshPart {
 /// Vertices are numbered by ascending global number, without those that only other processes use.
 ///
 /// Throws InputError on all processes where lists do not fit each other, numbers are missing or
-/// there twice, a coordinate is not finite or too large, a cell is flat or inverted, a facet or
-/// edge is of no cell of the process, or processes contradict each other; the message names the
-/// rank. Not checked: whether cells overlap, which verification does.
+/// there twice, a coordinate is not finite or too large, a cell is flat or inverted or has the
+/// vertices of another one of the process, a facet or edge is of no cell of the process, or
+/// processes contradict each other, also in markers and attributes of vertices; the message names
+/// the rank. Not checked: whether two processes have the same cell, or cells overlap, which
+/// verification does.
 [[nodiscard]] DistributedMesh distribute_parts(const Communicator& processes, MeshPart part);
 
 }  // namespace octetra::distributed

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 #include <pybind11/stl.h>
 
+#include <octetra/core/check_selection.hpp>
 #include <octetra/core/error.hpp>
 #include <octetra/core/selection.hpp>
 #include <octetra/distributed/estimator_marks.hpp>
@@ -39,6 +40,7 @@ using Coordinates = std::array<double, 3>;
 
 /// What the criteria of the command line mark of this rank's cells.
 py::array marks_of_selection(const Mesh& mesh, const Selection& selection) {
+    check(selection);
     const od::AdaptiveMesh& now = mesh.now();
     const auto points = now.points();
     const auto cells = now.cells();

@@ -1,5 +1,6 @@
 #include "mark_edges.hpp"
 
+#include <octetra/core/check_selection.hpp>
 #include <octetra/core/standard_arithmetic.hpp>
 
 #include "closure.hpp"
@@ -8,6 +9,7 @@ namespace octetra::reference {
 
 CellMarks marked_cells(const Refinement& refined, const Selection& selection) {
     const StandardArithmetic standard;
+    check(selection);
     const Mesh& mesh = refined.mesh;
     CellMarks marks(mesh.cells.size(), false);
     for (CellIndex c{0}; c < mesh.cells.end_index(); ++c) {

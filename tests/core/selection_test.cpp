@@ -5,9 +5,12 @@
 
 #include <gtest/gtest.h>
 
+#include <octetra/core/check_selection.hpp>
+#include <octetra/core/error.hpp>
 #include <octetra/core/selection.hpp>
 
 #include "support/meshes.hpp"
+#include "support/thrown.hpp"
 
 namespace octetra {
 namespace {
@@ -172,6 +175,40 @@ TEST(Selection, OfASphereWithoutEndIsEverything) {
     const double infinity = std::numeric_limits<double>::infinity();
     EXPECT_TRUE(marks({.spheres = {{{5, 5, 5}, infinity}}}, corners, 0, GlobalCell{0}));
     EXPECT_FALSE(marks({.spheres = {{{5, 5, 5}, std::nan("")}}}, corners, 0, GlobalCell{0}));
+}
+
+std::string refused(const Selection& selection) {
+    return test::thrown_by<InputError>([&] { check(selection); });
+}
+
+TEST(Selection, IsRefusedAsTheCommandLineRefusesIt) {
+    const double nan = std::nan("");
+    const double infinity = std::numeric_limits<double>::infinity();
+    EXPECT_EQ(refused({.spheres = {{{1, 2, 3}, 4}, {{0, 0, 0}, -1}}}),
+              "sphere: the radius is negative: 0,0,0,-1");
+    EXPECT_EQ(refused({.spheres = {{{nan, 0, 0}, 1}}}),
+              "sphere takes 4 finite numbers as X,Y,Z,R, not 'nan,0,0,1'");
+    EXPECT_EQ(refused({.spheres = {{{0, 0, 0}, nan}}}),
+              "sphere takes 4 finite numbers as X,Y,Z,R, not '0,0,0,nan'");
+    EXPECT_EQ(refused({.spheres = {{{0, 0, 0}, infinity}}}),
+              "sphere takes 4 finite numbers as X,Y,Z,R, not '0,0,0,inf'");
+    EXPECT_EQ(refused({.boxes = {{{0, 0, 0}, {1, 1, infinity}}}}),
+              "box takes 6 finite numbers as X0,Y0,Z0,X1,Y1,Z1, not '0,0,0,1,1,inf'");
+    EXPECT_EQ(refused({.boxes = {{{0, 2, 0}, {1, 1, 1}}}}),
+              "box: its low corner comes first, each coordinate at most that of the high corner: "
+              "0,2,0,1,1,1");
+    EXPECT_EQ(refused({.random = RandomShare{2, 0}}), "random takes a number from 0 to 1, not '2'");
+    EXPECT_EQ(refused({.random = RandomShare{nan, 0}}),
+              "random takes a number from 0 to 1, not 'nan'");
+    EXPECT_EQ(refused({.random = RandomShare{1e-310, 0}}),
+              "random takes a number from 0 to 1, not '1e-310'; it is out of range");
+    EXPECT_EQ(refused({.max_volume = -1}), "max_volume takes a number from 0 up, not '-1'");
+    EXPECT_EQ(refused({.max_volume = nan}), "max_volume takes a number from 0 up, not 'nan'");
+    const Selection smallest{.spheres = {{{0, 0, 0}, 0}},
+                             .boxes = {{{0, 0, 0}, {0, 0, 0}}},
+                             .random = RandomShare{1, 0},
+                             .max_volume = 0};
+    EXPECT_NO_THROW(check(smallest));
 }
 
 }  // namespace

@@ -43,6 +43,12 @@ TEST_P(AdaptiveMeshIn, IsAsItWasAfterAStepThatIsRefused) {
             if (is_last) other.max_cells = 10;  // alone it would ask how many cells there are
             EXPECT_THROW((void)mesh.refine(marks_of(mesh, selection), other), InputError);
         }
+        const Selection negative{.all = true, .spheres = {{{0, 0, 0}, -1}}};
+        const auto refused = [&](auto&& step) { return test::thrown_by<InputError>(step); };
+        const std::string negative_radius = "sphere: the radius is negative: 0,0,0,-1";
+        EXPECT_EQ(refused([&] { (void)mesh.refine(negative); }), negative_radius);
+        EXPECT_EQ(refused([&] { (void)mesh.refine_evenly(negative); }), negative_radius);
+        EXPECT_EQ(refused([&] { (void)mesh.coarsen(negative); }), negative_radius);
         EXPECT_TRUE(before == test::SeenMesh(mesh));
         EXPECT_FALSE(mesh.refine(Selection{}).changed);
         EXPECT_TRUE(before == test::SeenMesh(mesh));

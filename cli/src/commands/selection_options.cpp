@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
+#include <octetra/core/check_selection.hpp>
 #include <octetra/core/error.hpp>
 #include <octetra/core/files/lists.hpp>
 
@@ -19,21 +20,16 @@ namespace {
 
 Sphere parse_sphere(const std::string& text) {
     const auto n = parse_reals(text, 4, "--sphere", "X,Y,Z,R");
-    if (n[3] < 0) throw InputError(fmt::format("--sphere: the radius is negative: {}", text));
-    return {{n[0], n[1], n[2]}, n[3]};
+    const Sphere sphere{{n[0], n[1], n[2]}, n[3]};
+    check(sphere, "--sphere", text);
+    return sphere;
 }
 
 Box parse_box(const std::string& text) {
     const auto n = parse_reals(text, 6, "--box", "X0,Y0,Z0,X1,Y1,Z1");
-    for (std::size_t k = 0; k < 3; ++k) {
-        if (n[k] > n[k + 3]) {
-            throw InputError(
-                fmt::format("--box: its low corner comes first, each coordinate at "
-                            "most that of the high corner: {}",
-                            text));
-        }
-    }
-    return {{n[0], n[1], n[2]}, {n[3], n[4], n[5]}};
+    const Box box{{n[0], n[1], n[2]}, {n[3], n[4], n[5]}};
+    check(box, "--box", text);
+    return box;
 }
 
 Marker parse_tag(const std::string& text) {
@@ -118,13 +114,8 @@ Selection parse_selection(const SelectionOptions& options, std::string_view want
         if (is_tag(text)) selection.regions.push_back(parse_tag(text));
     }
     if (options.random) {
-        // No share that anybody means, and one of few digits.
-        if (*options.random > 0 && *options.random < std::numeric_limits<double>::min()) {
-            throw InputError(
-                fmt::format("--random takes a number from 0 to 1, not '{}'; it is out of range",
-                            *options.random));
-        }
         selection.random = RandomShare{*options.random, options.seed.value_or(0)};
+        check(*selection.random, "--random");
     }
     if (options.seed && !options.random) {
         throw InputError("--seed is that of --random, which is not given: --random 0.1 --seed 7");

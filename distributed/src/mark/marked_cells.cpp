@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include <octetra/core/check_selection.hpp>
+
 #include "level/incremental/adjacency.hpp"
 
 namespace octetra::distributed {
@@ -104,6 +106,7 @@ private:
 }  // namespace
 
 MarkedCells mark_cells(const DistributedMesh& mesh, const Selection& selection, bool only_new) {
+    check(selection);
     if (selection.all) return {.all = true, .count = mesh.cells.size(), .judged = 0};
     Marking marking(mesh, selection);
     if (mesh.adjacency == nullptr) {

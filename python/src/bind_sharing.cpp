@@ -35,6 +35,9 @@ py::array shared(const SharedEntities& of) {
 }
 
 py::array sharers(const SharedEntities& of, std::size_t entity) {
+    if (entity >= of.count) {
+        throw py::index_error(fmt::format("entity {}, and this rank has {}", entity, of.count));
+    }
     return std::visit(
         [&]<class I>(const SharedEntities::Pointer<I>& sharing) {
             return view(sharing->sharers(I{entity}), sharing);
@@ -188,7 +191,8 @@ void bind_sharing(py::module_& module, MeshClass& mesh) {
                                "{rank: int32 (k,)}: what each other rank has, too; both have it "
                                "listed in the same order.")
         .def("sharers", &sharers, py::arg("entity"),
-             "int32 (k,): the other ranks that have this one, ascending.")
+             "int32 (k,): the other ranks that have this one, ascending. IndexError if this rank "
+             "has no such entity.")
         .def("index_map", &index_map,
              "Collective. Consecutive numbers for what each rank owns, and the numbers of copies.")
         .def("update_copies", &update_copies, py::arg("values"),

@@ -197,6 +197,30 @@ def test_errors_are_also_pythons_own(mesh):
         mesh.refine(wrong_here([0.5] * cells_of(mesh), [1] * cells_of(mesh)))
 
 
+NAN = float("nan")
+CRITERIA = {
+    "sphere: the radius is negative: 0,0,0,-1": lambda m: octetra.mark.sphere(m, (0, 0, 0), -1),
+    "sphere takes 4 finite numbers .*'nan,0,0,1'": lambda m: octetra.mark.sphere(m, (NAN, 0, 0), 1),
+    "box: its low corner comes first": lambda m: octetra.mark.box(m, (0, 0, 1), (1, 1, 0)),
+    "random takes a number from 0 to 1, not '2'": lambda m: octetra.mark.random(m, 2),
+    "max_volume takes a number from 0 up, not '-1'": lambda m: octetra.mark.larger_than(m, -1),
+}
+
+
+@pytest.mark.parametrize("words", CRITERIA)
+def test_criteria_are_refused_as_on_the_command_line(mesh, words):
+    with pytest.raises(octetra.InputError, match=words):
+        CRITERIA[words](mesh)
+
+
+def test_sharers_of_a_vertex_that_is_not_there_are_an_index_error(mesh):
+    vertices = len(mesh.points)
+    mesh.vertex_sharing.sharers(vertices - 1)
+    for vertex in (vertices, 10**6):
+        with pytest.raises(IndexError, match=f"entity {vertex}, and this rank has {vertices}"):
+            mesh.vertex_sharing.sharers(vertex)
+
+
 COLLECTIVE = {
     "refine": lambda m: m.refine(near(m, 0.5)),
     "refine_evenly": lambda m: m.refine_evenly(near(m, 0.5)),

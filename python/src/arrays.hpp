@@ -20,7 +20,7 @@ namespace octetra::python {
 
 namespace py = pybind11;
 
-/// What numpy sees in a value of the library: so many numbers, one beside the other. Indices are
+/// The type and the count of the numbers that numpy sees in a value of the library. Indices are
 /// signed, int32 on a rank and int64 in the whole mesh, as petsc4py and DOLFINx have them; the bits
 /// are those of the library's unsigned types, and an index that stands for "none" is -1.
 template <class T>

@@ -89,7 +89,7 @@ std::optional<SavedState> state_of(const py::object& time, const py::object& ste
     return state;
 }
 
-/// What a checkpoint has of save(..., time=, step=, text=).
+/// The time, step and text that save() wrote into a checkpoint; None if there are none.
 py::object saved_state(const Path& path) {
     const std::optional<SavedState> state = read_checkpoint_facts(path).state;
     if (!state) return py::none();

@@ -62,7 +62,7 @@ od::MeshPart part_of(const Given& given) {
     return part;
 }
 
-/// Of no points 0.
+/// A hash of the points; 0 for no points.
 std::uint64_t hash_of(const std::vector<Point>& points) {
     if (points.empty()) return 0;
     const auto* const bytes = reinterpret_cast<const char*>(points.data());

@@ -67,7 +67,7 @@ void bind_class(py::module_& module, const char* name) {
     }
 }
 
-/// Of each face of each cell 1 or -1.
+/// For each face of each cell, 1 if its normal points outward, and -1 otherwise.
 std::vector<std::array<std::int8_t, 4>> signs_of_faces(const od::AdaptiveMesh& mesh) {
     std::vector<std::array<std::int8_t, 4>> signs;
     signs.reserve(mesh.cells().size());

@@ -238,7 +238,7 @@ TEST(CheckpointThatIsMadeUp, IsReadOrRefusedByAllRanks) {
     EXPECT_GT(refused, 20);
 }
 
-/// Of all three figures of a step each rank has only its share in the cuts.
+/// Each rank has only its share of the cuts, on which all three figures of a step depend.
 TEST(CheckpointWhoseTableHasOtherFiguresOfAStep, IsRefusedByAllRanksAlike) {
     const test::SharedFolder folder;
     AdaptiveMesh mesh = shared_out(world(), test::marked_lattice(12, 1), "block");  // some blocks

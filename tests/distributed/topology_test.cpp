@@ -291,6 +291,11 @@ TEST_P(Topology, KnowsTheVerticesOfAMarkerOnAllProcessesThatHaveThem) {
         }
         EXPECT_EQ(mesh.vertices_of("r"), mesh.vertices_of(3, 3));
         EXPECT_EQ(mesh.vertices_of("\"outer\" wall # 1"), mesh.vertices_of(-4, 2));
+        if (world().size() > 1) {  // arguments that differ between processes
+            const bool is_first = world().is_first();
+            EXPECT_THROW((void)mesh.vertices_of(3, is_first ? 0 : 3), InputError);
+            EXPECT_THROW((void)mesh.vertices_of(is_first ? "r" : "wall"), InputError);
+        }
         EXPECT_THAT(test::thrown_by<InputError>([&] { (void)mesh.vertices_of("wall"); }),
                     testing::HasSubstr("no group is named 'wall'; the groups are a region"));
         EXPECT_EQ(test::thrown_by<InputError>([&] { (void)mesh.vertices_of(1, 4); }),

@@ -51,7 +51,7 @@ private:
     std::fenv_t before_{};
 };
 
-/// What `work` returns in such an environment, which it must leave as it is.
+/// Returns the result of `work` in such an environment, which `work` must not change.
 auto in_hostile_arithmetic(auto&& work) {
     bool is_left = false;
     auto result = [&] {

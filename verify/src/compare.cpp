@@ -240,7 +240,7 @@ bool are_reals_equal(const Mesh& a, const Mesh& b) {
     return a.points == b.points && are_equal(a.point_attributes, b.point_attributes);
 }
 
-/// Of equal reals: do all zeros have the same sign?
+/// Whether all zeros have equal signs in two meshes whose numbers compare equal.
 bool have_zeros_same_signs(const Mesh& a, const Mesh& b) {
     const auto same = [](double x, double y) {
         return std::isnan(x) || std::signbit(x) == std::signbit(y);

@@ -103,7 +103,7 @@ private:
         return levels;
     }
 
-    /// Of each cell of the mesh that refining these makes.
+    /// The parent of each cell after refinement of the marked cells.
     [[nodiscard]] static IndexVector<CellIndex, CellIndex> parents_after(const Mesh& mesh,
                                                                          const CellMarks& marks,
                                                                          Scheme scheme) {

@@ -20,7 +20,7 @@ struct StepDone {
 /// "  (before: 1,026, 3,103)", of the numbers of vertices and cells
 [[nodiscard]] std::string words_before(std::uint64_t vertices, std::uint64_t cells);
 
-/// What is wrong with a level of a step, of a mesh that earlier steps have changed.
+/// The message of a failure in a level of a step that is not the first of a script.
 [[nodiscard]] std::string naming_the_level(std::string_view what, int level, int levels);
 
 /// Why fewer levels than were asked for changed anything; nothing if all did.

@@ -11,6 +11,7 @@
 
 #include <octetra/core/error.hpp>
 #include <octetra/core/selection.hpp>
+#include <octetra/core/standard_arithmetic.hpp>
 #include <octetra/distributed/adaptive_mesh.hpp>
 #include <octetra/distributed/exchange.hpp>
 
@@ -75,6 +76,7 @@ std::vector<std::uint8_t> AdaptiveMesh::boundary_vertices() const {
 }
 
 std::vector<std::uint8_t> AdaptiveMesh::vertices_of(Marker marker, int dimension) const {
+    processes().check_same("marker and dimension", fmt::format("{}, {}", marker, dimension));
     if (dimension != 0) {
         return flagged_anywhere(*this, [&](Flags& flags) {
             switch (dimension) {
@@ -99,6 +101,7 @@ std::vector<std::uint8_t> AdaptiveMesh::vertices_of(Marker marker, int dimension
 }
 
 std::vector<std::uint8_t> AdaptiveMesh::vertices_of(std::string_view group) const {
+    processes().check_same("group", std::string(group));
     std::vector<GroupName> groups;
     Flags flags;
     LocalFailure failure;
@@ -115,6 +118,7 @@ std::vector<std::uint8_t> AdaptiveMesh::vertices_of(std::string_view group) cons
 }
 
 std::vector<double> AdaptiveMesh::vertex_volumes() const {
+    const StandardArithmetic standard;
     std::vector<double> volumes;
     LocalFailure failure;
     failure.attempt([&] {

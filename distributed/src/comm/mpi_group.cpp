@@ -31,7 +31,7 @@ bool is_idle(const Duplicate& duplicate, MPI_Comm original) {
 /// Numbers of duplicates, 0 where there is none. The first is that of a new one.
 using Offer = std::array<std::uint64_t, 16>;
 
-/// What the first process has to offer.
+/// The duplicate that the first process proposes to use.
 Offer make_offer(MPI_Comm original) {
     Duplicates& kept = duplicates();
     const std::lock_guard lock(kept.mutex);

@@ -6,7 +6,7 @@
 namespace octetra::distributed {
 namespace {
 
-/// What a process knows of the marker of a vertex.
+/// The marker of a vertex as far as one process can tell.
 struct Known {
     std::uint64_t number;
     MidpointMarker marker;

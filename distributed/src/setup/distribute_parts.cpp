@@ -80,7 +80,7 @@ std::uint64_t hash_of(const std::vector<GroupName>& names) {
     return hash;
 }
 
-/// Of equal attributes of a vertex the same.
+/// A hash of the attributes of a vertex, equal for 0 and -0.
 std::uint64_t hash_of_attributes(const MeshPart& part, std::size_t vertex) {
     std::uint64_t hash = 0;
     for (std::size_t k = 0; k < part.attributes_per_point; ++k) {

@@ -76,7 +76,7 @@ struct JudgedMesh {
     return inversions % 2 == 0;
 }
 
-/// Of each vertex: 1 if a cell has it, else 0.
+/// For each vertex, 1 if it belongs to a cell, and 0 otherwise.
 [[nodiscard]] inline std::vector<char> used_vertices(const Mesh& mesh) {
     std::vector<char> used(mesh.points.size(), 0);
     for (const CellVertices& cell : mesh.cells) {

@@ -109,7 +109,7 @@ private:
     const Places& places_;
     Findings& findings_;
     IndexVector<VertexIndex, CellIndex> cell_at_;  ///< of each coarse vertex one that has it
-    /// Of each fine vertex that shares its place with others.
+    /// The cells at each fine vertex that coincides with other vertices.
     std::map<VertexIndex, std::vector<CellIndex>> fine_cells_at_;
 };
 

@@ -66,7 +66,7 @@ struct SectionShape {
 /// Can this be the name of a field? That is UTF-8 without control characters, so that programs may
 /// print it.
 [[nodiscard]] bool is_name(std::string_view text);
-/// What is wrong with a state that a program wants to save, in words; empty where nothing is.
+/// The reason why a state cannot be saved; empty if it can.
 [[nodiscard]] std::string wrong_in(const SavedState& state);
 /// Bytes of a vertex number in lists of cells, facets and edges: 4 where that is enough, or 8.
 [[nodiscard]] std::size_t vertex_number_size(const CheckpointFacts& facts);

@@ -121,7 +121,8 @@ private:
         find_untagged_group(triangles_);
         find_untagged_group(tetrahedra_);
     }
-    /// Of elements without a marker: the lowest number from 1 that no group of the dimension has.
+    /// The group of elements without a marker gets the lowest positive number that no group of the
+    /// dimension has.
     template <std::size_t N>
     void find_untagged_group(ElementList<N>& list) {
         if (!std::ranges::binary_search(list.runs.markers, 0)) return;

@@ -24,7 +24,8 @@ struct LeftOut {
     }
 };
 
-/// What is wrong with a file that has elements, but no cells; empty: nothing.
+/// The reason to refuse a file without cells, which depends on the elements it has; empty if it has
+/// cells.
 [[nodiscard]] std::string wrong_without_cells(std::uint64_t cells, std::uint64_t facets,
                                               const LeftOut& left_out);
 

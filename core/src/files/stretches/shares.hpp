@@ -26,7 +26,7 @@ struct RowShare {
     std::uint64_t count = 0;
 };
 [[nodiscard]] RowShare share_of_rows(std::uint64_t count, const ProcessGroup& group);
-/// That of the process `rank`.
+/// The share of the process `rank`.
 [[nodiscard]] RowShare share_of_rows(std::uint64_t count, int rank, int processes);
 
 }  // namespace octetra

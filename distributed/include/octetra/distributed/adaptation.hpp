@@ -41,7 +41,7 @@ struct Adaptation {
     std::vector<EdgeVertices> new_vertex_ends;
     /// Of coarsening: for each vertex, the number that it had.
     std::vector<VertexIndex> vertices_before;
-    /// Of coarsening: this process's vertices that are no more, ascending.
+    /// After coarsening: the vertices of this process that were removed, ascending.
     std::vector<RemovedVertex> removed_vertices;
     SynchronisationCounts synchronisation;
 

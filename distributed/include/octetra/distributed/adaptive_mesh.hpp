@@ -251,11 +251,11 @@ public:
     [[nodiscard]] std::vector<std::uint8_t> boundary_vertices() const;
     /// Collective. The vertices of the entities of this dimension that have this marker: of tagged
     /// facets (2), of tagged edges (1), of cells by their region tag (3), or the vertices that have
-    /// the marker themselves (0). No vertices where no entity has the marker. Both arguments are
-    /// the same on all processes. Throws InputError for another dimension.
+    /// the marker themselves (0). No vertices where no entity has the marker. Throws
+    /// InputError on all processes for another dimension, and where the arguments differ.
     [[nodiscard]] std::vector<std::uint8_t> vertices_of(Marker marker, int dimension = 2) const;
-    /// Collective. The vertices of the entities of the groups with this name, of any dimension. The
-    /// name is the same on all processes. Throws InputError where no group has it.
+    /// Collective. The vertices of the entities of the groups with this name, of any dimension.
+    /// Throws InputError on all processes where no group has the name, and where the names differ.
     [[nodiscard]] std::vector<std::uint8_t> vertices_of(std::string_view group) const;
     /// Collective. For each vertex of this process a quarter of the volume of all cells of the
     /// whole mesh that have it: the integral of its hat function, the lumped mass of P1 elements.

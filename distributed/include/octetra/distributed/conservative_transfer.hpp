@@ -19,8 +19,8 @@ namespace octetra::distributed {
 /// Refinement keeps the function itself. Coarsening keeps the values of the vertices that stay and
 /// adds a correction: with I the interpolation at the vertices that stay, P its prolongation to the
 /// mesh before, and lumped masses M before and m now, the result is I u + m^-1 P^T M (u - P I u).
-/// What the function deviates from its interpolant at a vertex that went is so given, in equal
-/// halves, to the two ends of the edge that the vertex halved. Where the function is linear on the
+/// The deviation of the function from its interpolant at a removed vertex is distributed in equal
+/// halves to the two ends of the edge that the vertex halved. Where the function is linear on the
 /// cells as they are now, it stays as it is. It may leave the range of its values.
 ///
 /// T is a floating-point or complex type. Copies of a vertex get equal values. Throws InputError on

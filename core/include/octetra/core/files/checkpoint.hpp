@@ -22,7 +22,7 @@ struct StepFacts {
     friend bool operator==(const StepFacts&, const StepFacts&) = default;
 };
 
-/// What a program saves with a mesh in order to go on from there.
+/// The state of a program, saved with a mesh for a restart.
 struct SavedState {
     double time = 0;  ///< finite
     std::int64_t step = 0;

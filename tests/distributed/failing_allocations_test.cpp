@@ -208,12 +208,15 @@ TEST(FailingAllocations, OfValuesThatGoAlongAreThrownOnAllProcesses) {
 TEST(FailingAllocations, OfAnExchangeAreThrownOnAllProcesses) {
     const std::uint64_t failures = let_each_fail(1, [&](AdaptiveMesh& mesh) {
         std::vector<double> values(mesh.points().size(), 1);
-        return [values, &mesh]() mutable {
+        std::vector<double> of_cells(mesh.cells().size(), 1);
+        GhostLayer ghosts = mesh.ghosts(GhostsBy::vertex);
+        return [values, of_cells, ghosts, &mesh]() mutable {
             update_copies(mesh.processes(), mesh.vertex_sharing(), values.size(),
                           std::span(values));
+            (void)ghosts.values(mesh.processes(), of_cells);
         };
     });
-    EXPECT_TRUE(failures >= 1 || test::world().size() == 1);
+    EXPECT_TRUE(failures >= 10 || test::world().size() == 1);
 }
 
 TEST(FailingAllocations, OfMarkingByIndicatorsAreThrownOnAllProcesses) {

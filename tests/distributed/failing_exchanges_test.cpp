@@ -20,6 +20,9 @@
 #include "distributed/marked_mesh.hpp"
 #include "distributed/shared_folder.hpp"
 #include "distributed/world.hpp"
+#include "output/canonical_slices.hpp"
+#include "output/own_piece.hpp"
+#include "sharing/vertex_sharing.hpp"
 
 /// Where one process has no memory for what all do together without a mesh yet: exchanges, and
 /// reading.
@@ -69,6 +72,17 @@ TEST(FailingAllocations, OfWhatAllTellAllAreThrownOnAll) {
     }
 }
 
+TEST(FailingAllocations, OfABroadcastAreThrownOnAllProcesses) {
+    const Communicator& world = test::world();
+    std::vector<int> values(world.is_first() ? 1000 : 0, 7);
+    const std::uint64_t failures = let_each_fail_anew([&] {
+        if (!world.is_first()) std::vector<int>().swap(values);
+        world.broadcast(values);
+    });
+    EXPECT_EQ(values, std::vector<int>(1000, 7));
+    EXPECT_GE(failures, static_cast<std::uint64_t>(world.size()) - 1);
+}
+
 TEST(FailingAllocations, OfReadingAFileTogetherAreThrownOnAllProcesses) {
     if (test::world().size() == 1) return;  // which reads alone
     const test::SharedFolder folder;
@@ -107,6 +121,49 @@ TEST(FailingAllocations, OfLoadingACheckpointAreThrownOnAllProcesses) {
         (void)distribute_parts(test::world(), std::move(part.input));
     });
     EXPECT_GE(failures, 100U);
+}
+
+TEST(FailingAllocations, OfLoadingAMeshAndFieldsAreThrownOnAllProcesses) {
+    const test::SharedFolder folder;
+    const std::filesystem::path file = folder / "m.octetra";
+    Mesh whole = test::marked(test::shaken_kuhn(2, 0.2, 1), 1);
+    for (Marker& marker : whole.facet_markers) marker = 3;
+    for (Marker& marker : whole.edge_markers) marker = 4;
+    const Partition in_blocks{.method = PartitionMethod::block};
+    const auto ranks = partition_cells(whole, test::world().size(), in_blocks);
+    AdaptiveMesh mesh = AdaptiveMesh::distribute(test::world(), std::move(whole), ranks);
+    (void)mesh.refine(Selection{.random = RandomShare{0.3, 1}});
+    const std::vector<Field> saved{
+        {"u", FieldOn::vertices, 2, std::vector<double>(2 * mesh.points().size(), 1.5)},
+        {"n", FieldOn::cells, 1, std::vector<std::int32_t>(mesh.cells().size(), 7)}};
+    mesh.save(file, saved);
+    const Partition by_coordinates{.method = PartitionMethod::rcb};
+    std::vector<Field> fields;
+    const std::uint64_t failures = let_each_fail_anew([&] {
+        fields.clear();
+        (void)AdaptiveMesh::load(test::world(), file, by_coordinates, &fields);
+    });
+    EXPECT_EQ(fields.size(), 2U);
+    EXPECT_GE(failures, 100U);
+}
+
+/// Of `.pvtu`, in which each process writes its part with the markers and values that all agree on.
+TEST(FailingAllocations, OfAPieceToWriteAreThrownOnAllProcesses) {
+    const Mesh whole = test::marked(test::shaken_kuhn(2, 0.2, 1), 1);
+    const Partition in_blocks{.method = PartitionMethod::block};
+    const DistributedMesh mesh =
+        distribute(test::world(), whole, partition_cells(whole, test::world().size(), in_blocks));
+    const CanonicalSlices slices(mesh);
+    const Sharing<VertexIndex> sharing = find_vertex_sharing(mesh);
+    ASSERT_TRUE(slices.facts().has_point_markers);
+    const std::vector<Field> fields{
+        {"u", FieldOn::vertices, 2, std::vector<double>(2 * mesh.points.size(), 1.5)},
+        {"n", FieldOn::cells, 1, std::vector<std::int32_t>(mesh.cells.size(), 7)}};
+    const std::uint64_t failures = let_each_fail_anew([&] {
+        OwnPiece piece(mesh, slices.lists(), slices.numbers(), slices.facts());
+        piece.add(fields, sharing);
+    });
+    EXPECT_GE(failures, 20U);
 }
 
 /// The one that reads hands on what it has read; an entry that it could not pack is not taken for

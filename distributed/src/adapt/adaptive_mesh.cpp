@@ -52,8 +52,7 @@ std::vector<Marker> all_markers(const AncestorMap& ancestors, const auto* unorde
 }  // namespace
 
 AdaptiveMesh::AdaptiveMesh(std::unique_ptr<State> state) : state_(std::move(state)) {}
-AdaptiveMesh::AdaptiveMesh(DistributedMesh part)
-    : state_(std::make_unique<State>(std::move(part))) {}
+AdaptiveMesh::AdaptiveMesh(DistributedMesh part) : state_(State::make(std::move(part))) {}
 AdaptiveMesh::~AdaptiveMesh() = default;
 AdaptiveMesh::AdaptiveMesh(AdaptiveMesh&&) noexcept = default;
 AdaptiveMesh& AdaptiveMesh::operator=(AdaptiveMesh&&) noexcept = default;

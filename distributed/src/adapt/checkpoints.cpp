@@ -1,3 +1,4 @@
+#include <functional>
 #include <memory>
 #include <utility>
 #include <vector>
@@ -14,6 +15,7 @@
 #include "checkpoint/load.hpp"
 #include "checkpoint/load_fields.hpp"
 #include "checkpoint/save.hpp"
+#include "comm/all_or_none.hpp"
 #include "comm/local_failure.hpp"
 #include "comm/same_arguments.hpp"
 #include "history/cut_marks.hpp"
@@ -54,8 +56,10 @@ void redo(AdaptiveMesh::State& state, CutRoots cuts, const CheckpointFacts& fact
     failure.agree(processes);
     for (std::size_t t = 0; t < facts.steps.size(); ++t) {
         const bool all = processes.max(marks->next_is_uniform(state.mesh) ? 0 : 1) == 0;
-        (void)state.refine(
-            [&] { return all ? marks->next_of_all(state.mesh) : marks->next(state.mesh); }, {});
+        const auto next_marks = [&] {
+            return all ? marks->next_of_all(state.mesh) : marks->next(state.mesh);
+        };
+        (void)state.refine(std::ref(next_marks), {});  // a reference needs no memory
     }
     failure.attempt([&] {
         const CanonicalOrder order(state.mesh);
@@ -114,14 +118,18 @@ AdaptiveMesh AdaptiveMesh::load(const Communicator& processes, const std::filesy
     agree_on_same(processes, failure, "partition", [&] { return text_of(partition); });
     LoadedPart part = load_part(processes, *file, path, partition);
     auto state = naming(path, [&] {
-        auto made = std::make_unique<State>(distribute_parts(processes, std::move(part.input)));
+        auto made = State::make(distribute_parts(processes, std::move(part.input)));
         made->mesh.features = std::move(part.features);
         redo(*made, std::move(part.cuts), file->facts());
         return made;
     });
     if (fields != nullptr) {
-        const CanonicalOrder order(state->mesh);
-        *fields = load_fields(state->mesh, order.cells_before(), state->numbers, *file);
+        std::vector<Field> loaded;
+        all_or_none(processes, [&] {
+            const CanonicalOrder order(state->mesh);
+            loaded = load_fields(state->mesh, order.cells_before(), state->numbers, *file);
+        });
+        *fields = std::move(loaded);
     }
     return AdaptiveMesh(std::move(state));
 }

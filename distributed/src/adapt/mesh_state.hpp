@@ -27,7 +27,7 @@ struct AdaptiveMesh::State {
 
     State() = default;
     /// Collective. Of a part that is as the input was.
-    explicit State(DistributedMesh part);
+    [[nodiscard]] static std::unique_ptr<State> make(DistributedMesh part);
 
     /// Collective.
     Adaptation refine(const std::function<MarkedCells()>& mark, const StepOptions& options,

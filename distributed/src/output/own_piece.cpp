@@ -5,6 +5,7 @@
 
 #include <octetra/distributed/exchange.hpp>
 
+#include "comm/all_or_none.hpp"
 #include "numbering/vertex_markers.hpp"
 #include "output/check_fields.hpp"
 
@@ -91,23 +92,27 @@ std::span<const std::uint64_t> OwnPiece::parents(const Window& w) {
 }
 
 void OwnPiece::add(std::span<const Field> fields, const Sharing<VertexIndex>& sharing) {
-    for (const Field& field : fields) {
-        field_facts_.push_back(facts_of(field));
-        const std::size_t entity_size = field.components * size_of(field_facts_.back().type);
-        std::visit(
-            [&](const auto& values) {
-                auto agreed = values;
-                const bool on_vertices = field.on == FieldOn::vertices;
-                if (on_vertices) {
-                    update_copies(mesh_->processes, sharing, mesh_->points.size(),
-                                  std::span(agreed), field.components);
-                }
-                field_values_.push_back(bytes_in_order(
-                    std::as_bytes(std::span(agreed)), entity_size,
-                    on_vertices ? std::span<const CellIndex>{} : lists_->cells.before()));
-            },
-            field.values);
-    }
+    all_or_none(mesh_->processes, [&] {
+        for (const Field& field : fields) add(field, sharing);
+    });
+}
+
+void OwnPiece::add(const Field& field, const Sharing<VertexIndex>& sharing) {
+    field_facts_.push_back(facts_of(field));
+    const std::size_t entity_size = field.components * size_of(field_facts_.back().type);
+    std::visit(
+        [&](const auto& values) {
+            auto agreed = values;
+            const bool on_vertices = field.on == FieldOn::vertices;
+            if (on_vertices) {
+                update_copies(mesh_->processes, sharing, mesh_->points.size(), std::span(agreed),
+                              field.components);
+            }
+            field_values_.push_back(bytes_in_order(
+                std::as_bytes(std::span(agreed)), entity_size,
+                on_vertices ? std::span<const CellIndex>{} : lists_->cells.before()));
+        },
+        field.values);
 }
 
 std::span<const std::byte> OwnPiece::field_values(std::size_t field, const Window& window) {

@@ -37,6 +37,8 @@ public:
                                                           const Window& window) override;
 
 private:
+    void add(const Field& field, const Sharing<VertexIndex>& sharing);
+
     const DistributedMesh* mesh_;
     const OrderedLists* lists_;
     const CanonicalNumbers* numbers_;

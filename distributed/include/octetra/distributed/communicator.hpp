@@ -70,11 +70,13 @@ public:
     /// InputError as such, all else as SystemError.
     void on_each(const std::function<void()>& work) const;
 
-    /// Collective. Every process gets the first one's values.
+    /// Collective. Every process gets the first one's values. Where one process has no memory for
+    /// them, OutOfMemory is thrown on all.
     template <class T>
     void broadcast(std::vector<T>& values) const {
         static_assert(std::is_trivially_copyable_v<T>);
-        values.resize(broadcast_size(values.size()));
+        const std::size_t size = broadcast_size(values.size());
+        on_each([&] { values.resize(size); });
         broadcast_bytes(values.data(), values.size() * sizeof(T), 0);
     }
 

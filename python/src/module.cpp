@@ -1,3 +1,4 @@
+#include <cstddef>
 #include <exception>
 #include <string>
 
@@ -56,6 +57,32 @@ void bind_errors(py::module_& module) {
     });
 }
 
+PyObject* refuse_new(PyTypeObject* type, PyObject*, PyObject*) {
+    PyErr_Format(PyExc_TypeError, "%s: objects are returned by functions of octetra, and not made",
+                 type->tp_name);
+    return nullptr;
+}
+
+/// __new__ without __init__ makes an object that has no value; pybind11 would give its methods
+/// memory to which nothing was written. Classes without __init__ refuse __new__, and those with one
+/// refuse such an object where it is used.
+void refuse_objects_without_value(const py::module_& module) {
+    for (const auto& [name, object] : py::dict(module.attr("__dict__"))) {
+        if (!PyType_Check(object.ptr())) continue;
+        auto* const type = reinterpret_cast<PyTypeObject*>(object.ptr());
+        py::detail::type_info* const info = py::detail::get_type_info(type);
+        if (info == nullptr) continue;  // no class of pybind11
+        // pybind11 gives a class without a constructor an __init__ that raises.
+        if (Py_TYPE(object.attr("__init__").ptr()) == &PyWrapperDescr_Type) {
+            type->tp_new = refuse_new;
+        } else {
+            info->operator_new = [](std::size_t) -> void* {
+                throw py::type_error("an object that was made without __init__");
+            };
+        }
+    }
+}
+
 }  // namespace
 
 PYBIND11_MODULE(_octetra, module) {
@@ -85,6 +112,7 @@ PYBIND11_MODULE(_octetra, module) {
     bind_vertex_sets(mesh);
     bind_series(module, mesh);
     bind_verify(module, mesh);
+    refuse_objects_without_value(module);
 }
 
 }  // namespace octetra::python

@@ -280,3 +280,24 @@ def test_a_mesh_that_a_thread_waits_for_is_refused_to_others(mesh):
         thread.join()
         assert len(mesh.points)
     words.Free()
+
+
+CLASSES = [member for member in vars(octetra._octetra).values()
+           if isinstance(member, type) and not issubclass(member, BaseException)]
+
+
+@pytest.mark.parametrize("kind", CLASSES)
+def test_an_object_made_without_init_is_refused(kind):
+    def use():
+        raw = kind.__new__(kind)
+        for name, member in vars(kind).items():
+            if isinstance(member, property):
+                getattr(raw, name)
+        raw.commit()
+
+    with pytest.raises(TypeError):
+        use()
+    with pytest.raises(TypeError):
+        object.__new__(kind)
+    with pytest.raises(TypeError):
+        kind()

@@ -1,9 +1,9 @@
 #include <algorithm>
-#include <bit>
 #include <functional>
 #include <numeric>
 #include <optional>
 #include <ranges>
+#include <span>
 #include <string>
 #include <utility>
 
@@ -76,17 +76,6 @@ std::uint64_t hash_of(const std::vector<GroupName>& names) {
             hash = (hash ^ part) * 0x9e3779b97f4a7c15U;
             hash ^= hash >> 32U;
         }
-    }
-    return hash;
-}
-
-/// A hash of the attributes of a vertex, equal for 0 and -0.
-std::uint64_t hash_of_attributes(const MeshPart& part, std::size_t vertex) {
-    std::uint64_t hash = 0;
-    for (std::size_t k = 0; k < part.attributes_per_point; ++k) {
-        const double value = part.point_attributes[vertex * part.attributes_per_point + k];
-        hash = (hash ^ std::bit_cast<std::uint64_t>(value + 0.0)) * 0x9e3779b97f4a7c15U;  // -0 is 0
-        hash ^= hash >> 32U;
     }
     return hash;
 }
@@ -376,7 +365,10 @@ DistributedMesh distribute_parts(const Communicator& processes, MeshPart part) {
         [&](std::size_t place) {
             return part.point_markers.empty() ? Marker{0} : part.point_markers[vertices->at(place)];
         },
-        [&](std::size_t place) { return hash_of_attributes(part, vertices->at(place)); });
+        [&](std::size_t place) {
+            const std::size_t count = part.attributes_per_point;
+            return std::span(part.point_attributes).subspan(vertices->at(place) * count, count);
+        });
     mesh.input_vertex_count = checked.count;
     mesh.input_cell_count = processes.sum(part.cells.size());
     const std::uint64_t first_cell = processes.sum_before(part.cells.size());

@@ -25,6 +25,16 @@ bool same(const Listed& a, const Listed& b) {
            bits(a.point.z) == bits(b.point.z) && a.marker == b.marker;
 }
 
+/// The same for equal attributes.
+std::uint64_t hash_of(std::span<const double> attributes) {
+    std::uint64_t hash = 0;
+    for (const double value : attributes) {
+        hash = (hash ^ std::bit_cast<std::uint64_t>(value + 0.0)) * 0x9e3779b97f4a7c15U;  // -0 is 0
+        hash ^= hash >> 32U;
+    }
+    return hash;
+}
+
 /// One process's block of the numbers 0 .. count-1.
 struct Block {
     std::uint64_t begin = 0;
@@ -91,7 +101,7 @@ CheckedVertices check_vertices(
     const Communicator& processes, const std::vector<std::uint64_t>& numbers,
     const std::vector<std::uint8_t>& used, const std::function<Point(std::size_t)>& point_at,
     const std::function<Marker(std::size_t)>& marker_at,
-    const std::function<std::uint64_t(std::size_t)>& hash_of_attributes_at) {
+    const std::function<std::span<const double>(std::size_t)>& attributes_at) {
     // The greatest number must not make anybody ask for memory that no list accounts for.
     const std::uint64_t listed = processes.sum(numbers.size());
     const std::uint64_t greatest = processes.max(numbers.empty() ? 0 : numbers.back());
@@ -108,7 +118,7 @@ CheckedVertices check_vertices(
         outboxes.resize(static_cast<std::size_t>(processes.size()));
         for (std::size_t i = 0; i < numbers.size(); ++i) {
             outboxes[numbers[i] / block.length].push_back(
-                {numbers[i], point_at(i), marker_at(i), used[i], hash_of_attributes_at(i)});
+                {numbers[i], point_at(i), marker_at(i), used[i], hash_of(attributes_at(i))});
         }
     });
     failure.agree(processes);

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <span>
 #include <vector>
 
 #include <octetra/core/mesh.hpp>
@@ -19,12 +20,12 @@ struct CheckedVertices {
 /// Collective. `numbers` are this process's vertices, ascending; `used` says which of them its
 /// cells have. It keeps these, and of those that no process uses the ones that it lists as the
 /// first. Throws InputError on all processes if a number from 0 to the greatest is nobody's, or
-/// the point, marker or hash of attributes of a vertex differs between processes.
+/// the point, marker or attributes of a vertex differ between processes.
 [[nodiscard]] CheckedVertices check_vertices(
     const Communicator& processes, const std::vector<std::uint64_t>& numbers,
     const std::vector<std::uint8_t>& used, const std::function<Point(std::size_t)>& point_at,
     const std::function<Marker(std::size_t)>& marker_at,
-    const std::function<std::uint64_t(std::size_t)>& hash_of_attributes_at);
+    const std::function<std::span<const double>(std::size_t)>& attributes_at);
 
 /// Collective. Throws InputError on all processes unless the numbers, ascending on each, are 0 ..
 /// count-1, each on one process.

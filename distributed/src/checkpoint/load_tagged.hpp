@@ -126,20 +126,24 @@ template <std::size_t N>
 void check_all_are_sides(const Communicator& processes, const CheckpointReader& file,
                          Section section, const std::vector<Tagged<N>>& tagged,
                          LocalFailure& failure) {
-    const Homes homes =
-        homes_of_blocks(shape_of(file.facts(), section).count, block_length, processes.size());
+    Homes homes;
     std::vector<std::vector<std::uint64_t>> outboxes;
     failure.attempt([&] {
+        homes =
+            homes_of_blocks(shape_of(file.facts(), section).count, block_length, processes.size());
         outboxes.resize(static_cast<std::size_t>(processes.size()));
         for (const Tagged<N>& one : tagged) {
             outboxes[static_cast<std::size_t>(homes.rank_of(one.number))].push_back(one.number);
         }
     });
     failure.agree(processes);
+    std::vector<std::vector<std::uint64_t>> inboxes;
+    failure.attempt([&] { inboxes = processes.all_to_all(outboxes); });
+    failure.agree(processes);  // or numbers of a process that has failed would seem to be missing
     failure.attempt([&] {
         const std::uint64_t begin = homes.begin_of(processes.rank());
         std::vector<bool> is_side(homes.end_of(processes.rank()) - begin, false);
-        for (const auto& inbox : processes.all_to_all(outboxes)) {
+        for (const auto& inbox : inboxes) {
             for (const std::uint64_t number : inbox) is_side[number - begin] = true;
         }
         const auto stray = std::ranges::find(is_side, false);

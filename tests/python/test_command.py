@@ -89,11 +89,16 @@ def test_the_heart_of_the_tutorial_runs_as_the_page_shows_it(tmp_path, monkeypat
     monkeypatch.chdir(tmp_path)
     monkeypatch.syspath_prepend(SOURCE / "examples/python")
     names = {"octetra": octetra, "np": np, "front": importlib.import_module("tutorial").front}
-    step, going_on = re.findall("```python\n(.*?)```", PAGE, re.DOTALL)
+    step, going_on, conditions = re.findall("```python\n(.*?)```", PAGE, re.DOTALL)
     exec(step, names)
     finer = len(names["mesh"].cells)
     assert len(names["u"]) == len(names["mesh"].points) > 1026
     assert (tmp_path / "tutorial.vtu").exists() and (tmp_path / "tutorial.octetra").exists()
+    exec(conditions, names)
+    low = names["mesh"].points[:, 2] < 0.1
+    assert low.any() and np.all(low[names["wet"]]) and names["wet"].any()
+    marked = names["mesh"].vertices_of(3)
+    assert marked.any() and np.all(names["u"][marked] == 1)
     exec(going_on, names)
     assert len(names["volumes"]) == len(names["mesh"].cells) < finer
     assert np.allclose(names["volumes"], octetra.quality.volume(names["mesh"]), rtol=1e-12)

@@ -45,11 +45,11 @@ RowShare share_of_rows(std::uint64_t count, const ProcessGroup& group) {
     return share_of_rows(count, group.rank(), group.size());
 }
 
-RowShare share_of_rows(std::uint64_t count, int rank, int processes) {
-    const auto size = static_cast<std::uint64_t>(processes);
-    const auto begin = [&](int r) {
-        const auto shares = static_cast<std::uint64_t>(r);
-        return count / size * shares + std::min(count % size, shares);
+RowShare share_of_rows(std::uint64_t count, int rank, int size) {
+    const auto processes = static_cast<std::uint64_t>(size);
+    const auto begin = [&](int of_rank) {
+        const auto r = static_cast<std::uint64_t>(of_rank);
+        return count / processes * r + std::min(count % processes, r);
     };
     return {begin(rank), begin(rank + 1) - begin(rank)};
 }

@@ -26,7 +26,7 @@ struct RowShare {
     std::uint64_t count = 0;
 };
 [[nodiscard]] RowShare share_of_rows(std::uint64_t count, const ProcessGroup& group);
-/// The share of the process `rank`.
-[[nodiscard]] RowShare share_of_rows(std::uint64_t count, int rank, int processes);
+/// The share of the process `rank`.of so many.
+[[nodiscard]] RowShare share_of_rows(std::uint64_t count, int rank, int size);
 
 }  // namespace octetra

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <numeric>
 #include <string>
 
 #include <fmt/format.h>
@@ -32,19 +33,23 @@ void add_once(std::vector<CellIndex>& sent, CellIndex c) {
 /// The cells that each neighbour sees, ascending.
 std::vector<GhostLayer::Exchange> seen_by_vertex(const DistributedMesh& mesh,
                                                  const Sharing<VertexIndex>& sharing) {
-    std::vector<GhostLayer::Exchange> exchanges;
-    std::vector<std::size_t> exchange_of_rank(static_cast<std::size_t>(mesh.processes.size()));
-    for (const SharedWith<VertexIndex>& with : sharing.neighbours()) {
-        exchange_of_rank[static_cast<std::size_t>(with.rank)] = exchanges.size();
-        exchanges.push_back({.rank = with.rank, .sent = {}});
+    const std::vector<SharedWith<VertexIndex>>& neighbours = sharing.neighbours();
+    // Of each vertex the neighbours that have it: at[begin[v]] .. at[begin[v + 1] - 1].
+    std::vector<std::uint32_t> begin(mesh.points.size() + 1);
+    for (const auto& with : neighbours) {
+        for (const VertexIndex v : with.entities) ++begin[v.value()];
     }
-    std::vector<std::uint8_t> is_shared(mesh.points.size());
-    for (const VertexIndex v : sharing.shared()) is_shared[v.value()] = 1;
+    std::inclusive_scan(begin.begin(), begin.end(), begin.begin());
+    std::vector<std::uint32_t> at(begin.back());
+    std::vector<GhostLayer::Exchange> exchanges;
+    for (std::uint32_t n = 0; n < neighbours.size(); ++n) {
+        for (const VertexIndex v : neighbours[n].entities) at[--begin[v.value()]] = n;
+        exchanges.push_back({.rank = neighbours[n].rank, .sent = {}});
+    }
     for (CellIndex c{0}; c < mesh.cells.end_index(); ++c) {
         for (const VertexIndex v : mesh.cells[c]) {
-            if (is_shared[v.value()] == 0) continue;
-            for (const int rank : sharing.sharers(v)) {
-                add_once(exchanges[exchange_of_rank[static_cast<std::size_t>(rank)]].sent, c);
+            for (std::uint32_t k = begin[v.value()]; k < begin[v.value() + 1]; ++k) {
+                add_once(exchanges[at[k]].sent, c);
             }
         }
     }

@@ -242,7 +242,9 @@ TEST(Communication, OfReadingBlocksOfGmshTakesNoMoreCallsOfAllWithMoreProcesses)
         MPI_Comm_free(&part);
     }
     const std::uint64_t in_world = calls_of_all(world);
-    if (is_in_pair) EXPECT_EQ(in_world, in_pair);
+    if (is_in_pair) {
+        EXPECT_EQ(in_world, in_pair);
+    }
 }
 
 TEST(DuplicateOfACommunicator, IsUsedAgainOnceNoProcessUsesItAnyMore) {

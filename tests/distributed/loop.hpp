@@ -12,8 +12,7 @@ using namespace distributed;
 /// A mesh that is refined and coarsened as an AdaptiveMesh is, in the way that a test wants.
 class Loop {
 public:
-    explicit Loop(DistributedMesh input)
-        : state_(std::make_unique<AdaptiveMesh::State>(std::move(input))) {}
+    explicit Loop(DistributedMesh input) : state_(AdaptiveMesh::State::make(std::move(input))) {}
 
     /// Collective. One step.
     Adaptation refine(const Selection& selection, Scheme scheme, const Tuning& tuning) {

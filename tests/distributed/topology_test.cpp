@@ -291,8 +291,8 @@ TEST_P(Topology, KnowsTheVerticesOfAMarkerOnAllProcessesThatHaveThem) {
         }
         EXPECT_EQ(mesh.vertices_of("r"), mesh.vertices_of(3, 3));
         EXPECT_EQ(mesh.vertices_of("\"outer\" wall # 1"), mesh.vertices_of(-4, 2));
-        if (world().size() > 1) {  // arguments that differ between processes
-            const bool is_first = world().is_first();
+        if (test::world().size() > 1) {  // arguments that differ between processes
+            const bool is_first = test::world().is_first();
             EXPECT_THROW((void)mesh.vertices_of(3, is_first ? 0 : 3), InputError);
             EXPECT_THROW((void)mesh.vertices_of(is_first ? "r" : "wall"), InputError);
         }

@@ -5,6 +5,7 @@
 #include <map>
 #include <random>
 #include <string>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -12,6 +13,7 @@
 #include <gtest/gtest.h>
 
 #include <octetra/core/error.hpp>
+#include <octetra/core/selection.hpp>
 #include <octetra/distributed/adaptive_mesh.hpp>
 
 #include "cli/octetra_program.hpp"
@@ -149,19 +151,24 @@ TEST_F(CarriedFields, AreMeansAtMidpointsAndTheParentsOnCells) {
     }
 }
 
-/// The mean of the pieces, from the least to the greatest, or what all of them have.
-template <class T>
-std::vector<T> means(const std::vector<T>& values, const std::vector<std::size_t>& parents) {
-    std::map<std::size_t, std::vector<T>> pieces;
-    for (std::size_t c = 0; c < parents.size(); ++c) pieces[parents[c]].push_back(values[c]);
-    std::vector<T> all;
-    for (auto& [parent, of_parent] : pieces) {
-        std::sort(of_parent.begin(), of_parent.end());
-        T mean = of_parent.front();
-        if (of_parent.size() > 1) {
-            mean = 0;
-            for (const T value : of_parent) mean += value / static_cast<T>(of_parent.size());
-        }
+/// The mean of the pieces of each parent, weighted by volumes and summed from the least value to
+/// the greatest. All volumes are exact, as coordinates of the lattice are multiples of 1/16.
+std::vector<double> means(const std::vector<double>& values, const AdaptiveMesh& pieces,
+                          const std::vector<std::size_t>& parents) {
+    std::map<std::size_t, std::vector<std::pair<double, double>>> of_parents;  // value, volume
+    for (std::size_t c = 0; c < parents.size(); ++c) {
+        Corners corners;
+        for (std::size_t k = 0; k < 4; ++k)
+            corners[k] = pieces.points()[pieces.cells()[c][k].value()];
+        of_parents[parents[c]].emplace_back(values[c], volume(corners));
+    }
+    std::vector<double> all;
+    for (auto& [parent, of_parent] : of_parents) {
+        std::ranges::sort(of_parent);
+        double whole = 0;
+        for (const auto& piece : of_parent) whole += piece.second;
+        double mean = 0;
+        for (const auto& [value, piece] : of_parent) mean += value * (piece / whole);
         all.push_back(mean);
     }
     return all;
@@ -187,7 +194,8 @@ TEST_F(CarriedFields, StayOnVerticesAndAreMeansOfCellsThatBecomeOne) {
         ASSERT_EQ(after.mesh.cells().size(), 384U);
         EXPECT_EQ(values_of<double>(after, "u"), linear<double>(after.mesh));
         EXPECT_EQ(values_of<std::int32_t>(after, "id"), linear<std::int32_t>(after.mesh));
-        EXPECT_EQ(values_of<double>(after, "p"), means(values_of<double>(before, "p"), parents));
+        EXPECT_EQ(values_of<double>(after, "p"),
+                  means(values_of<double>(before, "p"), before.mesh, parents));
         EXPECT_EQ(values_of<std::int64_t>(after, "N"),
                   std::vector<std::int64_t>(384, std::int64_t{1} << 40));
     }

@@ -1,5 +1,5 @@
 #!/bin/sh
-# fast_math.sh PLAIN FAST: a program that was linked with -ffast-math, whose start-up code makes the processor
+# fast_math.sh MPIRUN PLAIN FAST: a program that was linked with -ffast-math, whose start-up code makes the processor
 # flush subnormal numbers to zero, writes the same bytes as the same program without the option.
 set -eu
 folder=$(mktemp -d)
@@ -18,7 +18,7 @@ Tetrahedra
 1 2 3 4 0
 End
 END
-"$1" "$folder/in.mesh" "$folder/plain.mesh"
-"$2" "$folder/in.mesh" "$folder/fast.mesh"
+"$1" 1 "$2" "$folder/in.mesh" "$folder/plain.mesh"
+"$1" 1 "$3" "$folder/in.mesh" "$folder/fast.mesh"
 grep -q '^1e-310 ' "$folder/plain.mesh"
 cmp "$folder/plain.mesh" "$folder/fast.mesh"

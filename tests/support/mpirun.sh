@@ -5,6 +5,8 @@ shift
 set -a
 . "$(dirname -- "$0")/../../tools/mpi.env"
 set +a
+# Tests that limit the size of files leave no room for shared memory.
+export OMPI_MCA_btl=$OMPI_MCA_btl,tcp
 # After a rank has exited with a status other than 0, mpirun sends SIGTERM and SIGKILL to the others with pauses of
 # a second, even if they have exited. Tests in which one rank fails alone need these pauses, and without them
 # mpirun itself occasionally crashes at its end.

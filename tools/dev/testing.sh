@@ -109,6 +109,7 @@ keep_files_in_memory() {
     if [[ -z ${TMPDIR:-} && -w /dev/shm && $(df --output=avail /dev/shm | tail -n 1) -gt 1000000 ]]; then
         TMPDIR=$(mktemp -d /dev/shm/octetra-test.XXXXXX)
         export TMPDIR
+        chmod 755 "$TMPDIR"  # some tests read their files as another user
         trap 'rm -rf "$TMPDIR"' EXIT
     fi
 }

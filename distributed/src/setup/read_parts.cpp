@@ -111,8 +111,10 @@ DistributedMesh read_on_first(const Communicator& processes, const std::filesyst
 DistributedMesh read_parts(const Communicator& processes, const std::filesystem::path& path,
                            const Partition& partition, const ReadPartsOptions& options) {
     const StandardArithmetic standard;
-    LocalFailure none;
-    agree_on_same(processes, none, "partition", [&] { return text_of(partition); });
+    in_phase(processes, "read", [&] {
+        LocalFailure none;
+        agree_on_same(processes, none, "partition", [&] { return text_of(partition); });
+    });
     if (processes.size() > 1 && works_by_stretches(partition.method) && !options.read.only_syntax) {
         auto mesh = read_together(processes, path, partition.method, options);
         if (mesh) return std::move(*mesh);

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
@@ -152,7 +153,7 @@ TEST_F(CarriedFields, AreMeansAtMidpointsAndTheParentsOnCells) {
 }
 
 /// The mean of the pieces of each parent, weighted by volumes and summed from the least value to
-/// the greatest. All volumes are exact, as coordinates of the lattice are multiples of 1/16.
+/// the greatest. A piece has the volume of its parent divided by a power of two.
 std::vector<double> means(const std::vector<double>& values, const AdaptiveMesh& pieces,
                           const std::vector<std::size_t>& parents) {
     std::map<std::size_t, std::vector<std::pair<double, double>>> of_parents;  // value, volume
@@ -168,7 +169,9 @@ std::vector<double> means(const std::vector<double>& values, const AdaptiveMesh&
         double whole = 0;
         for (const auto& piece : of_parent) whole += piece.second;
         double mean = 0;
-        for (const auto& [value, piece] : of_parent) mean += value * (piece / whole);
+        for (const auto& [value, piece] : of_parent) {
+            mean += value * std::exp2(std::round(std::log2(piece / whole)));
+        }
         all.push_back(mean);
     }
     return all;

@@ -94,7 +94,7 @@ def function(values: ArrayLike, handover: Handover, space: Any = None) -> Any:
                  dolfinx.fem.VectorFunctionSpace(handover.mesh, linear, values.shape[1]))
     made = dolfinx.fem.Function(space)
     of_dofs = made.x.array.reshape(-1, space.dofmap.bs)
-    of_nodes = values.reshape(len(values), -1)[handover.vertices[has_vertex]]
+    of_nodes = values.reshape(len(values), space.dofmap.bs)[handover.vertices[has_vertex]]
     of_dofs[_dofs_of_nodes(space, handover)[nodes]] = of_nodes
     made.x.scatter_forward()
     return made

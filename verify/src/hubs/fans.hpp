@@ -63,11 +63,13 @@ public:
             if (fan.axial) {
                 const auto wanted = fan.axial->wanted(rays);
                 const auto meets = [&](const Bounds& b) { return wanted.meets(b); };
-                fan.directions.for_each_meeting(Counting{meets, &looked_at}, visit_if_close);
+                fan.directions.for_each_meeting(Counting<decltype(meets)>(meets, &looked_at),
+                                                visit_if_close);
             } else {
                 const Cone cone(rays);
                 const auto meets = [&](const Bounds& b) { return !cone.misses(b); };
-                fan.directions.for_each_meeting(Counting{meets, &looked_at}, visit_if_close);
+                fan.directions.for_each_meeting(Counting<decltype(meets)>(meets, &looked_at),
+                                                visit_if_close);
             }
         });
     }

@@ -34,10 +34,11 @@ py::array shared(const SharedEntities& of) {
         of.sharing);
 }
 
-py::array sharers(const SharedEntities& of, std::size_t entity) {
-    if (entity >= of.count) {
-        throw py::index_error(fmt::format("entity {}, and this rank has {}", entity, of.count));
+py::array sharers(const SharedEntities& of, std::int64_t number) {
+    if (number < 0 || static_cast<std::uint64_t>(number) >= of.count) {
+        throw py::index_error(fmt::format("entity {}, and this rank has {}", number, of.count));
     }
+    const auto entity = static_cast<std::size_t>(number);
     return std::visit(
         [&]<class I>(const SharedEntities::Pointer<I>& sharing) {
             return view(sharing->sharers(I{entity}), sharing);

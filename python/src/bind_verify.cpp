@@ -24,6 +24,10 @@ ov::Verdict judge(Mesh& mesh, const py::object& coarse, bool fast, const py::obj
     convert_on_each(mesh.processes(), [&] {
         if (input.empty() && !coarse.is_none()) throw InputError("coarse: the path is empty");
         options.min_dihedral = min_dihedral.cast<std::optional<double>>();
+        if (options.min_dihedral && !(*options.min_dihedral >= 0 && *options.min_dihedral <= 180)) {
+            throw InputError(fmt::format("min_dihedral takes a number from 0 to 180, not '{}'",
+                                         *options.min_dihedral));
+        }
     });
     return mesh.ask([&](const od::AdaptiveMesh& now) {
         od::CanonicalMesh canonical = now.canonical();

@@ -28,6 +28,7 @@ Values values_for(const py::handle& given, std::size_t wanted, const std::string
     for (py::ssize_t k = 1; k < array.ndim(); ++k) {
         components *= static_cast<std::size_t>(array.shape(k));
     }
+    if (components == 0) throw InputError(fmt::format("values of shape {} are no numbers", shape));
     return {array, wanted, components};
 }
 

@@ -47,7 +47,8 @@ struct Values {
     }
 };
 
-/// Throws InputError unless there are values for `wanted` of these entities, not Python's objects.
+/// Throws InputError unless there are values for `wanted` of these entities, one or more numbers
+/// for each, and not Python's objects.
 [[nodiscard]] Values values_for(const py::handle& given, std::size_t wanted,
                                 const std::string& entities);
 
@@ -61,14 +62,15 @@ struct Values {
 
 /// Calls work(T()) with T the type of the numbers: float64, float32, int32 or int64. Throws
 /// InputError for others. The types of fields in files.
-auto with_number_type(const py::array& array, auto&& work) {
+auto with_number_type(const py::array& array, auto&& work,
+                      const char* accepted = "float64, float32, int32 and int64") {
     const auto is = [&](const py::dtype& type) { return array.dtype().equal(type); };
     if (is(py::dtype::of<double>())) return work(double());
     if (is(py::dtype::of<float>())) return work(float());
     if (is(py::dtype::of<std::int32_t>())) return work(std::int32_t());
     if (is(py::dtype::of<std::int64_t>())) return work(std::int64_t());
-    throw InputError("values of type " + py::str(array.dtype()).cast<std::string>() +
-                     ": only float64, float32, int32 and int64; astype() makes them so");
+    throw InputError("values of type " + py::str(array.dtype()).cast<std::string>() + ": only " +
+                     accepted + "; astype() makes them so");
 }
 
 /// The same, of complex128 and complex64, too.
@@ -76,7 +78,8 @@ auto with_field_type(const py::array& array, auto&& work) {
     const auto is = [&](const py::dtype& type) { return array.dtype().equal(type); };
     if (is(py::dtype::of<std::complex<double>>())) return work(std::complex<double>());
     if (is(py::dtype::of<std::complex<float>>())) return work(std::complex<float>());
-    return with_number_type(array, work);
+    return with_number_type(array, work,
+                            "complex128, complex64, float64, float32, int32 and int64");
 }
 
 }  // namespace octetra::python

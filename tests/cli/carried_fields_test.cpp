@@ -14,6 +14,7 @@
 #include <gtest/gtest.h>
 
 #include <octetra/core/error.hpp>
+#include <octetra/core/files/checkpoint.hpp>
 #include <octetra/core/selection.hpp>
 #include <octetra/distributed/adaptive_mesh.hpp>
 
@@ -309,6 +310,23 @@ TEST_F(CarriedFields, OfAnyNameAreReadByVtk) {
     fields.pop_back();
     mesh.save(folder / "s.octetra", fields);
     expect_fields_in(folder, "s.octetra s.vtu s.vtkhdf s.pvtu");
+}
+
+TEST_F(CarriedFields, StateOfAProgramIsKeptByConvertAndMissedWithANoteElsewhere) {
+    const SavedState state{.time = 0.25, .step = 7, .text = "{}"};
+    load("m.octetra").mesh.save(folder / "s.octetra", {}, state);
+    EXPECT_EQ(run("convert s.octetra copy.octetra").err, "");
+    EXPECT_TRUE(test::content_of(folder / "copy.octetra") ==
+                test::content_of(folder / "s.octetra"));
+    const std::string missed =
+        "octetra: note: the result has no time, step and text, which a program saved in "
+        "s.octetra\n";
+    for (const std::string command :
+         {"convert s.octetra t.vtu", "refine s.octetra --all -o t.octetra",
+          "coarsen s.octetra --all --levels 0 -o t.octetra"}) {
+        EXPECT_THAT(run(command).err, HasSubstr(missed)) << command;
+    }
+    EXPECT_FALSE(read_checkpoint_facts(folder / "t.octetra").state.has_value());
 }
 
 TEST_F(CarriedFields, ThatDoNotFitAreNotWritten) {

@@ -27,7 +27,7 @@ int predicted_names = 0;
 }  // namespace
 
 /// Takes the place of the C library's function in the whole program.
-int getentropy(void* bytes, size_t size) noexcept {
+int getentropy(void* bytes, size_t size) {
     if (predicted_names == 0) {
         return ::syscall(SYS_getrandom, bytes, size, 0) == static_cast<long>(size) ? 0 : -1;
     }

@@ -54,6 +54,10 @@ CASES = {
                                                        wrong_here("product", "sum")),
     "values that are objects": lambda m: m.rebalance().cells(
         np.full(cells_of(m), wrong_here(None, 1))),
+    "values of no numbers": lambda m: m.vertex_sharing.update_copies(
+        np.ones((len(m.points), wrong_here(0, 0)))),
+    "an angle that is no number": lambda m: m.verify(min_dihedral=wrong_here(float("nan"), 5)),
+    "an angle of more than 180 degrees": lambda m: m.verify(min_dihedral=200),
     "values of ghosts": lambda m: m.ghosts().values(np.ones(cells_of(m) + wrong_here(1, 0))),
     "a kind of ghosts": lambda m: m.ghosts(wrong_here("edge", "face")),
     "a file that is not there": lambda m: octetra.read(wrong_here("no.mesh", "no.mesh")),
@@ -80,6 +84,9 @@ WORDS = {
     "a field of complex numbers": "field 'u': values of type complex128: only float64",
     "numbers of cells as marks": "marks: .* several, as numbers of cells have; .* as cells=",
     "few numbers of cells as marks": r"marks: .* cells \(numbers of cells are passed as cells=\); given",
+    "values of no numbers": r"values of shape \(\d+, 0\) are no numbers",
+    "an angle that is no number": "min_dihedral takes a number from 0 to 180, not 'nan'",
+    "an angle of more than 180 degrees": "min_dihedral takes a number from 0 to 180, not '200'",
     "a partition": "rank .: partition takes lepp, .*, not 'half'",
     "a checkpoint by another name": r"mesh.vtu: save\(\) writes a checkpoint, .*write\(\) writes",
 }
@@ -216,7 +223,7 @@ def test_criteria_are_refused_as_on_the_command_line(mesh, words):
 def test_sharers_of_a_vertex_that_is_not_there_are_an_index_error(mesh):
     vertices = len(mesh.points)
     mesh.vertex_sharing.sharers(vertices - 1)
-    for vertex in (vertices, 10**6):
+    for vertex in (vertices, 10**6, -1):
         with pytest.raises(IndexError, match=f"entity {vertex}, and this rank has {vertices}"):
             mesh.vertex_sharing.sharers(vertex)
 

@@ -101,6 +101,7 @@ MeshFacts facts_of_checkpoint(const std::string& path, const Script& script,
                 .has_regions = facts.has_regions,
                 .group_names = SharedGroupNames(facts.group_names)};
         check_regions_of(script, read);
+        if (facts.state) note(state_is_lost(path));
     });
     return read;
 }

@@ -1,6 +1,7 @@
 #include <array>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -49,9 +50,14 @@ void convert_with_fields(const ConvertOptions& options, const WriteOptions& writ
                           ? AdaptiveMesh::load(alone, options.input.path, {}, &fields)
                           : AdaptiveMesh::distribute(alone, read_input(options.input), {});
     read_fields(mesh, options.input, fields);
+    std::optional<SavedState> state;
+    if (is_checkpoint(options.input.path)) {
+        state = read_checkpoint_facts(options.input.path).state;
+    }
     if (is_checkpoint(options.output)) {
-        mesh.save(options.output, fields);
+        mesh.save(options.output, fields, state);
     } else {
+        if (state) note(state_is_lost(options.input.path));
         const std::string lost = mesh.write(options.output, fields, writing);
         if (!lost.empty()) note(lost);
     }

@@ -131,6 +131,11 @@ void check_series(const std::filesystem::path& path) {
 
 void note(std::string_view what) { tell("note: {}", what); }
 
+std::string state_is_lost(const std::string& checkpoint) {
+    return fmt::format("the result has no time, step and text, which a program saved in {}",
+                       checkpoint);
+}
+
 void report_written(const Mesh& mesh, const std::string& path) {
     const auto extension = std::filesystem::path(path).extension();
     const bool holds_facets = extension != ".vtu" && extension != ".pvtu" && extension != ".vtkhdf";

@@ -66,6 +66,10 @@ void check_series(const std::filesystem::path& path);
 /// A remark on stderr that is not an error: "octetra: note: ...".
 void note(std::string_view what);
 
+/// The note for a result that does not hold the time, step and text of the checkpoint it is made
+/// from.
+[[nodiscard]] std::string state_is_lost(const std::string& checkpoint);
+
 /// How a mesh is read: what is noted goes to stderr.
 [[nodiscard]] ReadOptions read_options(const InputOptions& options);
 [[nodiscard]] Mesh read_input(const InputOptions& options);

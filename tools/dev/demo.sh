@@ -71,7 +71,7 @@ draw_demo() {
 if (($# > 0)); then bad_usage "demo takes no arguments"; fi
 need build
 configure demo release -DOCTETRA_TESTS=OFF -DOCTETRA_BENCH=OFF -DOCTETRA_PYTHON_MODULE=OFF \
-    -DOCTETRA_DOLFINX=OFF -DOCTETRA_PETSC=OFF
+    -DOCTETRA_DOLFINX=OFF -DOCTETRA_PETSC=OFF -DOCTETRA_WARNINGS_AS_ERRORS=OFF
 build demo octetra
 check_writable demo
 mkdir -p demo

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
+#include <memory>
 #include <optional>
 #include <utility>
 
@@ -206,7 +207,7 @@ void OutputFile::make_room(std::size_t size) {
 void OutputFile::name_temporary(std::uint64_t number) {
     temporary_ = fmt::format("{}.{:012x}.tmp", place_.native(), number);
     unfinished_.reset();
-    unfinished_.emplace(temporary_);
+    unfinished_ = std::make_unique<UnfinishedFile>(temporary_);
 }
 
 /// Returns the random number in the name of the temporary file. A predictable name could be planted

@@ -111,7 +111,7 @@ private:
     std::filesystem::path path_;       ///< as it was named
     std::filesystem::path place_;      ///< where its links lead
     std::filesystem::path temporary_;  ///< the place, a random number and ".tmp"
-    std::optional<UnfinishedFile> unfinished_;
+    std::unique_ptr<UnfinishedFile> unfinished_;
     int file_ = -1;
     std::vector<char> buffer_;
     std::size_t room_ = 0;  ///< so much of the buffer may be used before something must be done

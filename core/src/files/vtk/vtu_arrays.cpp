@@ -175,6 +175,8 @@ template VtuArray vtu_connectivity<2>(
     MeshSource&, std::uint64_t, std::span<const VertexNumbers<2>> (MeshSource::*)(const Window&));
 template VtuArray vtu_connectivity<3>(
     MeshSource&, std::uint64_t, std::span<const VertexNumbers<3>> (MeshSource::*)(const Window&));
+template VtuArray vtu_connectivity<4>(
+    MeshSource&, std::uint64_t, std::span<const VertexNumbers<4>> (MeshSource::*)(const Window&));
 
 VtuArray vtu_markers(MeshSource& mesh, std::uint64_t count, bool has_markers,
                      std::span<const Marker> (MeshSource::*markers)(const Window&)) {

@@ -104,12 +104,17 @@ TEST(FailingAllocations, OfReadingAFileTogetherAreThrownOnAllProcesses) {
     }
 }
 
-TEST(FailingAllocations, OfLoadingACheckpointAreThrownOnAllProcesses) {
-    const test::SharedFolder folder;
-    const std::filesystem::path file = folder / "m.octetra";
+Mesh mesh_with_markers() {
     Mesh whole = test::marked(test::shaken_kuhn(2, 0.2, 1), 1);
     for (Marker& marker : whole.facet_markers) marker = 3;
     for (Marker& marker : whole.edge_markers) marker = 4;
+    return whole;
+}
+
+TEST(FailingAllocations, OfLoadingACheckpointAreThrownOnAllProcesses) {
+    const test::SharedFolder folder;
+    const std::filesystem::path file = folder / "m.octetra";
+    Mesh whole = mesh_with_markers();
     const std::vector<int> ranks(whole.cells.size(), 0);
     AdaptiveMesh mesh = AdaptiveMesh::distribute(test::world(), std::move(whole), ranks);
     (void)mesh.refine(Selection{.random = RandomShare{0.3, 1}});
@@ -126,9 +131,7 @@ TEST(FailingAllocations, OfLoadingACheckpointAreThrownOnAllProcesses) {
 TEST(FailingAllocations, OfLoadingAMeshAndFieldsAreThrownOnAllProcesses) {
     const test::SharedFolder folder;
     const std::filesystem::path file = folder / "m.octetra";
-    Mesh whole = test::marked(test::shaken_kuhn(2, 0.2, 1), 1);
-    for (Marker& marker : whole.facet_markers) marker = 3;
-    for (Marker& marker : whole.edge_markers) marker = 4;
+    Mesh whole = mesh_with_markers();
     const Partition in_blocks{.method = PartitionMethod::block};
     const auto ranks = partition_cells(whole, test::world().size(), in_blocks);
     AdaptiveMesh mesh = AdaptiveMesh::distribute(test::world(), std::move(whole), ranks);
@@ -147,7 +150,7 @@ TEST(FailingAllocations, OfLoadingAMeshAndFieldsAreThrownOnAllProcesses) {
     EXPECT_GE(failures, 100U);
 }
 
-/// Of `.pvtu`, in which each process writes its part with the markers and values that all agree on.
+/// In a `.pvtu` each process writes its part, with the markers and values on which all agree.
 TEST(FailingAllocations, OfAPieceToWriteAreThrownOnAllProcesses) {
     const Mesh whole = test::marked(test::shaken_kuhn(2, 0.2, 1), 1);
     const Partition in_blocks{.method = PartitionMethod::block};

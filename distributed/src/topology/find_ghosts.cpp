@@ -34,7 +34,7 @@ void add_once(std::vector<CellIndex>& sent, CellIndex c) {
 std::vector<GhostLayer::Exchange> seen_by_vertex(const DistributedMesh& mesh,
                                                  const Sharing<VertexIndex>& sharing) {
     const std::vector<SharedWith<VertexIndex>>& neighbours = sharing.neighbours();
-    // Of each vertex the neighbours that have it: at[begin[v]] .. at[begin[v + 1] - 1].
+    // The neighbours that have vertex v are at[begin[v]] .. at[begin[v + 1] - 1].
     std::vector<std::uint32_t> begin(mesh.points.size() + 1);
     for (const auto& with : neighbours) {
         for (const VertexIndex v : with.entities) ++begin[v.value()];

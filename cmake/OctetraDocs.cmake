@@ -8,15 +8,15 @@ find_package(Python3 QUIET COMPONENTS Interpreter)
 find_program(OCTETRA_DOXYGEN NAMES doxygen)
 
 if(OCTETRA_HELP2MAN AND Python3_FOUND AND NOT CMAKE_CROSSCOMPILING)  # the program is run
-  set(script ${CMAKE_SOURCE_DIR}/tools/man_pages.py)
+  set(script ${PROJECT_SOURCE_DIR}/tools/man_pages.py)
   # A page for each subcommand; octetra.1 stands for them all. None of an earlier program stays.
-  add_custom_command(OUTPUT ${CMAKE_BINARY_DIR}/man/octetra.1
-    COMMAND ${CMAKE_COMMAND} -E rm -rf ${CMAKE_BINARY_DIR}/man
+  add_custom_command(OUTPUT ${PROJECT_BINARY_DIR}/man/octetra.1
+    COMMAND ${CMAKE_COMMAND} -E rm -rf ${PROJECT_BINARY_DIR}/man
     COMMAND ${Python3_EXECUTABLE} ${script} --octetra $<TARGET_FILE:octetra>
-            --help2man ${OCTETRA_HELP2MAN} -o ${CMAKE_BINARY_DIR}/man
+            --help2man ${OCTETRA_HELP2MAN} -o ${PROJECT_BINARY_DIR}/man
     DEPENDS octetra ${script} COMMENT "Making the manual pages, man/octetra.1 and on" VERBATIM)
-  add_custom_target(man ALL DEPENDS ${CMAKE_BINARY_DIR}/man/octetra.1)
-  install(DIRECTORY ${CMAKE_BINARY_DIR}/man/ DESTINATION ${CMAKE_INSTALL_MANDIR}/man1
+  add_custom_target(man ALL DEPENDS ${PROJECT_BINARY_DIR}/man/octetra.1)
+  install(DIRECTORY ${PROJECT_BINARY_DIR}/man/ DESTINATION ${CMAKE_INSTALL_MANDIR}/man1
           FILES_MATCHING PATTERN "*.1")
 else()
   add_custom_target(man
@@ -25,10 +25,10 @@ else()
 endif()
 
 if(OCTETRA_DOXYGEN)
-  file(GLOB folders ${CMAKE_SOURCE_DIR}/*/include)
+  file(GLOB folders ${PROJECT_SOURCE_DIR}/*/include)
   list(JOIN folders " " OCTETRA_PUBLIC_FOLDERS)
-  configure_file(${CMAKE_CURRENT_LIST_DIR}/Doxyfile.in ${CMAKE_BINARY_DIR}/Doxyfile @ONLY)
-  add_custom_target(api-docs COMMAND ${OCTETRA_DOXYGEN} ${CMAKE_BINARY_DIR}/Doxyfile
+  configure_file(${CMAKE_CURRENT_LIST_DIR}/Doxyfile.in ${PROJECT_BINARY_DIR}/Doxyfile @ONLY)
+  add_custom_target(api-docs COMMAND ${OCTETRA_DOXYGEN} ${PROJECT_BINARY_DIR}/Doxyfile
     COMMENT "Making the pages of the public headers, api/index.html" VERBATIM)
 else()
   add_custom_target(api-docs

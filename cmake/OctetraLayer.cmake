@@ -3,18 +3,21 @@
 
 set(CMAKE_CXX_EXTENSIONS OFF)
 
+# octetra_compile_options(<target>): the options that results depend on, and the warnings of the project's own
+# build.
 function(octetra_compile_options target)
   target_compile_features(${target} PUBLIC cxx_std_20)
-  target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic -Wshadow -Wconversion
-                                           -Wsign-conversion -Wold-style-cast
-                                           # {.radius = 1} leaves the rest at their defaults
-                                           -Wno-missing-field-initializers
-                                           # A fused multiply-add would round squared lengths, and the
-                                           # order of edges, otherwise in one place than in another.
-                                           -ffp-contract=off)
-  if(CMAKE_UNITY_BUILD)  # a file hides by its names what those before it have
+  # A fused multiply-add would round squared lengths, and so order edges, differently from place to place.
+  target_compile_options(${target} PRIVATE -ffp-contract=off)
+  if(PROJECT_IS_TOP_LEVEL)
+    target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic -Wshadow -Wconversion
+                                             -Wsign-conversion -Wold-style-cast
+                                             # {.radius = 1} leaves the other members at their defaults
+                                             -Wno-missing-field-initializers)
+  endif()
+  if(CMAKE_UNITY_BUILD)  # a name may hide one of an earlier file, and g++ treats all but the last file as headers
     target_compile_options(${target} PRIVATE -Wno-shadow
-                           $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)  # as below
+                           $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)
   endif()
   if(OCTETRA_WARNINGS_AS_ERRORS)
     target_compile_options(${target} PRIVATE -Werror)
@@ -53,14 +56,6 @@ function(octetra_layer name)
   target_include_directories(octetra_${name} PRIVATE src)
   target_link_libraries(octetra_${name} PUBLIC ${layer_LINKS} PRIVATE ${layer_USES})
   octetra_compile_options(octetra_${name})
-  # Half of the time is that of parsing headers. Few at a time, so that one that was changed is soon
-  # compiled again.
-  if(OCTETRA_UNITY AND NOT CMAKE_UNITY_BUILD)
-    set_target_properties(octetra_${name} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 5)
-    # g++ takes a file that is compiled with others for a header, in which a type of no name would be a mistake.
-    target_compile_options(octetra_${name} PRIVATE
-                           $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)
-  endif()
   # Nobody replaces our functions by others of their name, so they may be inlined in a shared library.
   target_compile_options(octetra_${name} PRIVATE
                          $<$<CXX_COMPILER_ID:GNU>:-fno-semantic-interposition>)

@@ -19,7 +19,7 @@ need build tidy
 # precompiled headers but those that it finds built.
 configure clang clang "-DOCTETRA_TESTS=$(on_if_installed test)" \
     "-DOCTETRA_BENCH=$(on_if_installed bench)" -DCMAKE_DISABLE_PRECOMPILE_HEADERS=ON \
-    -DOCTETRA_UNITY=OFF  # it takes one file at a time
+    -DCMAKE_UNITY_BUILD=OFF  # it takes one file at a time
 if ((${#files[@]} == 0)); then
     mapfile -t files < <(sed -n 's/^ *"file": "\(.*\)",*$/\1/p' build/clang/compile_commands.json |
         grep -vF "$root/build/" | sort -u)

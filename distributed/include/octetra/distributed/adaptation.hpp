@@ -14,47 +14,47 @@
 
 namespace octetra::distributed {
 
-/// A vertex that coarsening has removed: the midpoint of an edge whose ends stay.
+/// A vertex that coarsening has removed: the midpoint of an edge whose ends remain.
 struct RemovedVertex {
-    VertexIndex before;  ///< the number that it had
-    EdgeVertices ends;   ///< of the edge that it halved, by the numbers that they have now
+    VertexIndex before;  ///< its number before the step
+    EdgeVertices ends;   ///< of the edge that it halved, by their numbers after the step
     /// A quarter of the volume of those cells of this process that had the vertex: this process's
-    /// part of the integral of its hat function.
+    /// contribution to the integral of its hat function.
     double volume = 0;
 };
 
-/// What a step of an AdaptiveMesh did to this process's part: for everything that there is now,
-/// what it was before. All numbers are local. It stays valid whatever becomes of the mesh. No
-/// function is collective.
+/// The effect of a step of an AdaptiveMesh on this process's part: the map from all entities after
+/// the step to those before it. All numbers are local. It stays valid independently of later
+/// changes of the mesh. No function is collective.
 ///
-/// Of refinement: vertices keep their numbers; new ones follow behind them. Of coarsening: the
-/// vertices that stay keep their order.
+/// In refinement, vertices keep their numbers, and new ones are appended. In coarsening, the
+/// remaining vertices keep their order.
 struct Adaptation {
-    /// Did anything change, on any process? The same on all.
+    /// Whether anything changed on any process; the same on all.
     bool changed = false;
     Succession cells;
     Succession facets;  ///< tagged ones
     Succession edges;   ///< tagged ones
     std::size_t vertex_count_before = 0;
-    /// The ends of the edge that each new vertex is the midpoint of, lower first: number
-    /// vertex_count_before is that of the first.
+    /// The ends of the edge of which each new vertex is the midpoint, lower first. The first new
+    /// vertex has the number vertex_count_before.
     std::vector<EdgeVertices> new_vertex_ends;
-    /// Of coarsening: for each vertex, the number that it had.
+    /// Coarsening only: the number of each vertex before the step.
     std::vector<VertexIndex> vertices_before;
-    /// After coarsening: the vertices of this process that were removed, ascending.
+    /// Coarsening only: the vertices of this process that were removed, ascending.
     std::vector<RemovedVertex> removed_vertices;
     SynchronisationCounts synchronisation;
 
-    /// Was this coarsening?
+    /// Returns whether the step was coarsening.
     [[nodiscard]] bool is_coarser() const { return cells.merges(); }
 
-    /// Values of a continuous, piecewise linear function (P1), `components` for each vertex: of new
-    /// vertices the mean of the edge's ends, which is what the function is there; of vertices that
-    /// stay, their own. Refinement so keeps the function, and coarsening interpolates it: its
-    /// integral changes, unless it is linear where vertices went. transfer_conservatively() keeps
-    /// the integral. T is a real or complex type. Takes the values, and gives them back with more
-    /// behind, or fewer. Throws std::invalid_argument where they do not fit, or are to be refined
-    /// and are whole numbers, which have no mean.
+    /// Transfers a continuous, piecewise linear function (P1), given by `components` values for
+    /// each vertex. A new vertex gets the mean of the ends of its edge, where the function has this
+    /// value; other vertices keep their values. So refinement preserves the function, and
+    /// coarsening interpolates it: its integral changes unless the function is linear near the
+    /// removed vertices. transfer_conservatively() preserves the integral. T is a real or complex
+    /// type. Throws std::invalid_argument if the values do not fit the mesh before the step, or for
+    /// whole numbers in refinement, as these have no mean.
     template <class T>
     [[nodiscard]] std::vector<T> transfer_vertices(std::vector<T> values,
                                                    std::size_t components = 1) const {
@@ -74,12 +74,12 @@ struct Adaptation {
         return values;
     }
 
-    /// Values of cells, `components` for each. By default children get the value of their parent,
-    /// and coarsening takes the mean of the pieces weighted by volumes, so that the integral of a
-    /// piecewise constant function is kept, but for rounding. Takes time in proportion to the cells
-    /// that changed where they keep their numbers. Throws std::invalid_argument where the values do
-    /// not fit, where T is no kind of number and they are to be divided or were pieces, and where
-    /// they are whole numbers of which a mean or shares are wanted.
+    /// Transfers values of cells, `components` for each. By default children get the value of their
+    /// parent, and coarsening computes the mean weighted by volumes, which preserves the integral
+    /// of a piecewise constant function up to rounding. Takes time proportional to the changed
+    /// cells if the others keep their numbers. Throws std::invalid_argument if the values do not
+    /// fit the mesh before the step, if T is not a number and values are to be divided or merged,
+    /// and if a mean or fractions of whole numbers are requested.
     template <class T>
     [[nodiscard]] std::vector<T> transfer_cells(std::vector<T> values, std::size_t components = 1,
                                                 CellValues children = CellValues::copied) const {
@@ -114,8 +114,8 @@ struct Adaptation {
             return after;
         }
         values.resize(cells.count() * components);
-        // The first piece of a cell has its place, so its value is changed when all others have
-        // theirs.
+        // The first child has the number of its parent, so its value is changed after all others
+        // are computed.
         cells.for_each_new([&](std::size_t number, std::size_t before, unsigned halvings) {
             if (number == before) return;
             for (std::size_t k = 0; k < components; ++k) {
@@ -133,7 +133,7 @@ struct Adaptation {
     }
 
 private:
-    /// Vertices ascend, so no value is overwritten before it has its place.
+    /// Vertices are ascending, so no value is overwritten before it is moved.
     template <class T>
     std::vector<T> kept(std::vector<T> values, std::size_t components) const {
         for (std::size_t v = 0; v < vertices_before.size(); ++v) {

@@ -10,12 +10,13 @@
 namespace octetra::distributed {
 
 /// A distributed mesh whose vertices, cells, facets and tagged edges are numbered in the canonical
-/// order: what is written to files. Every process still holds only its part.
+/// order, for writing to files. Every process still holds only its part.
 class CanonicalMesh {
 public:
-    /// Collective.
+    /// Collective. Takes the mesh over.
     explicit CanonicalMesh(DistributedMesh mesh);
-    /// The same, of a mesh that stays as it is, and must as long as this is used.
+    /// Collective. The same for a mesh that remains unchanged, and must as long as the result is
+    /// used.
     [[nodiscard]] static CanonicalMesh of(const DistributedMesh& mesh);
     ~CanonicalMesh();
     CanonicalMesh(const CanonicalMesh&) = delete;
@@ -23,11 +24,12 @@ public:
     CanonicalMesh(CanonicalMesh&&) noexcept;
     CanonicalMesh& operator=(CanonicalMesh&&) noexcept;
 
-    /// The same on all processes.
+    /// Properties of the whole mesh; the same on all processes.
     [[nodiscard]] const MeshFacts& facts() const;
 
-    /// The whole mesh, in slices that its processes exchange: octetra::write_mesh and write_maps
-    /// with it are collective, and no process ever holds more than its part and a few slices.
+    /// Returns the whole mesh, in slices that the processes exchange: octetra::write_mesh and
+    /// write_maps with it are collective, and no process ever holds more than its part and a few
+    /// slices.
     [[nodiscard]] MeshSource& whole();
 
     struct Parts;
@@ -38,8 +40,9 @@ private:
     friend std::string write_mesh(CanonicalMesh& mesh, const std::filesystem::path& path);
 };
 
-/// Collective. Writes one file, the same whatever the number of processes and the partition, or, of
-/// a `.pvtu`, each process's part as a piece. Errors and result as octetra::write_mesh.
+/// Collective. Writes one file, whose contents do not depend on the number of processes and the
+/// partition, or for `.pvtu` also one piece for each process. Errors and result are those of
+/// octetra::write_mesh.
 [[nodiscard]] std::string write_mesh(CanonicalMesh& mesh, const std::filesystem::path& path);
 
 }  // namespace octetra::distributed

@@ -14,34 +14,36 @@
 
 #include <octetra/core/process_group.hpp>
 
-/// What the distributed engine needs of MPI, in terms of vectors. Nothing here includes mpi.h.
+/// The interface of the distributed engine to MPI, in terms of vectors. This header does not
+/// include mpi.h.
 namespace octetra::distributed {
 
 class Profile;  // see octetra/distributed/profile.hpp
 
-/// A group of processes that work on one mesh. Copies speak for the same group.
+/// A group of processes that work on one mesh. Copies refer to the same group.
 ///
-/// Collective functions are called by every process of the group, in the same order; those of
-/// ProcessGroup are. A group of one process never calls MPI, so that a program runs without mpirun
-/// and without MPI's start-up.
+/// Collective functions, also those of ProcessGroup, must be called by every process of the group
+/// in the same order. A group of one process never calls MPI, so that a program runs without mpirun
+/// and without the cost of starting MPI.
 ///
-/// A process that has no memory for a message takes its part in the exchange all the same, and only
-/// then throws std::bad_alloc: no other waits for it. All others must be told by whoever called;
-/// see LocalFailure and all_or_none() in src/comm.
+/// A process that cannot allocate memory for a message completes its part of the exchange with
+/// empty messages before it throws std::bad_alloc, so that no other process waits for it. The
+/// caller must notify the other processes of the failure; see LocalFailure and all_or_none() in
+/// src/comm.
 class Communicator final : public ProcessGroup {
 public:
-    /// This process alone.
+    /// Creates the group of this process alone.
     Communicator();
 
     [[nodiscard]] int rank() const override;
     [[nodiscard]] int size() const override;
 
-    /// What measures this process's phases and messages, or null; copies share it.
+    /// The profile that records this process's phases and messages, or null. Copies share it.
     [[nodiscard]] Profile* profile() const { return profile_.get(); }
     [[nodiscard]] Communicator with_profile(std::shared_ptr<Profile> profile) const;
 
-    // As ProcessGroup says, without sending to all what only a sum is wanted of.
-    // Where one process has no memory for it, OutOfMemory is thrown on all.
+    // ProcessGroup's functions by collective operations of MPI: a sum does not gather the terms on
+    // all processes. They throw OutOfMemory on all processes if one cannot allocate the result.
     [[nodiscard]] std::vector<Bytes> exchange(std::vector<Bytes> to_each) const override;
     [[nodiscard]] std::vector<Bytes> of_all(Bytes bytes) const override;
     using ProcessGroup::sum;
@@ -55,23 +57,23 @@ public:
     }
     void check_same(std::string_view name, const std::string& value) const override;
 
-    /// Collective. Each number becomes the sum of those at its place on all processes, which have
-    /// equally many, fewer than 2^31. Needs no memory.
+    /// Collective. Replaces each number by the sum of the numbers at its position on all processes,
+    /// which pass equally many, fewer than 2^31. Allocates nothing.
     void sum(std::span<std::uint64_t> numbers) const;
-    /// Collective. The same with the greatest.
+    /// Collective. The same with the maximum.
     void max(std::span<std::uint64_t> numbers) const;
 
-    /// Collective. The maximum of one number from each process.
+    /// Collective. Returns the maximum of one number from each process.
     [[nodiscard]] std::uint64_t max(std::uint64_t number) const;
     void max(std::floating_point auto number) const = delete;
 
-    /// Collective. Runs `work`, in which nothing is collective, on every process. What it throws on
-    /// one is thrown on all, when none waits any more, by the lowest rank's: OutOfMemory, an
-    /// InputError as such, all else as SystemError.
+    /// Collective. Runs `work`, in which nothing may be collective, on every process. If it throws
+    /// on any process, all processes throw the failure of the lowest such rank once every process
+    /// has finished: OutOfMemory, an InputError as such, anything else as SystemError.
     void on_each(const std::function<void()>& work) const;
 
-    /// Collective. Every process gets the first one's values. Where one process has no memory for
-    /// them, OutOfMemory is thrown on all.
+    /// Collective. Replaces the values on every process by those of the first process. Throws
+    /// OutOfMemory on all processes if one cannot allocate them.
     template <class T>
     void broadcast(std::vector<T>& values) const {
         static_assert(std::is_trivially_copyable_v<T>);
@@ -80,7 +82,7 @@ public:
         broadcast_bytes(values.data(), values.size() * sizeof(T), 0);
     }
 
-    /// Collective. The value that process `rank` has. Needs no memory.
+    /// Collective. Returns the value that process `rank` passes. Allocates nothing.
     template <class T>
     [[nodiscard]] T of_rank(int rank, T value) const {
         static_assert(std::is_trivially_copyable_v<T>);
@@ -88,8 +90,8 @@ public:
         return value;
     }
 
-    /// Collective. to_each[r] goes to rank r; the result's [r] came from rank r. Messages go only
-    /// where there is something to send, and no process need know who has something for it.
+    /// Collective. Sends to_each[r] to rank r; element r of the result was received from rank r.
+    /// Only nonempty messages are sent, and no process needs to know which ranks send to it.
     template <class T>
     [[nodiscard]] std::vector<std::vector<T>> all_to_all(
         const std::vector<std::vector<T>>& to_each) const {
@@ -112,15 +114,17 @@ public:
         return inboxes;
     }
 
-    /// Collective among neighbours. outboxes[i] goes to rank neighbours[i]; the result's [i] came
-    /// from there. Who is whose neighbour must be mutual. One message to each, empty or not.
+    /// Collective among neighbours. Sends outboxes[i] to rank neighbours[i]; element i of the
+    /// result was received from there. The relation of neighbours must be symmetric. Exactly one
+    /// message, possibly empty, is sent to each neighbour.
     template <class T>
     [[nodiscard]] std::vector<std::vector<T>> exchange_with(
         std::span<const int> neighbours, const std::vector<std::vector<T>>& outboxes) const {
         return send_and_receive<T>(neighbours, outboxes, neighbours);
     }
 
-    /// Between two processes: one sends to the other, which receives. Both wait until it is done.
+    /// Point-to-point: one process sends and the other receives. Both block until the transfer is
+    /// complete.
     template <class T>
     void send(const std::vector<T>& values, int receiver) const {
         (void)send_and_receive<T>(std::span(&receiver, 1), std::span(&values, 1), {});
@@ -130,13 +134,14 @@ public:
         return std::move(send_and_receive<T>({}, {}, std::span(&sender, 1)).front());
     }
 
-    /// Collective. The first process gets what each one has, by rank; the others get nothing.
+    /// Collective. Returns the values of each process, by rank, on the first process, and nothing
+    /// on the others.
     template <class T>
     [[nodiscard]] std::vector<std::vector<T>> gather(const std::vector<T>& values) const {
         return send_and_receive<T>(every_rank().first(1), std::span(&values, 1), if_first());
     }
 
-    /// Collective. Rank r gets to_each[r] of the first process.
+    /// Collective. Returns on rank r the vector to_each[r] of the first process.
     template <class T>
     [[nodiscard]] std::vector<T> scatter(const std::vector<std::vector<T>>& to_each) const {
         return std::move(send_and_receive<T>(if_first(), to_each, every_rank().first(1)).front());
@@ -150,7 +155,7 @@ public:
 private:
     using Allocate = std::byte* (*)(void* context, std::size_t i, std::size_t size);
 
-    /// In inbox i of those that `context` points to.
+    /// Allocates inbox i of the inboxes that `context` points to.
     template <class T>
     static std::byte* allocate_inbox(void* context, std::size_t i, std::size_t size) {
         std::vector<T>& inbox = (*static_cast<std::vector<std::vector<T>>*>(context))[i];
@@ -161,11 +166,13 @@ private:
     [[nodiscard]] std::span<const int> if_first() const {
         return is_first() ? every_rank() : std::span<const int>{};
     }
-    /// The first thing in every collective function.
+    /// Throws OthersFailed if a process watched by all_or_none() has failed. Every collective
+    /// function calls this first.
     void ask_whether_all_work() const;
     [[nodiscard]] std::size_t broadcast_size(std::size_t size) const;
     void broadcast_bytes(void* data, std::size_t size, int root) const;
-    /// outboxes[i] goes to rank receivers[i]; the result's [i] came from senders[i].
+    /// Sends outboxes[i] to rank receivers[i]; element i of the result was received from
+    /// senders[i].
     template <class T>
     [[nodiscard]] std::vector<std::vector<T>> send_and_receive(
         std::span<const int> receivers, std::span<const std::vector<T>> outboxes,
@@ -187,21 +194,21 @@ private:
         send_and_receive_bytes(receivers, bytes, senders, &allocate_inbox<T>, &inboxes);
         return inboxes;
     }
-    /// Throws what allocate() throws, but only when all is sent and received.
+    /// Throws what allocate() throws, once all messages are sent and received.
     void send_and_receive_bytes(std::span<const int> receivers,
                                 std::span<const std::span<const std::byte>> outboxes,
                                 std::span<const int> senders, Allocate allocate,
                                 void* context) const;
-    /// outboxes[r] goes to rank r, unless it is empty; what has come from there goes to where
-    /// allocate(context, r, size) says. Throws what allocate() throws, but only in the end.
+    /// Sends outboxes[r] to rank r unless it is empty, and writes the message received from rank r
+    /// to allocate(context, r, size). Throws what allocate() throws, once the exchange is complete.
     void exchange_sparsely(std::span<const std::span<const std::byte>> outboxes, Allocate allocate,
                            void* context) const;
-    /// Everybody's number, and everybody's bytes, of which there are counts[r] from rank r, to
-    /// places[r]: by rank. Need no memory.
+    /// Gather the number, or the bytes, of every process on all processes, by rank: counts[r] bytes
+    /// of rank r at offset places[r]. Allocate nothing.
     void gather_everywhere(std::uint64_t number, std::span<std::uint64_t> numbers) const;
     void gather_everywhere(std::span<const std::byte> bytes, std::span<const int> counts,
                            std::span<const int> places, std::span<std::byte> gathered) const;
-    /// For a process that cannot do better: needs no memory.
+    /// Completes send_and_receive_bytes() with empty messages after a failure. Allocates nothing.
     void send_and_receive_nothing(std::span<const int> receivers,
                                   std::span<const int> senders) const noexcept;
 
@@ -209,7 +216,8 @@ private:
     std::shared_ptr<Profile> profile_;
 };
 
-/// Starts MPI if the program was started by mpirun, and ends it in the end.
+/// Initialises MPI if the program was started by mpirun or srun, and finalises it in the
+/// destructor.
 class MpiSession {
 public:
     MpiSession(int* argc, char*** argv);
@@ -219,16 +227,16 @@ public:
     MpiSession(MpiSession&&) = delete;
     MpiSession& operator=(MpiSession&&) = delete;
 
-    /// All processes that mpirun started, or this one alone.
+    /// The communicator of all processes that mpirun started, or of this process alone.
     [[nodiscard]] const Communicator& world() const { return world_; }
 
-    /// For a failure that this process alone has met, before it calls abort(): may it say so? Of
-    /// those on one machine that fail at the same time, the first one may; the others come back
-    /// from here when that one has ended, if they live that long.
+    /// Returns whether this process is to report a failure that it alone has met; called before
+    /// abort(). Among the processes of one machine that fail at the same time, the first gets true
+    /// at once; the others block until the first one has ended, and get false.
     [[nodiscard]] bool is_first_to_fail() const;
 
-    /// Ends all processes at once with this exit status: for a failure that this one alone has met,
-    /// while the others may be waiting for it.
+    /// Ends all processes immediately with this exit status, after a failure that this process
+    /// alone has met while others may be waiting for it.
     [[noreturn]] static void abort(int status);
 
 private:

@@ -12,20 +12,22 @@
 
 namespace octetra::distributed {
 
-/// Collective. Values of a continuous, piecewise linear function (P1), `components` for each vertex
-/// of this process before `step`, which is the last step of `mesh`: those of a function on the mesh
-/// as it is now with the same integral over the whole mesh, but for rounding.
+/// Collective. Transfers a continuous, piecewise linear function (P1) from the mesh before `step`,
+/// which must be the last step of `mesh`, to the mesh after it, and preserves its integral over the
+/// whole mesh up to rounding. `values` has `components` values for each vertex of this process
+/// before the step; the result has as many for each vertex after it.
 ///
-/// Refinement keeps the function itself. Coarsening keeps the values of the vertices that stay and
-/// adds a correction: with I the interpolation at the vertices that stay, P its prolongation to the
-/// mesh before, and lumped masses M before and m now, the result is I u + m^-1 P^T M (u - P I u).
-/// The deviation of the function from its interpolant at a removed vertex is distributed in equal
-/// halves to the two ends of the edge that the vertex halved. Where the function is linear on the
-/// cells as they are now, it stays as it is. It may leave the range of its values.
+/// Refinement preserves the function itself. Coarsening keeps the values of the remaining vertices
+/// and adds a correction: with I the interpolation at the remaining vertices, P its prolongation to
+/// the mesh before, and lumped masses M before and m after, the result is
+/// I u + m^-1 P^T M (u - P I u). The deviation of the function from its interpolant at a removed
+/// vertex is distributed in equal halves to the two ends of the edge that the vertex halved. A
+/// function that is linear on the cells after the step is unchanged. The result may exceed the
+/// range of the values before.
 ///
-/// T is a floating-point or complex type. Copies of a vertex get equal values. Throws InputError on
-/// all processes where on one the values do not fit the mesh before the step, or the step does not
-/// lead to the mesh as it is.
+/// T is a floating-point or complex type. All copies of a vertex get equal values. Throws
+/// InputError on all processes if on any process the values do not fit the mesh before the step, or
+/// the step does not lead to the current mesh.
 template <class T>
 requires(std::floating_point<T> || is_complex<T>)
     [[nodiscard]] std::vector<T> transfer_conservatively(const AdaptiveMesh& mesh,

@@ -12,48 +12,49 @@
 
 namespace octetra::distributed {
 
-/// A number that holds on all processes: of a vertex in the canonical order.
+/// The number of a vertex in the canonical order of the whole mesh, the same on all processes.
 enum class GlobalVertex : std::uint64_t {};
 
-/// Where entities of a level come from: the descendants of an entity of the input, its root, stand
-/// together, in the order of bisection, and roots in the order of the input. So what a root has
-/// (its number, its region tag or marker) need not be kept for each descendant.
+/// The ancestor map of this process's entities of one kind. The descendants of an entity of the
+/// input, its root, are contiguous, in the order of bisection, and roots are in the order of the
+/// input. So the properties of a root (its number, its region tag or marker) need not be stored for
+/// each descendant.
 struct AncestorMap {
-    /// Numbers in the input of this process's roots, ascending.
+    /// The numbers in the input of this process's roots, ascending.
     std::vector<std::uint64_t> roots;
-    /// The descendants of root number r of this process are first[r] .. first[r+1]-1.
+    /// The descendants of this process's root number r are first[r] .. first[r+1]-1.
     std::vector<std::uint32_t> first{0};
     /// The region tag or marker of each root, or empty where the input has none.
     std::vector<Marker> markers;
 };
 
-/// What this process shares with another one. Both have the same edges and faces listed in the same
-/// order, and the vertices of each in the same order, so that a position in the list means the same
-/// on both sides. Vertices are numbered locally.
+/// The edges and faces that this process shares with another one. Both list the same edges and
+/// faces in the same order, and the vertices of each in the same order, so that a position in the
+/// list denotes the same entity on both sides. Vertices are local numbers.
 struct Interface {
     int rank = 0;
     std::vector<EdgeVertices> edges;
     std::vector<FacetVertices> faces;
 };
 
-/// How the midpoint of an edge would be marked by what this process knows of the edge.
+/// The marker of an edge's midpoint, as far as this process knows the edge.
 struct MidpointMarker {
     enum class Source : std::uint8_t { nothing, facet, edge };
     Source source = Source::nothing;
     Marker marker = 0;
 };
 
-/// What the engine keeps from one level to the next where few cells change.
+/// Data that the engine keeps from one level to the next while few cells change.
 struct Adjacency;
 struct DeleteAdjacency {
     void operator()(Adjacency* adjacency) const;
 };
 
-/// A mesh of which each process of a group holds some cells, and what belongs to them.
+/// The part of this process of a mesh that is distributed over the processes of a communicator.
 ///
-/// Vertices are numbered locally, in ascending canonical order: first those of the input, then the
-/// midpoints of each level. Cells and what is tagged are in canonical order as well, as far as this
-/// process has them, unless the mesh is unordered: see restore_canonical_order().
+/// Vertices have local numbers, in ascending canonical order: first the vertices of the input, then
+/// the midpoints of each level. Cells and tagged facets and edges are in canonical order as well,
+/// unless the mesh is unordered: see restore_canonical_order().
 struct DistributedMesh {
     Communicator processes;
 
@@ -61,14 +62,14 @@ struct DistributedMesh {
     std::size_t attributes_per_point = 0;
     std::vector<double> point_attributes;
 
-    /// The vertices of the input come first; this is what the input numbers them.
+    /// The numbers in the input of the vertices of the input, which are the first local vertices.
     std::vector<GlobalVertex> input_vertices;
     /// Their markers, or empty where the input has none.
     std::vector<Marker> input_vertex_markers;
-    /// Local numbers of the first midpoint of each level so far.
+    /// The local number of the first midpoint of each level so far.
     std::vector<VertexIndex> level_begin;
-    /// The ends of the edge that a midpoint halves, lower first. Midpoint 0 is the vertex after the
-    /// last of the input.
+    /// The ends of the edge that a midpoint halves, lower first. Midpoint 0 is the vertex that
+    /// follows the last vertex of the input.
     std::vector<EdgeVertices> midpoint_to_edge;
     /// One for each midpoint, or empty where the input has no vertex markers.
     std::vector<MidpointMarker> midpoint_markers;
@@ -81,9 +82,9 @@ struct DistributedMesh {
     AncestorMap edge_ancestors;
 
     std::vector<Interface>
-        interfaces;  ///< one for each process that shares an edge; rank ascending
+        interfaces;  ///< one for each process that shares an edge; ascending by rank
 
-    /// The engine's own. While there is one, the mesh is unordered.
+    /// Internal to the engine. While it is not null, the mesh is unordered.
     std::unique_ptr<Adjacency, DeleteAdjacency> adjacency;
 
     // The same on all processes:
@@ -92,38 +93,38 @@ struct DistributedMesh {
     std::uint32_t index_base = 0;
     SharedGroupNames group_names;
 
-    /// Features of the input, if it has any: all processes have lists then, or none has. Each has
-    /// some of the numbers, whoever has the entities: what becomes of these is found out when the
-    /// mesh is written, as their pieces stand together then.
+    /// The features of the input, if it has any: either all processes have these lists or none has.
+    /// Each process has those of a share of the numbers, whatever parts the entities belong to;
+    /// features of descendants are determined when the mesh is written.
     SharedFeatures features;
 };
 
-/// Collective. Gives each cell of a mesh that the first process has to the process that
-/// `cell_to_rank` names; tagged facets and edges go to the process of the first cell that has them.
-/// The other processes' mesh and cell_to_rank are not looked at. A group of one process takes the
-/// mesh over as it is. Throws InputError, on all, where cell_to_rank has not one rank for each
+/// Collective. Distributes a mesh that the first process holds: cell i goes to rank
+/// cell_to_rank[i], and each tagged facet or edge to the rank of the first cell that has it. The
+/// arguments of the other processes are ignored. A group of one process takes the mesh over as it
+/// is. Throws InputError on all processes if cell_to_rank does not have one valid rank for each
 /// cell.
 [[nodiscard]] DistributedMesh distribute(const Communicator& processes, Mesh mesh,
                                          const std::vector<int>& cell_to_rank);
 
-/// Brings cells and tagged facets and edges into canonical order, and their lineages up to date.
-/// Refinement leaves a process's mesh unordered where few of its cells were bisected: these stand
-/// there in no order, and lineages are not to be looked at. Takes time and memory in proportion to
-/// the process's part, and what refinement has kept is lost. Whatever collects or writes a mesh
-/// does this. Not collective.
+/// Restores the canonical order of cells and tagged facets and edges, and the ancestor maps.
+/// Refinement leaves the part of a process unordered if few of its cells were bisected: the order
+/// of these entities is then unspecified, and the ancestor maps must not be used. Takes time and
+/// memory proportional to the part, and discards the data kept for incremental levels. All
+/// functions that collect or write a mesh call this. Not collective.
 void restore_canonical_order(DistributedMesh& mesh);
 
-/// What collect() puts together again.
+/// The result of collect().
 struct Collected {
     Mesh mesh;
     RefinementMaps maps;
 };
 
-/// Collective. The first process gets the whole mesh in its canonical order, the others an empty
-/// one. Throws InputError on all processes where 32 bits cannot number it.
+/// Collective. Returns the whole mesh in canonical order on the first process, and an empty mesh on
+/// the others. Throws InputError on all processes if its entities cannot be numbered with 32 bits.
 [[nodiscard]] Collected collect(DistributedMesh mesh);
 
-/// Collective. The same, of a mesh that stays as it is.
+/// Collective. The same for a mesh that is kept.
 [[nodiscard]] Collected collect_copy(const DistributedMesh& mesh);
 
 }  // namespace octetra::distributed

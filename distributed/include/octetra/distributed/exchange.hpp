@@ -11,13 +11,14 @@
 #include <octetra/distributed/sharing.hpp>
 #include <octetra/distributed/value_kind.hpp>
 
-/// Values on shared entities, brought from process to process. `values` has `components` values for
-/// each of this process's entities of the kind (vertices, say), by local number.
+/// Exchange of values on shared entities between processes. `values` has `components` values for
+/// each entity of the kind (vertex, edge, face) on this process, by local number.
 namespace octetra::distributed {
 
 namespace detail {
 
-/// What processes exchange, neighbour by neighbour, n counting those of a Sharing.
+/// An exchange of values with the neighbours of a Sharing, by their position n in
+/// Sharing::neighbours().
 struct ValueExchange {
     std::size_t neighbour_count = 0;
     std::function<int(std::size_t n)> rank;
@@ -30,18 +31,19 @@ struct ValueExchange {
     ValueKind kind;
 };
 
-/// Collective. Throws alike on all processes, before anything is unpacked.
+/// Collective. Throws the same on all processes, before any message is unpacked.
 void exchange_values(const Communicator& processes, const ValueExchange& exchange);
 
-/// `sent` and `received` are the lists of SharedWith; take(value, come) gets what has come.
+/// Exchanges values: `sent` and `received` select lists of SharedWith, and take(value, come)
+/// combines a local value with a received one.
 template <class I, class T>
 void exchange_shared(const Communicator& processes, const Sharing<I>& sharing,
                      std::vector<I> SharedWith<I>::*sent, std::vector<I> SharedWith<I>::*received,
                      std::size_t entity_count, std::span<T> values, const ValueKind& kind,
                      auto take) {
     static_assert(std::is_trivially_copyable_v<T>);
-    // The functions refer to this alone: then they take no memory, for want of which one process
-    // would throw and leave the others waiting.
+    // The functions capture a single reference, so that std::function does not allocate: a process
+    // that failed to would throw and leave the others waiting.
     const struct {
         const std::vector<SharedWith<I>>& neighbours;
         std::vector<I> SharedWith<I>::*sent;
@@ -83,11 +85,11 @@ void exchange_shared(const Communicator& processes, const Sharing<I>& sharing,
 
 }  // namespace detail
 
-/// Collective. Every copy of an entity's values gets those of its owner.
+/// Collective. Copies the owner's values of each entity to all other sharers.
 ///
-/// Throws InputError on all processes if `values` of one has not `components` values for each of
-/// its `entity_count` entities, or if two processes pass different kinds of values: another T,
-/// another number of components, other entities. Nothing has been changed then.
+/// Throws InputError on all processes if the `values` of one do not have `components` values for
+/// each of its `entity_count` entities, or if two processes pass different kinds of values: another
+/// T, another number of components, other entities. No values have changed then.
 template <class I, class T>
 void update_copies(const Communicator& processes, const Sharing<I>& sharing,
                    std::size_t entity_count, std::span<T> values, std::size_t components = 1) {
@@ -96,9 +98,10 @@ void update_copies(const Communicator& processes, const Sharing<I>& sharing,
                             [](T& value, const T& come) { value = come; });
 }
 
-/// Collective. The owner of each entity gets operation(its value, a copy's) for every copy, in the
-/// order of the ranks; copies keep theirs. An operation that does not mind order, such as a
-/// minimum, has the same result on any number of processes. Throws as update_copies().
+/// Collective. Replaces the owner's value of each entity by operation(value, copy) for the value of
+/// every copy, in the order of ranks; the copies are unchanged. With an operation that is
+/// commutative and associative, such as a minimum, the result does not depend on the number of
+/// processes. Throws as update_copies() does.
 template <class I, class T, class Operation>
 void combine_at_owner(const Communicator& processes, const Sharing<I>& sharing,
                       std::size_t entity_count, std::span<T> values, Operation operation,
@@ -110,9 +113,9 @@ void combine_at_owner(const Communicator& processes, const Sharing<I>& sharing,
                             [&](T& value, const T& come) { value = operation(value, come); });
 }
 
-/// Collective. Combines the values of all copies of each entity, and gives all copies the result:
-/// what assembly needs. With std::logical_or<> a flag (bool, std::uint8_t) is set on all processes
-/// that have the entity where it is set on one of them. Throws as update_copies().
+/// Collective. Combines the values of all copies of each entity and assigns the result to all
+/// copies, as assembly needs. With std::logical_or<> a flag (bool, std::uint8_t) that is set on one
+/// sharer is set on all. Throws as update_copies() does.
 template <class I, class T, class Operation>
 void combine_everywhere(const Communicator& processes, const Sharing<I>& sharing,
                         std::size_t entity_count, std::span<T> values, Operation operation,
@@ -121,7 +124,7 @@ void combine_everywhere(const Communicator& processes, const Sharing<I>& sharing
     update_copies(processes, sharing, entity_count, values, components);
 }
 
-// The same of vectors, from which the type of a span is not deduced.
+// Overloads for vectors, for which the type of a span is not deduced.
 template <class I, class T>
 void update_copies(const Communicator& processes, const Sharing<I>& sharing,
                    std::size_t entity_count, std::vector<T>& values, std::size_t components = 1) {

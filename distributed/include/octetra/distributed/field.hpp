@@ -10,8 +10,9 @@
 
 namespace octetra::distributed {
 
-/// Named values on this process's vertices or cells, by local number: `components` for each.
-/// Processes have the same fields, in the same order; of a vertex the owner's values count.
+/// Named values on this process's vertices or cells, by local number, `components` for each. All
+/// processes have the same fields in the same order; for a vertex that several processes have, the
+/// owner's values are used.
 struct Field {
     std::string name;
     FieldOn on = FieldOn::vertices;

@@ -15,29 +15,30 @@
 
 namespace octetra::distributed {
 
-/// Which cells of other processes a process gets to see.
+/// The condition for a cell of another process to be a ghost.
 enum class GhostsBy {
-    face,    ///< those with a face of its cells
-    vertex,  ///< those with a vertex of its cells
+    face,    ///< it has a face of a cell of this process
+    vertex,  ///< it has a vertex of a cell of this process
 };
 
-/// A layer of cells that other processes have, around those of this one. A picture of the mesh as
-/// it was when it was made.
+/// A layer of ghosts: cells of other processes around those of this one. A snapshot of the mesh at
+/// the time of its creation.
 struct GhostLayer {
     struct Owner {
         int rank = 0;
-        CellIndex cell;  ///< its number on that process
+        CellIndex cell;  ///< its local number on that process
 
         friend auto operator<=>(const Owner&, const Owner&) = default;
     };
-    /// Vertices by local number; those of `points` follow behind this process's own.
+    /// Vertices by local number; the vertices of `points` follow those of this process.
     std::vector<CellVertices> cells;
-    std::vector<Owner> owners;                 ///< of each of these cells; ascending
-    std::vector<Marker> regions;               ///< of each, or empty where the input has none
-    std::vector<Point> points;                 ///< of vertices that this process does not have
-    std::vector<GlobalVertex> vertex_numbers;  ///< theirs, ascending
+    std::vector<Owner> owners;    ///< of each ghost; ascending
+    std::vector<Marker> regions;  ///< of each ghost, or empty where the input has none
+    std::vector<Point> points;    ///< of vertices of ghosts that this process does not have
+    std::vector<GlobalVertex> vertex_numbers;  ///< the global numbers of `points`, ascending
 
-    /// What this process sends to others, and gets from them: ghosts come by rank, as they stand.
+    /// The cells that this process sends to another rank, and the number of ghosts that it receives
+    /// from there. Ghosts are grouped by rank, in the order of `cells`.
     struct Exchange {
         int rank = 0;
         std::vector<CellIndex> sent;
@@ -45,9 +46,9 @@ struct GhostLayer {
     };
     std::vector<Exchange> exchanges;
 
-    /// Collective. The values of the ghost cells, of `components` values for each of this process's
-    /// cells. Throws InputError on all processes where the values of one do not fit its cells, or
-    /// where two processes pass another T or another number of components.
+    /// Collective. Returns the values of the ghosts, given `components` values for each of this
+    /// process's cells. Throws InputError on all processes if the values of one do not fit its
+    /// cells, or if two processes pass another T or another number of components.
     template <class T>
     [[nodiscard]] std::vector<T> values(const Communicator& processes, std::span<const T> own,
                                         std::size_t components = 1) const {
@@ -69,7 +70,7 @@ struct GhostLayer {
     std::size_t own_cell_count = 0;
 
 private:
-    /// allocate() makes room for the values of the ghosts; it is called once.
+    /// allocate() returns the buffer for the values of the ghosts; it is called once.
     void exchange(const Communicator& processes, std::span<const std::byte> own,
                   const detail::ValueKind& kind, const std::function<std::byte*()>& allocate) const;
 };

@@ -14,25 +14,26 @@
 
 namespace octetra::distributed {
 
-/// What the children of a cell get of a value that it had; and of values that pieces had, what
-/// their whole gets. What all pieces have the whole has, too, to the bit, but where they are added
-/// up. What it gets does not depend on the number of processes.
+/// The rule by which values of cells are transferred: by refinement from a parent to its children,
+/// and by coarsening from fine cells to the coarse cell that they are merged into. A value that all
+/// fine cells have in common is preserved bit by bit unless values are summed. The result does not
+/// depend on the number of processes.
 enum class CellValues {
-    copied,    ///< each the same, and the mean weighted by volumes, which keeps the integral: a
-               ///< density, an average over the cell. Of whole numbers (a level, a tag) what most
-               ///< pieces have, and of several such the least
-    averaged,  ///< as copied, but whole numbers are refused
-    divided,   ///< by their shares in its volume, and the sum: a mass. Whole numbers (a count) have
-               ///< no shares, and can only be added up
+    copied,  ///< each child gets the value of the parent; a coarse cell gets the mean weighted by
+             ///< volumes, which preserves the integral: for a density or a cell average. For whole
+             ///< numbers (a level, a tag) it gets the most frequent value, or the smallest of these
+    averaged,  ///< as copied, but whole numbers are rejected
+    divided,  ///< children get fractions of the value in proportion to their volumes; a coarse cell
+              ///< gets the sum: for a mass. Whole numbers (a count) can be summed, but not divided
 };
 
-/// Is T std::complex of a floating-point type?
+/// True if T is std::complex of a floating-point type.
 template <class T>
 inline constexpr bool is_complex = false;
 template <std::floating_point R>
 inline constexpr bool is_complex<std::complex<R>> = true;
 
-/// The type of the real and imaginary parts of T; of a T that is not complex, T.
+/// The type of the real and imaginary parts of T; T itself if it is not complex.
 template <class T>
 struct RealOf {
     using Type = T;
@@ -44,7 +45,8 @@ struct RealOf<std::complex<R>> {
 template <class T>
 using Real = typename RealOf<T>::Type;
 
-/// A strict order of numbers that tells all bits apart; complex ones by their real parts first.
+/// A strict total order that distinguishes all bit patterns; complex numbers are ordered by their
+/// real parts first.
 template <class T>
 [[nodiscard]] std::strong_ordering order_of(const T& a, const T& b) {
     if constexpr (is_complex<T>) {
@@ -55,15 +57,16 @@ template <class T>
     }
 }
 
-/// A value of a piece, which its whole had been halved so often for.
+/// The value of a fine cell, and the number of bisections that separate it from the coarse cell.
 template <class T>
 struct PieceValue {
     T value;
     unsigned halvings;
 };
 
-/// In an order that does not depend on that of the pieces, which is not the same on any number of
-/// processes; values of other types stay as they are. Have all the same?
+/// Sorts values into an order that does not depend on the order of the cells, which varies with the
+/// number of processes; values of types without an order are left as they are. Returns whether all
+/// values are equal.
 template <class T>
 [[nodiscard]] bool sort_and_compare(std::span<PieceValue<T>> pieces) {
     if constexpr (std::is_arithmetic_v<T> || is_complex<T>) {
@@ -82,7 +85,7 @@ template <class T>
     }
 }
 
-/// Of sorted ones; of several such the least.
+/// Returns the most frequent of sorted values; the smallest if several are equally frequent.
 template <class T>
 [[nodiscard]] T most_frequent(std::span<const PieceValue<T>> pieces) {
     T found = pieces[0].value;
@@ -95,7 +98,8 @@ template <class T>
     return found;
 }
 
-/// The value of a cell whose pieces, one or more, had these. Changes their order.
+/// Returns the value of a coarse cell that one or more fine cells are merged into. Reorders
+/// `pieces`.
 template <class T>
 [[nodiscard]] T merged_value(std::span<PieceValue<T>> pieces, CellValues how) {
     const bool are_same = sort_and_compare(pieces);
@@ -115,7 +119,7 @@ template <class T>
     return sum;
 }
 
-/// Values of cells, `components` for each, that coarsening made of those of their pieces.
+/// Returns the values after coarsening, `components` for each cell, from the values before it.
 template <class T>
 [[nodiscard]] std::vector<T> merged_values(const std::vector<T>& values, std::size_t components,
                                            const Succession& cells, CellValues how) {

@@ -15,8 +15,8 @@
 
 namespace octetra::distributed {
 
-/// Lists of values, one for each cell or vertex: that of entity i is values[begin[i]] ..
-/// values[begin[i + 1] - 1].
+/// Lists of values of variable length, one for each cell or vertex: the list of entity i is
+/// values[begin[i]] .. values[begin[i + 1] - 1].
 template <class T>
 struct ValueLists {
     std::vector<std::uint64_t> begin{0};
@@ -25,23 +25,23 @@ struct ValueLists {
     friend bool operator==(const ValueLists&, const ValueLists&) = default;
 };
 
-/// Where the cells of an AdaptiveMesh went when it was rebalanced, and with them its vertices:
-/// brings along what a program has for each. It stays valid whatever becomes of the mesh.
+/// The movement of the cells and vertices of an AdaptiveMesh between processes, by which a program
+/// moves its own data for them. It stays valid independently of later changes of the mesh.
 ///
-/// All processes call its functions, in the same order. They throw alike on all processes:
-/// InputError where values do not fit the mesh as it was, or two processes pass different kinds of
-/// values: another T, another number of components, lists, values of other entities; OutOfMemory if
-/// one process has no memory.
+/// All functions are collective unless stated otherwise. They throw on all processes: InputError if
+/// values do not fit the mesh before the migration, or two processes pass different kinds of values
+/// (another T, number of components, lists instead of values, other entities); OutOfMemory if one
+/// runs out of memory.
 class Migration {
 public:
-    /// Nothing has moved, of whatever mesh: values stay as they are.
+    /// A migration of any mesh in which nothing moves: values are returned unchanged.
     Migration() = default;
 
-    /// Has anything moved, on any process? The same on all.
+    /// Returns whether anything moved on any process; the same on all. Not collective.
     [[nodiscard]] bool changed() const { return changed_; }
 
-    /// Collective. Values of cells, `components` for each: takes those of this process's cells as
-    /// they were, and gives those of the cells as they are.
+    /// Collective. Moves values of cells, `components` for each: takes those of this process's
+    /// cells before the migration, and returns those of its cells after it.
     template <class T>
     [[nodiscard]] std::vector<T> cells(std::vector<T> values, std::size_t components = 1) const {
         return moved(cells_, std::move(values), components);
@@ -50,8 +50,8 @@ public:
     [[nodiscard]] ValueLists<T> cells(ValueLists<T> lists) const {
         return moved(cells_, std::move(lists));
     }
-    /// Collective. The same of vertices. Of a vertex that several processes have, all have the same
-    /// values, and whoever keeps it keeps its own.
+    /// Collective. The same for vertices. All processes that have a vertex must pass the same
+    /// values for it; a process that keeps a vertex keeps its own.
     template <class T>
     [[nodiscard]] std::vector<T> vertices(std::vector<T> values, std::size_t components = 1) const {
         return moved(vertices_, std::move(values), components);
@@ -61,15 +61,15 @@ public:
         return moved(vertices_, std::move(lists));
     }
 
-    // For who moves cells.
+    // Interface for the code that migrates cells.
 
-    /// What is in a message from one process to another, or to itself: some of its entities, in an
-    /// order that both know.
+    /// The message from this process to a partner, which may be itself, and from there: entities in
+    /// an order that both know.
     struct Message {
-        std::vector<std::uint32_t> sent;      ///< to the other process, by the numbers they had
-        std::vector<std::uint32_t> received;  ///< from there, by the numbers that they have
+        std::vector<std::uint32_t> sent;      ///< local numbers before the migration
+        std::vector<std::uint32_t> received;  ///< local numbers after it
     };
-    /// In Message::received: the entity has come from another process already.
+    /// In Message::received: the entity was already received from another process.
     static constexpr std::uint32_t repeated = std::numeric_limits<std::uint32_t>::max();
 
     struct Entities {
@@ -77,14 +77,14 @@ public:
         std::size_t count_after = 0;
         std::vector<Message> messages;  ///< one for each partner
     };
-    /// Nothing has moved of a part with so many cells and vertices: values that fit it stay as they
-    /// are.
+    /// A migration in which nothing moves, of a part with these numbers of cells and vertices:
+    /// values that fit it are returned unchanged.
     Migration(Communicator processes, std::size_t cell_count, std::size_t vertex_count)
         : knows_counts_(true),
           processes_(std::move(processes)),
           cells_{cell_count, cell_count, {}},
           vertices_{vertex_count, vertex_count, {}} {}
-    /// Partners ascend by rank, and are mutual; each process is one of its own.
+    /// Partners are ascending by rank and symmetric; each process is among its own partners.
     Migration(Communicator processes, std::vector<int> partners, Entities cells, Entities vertices)
         : changed_(true),
           knows_counts_(true),
@@ -94,10 +94,10 @@ public:
           vertices_(std::move(vertices)) {}
 
 private:
-    /// Makes room for so many values, and says where.
+    /// Allocates a buffer for this number of values and returns its address.
     using Allocate = std::function<std::byte*(std::size_t)>;
 
-    /// Collective. Where nothing has moved.
+    /// Collective. Checks the arguments if nothing has moved.
     void check_values(const Entities& entities, std::size_t count,
                       const detail::ValueKind& kind) const;
     void check_lists(const Entities& entities, std::span<const std::uint64_t> begin,
@@ -105,7 +105,7 @@ private:
     /// Collective.
     void move_values(const Entities& entities, std::span<const std::byte> values,
                      const detail::ValueKind& kind, const Allocate& allocate) const;
-    /// Collective. As ValueLists.
+    /// Collective. The arguments are as in ValueLists.
     void move_lists(const Entities& entities, std::span<const std::uint64_t> begin,
                     std::span<const std::byte> values, const detail::ValueKind& kind,
                     std::vector<std::uint64_t>& begin_after, const Allocate& allocate) const;
@@ -142,7 +142,7 @@ private:
             check_lists(entities, lists.begin, lists.values.size(), kind);
             return lists;
         }
-        ValueLists<T> after{.begin = {}, .values = {}};  // which takes no memory yet
+        ValueLists<T> after{.begin = {}, .values = {}};  // allocates nothing yet
         move_lists(entities, lists.begin, std::as_bytes(std::span(lists.values)), kind, after.begin,
                    [&](std::size_t count) {
                        after.values.resize(count);
@@ -152,7 +152,7 @@ private:
     }
 
     bool changed_ = false;
-    bool knows_counts_ = false;  ///< of a mesh, which values are to fit
+    bool knows_counts_ = false;  ///< whether values must fit the counts below
     Communicator processes_;
     std::vector<int> partners_;
     Entities cells_;

@@ -6,21 +6,24 @@
 
 namespace octetra::distributed {
 
-/// For programs that have MPI running: the processes of an MPI communicator. Collective. Messages
-/// go through a duplicate of the communicator, so that none meets one of the program's.
+/// Collective. Returns a Communicator with the processes of an MPI communicator, for programs that
+/// have initialised MPI. Messages use a duplicate of `comm`, so that they cannot be confused with
+/// those of the program.
 ///
-/// No duplicate is ever freed before MPI_Finalize. MPI_Comm_free is collective, while Communicators
-/// and meshes may be destroyed at any time: at another one on each process, as by Python's garbage
-/// collection, or after MPI_Finalize. A duplicate that no process uses any more serves the next
-/// call for the same processes, in the same order. So there are as many duplicates for them as were
-/// used at the same time, and `comm` itself may be freed when this returns.
+/// A duplicate is never freed before MPI_Finalize: MPI_Comm_free is collective, while Communicators
+/// and meshes may be destroyed at any time, in a different order on each process, for instance by
+/// the garbage collection of Python, or after MPI_Finalize. A duplicate that no process uses any
+/// more is reused by the next call for the same processes in the same order, so the number of
+/// duplicates is the largest number in use at the same time. `comm` itself may be freed after the
+/// return.
 ///
-/// Throws InputError where `comm` is an intercommunicator or MPI_COMM_NULL; std::bad_alloc, on all
-/// processes, where one has no memory.
+/// Throws InputError if `comm` is an intercommunicator or MPI_COMM_NULL, and std::bad_alloc on all
+/// processes if one runs out of memory.
 [[nodiscard]] Communicator communicator_of(MPI_Comm comm);
 
-/// The other way: a communicator of MPI with these processes, in their order; MPI_COMM_SELF of a
-/// process that never called MPI. It is theirs: to send messages, duplicate it.
+/// The inverse of communicator_of(): returns an MPI communicator with these processes, in their
+/// order; MPI_COMM_SELF if this process has never called MPI. It belongs to `processes`: duplicate
+/// it to send messages.
 [[nodiscard]] MPI_Comm comm_of(const Communicator& processes);
 
 }  // namespace octetra::distributed

@@ -6,13 +6,14 @@
 
 namespace octetra::distributed {
 
-/// One process has no memory for what all do together: thrown on all of them. Takes none itself.
+/// Thrown on all processes if one of them runs out of memory in a collective function. Allocates no
+/// memory itself.
 class OutOfMemory : public std::bad_alloc {
 public:
     explicit OutOfMemory(int rank) noexcept : rank_(rank) {
         std::snprintf(what_.data(), what_.size(), "rank %d: out of memory", rank);
     }
-    /// The one that has no memory.
+    /// The rank that ran out of memory.
     [[nodiscard]] int rank() const noexcept { return rank_; }
     [[nodiscard]] const char* what() const noexcept override { return what_.data(); }
 

@@ -7,17 +7,17 @@
 
 #include <octetra/core/mesh.hpp>
 
-/// Which process gets which cell. The result of a refinement does not depend on it; how much must
-/// be told between processes does.
+/// Partitions of cells among processes. The result of refinement does not depend on the partition;
+/// the amount of communication does.
 namespace octetra::distributed {
 
 enum class PartitionMethod {
     rcb,     ///< recursive coordinate bisection of the cells' centroids
     lepp,    ///< METIS on the graph that joins cells through their longest edges (the paper's)
     dual,    ///< METIS on the graph that joins cells through faces
-    block,   ///< equal shares in the order of the input
+    block,   ///< equal contiguous blocks in the order of the input
     random,  ///< at random
-    file,    ///< as a file says
+    file,    ///< read from a file
 };
 
 struct Partition {
@@ -26,37 +26,37 @@ struct Partition {
     std::filesystem::path path;  ///< for file: part numbers from 0, one for each cell, in order
 };
 
-/// Does it make parts even in weights?
+/// Returns whether the method balances weights of cells.
 [[nodiscard]] inline bool takes_weights(const Partition& partition) {
     return partition.method == PartitionMethod::lepp || partition.method == PartitionMethod::dual ||
            partition.method == PartitionMethod::rcb;
 }
 
-/// "rcb", "lepp", "dual", "block", "random:SEED" or "file:PATH". Throws InputError.
+/// Parses "rcb", "lepp", "dual", "block", "random:SEED" or "file:PATH". Throws InputError.
 [[nodiscard]] Partition parse_partition(const std::string& text);
-/// The other way.
+/// The inverse of parse_partition().
 [[nodiscard]] std::string text_of(const Partition& partition);
 
-/// The part, 0 to parts-1, of each cell; parts may be empty. By lepp, dual and rcb, parts are
-/// about equal in the sum of their cells' weights, such as predicted_cells() finds, as far as no
-/// single cell outweighs a part; without weights, in their number. Not collective: one process
-/// decides. Throws InputError where a part file does not fit the mesh, METIS cannot count so many
-/// cells, or there are weights but not one for each cell, positive and finite; SystemError where
-/// METIS fails. METIS takes a SIGTERM that comes while it works for a failure: it ends in the
-/// SystemError, and no other handler gets it.
+/// Returns the part, 0 to parts-1, of each cell; parts may be empty. With the methods lepp, dual
+/// and rcb, the parts have about equal sums of weights, such as those of predicted_cells(), unless
+/// a single cell outweighs a part; without weights, about equal numbers of cells. Not collective:
+/// one process computes the partition. Throws InputError if a part file does not fit the mesh,
+/// METIS cannot represent the number of cells, or there are weights but not one for each cell,
+/// positive and finite; SystemError if METIS fails. METIS intercepts SIGTERM and treats it as a
+/// failure: a SIGTERM during its work results in the SystemError, and no other handler is called.
 [[nodiscard]] std::vector<int> partition_cells(const Mesh& mesh, int parts,
                                                const Partition& partition,
                                                const std::vector<float>& weights = {});
 
-/// How good a partition is. Less cut, fewer shared vertices and an even balance are better.
+/// Quality of a partition. Lower cut, fewer shared vertices and better balance reduce cost.
 struct PartitionStatistics {
     std::vector<std::uint64_t> cells_of_part;
-    std::vector<std::uint64_t> shared_vertices_of_part;  ///< that some other part has as well
+    std::vector<std::uint64_t> shared_vertices_of_part;  ///< vertices that another part has as well
     std::vector<std::uint64_t> neighbours_of_part;       ///< parts with which it shares a vertex
     std::uint64_t inner_faces = 0;
-    std::uint64_t cut_faces = 0;  ///< between cells of different parts
-    /// Pairs of cells of which one has its longest edge in the other: the steps that selections
-    /// take.
+    std::uint64_t cut_faces = 0;  ///< inner faces between cells of different parts
+    /// Pairs of cells such that the longest edge of one is an edge of the other: the links along
+    /// which marks propagate.
     std::uint64_t longest_edge_links = 0;
     std::uint64_t cut_longest_edge_links = 0;
 };

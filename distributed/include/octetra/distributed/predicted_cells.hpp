@@ -10,14 +10,14 @@
 
 namespace octetra::distributed {
 
-/// Cells of a mesh before processes get their parts: each process has a stretch of them, in the
-/// order of the mesh.
+/// The cells of a mesh before parts are distributed: each process has a contiguous share of them,
+/// in the order of the mesh.
 struct CellsToWeigh {
     Communicator processes;
-    std::uint64_t first_number = 0;       ///< of the whole mesh's cells
-    std::span<const CellVertices> cells;  ///< of this process, by place in `points`
+    std::uint64_t first_number = 0;       ///< number in the whole mesh of this process's first cell
+    std::span<const CellVertices> cells;  ///< of this process; vertices are positions in `points`
     std::span<const Point> points;
-    std::span<const Marker> regions;  ///< or empty
+    std::span<const Marker> regions;  ///< one for each cell, or empty
 
     [[nodiscard]] std::size_t count() const { return cells.size(); }
     [[nodiscard]] Corners corners(std::size_t i) const {
@@ -26,23 +26,25 @@ struct CellsToWeigh {
     }
 };
 
-/// The cells of a mesh that this process has all of.
+/// Returns the cells of a mesh that this process holds completely. The result refers to the mesh.
 [[nodiscard]] CellsToWeigh cells_to_weigh(const Mesh& mesh);
 
-/// Collective among the processes that have the cells. About how many cells each cell becomes in so
-/// many levels: what parts are to be even in, so that the process that has the refined place does
-/// not get nearly all of the result. Empty, on all processes, where all become equally many, or
-/// nothing tells which become more. The numbers do not depend on how many processes there are.
+/// Collective among cells.processes. Predicts the number of cells that each cell becomes in
+/// `levels` levels: the weights for a partition, which balance the result of refinement instead of
+/// its input. Returns an empty vector on all processes if all cells become equally many, or if the
+/// selection does not determine which become more. The numbers do not depend on the number of
+/// processes.
 ///
-/// A marked cell becomes 8, 4 or 2 in each level, by the scheme, and 1e9 at most. Of a sphere or
-/// box it counts how much of a cell is inside, as closure leads there what is not marked itself; a
-/// random share is as large everywhere. What closure does around the marked cells is left out: it
-/// is little beside them.
+/// A marked cell becomes 8, 4 or 2 cells in each level, by the scheme, and at most 1e9 in total.
+/// For spheres and boxes the prediction is proportional to the fraction of the cell that is inside,
+/// since closure refines that fraction even where it is not marked; a random fraction applies to
+/// all cells alike. The cells that closure bisects around the marked cells are neglected, being few
+/// in comparison.
 [[nodiscard]] std::vector<float> predicted_cells(const CellsToWeigh& cells,
                                                  const Selection& selection, Scheme scheme,
                                                  int levels);
 
-/// The same of a mesh that this process has all of. Not collective.
+/// The same for a mesh that this process holds completely. Not collective.
 [[nodiscard]] std::vector<float> predicted_cells(const Mesh& mesh, const Selection& selection,
                                                  Scheme scheme, int levels);
 

@@ -14,23 +14,26 @@ namespace octetra::distributed {
 
 struct ReadPartsOptions {
     ReadOptions read;
-    /// Told on all processes, which may talk to each other then, what the mesh is, before it is
-    /// shared out; perhaps twice. What it throws it must throw on all. May be empty.
+    /// Called on all processes with the properties of the mesh before it is distributed, possibly
+    /// twice. May use collective functions; an exception must be thrown on all processes. May be
+    /// empty.
     std::function<void(const MeshFacts&)> on_facts;
-    /// What parts are to be even in, for partitions that take weights: a weight for each cell,
-    /// positive and finite, or nothing on all processes that have the cells. Those call it
-    /// together, and what it throws it must throw on all. May be empty: cells weigh the same.
+    /// Returns the weights by which partitions that take weights balance the parts: one for each
+    /// cell, positive and finite; or an empty vector on all processes that have the cells. It is
+    /// called collectively by these processes, and an exception must be thrown on all of them. May
+    /// be empty: all cells have the same weight.
     std::function<std::vector<float>(const CellsToWeigh&)> weigh;
 };
 
-/// Collective. Reads and checks a mesh, as read_mesh() does, and gives each process its part. By
-/// rcb and block all processes read together, each an even share of the files and then its part, so
-/// that none has more than these in memory; for the other methods, and for a file that they cannot
-/// read so, the first process reads all of it and shares it out. Such files are those with
-/// something to refuse or, as options may ask, to mend, and in the Medit format those with entities
-/// that do not have a line each. The words of an error are read_mesh()'s, on all processes;
-/// `ReadOptions::note` is called on the first. Throws InputError where processes pass different
-/// partitions, and OutOfMemory where a process has no memory for what it is to read.
+/// Collective. Reads and checks a mesh, as read_mesh() does, and returns the part of this process.
+/// With the methods rcb and block all processes read an even share of the files each, and then
+/// exchange cells, so that no process holds more than its share and its part. With other methods,
+/// and for a file that cannot be read in parallel, the first process reads the whole mesh and
+/// distributes it. Such files are those that read_mesh() rejects or, if `options` request it,
+/// repairs, and Medit files whose entities are not on separate lines. Error messages are those of
+/// read_mesh(), on all processes; `ReadOptions::note` is called on the first process. Throws
+/// InputError if processes pass different partitions, and OutOfMemory if a process runs out of
+/// memory.
 [[nodiscard]] DistributedMesh read_parts(const Communicator& processes,
                                          const std::filesystem::path& path,
                                          const Partition& partition,

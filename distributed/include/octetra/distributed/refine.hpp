@@ -13,36 +13,38 @@
 /// Environments", Figure 3.
 namespace octetra::distributed {
 
-/// How processes tell each other which shared edges they have marked.
+/// The method by which processes notify each other of marked edges that they share.
 enum class Synchronisation {
-    neighbour,  ///< processes that share an edge tell each other
-    gateway,    ///< the first process collects all, drops what is known, informs those concerned
+    neighbour,  ///< each process notifies those that share the edge
+    gateway,    ///< the first process collects marks, drops known ones and passes the others on
 };
 
 struct RefineOptions {
     Scheme scheme = Scheme::eight;
     int levels = 1;
     Synchronisation synchronisation = Synchronisation::neighbour;
-    /// A level that would make more cells than this, of the whole mesh, is not begun.
+    /// A level after which the whole mesh would have more cells than this is refused.
     std::uint64_t max_cells = std::numeric_limits<std::uint64_t>::max();
-    /// The mesh is not refined or coarsened after this: a level that changes little then takes no
-    /// time and memory for what would make later ones of that kind cheap.
+    /// No level of refinement or coarsening follows: a level that changes few cells then omits the
+    /// time and memory for data structures that only later levels use.
     bool is_last = false;
-    /// Whether cells move before a level that would leave processes with too different numbers of
-    /// them: see AdaptiveMesh::refine_evenly().
+    /// Parameters of migrating cells before a level that would leave the processes with too
+    /// different numbers of cells; see AdaptiveMesh::refine_evenly(). Without a value, cells are
+    /// not migrated.
     std::optional<BalanceOptions> balance = std::nullopt;
-    /// Told on the first process, after each level, of the level (from 1) and of the cells that the
-    /// whole mesh now has. May be empty.
+    /// Called on the first process after each level, with the level, counted from 1, and the number
+    /// of cells of the whole mesh. May be empty.
     std::function<void(int level, std::uint64_t cells)> on_level;
 };
 
-/// What synchronisation took, on this process, summed over the levels. Beside its messages every
-/// round, and once more every level, takes a maximum over all processes.
+/// Cost of synchronisation on this process, summed over the levels. In addition to these messages,
+/// each round and each level need one maximum over all processes.
 struct SynchronisationCounts {
-    std::uint64_t rounds = 0;    ///< the same on all processes
-    std::uint64_t messages = 0;  ///< sent by this process; by the gateway, also those passed on
-    std::uint64_t bytes = 0;     ///< in these messages
-    std::uint64_t edges = 0;     ///< selections in these messages
+    std::uint64_t rounds = 0;  ///< the same on all processes
+    std::uint64_t messages =
+        0;                    ///< sent by this process; for the gateway, also the marks passed on
+    std::uint64_t bytes = 0;  ///< in these messages
+    std::uint64_t edges = 0;  ///< marked edges in these messages
 
     SynchronisationCounts& operator+=(const SynchronisationCounts& more) {
         rounds += more.rounds;
@@ -53,11 +55,11 @@ struct SynchronisationCounts {
     }
 };
 
-/// Collective. Refines in place; the mesh stays distributed. What is in which order afterwards, and
-/// what it is, does not depend on the number of processes, the partition or the synchronisation.
-/// Throws InputError on all processes where a rounded midpoint would flatten or invert a cell, or
-/// where there would be more cells than allowed, and std::bad_alloc on all where one has no memory;
-/// the mesh is then as it was before the level that failed.
+/// Collective. Refines the mesh in place; it stays distributed. The result and its canonical order
+/// do not depend on the number of processes, the partition or the method of synchronisation. Throws
+/// on all processes InputError if a rounded midpoint would make a child flat or inverted, or if the
+/// mesh would have more than RefineOptions::max_cells cells, and std::bad_alloc if a process runs
+/// out of memory. The mesh is then as it was before the level that failed.
 SynchronisationCounts refine(DistributedMesh& mesh, const Selection& selection,
                              const RefineOptions& options);
 

@@ -8,32 +8,31 @@
 
 #include <octetra/core/index.hpp>
 
-/// Who else has what this process has of a distributed mesh: vertices, edges or faces.
+/// Sharing of the vertices, edges or faces of a distributed mesh between processes.
 namespace octetra::distributed {
 
-/// What this process shares with another one. Both have the same entities listed in the same order,
-/// each by its own numbers; and those that one of them owns, likewise.
+/// The entities that this process shares with another one, by local number. Each of the three lists
+/// has the same entities in the same order as the corresponding list of the other process.
 template <class I>
 struct SharedWith {
     int rank = 0;
     std::vector<I> entities;
-    std::vector<I> owned;     ///< of these, this process's own
-    std::vector<I> received;  ///< and the other one's own; the rest are a third one's
+    std::vector<I> owned;     ///< those that this process owns
+    std::vector<I> received;  ///< those that the other process owns; third ones own the rest
 
     friend bool operator==(const SharedWith&, const SharedWith&) = default;
 };
 
-/// Which entities of a kind other processes have, too: also those that they have in common with
-/// this one at a single vertex or edge. Local numbers; nothing is asked of anybody at the time of
-/// use.
+/// The entities of one kind that other processes have as well, including those that they share with
+/// this process only at a single vertex or edge. Entities are local numbers. No function
+/// communicates.
 ///
-/// Every entity has one owner among the processes that have it. Which one a hash of its global
-/// number decides, so that all of them come to the same answer by themselves, and shared entities
-/// are spread evenly.
+/// Every entity has one owner among its sharers, determined by a hash of its global number: so all
+/// sharers agree on the owner without communication, and shared entities are distributed evenly.
 template <class I>
 class Sharing {
 public:
-    /// The other processes that have the entity, ascending; none if it is this one's alone.
+    /// Returns the other ranks that have the entity, ascending; empty if only this process has it.
     [[nodiscard]] std::span<const int> sharers(I i) const {
         const std::size_t k = place_of(i);
         if (k == shared_.size()) return {};
@@ -45,9 +44,9 @@ public:
     }
     [[nodiscard]] bool is_owned(I i) const { return owner(i) == rank_; }
 
-    /// The processes that share something with this one, by rank, and what.
+    /// The processes that share entities with this one, ascending by rank.
     [[nodiscard]] const std::vector<SharedWith<I>>& neighbours() const { return neighbours_; }
-    /// The entities that are shared with any, ascending.
+    /// The entities that are shared with any process, ascending.
     [[nodiscard]] const std::vector<I>& shared() const { return shared_; }
     [[nodiscard]] int rank() const { return rank_; }
 
@@ -65,7 +64,7 @@ private:
 
     int rank_ = 0;
     std::vector<I> shared_;
-    std::vector<std::uint32_t> begin_{0};  ///< of the ranks of each shared entity, and the end
+    std::vector<std::uint32_t> begin_{0};  ///< offsets into ranks_, by shared entity
     std::vector<int> ranks_;
     std::vector<int> owners_;
     std::vector<SharedWith<I>> neighbours_;

@@ -10,8 +10,8 @@
 
 namespace octetra::distributed {
 
-/// How many pieces an entity was bisected into, and how often it was halved for each of them: the
-/// share of piece k in its volume (area, length) is 2^-halvings[k], but for rounded midpoints.
+/// The bisection of an entity into children: the volume (area, length) of child k is the fraction
+/// 2^-halvings[k] of the parent's, up to the rounding of midpoints.
 struct Division {
     std::uint8_t piece_count = 1;
     std::array<std::uint8_t, 8> halvings{};
@@ -19,37 +19,38 @@ struct Division {
     friend auto operator<=>(const Division&, const Division&) = default;
 };
 
-/// How this process's cells, or tagged facets, or tagged edges became those after a step. All
-/// numbers are local.
+/// The map between this process's cells, or tagged facets, or tagged edges, before and after a
+/// step. All numbers are local.
 ///
-/// Of refinement: where little changed, what was not bisected has its number still: of what was,
-/// the first piece has the number of the whole, and the others stand behind all that there was
-/// before. Where much changed, all have new numbers.
+/// Refinement: if few entities changed, those that were not bisected keep their numbers; the first
+/// child of a bisected entity takes the number of its parent, and the other children are appended.
+/// If many changed, all entities get new numbers.
 ///
-/// Of coarsening, merges() is true: pieces became wholes, and any may have new numbers.
+/// Coarsening, for which merges() is true: fine entities are merged into coarse ones, and any
+/// entity may get a new number.
 class Succession {
 public:
-    /// Nothing changed.
+    /// A step that changes nothing.
     explicit Succession(std::size_t count = 0) : count_before_(count), count_(count) {}
 
     [[nodiscard]] std::size_t count_before() const { return count_before_; }
     [[nodiscard]] std::size_t count() const { return count_; }
 
-    /// Has all that was not bisected its number still?
+    /// Returns whether all entities that were not bisected keep their numbers.
     [[nodiscard]] bool keeps_numbers() const { return keeps_numbers_; }
 
-    /// Was this coarsening? Then whole_of() and halvings() tell what became of what.
+    /// Returns whether the step was coarsening. Only then whole_of() and halvings() are defined.
     [[nodiscard]] bool merges() const { return merges_; }
-    /// For each entity of before, the one that it became or is a piece of.
+    /// For each entity before the step, the entity after it that it became or was merged into.
     [[nodiscard]] std::span<const std::uint32_t> whole_of() const { return whole_of_; }
-    /// Of cells, how often the whole had been halved for each of before: its share in the volume is
-    /// 2^-halvings, but for rounded midpoints.
+    /// For each cell before coarsening, the number of bisections that separate it from the coarse
+    /// cell: its volume is the fraction 2^-halvings, up to the rounding of midpoints.
     [[nodiscard]] std::span<const std::uint8_t> halvings() const { return halvings_; }
 
-    /// Of refinement. Calls visit(number, before, halvings) for each entity of after the step,
-    /// where `before` is the number of what it is or is a piece of; in ascending order where
-    /// keeps_numbers() is false. Where it is true, only for the pieces: those that take the place
-    /// of a whole, and those behind.
+    /// Refinement only. Calls visit(number, before, halvings) for entities after the step, where
+    /// `before` is the number of the same entity or of its parent before the step. If
+    /// keeps_numbers() is false, all entities are visited in ascending order; if it is true, only
+    /// the children of bisected entities.
     void for_each_new(auto&& visit) const {
         std::size_t next = keeps_numbers_ ? count_before_ : 0;
         const auto pieces = [&](std::uint32_t before, const Division& division, bool in_place) {
@@ -68,30 +69,32 @@ public:
         }
     }
 
-    /// Of refinement. Of each entity after the step, the number of what it is or is a piece of.
-    /// Takes time in proportion to all of them.
+    /// Refinement only. Returns for each entity after the step the number of the same entity or of
+    /// its parent before the step. Takes time proportional to the number of entities.
     [[nodiscard]] std::vector<std::uint32_t> parents() const;
 
-    // For who bisects.
+    // Interface for the code that bisects.
     struct Cut {
         std::uint32_t before = 0;
-        std::uint8_t division = 0;  ///< one of the divisions
+        std::uint8_t division = 0;  ///< index into the divisions
     };
-    /// Of a list in which `cuts` were bisected, in this order, and all else kept its number.
+    /// The map for a list in which `cuts` were bisected, in this order, and all other entities kept
+    /// their numbers. The divisions must outlive the result.
     [[nodiscard]] static Succession of_cuts(std::size_t count, std::vector<Cut> cuts,
                                             std::span<const Division> divisions);
-    /// Of a list whose entities came to be divided as `division_of` says, all in order. The
-    /// divisions must outlive this.
+    /// The map for a list whose entities were all replaced, in order, by their children by
+    /// `division_of`. The divisions must outlive the result.
     [[nodiscard]] static Succession of_all(std::vector<std::uint8_t> division_of,
                                            std::span<const Division> divisions);
 
-    /// Of a list whose entities became `count` wholes. No halvings: not of cells.
+    /// The map for a list whose entities were merged into `count` coarse ones. `halvings` is empty
+    /// for facets and edges.
     [[nodiscard]] static Succession of_merges(std::size_t count,
                                               std::vector<std::uint32_t> whole_of,
                                               std::vector<std::uint8_t> halvings);
 
-    /// Of a list whose entities were brought into another order first: `before` are the numbers
-    /// that they had, or empty.
+    /// Composes the map with a preceding permutation: `before` has the number before it of each
+    /// entity, or is empty.
     void set_order(std::vector<std::uint32_t> before) { before_ = std::move(before); }
 
 private:
@@ -107,13 +110,13 @@ private:
     std::vector<std::uint8_t> halvings_;
 };
 
-/// The pieces of each whole, one whole after the other: of number w, pieces[first[w]] to
+/// The fine entities of each coarse one: those of coarse entity w are pieces[first[w]] ..
 /// pieces[first[w + 1] - 1].
 struct PiecesOfWholes {
     std::vector<std::uint32_t> first;
     std::vector<std::uint32_t> pieces;
 };
-/// Of coarsening.
+/// Inverts whole_of() of a coarsening.
 [[nodiscard]] PiecesOfWholes pieces_of_wholes(const Succession& merges);
 
 }  // namespace octetra::distributed

@@ -5,16 +5,16 @@
 
 namespace octetra::distributed::detail {
 
-/// The kind of values that a collective function exchanges, which all processes pass alike.
+/// The kind of values that a collective function exchanges; the same on all processes.
 struct ValueKind {
     const std::type_info* type = nullptr;
     std::size_t size = 0;                    ///< of a value, in bytes
-    std::size_t components = 1;              ///< values of each entity
-    bool are_lists = false;                  ///< of any length, which take the place of components
-    const std::type_info* entity = nullptr;  ///< the type of its index
+    std::size_t components = 1;              ///< values for each entity
+    bool are_lists = false;                  ///< lists of any length instead of `components` values
+    const std::type_info* entity = nullptr;  ///< the type of the entity's index
     const std::type_info* operation = nullptr;  ///< null: values are copied
 
-    /// The bytes of one entity.
+    /// Size of the values of one entity, in bytes.
     [[nodiscard]] std::size_t entry_size() const { return size * components; }
 };
 

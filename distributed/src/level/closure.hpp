@@ -6,8 +6,8 @@
 
 namespace octetra::distributed {
 
-/// The marked edges of this process, on their way to closure. Edges are marked by the process
-/// itself or on another's word; drain() follows the propagation paths as far as they go here.
+/// The marked edges of this process during closure. Edges are marked by this process or on behalf
+/// of another rank; drain() follows the propagation paths within this part.
 class Closure {
 public:
     Closure() = default;
@@ -17,16 +17,16 @@ public:
     Closure(Closure&&) = delete;
     Closure& operator=(Closure&&) = delete;
 
-    /// Marks the edge at this position of an interface's list, on the other side's word.
+    /// Marks the edge at this position of an interface's list, as requested by the other rank.
     virtual void mark_from(std::size_t interface, std::uint32_t position) = 0;
 
-    /// Marks what the rule asks for, until every cell of this process is closed.
+    /// Marks edges by the closure rule until every cell of this process is closed.
     virtual void drain() = 0;
 
     [[nodiscard]] virtual std::size_t marked_count() const = 0;
 
-    /// Positions in each interface's list of the edges that were marked since they were last
-    /// taken and that the other side has not told of.
+    /// Returns, for each interface, the positions in its list of the edges that were marked since
+    /// the last call and that the other rank has not marked itself.
     [[nodiscard]] virtual std::vector<std::vector<std::uint32_t>> take_outboxes() = 0;
 };
 

@@ -14,19 +14,19 @@
 
 namespace octetra::distributed {
 
-/// What becomes of a process's lists.
+/// The changes of a process's lists by a level.
 struct ListChanges {
     Succession cells;
     Succession facets;
     Succession edges;  ///< tagged ones
 };
 
-/// What one process does at one level, step by step; see refine_level(). There are two ways, and
-/// each process takes the one that suits its own part: nothing of them shows outside. No step is
+/// One level on one process, step by step; see PlannedLevel. There are two implementations, and
+/// each process uses the one that suits its own part; the results are the same. No step is
 /// collective.
 ///
-/// Until commit() the mesh is as it was, but for the midpoints behind its vertices. Whoever
-/// destroys a level that was not committed has the mesh as it was before: a step may throw.
+/// Until commit() the mesh is unchanged except for the midpoints appended to its vertices. A level
+/// that is destroyed without commit() restores the mesh: each step may throw.
 class Level {
 public:
     Level() = default;
@@ -36,35 +36,39 @@ public:
     Level(Level&&) = delete;
     Level& operator=(Level&&) = delete;
 
-    /// The marked edges, of marked cells as yet, to be closed together with the other processes.
+    /// The marked edges, at first those of the marked cells; to be closed together with the other
+    /// processes.
     [[nodiscard]] virtual Closure& closure() = 0;
 
-    /// Of the closed level: the cells that it bisects, ascending, each with its marked edges.
+    /// Returns the cells that the closed level bisects, ascending, each with its marked edges.
     [[nodiscard]] virtual MarkedCells closed_marks() = 0;
 
     /// Appends midpoints to the mesh's vertices.
     virtual void bisect_edges() = 0;
-    /// Of the closed level; may be asked for before anything is bisected.
+    /// Returns the number of cells after the closed level; may be called before anything is
+    /// bisected.
     [[nodiscard]] virtual std::size_t cell_count_afterwards() = 0;
-    /// Into so many. Where a failure is found, the level must not be committed.
+    /// Bisects the cells into `cell_count` ones. If a failure is found, the level must not be
+    /// committed.
     [[nodiscard]] virtual RoundingFailure bisect_cells(std::size_t cell_count) = 0;
     virtual void bisect_tagged() = 0;
     virtual void bisect_interfaces() = 0;
 
-    /// Of the level that is ready to be committed: the midpoints of the shared edges that it
-    /// bisects, by interface, in the order of the edges in its list, which both sides know.
+    /// Returns the midpoints of the shared edges that the level bisects, by interface, in the order
+    /// of the edges in its list, which both ranks have in common. To be called when the level is
+    /// ready to be committed.
     [[nodiscard]] virtual std::vector<std::vector<VertexIndex>> shared_midpoints() const = 0;
-    /// And how the process's lists change.
+    /// Returns the changes of the process's lists; called at the same time.
     [[nodiscard]] virtual ListChanges changes() = 0;
 
-    /// Once all steps are done: from now on the mesh is the level's result.
+    /// Replaces the mesh by the result of the level, once all steps are done.
     virtual void commit() noexcept = 0;
 
-    /// How many cells were looked at beyond judging them.
+    /// Returns the number of cells that were processed, not counting tests by the selection.
     [[nodiscard]] virtual std::size_t cells_touched() const = 0;
 };
 
-/// The edges that a marked cell marks.
+/// Returns the edges that a marked cell marks.
 [[nodiscard]] inline EdgeMask marks_of(Scheme scheme, LengthOrder order) {
     const PatternTable& table = PatternTable::get();
     switch (scheme) {
@@ -75,8 +79,8 @@ public:
     return 0;
 }
 
-/// The child that a pattern describes, of a cell whose corners and midpoints are `vertices`, by
-/// place.
+/// Returns the child with corners at these places, of a cell whose corners and midpoints are
+/// `vertices`, indexed by place.
 [[nodiscard]] inline CellVertices child_of(const std::array<VertexIndex, 10>& vertices,
                                            const std::array<Place, 4>& places) {
     CellVertices child;

@@ -4,7 +4,8 @@
 
 namespace octetra::distributed {
 
-/// The midpoints that a level appends to a mesh's vertices: taken back unless they are kept.
+/// The midpoints that a level appends to a mesh's vertices; removed by the destructor unless they
+/// are kept.
 class AppendedMidpoints {
 public:
     /// Begins a level of the mesh.
@@ -23,12 +24,13 @@ private:
     std::size_t level_count_;
 };
 
-/// Appends the midpoint of an edge to the mesh's vertices, and its ends and attributes to those
-/// lists; not its marker.
+/// Appends the midpoint of an edge to the mesh's vertices, with its ends and attributes, but not
+/// its marker.
 void append_midpoint(DistributedMesh& mesh, VertexIndex low, VertexIndex high);
 
-/// Learns that the edge of a midpoint is tagged, or in a tagged facet, with this marker: an edge
-/// tells more than a facet, a facet more than nothing; among equals the smallest marker counts.
+/// Updates the marker of a midpoint: its edge is tagged, or is an edge of a tagged facet, with this
+/// marker. An edge takes precedence over a facet, and a facet over no source; with equal sources
+/// the smallest marker wins.
 void take_marker(MidpointMarker& known, MidpointMarker::Source source, Marker marker);
 
 }  // namespace octetra::distributed

@@ -19,14 +19,14 @@
 namespace octetra::distributed {
 namespace {
 
-/// Throws if this process would have more entities than 32 bits number.
+/// Throws if this process would have more entities than 32-bit numbers can represent.
 void check_countable(std::size_t count, const char* what) {
     if (count < VertexIndex::limit) return;
     throw InputError(fmt::format("the refined mesh would have more than {} {} on one process",
                                  VertexIndex::limit, what));
 }
 
-/// Collective. Notes a failure on all processes if the whole mesh would have more cells than
+/// Collective. Records a failure on all processes if the whole mesh would have more cells than
 /// allowed.
 void check_allowed(const DistributedMesh& mesh, std::size_t count, const RefineOptions& options,
                    int level, LocalFailure& failure) {
@@ -41,7 +41,7 @@ void check_allowed(const DistributedMesh& mesh, std::size_t count, const RefineO
     });
 }
 
-/// Collective. Closes the marked edges; throws on all processes where one has failed.
+/// Collective. Closes the marked edges; throws on all processes if one has failed.
 SynchronisationCounts close(Level* level, const DistributedMesh& mesh, const RefineOptions& options,
                             LocalFailure& failure) {
     const Phase phase(mesh.processes, "synchronise");

@@ -10,17 +10,17 @@
 
 namespace octetra::distributed {
 
-/// A level that all processes can commit. Until it is committed the mesh is as it was, but for the
-/// order that it may be in and the midpoints behind its vertices; destroyed before, it leaves the
-/// mesh as it was in these, too.
+/// A level that is ready to be committed on all processes. Until then the mesh is unchanged except
+/// for its order and the midpoints appended to its vertices; destroying the object without commit()
+/// restores these too.
 struct PlannedLevel {
-    std::unique_ptr<CanonicalOrder> order;  ///< that the level needed, or null
+    std::unique_ptr<CanonicalOrder> order;  ///< the order that the level requires, or null
     std::unique_ptr<Level> level;           ///< null: nothing is marked on any process
     SynchronisationCounts counts;
-    std::size_t judged = 0;  ///< cells of this process that the selection looked at
+    std::size_t judged = 0;  ///< cells of this process that the selection tested
 
     [[nodiscard]] bool changes_anything() const { return level != nullptr; }
-    /// What becomes of this process's lists, by the numbers that they have now.
+    /// Returns the changes of this process's lists, by the local numbers before the level.
     [[nodiscard]] ListChanges changes();
     void commit() noexcept {
         level->commit();
@@ -28,35 +28,34 @@ struct PlannedLevel {
     }
 };
 
-/// Collective. Marks and closes; nothing is bisected yet. Throws as plan_level() does.
+/// Collective. Marks and closes a level; nothing is bisected yet. Throws as plan_level() does.
 [[nodiscard]] PlannedLevel close_level(DistributedMesh& mesh,
                                        const std::function<MarkedCells()>& mark_cells,
                                        const RefineOptions& options, const Tuning& tuning);
 
-/// The level with edges of the marked cells marked, into `plan`. Where all know them to be closed,
-/// that is a closed level. Not collective.
+/// Begins a level by marking edges of the marked cells, and stores it in `plan`. If the marks are
+/// known to be closed on all processes, the result is a closed level. Not collective.
 void begin_level(DistributedMesh& mesh, const RefineOptions& options, const Tuning& tuning,
                  MarkedCells marked, PlannedLevel& plan);
 
-/// Collective. Bisects what is closed: then all processes can commit it. Throws as plan_level()
+/// Collective. Bisects a closed level, which all processes can then commit. Throws as plan_level()
 /// does.
 void bisect_level(PlannedLevel& plan, const DistributedMesh& mesh, const RefineOptions& options,
                   int level);
 
-/// The marked cells by the numbers that they have in another order, where `before` are those that
-/// they had, or nothing where these are the same. Ascending.
+/// Returns the marked cells by their numbers in another order, ascending. `before` has the previous
+/// number of each cell, or is empty if the order is the same.
 [[nodiscard]] MarkedCells renumbered(MarkedCells marked, const std::vector<CellIndex>& before);
 
-/// Collective. Plans level number `level`, counted from 1, for messages, of the cells that
-/// `mark_cells` marks on this process. Throws as refine() does; a failure of one process, that of
-/// an allocation among them, is thrown on all, and leaves the mesh as it was.
+/// Collective. Plans a level for the cells that `mark_cells` marks on this process. `level`,
+/// counted from 1, is for messages. Throws as refine() does; a failure on one process, including
+/// that of an allocation, is thrown on all and leaves the mesh unchanged.
 [[nodiscard]] PlannedLevel plan_level(DistributedMesh& mesh,
                                       const std::function<MarkedCells()>& mark_cells,
                                       const RefineOptions& options, const Tuning& tuning,
                                       int level);
 
-/// Collective. The same, where the edges of the marked cells are known to be closed on all
-/// processes together.
+/// Collective. The same for marked cells whose edges are known to be closed over all processes.
 [[nodiscard]] PlannedLevel plan_closed_level(DistributedMesh& mesh,
                                              const std::function<MarkedCells()>& mark_cells,
                                              const Tuning& tuning, int level,

@@ -7,7 +7,7 @@
 namespace octetra::distributed {
 
 void RoundingFailure::agree(const DistributedMesh& mesh, int level) const {
-    // The least of all, as there is a maximum at hand.
+    // Computes the minimum by means of a maximum.
     const std::uint64_t first = none - mesh.processes.max(none - code_);
     if (first == none) return;
     throw InputError(fmt::format(

@@ -10,17 +10,17 @@
 namespace octetra::distributed {
 
 /// A cell that cannot be bisected because its midpoints are rounded: the first one in canonical
-/// order, as a number that is the smaller the earlier the cell comes.
+/// order, encoded so that a smaller code denotes an earlier cell.
 class RoundingFailure {
 public:
-    /// A descendant of this cell of the input is flat (sign 0) or inverted. Of the bad children of
-    /// one root the first is to be noted, and no other.
+    /// Records that a descendant of this cell of the input is flat (sign 0) or inverted. Among the
+    /// bad children of one root, only the first in canonical order may be recorded.
     void note(std::uint64_t root, int sign) {
         code_ = std::min(code_, 2 * root + (sign < 0 ? 1U : 0U));
     }
     [[nodiscard]] bool found() const { return code_ != none; }
 
-    /// Collective. Throws on all processes if any has found one.
+    /// Collective. Throws on all processes if any has found a failure.
     void agree(const DistributedMesh& mesh, int level) const;
 
 private:
@@ -28,7 +28,7 @@ private:
     std::uint64_t code_ = none;
 };
 
-/// The orientation of a child: exact, and 0 where a coordinate is not finite.
+/// The exact orientation of a child; 0 if a coordinate is not finite.
 [[nodiscard]] inline int sign_of(const CellVertices& child,
                                  const IndexVector<VertexIndex, Point>& p) {
     if (!std::ranges::all_of(child, [&](VertexIndex v) { return is_finite(p[v]); })) return 0;

@@ -20,16 +20,16 @@ double determinant(const Point& u, const Point& v, const Point& w) {
 }  // namespace
 
 // Let s be the largest coordinate of the three edges from the first corner, m a bound on all
-// coordinates of the corners, e = 2^-53, and D the determinant of those edges. A child's corners
-// are corners and midpoints of the cell, a midpoint off by e m at most; with exact midpoints its
-// determinant is D / 8 or more, as a child is three bisections deep at most, and its edges have
-// coordinates of at most 2 s, twice that of the cell's. Moving both ends of its edges by e m
-// changes its determinant by no more than 6 ((2 s + 2 e m)^3 - (2 s)^3), less than 192 e m s^2 as
-// long as s is larger than 8 e m; and if it is not, D is less than 6 s^3, and so too small below
-// anyway. D as computed is off by less than 100 e s^3. Together D > 1636 e m s^2 is enough, s being
-// less than m; asked for is 4096, so that the roundings in the bound do not matter. What is lost to
-// underflow is next to nothing beside a bound above 2^-900; where the bound overflows, the
-// comparison is false.
+// coordinates of the corners, e = 2^-53, and D the determinant of those edges. The corners of a
+// child are corners and midpoints of the cell, and the rounding error of a midpoint is at most e m.
+// With exact midpoints the determinant of the child is at least D / 8, since a child is at most
+// three bisections deep, and the coordinates of its edges are at most 2 s, twice those of the cell.
+// Moving both ends of its edges by e m changes its determinant by at most 6 ((2 s + 2 e m)^3 - (2
+// s)^3), which is less than 192 e m s^2 if s is larger than 8 e m; otherwise D is less than 6 s^3,
+// and fails the test below anyway. The rounding error of the computed D is less than 100 e s^3.
+// Together D > 1636 e m s^2 is sufficient, because s is less than m; the test requires 4096
+// instead, which covers the rounding of the bound itself. Underflow is negligible compared to a
+// bound above 2^-900; if the bound overflows, the comparison is false.
 bool has_rounding_margin(const IndexVector<VertexIndex, Point>& points, const CellVertices& cell) {
     const Point& a = points[cell[0]];
     const Point u = difference(points[cell[1]], a);

@@ -4,9 +4,9 @@
 
 namespace octetra::distributed {
 
-/// Is the cell so large for its coordinates that no child can come out flat or inverted, however
-/// its edges' midpoints are rounded? Sooner told than the orientation of each child; a no says
-/// nothing.
+/// Returns whether the cell is so large relative to its coordinates that no child can become flat
+/// or inverted by the rounding of midpoints. Cheaper than the orientations of all children; a
+/// negative result proves nothing.
 [[nodiscard]] bool has_rounding_margin(const IndexVector<VertexIndex, Point>& points,
                                        const CellVertices& cell);
 

@@ -24,21 +24,21 @@ std::uint64_t count(const std::vector<std::vector<T>>& boxes) {
     return sum;
 }
 
-/// The local closure of the paper: everything that needs no word from others.
+/// The local closure of the paper: all marks that follow without communication.
 void close_locally(Closure& closure, const DistributedMesh& mesh) {
     const Phase phase(mesh.processes, "closure");
     closure.drain();
 }
 
-/// A selection on its way through the gateway: the edge at a position of the list that two ranks
-/// share.
+/// A mark sent through the gateway: the edge at a position of the list that two ranks share.
 struct BorderSelection {
     std::int32_t from = 0;
     std::int32_t to = 0;
     std::uint32_t position = 0;
 };
 
-/// What the first process does: passes on, once, what the other side has not said itself.
+/// The gateway on the first process: passes each mark on once, unless the other rank has sent it
+/// too.
 class Gateway {
 public:
     [[nodiscard]] std::vector<std::vector<BorderSelection>> route(
@@ -133,7 +133,7 @@ std::optional<SynchronisationCounts> synchronise_by_gateway(Closure* closure,
         failure.attempt([&] {
             const auto from_each = processes.gather(selections);
             if (!processes.is_first()) return;
-            // What it says to itself, and hears from itself, is no message.
+            // Marks from the gateway to itself are not messages.
             to_each = gateway.route(from_each);
             edges = count(to_each) - to_each.front().size();
         });

@@ -9,14 +9,14 @@
 
 namespace octetra::distributed {
 
-/// Collective. Closes the selection on all processes: each one drains, tells those that share the
-/// edges it marked, and so on until no process has anything to tell, or one has failed: then, on
-/// all processes, there is no result. The closure of a process that has failed before is not looked
-/// at, and may be null.
+/// Collective. Closes the marked edges over all processes: in each round every process drains its
+/// closure and sends new marks to the ranks that share the edges, until no process has new marks.
+/// If a process has failed, there is no result on any process. The closure of a process that failed
+/// before the call is not used, and may be null.
 [[nodiscard]] std::optional<SynchronisationCounts> synchronise_by_neighbours(
     Closure* closure, const DistributedMesh& mesh, LocalFailure& failure);
 
-/// Collective. The same by way of the first process (the paper's gateway).
+/// Collective. The same through the first process (the paper's gateway).
 [[nodiscard]] std::optional<SynchronisationCounts> synchronise_by_gateway(
     Closure* closure, const DistributedMesh& mesh, LocalFailure& failure);
 

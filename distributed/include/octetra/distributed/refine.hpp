@@ -40,11 +40,10 @@ struct RefineOptions {
 /// Cost of synchronisation on this process, summed over the levels. In addition to these messages,
 /// each round and each level need one maximum over all processes.
 struct SynchronisationCounts {
-    std::uint64_t rounds = 0;  ///< the same on all processes
-    std::uint64_t messages =
-        0;                    ///< sent by this process; for the gateway, also the marks passed on
-    std::uint64_t bytes = 0;  ///< in these messages
-    std::uint64_t edges = 0;  ///< marked edges in these messages
+    std::uint64_t rounds = 0;    ///< the same on all processes
+    std::uint64_t messages = 0;  ///< sent by this process, or passed on by the gateway
+    std::uint64_t bytes = 0;     ///< in these messages
+    std::uint64_t edges = 0;     ///< marked edges in these messages
 
     SynchronisationCounts& operator+=(const SynchronisationCounts& more) {
         rounds += more.rounds;

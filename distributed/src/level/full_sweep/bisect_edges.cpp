@@ -10,7 +10,7 @@
 namespace octetra::distributed {
 namespace {
 
-/// How each edge's midpoint would be marked.
+/// Returns the marker of each edge's midpoint.
 IndexVector<EdgeIndex, MidpointMarker> edge_markers(const DistributedMesh& mesh,
                                                     const EdgeNumbering& numbering) {
     IndexVector<EdgeIndex, MidpointMarker> markers(numbering.end_index().value());
@@ -50,7 +50,7 @@ IndexVector<EdgeIndex, VertexIndex> bisect_edges(DistributedMesh& mesh,
     reserve_in_huge_pages(mesh.points, mesh.points.size() + count);
     reserve_in_huge_pages(mesh.midpoint_to_edge, mesh.midpoint_to_edge.size() + count);
 
-    std::vector<EdgeIndex> marked;  // those of one lower end
+    std::vector<EdgeIndex> marked;  // with the same lower end
     for (VertexIndex low{0}; low < old_end; ++low) {
         marked.clear();
         for (EdgeIndex e = numbering.begin_of(low); e < numbering.end_of(low); ++e) {

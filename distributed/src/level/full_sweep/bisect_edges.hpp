@@ -9,7 +9,7 @@
 
 namespace octetra::distributed {
 
-/// The midpoints of a triangle's edges, in the order of triangle_edges.
+/// Returns the midpoints of a triangle's edges, in the order of triangle_edges.
 [[nodiscard]] inline std::array<VertexIndex, 3> midpoints_of(
     const FacetVertices& triangle, const EdgeNumbering& numbering,
     const IndexVector<EdgeIndex, VertexIndex>& midpoints) {
@@ -21,9 +21,9 @@ namespace octetra::distributed {
     return result;
 }
 
-/// Bisects the marked edges: appends their midpoints to the mesh's vertices, and their ends,
-/// attributes and markers to those lists. In the order of (lower, higher) end. Returns the midpoint
-/// of each edge, none() where it is not marked.
+/// Bisects the marked edges in the order of (lower, higher) end: appends their midpoints, ends,
+/// attributes and markers to the mesh's lists. Returns the midpoint of each edge, none() for
+/// unmarked ones.
 [[nodiscard]] IndexVector<EdgeIndex, VertexIndex> bisect_edges(DistributedMesh& mesh,
                                                                const EdgeNumbering& numbering,
                                                                const FullSweepClosure& closure);

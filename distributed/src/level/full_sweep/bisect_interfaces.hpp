@@ -8,12 +8,12 @@
 
 namespace octetra::distributed {
 
-/// Brings the interfaces from one level to the next: halves of bisected edges, pieces of bisected
-/// faces, and the edges between those pieces. The first half or piece takes the place of the whole;
-/// the others follow at the end of the list, first those of edges, then those of faces, in the
-/// order of the places. So both sides come to the same lists without a word, whichever way each
-/// goes about the level. `points` may have more than those of the level before, in which
-/// `numbering` and `midpoints` (by edge, none() where not bisected) number.
+/// Updates the interfaces for a level: halves of bisected edges, children of bisected faces, and
+/// the edges between those children. The first half or child replaces its parent; the others are
+/// appended to the list, first those of edges, then those of faces, in the order of their parents.
+/// So both ranks obtain the same lists without communication, whichever implementation of a level
+/// each uses. `points` may include vertices of the level, while `numbering` and `midpoints` (by
+/// edge, none() for unmarked ones) refer to the mesh before it.
 void bisect_interfaces(std::vector<Interface>& interfaces,
                        const IndexVector<VertexIndex, Point>& points,
                        const EdgeNumbering& numbering,

@@ -9,8 +9,8 @@
 
 namespace octetra::distributed {
 
-/// Stars that are being filled with edges as they are met, sixteen to a bucket, which is a line of
-/// the cache. A vertex whose bucket is full gets further ones.
+/// Stars under construction, in buckets of sixteen edges, the size of a cache line. A vertex whose
+/// bucket is full gets further buckets.
 struct EdgeNumbering::Buckets {
     struct alignas(64) Bucket : std::array<VertexIndex, in_bucket> {};
 
@@ -18,7 +18,7 @@ struct EdgeNumbering::Buckets {
         reserve_with_room(of, vertex_count);
         of.resize(vertex_count);
     }
-    /// The one after a bucket, or 0.
+    /// Returns the bucket that follows another one, or 0.
     [[nodiscard]] std::uint32_t after(std::uint32_t bucket) const {
         return next.empty() ? 0 : next[bucket];
     }
@@ -37,9 +37,9 @@ struct EdgeNumbering::Buckets {
     }
 
     std::size_t vertex_count;
-    std::vector<Bucket> of;  ///< of each vertex, and then further ones
+    std::vector<Bucket> of;  ///< one for each vertex, followed by further ones
     std::vector<std::uint32_t> next;
-    std::unordered_map<std::uint32_t, std::uint32_t> hub_counts;  ///< if more than are searched
+    std::unordered_map<std::uint32_t, std::uint32_t> hub_counts;  ///< above `searched` edges
 };
 
 EdgeNumbering::EdgeNumbering(std::size_t vertex_count,
@@ -59,7 +59,7 @@ EdgeNumbering::EdgeNumbering(std::size_t vertex_count,
     rows_.emplace_back().fill(other());
 }
 
-/// The cells cell_at(0) .. cell_at(cell_count - 1).
+/// Numbers the edges of the cells cell_at(0) .. cell_at(cell_count - 1).
 void EdgeNumbering::number(std::size_t vertex_count, std::size_t cell_count, const auto& cell_at) {
     Buckets buckets(vertex_count);
     find_places(cell_count, cell_at, buckets);
@@ -75,7 +75,7 @@ void EdgeNumbering::number(std::size_t vertex_count, std::size_t cell_count, con
     }
 }
 
-/// For each edge of each cell its place in the star of its lower end.
+/// Determines for each edge of each cell its position in the star of its lower end.
 void EdgeNumbering::find_places(std::size_t cell_count, const auto& cell_at, Buckets& buckets) {
     constexpr std::size_t ahead = 8;
     reserve_in_huge_pages(rows_, cell_count + 1);
@@ -90,7 +90,7 @@ void EdgeNumbering::find_places(std::size_t cell_count, const auto& cell_at, Buc
         for (std::size_t e = 0; e < 6; ++e) {
             const VertexIndex a = cell[cell_edges[e][0]];
             const VertexIndex b = cell[cell_edges[e][1]];
-            // Without a branch: which one is lower cannot be foreseen.
+            // Without a branch, which would be mispredicted.
             const std::uint32_t exchange = (a.value() ^ b.value()) & -std::uint32_t{b < a};
             const VertexIndex low{a.value() ^ exchange};
             const VertexIndex high{b.value() ^ exchange};
@@ -109,7 +109,7 @@ void EdgeNumbering::find_places(std::size_t cell_count, const auto& cell_at, Buc
     }
 }
 
-/// The same where it is not in the first bucket, which is full.
+/// The same for an edge that is not in the first bucket, which is full.
 std::uint32_t EdgeNumbering::find_further_place(VertexIndex low, VertexIndex high,
                                                 Buckets& buckets) {
     std::uint32_t bucket = low.value();
@@ -131,7 +131,7 @@ std::uint32_t EdgeNumbering::find_further_place(VertexIndex low, VertexIndex hig
     return edge->second;
 }
 
-/// Numbers the edges from vertex to vertex.
+/// Numbers the edges star by star.
 void EdgeNumbering::move_together(const Buckets& buckets) {
     begin_.reserve(buckets.vertex_count + 1);
     std::size_t count = 0;
@@ -147,7 +147,7 @@ void EdgeNumbering::move_together(const Buckets& buckets) {
     }
     begin_.push_back(static_cast<std::uint32_t>(count));
 
-    // Buckets are copied whole: what follows the last edge is overwritten by the next star.
+    // Buckets are copied completely: elements after the last edge are overwritten by the next star.
     high_end_.resize(count + read_beyond);
     for (std::uint32_t v = 0; v < buckets.vertex_count; ++v) {
         auto to = high_end_.begin() + begin_[v];

@@ -12,44 +12,44 @@
 
 namespace octetra::distributed {
 
-/// Numbers the edges of a set of cells without sorting them all. Every edge belongs to its end
-/// point with the lower number; that vertex's star lists the other ends, and the numbering follow
-/// each other. If they are told to be some cells', one more number, the last, stands for other
-/// edges.
+/// Numbers the edges of a set of cells without sorting all of them. Each edge is stored with its
+/// end of lower number; the star of that vertex lists the other ends, and edges are numbered star
+/// by star. If the set is not all cells, one additional number, the last, denotes all other edges.
 ///
-/// Memory: 4 bytes per vertex and edge, 24 per cell; or, if there are others, 28 per cell of the
-/// set and 4 per cell. While it is made 68 per vertex more, and 68 for each further sixteen edges
-/// of one vertex.
+/// Memory: 4 bytes per vertex and edge, and 24 per cell; if the set is not all cells, 28 per cell
+/// of the set and 4 per cell. During construction, 68 bytes more per vertex, and 68 for each
+/// further sixteen edges of one vertex.
 class EdgeNumbering {
 public:
     EdgeNumbering() = default;
 
-    /// Of all cells. Throws std::length_error if there are more edges than 32 bits number.
+    /// Numbers the edges of all cells. Throws std::length_error if there are more edges than 32-bit
+    /// numbers can represent.
     EdgeNumbering(std::size_t vertex_count, const IndexVector<CellIndex, CellVertices>& cells);
 
-    /// Of those listed in `of`, each once, while there may be others. Throws the same.
+    /// Numbers the edges of the cells listed in `of`, each once, of a larger mesh. Throws the same.
     EdgeNumbering(std::size_t vertex_count, const IndexVector<CellIndex, CellVertices>& cells,
                   std::vector<CellIndex> of);
 
-    /// As many as there are edges, and one more if there may be others.
+    /// The number of edges, including the number of other edges if there is one.
     [[nodiscard]] EdgeIndex end_index() const {
         return EdgeIndex{std::size_t{begin_.back()} + (has_all() ? 0U : 1U)};
     }
 
-    /// The cells of the set, in the order in which they were listed.
+    /// The cells of the set, in the order of the list.
     [[nodiscard]] std::size_t cell_count() const { return has_all() ? rows_.size() : of_.size(); }
     [[nodiscard]] CellIndex cell_at(std::size_t k) const {
         return has_all() ? CellIndex{k} : of_[k];
     }
 
-    /// The edges of a cell, in the order of cell_edges. Of one that is not of the set all six are
-    /// the number that stands for others.
+    /// The edges of a cell, in the order of cell_edges. For a cell that is not in the set, all six
+    /// are the number of other edges.
     [[nodiscard]] const std::array<EdgeIndex, 6>& edges_of(CellIndex cell) const {
         return rows_[has_all() ? cell.value() : cell_to_row_[cell]];
     }
 
-    /// The edge between two vertices. If it has no number, the one that stands for others, or
-    /// none() if all cells have edges of their own.
+    /// Returns the edge between two vertices. If it is not in the numbering, returns the number of
+    /// other edges, or none() if the set is all cells.
     [[nodiscard]] EdgeIndex find(VertexIndex a, VertexIndex b) const {
         const VertexIndex low = std::min(a, b);
         const VertexIndex high = std::max(a, b);
@@ -65,10 +65,10 @@ public:
         return hub_edge == hub_edges_.end() ? other() : EdgeIndex{begin + hub_edge->second};
     }
 
-    /// After the last vertex.
+    /// The end of the vertex numbers.
     [[nodiscard]] VertexIndex vertex_end() const { return VertexIndex{begin_.size() - 1}; }
 
-    /// The edges whose lower end is `low` are begin_of(low) .. end_of(low)-1, in no order.
+    /// The edges whose lower end is `low` are begin_of(low) .. end_of(low)-1, in unspecified order.
     [[nodiscard]] EdgeIndex begin_of(VertexIndex low) const {
         return EdgeIndex{begin_[low.value()]};
     }
@@ -79,7 +79,7 @@ public:
 
 private:
     static constexpr std::uint32_t in_bucket = 16;
-    /// Of a star so many edges are searched; further ones are in hub_edges_.
+    /// The number of edges of a star that are searched linearly; further ones are in hub_edges_.
     static constexpr std::uint32_t searched = 4 * in_bucket;
     static constexpr std::size_t read_beyond = in_bucket;
     struct Buckets;
@@ -98,12 +98,13 @@ private:
     void move_together(const Buckets& buckets);
 
     std::vector<std::uint32_t> begin_;
-    std::vector<VertexIndex> high_end_;  ///< and `read_beyond` more
+    std::vector<VertexIndex> high_end_;  ///< followed by `read_beyond` more elements
     std::vector<CellIndex> of_;          ///< empty if the set is all cells
-    /// The edges of each cell of the set, and then, if there are other cells, those of all of them.
+    /// The edges of each cell of the set, followed by a row for cells outside the set, if there are
+    /// any.
     std::vector<std::array<EdgeIndex, 6>> rows_;
-    IndexVector<CellIndex, std::uint32_t> cell_to_row_;  ///< empty if it is the cell's own number
-    /// The place in the star, `searched` or more.
+    IndexVector<CellIndex, std::uint32_t> cell_to_row_;  ///< empty if the set is all cells
+    /// Position in the star, at least `searched`.
     std::unordered_map<std::uint64_t, std::uint32_t> hub_edges_;
 };
 

@@ -9,8 +9,8 @@
 
 namespace octetra::distributed {
 
-/// Which of the sixteen vertices is the first that is wanted? 16: none. All are compared at once,
-/// as a branch for each would be foreseen badly.
+/// Returns the position of the first of sixteen vertices that equals `wanted`, or 16. All are
+/// compared at once, because the branches of a loop would be mispredicted.
 inline std::uint32_t first_of_sixteen(const VertexIndex* list, VertexIndex wanted) {
     using Four = std::uint32_t __attribute__((vector_size(16)));
     using Two = std::uint64_t __attribute__((vector_size(16)));

@@ -12,7 +12,7 @@ FullSweepClosure::FullSweepClosure(LocalEdgeSet& edges, CellOrders& orders,
     make_marks();
 }
 
-/// For the edges as they are numbered; none is marked.
+/// Creates unset marks for the current numbering.
 void FullSweepClosure::make_marks() {
     const std::size_t edge_count = numbering_->end_index().value();
     marked_.assign(edge_count, 0);
@@ -43,7 +43,7 @@ void FullSweepClosure::mark(EdgeIndex edge) {
     tell_sharers(edge);
 }
 
-// Who told has told all that share the edge.
+// The sender notifies every sharer of the edge.
 void FullSweepClosure::mark_from(std::size_t interface, std::uint32_t position) {
     const EdgeIndex edge = interface_edges_[interface][position];
     if (marked_[edge] == 0) set_mark(edge);
@@ -52,7 +52,7 @@ void FullSweepClosure::mark_from(std::size_t interface, std::uint32_t position) 
 void FullSweepClosure::set_mark(EdgeIndex edge) {
     marked_[edge] = 1;
     ++marked_count_;
-    // Before the first sweep every cell is yet to be looked at.
+    // The first sweep closes every cell anyway.
     if (sweep_count_ > 0) queue_.push_back(edge);
 }
 
@@ -91,11 +91,10 @@ void FullSweepClosure::drain() {
     }
 }
 
-/// Begins anew with more edges; what was marked stays marked, and was told to those who share
-/// it.
+/// Restarts with a larger edge set. Marked edges stay marked, and their sharers have been notified.
 void FullSweepClosure::widen() {
     const std::vector<EdgeVertices> marked = ends_of_marked();
-    // All that goes by the old numbers goes before the new ones need memory.
+    // Frees everything that uses the old numbers before the new numbering needs memory.
     marked_ = {};
     shared_ = {};
     cells_begin_ = {};
@@ -119,8 +118,8 @@ std::vector<EdgeVertices> FullSweepClosure::ends_of_marked() const {
     return ends;
 }
 
-// To know the cells at each edge takes as long as several sweeps. Most often they are enough, as
-// every other one goes backwards; but a path may turn round as often as it likes.
+// To compute the cells at each edge takes as long as several sweeps. Usually a few sweeps suffice,
+// since their direction alternates; but a path may change its direction arbitrarily often.
 void FullSweepClosure::drain_near() {
     constexpr int most_sweeps = 8;
     if (sweep_count_ == 0 && marked_count_ < marked_.size()) sweep();
@@ -136,8 +135,7 @@ void FullSweepClosure::drain_near() {
     }
 }
 
-/// Closes every cell that has edges; what is marked meanwhile may concern cells that were passed
-/// already.
+/// Closes every cell with numbered edges; its marks may affect cells that were processed before.
 void FullSweepClosure::sweep() {
     queue_.clear();
     const bool backwards = sweep_count_++ % 2 != 0;
@@ -154,12 +152,12 @@ void FullSweepClosure::index_cells_at_edges() {
     }
     std::exclusive_scan(cells_begin_.begin(), cells_begin_.end(), cells_begin_.begin(), 0U);
     cells_.resize(cells_begin_.back());
-    // Filling moves each beginning to its end, which is the next one's beginning ...
+    // Filling advances each offset to the end of its range, which is the next offset ...
     for (std::size_t k = 0; k < numbering_->cell_count(); ++k) {
         const CellIndex c = numbering_->cell_at(k);
         for (const EdgeIndex e : numbering_->edges_of(c)) cells_[cells_begin_[e.value()]++] = c;
     }
-    // ... so all of them move on by one place.
+    // ... so all offsets are shifted by one position.
     std::shift_right(cells_begin_.begin(), cells_begin_.end(), 1);
     cells_begin_.front() = 0;
 }

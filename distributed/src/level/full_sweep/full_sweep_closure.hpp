@@ -12,20 +12,20 @@
 
 namespace octetra::distributed {
 
-/// With a mark for every edge that has a number; goes through all cells, as often as there is
-/// something to find, and then from edge to edge. Where a path leads further, widens what is
-/// numbered.
+/// Closure with a mark for every numbered edge: sweeps over all cells repeatedly while there are
+/// unclosed ones, and then continues from edge to edge. Extends the local edge set if a path leaves
+/// it.
 class FullSweepClosure final : public Closure {
 public:
-    /// Keeps pointers to all of them.
+    /// Keeps references to all arguments.
     FullSweepClosure(LocalEdgeSet& edges, CellOrders& orders,
                      const std::vector<Interface>& interfaces);
 
-    /// Every edge, all of which have numbers, as all processes do then: nobody is told.
+    /// Marks every edge, all of which are numbered. All processes must do the same: the sharers are
+    /// not notified.
     void mark_all();
 
-    /// Marks an edge of this process's own will, without following its path. All that share the
-    /// edge will be told.
+    /// Marks an edge without following its path. Its sharers will be notified.
     void mark(EdgeIndex edge);
     void mark_from(std::size_t interface, std::uint32_t position) override;
     void drain() override;
@@ -66,8 +66,8 @@ private:
     std::vector<EdgeIndex> queue_;
     std::size_t marked_count_ = 0;
     int sweep_count_ = 0;
-    bool leads_beyond_ = false;  ///< an edge is marked around which not all cells have edges
-    // The cells at edge e are cells_[cells_begin_[e]] .. cells_[cells_begin_[e + 1] - 1].
+    bool leads_beyond_ = false;  ///< a marked edge may be in cells without edge numbers
+    // The cells with edge e are cells_[cells_begin_[e]] .. cells_[cells_begin_[e + 1] - 1].
     std::vector<std::uint32_t> cells_begin_;
     std::vector<CellIndex> cells_;
 };

@@ -29,7 +29,7 @@ public:
           marked_(&marked),
           midpoints_(&midpoints) {}
 
-    /// The children of all cells, so many, and where those of each root begin.
+    /// Computes the `child_count` children of all cells, and the offset of those of each root.
     [[nodiscard]] RoundingFailure run(std::size_t child_count,
                                       IndexVector<CellIndex, CellVertices>& children,
                                       std::vector<std::uint32_t>& first) {
@@ -53,8 +53,8 @@ public:
 private:
     static constexpr std::size_t block_size = 64;
 
-    /// Of the next 64 cells all patterns, and then all rounding margins: a processor works on
-    /// several cells at once as long as it does the same with them.
+    /// Determines the patterns of the next 64 cells, and then their rounding margins: loops of one
+    /// operation over several cells allow the processor to overlap them.
     void begin_block() {
         append_written();
         std::array<CellIndex, block_size> touched;
@@ -91,8 +91,8 @@ private:
         std::ranges::copy(cell, vertices.begin());
         const auto& edges = numbering_->edges_of(c);
         for (std::size_t e = 0; e < 6; ++e) vertices[4 + e] = (*midpoints_)[edges[e]];
-        // Always eight, as to write what is not needed takes less time than to foresee their
-        // number.
+        // Always eight, since writing superfluous children takes less time than a mispredicted
+        // branch on their number.
         CellVertices* const children = block_.data() + written_;
         for (std::size_t k = 0; k < most_children; ++k) {
             children[k] = child_of(vertices, pattern.children[k]);
@@ -119,18 +119,18 @@ private:
     IndexVector<CellIndex, CellVertices> children_;
     RoundingFailure failure_;
 
-    CellIndex block_end_{0};  ///< blocks begin at multiples of their size
+    CellIndex block_end_{0};  ///< blocks begin at multiples of block_size
     std::array<const Pattern*, block_size> patterns_{};
     std::array<bool, block_size> is_safe_{};
-    /// Children yet to be appended: to copy at once what was just written takes longer.
+    /// Children to be appended: an immediate copy of data just written takes longer.
     std::array<CellVertices, block_size * most_children> block_;
     std::size_t written_ = 0;
 };
 
 }  // namespace
 
-/// A list with all entities replaced by their pieces: append_pieces(entity, pieces) for each, in
-/// order, says which of the divisions it is.
+/// Returns a list in which all entities are replaced by their children: append_pieces(entity,
+/// pieces) is called for each in order, and returns its division.
 template <class List>
 FullSweepLevel::NewList<List> FullSweepLevel::in_pieces(const List& list,
                                                         const AncestorMap& ancestors,
@@ -189,13 +189,13 @@ std::size_t FullSweepLevel::cell_count_afterwards() {
         return most_children * cell_count;
     }
     marked_.assign(cell_count, 0);
-    // None of the other cells' edges is marked.
+    // Cells outside the set have no marked edges.
     std::size_t count = cell_count - numbering_->cell_count();
     for (std::size_t k = 0; k < numbering_->cell_count(); ++k) {
         const CellIndex c = numbering_->cell_at(k);
         const EdgeMask marked = closure_.marked_of(c);
         marked_[c] = marked;
-        // These need no order.
+        // The first two cases do not need the length order.
         if (marked == 0) {
             ++count;
         } else if (marked == all_edges) {
@@ -235,7 +235,7 @@ void FullSweepLevel::bisect_tagged() {
         });
     tagged_edges_ =
         in_pieces(mesh.edges, mesh.edge_ancestors, [&](const EdgeVertices& edge, auto& all) {
-            // Which half comes first is a matter of the end points' positions in the list.
+            // The order of the halves depends on the order of the ends in the list.
             const VertexIndex midpoint = midpoints_[numbering_->find(edge[0], edge[1])];
             const bool is_whole = midpoint.is_none();
             all.append({edge[0], is_whole ? edge[1] : midpoint});
@@ -249,7 +249,7 @@ void FullSweepLevel::bisect_interfaces() {
     distributed::bisect_interfaces(interfaces_, mesh_->points, *numbering_, midpoints_);
 }
 
-// Of an edge that is bisected the first half has its place; see bisect_interfaces().
+// The first half of a bisected edge replaces it; see bisect_interfaces().
 std::vector<std::vector<VertexIndex>> FullSweepLevel::shared_midpoints() const {
     const VertexIndex first_midpoint = mesh_->level_begin.back();
     std::vector<std::vector<VertexIndex>> midpoints(interfaces_.size());
@@ -267,7 +267,7 @@ Succession FullSweepLevel::changes_of_cells() {
     std::vector<std::uint8_t> divisions(marked_.size(), 0);
     for (CellIndex c{0}; c < marked_.end_index(); ++c) {
         if (marked_[c] == 0) continue;
-        // If all edges are, the order makes no difference.
+        // The division into eight children does not depend on the order.
         const LengthOrder order = marked_[c] == all_edges ? LengthOrder{0} : orders_.of(c);
         divisions[c.value()] = table.pattern(order, marked_[c]).division;
     }

@@ -14,14 +14,14 @@
 
 namespace octetra::distributed {
 
-/// The way for many marked cells: numbers edges, and makes all lists anew. Takes time in proportion
-/// to the process's part, and least for each cell that it bisects.
+/// Level for many marked cells: numbers edges and rebuilds all lists. Takes time proportional to
+/// the process's part, with the least time for each bisected cell.
 class FullSweepLevel final : public Level {
 public:
     /// The mesh must be in canonical order.
     FullSweepLevel(DistributedMesh& mesh, const MarkedCells& marked, double local_below);
 
-    /// Marks edges of the marked cells, the same as before.
+    /// Marks edges of the marked cells, the same as passed to the constructor.
     void mark(const MarkedCells& marked, Scheme scheme);
 
     [[nodiscard]] Closure& closure() override { return closure_; }
@@ -37,12 +37,12 @@ public:
     [[nodiscard]] std::size_t cells_touched() const override { return orders_.end_index().value(); }
 
 private:
-    /// A list of the mesh as the level makes it.
+    /// A list of the mesh after the level.
     template <class List>
     struct NewList {
         List entities;
         std::vector<std::uint32_t> first;  ///< as in AncestorMap
-        /// Of each entity that was there before; not of cells.
+        /// The division of each entity before the level; empty for cells.
         std::vector<std::uint8_t> divisions;
 
         void commit(List& list, AncestorMap& ancestors) {
@@ -62,9 +62,9 @@ private:
     const EdgeNumbering* numbering_ = &edges_.numbering();
     CellOrders orders_;
     FullSweepClosure closure_;
-    IndexVector<CellIndex, EdgeMask> marked_;        ///< of each cell, once they are counted
+    IndexVector<CellIndex, EdgeMask> marked_;        ///< of each cell, once computed
     IndexVector<EdgeIndex, VertexIndex> midpoints_;  ///< of each edge, or none()
-    std::optional<AppendedMidpoints> appended_;      ///< once they are
+    std::optional<AppendedMidpoints> appended_;      ///< once the midpoints are appended
 
     NewList<IndexVector<CellIndex, CellVertices>> cells_;
     NewList<IndexVector<FacetIndex, FacetVertices>> facets_;

@@ -6,7 +6,7 @@
 namespace octetra::distributed {
 namespace {
 
-constexpr int rings = 2;  ///< of vertices around those of marked cells, and as many more later
+constexpr int rings = 2;  ///< of vertices around those of marked cells; widen() adds as many
 
 }  // namespace
 
@@ -25,16 +25,17 @@ LocalEdgeSet::LocalEdgeSet(const DistributedMesh& mesh, const MarkedCells& marke
 
 void LocalEdgeSet::widen() {
     if (std::exchange(is_wider_, true)) is_near_ = {};
-    // More than the first time, as it is most often enough now.
+    // A larger fraction than at first, since this numbering is usually the last.
     number(1.5 * local_below_);
 }
 
-/// Adds rings and numbers; all, where the near cells are not less than this share of them.
+/// Adds rings and numbers the near cells if they are fewer than the fraction `most` of all cells;
+/// otherwise numbers all cells.
 void LocalEdgeSet::number(double most) {
-    numbering_ = {};  // before the next ones need memory
+    numbering_ = {};  // frees memory before the next numbering
     if (!is_near_.empty()) {
         for (int ring = 0; ring < rings; ++ring) add_ring();
-        // Any of these may be marked on another process's word, and once is enough.
+        // Another process may mark any of these; to add them once is sufficient.
         for (const Interface& interface : mesh_->interfaces) {
             for (const auto& [a, b] : interface.edges) is_near_[a] = is_near_[b] = 1;
         }
@@ -47,7 +48,7 @@ void LocalEdgeSet::number(double most) {
     numbering_ = EdgeNumbering(mesh_->points.size(), mesh_->cells);
 }
 
-/// Nothing unless they are less than `most`.
+/// Returns the near cells, or nothing unless they are fewer than `most`.
 std::optional<std::vector<CellIndex>> LocalEdgeSet::near_cells(double most) const {
     std::vector<CellIndex> cells;
     for (CellIndex c{0}; c < mesh_->cells.end_index(); ++c) {
@@ -58,7 +59,7 @@ std::optional<std::vector<CellIndex>> LocalEdgeSet::near_cells(double most) cons
     return cells;
 }
 
-/// Takes in the vertices next to those that are near.
+/// Adds the vertices of all cells that have a near vertex.
 void LocalEdgeSet::add_ring() {
     const auto before = is_near_;
     for (const CellVertices& cell : mesh_->cells) {

@@ -11,24 +11,24 @@
 
 namespace octetra::distributed {
 
-/// Numbers the edges that one level may mark. Most propagation paths end close to the marked
-/// cells, so that, if these are not most cells anyway, only the edges of the cells that have a near
-/// vertex are numbered: one of a marked cell, one within two edges of such, or one of a shared
-/// edge. A path that leads further is noticed at its first edge whose ends are both beyond, as then
-/// there may be cells around it whose edges have no number; and widen() goes further, too.
+/// Numbers the edges that one level may mark. Most propagation paths end close to the marked cells.
+/// So, unless most cells are marked, only the edges of cells with a near vertex are numbered: a
+/// vertex of a marked cell, a vertex within two edges of those, or an end of a shared edge. A path
+/// that leads further is detected at its first edge of which neither end is near, as cells around
+/// it may have edges without numbers; widen() then extends the set.
 ///
-/// Keeps a pointer to the mesh, which must stay as it is while edges are still marked. Memory,
-/// beyond that of the numbering: a byte per vertex, and another meanwhile.
+/// Keeps a pointer to the mesh, which must not change while edges are being marked. Memory, in
+/// addition to the numbering: a byte per vertex, and temporarily another.
 class LocalEdgeSet {
 public:
-    /// See Tuning::local_below.
+    /// For `local_below` see Tuning.
     LocalEdgeSet(const DistributedMesh& mesh, const MarkedCells& marked, double local_below);
 
-    /// Stays where it is, but numbers otherwise after widen().
+    /// The reference stays valid, but widen() changes the numbers.
     [[nodiscard]] const EdgeNumbering& numbering() const { return numbering_; }
 
-    /// Is it certain that all cells around this edge of a cell's, by its place in cell_edges, have
-    /// edges of their own?
+    /// Returns whether all cells around this edge of a cell, by its position in cell_edges, are
+    /// certain to have numbered edges.
     [[nodiscard]] bool is_surrounded(CellIndex cell, std::size_t edge) const {
         if (is_near_.empty()) return true;
         const auto& [a, b] = cell_edges[edge];
@@ -36,8 +36,9 @@ public:
         return (is_near_[vertices[a]] | is_near_[vertices[b]]) != 0;
     }
 
-    /// Takes in vertices twice as far away the first time, and all the second, or if it comes to
-    /// many: each time costs a numbering, and nobody knows how far a path will lead.
+    /// Extends the set: the first time to vertices twice as far away, the second time, or if the
+    /// set becomes too large, to all cells. Each call repeats the numbering, and the length of a
+    /// path is unknown.
     void widen();
 
 private:
@@ -51,7 +52,7 @@ private:
 
     const DistributedMesh* mesh_;
     double local_below_;
-    IndexVector<VertexIndex, std::uint8_t> is_near_;  ///< empty if all are
+    IndexVector<VertexIndex, std::uint8_t> is_near_;  ///< empty if all vertices are
     bool is_wider_ = false;
     EdgeNumbering numbering_;
 };

@@ -22,7 +22,7 @@ Adjacency::Adjacency(DistributedMesh& mesh)
 }
 
 bool Adjacency::can_hold(const DistributedMesh& mesh) {
-    // A cell has 4 places at vertices, and may become 8 cells; others have and become less.
+    // A cell has 4 links and may become 8 cells; other entities have and become fewer.
     constexpr std::size_t most = CellIndex::limit / (4 * 8);
     std::size_t shared = 0;
     for (const Interface& interface : mesh.interfaces) {
@@ -80,7 +80,7 @@ typename Unordered::Ordered ordered(const Unordered& unordered, const List& list
     return unordered.ordered(list, ancestors);
 }
 
-/// Nothing to swap where the list is in order as it is.
+/// Does nothing if the list is in canonical order already.
 template <class Ordered>
 void swap_list(Ordered& other, auto& list, AncestorMap& ancestors) noexcept {
     if (other.before.empty()) return;
@@ -92,7 +92,7 @@ void swap_list(Ordered& other, auto& list, AncestorMap& ancestors) noexcept {
 
 CanonicalOrder::CanonicalOrder(DistributedMesh& mesh) : mesh_(&mesh) {
     if (mesh.adjacency == nullptr) return;
-    mesh.adjacency->drop_index();  // before the lists are there twice
+    mesh.adjacency->drop_index();  // frees memory before the lists are copied
     cells_ = ordered(mesh.adjacency->cells, mesh.cells, mesh.cell_ancestors);
     facets_ = ordered(mesh.adjacency->facets, mesh.facets, mesh.facet_ancestors);
     edges_ = ordered(mesh.adjacency->edges, mesh.edges, mesh.edge_ancestors);

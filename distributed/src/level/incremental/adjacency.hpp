@@ -10,24 +10,24 @@
 
 namespace octetra::distributed {
 
-/// What a process knows beyond the mesh while few of its cells change: who is at each vertex, and
-/// the canonical order. It is kept up from level to level where something changes.
+/// Data of a process for incremental levels: the entities at each vertex, and the canonical order.
+/// Updated by each level where the mesh changes.
 ///
-/// Memory: some 60 bytes per cell.
+/// Memory: about 60 bytes per cell.
 struct Adjacency {
-    /// That of a mesh, with its index, made if it is not there.
+    /// Returns the data of a mesh, with the index; creates them if necessary.
     static Adjacency& of(DistributedMesh& mesh);
 
-    /// Of a mesh in canonical order. Makes room in its lists, too.
+    /// The mesh must be in canonical order. Reserves capacity in its lists as well.
     explicit Adjacency(DistributedMesh& mesh);
 
-    /// Gives back what finds entities at a vertex, most of the memory, for as long as it is not
-    /// needed.
+    /// Frees the index by which entities at a vertex are found, which is most of the memory, while
+    /// it is not needed.
     void drop_index() noexcept;
-    /// Makes it again, if it is not there.
+    /// Creates the index again if necessary.
     void make_index(const DistributedMesh& mesh);
 
-    /// Can a mesh of this size be indexed, whatever a level makes of it?
+    /// Returns whether a mesh of this size can be indexed after any level.
     [[nodiscard]] static bool can_hold(const DistributedMesh& mesh);
 
     void set_vertex_count(std::size_t count);
@@ -38,18 +38,18 @@ struct Adjacency {
     SharedEntities<2> shared_edges;
     SharedEntities<3> shared_faces;
     CellBlocks blocks;
-    /// Room for a level's notes about the cells that it touches; none() between levels.
+    /// The index of each cell's note during a level; none() between levels.
     IndexVector<CellIndex, std::uint32_t> cell_to_note;
-    /// The cells that the last level made.
+    /// The cells that the last level created.
     std::vector<CellIndex> new_cells;
     bool has_index = true;
 };
 
-/// A mesh in canonical order for as long as this lives; then it is again as it was, unless it is to
-/// be kept so. Not collective.
+/// Puts a mesh into canonical order during its lifetime; the destructor restores the previous order
+/// unless keep() was called. Not collective.
 class CanonicalOrder {
 public:
-    /// Where this throws, the mesh is as it was.
+    /// If this throws, the mesh is unchanged.
     explicit CanonicalOrder(DistributedMesh& mesh);
     ~CanonicalOrder();
     CanonicalOrder(const CanonicalOrder&) = delete;
@@ -59,7 +59,7 @@ public:
 
     void keep() noexcept;
 
-    /// The number that each cell, facet and tagged edge had before; empty where it is the same.
+    /// The previous number of each cell, facet and tagged edge; empty if the order is the same.
     [[nodiscard]] const std::vector<CellIndex>& cells_before() const { return cells_.before; }
     [[nodiscard]] const std::vector<FacetIndex>& facets_before() const { return facets_.before; }
     [[nodiscard]] const std::vector<EdgeIndex>& edges_before() const { return edges_.before; }
@@ -68,7 +68,7 @@ private:
     void swap_lists() noexcept;
 
     DistributedMesh* mesh_;
-    // Of the order that the mesh is not in.
+    // The order that the mesh is not in at present.
     decltype(Adjacency::cells)::Ordered cells_;
     decltype(Adjacency::facets)::Ordered facets_;
     decltype(Adjacency::edges)::Ordered edges_;

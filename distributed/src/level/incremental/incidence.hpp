@@ -13,32 +13,32 @@
 namespace octetra::distributed {
 
 /// The entities (cells, facets, edges; N vertices each) at every vertex, in linked lists: an entity
-/// comes to a vertex or leaves it in constant time, however many are there. Which vertices an
-/// entity has is the caller's to know. Places count in 32 bits: N times as many as entities.
+/// is added to or removed from a vertex in constant time, however many are there. The caller stores
+/// the vertices of the entities. N times the number of entities must fit in 32 bits.
 ///
-/// Memory: 8 bytes per vertex, unless there is no entity, and 8 N per entity.
+/// Memory: 8 bytes per vertex, unless there are no entities, and 8 N per entity.
 template <class I, std::size_t N>
 class Incidence {
 public:
     using Vertices = std::array<VertexIndex, N>;
 
-    /// Finds nothing.
+    /// An empty index.
     Incidence() = default;
     Incidence(std::size_t vertex_count, const IndexVector<I, Vertices>& entities) {
-        if (entities.empty()) return;  // and none will come, as they come of others
+        if (entities.empty()) return;  // and levels add none
         reserve_with_room(heads_, vertex_count);
         heads_.resize(vertex_count);
         reserve_with_room(links_, N * entities.size());
         links_.resize(N * entities.size());
-        // From behind, so that every list ascends.
+        // In reverse, so that every list is ascending.
         for (std::size_t i = entities.size(); i-- > 0;) link_all(i, entities[I{i}]);
     }
 
-    /// Those that come have no entities; those that go must have none.
+    /// Added vertices have no entities; removed vertices must have none.
     void set_vertex_count(std::size_t count) {
         if (!heads_.empty()) heads_.resize(count);
     }
-    /// After this, so many more entities can be appended without a failure.
+    /// Reserves capacity so that appending this many entities cannot fail.
     void make_room(std::size_t added) { octetra::make_room(links_, links_.size() + N * added); }
     void append(const Vertices& vertices) {
         const std::size_t i = links_.size() / N;
@@ -59,7 +59,7 @@ public:
             unlink(static_cast<std::uint32_t>(N * i.value() + k), vertices[k]);
         }
     }
-    /// The entity gets the number of one that was removed.
+    /// Renumbers an entity to the number of a removed one.
     void move(I from, I to, const Vertices& vertices) {
         for (std::size_t k = 0; k < N; ++k) {
             const auto place = static_cast<std::uint32_t>(N * to.value() + k);
@@ -70,12 +70,13 @@ public:
             if (link.next != none) links_[link.next].previous = place;
         }
     }
-    /// Those from this one on have been removed, or moved.
+    /// Removes all entities from `count` on, which must have been removed or moved.
     void truncate(std::size_t count) {
         if (!heads_.empty()) links_.resize(N * count);
     }
-    /// The vertices that stay, by the numbers that they had, ascending; those before `first` had
-    /// the same. The others have no entities. The entities of a list come to know, too.
+    /// Renumbers vertices: `before` has the previous numbers of the remaining vertices, ascending;
+    /// those before `first` are unchanged. Removed vertices must have no entities. Updates the
+    /// vertices in `entities` too.
     void keep_vertices(std::span<const VertexIndex> before, VertexIndex first,
                        IndexVector<I, Vertices>& entities) {
         if (heads_.empty()) return;
@@ -96,12 +97,12 @@ public:
             visit(I{at / N});
         }
     }
-    /// Calls found(i, e) for each entity i that has the edge, as the e-th of its edges in the order
-    /// of cell_edges or triangle_edges. `vertices_of(i)` are its vertices.
+    /// Calls found(i, e) for each entity i that has the edge as its edge number e in the order of
+    /// cell_edges or triangle_edges. `vertices_of(i)` returns the vertices of an entity.
     void for_each_with(const EdgeVertices& edge, auto&& vertices_of, auto&& found) const {
         if (heads_.empty()) return;
         auto [few, many] = edge;
-        if (heads_[few].count > heads_[many].count) std::swap(few, many);  // it may be a hub
+        if (heads_[few].count > heads_[many].count) std::swap(few, many);  // one end may be a hub
         for (std::uint32_t at = heads_[few].first; at != none; at = links_[at].next) {
             const I i{at / N};
             const Vertices& vertices = vertices_of(i);
@@ -118,13 +119,13 @@ private:
         std::uint32_t first = none;
         std::uint32_t count = 0;
     };
-    /// Position k of entity i is place N i + k.
+    /// Element N i + k is for position k of entity i.
     struct Link {
         std::uint32_t previous = none;
         std::uint32_t next = none;
     };
 
-    /// Edges are in lexicographic order of their positions.
+    /// Edges are in lexicographic order of the positions of their ends.
     static std::size_t edge_between(std::size_t i, std::size_t j) {
         if (i > j) std::swap(i, j);
         return i * (2 * N - i - 1) / 2 + (j - i - 1);

@@ -26,7 +26,7 @@ void IncrementalClosure::mark(CellIndex cell, EdgeMask edges) {
     }
 }
 
-// Who told has told all that share the edge.
+// The sender notifies every sharer of the edge.
 void IncrementalClosure::mark_from(std::size_t interface, std::uint32_t position) {
     const EdgeVertices& edge = mesh_->interfaces[interface].edges[position];
     if (!is_marked(edge)) set_mark(edge);

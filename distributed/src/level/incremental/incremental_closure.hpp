@@ -12,17 +12,17 @@
 
 namespace octetra::distributed {
 
-/// Numbers no edges but those that are marked. Whoever marks one notes it at every cell that
-/// has it, which is found at the edge's ends; so what a cell's note says is always complete.
+/// Closure that numbers marked edges only. Marking an edge updates the notes of all cells with the
+/// edge, which are found at its ends; so the note of a cell is always complete.
 class IncrementalClosure final : public Closure {
 public:
-    /// What is known of a cell that has been looked at.
+    /// The state of a cell that the closure has processed.
     struct Note {
         CellIndex cell;
         LengthOrder order = 0;
         EdgeMask marked = 0;
         bool queued = false;
-        std::array<EdgeIndex, 6> edges{};  ///< numbers of the marked ones, else none()
+        std::array<EdgeIndex, 6> edges{};  ///< numbers of the marked ones, none() for others
     };
 
     IncrementalClosure(const DistributedMesh& mesh, Adjacency& adjacency);
@@ -32,8 +32,8 @@ public:
     IncrementalClosure(IncrementalClosure&&) = delete;
     IncrementalClosure& operator=(IncrementalClosure&&) = delete;
 
-    /// Marks edges of a cell (a set of them), of this process's own will, without following their
-    /// paths. All that share them will be told.
+    /// Marks a set of edges of a cell without following their paths. Their sharers will be
+    /// notified.
     void mark(CellIndex cell, EdgeMask edges);
     [[nodiscard]] LengthOrder order_of(CellIndex cell) { return notes_[note_of(cell)].order; }
 
@@ -42,7 +42,7 @@ public:
     [[nodiscard]] std::size_t marked_count() const override { return edges_.size(); }
     [[nodiscard]] std::vector<std::vector<std::uint32_t>> take_outboxes() override;
 
-    /// The ends of the marked edges, lower first, in the order of selection.
+    /// The ends of the marked edges, lower first, in the order of marking.
     [[nodiscard]] const IndexVector<EdgeIndex, EdgeVertices>& edges() const { return edges_; }
     [[nodiscard]] const std::vector<Note>& notes() const { return notes_; }
 
@@ -57,7 +57,7 @@ private:
     const PatternTable* table_ = &PatternTable::get();
     IndexVector<EdgeIndex, EdgeVertices> edges_;
     std::vector<Note> notes_;
-    std::vector<std::uint32_t> queue_;  // of notes
+    std::vector<std::uint32_t> queue_;  // indices of notes
     std::vector<std::vector<std::uint32_t>> outboxes_;
 };
 

@@ -13,8 +13,8 @@
 namespace octetra::distributed {
 namespace {
 
-/// Triangles with one of their edges cut each, as triangle_edges numbers them, to triangles with
-/// all of their cuts, ascending by key.
+/// Converts triangles with one bisected edge each, by its position in triangle_edges, to triangles
+/// with all of their bisected edges, ascending by key.
 template <class CutTriangle, class OneCut>
 std::vector<CutTriangle> gathered(std::vector<OneCut> cuts) {
     std::ranges::sort(cuts, {}, &OneCut::key);
@@ -34,11 +34,11 @@ struct OneCut {
 };
 
 struct NumberedEdge {
-    std::uint64_t ends = 0;  ///< the lower one in the higher bits
+    std::uint64_t ends = 0;  ///< the lower end in the higher bits
     EdgeIndex number;
 };
 
-/// By (lower, higher) end.
+/// Sorts edges by (lower, higher) end.
 std::vector<NumberedEdge> in_order(const IndexVector<EdgeIndex, EdgeVertices>& edges) {
     std::vector<NumberedEdge> sorted;
     sorted.reserve(edges.size());
@@ -50,7 +50,8 @@ std::vector<NumberedEdge> in_order(const IndexVector<EdgeIndex, EdgeVertices>& e
     return sorted;
 }
 
-/// Of a triangle: pieces beyond the first, and edges between the pieces.
+/// Returns the number of children beyond the first, which is also the number of edges between
+/// children.
 std::size_t count_of_cuts(const auto& triangle) {
     return static_cast<std::size_t>(
         std::ranges::count_if(triangle.midpoints, [](VertexIndex v) { return !v.is_none(); }));
@@ -161,7 +162,7 @@ std::array<CellVertices, 8> IncrementalLevel::children_of(
     return children;
 }
 
-/// Or 1, if there is none.
+/// Returns the sign of the first flat or inverted child, or 1 if there is none.
 int IncrementalLevel::sign_of_first_bad_child(const IncrementalClosure::Note& note) const {
     const auto children = children_of(note);
     for (std::size_t k = 0; k < pattern_of(note).child_count; ++k) {
@@ -176,7 +177,7 @@ RoundingFailure IncrementalLevel::first_of(std::vector<BadParent> bad) const {
     if (bad.empty()) return failure;
     std::ranges::sort(bad, {}, &BadParent::cell);
     const std::uint32_t root = std::ranges::min_element(bad, {}, &BadParent::root)->root;
-    // The root's descendants in order, of which one is bad.
+    // Visits the root's descendants in canonical order until the first bad one.
     for (CellIndex c{mesh_->cell_ancestors.first[root]}; !failure.found();
          c = adjacency_->cells.next(c)) {
         const auto found = std::ranges::lower_bound(bad, c, {}, &BadParent::cell);
@@ -203,7 +204,7 @@ void IncrementalLevel::bisect_tagged() {
     cut_facets_ = gathered<CutTriangle<FacetIndex>>(std::move(facet_cuts));
 }
 
-// The other side may go through all of its list: the order is that of bisect_interfaces.hpp.
+// The other rank may use a full sweep: the order is that of bisect_interfaces.hpp.
 void IncrementalLevel::bisect_interfaces() {
     if (mesh_->interfaces.empty()) return;
     find_shared_cuts();

@@ -14,8 +14,8 @@
 
 namespace octetra::distributed {
 
-/// The way for few marked cells: takes time in proportion to the cells that are bisected and those
-/// around them, once the mesh has its Adjacency; leaves the mesh unordered.
+/// Level for few marked cells: takes time proportional to the bisected cells and those around them,
+/// once the mesh has its Adjacency, and leaves the mesh unordered.
 class IncrementalLevel final : public Level {
 public:
     explicit IncrementalLevel(DistributedMesh& mesh);
@@ -47,7 +47,7 @@ private:
         std::uint32_t root = 0;
         int sign = 0;  ///< of the first such child
     };
-    /// A triangle, found by a key, with the midpoints of its edges that are bisected.
+    /// A triangle, identified by a key, with the midpoints of its bisected edges.
     template <class Key>
     struct CutTriangle {
         Key key;
@@ -86,9 +86,9 @@ private:
     Adjacency* adjacency_;
     IncrementalClosure closure_;
     IndexVector<EdgeIndex, VertexIndex> midpoints_;  ///< of each marked edge
-    std::optional<AppendedMidpoints> appended_;      ///< once they are
+    std::optional<AppendedMidpoints> appended_;      ///< once the midpoints are appended
 
-    // What commit() does. Each list is ascending in what is cut.
+    // The changes that commit() makes. Each list is ascending by the bisected entities.
     std::vector<CellIndex> new_cells_;
     std::vector<CutTriangle<FacetIndex>> cut_facets_;
     std::vector<CutEdge> cut_tagged_edges_;

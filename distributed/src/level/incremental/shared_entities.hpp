@@ -10,7 +10,7 @@
 
 namespace octetra::distributed {
 
-/// Where an edge or a face that is shared stands: a position in the list of an interface.
+/// The position of a shared edge or face in the list of an interface.
 struct SharedPlace {
     std::uint32_t interface = 0;
     std::uint32_t position = 0;
@@ -18,23 +18,23 @@ struct SharedPlace {
     friend auto operator<=>(const SharedPlace&, const SharedPlace&) = default;
 };
 
-/// A place of all interfaces' edges, or of all their faces, in no order.
+/// The number of an entry among the edges, or faces, of all interfaces, in unspecified order.
 using SharedIndex = Index<struct SharedRole>;
 
 /// Finds the shared edges (N = 2) or faces (N = 3) by their vertices. An edge has an entry for each
-/// process that it is shared with.
+/// rank that shares it.
 template <std::size_t N>
 class SharedEntities {
 public:
     using Vertices = std::array<VertexIndex, N>;
 
-    /// Finds nothing.
+    /// An empty index.
     SharedEntities() = default;
     SharedEntities(std::size_t vertex_count, const std::vector<Interface>& interfaces)
         : SharedEntities(vertex_count, interfaces, all_of(interfaces)) {}
 
     void set_vertex_count(std::size_t count) { incidence_.set_vertex_count(count); }
-    /// After this, append() does not fail for so many; added[i] of them in interface i.
+    /// Reserves capacity so that append() cannot fail for added[i] entities of each interface i.
     void make_room(const std::vector<std::size_t>& added, std::vector<Interface>& interfaces) {
         std::size_t total = 0;
         for (std::size_t i = 0; i < interfaces.size(); ++i) {
@@ -49,7 +49,7 @@ public:
     struct Found {
         SharedIndex index;
         SharedPlace place;
-        std::size_t edge = 0;  ///< the e-th of the entity
+        std::size_t edge = 0;  ///< position of the edge in the entity
     };
 
     /// Calls found(Found) for each entity that has the edge.

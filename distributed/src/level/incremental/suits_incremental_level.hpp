@@ -7,10 +7,10 @@
 
 namespace octetra::distributed {
 
-/// Would little change, because few cells are marked or they are all in one place? Edges
-/// that marked cells mark concern five or six cells for each of their vertices. `is_last`: what an
-/// incremental level goes by is not made for this one alone, as that takes longer than a full
-/// sweep.
+/// Returns whether the level is expected to change little, because few cells are marked or because
+/// they are adjacent to each other. The edges that marked cells mark affect five or six cells for
+/// each of their vertices. If `is_last`, the data for incremental levels are not created for this
+/// level alone, as that takes longer than a full sweep.
 [[nodiscard]] bool suits_incremental_level(const DistributedMesh& mesh, const MarkedCells& marked,
                                            const Tuning& tuning, bool is_last = false);
 

@@ -12,20 +12,20 @@
 
 namespace octetra::distributed {
 
-/// A list of the mesh (cells, tagged facets or edges) while it changes in a few places only: the
-/// first piece of what is bisected takes its place, the others go to the end, and for each root a
-/// linked list remembers the canonical order of its descendants. The list and its ancestors are the
-/// mesh's, and handed in. As long as the list is unordered, `ancestors.first` names the first
-/// descendant of every root, not ranges.
+/// A list of the mesh (cells, tagged facets or edges) that changes in few positions: the first
+/// child of a bisected entity replaces it, the others are appended, and for each root a linked list
+/// stores the canonical order of its descendants. The list and its ancestor map belong to the mesh
+/// and are passed to the functions. While the list is unordered, `ancestors.first` has the first
+/// descendant of each root instead of ranges.
 ///
-/// Memory: 12 bytes per entity beside those of Incidence.
+/// Memory: 12 bytes per entity, in addition to those of Incidence.
 template <class I, std::size_t N>
 class UnorderedList {
 public:
     using Vertices = std::array<VertexIndex, N>;
     using List = IndexVector<I, Vertices>;
 
-    /// The list is in canonical order.
+    /// The list must be in canonical order.
     UnorderedList(std::size_t vertex_count, const List& list, const AncestorMap& ancestors)
         : incidence_(vertex_count, list) {
         reserve_with_room(places_, list.size());
@@ -40,31 +40,31 @@ public:
         }
     }
 
-    /// Calls found(i, e) for each entity of the list that has the edge, as its e-th one.
+    /// Calls found(i, e) for each entity of the list that has the edge as its edge number e.
     void for_each_with(const EdgeVertices& edge, const List& list, auto&& found) const {
         incidence_.for_each_with(
             edge, [&](I i) -> const Vertices& { return list[i]; }, found);
     }
-    /// To find entities by edges, and to replace them, takes an index: memory that can be given
-    /// back for a while.
+    /// Frees the index that finding entities by edges and replacing them requires.
     void drop_index() noexcept { incidence_ = {}; }
     void make_index(std::size_t vertex_count, const List& list) {
         incidence_ = Incidence<I, N>(vertex_count, list);
     }
     void set_vertex_count(std::size_t count) { incidence_.set_vertex_count(count); }
-    /// After this, replace() does not fail for so many pieces beyond the first ones.
+    /// Reserves capacity so that replace() cannot fail for this many children beyond the first
+    /// ones.
     void make_room(std::size_t added, List& list) {
         octetra::make_room(list, list.size() + added);
         octetra::make_room(places_, list.size() + added);
         incidence_.make_room(added);
     }
 
-    /// What follows in canonical order among the root's descendants, or none().
+    /// Returns the next descendant of the same root in canonical order, or none().
     [[nodiscard]] I next(I i) const { return places_[i].next; }
     /// The position of its root among this process's roots.
     [[nodiscard]] std::uint32_t root_of(I i) const { return places_[i].root; }
 
-    /// Puts pieces into the place of an entity of the list.
+    /// Replaces an entity of the list by its children.
     void replace(I i, std::span<const Vertices> pieces, List& list) {
         change(i, pieces[0], list);
         const auto [root, previous, after] = places_[i];
@@ -80,9 +80,9 @@ public:
         is_ordered_ = is_ordered_ && pieces.size() == 1;
     }
 
-    // To take pieces together again: of the roots concerned, some entities become others, the rest
-    // of what is not needed is removed, and the order is told anew. Then the last of the list move
-    // to where something was removed.
+    // Coarsening: for each affected root, some entities are changed, superfluous ones are removed,
+    // and the order is set. Then the last entities of the list are moved to the numbers of removed
+    // ones.
 
     void change(I i, const Vertices& vertices, List& list) {
         incidence_.replace(i, list[i], vertices);
@@ -115,8 +115,8 @@ public:
         list.resize(count);
         places_.resize(count);
     }
-    /// The vertices that stay, by the numbers that they had, which those before `first` have still.
-    /// Others have no entities any more.
+    /// Renumbers vertices: `before` has the previous numbers of the remaining ones; those before
+    /// `first` are unchanged. Removed vertices must have no entities.
     void keep_vertices(std::span<const VertexIndex> before, VertexIndex first, List& list) {
         incidence_.keep_vertices(before, first, list);
     }
@@ -124,14 +124,14 @@ public:
     /// Calls visit(i) for each entity that has the vertex.
     void for_each_at(VertexIndex v, auto&& visit) const { incidence_.for_each_at(v, visit); }
 
-    /// Is the list in canonical order as it stands?
+    /// Returns whether the order of the list is canonical.
     [[nodiscard]] bool is_ordered() const { return is_ordered_; }
 
-    /// What the list is in canonical order.
+    /// The list in canonical order.
     struct Ordered {
         List list;
         std::vector<std::uint32_t> first;  ///< as in AncestorMap
-        std::vector<I> before;  ///< the number that each entity has in the unordered list
+        std::vector<I> before;             ///< the number of each entity in the unordered list
     };
     [[nodiscard]] Ordered ordered(const List& list, const AncestorMap& ancestors) const {
         Ordered ordered;

@@ -7,8 +7,9 @@
 namespace octetra::distributed {
 namespace {
 
-/// The edge or face that one with vertices that go is a piece of: it has their edges' ends instead.
-/// None where these are too many: what joins pieces of a face is no piece of an edge.
+/// The coarse edge or face that contains one with removed vertices: these are replaced by the ends
+/// of their edges. There is none if that results in too many vertices: an edge between children of
+/// a face is not part of a coarse edge.
 template <std::size_t N>
 class Whole {
 public:
@@ -25,7 +26,7 @@ public:
     }
 
     [[nodiscard]] bool exists() const { return count_ == N; }
-    /// Ascending: so on both sides.
+    /// Vertices in ascending order: the same order on both ranks.
     [[nodiscard]] std::array<VertexIndex, N> vertices() const {
         std::array<VertexIndex, N> vertices;
         std::copy_n(corners_.begin(), N, vertices.begin());
@@ -37,11 +38,12 @@ private:
         if (std::ranges::find(corners_, v) == corners_.end()) corners_[count_++] = v;
     }
 
-    std::array<VertexIndex, 2 * N> corners_;  ///< none() behind the last
+    std::array<VertexIndex, 2 * N> corners_;  ///< none() after the last
     std::size_t count_ = 0;
 };
 
-/// Without those of `wholes`, given with their places in the list, that stand in it before.
+/// Removes repeated entries of `wholes`, which are given with their positions in the list; the
+/// first of each is kept.
 template <class Vertices>
 std::vector<Vertices> each_once(const std::vector<Vertices>& list,
                                 std::vector<std::pair<Vertices, std::size_t>> wholes) {

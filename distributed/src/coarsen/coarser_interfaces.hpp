@@ -9,9 +9,9 @@
 
 namespace octetra::distributed {
 
-/// The interfaces without the vertices that go, which have the numbers still that they had. What
-/// both sides have listed in the same order they have so afterwards: what is whole again stands
-/// where the first of its pieces stood.
+/// Returns the interfaces without the removed vertices, in terms of the previous vertex numbers.
+/// The order remains the same on both ranks: a coarse entity takes the position of the first entity
+/// that is merged into it.
 [[nodiscard]] std::vector<Interface> coarser_interfaces(const std::vector<Interface>& interfaces,
                                                         const VertexLevels& levels,
                                                         const KeptVertices& kept);

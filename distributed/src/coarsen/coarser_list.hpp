@@ -16,32 +16,32 @@
 
 namespace octetra::distributed {
 
-/// What a list (of cells, tagged facets or edges) becomes without the vertices that go, in
-/// canonical order; vertices have the numbers still that they had.
+/// A list (of cells, tagged facets or edges) after the removal of vertices, in canonical order;
+/// vertices have their previous numbers.
 template <class I, std::size_t N>
 struct CoarserList {
     IndexVector<I, std::array<VertexIndex, N>> list;
     std::vector<std::uint32_t> first;  ///< as in AncestorMap
-    /// For each entity of before, the one that it is or is a piece of, and how often that was
-    /// halved for it.
+    /// For each previous entity, the entity that it is or was merged into, and the number of
+    /// bisections that separate it from that entity.
     std::vector<std::uint32_t> whole_of;
     std::vector<std::uint8_t> halvings;
 };
 
-/// What a parent is divided into, in canonical order.
+/// The children of a parent, in canonical order.
 template <std::size_t N>
 struct Pieces {
     std::size_t count = 0;
     std::array<std::array<VertexIndex, N>, 8> vertices;
 };
 
-/// The midpoints of a parent's edges that stay, none() of the others.
+/// The midpoints of a parent's edges that are kept, none() for other edges.
 template <std::size_t N>
 using KeptMidpoints = std::array<VertexIndex, N*(N - 1) / 2>;
 
-/// Makes a CoarserList in one pass. Where vertices go, a family is divided anew by those that stay:
-/// members that are pieces then, too, keep their place in the list with all that became of them,
-/// and the others are pieces of one of the new pieces.
+/// Computes a CoarserList in one pass. A family with removed vertices is divided anew by the
+/// remaining midpoints: members that are also children in the new division keep their position and
+/// their descendants, and the others are merged into one of the new children.
 template <class I, std::size_t N>
 class ListCoarsening {
 public:
@@ -50,8 +50,8 @@ public:
     ListCoarsening(const VertexLevels& levels, const LevelShares& shares, const KeptVertices& kept)
         : levels_(&levels), shares_(&shares), kept_(&kept), families_(levels) {}
 
-    /// divide(level, root, parent, midpoints) gives the pieces of a parent; `root` is its place
-    /// among this process's roots.
+    /// divide(level, root, parent, midpoints) returns the children of a parent; `root` is the
+    /// position of its root among this process's roots.
     [[nodiscard]] CoarserList<I, N> run(const IndexVector<I, Vertices>& list, auto&& divide) {
         reserve_in_huge_pages(made_.whole_of, list.size());
         reserve_in_huge_pages(made_.halvings, list.size());
@@ -81,11 +81,11 @@ public:
     }
 
 private:
-    /// Where what became of an entity begins: in the new list, and in the old one.
+    /// The offsets of the descendants of an entity in the new list and in the old one.
     struct Note {
         std::uint32_t begin = 0;
         std::uint32_t begin_before = 0;
-        bool has_gone_vertex = false;  ///< then it is of the old list, and no more divided
+        bool has_gone_vertex = false;  ///< then it is an entity of the old list, not bisected
     };
     using Member = typename Families<N, Note>::Member;
 
@@ -99,7 +99,7 @@ private:
         made_.list.push_back(vertices);
         families_.add(vertices, note, parent_met, root_met);
     }
-    /// A family of which all new vertices stay, or none: the most frequent ones.
+    /// Adds a family of which all new vertices are kept, or none: the most frequent cases.
     [[nodiscard]] bool add_alike(std::span<const Vertices, whole> family, auto&& parent_met,
                                  auto&& root_met) {
         const bool all_go = shares_->all_go(level_) || has_only(0, family);
@@ -117,7 +117,7 @@ private:
         families_.add(parent, note, parent_met, root_met);
         return true;
     }
-    /// Are its new vertices all kept, as a KeptVertices says it, or all not?
+    /// Returns whether all new vertices of a family are kept (1), or all are removed (0).
     [[nodiscard]] bool has_only(std::uint8_t is_kept,
                                 std::span<const Vertices, whole> family) const {
         const VertexIndex first_new = levels_->begin(level_);
@@ -170,7 +170,8 @@ private:
         return midpoints;
     }
 
-    /// All members that a piece is or is made of, into the new list of the family.
+    /// Appends to the new list of the family all members that a child is, or that are merged into
+    /// it.
     void append_piece(const Vertices& piece, const Vertices& parent,
                       std::span<const Member> members) {
         const auto begin = static_cast<std::uint32_t>(members[0].note.begin + family_.size());
@@ -187,7 +188,7 @@ private:
         }
         if (is_made) family_.push_back(piece);
     }
-    /// What became of a member that stays.
+    /// Moves the descendants of a member that is kept.
     void move(std::span<const Member> members, std::size_t k, std::uint32_t begin) {
         const auto& note = members[k].note;
         const bool is_last = k + 1 == members.size();
@@ -197,11 +198,11 @@ private:
                        made_.list.begin() + note_end);
         if (begin == note.begin) return;
         for (std::size_t i = note.begin_before; i < before_end; ++i) {
-            made_.whole_of[i] += begin - note.begin;  // may go backwards, modulo 2^32
+            made_.whole_of[i] += begin - note.begin;  // may be negative, modulo 2^32
         }
     }
-    /// A child has a midpoint in the place of one of its edge's ends. Where that goes, the end is
-    /// there again.
+    /// A child has a midpoint at the position of an end of its edge. If the midpoint is removed,
+    /// the end replaces it.
     [[nodiscard]] Vertices without_gone(Vertices vertices, const Vertices& parent) const {
         for (std::size_t k = 0; k < N; ++k) {
             if ((*kept_)[vertices[k]] == 0) vertices[k] = parent[k];
@@ -212,10 +213,10 @@ private:
     const VertexLevels* levels_;
     const LevelShares* shares_;
     const KeptVertices* kept_;
-    std::uint32_t level_ = 0;  ///< of the next of the list; that after it is often the same
+    std::uint32_t level_ = 0;  ///< of the next list entry, a good guess for the entry after it
     Families<N, Note> families_;
     CoarserList<I, N> made_;
-    IndexVector<I, Vertices> family_;  ///< what a family becomes
+    IndexVector<I, Vertices> family_;  ///< the new list of one family
 };
 
 }  // namespace octetra::distributed

@@ -8,7 +8,8 @@
 namespace octetra::distributed {
 namespace {
 
-/// Numbers of vertices, ascending: of such that go, and of such that are asked about.
+/// Encoded numbers of vertices, ascending: of removed vertices, and of vertices whose new numbers
+/// are requested.
 using Questions = std::vector<std::uint64_t>;
 
 std::uint64_t question(GlobalVertex number, bool goes) {
@@ -16,8 +17,8 @@ std::uint64_t question(GlobalVertex number, bool goes) {
 }
 bool tells_of_gone(std::uint64_t question) { return (question & 1U) != 0; }
 
-/// Collective. The first vertex of this process with a number no less than the least that goes.
-/// Local numbers ascend as global ones do.
+/// Collective. Returns the first vertex of this process whose global number is at least the
+/// smallest removed one. Local numbers have the order of global ones.
 VertexIndex first_changed(const Communicator& processes, const CanonicalNumbers& numbers,
                           VertexIndex first_gone) {
     constexpr std::uint64_t none = std::numeric_limits<std::uint64_t>::max();
@@ -29,7 +30,8 @@ VertexIndex first_changed(const Communicator& processes, const CanonicalNumbers&
         static_cast<std::size_t>(std::ranges::lower_bound(of_vertex, least) - of_vertex.begin())};
 }
 
-/// To each process, about the numbers of its block. What goes is told by its owner alone.
+/// Returns the messages to each rank, for the numbers of its block. A removed vertex is reported by
+/// its owner only.
 std::vector<Questions> questions_of(const CanonicalNumbers& numbers,
                                     const Sharing<VertexIndex>& sharing, const KeptVertices& kept,
                                     VertexIndex first, int process_count) {
@@ -45,7 +47,7 @@ std::vector<Questions> questions_of(const CanonicalNumbers& numbers,
     return questions;
 }
 
-/// What all processes tell of one block to be gone, ascending.
+/// Returns the removed vertices of one block as reported by all processes, ascending.
 std::vector<std::uint64_t> gone_of_block(const std::vector<Questions>& asked) {
     std::vector<std::uint64_t> gone;
     for (const Questions& questions : asked) {
@@ -55,7 +57,8 @@ std::vector<std::uint64_t> gone_of_block(const std::vector<Questions>& asked) {
     return gone;
 }
 
-/// How many of the block go before each vertex that is asked about, and before the block.
+/// Returns the number of removed vertices before each requested vertex, including those before the
+/// block.
 std::vector<std::vector<std::uint64_t>> answers_to(const std::vector<Questions>& asked,
                                                    const std::vector<std::uint64_t>& gone,
                                                    std::uint64_t gone_before) {
@@ -71,8 +74,8 @@ std::vector<std::vector<std::uint64_t>> answers_to(const std::vector<Questions>&
     return answers;
 }
 
-/// The numbers that were asked about, less what the answers say. A process that has failed answers
-/// nothing.
+/// Returns the requested numbers after subtraction of the answers. A process that has failed sends
+/// no answers.
 std::vector<GlobalVertex> lessened(const std::vector<Questions>& questions,
                                    const std::vector<std::vector<std::uint64_t>>& answers) {
     std::vector<GlobalVertex> after;

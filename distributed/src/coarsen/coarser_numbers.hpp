@@ -13,20 +13,20 @@
 
 namespace octetra::distributed {
 
-/// The canonical numbers of the vertices that stay.
+/// The global numbers of the remaining vertices.
 struct CoarserNumbers {
-    /// Of before, the first that comes behind any that goes, here or elsewhere: those before it
-    /// have their numbers still.
+    /// The first vertex, by its previous local number, with a global number greater than or equal
+    /// to that of a removed vertex of any process: those before it keep their numbers.
     VertexIndex first;
-    std::vector<GlobalVertex> from_first;  ///< of those that stay
+    std::vector<GlobalVertex> from_first;  ///< of the remaining vertices
     std::uint64_t vertex_count = 0;        ///< in the whole mesh
 };
 
-/// Collective. Vertices are numbered by level, and by their ends' numbers within one; so those that
-/// stay are in the same order when others go, and each number becomes less by as many as go of the
-/// vertices before it, on whatever process. Each is asked about at a process that the number
-/// decides, and its owner tells of one that goes. Where a process has failed or fails, the result
-/// is not to be used on any.
+/// Collective. Determines new global numbers. Vertices are numbered by level, and within a level by
+/// the numbers of their ends; so the order of the remaining vertices does not change, and each
+/// number decreases by the number of removed vertices before it, on any process. Each new number is
+/// requested from the rank whose block of numbers has the old one; owners report removed vertices
+/// to it. If a process has failed or fails, the result must not be used on any process.
 [[nodiscard]] CoarserNumbers coarser_numbers(const Communicator& processes,
                                              const CanonicalNumbers& numbers,
                                              const Sharing<VertexIndex>& sharing,

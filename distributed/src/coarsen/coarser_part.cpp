@@ -17,7 +17,8 @@
 namespace octetra::distributed {
 namespace {
 
-/// The numbers that vertices have afterwards, or would have if they stayed.
+/// Returns the number of each vertex after coarsening; for a removed vertex, the number that it
+/// would have if it were kept.
 IndexVector<VertexIndex, VertexIndex> numbers_after(const KeptVertices& kept) {
     IndexVector<VertexIndex, VertexIndex> after;
     reserve_in_huge_pages(after, kept.size() + 1);
@@ -43,14 +44,14 @@ std::vector<VertexIndex> list_of(const KeptVertices& kept, std::size_t count) {
     list.resize(count + 1);
     std::size_t next = 0;
     for (VertexIndex v{0}; v < kept.end_index(); ++v) {
-        list[next] = v;  // the next one takes its place if it goes
+        list[next] = v;  // overwritten by the next vertex if v is removed
         next += kept[v];
     }
     list.resize(count);
     return list;
 }
 
-/// What is known of entities in canonical order, by the numbers that they had.
+/// Converts values in canonical order to the order of the previous numbers.
 template <class T, class I>
 std::vector<T> by_number(std::vector<T> ordered, const std::vector<I>& before) {
     if (before.empty()) return ordered;
@@ -59,8 +60,8 @@ std::vector<T> by_number(std::vector<T> ordered, const std::vector<I>& before) {
     return values;
 }
 
-/// Keeps what those entities have that were `before`, `width` each; `first` is the first that is
-/// another.
+/// Moves the values of the remaining entities, `width` for each, whose previous numbers are
+/// `before`. Entities before `first` are unchanged.
 void keep_in_place(auto& list, std::span<const VertexIndex> before, std::size_t first,
                    std::size_t width) noexcept {
     if (list.empty()) return;
@@ -72,7 +73,7 @@ void keep_in_place(auto& list, std::span<const VertexIndex> before, std::size_t 
     if (list.size() < list.capacity() / 2) list.shrink_to_fit();
 }
 
-/// The same of midpoints, which come behind `skipped` other vertices.
+/// The same for midpoints, whose lists omit the first `skipped` vertices.
 void keep_midpoints(auto& list, std::span<const VertexIndex> before, std::size_t first,
                     std::size_t skipped) noexcept {
     if (list.empty()) return;

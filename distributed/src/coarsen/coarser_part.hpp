@@ -14,49 +14,50 @@
 
 namespace octetra::distributed {
 
-/// A list (of cells, tagged facets or edges) as it is without the vertices that go, by their new
-/// numbers.
+/// A list (of cells, tagged facets or edges) after the removal of vertices, in terms of the new
+/// vertex numbers.
 template <class I, std::size_t N>
 struct NewList {
     IndexVector<I, std::array<VertexIndex, N>> list;
     std::vector<std::uint32_t> first;  ///< as in AncestorMap
 };
 
-/// What a process's part becomes without the vertices that go.
+/// The part of a process after the removal of vertices.
 struct CoarserPart {
-    /// For each vertex that stays, the number that it had. All ascend still.
+    /// The previous number of each remaining vertex, ascending.
     std::vector<VertexIndex> vertices_before;
-    /// The first that goes, or the end: those before it have their numbers still.
+    /// The first removed vertex, or the end: vertices before it keep their numbers.
     VertexIndex first_gone;
-    /// For each vertex of before, the number that it has, or would have if it stayed; and the end.
+    /// For each previous vertex, its number, or the number that it would have if it were kept; and
+    /// the end.
     IndexVector<VertexIndex, VertexIndex> vertex_after;
     std::vector<VertexIndex> level_begin;
     std::vector<Interface> interfaces;
-    // Where the lists are made anew, and not edited where they are:
+    // Lists that are rebuilt, if they are not edited in place:
     NewList<CellIndex, 4> new_cells;
     NewList<FacetIndex, 3> new_facets;
     NewList<EdgeIndex, 2> new_edges;
     Succession cells;
     Succession facets;
     Succession edges;
-    /// By level of before: a piece that rounding spoils.
+    /// For each previous level, a child that is flat or inverted by rounding.
     std::vector<RoundingFailure> failures;
 };
 
-/// Vertices, levels and interfaces; the levels are as many as before. Not collective.
+/// Computes vertices, levels and interfaces; the number of levels is unchanged. Not collective.
 [[nodiscard]] CoarserPart coarser_vertices(const DistributedMesh& mesh, const KeptVertices& kept);
 
-/// Adds the lists of a mesh that `order` has brought into canonical order, in one pass over each.
-/// Not collective.
+/// Adds the lists of a mesh that `order` has put into canonical order, in one pass over each. Not
+/// collective.
 void coarsen_lists(const DistributedMesh& mesh, const CanonicalOrder& order,
                    const KeptVertices& kept, CoarserPart& part);
 
-/// Collective. Drops the levels of which no process has anything left, and throws on all processes
-/// where rounding spoils a piece, by the level that it has then: as the history without the
-/// vertices that went would do, replayed.
+/// Collective. Removes the levels in which no process has vertices any more, and throws on all
+/// processes if rounding makes a child flat or inverted, with the level after the removal: the same
+/// as a replay of the history without the removed vertices.
 void drop_empty_levels(const DistributedMesh& mesh, CoarserPart& part);
 
-/// Takes the vertices that go from the mesh, once its lists have been told, and gives memory back.
+/// Removes vertices from the mesh after its lists were committed, and frees memory.
 void commit_vertices(DistributedMesh& mesh, CoarserPart& part) noexcept;
 void commit_new_lists(DistributedMesh& mesh, CoarserPart& part) noexcept;
 

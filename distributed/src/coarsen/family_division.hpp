@@ -12,8 +12,9 @@
 
 namespace octetra::distributed {
 
-/// Divides parents by fewer midpoints than before, and finds for each level the first bad piece of
-/// each root, as RoundingFailure asks. `root` is the place of a root among this process's.
+/// Divides parents by fewer midpoints than before, and finds for each level the first bad child of
+/// each root, as RoundingFailure requires. `root` is the position of a root among this process's
+/// roots.
 class FamilyDivision {
 public:
     FamilyDivision(const DistributedMesh& mesh, std::size_t level_count)
@@ -38,7 +39,7 @@ private:
 
     const DistributedMesh* mesh_;
     std::vector<RoundingFailure> failures_;
-    std::vector<std::size_t> last_root_;  ///< of each level, with a bad piece
+    std::vector<std::size_t> last_root_;  ///< of each level, the last root with a bad child
 };
 
 }  // namespace octetra::distributed

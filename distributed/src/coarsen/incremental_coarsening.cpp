@@ -40,7 +40,7 @@ std::unique_ptr<IncrementalCoarsening> IncrementalCoarsening::of(DistributedMesh
     const std::vector<VertexIndex> gone = gone_of(kept);
     const double most = tuning.roots_below * static_cast<double>(mesh.cells.size());
     if (!coarsening->cells_.find(gone, static_cast<std::size_t>(most))) return nullptr;
-    // Those are as many as their cells' faces and edges at most.
+    // These are at most as many as the faces and edges of the cells found.
     (void)coarsening->facets_.find(gone, mesh.facets.size());
     (void)coarsening->edges_.find(gone, mesh.edges.size());
     return coarsening;

@@ -14,19 +14,19 @@
 
 namespace octetra::distributed {
 
-/// The way for few vertices that go: looks at the descendants of those roots (cells of the input)
-/// that lose one, leaves all other entities where they are, and keeps the mesh's adjacency. Numbers
-/// of vertices change all the same, behind the first that goes.
+/// Coarsening for few removed vertices: processes the descendants of the roots (cells of the input)
+/// that lose a vertex, does not move other entities, and keeps the mesh's Adjacency up to date.
+/// Vertices after the first removed one are renumbered nevertheless.
 class IncrementalCoarsening {
 public:
-    /// Nothing if these descendants are too many for this way. The mesh has its adjacency.
+    /// Returns null if there are too many such descendants. The mesh must have its Adjacency.
     [[nodiscard]] static std::unique_ptr<IncrementalCoarsening> of(DistributedMesh& mesh,
                                                                    const KeptVertices& kept,
                                                                    const Tuning& tuning);
 
-    /// What the lists become goes into the part, but for the lists themselves.
+    /// Stores the changes of the lists in `part`, but not the lists themselves.
     void plan(const KeptVertices& kept, CoarserPart& part);
-    /// The mesh's lists and its adjacency, by the new numbers of vertices; not yet the vertices.
+    /// Updates the mesh's lists and its Adjacency to the new vertex numbers, but not the vertices.
     void commit(const CoarserPart& part) noexcept;
 
 private:

@@ -12,7 +12,7 @@
 namespace octetra::distributed {
 namespace {
 
-/// The marks of cells, as notes in the adjacency that finds them, for as long as this lives.
+/// Stores the marks of cells in the notes of the Adjacency during its lifetime.
 class NotedMarks {
 public:
     NotedMarks(const MarkedCells& marked, Adjacency& adjacency)
@@ -52,20 +52,20 @@ public:
     [[nodiscard]] bool has(VertexIndex v) const { return kept_[v] != 0; }
     [[nodiscard]] KeptVertices result() && { return std::move(kept_); }
 
-    /// Rule (b), as far as this process sees: again and again until nothing changes.
+    /// Applies rule (b) on this process until nothing changes.
     void close() {
         if (is_another_level_divided()) list_open_cells();
         for (bool changed = true; changed;) {
             changed = false;
             std::erase_if(open_cells_,
                           [&](CellIndex c) { return close(mesh_->cells[c], changed); });
-            std::ranges::reverse(open_cells_);  // what came too late comes first
+            std::ranges::reverse(open_cells_);  // marks may affect earlier cells
         }
     }
 
 private:
-    /// Are there midpoints of one level of which some stay and some may go, of a level that was not
-    /// divided so before? Only of such a level does rule (b) say anything.
+    /// Returns whether there is a level, not divided at the previous call, of which some midpoints
+    /// are kept and some may be removed. Rule (b) affects only such levels.
     [[nodiscard]] bool is_another_level_divided() {
         bool found = false;
         const LevelShares shares(levels_, kept_);
@@ -76,8 +76,8 @@ private:
         }
         return found;
     }
-    /// The marked cells of which a vertex may go, of divided levels. They become fewer, as vertices
-    /// can but be kept.
+    /// Lists the marked cells of divided levels with a vertex that may be removed. Their number
+    /// decreases, as vertices can only change to kept.
     void list_open_cells() {
         open_cells_.clear();
         std::uint32_t level = levels_.count();
@@ -96,7 +96,7 @@ private:
         return std::ranges::all_of(cell, [&](VertexIndex v) { return has(v); });
     }
 
-    /// Rule (a), by all cells.
+    /// Applies rule (a) by testing all cells.
     void keep_what_cells_need() {
         if (marked_->all) {
             keep_older_ones();
@@ -121,12 +121,13 @@ private:
             keep_before(levels_.begin(level), cell);
         }
     }
-    /// Without a branch, which could not be foreseen: vertex 0 is the input's, and stays.
+    /// Without a branch, which would be mispredicted: vertex 0 belongs to the input, and is kept
+    /// anyway.
     void keep_before(VertexIndex first_new, const CellVertices& cell) {
         for (const VertexIndex v : cell) kept_[v < first_new ? v : VertexIndex{0}] = 1;
     }
 
-    /// Rule (a), by the cells at the new vertices of those that are marked.
+    /// Applies rule (a) by testing the cells at the new vertices of marked cells.
     void find_what_may_go(Adjacency& adjacency) {
         const NotedMarks is_marked(*marked_, adjacency);
         std::vector<bool> is_judged(mesh_->points.size(), false);
@@ -147,8 +148,8 @@ private:
         }
     }
 
-    /// Rule (b) in one cell, whose vertices before the first new one are of its parent, too. Do all
-    /// of its vertices stay?
+    /// Applies rule (b) to one cell, whose vertices before the first new one are also vertices of
+    /// its parent. Returns whether all of its vertices are kept.
     bool close(const CellVertices& cell, bool& changed) {
         const VertexIndex first_new = levels_.begin(levels_.newest(cell));
         unsigned kept = 0;
@@ -170,8 +171,8 @@ private:
         }
         return kept == cell.size();
     }
-    /// Of two midpoints of one level that an edge of the mesh joins: do both lie in a face whose
-    /// longest edge is that of the first?
+    /// Returns whether two midpoints of one level that an edge of the mesh joins lie in a face
+    /// whose longest edge is that of the first.
     [[nodiscard]] bool is_longest_of_face(VertexIndex v, VertexIndex other) const {
         const EdgeVertices& a = levels_.ends(v);
         const EdgeVertices& b = levels_.ends(other);
@@ -186,14 +187,14 @@ private:
     VertexLevels levels_;
     const MarkedCells* marked_;
     KeptVertices kept_;
-    std::vector<bool> was_divided_;      ///< by level, when close() last looked
-    std::vector<CellIndex> open_cells_;  ///< of these levels, with a vertex that may go
+    std::vector<bool> was_divided_;      ///< by level, at the last call of close()
+    std::vector<CellIndex> open_cells_;  ///< of divided levels, with a vertex that may be removed
 };
 
 using Outboxes = std::vector<std::vector<std::uint32_t>>;
 
-/// What this process has told others about the vertices that it shares with them, as positions in
-/// lists that both sides have.
+/// The state of the exchange of shared vertices with neighbours, in terms of positions in lists
+/// that both ranks have.
 class Told {
 public:
     explicit Told(const Sharing<VertexIndex>& sharing) : sharing_(&sharing) {
@@ -204,7 +205,7 @@ public:
     }
     [[nodiscard]] const std::vector<int>& ranks() const { return ranks_; }
 
-    /// Those that may go for all that this process knows.
+    /// Returns the vertices that may be removed as far as this process knows.
     [[nodiscard]] Outboxes first(const Keeping& keeping) {
         return outboxes([&](std::size_t i, std::size_t k, VertexIndex v) {
             may_go_[i][k] = !keeping.has(v);
@@ -221,11 +222,11 @@ public:
                     continue;
                 }
                 keeping.keep(vertices[k]);
-                may_go_[i][k] = false;  // the other side knows
+                may_go_[i][k] = false;  // the other rank knows it
             }
         }
     }
-    /// Those that stay, and that was not told before.
+    /// Returns the kept vertices that the other rank does not know to be kept.
     [[nodiscard]] Outboxes news(const Keeping& keeping) {
         return outboxes([&](std::size_t i, std::size_t k, VertexIndex v) {
             const bool is_news = may_go_[i][k] && keeping.has(v);
@@ -256,7 +257,7 @@ private:
 
     const Sharing<VertexIndex>* sharing_;
     std::vector<int> ranks_;
-    std::vector<std::vector<bool>> may_go_;  ///< as this process told it, or heard
+    std::vector<std::vector<bool>> may_go_;  ///< as this process has sent or received
 };
 
 std::uint64_t count_of(const Outboxes& outboxes) {

@@ -11,22 +11,24 @@
 
 namespace octetra::distributed {
 
-/// For each vertex of a process: 1 if it stays, else 0.
+/// For each vertex of a process: 1 if it is kept, else 0.
 using KeptVertices = IndexVector<VertexIndex, std::uint8_t>;
 
-/// Collective. The vertices that stay when the marked cells go back by one generation: (a) those of
-/// the input, of a present cell that is not marked, or of a cell that some step cut; and (b) with
-/// the midpoint of an edge, for every face which had that edge when it was bisected, the midpoint
-/// of the face's longest edge.
+/// Collective. Determines the vertices that are kept when the marked cells are coarsened by one
+/// generation: (a) the vertices of the input, of a current cell that is not marked, and of any cell
+/// that a step bisected; and (b) for each kept midpoint of an edge and each face that had this edge
+/// when it was bisected, the midpoint of the face's longest edge.
 ///
-/// All of it is seen in the present mesh. A cell that was cut at a corner has a descendant there,
-/// with vertices that are newer than the corner. And where two edges of a face were bisected, the
-/// midpoint of its longest edge is joined to the other's, for as long as one of them may go.
+/// The current mesh is sufficient to decide this. A cell that was bisected has a descendant at each
+/// of its corners, with vertices that are newer than the corner. And if two edges of a face were
+/// bisected, the midpoint of its longest edge is joined to that of the other, as long as either may
+/// be removed.
 ///
-/// Nothing depends on the order of cells, nor on the partition. With the mesh's adjacency, which
-/// may be null, a process looks at the marked cells and those around them, else at its whole part.
-/// The adjacency is afterwards as it was.
-/// Where a process has failed or fails, the result is not to be used on any.
+/// The result does not depend on the order of cells or on the partition. With the mesh's Adjacency,
+/// which may be null, a process tests the marked cells and those around them, otherwise its whole
+/// part. The Adjacency is unchanged on return.
+///
+/// If a process has failed or fails, the result must not be used on any process.
 [[nodiscard]] KeptVertices find_kept_vertices(const DistributedMesh& mesh,
                                               const Sharing<VertexIndex>& sharing,
                                               const MarkedCells& marked, Adjacency* adjacency,

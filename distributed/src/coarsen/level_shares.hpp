@@ -11,7 +11,7 @@
 
 namespace octetra::distributed {
 
-/// Of each level's vertices: do all stay, do all go, or some and some?
+/// Records for each level whether all vertices are kept, all are removed, or neither.
 class LevelShares {
 public:
     LevelShares(const VertexLevels& levels, const KeptVertices& kept)

@@ -17,9 +17,9 @@
 
 namespace octetra::distributed {
 
-/// What a list in no order (of cells, tagged facets or edges) becomes without the vertices that go:
-/// the descendants of those roots that lose a vertex are gone through in canonical order, and the
-/// rest of the list is not looked at. First planned, which may fail and changes nothing, then done.
+/// The edit of an unordered list (of cells, tagged facets or edges) by the removal of vertices:
+/// processes the descendants of the roots that lose a vertex in canonical order, and does not
+/// access the rest of the list. Planning may fail and changes nothing; commit() performs the edit.
 template <class I, std::size_t N>
 class ListEdit {
 public:
@@ -30,8 +30,8 @@ public:
     ListEdit(const List& list, const Unordered& unordered, const AncestorMap& ancestors)
         : list_(&list), unordered_(&unordered), ancestors_(&ancestors), count_after_(list.size()) {}
 
-    /// Finds the descendants of roots that have one of the vertices. False if they are more than
-    /// `most`, as soon as that is known: then it is better to go through the whole list.
+    /// Finds the descendants of roots that have one of the vertices. Returns false as soon as they
+    /// are more than `most`: a pass over the whole list is then faster.
     [[nodiscard]] bool find(std::span<const VertexIndex> gone, std::size_t most) {
         std::vector<bool> is_found(ancestors_->roots.size(), false);
         std::size_t count = 0;
@@ -80,7 +80,7 @@ public:
             return i.value() < count_after_ ? i : moved_[i.value() - count_after_];
         };
         for (std::size_t i = count_after_; i < whole_of.size(); ++i) {
-            whole_of[i] = moved(I{i}).value();  // none() of what is removed: it has a whole
+            whole_of[i] = moved(I{i}).value();  // removed entries, none() here, are set below
         }
         for (std::size_t k = 0; k < before_.size(); ++k) {
             whole_of[before_[k].value()] = moved(places_[made_.whole_of[k]]).value();
@@ -89,8 +89,8 @@ public:
         return Succession::of_merges(count_after_, std::move(whole_of), std::move(halvings));
     }
 
-    /// The list and what finds its entities are those that this was planned of. Afterwards entities
-    /// have the vertices still that they had, by their old numbers.
+    /// The arguments must be those that the edit was planned for. Afterwards entities have their
+    /// previous vertices, by the old numbers.
     void commit(List& list, Unordered& unordered, AncestorMap& ancestors) noexcept {
         for (std::size_t k = 0; k < made_.list.size(); ++k) {
             const I place = places_[k];
@@ -107,7 +107,7 @@ public:
         unordered.truncate(count_after_, list);
     }
 
-    /// Calls visit(i) for each number that has an entity afterwards which it did not have.
+    /// Calls visit(i) for each number that denotes a different entity after the edit.
     void for_each_changed(auto&& visit) const {
         for (std::size_t k = 0; k < before_.size(); ++k) {
             const I place = places_[made_.whole_of[k]];
@@ -121,7 +121,8 @@ private:
         for (I i{ancestors_->first[root]}; !i.is_none(); i = unordered_->next(i)) visit(i);
     }
 
-    /// A whole has the number of its first piece; the other pieces' numbers are free.
+    /// Assigns to a coarse entity the number of the first entity merged into it; the other numbers
+    /// become free.
     void place_wholes() {
         places_.assign(made_.list.size(), I::none());
         for (std::size_t k = 0; k < before_.size(); ++k) {
@@ -133,7 +134,7 @@ private:
             }
         }
     }
-    /// The last of the list move to where something was removed.
+    /// Plans to move the last entities of the list to the free numbers.
     void plan_moves() {
         std::ranges::sort(removed_);
         count_after_ = list_->size() - removed_.size();
@@ -155,11 +156,11 @@ private:
     const AncestorMap* ancestors_;
     std::vector<std::uint32_t> roots_;  ///< that lose a vertex, ascending
     std::vector<I> before_;             ///< their descendants, in canonical order
-    CoarserList<I, N> made_;            ///< of these
-    std::vector<I> places_;             ///< of each in made_, in the list before it moves
+    CoarserList<I, N> made_;            ///< the new list for these descendants
+    std::vector<I> places_;             ///< of each in made_, the number before moves
     std::vector<I> removed_;
     std::size_t count_after_;
-    std::vector<I> moved_;  ///< from count_after_ on: where they move, or none()
+    std::vector<I> moved_;  ///< the new numbers of entities from count_after_ on, or none()
     struct Move {
         I from;
         I to;

@@ -12,12 +12,13 @@ std::vector<RemovedVertex> removed_vertices(const DistributedMesh& mesh, const K
     const std::size_t input_count = mesh.input_vertices.size();
     for (VertexIndex v = part.first_gone; v < mesh.points.end_index(); ++v) {
         if (kept[v] != 0) continue;
-        // A cell at the end of an edge that goes as well would have been bisected since.
+        // Both ends remain: a cell at an end that is removed as well would have been bisected
+        // since.
         const auto& [low, high] = mesh.midpoint_to_edge[v.value() - input_count];
         removed.push_back({v, {part.vertex_after[low], part.vertex_after[high]}, 0});
     }
     for (CellIndex c{0}; c < mesh.cells.end_index(); ++c) {
-        if (in_place && part.cells.halvings()[c.value()] == 0) continue;  // still a whole cell
+        if (in_place && part.cells.halvings()[c.value()] == 0) continue;  // not merged
         const CellVertices& cell = mesh.cells[c];
         if (std::ranges::all_of(cell, [&](VertexIndex v) { return kept[v] != 0; })) continue;
         Corners corners;

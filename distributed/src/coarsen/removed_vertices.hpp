@@ -10,8 +10,9 @@
 
 namespace octetra::distributed {
 
-/// The vertices of this process that go, of the mesh as it is before they do. `in_place`: the cells
-/// of the mesh have the numbers by which the succession of `part` names them. Not collective.
+/// Returns the vertices of this process that are removed, of the mesh before their removal.
+/// `in_place`: the cells of the mesh have the numbers that the succession of `part` uses. Not
+/// collective.
 [[nodiscard]] std::vector<RemovedVertex> removed_vertices(const DistributedMesh& mesh,
                                                           const KeptVertices& kept,
                                                           const CoarserPart& part, bool in_place);

@@ -18,7 +18,7 @@
 namespace octetra::distributed {
 namespace {
 
-/// The bits of the smallest positive double: whatever is marked has this much.
+/// The bits of the smallest positive double: the indicator of any marked cell is at least this.
 constexpr std::uint64_t least_threshold = 1;
 
 /// An argument between `least` and 1.
@@ -51,8 +51,8 @@ void check(std::span<const double> indicators, int rank) {
     }
 }
 
-/// Collective. Checks all arguments and does the work for which a process needs memory. Throws on
-/// all processes if that fails on one; nothing fails from then on.
+/// Collective. Checks all arguments and performs `work`, which allocates all memory. Throws on all
+/// processes if any of this fails on one; nothing fails after it.
 void prepare(const Communicator& processes, std::span<const double> indicators,
              const Parameter& parameter, auto&& work) {
     const double on_first = processes.of_rank(0, parameter.value);
@@ -65,12 +65,13 @@ void prepare(const Communicator& processes, std::span<const double> indicators,
     failure.agree(processes);
 }
 
-/// Thresholds that are tried at once. With 15, each round finds four bits.
+/// The number of thresholds that are tried at once: with 15, each round determines four bits.
 constexpr std::size_t trial_count = 15;
 using Trials = std::array<std::uint64_t, trial_count>;
 
-/// The greatest threshold up to `high` that is low enough; least_threshold if none is. Of ascending
-/// trials, count_enough(trials) says how many are: if one is, so are those before it.
+/// Returns the greatest threshold up to `high` that is low enough, or least_threshold if none is.
+/// count_enough(trials) returns how many of the ascending trials are low enough: these are the
+/// first ones.
 std::uint64_t greatest_threshold(std::uint64_t high, auto&& count_enough) {
     std::uint64_t low = least_threshold;
     while (low < high) {
@@ -86,7 +87,8 @@ std::uint64_t greatest_threshold(std::uint64_t high, auto&& count_enough) {
     return low;
 }
 
-/// Collective. The sum over all processes of the indicators that are at least so much, for each.
+/// Collective. Returns for each threshold the sum over all processes of the indicators that are at
+/// least this threshold.
 std::array<ExactSum, trial_count> sums_from(const Trials& thresholds, const Communicator& processes,
                                             std::span<const std::uint64_t> descending,
                                             const RankedSums& sums) {

@@ -9,9 +9,9 @@ namespace {
 
 constexpr unsigned limb_bits = 32;
 constexpr std::uint64_t limb_mask = (std::uint64_t{1} << limb_bits) - 1;
-constexpr unsigned unit_exponent = 1074;  ///< a unit is 2^-1074
+constexpr unsigned unit_exponent = 1074;  ///< the unit of a sum is 2^-1074
 
-/// A double that is not negative: mantissa * 2^shift units.
+/// A nonnegative double: mantissa * 2^shift units.
 struct Parts {
     std::uint64_t mantissa;  ///< below 2^53
     unsigned shift;
@@ -41,7 +41,7 @@ void ExactSum::add(double addend) noexcept {
     const auto [mantissa, shift] = parts_of(addend);
     std::size_t i = shift / limb_bits;
     const std::uint64_t low = (mantissa & limb_mask) << (shift % limb_bits);
-    const std::uint64_t high = (mantissa >> limb_bits) << (shift % limb_bits);  // a limb further
+    const std::uint64_t high = (mantissa >> limb_bits) << (shift % limb_bits);  // for the next limb
     std::uint64_t carry = low + limbs_[i];
     limbs_[i] = carry & limb_mask;
     carry = (carry >> limb_bits) + high;
@@ -54,7 +54,7 @@ void ExactSum::add(double addend) noexcept {
 
 ExactSum ExactSum::share(double share) const noexcept {
     const auto [mantissa, shift] = parts_of(share);
-    std::array<std::uint64_t, limb_count + 2> product{};  // with the mantissa
+    std::array<std::uint64_t, limb_count + 2> product{};  // of this sum and the mantissa
     for (const std::size_t j : {std::size_t{0}, std::size_t{1}}) {
         const std::uint64_t factor = j == 0 ? mantissa & limb_mask : mantissa >> limb_bits;
         std::uint64_t carry = 0;
@@ -65,11 +65,11 @@ ExactSum ExactSum::share(double share) const noexcept {
         }
         product[limb_count + j] = carry;
     }
-    const unsigned divided_by = unit_exponent - shift;  // as a power of two
+    const unsigned divided_by = unit_exponent - shift;  // exponent of a power of two
     const std::size_t limbs_off = divided_by / limb_bits;
     const unsigned bits_off = divided_by % limb_bits;
     const auto limb_of_product = [&](std::size_t i) { return i < product.size() ? product[i] : 0; };
-    ExactSum result;  // has room for all that is not 0, as share <= 1
+    ExactSum result;  // large enough for all nonzero limbs, as share <= 1
     for (std::size_t i = 0; i < limb_count; ++i) {
         result.limbs_[i] = (limb_of_product(i + limbs_off) >> bits_off |
                             limb_of_product(i + limbs_off + 1) << (limb_bits - bits_off)) &
@@ -78,7 +78,7 @@ ExactSum ExactSum::share(double share) const noexcept {
     const std::uint64_t cut_off = product[limbs_off] & ((std::uint64_t{1} << bits_off) - 1);
     const bool is_whole = cut_off == 0 && std::all_of(product.begin(), product.begin() + limbs_off,
                                                       [](std::uint64_t limb) { return limb == 0; });
-    if (!is_whole) result.add(std::numeric_limits<double>::denorm_min());  // a unit
+    if (!is_whole) result.add(std::numeric_limits<double>::denorm_min());  // round up by one unit
     return result;
 }
 

@@ -63,7 +63,7 @@ private:
         return corners;
     }
 
-    /// Of all vertices, if only places matter.
+    /// Returns the sides for all vertices, or nothing if the selection is not purely geometric.
     [[nodiscard]] IndexVector<VertexIndex, std::uint8_t> sides_beyond() const {
         IndexVector<VertexIndex, std::uint8_t> sides;
         if (!by_place_only_) return sides;

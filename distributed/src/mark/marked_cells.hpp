@@ -9,18 +9,19 @@
 
 namespace octetra::distributed {
 
-/// This process's cells that a selection marks.
+/// The cells of this process that a selection marks.
 struct MarkedCells {
-    bool all = false;  ///< the selection asks for nothing less: they are not listed
+    bool all = false;  ///< all cells are marked, and not listed
     std::vector<CellIndex> cells;
-    /// The edges that each of them marks, or empty where the scheme decides.
+    /// The edges that each listed cell marks; empty if the scheme determines them.
     std::vector<EdgeMask> edges;
     std::size_t count = 0;
-    std::size_t judged = 0;  ///< how many cells were looked at
+    std::size_t judged = 0;  ///< number of cells that were tested
 };
 
-/// `only_new`: this selection has judged all but the new cells of the last level. A cell that it
-/// did not mark, and that has not changed, it does not mark now; and those that it marked have.
+/// Returns the cells of this process that a selection marks. `only_new`: the same selection was
+/// applied before the last level, so that only the new cells of that level are tested. An unchanged
+/// cell that was not marked then is not marked now; and the marked ones were bisected.
 [[nodiscard]] MarkedCells mark_cells(const DistributedMesh& mesh, const Selection& selection,
                                      bool only_new);
 

@@ -6,8 +6,8 @@
 namespace octetra::distributed {
 namespace {
 
-/// What centroid() makes of four numbers, none of which is less than `bound`, is not less than
-/// this: its sums are rounded, but monotone, and where they overflow it computes more exactly.
+/// A lower bound on the result of centroid() for four coordinates that are at least `bound`: its
+/// sums are rounded, but monotone, and on overflow it computes more exactly.
 double least_mean(double bound) {
     const double mean = (((bound + bound) + bound) + bound) / 4;
     return std::isfinite(mean) ? std::min(mean, bound) : bound;
@@ -30,9 +30,8 @@ bool may_hold(const Sphere& sphere, const Box& centroids) {
     const double distance = squared_distance<double>(nearest, c);
     const double radius = sphere.radius * sphere.radius;
     if (distance < radius) return true;
-    // marks() computes in long double where something over- or underflows. That makes a
-    // difference for a point on the sphere's surface, or for a very small sphere or a very large
-    // one.
+    // marks() uses long double if a result over- or underflows. That matters for points on the
+    // surface of the sphere, and for very small or very large spheres.
     constexpr double a_little = 1 + 0x1p-40;
     constexpr double small = 0x1p-900;
     if (radius > small && distance > radius * a_little) return false;
@@ -47,8 +46,8 @@ bool may_hold(const Box& box, const Box& centroids) {
            box.low.y <= high.y && low.z <= box.high.z && box.low.z <= high.z;
 }
 
-/// The cube that holds every point which marks() takes to be inside of the sphere: what it
-/// computes of a distance is less by a few roundings at most.
+/// Returns a cube that contains every point which marks() considers inside the sphere: its computed
+/// distance is too small by a few rounding errors at most.
 Box box_round(const Sphere& sphere) {
     const double radius = std::abs(sphere.radius) * (1 + 0x1p-50);
     const auto below = [&](double c) { return std::nextafter(c - radius, -infinity); };
@@ -60,8 +59,8 @@ Box box_round(const Sphere& sphere) {
 }  // namespace
 
 bool may_be_marked(const Selection& selection, const Box& corners) {
-    // What marks() computes of a centroid farther out, in the same way, is no smaller: rounding
-    // is monotone.
+    // For a centroid that is farther away, marks() computes results that are no smaller, since
+    // rounding is monotone.
     const auto& [low, high] = corners;
     const Box centroids{{least_mean(low.x), least_mean(low.y), least_mean(low.z)},
                         {greatest_mean(high.x), greatest_mean(high.y), greatest_mean(high.z)}};
@@ -70,8 +69,8 @@ bool may_be_marked(const Selection& selection, const Box& corners) {
            std::ranges::any_of(selection.boxes, may_hold_one);
 }
 
-// A centroid is not beyond all corners: rounded sums are monotone, and exact for four equal
-// numbers.
+// A centroid is not outside the bounding box of its corners: rounded sums are monotone, and exact
+// for four equal numbers.
 SelectionBounds::SelectionBounds(const Selection& selection) {
     const auto include = [this](const Box& box) {
         extend(reach_, box.low);
@@ -79,10 +78,11 @@ SelectionBounds::SelectionBounds(const Selection& selection) {
     };
     for (const Sphere& sphere : selection.spheres) {
         include(box_round(sphere));
-        // Centroids are in the box of their corners, and distances are rounded by much less.
+        // Centroids are in the bounding box of the corners, and the relative error of distances is
+        // much smaller than this margin.
         constexpr double smaller = 1 - 0x1p-20;
         const double radius = sphere.radius * smaller;
-        const bool is_ordinary = radius > 0x1p-400 && radius < 0x1p400;  // its square is, too
+        const bool is_ordinary = radius > 0x1p-400 && radius < 0x1p400;  // so its square is normal
         if (is_ordinary) balls_.push_back({sphere.centre, radius * radius});
     }
     for (const Box& box : selection.boxes) include(box);

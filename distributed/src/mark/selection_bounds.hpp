@@ -7,8 +7,8 @@
 
 #include <octetra/core/selection.hpp>
 
-/// Where a selection's spheres and boxes cannot mark a cell: most cells are far away from them,
-/// which is found sooner than their centroids.
+/// Conservative tests for the spheres and boxes of a selection: most cells are far away from them,
+/// which is determined at less cost than their centroids.
 namespace octetra::distributed {
 
 inline constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -19,25 +19,25 @@ inline void extend(Box& box, const Point& p) {
     box.high = {std::max(box.high.x, p.x), std::max(box.high.y, p.y), std::max(box.high.z, p.z)};
 }
 
-/// Could a cell whose corners are in the box be marked for its place, by a sphere or a box? Exact
-/// in that it never denies what rounding would make core's marks() say.
+/// Returns whether a sphere or box could mark a cell whose corners are in the box `corners`.
+/// Conservative: never false for a cell that marks() of core, with its rounding, would mark.
 [[nodiscard]] bool may_be_marked(const Selection& selection, const Box& corners);
 
-/// The smallest box with these corners in it.
+/// Returns the bounding box of the corners.
 [[nodiscard]] inline Box box_of(const Corners& corners) {
     Box box = empty_box;
     for (const Point& p : corners) extend(box, p);
     return box;
 }
 
-/// What is told in a few comparisons of most cells: that no sphere or box of a selection reaches
-/// them, or that one of them has all of them in it.
+/// Tests with few comparisons that most cells are outside all spheres and boxes of a selection, or
+/// inside a single one.
 class SelectionBounds {
 public:
     explicit SelectionBounds(const Selection& selection);
 
-    /// The sides on which the point is beyond reach, a bit each: no cell is marked for its place
-    /// whose corners have one in common.
+    /// Returns a bit for each side on which the point is beyond all spheres and boxes. A cell whose
+    /// corners have a common bit is not marked by a sphere or box.
     [[nodiscard]] std::uint8_t sides_beyond(const Point& p) const {
         const auto& [low, high] = reach_;
         const auto side = [](bool is_beyond, unsigned bit) {
@@ -48,15 +48,15 @@ public:
                                          side(p.z < low.z, 4) | side(p.z > high.z, 5));
     }
 
-    /// Can no cell be marked for its place whose corners are in the box?
+    /// Returns true only if no sphere or box marks any cell with corners in the box.
     [[nodiscard]] bool is_out_of_reach(const Box& corners) const {
         const auto& [low, high] = corners;
         return high.x < reach_.low.x || low.x > reach_.high.x || high.y < reach_.low.y ||
                low.y > reach_.high.y || high.z < reach_.low.z || low.z > reach_.high.z;
     }
 
-    /// Is every such cell marked, as the box is in one of the spheres or boxes? Says no where it is
-    /// in the middle of several, or where rounding might decide.
+    /// Returns true only if every such cell is marked, because a single sphere or box contains the
+    /// box. Returns false if only several together contain it, or if rounding might decide.
     [[nodiscard]] bool is_wholly_inside(const Box& corners) const {
         const Point& low = corners.low;
         const Point& high = corners.high;
@@ -79,7 +79,7 @@ private:
     };
 
     Box reach_ = empty_box;
-    std::vector<Ball> balls_;  ///< the spheres, a little smaller
+    std::vector<Ball> balls_;  ///< the spheres with slightly reduced radii
     std::vector<Box> boxes_;
 };
 

@@ -6,8 +6,8 @@
 
 namespace octetra::distributed {
 
-/// The orders of cells' edges by length, each found when it is first asked for. Keeps a pointer to
-/// the mesh, whose cells must stay as they are. Memory: 2 bytes per cell.
+/// Cache of the orders of cells' edges by length; each is computed at its first use. Keeps a
+/// pointer to the mesh, whose cells must not change. Memory: 2 bytes per cell.
 class CellOrders {
 public:
     explicit CellOrders(const DistributedMesh& mesh)

@@ -11,20 +11,21 @@
 namespace octetra::distributed {
 namespace {
 
-/// Something of each of a cell's six edges: of 0 and 1, of 2 and 3, of 4 and 5.
+/// A value for each of a cell's six edges, in pairs: edges 0 and 1, 2 and 3, 4 and 5.
 using SixValues = std::array<Pair, 3>;
 
-/// From the second end of each edge to the first, in one coordinate of the corners.
+/// The vector from the second end of each edge to the first, in one coordinate of the corners.
 SixValues differences(double c0, double c1, double c2, double c3) {
     return {Pair{c0, c0} - Pair{c1, c2}, Pair{c0, c1} - Pair{c3, c2}, Pair{c1, c2} - Pair{c3, c3}};
 }
 
-/// Where the pair (i, j), i < j, has its bit in Comparisons.
+/// The bit of the pair (i, j), i < j, in Comparisons.
 constexpr std::int64_t bit_of(std::size_t i, std::size_t j) {
     return std::int64_t{1} << (i * (11 - i) / 2 + (j - i - 1));
 }
 
-/// The result of compare(i, j) for each of the 15 pairs i < j, as Comparisons; and `more`.
+/// Returns the result of compare(i, j) for each of the 15 pairs i < j, as Comparisons, combined
+/// with `more`.
 template <class Compare>
 unsigned compare_all(const SixValues& values, Compare&& compare, PairMask more) {
     const auto [v01, v23, v45] = values;
@@ -42,7 +43,7 @@ unsigned compare_all(const SixValues& values, Compare&& compare, PairMask more) 
                    (compare(v23, v55) & PairMask{bit_of(2, 5), 0}));
 }
 
-/// A bit for each edge whose first end comes before its second, in the order of points.
+/// Returns a bit for each edge whose first end precedes its second in the order of points.
 unsigned ascending_edges(const SixValues& dx, const SixValues& dy, const SixValues& dz) {
     PairMask ascending{};
     for (std::size_t k = 0; k < 3; ++k) {
@@ -53,9 +54,9 @@ unsigned ascending_edges(const SixValues& dx, const SixValues& dy, const SixValu
     return bits_of(ascending);
 }
 
-/// Decides between edges that are equally long, as longer() does: by the smaller end points, then
-/// by the larger ones. Corners are in different places, so it comes to comparing their ranks, which
-/// follow from the edges that ascend.
+/// Compares edges of equal length as longer() does: by the smaller end points, then by the larger
+/// ones. The corners are distinct points, so it compares their ranks, which follow from the
+/// ascending edges.
 constexpr Comparisons compare_by_ends(unsigned ascending) {
     std::array<unsigned, 4> rank{};
     for (std::size_t e = 0; e < 6; ++e) {
@@ -81,7 +82,7 @@ constexpr std::array<Comparisons, 64> comparisons_by_ends = [] {
     return comparisons;
 }();
 
-/// In the results of comparisons: one of the lengths may have lost digits.
+/// Flag in the result of comparisons: a length may have lost digits to underflow.
 constexpr unsigned unsure = 1U << 15U;
 
 PairMask has_small(const SixValues& lengths) {
@@ -96,7 +97,7 @@ bool has_infinite(const SixValues& lengths) {
     return sum[0] + sum[1] == std::numeric_limits<double>::infinity();
 }
 
-/// The same as is found below, of lengths that binary64 cannot hold.
+/// The comparisons for lengths that binary64 cannot represent.
 [[gnu::cold]] Comparisons compare_one_by_one(const std::array<Point, 4>& corners) {
     std::array<Segment, 6> edges;
     for (std::size_t e = 0; e < 6; ++e) {
@@ -130,7 +131,7 @@ LengthOrder length_order(const IndexVector<VertexIndex, Point>& points, const Ce
     const unsigned ties = compare_all(
         lengths, [](Pair u, Pair v) { return u == v; }, has_small(lengths));
     if (ties != 0) {
-        // Where lengths overflow there are ties, or what is infinite is rightly the longest.
+        // If lengths overflow there are ties, or a single infinite length, which is the longest.
         if ((ties & unsure) != 0 || has_infinite(lengths)) {
             return PatternTable::get().order(compare_one_by_one({a, b, c, d}));
         }

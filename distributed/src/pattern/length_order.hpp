@@ -6,7 +6,7 @@
 
 namespace octetra::distributed {
 
-/// The order of a cell's edges by length, in the strict order of core/edge_order.hpp.
+/// Returns the order of a cell's edges by length, in the strict order of core/edge_order.hpp.
 [[nodiscard]] LengthOrder length_order(const IndexVector<VertexIndex, Point>& points,
                                        const CellVertices& cell);
 

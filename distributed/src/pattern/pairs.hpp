@@ -4,14 +4,14 @@
 
 namespace octetra::distributed {
 
-/// Two numbers that are computed with at once. An extension that gcc and clang have in common; they
-/// make vector instructions of it where the machine has any.
+/// Two numbers for parallel computation: a vector extension of gcc and clang, which compile it to
+/// vector instructions if the machine has them.
 using Pair = double __attribute__((vector_size(16)));
 
-/// What comparing pairs yields: all bits of a half are set where it is true.
+/// Result of comparing pairs: all bits of an element are set where the comparison is true.
 using PairMask = std::int64_t __attribute__((vector_size(16)));
 
-/// The bits of both halves.
+/// Returns the bits of both elements combined.
 [[nodiscard]] inline unsigned bits_of(PairMask mask) {
     return static_cast<unsigned>(mask[0] | mask[1]);
 }

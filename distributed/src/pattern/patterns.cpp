@@ -27,7 +27,7 @@ Comparisons comparisons_of(const LongestFirst& longest_first) {
     return static_cast<Comparisons>(comparisons);
 }
 
-/// The longest edge of a non-empty set.
+/// Returns the longest edge of a nonempty set.
 std::uint8_t longest_in(EdgeMask set, const LongestFirst& longest_first) {
     for (const std::uint8_t e : longest_first) {
         if ((set & bit(e)) != 0) return e;
@@ -35,8 +35,9 @@ std::uint8_t longest_in(EdgeMask set, const LongestFirst& longest_first) {
     return 6;
 }
 
-/// Of one edge alone. What a face asks for, its longest edge, any marked edge of it asks for
-/// alone; so the closure of a set is the union of its edges' closures.
+/// Returns the closure of a single edge. The longest edge of a face is required by any marked edge
+/// of the face, independently of others; so the closure of a set is the union of the closures of
+/// its edges.
 EdgeMask closure_of(std::size_t edge, const LongestFirst& longest_first) {
     EdgeMask closed = bit(edge);
     while (true) {
@@ -49,7 +50,7 @@ EdgeMask closure_of(std::size_t edge, const LongestFirst& longest_first) {
     }
 }
 
-/// A list of at most 8 that asks for no memory: there are two thousand to make.
+/// A list of at most 8 children without dynamic allocation: the table needs two thousand.
 class PiecesOfCell {
 public:
     struct Piece {
@@ -73,8 +74,8 @@ PiecesOfCell whole_cell() {
     return pieces;
 }
 
-/// The pieces, each cut in two if it has the edge. An original corner never leaves its position but
-/// for a midpoint.
+/// Bisects each piece that has the edge. An original corner of a piece keeps its position until a
+/// midpoint replaces it.
 PiecesOfCell bisected(const PiecesOfCell& pieces, std::uint8_t edge) {
     const auto& [low, high] = cell_edges[edge];
     const auto midpoint = static_cast<Place>(4 + edge);
@@ -92,7 +93,7 @@ PiecesOfCell bisected(const PiecesOfCell& pieces, std::uint8_t edge) {
     return halves;
 }
 
-/// A pattern as two numbers, for comparison: four bits for each place.
+/// A pattern encoded in two numbers for comparison, with four bits for each place.
 using Code = std::array<std::uint64_t, 2>;
 
 Code code_of(const Pattern& pattern) {
@@ -103,15 +104,16 @@ Code code_of(const Pattern& pattern) {
     return code;
 }
 
-/// A cell bisected by edges from longest to shortest, for every sequence that was asked for: what
-/// begins the same way is cut but once. A piece's own longest marked edge is met first, so this is
-/// the recursion of the rule, breadth first; and as each cut puts its two halves where the piece
-/// stood, in the order of the recursion.
+/// A cell bisected by its marked edges from longest to shortest, for each requested sequence;
+/// sequences with a common prefix share its bisections. The first edge of a piece in the sequence
+/// is its longest marked one, so this is the recursion of the rule, breadth first; each bisection
+/// puts the two halves at the position of the piece, so the order of pieces is that of the
+/// recursion.
 class Bisections {
 public:
     using Number = std::uint16_t;
 
-    /// The pattern's number among `patterns`, to which it is added if it is new.
+    /// Returns the pattern's number among `patterns`, and adds the pattern if it is new.
     Number pattern_of(EdgeMask marked, const LongestFirst& longest_first,
                       std::vector<Pattern>& patterns, std::vector<Division>& divisions) {
         std::size_t at = 0;
@@ -128,7 +130,7 @@ private:
     static constexpr Number none = 0xffff;
     struct Node {
         PiecesOfCell pieces;
-        std::array<Number, 6> after{};  ///< by the next edge; 0: not yet known
+        std::array<Number, 6> after{};  ///< by the next edge; 0: not yet computed
         Number pattern = none;
     };
 

@@ -6,7 +6,7 @@
 
 #include <octetra/distributed/succession.hpp>
 
-/// Every way in which one cell can be bisected, worked out once from the rule.
+/// All bisections of a single cell, computed once from the rule.
 namespace octetra::distributed {
 
 /// A set of the cell's edges (numbered as in cell_edges) or of a triangle's, one bit each.
@@ -14,15 +14,16 @@ using EdgeMask = std::uint8_t;
 
 inline constexpr EdgeMask all_edges = 0b111111;  ///< of a cell
 
-/// Of a cell's edges: such a set is closed in any order of lengths.
+/// Returns whether a set of a cell's edges is empty or complete: such a set is closed for any order
+/// of lengths.
 [[nodiscard]] constexpr bool is_all_or_none(EdgeMask edges) {
     return edges == 0 || edges == all_edges;
 }
 
-/// A corner (0..3) or the midpoint of edge k (4 + k).
+/// A position in a bisected cell: a corner (0..3) or the midpoint of edge k (4 + k).
 using Place = std::uint8_t;
 
-/// The number of a division in PatternTable::divisions(); 0 is that of a cell which stays whole.
+/// A number of a division in PatternTable::divisions(); 0 is that of an unbisected cell.
 using DivisionNumber = std::uint8_t;
 
 /// The children of a cell in canonical order.
@@ -36,8 +37,8 @@ struct Pattern {
 using LengthOrder = std::uint16_t;
 inline constexpr std::size_t order_count = 720;
 
-/// Which of two edges is the longer one, for each of the 15 pairs (i, j), i < j, in lexicographic
-/// order: the bit of a pair is set if edge i is longer than edge j.
+/// The comparisons of the lengths of the 15 pairs (i, j), i < j, in lexicographic order: the bit of
+/// a pair is set if edge i is longer than edge j.
 using Comparisons = std::uint16_t;
 
 class PatternTable {
@@ -52,15 +53,16 @@ public:
         return order_by_comparisons_[comparisons];
     }
     [[nodiscard]] std::size_t longest_edge(LengthOrder order) const { return longest_edge_[order]; }
-    /// The longest edges of the four faces.
+    /// Returns the longest edges of the four faces.
     [[nodiscard]] EdgeMask face_longest_edges(LengthOrder order) const {
         return face_longest_edges_[order];
     }
-    /// The least set with all of `marked` and the longest edge of every face that it touches.
+    /// Returns the smallest set that contains `marked` and the longest edge of every face that has
+    /// an edge in the set.
     [[nodiscard]] EdgeMask closure(LengthOrder order, EdgeMask marked) const {
         return closure_[order * mask_count + marked];
     }
-    /// How a cell with these edges marked is bisected. The set must be closed.
+    /// Returns the bisection of a cell with these edges marked. The set must be closed.
     [[nodiscard]] const Pattern& pattern(LengthOrder order, EdgeMask marked) const {
         return patterns_[pattern_number_[order * mask_count + marked]];
     }

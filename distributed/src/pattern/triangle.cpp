@@ -18,7 +18,7 @@ void cut(BisectedTriangle& result, const FacetVertices& triangle, const Bisected
         if (piece[edge.low] != triangle[edge.low] || piece[edge.high] != triangle[edge.high]) {
             continue;
         }
-        // Both halves take the piece's place; those behind it make room.
+        // The two halves replace the piece; later pieces are shifted.
         for (std::size_t j = result.piece_count; j > i + 1; --j) {
             result.pieces[j] = result.pieces[j - 1];
             result.halvings[j] = result.halvings[j - 1];
@@ -31,7 +31,7 @@ void cut(BisectedTriangle& result, const FacetVertices& triangle, const Bisected
         result.pieces[i + 1][edge.low] = edge.midpoint;
         result.inner_edges[result.inner_edge_count++] = {piece[3 - edge.low - edge.high],
                                                          edge.midpoint};
-        return;  // an original edge of a triangle is in one piece only
+        return;  // at most one piece has a given original edge
     }
 }
 

@@ -9,21 +9,21 @@
 
 namespace octetra::distributed {
 
-/// How a triangle of the mesh is bisected.
+/// The bisection of a triangle of the mesh.
 struct BisectedTriangle {
     std::size_t piece_count = 1;
     std::array<FacetVertices, 4> pieces{};   ///< in canonical order
-    std::array<std::uint8_t, 4> halvings{};  ///< how often the triangle was cut for each piece
+    std::array<std::uint8_t, 4> halvings{};  ///< number of bisections that made each piece
     std::size_t inner_edge_count = 0;
     std::array<EdgeVertices, 3> inner_edges{};  ///< between the pieces, in order of bisection
 };
 
-/// The ways in which a triangle, or an edge, can be divided; number 0: it stays whole.
+/// The possible divisions of a triangle and of an edge; number 0: not bisected.
 inline constexpr std::array<Division, 5> triangle_divisions{
     {{1, {0}}, {2, {1, 1}}, {3, {1, 2, 2}}, {3, {2, 2, 1}}, {4, {2, 2, 2, 2}}}};
 inline constexpr std::array<Division, 2> edge_divisions{{{1, {0}}, {2, {1, 1}}}};
 
-/// Which of triangle_divisions it is.
+/// Returns the number of the division in triangle_divisions.
 [[nodiscard]] inline std::uint8_t division_of(const BisectedTriangle& bisected) {
     switch (bisected.piece_count) {
         case 1: return 0;
@@ -33,8 +33,8 @@ inline constexpr std::array<Division, 2> edge_divisions{{{1, {0}}, {2, {1, 1}}}}
     }
 }
 
-/// `midpoints` of the triangle's edges, in the order of triangle_edges; none() where an edge is not
-/// bisected. The selection must be closed.
+/// Bisects a triangle. `midpoints` are those of its edges, in the order of triangle_edges; none()
+/// for edges that are not bisected. The marks must be closed.
 [[nodiscard]] BisectedTriangle bisect_triangle(const FacetVertices& triangle,
                                                const std::array<VertexIndex, 3>& midpoints,
                                                const IndexVector<VertexIndex, Point>& points);

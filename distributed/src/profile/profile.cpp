@@ -10,7 +10,7 @@
 namespace octetra::distributed {
 namespace {
 
-/// A record of one process on its way to the first.
+/// A record of one process as sent to the first process.
 struct PhaseMessage {
     std::array<char, 32> name{};
     std::int64_t level = 0;

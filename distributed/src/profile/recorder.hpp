@@ -8,13 +8,13 @@
 
 namespace octetra::distributed {
 
-/// What one process measures. At any moment one phase is the current one, and time goes either to
-/// its computing or to its communicating: the time since the last change is booked at each change.
+/// The profile of one process. At any time one phase is current, and time counts as its computing
+/// or its communicating time: each change adds the time since the previous change.
 class Profile {
 public:
     using Nanoseconds = std::int64_t;
 
-    /// The figures of one phase of one level; the names point to literals.
+    /// The counts of one phase of one level; names point to string literals.
     struct Record {
         const char* name = nullptr;
         int level = 0;
@@ -39,12 +39,12 @@ public:
     void end_communication();
     [[nodiscard]] PhaseCounts& counts() { return current().counts; }
     void note_cells(int level, std::uint64_t cells, std::uint64_t touched);
-    /// Before a level: notes the cells if no level has been noted.
+    /// Called before a level: records the number of cells if no level has been recorded.
     void note_first_cells(int level, std::uint64_t cells) {
         if (levels_.empty()) note_cells(level, cells, 0);
     }
 
-    /// Books the last stretch of time. No phase may be open; throws std::logic_error.
+    /// Adds the time since the last change. Throws std::logic_error if a phase is open.
     void finish();
 
     [[nodiscard]] const std::vector<Record>& records() const { return records_; }
@@ -68,19 +68,19 @@ private:
     ProfileClock clock_;
     Nanoseconds start_ = now();
     bool communicates_ = false;
-    Nanoseconds booked_ = 0;  // all time until then is booked
+    Nanoseconds booked_ = 0;  // the time until which all time is attributed
     std::vector<Record> records_;
     std::vector<Open> open_;     // the innermost phase last; "rest" first
-    PhaseCounts counts_before_;  // of the phase, when the communication began
+    PhaseCounts counts_before_;  // of the current phase, at the begin of the communication
     std::vector<LevelRecord> levels_;
     std::vector<Span> spans_;
 };
 
-/// The most memory that this process has held resident, in bytes; 0 where the system does not tell.
+/// Returns the peak resident memory of this process, in bytes; 0 if the system does not report it.
 [[nodiscard]] std::uint64_t peak_memory();
 
-/// Time from here to the end of the scope is communication of the current phase. Null: nothing is
-/// measured.
+/// Attributes the time until the end of the scope to communication of the current phase. With a
+/// null profile nothing is measured.
 class Communication {
 public:
     Communication(Profile* profile, const char* name) : profile_(profile) {

@@ -8,7 +8,7 @@
 namespace octetra::distributed {
 namespace {
 
-/// The place of a cell's vertex that the face has not.
+/// Returns the position of the vertex of a cell that the face does not have.
 std::size_t opposite(const CellVertices& cell, const FacetVertices& face) {
     for (std::size_t i = 0; i < 4; ++i) {
         if (std::ranges::find(face, cell[i]) == face.end()) return i;
@@ -26,7 +26,7 @@ FaceNeighbours inner_neighbours(const DistributedMesh& mesh) {
     return neighbours;
 }
 
-/// The faces of this process's cells that only one of them has, findable by their vertices.
+/// The faces that only one cell of this process has, searchable by their vertices.
 class OuterFaces {
 public:
     OuterFaces(const DistributedMesh& mesh, const FaceNeighbours& neighbours) {

@@ -5,10 +5,10 @@
 
 namespace octetra::distributed {
 
-/// Collective. What is behind each face of this process's cells.
+/// Collective. Returns the neighbour through each face of this process's cells.
 [[nodiscard]] FaceNeighbours find_face_neighbours(const DistributedMesh& mesh);
 
-/// The faces behind which nothing is, by cell. Not collective.
+/// Returns the faces on the boundary of the whole mesh, ordered by cell. Not collective.
 [[nodiscard]] std::vector<BoundaryFace> find_boundary(const DistributedMesh& mesh);
 
 }  // namespace octetra::distributed

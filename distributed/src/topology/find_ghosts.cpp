@@ -17,7 +17,7 @@
 namespace octetra::distributed {
 namespace {
 
-/// A cell as it is sent.
+/// A cell as a message to a neighbour.
 struct SentCell {
     std::array<std::uint64_t, 4> vertices{};
     std::array<Point, 4> points{};
@@ -25,12 +25,12 @@ struct SentCell {
     Marker region = 0;
 };
 
-/// A cell is seen once, also where it has several entities in common with a neighbour.
+/// Appends a cell once, even if it shares several entities with a neighbour.
 void add_once(std::vector<CellIndex>& sent, CellIndex c) {
     if (sent.empty() || sent.back() != c) sent.push_back(c);
 }
 
-/// The cells that each neighbour sees, ascending.
+/// Returns the cells that are ghosts on each neighbour, ascending.
 std::vector<GhostLayer::Exchange> seen_by_vertex(const DistributedMesh& mesh,
                                                  const Sharing<VertexIndex>& sharing) {
     const std::vector<SharedWith<VertexIndex>>& neighbours = sharing.neighbours();
@@ -56,8 +56,7 @@ std::vector<GhostLayer::Exchange> seen_by_vertex(const DistributedMesh& mesh,
     return exchanges;
 }
 
-/// The same, of cells with a face in common. Of all the faces of a part only those that it shares
-/// are looked for.
+/// The same for cells with a common face. Searches only for the shared faces of the part.
 std::vector<GhostLayer::Exchange> seen_by_face(const DistributedMesh& mesh) {
     std::vector<GhostLayer::Exchange> exchanges;
     IndexVector<FacetIndex, FacetVertices> faces;
@@ -81,7 +80,8 @@ std::vector<GhostLayer::Exchange> seen_by_face(const DistributedMesh& mesh) {
     return exchanges;
 }
 
-/// Puts what came into the layer; vertices that are new to this process get numbers behind its own.
+/// Adds received cells to the layer; vertices that are new to this process are numbered after its
+/// own.
 void take(const DistributedMesh& mesh, const CanonicalNumbers& numbers,
           const std::vector<std::vector<SentCell>>& inboxes, bool with_regions, GhostLayer& layer) {
     const auto own = [&](std::uint64_t number) {

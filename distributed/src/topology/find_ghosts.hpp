@@ -10,7 +10,7 @@
 
 namespace octetra::distributed {
 
-/// Collective. `regions` makes the tags of this process's cells.
+/// Collective. Returns the ghosts of this process. `regions` returns the tags of its cells.
 [[nodiscard]] GhostLayer find_ghosts(const DistributedMesh& mesh, const CanonicalNumbers& numbers,
                                      const Sharing<VertexIndex>& sharing,
                                      const std::function<std::vector<Marker>()>& regions,

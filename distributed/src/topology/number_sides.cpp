@@ -15,7 +15,7 @@ namespace {
 template <std::size_t N>
 using SideCorners = std::array<VertexIndex, N>;
 
-/// Local numbers: sides are found at their lowest vertices, where they are put in order.
+/// Determines local numbers: sides are grouped by their lowest vertices and sorted there.
 template <class I, std::size_t N, std::size_t PerCell>
 void number_locally(const DistributedMesh& mesh,
                     const std::array<std::array<std::uint8_t, N>, PerCell>& places,
@@ -61,7 +61,7 @@ I find(const Sides<I, N, PerCell>& sides, SideCorners<N> corners) {
     return I{static_cast<std::size_t>(found - sides.vertices.begin())};
 }
 
-/// Collective. `shared_of(interface)` are the sides that it lists.
+/// Collective. Numbers sides; `shared_of(interface)` returns the sides in its list.
 template <class I, std::size_t N, std::size_t PerCell>
 Sides<I, N, PerCell> number(const DistributedMesh& mesh, const CanonicalNumbers& numbers,
                             std::span<const VertexIndex> shared_vertices,
@@ -71,7 +71,8 @@ Sides<I, N, PerCell> number(const DistributedMesh& mesh, const CanonicalNumbers&
     SharingBuilder<I> sharing(sides.sharing, mesh.processes.rank());
     LocalFailure failure;
     failure.attempt([&] { number_locally(mesh, places, sides); });
-    // Vertices are in canonical order here and there, so sides ascend by either numbers.
+    // The local and global numbers of vertices have the same order, so sides are ascending by
+    // either.
     const bool numbered =
         append_ranked<N>(sides.numbers, mesh.processes, sides.vertices, numbers.of_vertex,
                          shared_vertices, numbers.vertex_count, sides.count, failure);

@@ -9,9 +9,9 @@
 
 namespace octetra::distributed {
 
-/// Collective. The edges, or faces, of a mesh whose vertices have these numbers; `shared_vertices`
-/// are those that other processes have too, ascending. Throws alike on all processes: InputError
-/// where 32 bits cannot number those of one process.
+/// Collective. Numbers the edges, or faces, of a mesh whose vertices have these numbers;
+/// `shared_vertices` are those that other processes also have, ascending. Throws the same on all
+/// processes: InputError if 32-bit numbers cannot represent the sides of one process.
 [[nodiscard]] MeshEdges number_edges(const DistributedMesh& mesh, const CanonicalNumbers& numbers,
                                      std::span<const VertexIndex> shared_vertices);
 [[nodiscard]] MeshFaces number_faces(const DistributedMesh& mesh, const CanonicalNumbers& numbers,

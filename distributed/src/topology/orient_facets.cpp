@@ -18,7 +18,7 @@ FacetVertices sorted(FacetVertices face) {
 }  // namespace
 
 std::vector<FacetVertices> orient_facets(const DistributedMesh& mesh) {
-    std::vector<std::pair<FacetVertices, FacetVertices>> boundary;  // ascending, and outward
+    std::vector<std::pair<FacetVertices, FacetVertices>> boundary;  // sorted, outward
     for (const auto& [cell, face] : find_boundary(mesh)) {
         const FacetVertices outward = outward_face(mesh.cells[cell], face);
         boundary.emplace_back(sorted(outward), outward);

@@ -6,8 +6,8 @@
 
 namespace octetra::distributed {
 
-/// The tagged facets of this process, oriented as AdaptiveMesh::oriented_facets() says. Not
-/// collective.
+/// Returns the tagged facets of this process, oriented as described at
+/// AdaptiveMesh::oriented_facets(). Not collective.
 [[nodiscard]] std::vector<FacetVertices> orient_facets(const DistributedMesh& mesh);
 
 }  // namespace octetra::distributed

@@ -157,7 +157,7 @@ def read(path):
             cuts += of_block
         points, cells = divide(points, cells, cuts)
     if (len(points), len(cells)) != (vertices_now, cells_now):
-        raise ValueError(f"{path}: its steps make another mesh than its table tells of")
+        raise ValueError(f"{path}: its steps produce a mesh of another size than its table states")
     fields = {}, {}  # one name may be on both
     for name, on, kind, width in file.fields:
         fields[on][name] = file.section((vertices_now, cells_now)[on], kind, width)

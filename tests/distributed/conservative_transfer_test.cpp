@@ -122,7 +122,7 @@ TEST(ConservativeTransfer, RefusesValuesAndStepsThatDoNotFitOnAllProcesses) {
     (void)mesh.refine(Selection{.all = true});
     EXPECT_EQ(
         test::thrown_by<InputError>([&] { (void)transfer_conservatively(mesh, step, values); }),
-        "the step did not lead to the mesh as it is");
+        "the step did not lead to the current mesh");
 }
 
 TEST(RemovedVertices, AreMidpointsOfEdgesWhoseEndsStay) {

@@ -289,7 +289,7 @@ TEST(EstimatorMarks, RefuseSharesOutOfRangeAndOnesThatDiffer) {
             const bool is_last = world.rank() == world.size() - 1;
             const auto words = test::thrown_by<InputError>(
                 [&] { (void)way.mark(world, own, is_last ? wrong : 0.5); });
-            EXPECT_THAT(words, HasSubstr(fmt::format("is {}, and not in", wrong)));
+            EXPECT_THAT(words, HasSubstr(fmt::format("is {}, which is not in", wrong)));
             EXPECT_TRUE(are_common(words));
         }
         if (world.size() == 1) continue;

@@ -52,8 +52,7 @@ TEST(FailureOfMetis, IsThrownOnAllProcessesAndRaisesNoSignal) {
         };
         metis_fails = true;
         EXPECT_EQ(test::thrown_by<SystemError>(read),
-                  "METIS could not partition the mesh: it has met an error, or the process a "
-                  "SIGTERM");
+                  "METIS could not partition the mesh: it reported an error, or received SIGTERM");
         metis_fails = false;
         read();
     }

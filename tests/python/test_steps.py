@@ -168,7 +168,7 @@ def test_coarsening_keeps_integrals_where_it_is_asked_to(mesh):
     with pytest.raises(octetra.InputError, match="real or complex"):
         mesh.transfer_conservatively(step, np.zeros(step.vertex_count_before, np.int64))
     mesh.refine(near(mesh, 0.3))
-    with pytest.raises(octetra.InputError, match="did not lead to the mesh as it is"):
+    with pytest.raises(octetra.InputError, match="did not lead to the current mesh"):
         mesh.transfer_conservatively(step, u)
 
 

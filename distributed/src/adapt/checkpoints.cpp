@@ -64,13 +64,13 @@ void redo(AdaptiveMesh::State& state, CutRoots cuts, const CheckpointFacts& fact
     failure.attempt([&] {
         const CanonicalOrder order(state.mesh);
         if (steps_of(state.mesh) != given) {
-            throw InputError("its steps do not fit each other, or the cells");
+            throw InputError("its steps are inconsistent with each other or with the cells");
         }
     });
     failure.agree(processes);
     if (processes.sum(state.mesh.cells.size()) != facts.cells_now ||
         state.numbers.vertex_count != facts.vertices_now) {
-        throw InputError("its steps make another mesh than its table tells of");
+        throw InputError("its steps produce a mesh of another size than its table states");
     }
 }
 

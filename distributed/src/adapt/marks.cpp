@@ -67,7 +67,7 @@ MarkedCells marked_by_list(const DistributedMesh& mesh, std::span<const CellInde
     std::ranges::sort(marked.cells);
     marked.cells.erase(std::unique(marked.cells.begin(), marked.cells.end()), marked.cells.end());
     if (!marked.cells.empty() && marked.cells.back() >= mesh.cells.end_index()) {
-        throw InputError(fmt::format("rank {}: cell {} is marked, and there are {}",
+        throw InputError(fmt::format("rank {}: cell {} is marked, but there are only {} cells",
                                      mesh.processes.rank(), marked.cells.back().value(),
                                      mesh.cells.size()));
     }
@@ -83,9 +83,9 @@ MarkedCells cells_with_marked_edges(const DistributedMesh& mesh,
     IndexVector<EdgeIndex, EdgeVertices> edges;
     for (const auto& [a, b] : marked) {
         if (std::max(a, b) >= mesh.points.end_index()) {
-            throw InputError(fmt::format("rank {}: edge {} {} is marked, and there are {} vertices",
-                                         mesh.processes.rank(), a.value(), b.value(),
-                                         mesh.points.size()));
+            throw InputError(
+                fmt::format("rank {}: edge {} {} is marked, but there are only {} vertices",
+                            mesh.processes.rank(), a.value(), b.value(), mesh.points.size()));
         }
         edges.push_back({a, b});
     }
@@ -107,7 +107,7 @@ MarkedCells cells_with_marked_edges(const DistributedMesh& mesh,
     const auto missing = std::ranges::find(met, std::uint8_t{0});
     if (missing != met.end()) {
         const auto& [a, b] = marked[static_cast<std::size_t>(missing - met.begin())];
-        throw InputError(fmt::format("rank {}: edge {} {} is marked, and no cell has it",
+        throw InputError(fmt::format("rank {}: edge {} {} is marked, but no cell has it",
                                      mesh.processes.rank(), a.value(), b.value()));
     }
     cells.count = cells.cells.size();

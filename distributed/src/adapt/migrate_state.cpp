@@ -40,8 +40,9 @@ void check_ranks(const DistributedMesh& mesh, std::span<const int> rank_of_root)
     }
     for (const int rank : rank_of_root) {
         if (rank >= 0 && rank < processes.size()) continue;
-        throw InputError(fmt::format("rank {}: a cell is to go to rank {}, and there are {}",
-                                     processes.rank(), rank, processes.size()));
+        throw InputError(
+            fmt::format("rank {}: a cell is assigned to rank {}, but there are only {} ranks",
+                        processes.rank(), rank, processes.size()));
     }
 }
 

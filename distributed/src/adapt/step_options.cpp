@@ -32,7 +32,7 @@ void check_same(const Communicator& processes, const BalanceOptions& options) {
     processes.on_each([&] {
         if (options.most_over_mean >= 1) return;
         throw InputError(fmt::format(
-            "most_over_mean: how many times the mean number of cells a process may have, from 1; "
+            "most_over_mean: the largest number of cells of a process over the mean, from 1; "
             "given is {}",
             options.most_over_mean));
     });

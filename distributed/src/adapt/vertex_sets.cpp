@@ -58,7 +58,7 @@ std::vector<GroupName> groups_called(const AdaptiveMesh& mesh, std::string_view 
     }
     if (!found.empty()) return found;
     throw InputError(known.empty()
-                         ? fmt::format("the mesh has no named groups, and '{}' is asked for", name)
+                         ? fmt::format("no group is named '{}': the mesh has no named groups", name)
                          : fmt::format("no group is named '{}'; the groups are {}", name,
                                        fmt::join(known, ", ")));
 }

@@ -32,7 +32,8 @@ struct Parameter {
 void check(const Parameter& parameter, double on_first, int rank) {
     const auto [name, value, least, range] = parameter;
     if (bits_of(value) < bits_of(least) || bits_of(value) > bits_of(1)) {
-        throw InputError(fmt::format("rank {}: {} is {}, and not in {}", rank, name, value, range));
+        throw InputError(
+            fmt::format("rank {}: {} is {}, which is not in {}", rank, name, value, range));
     }
     if (bits_of(value) != bits_of(on_first)) {
         throw InputError(

@@ -120,7 +120,7 @@ void check_graph_size(std::uint64_t cells) {
     constexpr std::uint64_t most = std::numeric_limits<std::int32_t>::max() / 4;
     if (cells <= most) return;
     throw InputError(
-        fmt::format("{} cells are more than METIS can share out, which is {}; use --partition "
+        fmt::format("{} cells are too many for METIS, which partitions at most {}; use --partition "
                     "block, or a part file with --partition file:PATH",
                     cells, most));
 }

@@ -84,7 +84,7 @@ std::vector<int> partition_graph(CellGraph graph, int parts) {
     // process for an error of its own, and keeps it.
     if (status == METIS_ERROR) {
         throw SystemError(
-            "METIS could not partition the mesh: it has met an error, or the process a SIGTERM");
+            "METIS could not partition the mesh: it reported an error, or received SIGTERM");
     }
     if (status != METIS_OK) throw SystemError("METIS could not partition the mesh");
     std::vector<int> cell_to_part(graph.cell_to_node.size());

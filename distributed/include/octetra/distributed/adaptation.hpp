@@ -86,11 +86,11 @@ struct Adaptation {
         check(values.size(), cells.count_before(), components);
         constexpr bool is_number = requires(T value) { value += value / T(1U); };
         if (!is_number && (is_coarser() || children == CellValues::divided)) {
-            throw std::invalid_argument("values of this type can be copied, and nothing else");
+            throw std::invalid_argument("values of this type can only be copied");
         }
         if (std::is_integral_v<T> && (children == CellValues::averaged ||
                                       (children == CellValues::divided && !is_coarser()))) {
-            throw std::invalid_argument("whole numbers cannot be averaged, nor divided");
+            throw std::invalid_argument("whole numbers cannot be averaged or divided");
         }
         if constexpr (is_number) {
             if (is_coarser()) return merged_values(values, components, cells, children);

@@ -44,7 +44,7 @@ requires(std::floating_point<T> || is_complex<T>)
                                       ? step.vertices_before.size()
                                       : step.vertex_count_before + step.new_vertex_ends.size();
         if (count != mesh.points().size() || step.cells.count() != mesh.cells().size()) {
-            throw InputError("the step did not lead to the mesh as it is");
+            throw InputError("the step did not lead to the current mesh");
         }
         after = step.transfer_vertices(values, components);
         if (!step.is_coarser()) return;

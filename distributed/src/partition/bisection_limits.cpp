@@ -7,14 +7,14 @@
 namespace octetra::distributed {
 namespace {
 
-/// So many numbers are reduced at once, 64 kB, as long as boxes are not more than a fourth of that.
+/// Numbers reduced at once, 64 kB, while the boxes are at most a quarter as many.
 constexpr std::size_t most_sums = std::size_t{1} << 13U;
 constexpr unsigned least_bits = 2;
-/// So many points are as many numbers.
+/// Each point is represented by this many numbers.
 constexpr std::size_t words_of_one = 4;
 constexpr std::size_t few = most_sums / words_of_one;
 
-/// How much of the weight of a box is to go to its first half.
+/// Returns the share of a box's weight that its first half is to have.
 std::uint64_t share_of_first(const BisectionBox& box, std::span<const std::uint64_t> weights) {
     const std::uint64_t weight = std::accumulate(weights.begin(), weights.end(), Key{0});
     const auto all = static_cast<std::uint64_t>(box.end - box.begin);
@@ -66,10 +66,10 @@ bool LimitSearch::find(const Places& places, std::vector<Search>& searches, Loca
     places_ = places;
     searches_ = &searches;
     are_few_here_ = false;
-    target_.clear();  // not known before all weights are added up
+    target_.clear();  // unknown until the weights are added up
     limits_.coordinate.clear();
     limits_.number.clear();
-    // All weights are added up in the first round.
+    // The first round adds up all weights.
     const Found by_coordinate = find_by(By::coordinate, std::max(1U, rounds_to_go()), failure);
     if (by_coordinate != Found::not_yet) return by_coordinate == Found::all;
     for (const Search& search : searches) limits_.coordinate.push_back(search.limit());
@@ -92,7 +92,7 @@ LimitSearch::Found LimitSearch::find_by(By by, unsigned rounds, LocalFailure& fa
         if (found == Found::all) {
             return find_among_few(by, failure) ? Found::all : Found::nowhere;
         }
-        // In a lattice few different keys are left, or one, after few of their digits.
+        // In a lattice, few different keys, or a single one, remain after few of their digits.
         if (--rounds > 2 && done % 2 == 0) {
             if (!find_extents(by, by, failure)) return Found::nowhere;
             rounds = rounds_to_go();
@@ -101,14 +101,14 @@ LimitSearch::Found LimitSearch::find_by(By by, unsigned rounds, LocalFailure& fa
     return Found::not_yet;
 }
 
-/// One digit more of what is looked for in each box; `all` when so few points are left that
-/// processes can look at all of them.
+/// Determines one more digit of the limit of each box. Returns `all` once so few points remain that
+/// each process can examine all of them.
 LimitSearch::Found LimitSearch::find_digit(By by, LocalFailure& failure) {
     const unsigned digit = digit_bits();
     const std::size_t boxes = searches_->size();
     const auto sums = reduced_.zeros((boxes << digit) + 1);
     std::uint64_t& count = sums.back();
-    std::vector<std::uint32_t> own;  // how many points of this process each sum is of
+    std::vector<std::uint32_t> own;  // number of this process's points in each sum
     failure.attempt([&] {
         own.resize(sums.size());
         for_each_left(by, [&](std::size_t i, std::size_t b) {
@@ -136,10 +136,11 @@ LimitSearch::Found LimitSearch::find_digit(By by, LocalFailure& failure) {
     return count <= few ? Found::all : Found::not_yet;
 }
 
-/// Collective. Looks for keys of this kind from now on, between those of the points that are left.
+/// Collective. Starts to search for keys of the given kind, between the extremes of the remaining
+/// points.
 bool LimitSearch::find_extents(By left, By kind, LocalFailure& failure) {
     const auto keys =
-        reduced_.zeros(2 * searches_->size());  // of each box the greatest and complement
+        reduced_.zeros(2 * searches_->size());  // of each box: maximum, and maximum complement
     failure.attempt([&] {
         std::size_t count = 0;
         for_each_left(left, [&](std::size_t i, std::size_t b) {
@@ -158,7 +159,7 @@ bool LimitSearch::find_extents(By left, By kind, LocalFailure& failure) {
     return true;
 }
 
-/// Collective. All processes get all points that are left, and find the limits among them.
+/// Collective. Sends all remaining points to all processes, which find the limits among them.
 bool LimitSearch::find_among_few(By by, LocalFailure& failure) {
     std::uint64_t count = 0;
     failure.attempt([&] { for_each_left(by, [&](std::size_t, std::size_t) { ++count; }); });
@@ -189,7 +190,7 @@ bool LimitSearch::find_among_few(By by, LocalFailure& failure) {
     return true;
 }
 
-/// Each box's limit is its first point that would be more than its first half is to have.
+/// The limit of each box is the first point that would exceed the share of its first half.
 void LimitSearch::take_limits_among_few() {
     for (std::size_t k = 0; k < few_.size();) {
         const std::size_t b = few_[k].box;

@@ -14,7 +14,7 @@
 
 namespace octetra::distributed {
 
-/// Some points, to become parts begin .. end-1.
+/// A set of points that becomes the parts begin .. end-1.
 struct BisectionBox {
     int begin = 0;
     int end = 0;
@@ -23,8 +23,8 @@ struct BisectionBox {
     [[nodiscard]] int middle() const { return begin + (end - begin) / 2; }
 };
 
-/// Where boxes are cut: points below the coordinate are the first half's, and of those at it the
-/// ones of lower number. One of each box.
+/// The limits of all boxes: a point belongs to the first half of its box if its coordinate is below
+/// the limit, or equal to it and its number is below that of the limit.
 struct BoxLimits {
     std::vector<Key> coordinate;
     std::vector<Key> number;
@@ -35,23 +35,24 @@ struct BoxLimits {
     }
 };
 
-/// Finds the limits of all boxes of a level of the tree at once, digit by digit, first of the
-/// coordinates, then among equal ones of the numbers; each digit takes one reduction, and after two
-/// of them another tells between which keys the points are that are left. As soon as
-/// few points are left that may be at a limit, all processes get these, and find it on their own.
+/// Finds the limits of all boxes of a level of the tree together, digit by digit, first of the
+/// coordinates, then of the numbers of points with equal coordinates. Each digit takes one
+/// reduction; after every two of them another one determines the range of the remaining points'
+/// keys. As soon as few points remain that may be at a limit, all processes receive these, and find
+/// the limits locally.
 class LimitSearch {
 public:
     LimitSearch(const Communicator& processes, const WeighedPoints& points, int parts);
 
-    /// What of the points is known: the box of each, and its coordinate along the box's axis.
+    /// The box of each point, and its coordinate along the box's axis.
     struct Places {
         std::span<const BisectionBox> boxes;
         std::span<const int> box_of;
         std::span<const Key> coordinate;
     };
 
-    /// Collective. `searches` has of each box between which coordinates its points are. False, on
-    /// all alike, where a process has failed.
+    /// Collective. `searches` has the range of the coordinates of each box's points. Returns false
+    /// on all processes if one has failed.
     [[nodiscard]] bool find(const Places& places, std::vector<Search>& searches,
                             LocalFailure& failure);
     [[nodiscard]] const BoxLimits& limits() const { return limits_; }
@@ -93,8 +94,8 @@ private:
     std::vector<Left> few_;  // of all processes
     Places places_;
     std::vector<Search>* searches_ = nullptr;
-    std::vector<std::uint64_t> target_;  // of each box, what is to come before the limit yet
-    std::vector<std::size_t> left_;      // those that may be at the limit, once they are few
+    std::vector<std::uint64_t> target_;  // of each box, the remaining weight before the limit
+    std::vector<std::size_t> left_;      // points that may be at the limit, once they are few
     bool are_few_here_ = false;
     BoxLimits limits_;
 };

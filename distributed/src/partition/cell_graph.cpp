@@ -16,14 +16,14 @@
 namespace octetra::distributed {
 namespace {
 
-/// What a face adds to the weight of a link, and what each cell adds that has its longest edge in
-/// the face.
+/// The contributions to the weight of a link: of each face, and of each cell whose longest edge is
+/// in the face.
 struct LinkWeights {
     std::int32_t face;
     std::int32_t path;
 };
 
-/// The cells of each node, ascending, node after node.
+/// The cells of each node, ascending, node by node.
 class CellsOfNodes {
 public:
     explicit CellsOfNodes(const std::vector<std::int32_t>& cell_to_node)
@@ -33,7 +33,7 @@ public:
         begin_.assign(count + 1, 0);
         for (const std::int32_t node : cell_to_node) ++begin_[static_cast<std::size_t>(node)];
         std::inclusive_scan(begin_.begin(), begin_.end(), begin_.begin());
-        // Filled from behind, after which every beginning is where it belongs.
+        // Filled in reverse, which leaves each offset at the begin of its range.
         for (std::size_t c = cells_.size(); c-- > 0;) {
             cells_[--begin_[static_cast<std::size_t>(cell_to_node[c])]] = CellIndex{c};
         }
@@ -54,7 +54,7 @@ struct Link {
     std::int32_t weight;
 };
 
-/// The links of one node, while they add up.
+/// Accumulates the links of one node.
 class Row {
 public:
     explicit Row(std::size_t nodes) : place_of_node_(nodes, none) {}
@@ -116,7 +116,7 @@ bool has(const FacetVertices& face, const EdgeVertices& edge) {
 }  // namespace
 
 void check_graph_size(std::uint64_t cells) {
-    // A cell has four links at most, and each is counted at both of its ends.
+    // A cell has at most four links, and each is counted at both of its ends.
     constexpr std::uint64_t most = std::numeric_limits<std::int32_t>::max() / 4;
     if (cells <= most) return;
     throw InputError(
@@ -146,9 +146,9 @@ CellGraph lepp_graph(const Mesh& mesh, const CellWeights& weights, std::int64_t 
                 return static_cast<unsigned>(has(face, edges.longest_of(a))) +
                        static_cast<unsigned>(has(face, edges.longest_of(b)));
             });
-    }  // the edges make room for the graph
+    }  // frees the edges before the graph is built
     join_lone_cells(neighbours, weights, most, cell_to_node);
-    // The ratio was measured: see bench/README.md.
+    // The ratio was determined by measurement: see bench/README.md.
     return graph_of(neighbours, std::move(cell_to_node), weights, {.face = 1, .path = 1});
 }
 

@@ -9,7 +9,7 @@ std::size_t number(std::int32_t group) { return static_cast<std::size_t>(group);
 
 struct Size {
     std::uint32_t cells = 0;
-    std::int32_t weight = 0;  ///< of all together there are less than 2^31
+    std::int32_t weight = 0;  ///< the sum over all groups is less than 2^31
 };
 
 std::vector<Size> sizes_of(const std::vector<std::int32_t>& cell_to_group,
@@ -24,7 +24,7 @@ std::vector<Size> sizes_of(const std::vector<std::int32_t>& cell_to_group,
     return sizes;
 }
 
-/// Closes the gaps that empty groups have left.
+/// Renumbers the groups without empty ones.
 void renumber(const std::vector<Size>& sizes, std::vector<std::int32_t>& cell_to_group) {
     std::vector<std::int32_t> renumbered(sizes.size());
     std::int32_t count = 0;

@@ -7,20 +7,20 @@
 #include "partition/longest_edges.hpp"
 #include "partition/neighbours.hpp"
 
-/// Cells that are to stay together become one node of the graph that METIS cuts. Groups are
-/// numbered from 0 without gaps.
+/// Groups of cells that stay together: each becomes one node of the graph that METIS partitions.
+/// Groups are numbered from 0 without gaps.
 namespace octetra::distributed {
 
-/// Cells with the same longest edge are a group: whatever is marked in one of them marks that
-/// edge, so that they are bisected together. But if they weigh more than `most`, as in a wheel,
-/// each of them remains alone. Groups are in the order of their edges.
+/// Returns the group of each cell. Cells with the same longest edge form a group: any mark in one
+/// of them marks that edge, so that they are bisected together. If they weigh more than `most`, as
+/// in a wheel, each of them is a separate group. Groups are in the order of their edges.
 [[nodiscard]] std::vector<std::int32_t> groups_of_longest_edges(const LongestEdges& edges,
                                                                 const CellWeights& weights,
                                                                 std::int64_t most);
 
-/// Every cell that is alone joins the group of a neighbour, if it can in a direction in which
-/// selections go, and of those in that direction the smallest; none comes to weigh more than
-/// `most`, nor gets more than six cells.
+/// Joins each single cell to the group of a neighbour: preferably one through a face along which
+/// marks propagate, and among these the smallest. No group may exceed the weight `most` or six
+/// cells.
 void join_lone_cells(const Neighbours& neighbours, const CellWeights& weights, std::int64_t most,
                      std::vector<std::int32_t>& cell_to_group);
 

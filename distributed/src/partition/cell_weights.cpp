@@ -8,7 +8,7 @@
 namespace octetra::distributed {
 namespace {
 
-/// What a part comes to weigh if no cell weighs more than that.
+/// Returns the weight of a part if no cell may weigh more than a part.
 double most_of_a_part(const std::vector<float>& weights, int parts) {
     double most = std::accumulate(weights.begin(), weights.end(), 0.0) / parts;
     for (std::ptrdiff_t heavy_before = 0;;) {
@@ -22,7 +22,7 @@ double most_of_a_part(const std::vector<float>& weights, int parts) {
             }
         }
         if (heavy == heavy_before) return most;
-        // Each of the heavy ones is a part; there are fewer of them than parts, by their weight.
+        // Each heavy cell is a part; by their weight, there are fewer of them than parts.
         most = others / static_cast<double>(parts - heavy);
         heavy_before = heavy;
     }
@@ -41,7 +41,7 @@ CellWeights::CellWeights(const std::vector<float>& weights, int parts) : of_cell
     const auto limited = [&](float weight) { return std::min(double{weight}, most); };
     double sum = 0;
     for (const float weight : weights) sum += limited(weight);
-    // Less than a third of 2^31; what comes to less than 1 adds 1 for each cell.
+    // Less than a third of 2^31; rounding weights below 1 up to 1 adds at most 1 for each cell.
     const double scale = (7e8 - static_cast<double>(weights.size())) / sum;
     std::ranges::transform(weights, of_cell_.begin(), [&](float weight) {
         return std::max(1, static_cast<std::int32_t>(std::lround(limited(weight) * scale)));

@@ -12,15 +12,15 @@ namespace octetra::distributed {
 /// Throws InputError unless there is a weight for each cell, positive and finite.
 void check_weights(std::size_t cells, std::span<const float> weights);
 
-/// What parts are to be equal in, as METIS counts it: a weight of at least 1 for each cell, and in
-/// all so little that METIS, which multiplies it by three in 32 bits, does not overflow.
+/// The weights that METIS balances: at least 1 for each cell, with a sum so small that METIS, which
+/// multiplies it by three in 32 bits, does not overflow.
 class CellWeights {
 public:
-    /// 1 for each cell.
+    /// A weight of 1 for each cell.
     CellWeights() = default;
 
-    /// In proportion to these, which are positive and finite; but no cell weighs more than a part
-    /// is to weigh, as METIS fills no part with what is left beside such a cell.
+    /// In proportion to the given weights, which must be positive and finite; but no cell weighs
+    /// more than a part should, as METIS does not fill a part beside such a cell.
     CellWeights(const std::vector<float>& weights, int parts);
 
     [[nodiscard]] std::int32_t of(CellIndex c) const {
@@ -32,7 +32,7 @@ public:
         for (const CellIndex c : cells) sum += of(c);
         return sum;
     }
-    /// Of a mesh with so many cells.
+    /// The sum for a mesh with this many cells.
     [[nodiscard]] std::int64_t sum(std::size_t cell_count) const {
         if (of_cell_.empty()) return static_cast<std::int64_t>(cell_count);
         return std::accumulate(of_cell_.begin(), of_cell_.end(), std::int64_t{0});

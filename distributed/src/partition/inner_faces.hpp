@@ -10,13 +10,13 @@
 
 namespace octetra::distributed {
 
-/// Of a Mesh, or a process's part of one: calls found(face, a, b) once for every face that two
-/// cells share, a < b; the face's vertices are ascending. Where more than two cells have the same
-/// face, which no valid mesh has, they are taken two by two.
+/// Calls found(face, a, b) once for every face that two cells share, a < b, in a Mesh or a
+/// process's part of one; the face's vertices are ascending. If more than two cells have the same
+/// face, which is invalid, they are reported in pairs.
 ///
-/// A face is looked for at its lowest vertex, where a cell has three of its faces, or one if it is
-/// the cell's second lowest. So each cell is fetched twice, whatever order the cells are in.
-/// Memory: 4 bytes per vertex and 8 per cell.
+/// Each face is processed at its lowest vertex: a cell has three faces at its lowest vertex, and
+/// one at its second lowest. So each cell is accessed twice, whatever the order of cells. Memory: 4
+/// bytes per vertex and 8 per cell.
 void for_each_inner_face(const auto& mesh, auto&& found) {
     const auto sorted = [](CellVertices cell) {
         for (const auto& [i, j] : {std::pair{0U, 1U}, {2U, 3U}, {0U, 2U}, {1U, 3U}, {1U, 2U}}) {
@@ -31,7 +31,7 @@ void for_each_inner_face(const auto& mesh, auto&& found) {
         ++begin[corners[1].value()];
     }
     std::inclusive_scan(begin.begin(), begin.end(), begin.begin());
-    // Filled from behind, after which every beginning is where it belongs.
+    // Filled in reverse, which leaves each offset at the begin of its range.
     std::vector<CellIndex> cells(2 * mesh.cells.size());
     for (std::size_t c = mesh.cells.size(); c-- > 0;) {
         const CellVertices corners = sorted(mesh.cells[CellIndex{c}]);
@@ -45,7 +45,7 @@ void for_each_inner_face(const auto& mesh, auto&& found) {
         CellIndex cell;
         auto operator<=>(const Face&) const = default;
     };
-    std::vector<Face> faces;  // those whose lowest vertex is at hand
+    std::vector<Face> faces;  // with the current lowest vertex
     for (VertexIndex low{0}; low < mesh.points.end_index(); ++low) {
         faces.clear();
         for (auto k = begin[low.value()]; k < begin[low.value() + 1U]; ++k) {
@@ -63,7 +63,7 @@ void for_each_inner_face(const auto& mesh, auto&& found) {
             const Face& b = faces[f];
             if (a.middle != b.middle || a.high != b.high) continue;
             found(FacetVertices{low, a.middle, a.high}, a.cell, b.cell);
-            ++f;  // neither of them is half of another pair
+            ++f;  // neither belongs to another pair
         }
     }
 }

@@ -4,12 +4,12 @@
 #include <cstddef>
 #include <cstdint>
 
-/// Keys of coordinates, and how one of them is found digit by digit.
+/// Keys of coordinates, and the search for a key digit by digit.
 namespace octetra::distributed {
 
 using Key = std::uint64_t;
 
-/// A whole number that orders as the coordinate does.
+/// Returns an integer key with the same order as the coordinates.
 inline Key key_of(double x) {
     const auto bits = std::bit_cast<std::uint64_t>(x == 0 ? 0.0 : x);
     return bits >> 63U != 0 ? ~bits : bits | std::uint64_t{1} << 63U;
@@ -18,8 +18,8 @@ inline double coordinate_of(Key key) {
     return std::bit_cast<double>(key >> 63U != 0 ? key & ~(std::uint64_t{1} << 63U) : ~key);
 }
 
-/// Where a key is looked for in each box: from `low` to `low + most`, in numbers of so many bits;
-/// what has been found of it is `found`, but for the lowest `bits`.
+/// The search for a key in one box, in the range `low` to `low + most`. `found` is the known
+/// leading part of its difference to `low`, without the lowest `bits` bits.
 struct Search {
     Key low = 0;
     Key most = 0;
@@ -30,7 +30,7 @@ struct Search {
         const Key difference = key - low;
         return difference <= most && above(difference) == above(found);
     }
-    /// Of a key that it may be: the next digit.
+    /// Returns the next digit of a key for which may_be() is true.
     [[nodiscard]] std::size_t digit_of(Key key, unsigned digit_bits) const {
         return (key - low - found) >> rest(digit_bits);
     }
@@ -47,7 +47,7 @@ private:
     }
 };
 
-/// Of a key from one to another.
+/// Returns a search for a key in the range `low` to `high`.
 inline Search between(Key low, Key high, bool is_empty) {
     if (is_empty) return {};
     return {

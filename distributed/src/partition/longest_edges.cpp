@@ -15,7 +15,7 @@ LongestEdges::LongestEdges(const Mesh& mesh)
         ++bucket[longest_of(c).front().value()];
     }
     std::inclusive_scan(bucket.begin(), bucket.end(), bucket.begin());
-    // Filled from behind, after which every beginning is where it belongs.
+    // Filled in reverse, which leaves each offset at the begin of its range.
     for (std::size_t c = mesh.cells.size(); c-- > 0;) {
         cells_[--bucket[longest_of(CellIndex{c}).front().value()]] = CellIndex{c};
     }

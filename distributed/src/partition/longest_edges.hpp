@@ -10,10 +10,10 @@
 namespace octetra::distributed {
 
 /// The edges that are the longest one of some cell, and the cells of each. These cells are bisected
-/// together: whatever marks an edge of one of them marks the longest edge.
+/// together: a mark on any edge of one of them leads to a mark on the longest edge.
 ///
-/// Edges are numbered from 0, in ascending order of their (lower, higher) end.
-/// Keeps a pointer to the mesh's cells. Memory: 12 bytes per edge and 5 per cell.
+/// Edges are numbered from 0, in ascending order of their (lower, higher) end. Keeps a pointer to
+/// the mesh's cells. Memory: 12 bytes per edge and 5 per cell.
 class LongestEdges {
 public:
     explicit LongestEdges(const Mesh& mesh);
@@ -21,7 +21,7 @@ public:
     [[nodiscard]] EdgeIndex end_index() const { return ends_.end_index(); }
     [[nodiscard]] std::size_t cell_count() const { return cells_.size(); }
 
-    /// The lower and the higher end.
+    /// The ends of an edge, the lower one first.
     [[nodiscard]] const EdgeVertices& ends(EdgeIndex edge) const { return ends_[edge]; }
 
     /// The ends of a cell's longest edge, the lower one first.
@@ -31,14 +31,14 @@ public:
         return {low, high};
     }
 
-    /// The cells whose longest edge it is, ascending.
+    /// The cells of which this is the longest edge, ascending.
     [[nodiscard]] std::span<const CellIndex> cells_of(EdgeIndex edge) const {
         return {cells_.data() + begin_[edge.value()], cells_.data() + begin_[edge.value() + 1U]};
     }
 
 private:
     const IndexVector<CellIndex, CellVertices>* cells_of_mesh_;
-    IndexVector<CellIndex, std::uint8_t> position_;  ///< of the longest among the six edges
+    IndexVector<CellIndex, std::uint8_t> position_;  ///< of the longest edge in cell_edges
     IndexVector<EdgeIndex, EdgeVertices> ends_;
     std::vector<std::uint32_t> begin_;
     std::vector<CellIndex> cells_;

@@ -13,14 +13,14 @@ namespace octetra::distributed {
 struct Neighbour {
     static constexpr std::uint32_t none = (1U << 30U) - 1;
     std::uint32_t cell : 30 = none;
-    std::uint32_t paths : 2 = 0;  ///< how many of the two cells have their longest edge in the face
+    std::uint32_t paths : 2 = 0;  ///< number of the two cells with their longest edge in the face
 };
 
-/// The neighbours of each cell, in no order; those that there are come first. 16 bytes per cell.
+/// The neighbours of each cell, in unspecified order, before unused entries. 16 bytes per cell.
 using Neighbours = IndexVector<CellIndex, std::array<Neighbour, 4>>;
 
-/// paths(face, a, b) says how many of the two cells have their longest edge in the face. There must
-/// be fewer than 2^30 - 1 cells.
+/// Returns the neighbours of all cells. paths(face, a, b) must return how many of the two cells
+/// have their longest edge in the face. There must be fewer than 2^30 - 1 cells.
 [[nodiscard]] Neighbours neighbours_of_cells(const Mesh& mesh, auto&& paths) {
     Neighbours neighbours(mesh.cells.size());
     const auto append = [&](CellIndex to, CellIndex cell, unsigned through) {

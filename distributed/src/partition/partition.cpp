@@ -25,22 +25,22 @@
 namespace octetra::distributed {
 namespace {
 
-/// METIS does not take more parts than it has vertices to give to each, and there is nothing to
-/// gain.
+/// Returns whether there are enough cells for METIS, which rejects more parts than vertices; for
+/// few cells it has no benefit.
 bool is_worth_a_cut(const Mesh& mesh, int parts) {
     constexpr std::size_t cells_per_part = 8;
     return mesh.cells.size() >= cells_per_part * static_cast<std::size_t>(parts);
 }
 
-/// How much the cells with the same longest edge may weigh as one node of the graph: so little that
-/// METIS can still balance the parts.
+/// Returns the maximum weight of the cells with the same longest edge as one node of the graph: so
+/// small that METIS can still balance the parts.
 std::int64_t most_of_a_node(std::int64_t all, int parts) {
     constexpr std::int64_t nodes_per_part = 20;
     return all / (nodes_per_part * parts);
 }
 
-/// While METIS works it takes SIGABRT and SIGTERM for news of itself, and afterwards it leaves
-/// handlers that work but once. This puts back what was there before.
+/// Restores the handlers of SIGABRT and SIGTERM: METIS intercepts these signals while it works, and
+/// leaves handlers that work only once.
 class KeptSignalHandlers {
 public:
     KeptSignalHandlers() {
@@ -80,8 +80,8 @@ std::vector<int> partition_graph(CellGraph graph, int parts) {
     static_assert(sizeof(idx_t) == sizeof(std::int32_t));
     std::vector<int> node_to_part(graph.node_weights.size());
     const int status = run_metis(graph, parts, node_to_part);
-    // Wrong input and a lack of memory have a status of their own. METIS takes a SIGTERM of the
-    // process for an error of its own, and keeps it.
+    // Invalid input and lack of memory have status codes of their own. METIS intercepts a SIGTERM
+    // sent to the process, reports it as an error of its own, and does not pass it on.
     if (status == METIS_ERROR) {
         throw SystemError(
             "METIS could not partition the mesh: it reported an error, or received SIGTERM");
@@ -108,7 +108,7 @@ CellWeights weights_for_metis(std::size_t cells, const std::vector<float>& weigh
     return {weights, parts};
 }
 
-/// By METIS.
+/// Partitions a graph of the cells with METIS.
 std::vector<int> by_graph(const Mesh& mesh, int parts, PartitionMethod method,
                           const std::vector<float>& weights) {
     const std::size_t cells = mesh.cells.size();
@@ -155,7 +155,7 @@ std::vector<int> from_file(const std::filesystem::path& path, std::size_t cells,
     std::error_code ignored;
     const auto there = std::filesystem::status(path, ignored);
     if (std::filesystem::exists(there) && !std::filesystem::is_regular_file(there)) {
-        // Opening a pipe would wait for someone to write.
+        // Opening a pipe would block until another process writes to it.
         throw InputError(fmt::format("{}: is not a file", path.native()));
     }
     std::ifstream in(path);
@@ -167,7 +167,7 @@ std::vector<int> from_file(const std::filesystem::path& path, std::size_t cells,
     std::size_t line_number = 0;
     for (std::string line; std::getline(in, line);) {
         ++line_number;
-        if (line_number == 1 && line.starts_with("\xef\xbb\xbf")) line.erase(0, 3);  // of UTF-8
+        if (line_number == 1 && line.starts_with("\xef\xbb\xbf")) line.erase(0, 3);  // UTF-8
         if (line.ends_with('\r')) line.pop_back();
         if (line.empty() || line.front() == '#') continue;
         unsigned number = 0;

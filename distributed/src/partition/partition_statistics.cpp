@@ -11,7 +11,7 @@
 namespace octetra::distributed {
 namespace {
 
-/// How many cells of each part there are among those that were added.
+/// Counts the cells of each part among those added.
 class Tally {
 public:
     explicit Tally(std::size_t parts) : counts_(parts, 0) {}
@@ -19,7 +19,7 @@ public:
     void add(int part) {
         if (counts_[static_cast<std::size_t>(part)]++ == 0) parts_.push_back(part);
     }
-    /// The parts that have any.
+    /// The parts with at least one cell.
     [[nodiscard]] const std::vector<int>& parts() const { return parts_; }
     [[nodiscard]] std::uint64_t count(int part) const {
         return counts_[static_cast<std::size_t>(part)];
@@ -66,7 +66,7 @@ private:
         });
     }
 
-    /// Linked at an edge are two cells if it is the longest one of either.
+    /// Two cells are linked at an edge if it is the longest edge of either.
     void count_longest_edge_links(PartitionStatistics& statistics) const {
         const auto links = [](std::uint64_t longest, std::uint64_t all) {
             return longest * (all - longest) + longest * (longest - (longest > 0 ? 1 : 0)) / 2;

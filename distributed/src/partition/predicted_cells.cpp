@@ -28,7 +28,7 @@ Point middle(const Point& p, const Point& q) {
     return {p.x / 2 + q.x / 2, p.y / 2 + q.y / 2, p.z / 2 + q.z / 2};
 }
 
-/// Eight pieces of equal volume.
+/// Returns eight subcells of equal volume.
 std::array<Corners, 8> eighths(const Corners& corners) {
     const auto& [a, b, c, d] = corners;
     const Point ab = middle(a, b);
@@ -47,10 +47,10 @@ std::array<Corners, 8> eighths(const Corners& corners) {
              {ac, bd, ad, ab}}};
 }
 
-/// What spheres and boxes mark, by place alone.
+/// The spheres and boxes of a selection, which mark cells by position alone.
 class Bodies {
 public:
-    /// Takes memory.
+    /// Allocates memory.
     void take(const Selection& selection) {
         all_.spheres = selection.spheres;
         all_.boxes = selection.boxes;
@@ -60,7 +60,8 @@ public:
     [[nodiscard]] bool may_have_some_of(const Corners& corners) const {
         return may_be_marked(all_, box_of(corners));
     }
-    /// Bodies are convex, so it is enough that one has all corners.
+    /// Returns whether one body contains the cell: bodies are convex, so it suffices to test the
+    /// corners.
     [[nodiscard]] bool have_all_of(const Corners& corners) const {
         return std::ranges::any_of(each_, [&](const Selection& body) {
             return std::ranges::all_of(corners, [&](const Point& p) {
@@ -69,12 +70,12 @@ public:
         });
     }
     [[nodiscard]] bool empty() const { return each_.empty(); }
-    /// All that they reach.
+    /// Returns the bounds of all bodies.
     [[nodiscard]] SelectionBounds bounds() const { return SelectionBounds(all_); }
     [[nodiscard]] bool have(const Corners& corners) const {
         return marks(all_, corners, 0, GlobalCell{0});
     }
-    /// How much of a cell they have, by 8^depth samples.
+    /// Returns the fraction of a cell that is inside any body, from 8^depth samples.
     [[nodiscard]] double share_of(const Corners& corners, int depth) const {
         if (depth == 0) return have(corners) ? 1 : 0;
         double sum = 0;
@@ -87,7 +88,8 @@ private:
     std::vector<Selection> each_;
 };
 
-/// So many samples of each of `cut` cells that they take less time than the other cells.
+/// Returns the sampling depth for `cut` cells, such that sampling takes less time than processing
+/// the other cells.
 int depth_for(std::uint64_t cut, std::uint64_t cells) {
     constexpr int most = 5;
     const std::uint64_t samples = std::max(cells / 4, std::uint64_t{1} << 15U);
@@ -96,7 +98,7 @@ int depth_for(std::uint64_t cut, std::uint64_t cells) {
     return depth;
 }
 
-/// Of several criteria that expect something of a cell, the one that expects most counts.
+/// Accumulates predictions of several criteria: for each cell, the largest one counts.
 class Prediction {
 public:
     Prediction(const CellsToWeigh& cells, Scheme scheme, int levels)
@@ -105,7 +107,7 @@ public:
           levels_(levels),
           full_(std::min(std::pow(of_one_, levels), most_of_one)) {}
 
-    /// First: takes memory.
+    /// Must be called first; allocates memory.
     void expect_one_of_each() { expected_.assign(cells_->count(), 1); }
 
     void add_at_random(double share) {
@@ -133,10 +135,10 @@ public:
         }
     }
 
-    /// Leaves it to be found how much of the cells that it returns is inside: the bodies may have
-    /// some of these, and not all.
+    /// Adds the cells that are inside a single body. Returns the cells that are perhaps partly
+    /// inside, whose fractions remain to be computed.
     [[nodiscard]] std::vector<std::size_t> add_wholly_inside(const Bodies& bodies) {
-        std::vector<std::uint8_t> beyond;  // of each point, as corners are anywhere in memory
+        std::vector<std::uint8_t> beyond;  // of each point, as corners are scattered in memory
         beyond.reserve(cells_->points.size());
         const SelectionBounds bounds = bodies.bounds();
         for (const Point& p : cells_->points) beyond.push_back(bounds.sides_beyond(p));
@@ -163,12 +165,12 @@ public:
         }
     }
 
-    /// Collective. Are all processes' numbers the same?
+    /// Collective. Returns whether the predictions of all cells of all processes are equal.
     [[nodiscard]] bool is_even() const {
         std::uint64_t most = 0;
         std::uint64_t most_complement = 0;
         for (const float cells : expected_) {
-            const std::uint64_t bits = std::bit_cast<std::uint32_t>(cells);  // ordered as positives
+            const std::uint64_t bits = std::bit_cast<std::uint32_t>(cells);  // ordered as floats
             most = std::max(most, bits);
             most_complement = std::max(most_complement, complement - bits);
         }
@@ -178,7 +180,7 @@ public:
     [[nodiscard]] std::vector<float> expected() && { return std::move(expected_); }
 
 private:
-    static constexpr double most_of_one = 1e9;  // no mesh has many more
+    static constexpr double most_of_one = 1e9;  // few meshes have more
     static constexpr std::uint64_t complement = 0xffff'ffff;
 
     void expect(std::size_t i, double cells) {
@@ -188,7 +190,7 @@ private:
     const CellsToWeigh* cells_;
     double of_one_;
     int levels_;
-    double full_;  ///< what a cell becomes that is marked in all levels
+    double full_;  ///< the number for a cell that is marked in all levels
     std::vector<float> expected_;
 };
 

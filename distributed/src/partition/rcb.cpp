@@ -34,12 +34,12 @@ public:
         extents_.reserve(static_cast<std::size_t>(parts));
     }
 
-    /// Which axis will be the longest is guessed from a few points of each process.
+    /// Guesses the longest axis from a few points of each process.
     void tell_some(std::span<Key, 6> keys) const { some_.put(keys); }
     void guess_axis(std::span<const Key, 6> of_all) { axis_[0] = longest(extent_between(of_all)); }
 
-    /// Collective. Cuts every box that is to be more than one part; false if there is none, or a
-    /// process has failed.
+    /// Collective. Divides every box that is to be more than one part. Returns false if there is
+    /// none, or if a process has failed.
     bool cut_boxes(LocalFailure& failure) {
         if (std::ranges::all_of(boxes_, &BisectionBox::is_part)) return false;
         if (!find_axes(failure)) return false;
@@ -58,7 +58,7 @@ private:
         return static_cast<std::size_t>(box_of_[i]);
     }
 
-    /// Calls look_at(i, point) for all of this process's points, which are asked for some at once.
+    /// Calls look_at(i, point) for all points of this process, which are requested in blocks.
     void for_each_point(auto&& look_at) const {
         std::array<Point, 512> some;
         for (std::size_t begin = 0; begin < points_->count; begin += some.size()) {
@@ -80,8 +80,9 @@ private:
                 high[k] = std::max(high[k], place[k]);
             }
         }
-        /// As keys of which the greatest of all processes are those of all points: of an extreme
-        /// its own or, of the lowest, its complement; zeros where there are no points.
+        /// Stores keys whose maxima over all processes belong to the extremes of all points: the
+        /// key of each maximum, and the complement of the key of each minimum; zeros if there are
+        /// no points.
         void put(std::span<Key, 6> keys) const {
             if (low[0] > high[0]) return;
             for (std::size_t k = 0; k < 3; ++k) {
@@ -94,7 +95,7 @@ private:
     [[nodiscard]] static bool is_empty(std::span<const Key, 6> keys) {
         return std::ranges::all_of(keys, [](Key key) { return key == 0; });
     }
-    /// Half of each, as the whole might overflow.
+    /// Returns half of each extent, as the extent itself might overflow.
     [[nodiscard]] static std::array<double, 3> extent_between(std::span<const Key, 6> keys) {
         std::array<double, 3> extent{};
         for (std::size_t k = 0; k < 3 && !is_empty(keys); ++k) {
@@ -103,7 +104,7 @@ private:
         return extent;
     }
 
-    /// Of a few points here and there.
+    /// Returns the extremes of a sample of points.
     [[nodiscard]] Extremes extremes_of_some() const {
         constexpr std::size_t wanted = 256;
         Extremes extremes;
@@ -115,9 +116,9 @@ private:
         return extremes;
     }
 
-    /// Collective. The longest extent of each box; and of each point its coordinate there. Which
-    /// it will be is guessed, as it takes time to have the points once more. False, on all
-    /// processes alike, where one has failed.
+    /// Collective. Determines the longest axis of each box, and the coordinate of each point along
+    /// it. The axis is guessed first, since a second pass over the points takes time. Returns false
+    /// on all processes if one has failed.
     bool find_axes(LocalFailure& failure) {
         const auto keys = extremes_.zeros(6 * boxes_.size());
         const auto of_box = [keys](std::size_t b) { return keys.subspan(6 * b).first<6>(); };
@@ -179,8 +180,9 @@ private:
         axis_ = std::move(guess);
     }
 
-    /// Of axes as good as equally long the last one: along it lattices are usually written layer by
-    /// layer, and fewer cells then have to leave who has read them.
+    /// Returns the last among the axes whose extent is within 1/64 of the longest. The cells of
+    /// lattices are usually listed in layers along the last axis, so fewer cells then leave the
+    /// process that has read them.
     static std::size_t longest(const std::array<double, 3>& extent) {
         const double nearly = std::ranges::max(extent) * (1 - 1.0 / 64);
         std::size_t axis = 2;
@@ -206,7 +208,7 @@ private:
 std::vector<int> bisect_coordinates(const Communicator& processes, const WeighedPoints& points,
                                     int parts, LocalFailure& failure) {
     std::vector<Bisection> bisection;
-    std::array<Key, 7> told{};  // what is guessed from, and whether a process has failed
+    std::array<Key, 7> told{};  // sampled extremes, and whether a process has failed
     const auto keys = std::span(told).first<6>();
     failure.attempt([&] { bisection.emplace_back(processes, points, parts).tell_some(keys); });
     if (failure.found()) told.back() = 1;

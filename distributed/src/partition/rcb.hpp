@@ -15,8 +15,8 @@
 
 namespace octetra::distributed {
 
-/// Where a cell is: the mean of its corners, as rounding makes it in their order, which is sooner
-/// found than what is a matter of the corners alone.
+/// Returns the position of a cell: the mean of its corners, with rounding that depends on their
+/// order, which is cheaper than an order-independent mean.
 [[nodiscard]] inline Point place_of(const Corners& corners) {
     const auto mean = [](double a, double b, double c, double d) {
         return (a / 4 + b / 4) + (c / 4 + d / 4);  // does not overflow
@@ -25,42 +25,42 @@ namespace octetra::distributed {
     return {mean(a.x, b.x, c.x, d.x), mean(a.y, b.y, c.y, d.y), mean(a.z, b.z, c.z, d.z)};
 }
 
-/// What is to be shared out: a cell, as its place.
+/// A cell to be assigned to a part, as a point.
 struct WeighedPoint {
     Point point;
-    std::uint64_t number = 0;  ///< in the whole mesh: decides where points are equal
+    std::uint64_t number = 0;  ///< global number; decides between equal points
     std::uint64_t weight = 1;
 };
 
-/// The same of many, by place, as they are to be had. Kept of them are 12 bytes
-/// for each, and 8 more where coordinates are equal.
+/// The points to be distributed, by index, as functions. Bisection stores 12 bytes for each, and 8
+/// more if coordinates are equal.
 struct WeighedPoints {
     std::size_t count = 0;
-    /// Writes as many points as there is room for, from one on. All are asked for once for each
-    /// level of the tree, in order, and a few again.
+    /// Writes the points from `first` on to fill the span. All points are requested once for each
+    /// level of the tree, in order, and a few once more.
     std::function<void(std::size_t first, std::span<Point> points)> points;
     std::function<std::uint64_t(std::size_t)> number;
-    std::function<std::uint64_t(std::size_t)> weight;  ///< or none: each weighs 1
+    std::function<std::uint64_t(std::size_t)> weight;  ///< or empty: all weights are 1
 };
 
-/// A weight as a whole number, the least of all, which is `least`, a thousand. Both are positive
-/// and finite; what is more than a million times the least is as much as that.
+/// Converts a weight to an integer, such that the smallest weight, `least`, becomes 1000. Both must
+/// be positive and finite; weights above about a million times the least are reduced to that.
 [[nodiscard]] inline std::uint64_t whole_weight(float weight, float least) {
-    constexpr double most = 0x1p+30;  // the sum of 2^32 of them is to fit
+    constexpr double most = 0x1p+30;  // so that the sum of 2^32 weights does not overflow
     return static_cast<std::uint64_t>(
         std::min(most, 1000.0 * static_cast<double>(weight) / static_cast<double>(least)));
 }
 
-/// Collective. Recursive coordinate bisection: boxes are cut across their longest extent, the last
-/// of those within a 64th of it, into two whose weights are as their numbers of parts, until each
-/// is one part. Returns the part, 0 to parts-1, of each of this process's points. All is done in
-/// whole numbers, so the parts are the same however many processes find them, and whichever has
-/// which points. Weights add up to less than 2^63.
+/// Collective. Recursive coordinate bisection: boxes are divided across their longest extent, or
+/// the last of those within 1/64 of it, into two boxes whose weights are proportional to their
+/// numbers of parts, until each box is one part. Returns the part, 0 to parts-1, of each of this
+/// process's points. All computations use integers, so the parts depend neither on the number of
+/// processes nor on the distribution of the points. The sum of weights must be less than 2^63.
 ///
-/// Of each level of the tree, processes reduce the extent of each box, then arrays of sums, one a
-/// digit, of 2^13 numbers for all boxes together or four for each, until 2^11 points or fewer may
-/// be at a limit, and these: some six reductions, more where many coordinates are equal. Where a
-/// process has failed or fails, the result is not to be used on any.
+/// For each level of the tree, processes reduce the extent of each box, then arrays of sums, one
+/// array per digit, of 2^13 numbers for all boxes together or of four for each, until at most 2^11
+/// points may be at a limit, and then these points: about six reductions, more if many coordinates
+/// are equal. If a process has failed or fails, the result must not be used on any process.
 [[nodiscard]] std::vector<int> bisect_coordinates(const Communicator& processes,
                                                   const WeighedPoints& points, int parts,
                                                   LocalFailure& failure);

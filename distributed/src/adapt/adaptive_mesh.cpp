@@ -37,7 +37,7 @@ void for_each_root(const AncestorMap& ancestors, const auto* unordered, std::siz
     }
 }
 
-/// The marker of each entity of a list.
+/// Returns the marker of each entity of a list.
 template <class I>
 std::vector<Marker> all_markers(const AncestorMap& ancestors, const auto* unordered,
                                 std::size_t count) {
@@ -77,7 +77,7 @@ Adaptation AdaptiveMesh::refine(std::span<const std::uint8_t> marks, const StepO
 
 Adaptation AdaptiveMesh::refine(const std::function<StepRequest()>& request) {
     StepRequest wanted;
-    // That all are marked, on all processes, needs no closure.
+    // If all cells are marked on all processes, no closure is needed.
     bool all_here = false;
     LocalFailure failure;
     failure.attempt([&] {

@@ -26,7 +26,7 @@
 namespace octetra::distributed {
 namespace {
 
-/// The steps of a part of so many roots, each as runs over all its cells.
+/// Returns the steps of a part with this many roots, each as runs over all its cells.
 std::vector<CutRuns> together(const CutRoots& cuts, std::size_t root_count,
                               std::size_t step_count) {
     RootsTogether steps(step_count);
@@ -42,8 +42,8 @@ std::vector<CutRuns> together(const CutRoots& cuts, std::size_t root_count,
     return std::move(steps).finish();
 }
 
-/// Collective. Does the steps again. They are marks to refine by: what a damaged or made-up history
-/// leaves open closure adds, and then it is another history than that of the file.
+/// Collective. Replays the steps as marks for refinement. If the history is damaged or forged,
+/// closure may add marks; the result then differs from the history in the file.
 void redo(AdaptiveMesh::State& state, CutRoots cuts, const CheckpointFacts& facts) {
     const Communicator& processes = state.mesh.processes;
     LocalFailure failure;
@@ -59,7 +59,7 @@ void redo(AdaptiveMesh::State& state, CutRoots cuts, const CheckpointFacts& fact
         const auto next_marks = [&] {
             return all ? marks->next_of_all(state.mesh) : marks->next(state.mesh);
         };
-        (void)state.refine(std::ref(next_marks), {});  // a reference needs no memory
+        (void)state.refine(std::ref(next_marks), {});  // a reference allocates nothing
     }
     failure.attempt([&] {
         const CanonicalOrder order(state.mesh);
@@ -74,7 +74,7 @@ void redo(AdaptiveMesh::State& state, CutRoots cuts, const CheckpointFacts& fact
     }
 }
 
-/// What is found wrong with the mesh gets the file's name in front.
+/// Adds the name of the file to the messages of InputErrors about the mesh.
 auto naming(const std::filesystem::path& path, auto&& work) {
     try {
         return work();

@@ -19,7 +19,8 @@
 namespace octetra::distributed {
 namespace {
 
-/// Who shares the vertices that stay. Whoever has one keeps it, so they are those of before.
+/// Returns the sharing of the remaining vertices: every sharer of a vertex keeps it, so the sharers
+/// do not change.
 Sharing<VertexIndex> sharing_after(const Sharing<VertexIndex>& sharing, const KeptVertices& kept,
                                    const CoarserPart& part, const CanonicalNumbers& numbers,
                                    const CoarserNumbers& numbers_after) {
@@ -49,10 +50,10 @@ void describe(std::size_t vertex_count_before, CoarserPart& part, Adaptation& ad
     adaptation.vertex_count_before = vertex_count_before;
 }
 
-/// What a process does with the lists of its own part, in one of two ways.
+/// Coarsens the lists of a process's own part, incrementally or by rebuilding them.
 struct Lists {
     std::unique_ptr<IncrementalCoarsening> incremental;
-    std::unique_ptr<CanonicalOrder> order;  ///< for the other one
+    std::unique_ptr<CanonicalOrder> order;  ///< of the mesh, if lists are rebuilt
 
     void plan(DistributedMesh& mesh, const KeptVertices& kept, const Tuning& tuning,
               CoarserPart& part) {

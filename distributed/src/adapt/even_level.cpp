@@ -16,7 +16,7 @@
 namespace octetra::distributed {
 namespace {
 
-/// Collective. Of the cells that processes have, and will have after the level.
+/// Collective. Numbers of cells of the processes before and after the level.
 struct Loads {
     std::uint64_t most_before = 0;
     std::uint64_t most = 0;
@@ -33,7 +33,7 @@ struct Loads {
     [[nodiscard]] bool are_uneven(const BalanceOptions& balance, int processes) const {
         return static_cast<double>(most) > balance.most_over_mean * mean(processes);
     }
-    /// Cells that the process with most makes while the others wait.
+    /// Returns the number of cells that the most loaded process makes while the others wait.
     [[nodiscard]] std::uint64_t spared(int processes) const {
         return most - static_cast<std::uint64_t>(mean(processes));
     }
@@ -42,7 +42,8 @@ private:
     [[nodiscard]] double mean(int processes) const { return static_cast<double>(sum) / processes; }
 };
 
-/// How many cells each root of this process will have become, of a mesh in canonical order.
+/// Returns the number of cells of each root of this process after the level. The mesh must be in
+/// canonical order.
 std::vector<std::uint64_t> cells_of_roots_after(const DistributedMesh& mesh,
                                                 const MarkedCells& marks) {
     std::vector<std::uint64_t> counts = cells_of_roots(mesh);
@@ -57,8 +58,8 @@ std::vector<std::uint64_t> cells_of_roots_after(const DistributedMesh& mesh,
     return counts;
 }
 
-/// The edges of each cell that are to be bisected, by the numbers that cells had before they came
-/// into this order.
+/// Returns the marked edges of each cell, by the numbers of cells before the canonical order was
+/// established.
 std::vector<EdgeMask> masks_of(const MarkedCells& marks, const std::vector<CellIndex>& before,
                                std::size_t count) {
     std::vector<EdgeMask> masks(count, 0);
@@ -80,7 +81,7 @@ MarkedCells marks_of_masks(const std::vector<EdgeMask>& masks) {
     return marks;
 }
 
-/// The closed marks of a level, which is undone, in the canonical order that the mesh then has.
+/// Undoes a level, and returns its closed marks in the canonical order that the mesh is in then.
 UnevenLevel undone(DistributedMesh& mesh, PlannedLevel& plan) {
     UnevenLevel level;
     level.marks = plan.level->closed_marks();
@@ -93,7 +94,7 @@ UnevenLevel undone(DistributedMesh& mesh, PlannedLevel& plan) {
     return level;
 }
 
-/// The level of marks that are closed already, of the mesh as it was before it came into order.
+/// Begins a level again from its closed marks, on the mesh in its previous order.
 void redo(DistributedMesh& mesh, PlannedLevel& plan, UnevenLevel level,
           const RefineOptions& options, const Tuning& tuning) {
     MarkedCells marks = std::move(level.marks);
@@ -124,7 +125,7 @@ std::optional<UnevenLevel> uneven_level(DistributedMesh& mesh, PlannedLevel& pla
     failure.attempt([&] { count = plan.level->cell_count_afterwards(); });
     failure.agree(processes);
     const Loads loads(mesh, count);
-    if (loads.sum > options.max_cells) return std::nullopt;  // bisection will say so
+    if (loads.sum > options.max_cells) return std::nullopt;  // bisect_level() throws
     if (!loads.are_uneven(balance, processes.size())) return std::nullopt;
     waited += loads.spared(processes.size());
     if (balance.only_if_it_pays && waited <= 2 * loads.most_before) return std::nullopt;

@@ -13,27 +13,28 @@
 #include "level/incremental/adjacency.hpp"
 #include "level/planned_level.hpp"
 
-/// Roots that move between closure and bisection: how many cells each becomes is known then, and
-/// what moves is small yet. The idea is that of PLUM (Oliker and Biswas), without its error of
-/// prediction.
+/// Migration of roots between closure and bisection, when the number of cells of each root after
+/// the level is known, and the data to migrate are still small. The idea is that of PLUM (Oliker
+/// and Biswas), without its prediction error.
 namespace octetra::distributed {
 
-/// What is to be done first of a level that would leave processes with too different numbers of
-/// cells.
+/// A level that would leave the processes with uneven numbers of cells, and the migration that is
+/// to precede it.
 struct UnevenLevel {
-    std::unique_ptr<CanonicalOrder> order;  ///< that the mesh is in as long as this lives
-    std::unique_ptr<CellsAsRoots> roots;    ///< likewise; null: they are those of before
+    std::unique_ptr<CanonicalOrder> order;  ///< the order of the mesh while this exists
+    std::unique_ptr<CellsAsRoots> roots;    ///< likewise its roots, or null if unchanged
     MarkedCells marks;                      ///< closed, in that order
     std::vector<int> rank_of_root;
 
-    /// The mesh stays in this order, and its roots what they are.
+    /// Makes the order and the roots of the mesh permanent.
     void keep_mesh() noexcept;
 };
 
-/// Collective. Nothing, on all processes, where the closed level is to be bisected as it is: it is
-/// even enough, or would not become more so. Else the level is undone. `waited`: for how many cells
-/// more than the mean all have waited until the process with most had made them, since cells moved;
-/// this level adds to it. `known`: the numbers of the mesh's vertices, or null.
+/// Collective. Returns nothing on all processes if the closed level is to be bisected without
+/// migration, because it is even enough or would not become more so; otherwise undoes the level.
+/// `waited`: the sum over uneven levels since the last migration of the cells by which the most
+/// loaded process exceeded the mean, while the others waited; this level adds to it. `known`: the
+/// global numbers of the mesh's vertices, or null.
 [[nodiscard]] std::optional<UnevenLevel> uneven_level(DistributedMesh& mesh, PlannedLevel& plan,
                                                       const BalanceOptions& balance,
                                                       const RefineOptions& options,
@@ -43,11 +44,11 @@ struct UnevenLevel {
 struct MovedLevel {
     std::unique_ptr<AdaptiveMesh::State> state;
     Migration migration;
-    PlannedLevel plan;  ///< of that state's mesh, closed
+    PlannedLevel plan;  ///< a closed level of the mesh of `state`
 };
 
-/// Collective. The level, of a state in the order that it is in, with roots where they are to be.
-/// The state stays as it is.
+/// Collective. Migrates the roots of a state, in its current order, and begins the level on the
+/// result. `state` itself is unchanged.
 [[nodiscard]] MovedLevel moved_level(const AdaptiveMesh::State& state, const UnevenLevel& level,
                                      const RefineOptions& options, const Tuning& tuning);
 

@@ -10,7 +10,7 @@ namespace {
 
 struct WeighedParts {
     std::optional<EvenParts> parts;
-    std::uint64_t sum = 0;  ///< of all processes' weights
+    std::uint64_t sum = 0;  ///< sum over all processes
 };
 
 /// Collective.
@@ -26,7 +26,7 @@ WeighedParts weighed_parts(const DistributedMesh& mesh,
     return weighed;
 }
 
-/// Collective. Is any root more than one cell?
+/// Collective. Returns whether any root has more than one cell.
 bool has_heavy_roots(const DistributedMesh& mesh) {
     const bool here = mesh.cells.size() > mesh.cell_ancestors.roots.size();
     return mesh.processes.max(here ? 1 : 0) == 1;

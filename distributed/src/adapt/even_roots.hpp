@@ -15,10 +15,11 @@
 
 namespace octetra::distributed {
 
-/// Collective. Where each root of this process is to go, of a mesh in canonical order; nothing, on
-/// all processes, where the one that has most would not have less. Where roots are too heavy for
-/// what `balance` wants, and it allows that, cells become roots as long as `roots` lives. `weigh`
-/// tells the weights of the roots that there are. `known`: see CellsAsRoots. Throws alike.
+/// Collective. Returns the destination rank of each root of this process; nothing, on all
+/// processes, if the maximum load would not decrease. The mesh must be in canonical order. If roots
+/// are too heavy for `balance`, and it permits it, cells become roots while `roots` exists. `weigh`
+/// returns the weights of the current roots. For `known` see CellsAsRoots. Throws the same on all
+/// processes.
 [[nodiscard]] std::optional<std::vector<int>> even_parts_or_roots(
     DistributedMesh& mesh, const std::function<std::vector<std::uint64_t>()>& weigh,
     const BalanceOptions& balance, std::unique_ptr<CellsAsRoots>& roots,

@@ -8,7 +8,7 @@
 namespace octetra::distributed {
 namespace {
 
-/// With as much room, which an engine that has made it relies on.
+/// Returns a copy with the same capacity, which incremental levels rely on.
 template <class T>
 std::vector<T> copy_with_room(const std::vector<T>& list, bool is_wanted) {
     std::vector<T> copy;
@@ -30,7 +30,7 @@ ArraysLeft AdaptiveMesh::leave_arrays(const ArraysInUse& in_use) {
                     .edges = copy_with_room<EdgeVertices>(mesh.edges, in_use.edges),
                     .vertex_numbers = copy_with_room(numbers, in_use.vertex_numbers),
                     .roots = copy_with_room(roots, in_use.roots)};
-    // What was copied changes places with the copy, and keeps its place in memory.
+    // The original arrays, to which spans refer, are returned; the copies become the mesh's arrays.
     const auto leave = [](auto& list, auto& copy, bool is_wanted) {
         if (is_wanted) list.swap(copy);
     };

@@ -12,7 +12,7 @@
 namespace octetra::distributed {
 namespace {
 
-/// Passed over as a whole where no byte is set: long enough for the compiler's vectors.
+/// Size of blocks that are skipped if no byte is set: long enough for vector instructions.
 constexpr std::size_t block_size = 256;
 constexpr std::size_t word_size = sizeof(std::uint64_t);
 
@@ -50,7 +50,8 @@ MarkedCells marked_by_bytes(const DistributedMesh& mesh, std::span<const std::ui
                                      marks.size(), mesh.cells.size()));
     }
     MarkedCells marked;
-    // Few are marked where time matters: most blocks, and most words of others, have none.
+    // Performance matters if few cells are marked: most blocks, and most words of others, are
+    // empty.
     const std::size_t whole_blocks = marks.size() / block_size * block_size;
     for (std::size_t begin = 0; begin < whole_blocks; begin += block_size) {
         if (is_any_set(&marks[begin])) append_marked_of_block(marked, marks, begin);

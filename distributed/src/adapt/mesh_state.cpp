@@ -17,7 +17,7 @@
 namespace octetra::distributed {
 namespace {
 
-/// The numbers of a level's new vertices: taken back unless they are kept.
+/// The numbers of a level's new vertices; removed by the destructor unless they are kept.
 class NewNumbers {
 public:
     explicit NewNumbers(CanonicalNumbers& numbers)
@@ -37,7 +37,7 @@ private:
     std::uint64_t count_;
 };
 
-/// Before the level is committed.
+/// Describes a level; to be called before it is committed.
 Adaptation adaptation_of(PlannedLevel& plan, const DistributedMesh& mesh) {
     const std::size_t before = mesh.level_begin.back().value();
     const auto new_ends =

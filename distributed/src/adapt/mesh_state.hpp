@@ -14,73 +14,73 @@
 
 namespace octetra::distributed {
 
-/// An AdaptiveMesh from inside: the mesh, what is known of it, and how many steps it took. All
-/// that is collective throws alike on all processes, and changes nothing then.
+/// The implementation of AdaptiveMesh: the mesh, its numbering and sharing, and the number of
+/// steps. Collective functions throw the same on all processes and leave the state unchanged then.
 struct AdaptiveMesh::State {
     DistributedMesh mesh;
     CanonicalNumbers numbers;
     Sharing<VertexIndex> sharing;
-    int step_count = 0;        ///< those that were forgotten, too
+    int step_count = 0;        ///< including forgotten steps
     std::uint64_t waited = 0;  ///< see uneven_level()
-    /// Of each time that cells became roots what this process's part was before.
+    /// The history of this process's part before each time that cells became roots.
     std::vector<History> forgotten;
 
     State() = default;
-    /// Collective. Of a part that is as the input was.
+    /// Collective. Creates the state of an unrefined part.
     [[nodiscard]] static std::unique_ptr<State> make(DistributedMesh part);
 
-    /// Collective.
+    /// Collective. Performs a step.
     Adaptation refine(const std::function<MarkedCells()>& mark, const StepOptions& options,
                       const Tuning& tuning = {});
-    /// Collective. What a level of this mesh brings, once it is ready to be committed. The level is
-    /// committed then.
+    /// Collective. Commits a level that is ready to be committed, and returns its description.
     Adaptation take(PlannedLevel& plan);
-    /// For a profile, before the first level that is in it.
+    /// Records the number of cells before the first level of a profile.
     void note_cells_before_level() const;
-    /// Collective. For the part that `roots` have, before move_on().
+    /// Collective. Reserves capacity for the history that `roots` holds; called before move_on().
     void make_room_for_history();
-    /// Goes on as `after`, which is this state with cells that moved; `roots`, or null: they are
-    /// roots since.
+    /// Replaces *this by `after`, the state after migration. If `roots` is not null, cells have
+    /// become the roots, and the previous history is added to `forgotten`.
     void move_on(State&& after, std::unique_ptr<CellsAsRoots> roots) noexcept;
 };
 
 [[nodiscard]] RefineOptions level_options(const StepOptions& options);
 
-/// What a step that changes nothing did.
+/// Returns the description of a step that changes nothing.
 [[nodiscard]] Adaptation unchanged(const DistributedMesh& mesh);
-/// Of a move that leaves everything where it is.
+/// Returns a migration in which nothing moves.
 [[nodiscard]] Migration unmoved(const DistributedMesh& mesh);
 
-/// Collective. A step before which roots move, if processes would have too different numbers of
-/// cells.
+/// Collective. Performs a step, preceded by a migration of roots if the processes would have too
+/// different numbers of cells.
 [[nodiscard]] EvenStep refine_state_evenly(AdaptiveMesh::State& state,
                                            const std::function<MarkedCells()>& mark,
                                            const BalanceOptions& balance,
                                            const StepOptions& options, const Tuning& tuning = {});
 
-/// Collective. Lets marked cells go back by a generation.
+/// Collective. Coarsens marked cells by one generation.
 [[nodiscard]] Adaptation coarsen_state(AdaptiveMesh::State& state,
                                        const std::function<MarkedCells()>& mark,
                                        const Tuning& tuning = {});
 
-/// Collective. Each root of this process goes to the process named.
+/// Collective. Migrates each root of this process to the given rank.
 [[nodiscard]] Migration migrate_state(AdaptiveMesh::State& state,
                                       std::span<const int> rank_of_root);
 
-/// Collective. The state with each root of this process at the process named, of one in canonical
-/// order; each cell had the number that `cells_outside` says, or had the same if that is empty.
+/// Collective. Returns the state after the migration of each root of this process to the given
+/// rank. The mesh must be in canonical order; `cells_outside` has the number of each cell outside
+/// that order, or is empty if it is the same.
 [[nodiscard]] std::optional<AdaptiveMesh::State> moved_state(
     const AdaptiveMesh::State& state, std::span<const CellIndex> cells_outside,
     std::span<const int> rank_of_root, Migration& migration);
 
-/// Collective. The state of a mesh that has its history and nothing beyond it; in canonical order.
+/// Collective. Returns the state of a mesh that has only its history, in canonical order.
 [[nodiscard]] std::optional<AdaptiveMesh::State> state_of(DistributedMesh& mesh);
 
-/// Collective. Moves roots where processes have too different numbers of cells.
+/// Collective. Migrates roots if the processes have too different numbers of cells.
 [[nodiscard]] Migration rebalance_state(AdaptiveMesh::State& state, const BalanceOptions& options);
 
-/// Collective. The roots are what they were before cells became roots, if they ever did; the last
-/// time that they did is taken back.
+/// Collective. Restores the roots that the mesh had before cells became roots the last time, if
+/// they ever did.
 [[nodiscard]] Migration recall_history(AdaptiveMesh::State& state);
 
 }  // namespace octetra::distributed

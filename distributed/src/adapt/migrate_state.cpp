@@ -46,9 +46,9 @@ void check_ranks(const DistributedMesh& mesh, std::span<const int> rank_of_root)
     }
 }
 
-/// Collective. What stays and what comes, as one part that has no interfaces yet, and where the
-/// vertices of the input go. Nothing where this process has failed, and on all where one had
-/// before.
+/// Collective. Returns the roots that stay and those received, as one part without interfaces, and
+/// the destinations of the vertices of the input. Returns nothing if this process has failed, and
+/// on all processes if one had failed before.
 std::optional<MergedPart> move_roots(const AdaptiveMesh::State& state,
                                      std::span<const int> rank_of_root,
                                      std::vector<VertexDestination>& destinations,
@@ -57,7 +57,7 @@ std::optional<MergedPart> move_roots(const AdaptiveMesh::State& state,
     const Communicator& processes = mesh.processes;
     const Phase phase(processes, "move roots");
     const HasLists has(mesh);
-    std::optional<Departures> departures;  // made, even of nothing, it takes memory
+    std::optional<Departures> departures;  // not a default object, which would allocate
     std::optional<MergedPart> merged;
     std::vector<std::vector<std::byte>> outboxes;
     failure.attempt([&] {
@@ -80,13 +80,14 @@ std::optional<MergedPart> move_roots(const AdaptiveMesh::State& state,
     return merged;
 }
 
-/// What a part shares with others.
+/// The entities that a part shares with others.
 struct Border {
     std::vector<Interface> interfaces;
     Sharing<VertexIndex> sharing;
 };
 
-/// Collective. Of a part whose vertices have their numbers. sharing_of(mesh): of the input.
+/// Collective. Returns the border of a part whose vertices are numbered. sharing_of(mesh) returns
+/// the sharing of an input.
 std::optional<Border> find_border(const DistributedMesh& mesh, const CanonicalNumbers& numbers,
                                   auto&& sharing_of, LocalFailure& failure) {
     const Phase phase(mesh.processes, "find border");
@@ -232,7 +233,7 @@ Migration recall_history(AdaptiveMesh::State& state) {
     std::optional<AdaptiveMesh::State> after =
         moved_state(state, order->cells_before(), ranks, migration);
     bring_tagged_to_history(after->mesh, after->numbers.of_vertex, before);
-    std::optional<History> history;  // made, even of nothing, it takes memory
+    std::optional<History> history;  // not a default object, which would allocate
     failure.attempt([&] { history = joined(before, after->mesh); });
     failure.agree(state.mesh.processes);
     history->swap_with(after->mesh);

@@ -14,7 +14,7 @@
 namespace octetra::distributed {
 namespace {
 
-/// Collective. How many cells of this process were looked at.
+/// Collective. Returns the number of cells of this process that were processed.
 std::size_t bisect_and_commit(DistributedMesh& mesh, PlannedLevel& plan,
                               const RefineOptions& options, int level) {
     bisect_level(plan, mesh, options, level);
@@ -23,7 +23,8 @@ std::size_t bisect_and_commit(DistributedMesh& mesh, PlannedLevel& plan,
     return touched;
 }
 
-/// Collective. Moves roots first. Where anything fails, the mesh is as it was.
+/// Collective. Migrates roots, and bisects the level. On failure, only the order and the roots of
+/// the mesh may have changed.
 std::size_t move_and_bisect(DistributedMesh& mesh, UnevenLevel uneven, const RefineOptions& options,
                             const Tuning& tuning, int level) {
     uneven.keep_mesh();
@@ -59,7 +60,7 @@ SynchronisationCounts refine(DistributedMesh& mesh, const Selection& selection,
         const auto mark = [&] { return mark_cells(mesh, selection, level > 1); };
         of_level.is_last = options.is_last && level == options.levels;
         PlannedLevel plan = close_level(mesh, std::ref(mark), of_level, tuning);
-        if (!plan.changes_anything()) break;  // and so it would be at all further levels
+        if (!plan.changes_anything()) break;  // nor would any later level
         const SynchronisationCounts counts = plan.counts;
         std::optional<UnevenLevel> uneven;
         if (options.balance)

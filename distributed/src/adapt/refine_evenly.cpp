@@ -26,7 +26,7 @@ EvenStep refine_state_evenly(AdaptiveMesh::State& state, const std::function<Mar
     std::optional<UnevenLevel> uneven =
         uneven_level(state.mesh, plan, balance, level_of, tuning, state.waited, &state.numbers);
     if (!uneven) {
-        Migration nothing = unmoved(state.mesh);  // of the mesh as it is before the level
+        Migration nothing = unmoved(state.mesh);  // of the mesh before the level
         bisect_level(plan, state.mesh, level_of, level);
         return {std::move(nothing), state.take(plan)};
     }

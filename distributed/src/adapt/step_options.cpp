@@ -28,7 +28,7 @@ void check_same(const Communicator& processes, const StepOptions& options) {
 }
 
 void check_same(const Communicator& processes, const BalanceOptions& options) {
-    // First, as what is no number is not even the same as itself.
+    // NaN must be rejected first, since it differs from itself.
     processes.on_each([&] {
         if (options.most_over_mean >= 1) return;
         throw InputError(fmt::format(

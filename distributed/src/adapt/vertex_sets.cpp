@@ -24,7 +24,7 @@ namespace {
 
 using Flags = std::vector<std::uint8_t>;
 
-/// Collective. The flags that `mark` sets on any process that has the vertex.
+/// Collective. Returns the flags that `mark` sets on any sharer of the vertex.
 Flags flagged_anywhere(const AdaptiveMesh& mesh, const std::function<void(Flags&)>& mark) {
     Flags flags;
     LocalFailure failure;
@@ -38,7 +38,7 @@ Flags flagged_anywhere(const AdaptiveMesh& mesh, const std::function<void(Flags&
     return flags;
 }
 
-/// Sets the flags of the vertices of the entities that have this marker.
+/// Sets the flags of the vertices of the entities with this marker.
 template <std::size_t N>
 void flag_vertices(std::span<const std::array<VertexIndex, N>> entities,
                    const std::vector<Marker>& markers, Marker marker, Flags& flags) {
@@ -48,7 +48,7 @@ void flag_vertices(std::span<const std::array<VertexIndex, N>> entities,
     }
 }
 
-/// The groups with this name. Throws InputError where there is none.
+/// Returns the groups with this name. Throws InputError if there are none.
 std::vector<GroupName> groups_called(const AdaptiveMesh& mesh, std::string_view name) {
     std::vector<GroupName> found;
     std::vector<std::string> known;

@@ -11,7 +11,7 @@ namespace octetra::distributed {
 
 Pieces<4> FamilyDivision::operator()(std::uint32_t level, std::size_t root,
                                      const CellVertices& cell, const KeptMidpoints<4>& midpoints) {
-    std::array<VertexIndex, 10> vertices;  // by place
+    std::array<VertexIndex, 10> vertices;  // corners, then midpoints of edges
     std::ranges::copy(cell, vertices.begin());
     std::ranges::copy(midpoints, vertices.begin() + 4);
     unsigned edges = 0;

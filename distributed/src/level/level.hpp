@@ -79,8 +79,8 @@ public:
     return 0;
 }
 
-/// Returns the child with corners at these places, of a cell whose corners and midpoints are
-/// `vertices`, indexed by place.
+/// Returns the child of a cell with corners at the positions `places` of a pattern; `vertices` has
+/// the vertices of the cell at all positions: its corners, then the midpoints of its edges.
 [[nodiscard]] inline CellVertices child_of(const std::array<VertexIndex, 10>& vertices,
                                            const std::array<Place, 4>& places) {
     CellVertices child;

@@ -10,8 +10,8 @@
 
 namespace octetra::distributed {
 
-/// The cells at each vertex, ascending. Keeps a pointer to the mesh.
-/// Memory: 8 bytes per vertex and 16 per cell.
+/// The cells at each vertex, ascending. Keeps a pointer to the mesh. Memory: 8 bytes per vertex and
+/// 16 per cell.
 class VertexToCells {
 public:
     explicit VertexToCells(const Mesh& mesh)
@@ -20,7 +20,7 @@ public:
             for (const VertexIndex v : cell) ++begin_[v.value()];
         }
         std::inclusive_scan(begin_.begin(), begin_.end(), begin_.begin());
-        // Filled from behind, after which every beginning is where it belongs.
+        // Filled in reverse, which leaves each offset at the begin of its range.
         for (std::size_t c = mesh.cells.size(); c-- > 0;) {
             for (const VertexIndex v : mesh.cells[CellIndex{c}]) {
                 cells_[--begin_[v.value()]] = CellIndex{c};
@@ -32,8 +32,8 @@ public:
         return {cells_.data() + begin_[v.value()], cells_.data() + begin_[v.value() + 1U]};
     }
 
-    /// Calls found(c) for each cell c that has the edge. It is looked for at the end with fewer
-    /// cells: at a hub there may be thousands.
+    /// Calls found(c) for each cell c that has the edge. The search uses the end with fewer cells,
+    /// as the other may be a hub with thousands.
     void cells_at(const EdgeVertices& edge, auto&& found) const {
         const bool first_has_fewer = (*this)[edge[0]].size() < (*this)[edge[1]].size();
         const auto [few, many] = first_has_fewer ? edge : EdgeVertices{edge[1], edge[0]};

@@ -32,7 +32,7 @@ struct RemovedVertex {
 struct Adaptation {
     /// Whether anything changed on any process; the same on all.
     bool changed = false;
-    Succession cells;
+    Succession cells;   ///< the map of cells
     Succession facets;  ///< tagged ones
     Succession edges;   ///< tagged ones
     std::size_t vertex_count_before = 0;

@@ -35,7 +35,8 @@ namespace octetra::distributed {
 
 /// Options of a step, the same on all processes.
 struct StepOptions {
-    Scheme scheme = Scheme::eight;
+    Scheme scheme = Scheme::eight;  ///< the edges that a marked cell marks
+    /// Does not affect the result.
     Synchronisation synchronisation = Synchronisation::neighbour;
     /// A step after which the whole mesh would have more cells than this is refused.
     std::uint64_t max_cells = std::numeric_limits<std::uint64_t>::max();
@@ -48,7 +49,7 @@ struct StepOptions {
 
 /// The arguments of a step on one process.
 struct StepRequest {
-    std::span<const std::uint8_t> marks;
+    std::span<const std::uint8_t> marks;  ///< a byte for each cell, as for AdaptiveMesh::refine()
     StepOptions options;
 };
 
@@ -113,8 +114,8 @@ public:
     [[nodiscard]] static AdaptiveMesh from_parts(const Communicator& processes, MeshPart part);
     /// Collective. Loads a checkpoint that save() has written on any number of processes, with its
     /// history: all later operations have the same results as on the saved mesh. No process ever
-    /// holds more than its part, unless the partition method is not rcb. If `fields` is not null,
-    /// which must be the same on all processes, the saved fields are assigned to it.
+    /// holds more than its part, unless the partition method is not rcb. `fields` must be null on
+    /// all processes or on none; if it is not null, the saved fields are assigned to it.
     ///
     /// Throws InputError on all processes if the file is damaged or not a checkpoint, or if
     /// processes pass different partitions.
@@ -191,28 +192,39 @@ public:
     /// proportional to the part.
     [[nodiscard]] std::vector<std::uint32_t> root_of_cells() const;
 
+    /// The processes over which the mesh is distributed.
     [[nodiscard]] const Communicator& processes() const;
 
     // The part of this process. Spans are valid until the mesh is refined, coarsened or migrated. A
     // tagged facet or edge is on one process only, which has a cell with it: another process may
     // have its vertices without having the facet or edge.
+
+    /// The coordinates of each vertex of this process.
     [[nodiscard]] std::span<const Point> points() const;
+    /// The vertices of each cell of this process, in positive orientation, as local numbers.
     [[nodiscard]] std::span<const CellVertices> cells() const;
     /// Returns the region tag of each cell; empty if the input has none. Takes time proportional to
     /// the part.
     [[nodiscard]] std::vector<Marker> regions() const;
-    [[nodiscard]] std::span<const FacetVertices> facets() const;  ///< tagged ones
+    /// The vertices of each tagged facet of this process, as local numbers.
+    [[nodiscard]] std::span<const FacetVertices> facets() const;
+    /// Returns the marker of each tagged facet; empty if the input has none. Takes time
+    /// proportional to the part.
     [[nodiscard]] std::vector<Marker> facet_markers() const;
     /// Returns the vertices of the tagged facets in an order that orients them: the normal, by the
     /// right-hand rule, of a facet on the boundary of the whole mesh points outward; the vertices
     /// of a facet inside are ascending, as those of number_faces(). facets() has the order of the
     /// input and of files, which defines no orientation. Takes time proportional to the part.
     [[nodiscard]] std::vector<FacetVertices> oriented_facets() const;
-    [[nodiscard]] std::span<const EdgeVertices> edges() const;  ///< tagged ones
+    /// The vertices of each tagged edge of this process, as local numbers.
+    [[nodiscard]] std::span<const EdgeVertices> edges() const;
+    /// Returns the marker of each tagged edge; empty if the input has none. Takes time proportional
+    /// to the part.
     [[nodiscard]] std::vector<Marker> edge_markers() const;
     /// The nodal attributes of the input, attributes_per_vertex() for each vertex; a midpoint has
     /// the mean of the ends of its edge.
     [[nodiscard]] std::span<const double> vertex_attributes() const;
+    /// The number of nodal attributes of each vertex; 0 if the input has none.
     [[nodiscard]] std::size_t attributes_per_vertex() const;
 
     /// Preserves views of the part across a step: the mesh continues with copies of these arrays,

@@ -35,11 +35,14 @@ public:
     /// Creates the group of this process alone.
     Communicator();
 
+    /// The rank of this process, from 0 to size() - 1. Not collective.
     [[nodiscard]] int rank() const override;
+    /// The number of processes. Not collective.
     [[nodiscard]] int size() const override;
 
     /// The profile that records this process's phases and messages, or null. Copies share it.
     [[nodiscard]] Profile* profile() const { return profile_.get(); }
+    /// Returns the same group with this profile, or without one if it is null. Not collective.
     [[nodiscard]] Communicator with_profile(std::shared_ptr<Profile> profile) const;
 
     // ProcessGroup's functions by collective operations of MPI: a sum does not gather the terms on

@@ -67,7 +67,7 @@ struct GhostLayer {
         return values(processes, std::span<const T>(own), components);
     }
 
-    std::size_t own_cell_count = 0;
+    std::size_t own_cell_count = 0;  ///< number of cells of this process
 
 private:
     /// allocate() returns the buffer for the values of the ghosts; it is called once.

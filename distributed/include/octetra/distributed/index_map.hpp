@@ -17,7 +17,7 @@ struct IndexMap {
     /// Local numbers of the entities of this process: first those that it owns, ascending, then the
     /// copies, by the rank of their owner.
     std::vector<I> entities;
-    std::size_t owned_count = 0;
+    std::size_t owned_count = 0;  ///< number of entities that this process owns
     /// The owner of each copy, entities[owned_count + k].
     std::vector<int> copy_owners;
     /// The number of each entity of this process in this numbering, by local number.

@@ -18,7 +18,7 @@ struct MeshPart {
     /// The vertices that this process knows, in any order: all vertices of its cells, and possibly
     /// others. Processes that list the same vertex must agree on its properties.
     std::vector<std::uint64_t> vertex_numbers;
-    std::vector<Point> points;
+    std::vector<Point> points;          ///< coordinates of these vertices
     std::vector<Marker> point_markers;  ///< or empty
     std::size_t attributes_per_point = 0;
     std::vector<double> point_attributes;  ///< attributes_per_point for each vertex

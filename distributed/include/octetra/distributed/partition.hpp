@@ -61,6 +61,8 @@ struct PartitionStatistics {
     std::uint64_t cut_longest_edge_links = 0;
 };
 
+/// Measures a partition of a mesh; `cell_to_part` has the part, 0 to parts-1, of each cell. Not
+/// collective.
 [[nodiscard]] PartitionStatistics measure_partition(const Mesh& mesh,
                                                     const std::vector<int>& cell_to_part,
                                                     int parts);

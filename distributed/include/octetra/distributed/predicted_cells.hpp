@@ -13,13 +13,15 @@ namespace octetra::distributed {
 /// The cells of a mesh before parts are distributed: each process has a contiguous share of them,
 /// in the order of the mesh.
 struct CellsToWeigh {
-    Communicator processes;
+    Communicator processes;               ///< that have the cells
     std::uint64_t first_number = 0;       ///< number in the whole mesh of this process's first cell
     std::span<const CellVertices> cells;  ///< of this process; vertices are positions in `points`
     std::span<const Point> points;
     std::span<const Marker> regions;  ///< one for each cell, or empty
 
+    /// The number of cells of this process.
     [[nodiscard]] std::size_t count() const { return cells.size(); }
+    /// Returns the corners of cell number i of this process.
     [[nodiscard]] Corners corners(std::size_t i) const {
         const auto& [a, b, c, d] = cells[i];
         return {points[a.value()], points[b.value()], points[c.value()], points[d.value()]};

@@ -13,7 +13,7 @@
 namespace octetra::distributed {
 
 struct ReadPartsOptions {
-    ReadOptions read;
+    ReadOptions read;  ///< as for read_mesh()
     /// Called on all processes with the properties of the mesh before it is distributed, possibly
     /// twice. May use collective functions; an exception must be thrown on all processes. May be
     /// empty.

@@ -20,8 +20,9 @@ enum class Synchronisation {
 };
 
 struct RefineOptions {
-    Scheme scheme = Scheme::eight;
-    int levels = 1;
+    Scheme scheme = Scheme::eight;  ///< the edges that a marked cell marks
+    int levels = 1;                 ///< number of levels
+    /// Does not affect the result.
     Synchronisation synchronisation = Synchronisation::neighbour;
     /// A level after which the whole mesh would have more cells than this is refused.
     std::uint64_t max_cells = std::numeric_limits<std::uint64_t>::max();

@@ -38,16 +38,19 @@ public:
         if (k == shared_.size()) return {};
         return std::span(ranks_).subspan(begin_[k], begin_[k + 1] - begin_[k]);
     }
+    /// Returns the rank that owns the entity.
     [[nodiscard]] int owner(I i) const {
         const std::size_t k = place_of(i);
         return k == shared_.size() ? rank_ : owners_[k];
     }
+    /// Returns whether this process owns the entity.
     [[nodiscard]] bool is_owned(I i) const { return owner(i) == rank_; }
 
     /// The processes that share entities with this one, ascending by rank.
     [[nodiscard]] const std::vector<SharedWith<I>>& neighbours() const { return neighbours_; }
     /// The entities that are shared with any process, ascending.
     [[nodiscard]] const std::vector<I>& shared() const { return shared_; }
+    /// The rank of this process.
     [[nodiscard]] int rank() const { return rank_; }
 
     friend bool operator==(const Sharing&, const Sharing&) = default;

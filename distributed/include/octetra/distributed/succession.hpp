@@ -33,7 +33,9 @@ public:
     /// A step that changes nothing.
     explicit Succession(std::size_t count = 0) : count_before_(count), count_(count) {}
 
+    /// The number of entities before the step.
     [[nodiscard]] std::size_t count_before() const { return count_before_; }
+    /// The number of entities after the step.
     [[nodiscard]] std::size_t count() const { return count_; }
 
     /// Returns whether all entities that were not bisected keep their numbers.

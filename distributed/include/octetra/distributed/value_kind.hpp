@@ -18,6 +18,7 @@ struct ValueKind {
     [[nodiscard]] std::size_t entry_size() const { return size * components; }
 };
 
+/// Returns the kind of `components` values of type T for each entity with an index of type I.
 template <class T, class I>
 [[nodiscard]] ValueKind kind_of(std::size_t components) {
     return {.type = &typeid(T), .size = sizeof(T), .components = components, .entity = &typeid(I)};

@@ -87,7 +87,7 @@ private:
             return;
         }
         const Pattern& pattern = *patterns_[place_of(c)];
-        std::array<VertexIndex, 10> vertices;  // by place
+        std::array<VertexIndex, 10> vertices;  // corners, then midpoints of edges
         std::ranges::copy(cell, vertices.begin());
         const auto& edges = numbering_->edges_of(c);
         for (std::size_t e = 0; e < 6; ++e) vertices[4 + e] = (*midpoints_)[edges[e]];

@@ -149,7 +149,7 @@ RoundingFailure IncrementalLevel::bisect_cells(std::size_t cell_count) {
 
 std::array<CellVertices, 8> IncrementalLevel::children_of(
     const IncrementalClosure::Note& note) const {
-    std::array<VertexIndex, 10> vertices;  // by place
+    std::array<VertexIndex, 10> vertices;  // corners, then midpoints of edges
     std::ranges::copy(mesh_->cells[note.cell], vertices.begin());
     for (std::size_t e = 0; e < 6; ++e) {
         if ((note.marked >> e & 1U) != 0) vertices[4 + e] = midpoints_[note.edges[e]];

@@ -11,8 +11,7 @@
 namespace octetra::distributed {
 
 /// Returns the vertices of this process that are removed, of the mesh before their removal.
-/// `in_place`: the cells of the mesh have the numbers that the succession of `part` uses. Not
-/// collective.
+/// `in_place`: the cells of the mesh have the numbers that part.cells uses. Not collective.
 [[nodiscard]] std::vector<RemovedVertex> removed_vertices(const DistributedMesh& mesh,
                                                           const KeptVertices& kept,
                                                           const CoarserPart& part, bool in_place);

@@ -31,7 +31,7 @@ public:
     EdgeNumbering(std::size_t vertex_count, const IndexVector<CellIndex, CellVertices>& cells,
                   std::vector<CellIndex> of);
 
-    /// The number of edges, including the number of other edges if there is one.
+    /// The end of the edge numbers, including the one that denotes other edges, if any.
     [[nodiscard]] EdgeIndex end_index() const {
         return EdgeIndex{std::size_t{begin_.back()} + (has_all() ? 0U : 1U)};
     }
@@ -42,14 +42,14 @@ public:
         return has_all() ? CellIndex{k} : of_[k];
     }
 
-    /// The edges of a cell, in the order of cell_edges. For a cell that is not in the set, all six
-    /// are the number of other edges.
+    /// The edges of a cell, in the order of cell_edges. For a cell outside the set, all six are the
+    /// number that denotes other edges.
     [[nodiscard]] const std::array<EdgeIndex, 6>& edges_of(CellIndex cell) const {
         return rows_[has_all() ? cell.value() : cell_to_row_[cell]];
     }
 
-    /// Returns the edge between two vertices. If it is not in the numbering, returns the number of
-    /// other edges, or none() if the set is all cells.
+    /// Returns the edge between two vertices. If it has no number of its own, returns the one that
+    /// denotes other edges, or none() if the set is all cells.
     [[nodiscard]] EdgeIndex find(VertexIndex a, VertexIndex b) const {
         const VertexIndex low = std::min(a, b);
         const VertexIndex high = std::max(a, b);

@@ -33,8 +33,8 @@ struct UnevenLevel {
 /// Collective. Returns nothing on all processes if the closed level is to be bisected without
 /// migration, because it is even enough or would not become more so; otherwise undoes the level.
 /// `waited`: the sum over uneven levels since the last migration of the cells by which the most
-/// loaded process exceeded the mean, while the others were idle; this level adds to it. `known`: the
-/// global numbers of the mesh's vertices, or null.
+/// loaded process exceeded the mean, while the others were idle; this level adds to it. `known`:
+/// the global numbers of the mesh's vertices, or null.
 [[nodiscard]] std::optional<UnevenLevel> uneven_level(DistributedMesh& mesh, PlannedLevel& plan,
                                                       const BalanceOptions& balance,
                                                       const RefineOptions& options,

@@ -6,9 +6,9 @@
 
 namespace octetra::distributed {
 
-/// While one of these lives, processes begin every collective function by asking each other whether
-/// one has failed. So one that has failed, wherever that was, can answer the question that the
-/// others will ask next, and need not know which function they are in: those throw OthersFailed.
+/// While a Watch exists, every collective function begins with a reduction by which the processes
+/// check whether one of them has failed. A failed process calls answer() to take part in the next
+/// such reduction, without knowing which function the others are calling; they throw OthersFailed.
 class Communicator::Watch {
 public:
     explicit Watch(const Communicator& processes);
@@ -18,18 +18,18 @@ public:
     Watch(Watch&&) = delete;
     Watch& operator=(Watch&&) = delete;
 
-    /// Answers once, instead of a collective function or after the last.
+    /// Takes part in one such reduction, instead of a collective function or after the last one.
     void answer(bool has_failed) const noexcept;
 
 private:
     const Communicator* processes_;
 };
 
-/// Collective. Does work with collective functions in it, in the midst of which one process may
-/// fail while others go on. Whatever fails is thrown on all processes, as by LocalFailure, which
-/// may be used in the work, too: that one has failed is known to all of its exchanges. What the
-/// work has begun must be undone by destructors, without collective functions. It must not use
-/// send() and receive().
+/// Collective. Calls `work`, which calls collective functions and may fail on one process while
+/// others continue. A failure on any process is thrown on all, as by LocalFailure. `work` may use
+/// LocalFailure as well: every exchange in it reports a failed process. Destructors must undo the
+/// effects of an unfinished `work`, without collective functions. `work` must not call send() and
+/// receive().
 void all_or_none(const Communicator& processes, auto&& work) {
     LocalFailure failure;
     {

@@ -17,7 +17,7 @@
 namespace octetra::distributed {
 namespace {
 
-/// A name that nobody else uses or guesses.
+/// Draws a file name that is unique and cannot be guessed.
 std::vector<std::uint32_t> draw_name() {
     std::random_device lots;
     return {lots(), lots(), lots(), lots()};
@@ -36,7 +36,7 @@ int open_common_lock(const Communicator& processes) {
     const int lock =
         no_folder ? -1
                   : ::open(path.c_str(), O_RDWR | O_CREAT | O_NOFOLLOW | O_CLOEXEC, for_its_owner);
-    (void)processes.sum(0);  // all have opened it
+    (void)processes.sum(0);  // all processes have opened the file
     ::unlink(path.c_str());
     return lock;
 }
@@ -46,10 +46,11 @@ bool is_first_to_take(int lock) {
     while (::flock(lock, LOCK_EX) != 0) {
         if (errno != EINTR) return true;
     }
-    // That somebody had it must outlive him: it is in the length of the file.
+    // The claim must persist after its holder exits: it is recorded in the length of the file.
     struct stat file {};
     if (::fstat(lock, &file) == 0 && file.st_size > 0) return false;
-    (void)!::ftruncate(lock, 1);  // takes no space; were it to fail, others would speak, too
+    // allocates no disk space; if it failed, other processes would claim, too
+    (void)!::ftruncate(lock, 1);
     return true;
 }
 

@@ -2,17 +2,17 @@
 
 #include <octetra/distributed/communicator.hpp>
 
-/// A lock that the processes of a group on one machine have in common. It takes neither messages
-/// nor memory to be taken, so also a process that is out of memory can, while others wait for it
-/// elsewhere. When its holder ends, in whatever way, nobody waits for it any more.
+/// A lock that the processes of a communicator on one machine share. Taking it needs neither
+/// messages nor memory, so a process that is out of memory can take it while others wait elsewhere.
+/// The system releases it when its holder exits for any reason.
 namespace octetra::distributed {
 
-/// Collective. The descriptor of the lock, which leaves no file behind; -1 if the system gives
-/// none.
+/// Collective. Returns the file descriptor of the lock, -1 if the system provides none. No file is
+/// left behind.
 [[nodiscard]] int open_common_lock(const Communicator& processes);
 
-/// True for the first process to ask, and where there is no lock. All others hear false, when that
-/// one has ended.
+/// Returns true to the first caller, and to every caller if there is no lock. The other callers
+/// block until that process has ended, and receive false.
 [[nodiscard]] bool is_first_to_take(int lock);
 
 }  // namespace octetra::distributed

@@ -57,7 +57,7 @@ Communicator::Watch::~Watch() {
 
 void Communicator::Watch::answer(bool has_failed) const noexcept {
     if (!processes_->mpi_) return;
-    // Not measured, which may take memory.
+    // Not profiled, because a profile entry may allocate.
     (void)reduced(has_failed ? 1 : 0, MPI_MAX, processes_->mpi_->comm, nullptr);
 }
 
@@ -154,7 +154,7 @@ Communicator communicator_of(MPI_Comm comm) {
     std::shared_ptr<Communicator::Mpi> group;
     try {
         group = std::make_shared<Communicator::Mpi>(comm);
-    } catch (const std::bad_alloc&) {  // is thrown below, on all processes
+    } catch (const std::bad_alloc&) {  // thrown below, on all processes
     }
     if (!Communicator::Mpi::give_duplicate(comm, group.get())) throw std::bad_alloc();
     return Communicator(std::move(group));
@@ -166,7 +166,7 @@ MPI_Comm comm_of(const Communicator& processes) {
 
 namespace {
 
-/// Did mpirun, or srun, start this process? Starting MPI otherwise would only cost time.
+/// Returns whether mpirun or srun started this process; otherwise initialising MPI only costs time.
 bool was_started_in_parallel() {
     constexpr std::array<const char*, 3> told_by{"OMPI_COMM_WORLD_SIZE", "PMIX_RANK", "PMI_RANK"};
     return std::ranges::any_of(told_by, [](const char* n) { return std::getenv(n) != nullptr; });
@@ -185,7 +185,7 @@ bool MpiSession::is_first_to_fail() const { return is_first_to_take(lock_); }
 
 void MpiSession::abort(int status) {
     MPI_Abort(MPI_COMM_WORLD, status);
-    std::_Exit(status);  // not reached; MPI_Abort is not declared not to return
+    std::_Exit(status);  // not reached; MPI_Abort is not declared [[noreturn]]
 }
 
 MpiSession::~MpiSession() {

@@ -11,7 +11,7 @@ namespace {
 
 constexpr Tags exchange_tags{.whole = 1, .size = 2, .piece = 3};
 
-/// `size` lives until sending is over.
+/// `size` must live until the send completes.
 void send_all(Sending& sending, std::span<const std::byte> outbox, const std::uint64_t& size,
               int receiver) {
     if (size <= most_bytes) {
@@ -21,7 +21,7 @@ void send_all(Sending& sending, std::span<const std::byte> outbox, const std::ui
     send_pieces(sending, outbox, receiver, exchange_tags.piece);
 }
 
-/// Of one sender, messages come in the order in which they were sent, so the next one is the first
+/// Messages of one sender arrive in the order in which they were sent, so the next one is the first
 /// of this exchange, whatever its tag.
 void receive_all(const Communicator::Mpi& group, int sender, auto&& allocate) {
     receive_from(group, wait_for_message(group.comm, sender, MPI_ANY_TAG), exchange_tags, allocate);

@@ -18,11 +18,11 @@ namespace {
 
 enum class Kind : std::uint8_t { out_of_memory, bad_input, system_failed };
 
-/// A failure that can be sent, by a process that may have no memory.
+/// A failure in a form that a process without memory can send.
 struct Words {
     Kind kind = Kind::out_of_memory;
-    int rank = 0;                   ///< that has no memory
-    std::array<char, 4096> what{};  ///< ends with a zero
+    int rank = 0;                   ///< the rank that is out of memory
+    std::array<char, 4096> what{};  ///< terminated by a zero
 
     void take(Kind of, const char* text) {
         kind = of;
@@ -30,7 +30,8 @@ struct Words {
     }
 };
 
-/// Of the process `rank`, which may have heard of it from another.
+/// Describes the failure of process `rank`. OutOfMemory keeps the rank that it was first reported
+/// for.
 Words words_of(const std::exception_ptr& failure, int rank) {
     Words words{.rank = rank};
     if (!failure) return words;
@@ -57,7 +58,8 @@ void Communicator::on_each(const std::function<void()>& work) const {
     failure.agree(*this);
 }
 
-/// From a process that has failed nothing comes, which nobody may take for what it has to say.
+/// A failed process sends nothing. The others must not take its missing messages for empty ones, so
+/// they check for failures before the messages are used.
 std::vector<Communicator::Bytes> Communicator::exchange(std::vector<Bytes> to_each) const {
     if (mpi_ && mpi_->is_watched) {
         std::vector<Bytes> come = all_to_all(to_each);
@@ -71,7 +73,8 @@ std::vector<Communicator::Bytes> Communicator::exchange(std::vector<Bytes> to_ea
     return come;
 }
 
-/// Whole calls of all, which know how to bring little to many: messages to each would be as many.
+/// Calls MPI_Allgatherv, which scales better than a message to each process; only above 2^31 bytes
+/// in all, where its counts overflow, messages are used.
 std::vector<Communicator::Bytes> Communicator::of_all(Bytes bytes) const {
     std::vector<Bytes> all;
     if (!mpi_) {

@@ -12,20 +12,20 @@
 
 namespace octetra::distributed {
 
-/// How the parts of what one process sends to another are told from each other.
+/// Tags of the messages that together transfer one outbox.
 struct Tags {
-    int whole;  ///< of all that there is, if it is no more than most_bytes
-    int size;   ///< of a message that tells how many bytes the next ones bring, where it is more
-    int piece;  ///< of those next ones: most_bytes each, the last one the rest
+    int whole;  ///< the whole outbox, if it has at most most_bytes
+    int size;   ///< otherwise first its size in bytes
+    int piece;  ///< and then its bytes in messages of most_bytes; the last one has the rest
 };
 
-/// How many messages it takes.
+/// Returns the number of messages that transfer an outbox.
 inline std::size_t message_count(std::span<const std::byte> outbox) {
     if (outbox.size() <= most_bytes) return 1;
     return 1 + (outbox.size() + most_bytes - 1) / most_bytes;
 }
 
-/// The requests of sends under way, for which there is room from the beginning.
+/// The pending sends of this process; the caller provides memory for their requests.
 class Sending {
 public:
     Sending(MPI_Comm comm, const Communication& communication, std::span<MPI_Request> room)
@@ -35,7 +35,7 @@ public:
         communication_->count_message(size);
         MPI_Isend(data, static_cast<int>(size), MPI_BYTE, receiver, tag, comm_, &room_[count_++]);
     }
-    /// The send is over when the receiver has begun to receive, and no sooner.
+    /// The send completes only after the receiver has begun to receive.
     void send_synchronously(const void* data, std::size_t size, int receiver, int tag) {
         communication_->count_message(size);
         MPI_Issend(data, static_cast<int>(size), MPI_BYTE, receiver, tag, comm_, &room_[count_++]);
@@ -65,7 +65,7 @@ inline void send_pieces(Sending& sending, std::span<const std::byte> outbox, int
     }
 }
 
-/// A message that has come and is yet to be received.
+/// A message that was matched by a probe and has not been received.
 struct Arrived {
     MPI_Message message = MPI_MESSAGE_NULL;
     MPI_Status status;
@@ -86,7 +86,8 @@ inline Arrived wait_for_message(MPI_Comm comm, int sender, int tag) {
     return arrived;
 }
 
-/// Receives what `first` begins to where allocate(size) says, or nowhere where that is null.
+/// Receives the transfer that begins with `first` into the buffer that allocate(size) returns, or
+/// discards it if that is null.
 inline void receive_from(const Communicator::Mpi& group, Arrived first, const Tags& tags,
                          auto&& allocate) {
     const auto place = [&](std::byte* inbox) {

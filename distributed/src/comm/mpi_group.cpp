@@ -8,14 +8,14 @@
 namespace octetra::distributed {
 namespace {
 
-/// All duplicates that this process has a part in.
+/// All duplicated communicators that this process belongs to.
 struct Duplicates {
     std::mutex mutex;
     std::list<Duplicate> all;
     std::uint64_t last_number = 0;
 };
 
-/// Never destroyed, as static Communicators may outlive any static object.
+/// Never destroyed, because static Communicators may outlive any static object.
 Duplicates& duplicates() {
     static auto& kept = *new Duplicates;
     return kept;
@@ -28,10 +28,10 @@ bool is_idle(const Duplicate& duplicate, MPI_Comm original) {
     return result == MPI_IDENT || result == MPI_CONGRUENT;
 }
 
-/// Numbers of duplicates, 0 where there is none. The first is that of a new one.
+/// Numbers of duplicates, 0 in unused entries. Entry 0 is the number for a new duplicate.
 using Offer = std::array<std::uint64_t, 16>;
 
-/// The duplicate that the first process proposes to use.
+/// Returns the duplicates that the first process proposes to reuse.
 Offer make_offer(MPI_Comm original) {
     Duplicates& kept = duplicates();
     const std::lock_guard lock(kept.mutex);
@@ -64,8 +64,8 @@ bool Communicator::Mpi::give_duplicate(MPI_Comm original, Mpi* group) {
     if (group != nullptr && group->rank == 0) offer = make_offer(original);
     MPI_Bcast(offer.data(), static_cast<int>(offer.size()), MPI_UINT64_T, 0, original);
 
-    // Other threads may be here with other communicators: what is offered is taken, until all
-    // processes have said what they can take.
+    // Other threads may execute this with other communicators. Offered duplicates are therefore
+    // reserved until all processes have stated which of them they can use.
     Duplicates& kept = duplicates();
     std::array<Duplicate*, std::tuple_size_v<Offer>> taken{};
     Offer is_taken{group != nullptr ? 1U : 0U};

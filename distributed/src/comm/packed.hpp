@@ -7,7 +7,7 @@
 #include <type_traits>
 #include <vector>
 
-/// Lists of several kinds as the bytes of one message, and back.
+/// Packs lists of several types into the bytes of one message, and unpacks them.
 namespace octetra::distributed {
 
 class Packer {
@@ -35,7 +35,8 @@ private:
     std::vector<std::byte> bytes_;
 };
 
-/// Takes what was put, in the same order. The bytes are another process's of this program.
+/// Returns the lists in the order in which they were put. The bytes must be those of a Packer of
+/// this program on any process.
 class Unpacker {
 public:
     explicit Unpacker(std::span<const std::byte> bytes) : rest_(bytes) {}

@@ -9,20 +9,20 @@
 
 namespace octetra::distributed {
 
-/// Numbers that processes reduce, and with them whether one has failed: one call of all tells both.
-/// The memory is there from the beginning, so that who has failed takes part.
+/// Numbers that processes reduce together with a failure flag in one reduction. The memory is
+/// allocated by the constructor, so a process that has failed can take part.
 class ReducedNumbers {
 public:
     explicit ReducedNumbers(std::size_t most) { numbers_.reserve(most + 1); }
 
-    /// So many zeros, `most` at most, for one reduction.
+    /// Returns `count` zeros for one reduction; `count` is at most `most`.
     [[nodiscard]] std::span<std::uint64_t> zeros(std::size_t count) noexcept {
         numbers_.assign(count + 1, 0);
         return std::span(numbers_).first(count);
     }
 
-    /// Collective. Each of the last zeros(), as they now are, becomes the sum, or the greatest, of
-    /// those at its place on all processes. False, on all alike, where one has failed.
+    /// Collective. Replaces each element of the last zeros() by its sum (maximum) over all
+    /// processes. Returns false on all processes if one has failed.
     [[nodiscard]] bool sum(const Communicator& processes, const LocalFailure& failure) {
         numbers_.back() = failure.found() ? 1 : 0;
         processes.sum(std::span(numbers_));

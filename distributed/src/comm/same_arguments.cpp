@@ -7,7 +7,7 @@
 namespace octetra::distributed {
 namespace {
 
-/// Collective. The values differ; throws InputError.
+/// Collective. Throws InputError with the first difference; the values are known to differ.
 void throw_difference(const Communicator& processes, std::string_view name,
                       const std::string& own) {
     std::vector<char> of_first;
@@ -30,7 +30,8 @@ void agree_on_same(const Communicator& processes, LocalFailure& failure, std::st
                    const std::function<std::string()>& value) {
     std::string own;
     failure.attempt([&] { own = value(); });
-    // All hashes are equal if the greatest is the least, which is found as the greatest complement.
+    // All hashes are equal if the maximum equals the minimum, which is the complement of the
+    // maximal complement.
     constexpr std::uint64_t greatest = LocalFailure::somewhere - 1;
     const std::uint64_t hash = std::hash<std::string>()(own) / 2;
     std::array<std::uint64_t, 2> extremes{hash, greatest - hash};

@@ -10,9 +10,9 @@
 
 namespace octetra::distributed {
 
-/// Collective. Throws on all processes what has failed on one, as failure.agree() does, and
-/// InputError, in the same words, unless all have the same `value` of the argument called `name`.
-/// Takes one reduction where nothing is wrong.
+/// Collective. Throws on all processes if one has failed, as failure.agree() does. Throws
+/// InputError, with the same message on all, unless all processes pass the same `value` of the
+/// argument `name`. Takes one reduction if nothing is wrong.
 void agree_on_same(const Communicator& processes, LocalFailure& failure, std::string_view name,
                    const std::function<std::string()>& value);
 

@@ -8,15 +8,15 @@
 
 #include "comm/messages.hpp"
 
-/// Hoefler, Siebert, Lumsdaine: Scalable communication protocols for dynamic sparse data exchange
-/// (2010), the protocol NBX. A process sends synchronously what it has, receives what comes, and
-/// enters a barrier, without waiting in it, when all that it has sent is being received. When all
-/// are in the barrier, nothing is under way.
+/// The NBX protocol of Hoefler, Siebert, Lumsdaine: Scalable communication protocols for dynamic
+/// sparse data exchange (2010). A process sends its messages synchronously, receives incoming ones,
+/// and enters a nonblocking barrier once all its sends have completed. When all processes have
+/// entered the barrier, no message is in transit.
 namespace octetra::distributed {
 namespace {
 
-/// A process may begin the next exchange while another has not yet left the barrier of this one,
-/// and no later one: two sets of tags tell exchanges apart.
+/// A process may begin the next exchange while another has not left the barrier of this one, but
+/// not the exchange after the next: two sets of tags distinguish them.
 Tags tags_of_exchange(unsigned number) {
     const int first = number % 2 == 0 ? 4 : 7;
     return {.whole = first, .size = first + 1, .piece = first + 2};
@@ -29,7 +29,7 @@ public:
           communication_(&communication),
           tags_(tags_of_exchange(group.sparse_exchanges++)) {}
 
-    /// Returns when all processes have what was sent to them.
+    /// Returns when this process has received everything that was sent to it.
     void run(Sending& sending, auto&& inbox_from) {
         while (!is_complete(sending)) {
             for (const int tag : {tags_.whole, tags_.size}) {
@@ -41,7 +41,7 @@ public:
             }
         }
     }
-    /// `size` lives until sending is over.
+    /// `size` must live until the send completes.
     void send(Sending& sending, std::span<const std::byte> outbox, const std::uint64_t& size,
               int receiver) const {
         if (size <= most_bytes) {

@@ -12,20 +12,20 @@
 
 namespace octetra::distributed {
 
-/// Collective. Throws on all processes what has failed on one, and InputError, in the same words,
-/// unless all pass values of the same kind. Takes one reduction where nothing is wrong.
+/// Collective. Throws on all processes if one has failed. Throws InputError, with the same message
+/// on all, unless all pass values of the same kind. Takes one reduction if nothing is wrong.
 void agree_on_kind(const Communicator& processes, LocalFailure& failure,
                    const detail::ValueKind& kind);
 
-/// Collective. After messages were received from `senders`: throws on all processes what has failed
-/// on one, where a process without memory has sent nothing; else InputError where a message has not
-/// the size that is expected.
+/// Collective. Checks the sizes of messages received from `senders`. Throws on all processes if one
+/// has failed (a process without memory has sent nothing), else InputError if a message does not
+/// have the expected size.
 void agree_on_sizes(const Communicator& processes, LocalFailure& failure,
                     std::span<const int> senders,
                     const std::vector<std::vector<std::byte>>& messages,
                     const std::function<std::size_t(std::size_t n)>& expected);
 
-/// Throws InputError unless process `sender` has sent as many bytes as this one expects.
+/// Throws InputError unless process `sender` has sent `expected` bytes.
 void check_message_size(const Communicator& processes, int sender, std::size_t size,
                         std::size_t expected);
 

@@ -15,7 +15,8 @@
 namespace octetra::distributed {
 namespace {
 
-/// Collective. Gives all the lists that the first process has read, without values but there.
+/// Collective. Sends the headers of the lists that the first process has read to the others, whose
+/// shares of the values are empty.
 void tell_of_lists(const Communicator& processes, std::vector<FieldRows>& lists) {
     std::vector<std::uint64_t> told;
     for (const FieldRows& list : lists) {
@@ -31,12 +32,14 @@ void tell_of_lists(const Communicator& processes, std::vector<FieldRows>& lists)
         const std::uint64_t fields = told[at + 2];
         at += 3;
         for (std::uint64_t f = 0; f < fields; ++f) list.components.push_back(told[at++]);
-        list.first = list.count;  // behind all that the first process has
+        // the share begins at the end, so the first process has all values
+        list.first = list.count;
         lists.push_back(std::move(list));
     }
 }
 
-/// Collective. Every process reads its share, or else the first one all.
+/// Collective. Every process reads its share of the file; if the format does not allow that, the
+/// first process reads it all.
 SolFields read_lists(const Communicator& processes, const std::filesystem::path& path,
                      const EntityCounts& counts) {
     if (processes.size() > 1) {
@@ -52,7 +55,7 @@ SolFields read_lists(const Communicator& processes, const std::filesystem::path&
     return alone;
 }
 
-/// One field of those whose values stand row by row in `rows`.
+/// Returns field `number` of a list, whose values are stored row by row in `rows`.
 Field field_of_rows(const FieldRows& list, const std::vector<double>& rows, std::size_t number,
                     std::size_t first_component) {
     const std::size_t components = list.components[number];

@@ -13,9 +13,9 @@
 
 namespace octetra::distributed {
 
-/// Collective. The fields of a file of Medit's on this process's part of a mesh in canonical order;
-/// see AdaptiveMesh::read_fields(). `cells_before` are the numbers by which the cells' values are
-/// to go, if not by this order.
+/// Collective. Returns the fields of a Medit file on this process's part of a mesh in canonical
+/// order; see AdaptiveMesh::read_fields(). If the values of cells are to be in another order,
+/// `cells_before` maps canonical local indices to it; otherwise it is empty.
 [[nodiscard]] std::vector<Field> read_fields(const DistributedMesh& mesh,
                                              std::span<const CellIndex> cells_before,
                                              const CanonicalNumbers& numbers,

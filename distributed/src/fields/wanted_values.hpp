@@ -14,29 +14,29 @@
 
 namespace octetra::distributed {
 
-/// What this process wants the values of: its vertices, or its cells.
+/// The vertices or cells whose values this process requests.
 struct WantedEntities {
-    std::vector<std::uint64_t> numbers;  ///< ascending, in the whole mesh
-    std::vector<std::uint32_t> local;    ///< and by this process's numbers
+    std::vector<std::uint64_t> numbers;  ///< global numbers, ascending
+    std::vector<std::uint32_t> local;    ///< local indices of the same entities
 };
 [[nodiscard]] WantedEntities wanted_vertices(const CanonicalNumbers& numbers);
-/// `runs` and the ancestors are those of the cells in canonical order; `cells_before` are the
-/// numbers by which the values are to go, if not by this order.
+/// `runs` and `ancestors` are those of the cells in canonical order. `cells_before` maps canonical
+/// local indices to the indices of the values; if it is empty, they are the same.
 [[nodiscard]] WantedEntities wanted_cells(const CanonicalRuns& runs, const AncestorMap& ancestors,
                                           std::span<const CellIndex> cells_before);
 
-/// What is wanted, and who has read it: all asked for.
+/// Requested entities, the owners of the blocks of values, and the requests sent to these owners.
 struct WantedValues {
     WantedEntities entities;
     Homes homes;
     Requests<> requests;
 };
-/// Collective.
+/// Collective. Sends the requests for `entities` to the owners in `homes`.
 [[nodiscard]] WantedValues ask_for(const Communicator& processes, WantedEntities entities,
                                    Homes homes);
 
-/// Collective. The values, `components` for each, by this process's numbers. `home` are those that
-/// this process has read.
+/// Collective. Returns the requested values by local index, `components` for each entity. `home`
+/// are the values that this process has read.
 template <class T>
 [[nodiscard]] std::vector<T> fetch_values(const Communicator& processes, const WantedValues& wanted,
                                           const std::vector<T>& home, std::size_t components) {

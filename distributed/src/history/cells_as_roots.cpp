@@ -11,7 +11,7 @@
 namespace octetra::distributed {
 namespace {
 
-/// Every entity is its own root.
+/// Returns the ancestors of a mesh in which every entity is its own root, numbered by `runs`.
 AncestorMap own_roots(const AncestorMap& ancestors, const CanonicalRuns& runs) {
     AncestorMap own;
     own.roots.reserve(ancestors.first.back());
@@ -28,8 +28,8 @@ AncestorMap own_roots(const AncestorMap& ancestors, const CanonicalRuns& runs) {
     return own;
 }
 
-/// Collective. The markers of this process's vertices as all that share them know them: a midpoint
-/// that is shared is at the end of a shared edge.
+/// Collective. Returns the markers of this process's vertices, agreed on by all sharers: a shared
+/// midpoint is an end of a shared edge, so the interfaces reach it.
 std::vector<Marker> settled_markers(const DistributedMesh& mesh) {
     std::vector<MidpointMarker> known;
     const bool has_markers = !mesh.input_vertex_markers.empty() || !mesh.midpoint_markers.empty();
@@ -66,7 +66,8 @@ std::vector<Marker> settled_markers(const DistributedMesh& mesh) {
     return markers;
 }
 
-/// Collective. What has the features, by its numbers now: of each list this process has a share.
+/// Collective. Returns this process's share of each list of entities with features, by current
+/// global number.
 SharedFeatures features_now(const DistributedMesh& mesh, FeatureSlices slices) {
     if (!mesh.features) return nullptr;
     const auto size = static_cast<std::uint64_t>(mesh.processes.size());

@@ -7,13 +7,13 @@
 
 namespace octetra::distributed {
 
-/// A mesh as an input of its own for as long as this lives: its cells, tagged facets and edges are
-/// roots, and it has no history. Then it is again as it was, unless it is to be kept so; see
+/// Makes a mesh an input for its lifetime: its cells, tagged facets and edges become roots, and its
+/// history is set aside. The destructor restores the history, unless keep() was called; see
 /// recall_history.hpp.
 ///
-/// A root's descendants stand together in the canonical order, and vertices come before those that
-/// are made of them. So all numbers are what they were, and what is refined from here on gets those
-/// that it would have got; only where it comes from is forgotten.
+/// The descendants of a root are contiguous in the canonical order, and a vertex precedes the
+/// midpoints derived from it. Therefore all numbers are unchanged, and further refinement assigns
+/// the same numbers as without this; only the origin of the entities is set aside.
 class CellsAsRoots {
 public:
     CellsAsRoots() = default;
@@ -23,11 +23,11 @@ public:
     CellsAsRoots(CellsAsRoots&&) = delete;
     CellsAsRoots& operator=(CellsAsRoots&&) = delete;
 
-    /// Collective. From now on. The mesh must be in canonical order, and stay so. `known`: the
-    /// numbers of its vertices, or null. What fails on one process throws alike on all; the mesh is
-    /// then as it was.
+    /// Collective. The mesh must be in canonical order, and stay so. `known`: the global numbers of
+    /// its vertices, or null. A failure of one process is thrown on all; the mesh is then
+    /// unchanged.
     void begin(DistributedMesh& mesh, const CanonicalNumbers* known);
-    /// The mesh stays so. What it has not any more.
+    /// Makes the change permanent and returns the history that was set aside.
     [[nodiscard]] History keep() noexcept;
 
 private:

@@ -13,7 +13,7 @@
 namespace octetra::distributed {
 namespace {
 
-/// The descendants of a root, one after the other.
+/// Iterates over the descendants of a root.
 class Descendants {
 public:
     Descendants(const DistributedMesh& mesh, std::size_t root)

@@ -11,26 +11,26 @@
 
 namespace octetra::distributed {
 
-/// The cells that the steps of a history cut, one step after the other, as marks to refine by. A
-/// mesh in no order stays so: only the descendants of roots that are cut are looked at.
+/// Converts the steps of a history, one after the other, to marks for refinement. Also works on a
+/// mesh that is not in canonical order; only the descendants of roots that are cut are visited.
 class CutMarks {
 public:
     explicit CutMarks(CutRoots cuts);
 
-    /// Does the next step cut every cell of this process at all six edges?
+    /// Returns whether the next step cuts every cell of this process at all six edges.
     [[nodiscard]] bool next_is_uniform(const DistributedMesh& mesh) const;
-    /// The next step, of a mesh that all before it have been done to. Throws InputError where it
-    /// tells of more or fewer cells than a root has become.
+    /// Returns the marks of the next step, for a mesh to which all steps before have been applied.
+    /// Throws InputError if the step records more or fewer cells than a root has descendants.
     [[nodiscard]] MarkedCells next(const DistributedMesh& mesh);
-    /// The next step, which is known to be uniform.
+    /// Returns the marks of the next step, which must be uniform.
     [[nodiscard]] MarkedCells next_of_all(const DistributedMesh& mesh);
 
 private:
-    /// The next step's bytes of a cut root; the step after begins behind them.
+    /// Returns the bytes of the next step of cut root `k` and advances beyond them.
     std::span<const std::uint8_t> take(std::size_t k);
 
     CutRoots cuts_;
-    std::vector<std::size_t> at_;  ///< of each root the byte that its next step begins with
+    std::vector<std::size_t> at_;  ///< for each cut root, the offset of its next step
 };
 
 }  // namespace octetra::distributed

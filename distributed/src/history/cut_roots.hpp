@@ -7,25 +7,26 @@
 
 #include <octetra/core/cut_runs.hpp>
 
-/// Steps are lists of cells; what goes from process to process, and into a file's block, is what
-/// they did to roots (cells of the input) and their descendants.
+/// Converts between two forms of a history. Steps are lists over the cells; messages between
+/// processes and blocks of a file group them by root instead.
 namespace octetra::distributed {
 
-/// What all steps did to one root: for each step the number of bytes, and runs; no bytes where all
-/// its cells stayed whole. Empty for a root that was never cut.
+/// The patterns of all steps for one root and its descendants: for each step the number of bytes,
+/// and the runs; zero bytes if the step left all its cells whole. Empty for a root that was never
+/// cut.
 using RootBytes = std::span<const std::uint8_t>;
 
-/// What steps did to a process's roots, which go by their places.
+/// The patterns of a process's roots, by local index of the root.
 struct CutRoots {
     struct Root {
         std::uint32_t place = 0;
         std::uint32_t bytes = 0;
     };
-    std::vector<Root> roots;          ///< those that were cut at all
-    std::vector<std::uint8_t> bytes;  ///< what was done to one, and then the next: see RootBytes
+    std::vector<Root> roots;          ///< the roots that were cut in any step
+    std::vector<std::uint8_t> bytes;  ///< their RootBytes, one after the other
 };
 
-/// Steps apart by root. `Runs` has at_end() and next(), as CutReader has.
+/// Splits steps by root. `Runs` has at_end() and next(), as CutReader has.
 template <class Runs>
 class RootsApart {
 public:
@@ -33,7 +34,7 @@ public:
         for (Runs& step : steps) cursors_.push_back({std::move(step), {}});
     }
 
-    /// Appends the next root's bytes; returns how many cells it has become.
+    /// Appends the next root's bytes; returns the number of its descendants after the last step.
     std::uint64_t append_next(std::vector<std::uint8_t>& bytes) {
         std::uint64_t cells = 1;
         const std::size_t begin = bytes.size();
@@ -57,7 +58,7 @@ public:
         if (!is_cut) bytes.resize(begin);
         return cells;
     }
-    /// Passes over roots that were never cut.
+    /// Skips `count` roots that were never cut.
     void skip_whole(std::uint64_t count) {
         for (Cursor& step : cursors_) step.take(count, [](Cut, std::uint64_t) {});
     }
@@ -81,13 +82,13 @@ private:
     CutRuns root_;
 };
 
-/// And together again, root by root.
+/// Joins the bytes of roots to steps, the inverse of RootsApart.
 class RootsTogether {
 public:
     explicit RootsTogether(std::size_t step_count) : steps_(step_count) {}
 
     void append_whole(std::uint64_t roots) { whole_ += roots; }
-    /// Of a root that was cut. Returns how many cells it has become.
+    /// Appends a root that was cut; returns the number of its descendants after the last step.
     std::uint64_t append(RootBytes root) {
         flush();
         std::uint64_t cells = 1;
@@ -126,8 +127,8 @@ private:
     std::uint64_t whole_ = 0;
 };
 
-/// Steps over all cells of a part, apart by its roots; those of root r are first[r] .. first[r+1]-1
-/// after the last step, as an AncestorMap has it.
+/// Splits steps over all cells of a part by its roots. The descendants of root r after the last
+/// step are first[r] .. first[r + 1] - 1, as in an AncestorMap.
 [[nodiscard]] inline CutRoots cut_roots_of(std::span<const CutRuns> steps,
                                            std::span<const std::uint32_t> first) {
     std::vector<CutReader> readers;

@@ -14,30 +14,31 @@
 
 namespace octetra::distributed {
 
-/// Reads the history off a list in canonical order (of cells, tagged facets or edges: N vertices
-/// each): siblings stand together there, so one pass over the list finds all families, a family
-/// after those of its members, up to the roots.
+/// Reconstructs the history from a list in canonical order, of cells, tagged facets or edges (N
+/// vertices each). Siblings are contiguous there apart from descendants of other siblings, so one
+/// pass over the list finds all families, each after those of its members, up to the roots.
 ///
-/// A child has one new vertex for each time that its parent was halved for it, so its share in the
-/// parent is known from itself; a family whose shares make up the whole has all its members. What
-/// stands between members of a family is what became of another member later.
+/// A child has one new vertex for each bisection of its parent that produced it, so its fraction of
+/// the parent follows from its vertices alone; a family is complete when the fractions sum to the
+/// whole. Entries between two members of a family are descendants of another member.
 template <std::size_t N, class Note>
 class Families {
 public:
     using Vertices = std::array<VertexIndex, N>;
 
-    /// Of a family, or a root.
+    /// A member of a family, or a root.
     struct Member {
         Vertices vertices;
         Note note;
     };
 
-    /// `levels` must outlive this.
+    /// `levels` must outlive this object.
     explicit Families(const VertexLevels& levels) : levels_(&levels) {}
 
-    /// Takes the next of the list. Calls parent_met(level, parent, members) for each family that
-    /// this one completes, which gives the parent's note; `level` is the one that divided it, and
-    /// the members are in canonical order. Calls root_met(root, note) where a root is complete.
+    /// Processes the next entity of the list. Calls parent_met(level, parent, members) for each
+    /// family that it completes; the result is the parent's note, `level` is the level that divided
+    /// the parent, and the members are in canonical order. Calls root_met(root, note) when a root
+    /// is complete.
     void add(const Vertices& vertices, Note note, auto&& parent_met, auto&& root_met) {
         Member next{vertices, note};
         for (std::uint32_t level = levels_->newest(next.vertices); level > 0;
@@ -59,11 +60,12 @@ public:
         root_met(std::as_const(next.vertices), next.note);
     }
 
-    /// As many as a family has whose parent's edges were all bisected.
+    /// The number of members of a family whose parent had all edges bisected.
     static constexpr unsigned whole = 1U << (N - 1);
 
-    /// Are the next of the list such a family, with nothing between its members? Then one may add
-    /// their parent in their stead. Sooner told than by adding them. `level` made the first.
+    /// Returns whether the entities `next` are such a family, complete and contiguous. If so, the
+    /// caller may add their parent in place of them, which is faster than adding each. `level` is
+    /// the level that made the first one.
     [[nodiscard]] bool are_family(std::span<const Vertices, whole> next,
                                   std::uint32_t level) const {
         if (level == 0 || (!open_.empty() && open_.back().level == level)) return false;
@@ -77,7 +79,8 @@ public:
         }
         return are;
     }
-    /// At each position, its corner is the oldest.
+    /// Returns the parent of such a family: at each position, the parent's corner has the lowest
+    /// index.
     [[nodiscard]] static Vertices parent_of(std::span<const Vertices, whole> family) {
         Vertices parent = family[0];
         for (const Vertices& vertices : family) {
@@ -90,7 +93,7 @@ private:
     struct Open {
         std::uint32_t level;
         unsigned shares;
-        std::size_t begin;  ///< of its members
+        std::size_t begin;  ///< index of its first member
     };
 
     static unsigned count_new(const Vertices& vertices, VertexIndex first_new) {
@@ -98,7 +101,8 @@ private:
         for (const VertexIndex v : vertices) count += v >= first_new ? 1U : 0U;
         return count;
     }
-    /// A corner stays at its position in every child that has it, and each is in some.
+    /// A corner keeps its position in every child that has it, and each corner is in at least one
+    /// child.
     static Vertices parent_of(std::span<const Member> members, VertexIndex first_new) {
         Vertices parent;
         for (const Member& member : members) {
@@ -110,11 +114,11 @@ private:
     }
 
     const VertexLevels* levels_;
-    std::vector<Open> open_;  ///< each within the one before
+    std::vector<Open> open_;  ///< each nested in the one before
     std::vector<Member> members_;
 };
 
-/// The edge of a cell, facet or tagged edge that has these ends.
+/// Returns the local index of the edge with these ends in a cell, facet or tagged edge.
 template <std::size_t N>
 [[nodiscard]] std::size_t edge_between(const std::array<VertexIndex, N>& vertices,
                                        const EdgeVertices& ends) {
@@ -122,7 +126,7 @@ template <std::size_t N>
         return static_cast<std::size_t>(std::ranges::find(vertices, v) - vertices.begin());
     };
     const auto [i, j] = std::minmax({position(ends[0]), position(ends[1])});
-    return i * (2 * N - i - 1) / 2 + (j - i - 1);  // they are in lexicographic order
+    return i * (2 * N - i - 1) / 2 + (j - i - 1);  // edges are in lexicographic order
 }
 
 }  // namespace octetra::distributed

@@ -7,7 +7,8 @@
 
 namespace octetra::distributed {
 
-/// All that a mesh tells of where it comes from: what is left out of one whose cells are roots.
+/// The members of a DistributedMesh that record its origin; a mesh whose cells are roots lacks
+/// them.
 struct History {
     std::vector<GlobalVertex> input_vertices;
     std::vector<Marker> input_vertex_markers;

@@ -15,7 +15,7 @@ struct Stretch {
     std::uint64_t end = 0;
 };
 
-/// To each home the stretches of its numbers that this process had.
+/// Returns for each owner of a block of numbers the ranges of this process's numbers in that block.
 std::vector<std::vector<Stretch>> stretches_at_homes(const CanonicalRuns& runs,
                                                      const AncestorMap& ancestors,
                                                      const Homes& homes, int process_count) {
@@ -47,7 +47,8 @@ void check(bool fits) {
     if (!fits) throw std::logic_error("roots are not where their history is");
 }
 
-/// The ancestors of entities whose roots are the entities that `before` is the map of.
+/// Returns the map to the roots of `before` for descendants of its entities, which are the roots of
+/// `since`.
 AncestorMap composed(const AncestorMap& before, const AncestorMap& since) {
     check(since.roots.size() == before.first.back());
     AncestorMap both = before;

@@ -8,20 +8,20 @@
 
 #include "history/history.hpp"
 
-/// How a mesh whose cells became roots gets back what it was before: roots go to where they were
-/// cells then, where that part of the history is that they come from, and there they are
-/// descendants again. Tagged facets and edges do the same: they went with any cell that has them.
+/// Restores the history of a mesh whose cells became roots: the roots return to the processes on
+/// which they were cells, because their history is there, and become descendants again. Tagged
+/// facets and edges return likewise, since they may have migrated with any cell that has them.
 namespace octetra::distributed {
 
-/// Collective. Of each of these roots the process on which it was an entity. `before`: those that
-/// this process had, as descendants of the roots before. What fails on one process throws alike on
+/// Collective. Returns for each of the `roots` the process that had it as an entity. `before` are
+/// the ancestors of this process's entities at that time. A failure of one process is thrown on
 /// all.
 [[nodiscard]] std::vector<int> ranks_of_roots(const Communicator& processes,
                                               const AncestorMap& before,
                                               const std::vector<std::uint64_t>& roots);
 
-/// The history of a mesh whose roots are back: what this process had before, and what it has since.
-/// Not collective.
+/// Returns the history of a mesh whose roots have returned: the levels of `before` followed by
+/// those of `mesh`. Not collective.
 [[nodiscard]] History joined(const History& before, const DistributedMesh& mesh);
 
 }  // namespace octetra::distributed

@@ -11,16 +11,16 @@
 
 namespace octetra::distributed {
 
-/// Collective. Plans the next step of a history, of a mesh as it was before the step; level number
-/// `level`, for messages. Nothing is closed, and of what is shared nothing is told. Throws as
+/// Collective. Plans the next step of a history, on the mesh as it was before that step. `level` is
+/// the number of the level in messages. Computes no closure and exchanges no marks. Throws as
 /// plan_level() does.
 [[nodiscard]] PlannedLevel plan_step(DistributedMesh& mesh, CutMarks& history, const Tuning& tuning,
                                      int level);
 
-/// Collective. Cuts the cells of a part of the input step by step as its history of so many steps
-/// says, which gives every number and bit that refinement gave; all parts together. Nothing is
-/// closed, and of what is shared nothing is told. Throws as refine() does; the mesh is then what
-/// the steps before made.
+/// Collective. Refines the part of the input by the first `step_count` steps of its history, on all
+/// processes together. The result has the same numbers and bits as the original refinement.
+/// Computes no closure and exchanges no marks. Throws as refine() does; the mesh then has the steps
+/// before the failed one.
 void replay(DistributedMesh& mesh, CutRoots history, std::size_t step_count,
             const Tuning& tuning = {});
 

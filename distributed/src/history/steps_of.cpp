@@ -16,7 +16,7 @@ namespace {
 struct Nothing {};
 using CellFamilies = Families<4, Nothing>;
 
-/// The edges of the parent that were bisected for its children.
+/// Returns the edges of the parent that were bisected to make its children.
 EdgeMask bisected(const CellVertices& parent, std::span<const CellFamilies::Member> children,
                   VertexIndex first_new, const VertexLevels& levels) {
     if (children.size() == 8) return all_edges;
@@ -29,9 +29,9 @@ EdgeMask bisected(const CellVertices& parent, std::span<const CellFamilies::Memb
     return static_cast<EdgeMask>(edges);
 }
 
-/// The steps of a tree of cells whose families are met one after the other. Before a step there are
-/// the cells that some earlier one made and no earlier one cut; those left of a cell that the step
-/// cuts are met before it, and those right of it after it.
+/// Accumulates the steps of a tree of cells from its families in order of completion. A step
+/// applies to the cells that earlier steps made and no earlier step cut; those to the left of a
+/// cell that the step cuts are visited before it, those to the right after it.
 class Steps {
 public:
     explicit Steps(std::size_t count) : runs_(count), written_(count, 0), counts_(count + 1) {}
@@ -42,7 +42,7 @@ public:
         ++counts_[level].cut;
         ++written_[level - 1];
     }
-    /// A cell that `level` made has been met, and all that became of it.
+    /// Records that a cell made by `level` has been visited with all its descendants.
     void met(std::uint32_t level) { ++counts_[level].made; }
 
     [[nodiscard]] std::vector<CutRuns> finish() && {
@@ -59,23 +59,24 @@ private:
         std::uint64_t cut = 0;
     };
 
-    /// Those that have been met since the last one that the step cut.
+    /// Appends, as whole, the cells visited since the last one that the step cut.
     void write_whole(std::uint32_t level) {
         std::uint64_t there = 0;
         for (std::uint32_t before = 0; before < level; ++before) {
             there += counts_[before].made - counts_[before].cut;
         }
-        // Of cells that were met, so are the ancestors cut; this level's own are still there.
+        // The cut ancestors of visited cells have been recorded; cells that this level cut are not
+        // yet.
         runs_[level - 1].append(0, there - written_[level - 1]);
         written_[level - 1] = there;
     }
 
     std::vector<CutRuns> runs_;
-    std::vector<std::uint64_t> written_;  ///< cells of each step so far
-    std::vector<Counts> counts_;          ///< by level, from 0
+    std::vector<std::uint64_t> written_;  ///< for each step, the cells written so far
+    std::vector<Counts> counts_;          ///< indexed by level, from 0
 };
 
-/// Ancestors of which each is its own and only descendant.
+/// Returns a map with the same roots, each its own only descendant.
 AncestorMap undivided(const AncestorMap& ancestors) {
     AncestorMap roots{.roots = ancestors.roots, .first = {}, .markers = ancestors.markers};
     roots.first.resize(roots.roots.size() + 1);
@@ -83,8 +84,8 @@ AncestorMap undivided(const AncestorMap& ancestors) {
     return roots;
 }
 
-/// A corner stays at its position in every child that has it, and where there is another vertex,
-/// that is a newer one: at each position, the root's corner is the oldest of all descendants.
+/// A corner keeps its position in every child that has it, and a child's other vertices are newer:
+/// at each position, the root's corner is the oldest of all descendants.
 template <class I, std::size_t N>
 IndexVector<I, std::array<VertexIndex, N>> roots_of(
     const IndexVector<I, std::array<VertexIndex, N>>& list, const AncestorMap& ancestors) {

@@ -7,14 +7,14 @@
 
 namespace octetra::distributed {
 
-/// The history of a part in canonical order: for each level how it cut the cells that there were
-/// before, all of them in their canonical order. Nothing of it is kept while a mesh is refined: a
-/// vertex tells which level made it, and which edge it halves. Takes time in proportion to the
-/// part, and to the levels for each cell that was cut. Not collective.
+/// Returns the history of a part in canonical order: for each level, the patterns of all cells that
+/// existed before it, in their canonical order. The history is not stored during refinement; it is
+/// derived from the vertices, whose levels and parent edges are known. Takes time proportional to
+/// the size of the part plus the number of levels for each cut cell. Not collective.
 [[nodiscard]] std::vector<CutRuns> steps_of(const DistributedMesh& mesh);
 
-/// The same part as the input was: its cells, tagged facets and edges with their ancestors, and the
-/// vertices with what they have. It has no interfaces, so it cannot be refined.
+/// Returns the part as it was in the input: cells, tagged facets and edges with their ancestors,
+/// and vertices with attributes and markers. It has no interfaces and cannot be refined.
 [[nodiscard]] DistributedMesh input_of(const DistributedMesh& mesh);
 
 }  // namespace octetra::distributed

@@ -23,13 +23,14 @@ struct MovedRoot {
     Marker marker = 0;
 };
 
-/// A vertex of what has become of a root. Who has no facet or edge at it may not know its marker.
+/// A vertex of a root's descendant. A process without a tagged entity at the vertex may not know
+/// its marker, so the marker is sent as well.
 struct MovedVertex {
     GlobalVertex number{};
     MidpointMarker known;
 };
 
-/// The marker of a vertex that has come counts where it tells more.
+/// Adopts the received marker of a midpoint if it has priority over the known one.
 void learn_marker(DistributedMesh& mesh, VertexIndex v, const MidpointMarker& told) {
     const std::size_t input_count = mesh.input_vertices.size();
     if (v.value() < input_count) return;
@@ -37,7 +38,7 @@ void learn_marker(DistributedMesh& mesh, VertexIndex v, const MidpointMarker& to
     if (tells_more(told, known)) known = told;
 }
 
-/// One of a mesh's lists of tagged entities.
+/// Moves the entities of one list of tagged facets or edges.
 template <class I, std::size_t N>
 class TaggedMove {
 public:
@@ -54,7 +55,7 @@ public:
           has_vertex_markers_(!mesh.input_vertex_markers.empty() ||
                               !mesh.midpoint_markers.empty()) {}
 
-    /// Collective; one that fails throws on its own.
+    /// Collective. A process that fails throws without the others.
     void move(const std::vector<int>& rank_of_root) {
         const Communicator& processes = mesh_->processes;
         const auto stays = [&](int rank) { return rank == processes.rank(); };
@@ -68,7 +69,7 @@ public:
         }
         const auto roots_come = processes.all_to_all(roots);
         Vertices vertices_come = processes.all_to_all(vertices);
-        LocalFailure().agree(processes);  // else some may be missing
+        LocalFailure().agree(processes);  // otherwise messages may be missing
         merge(rank_of_root, in_order(roots_come, std::move(vertices_come)));
     }
 
@@ -91,7 +92,7 @@ private:
         }
     }
 
-    /// What has come, by number.
+    /// Returns the received roots, sorted by global number.
     [[nodiscard]] std::vector<Arrival> in_order(
         const std::vector<std::vector<MovedRoot>>& roots_come, Vertices vertices_come) {
         vertices_come_ = std::move(vertices_come);

@@ -7,10 +7,10 @@
 
 namespace octetra::distributed {
 
-/// Collective. Tagged facets and edges go, with all that has become of them, to the processes on
-/// which they were before they were roots. Their cells must be there already. `numbers` are those
-/// of the mesh's vertices; `before` is what this process had. What fails on one process throws
-/// alike on all; the mesh is not to be used then.
+/// Collective. Moves tagged facets and edges, with all their descendants, to the processes that had
+/// them before they became roots. Their cells must be there already. `numbers` are the global
+/// numbers of the mesh's vertices; `before` is this process's history from that time. A failure of
+/// one process is thrown on all; the mesh must not be used afterwards.
 void bring_tagged_to_history(DistributedMesh& mesh,
                              const IndexVector<VertexIndex, GlobalVertex>& numbers,
                              const History& before);

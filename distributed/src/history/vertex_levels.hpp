@@ -11,8 +11,8 @@
 
 namespace octetra::distributed {
 
-/// Which level made a vertex, counted from 1; 0: it is the input's. Looks at the mesh it is made
-/// of, which must not change meanwhile.
+/// Maps a vertex to the level that made it, counted from 1; 0 for input vertices. Refers to the
+/// mesh, which must not change during the lifetime of this object.
 class VertexLevels {
 public:
     explicit VertexLevels(const DistributedMesh& mesh)
@@ -26,29 +26,31 @@ public:
         if (v >= begins_[last - 1]) return static_cast<std::uint32_t>(last);
         return static_cast<std::uint32_t>(std::ranges::upper_bound(begins_, v) - begins_.begin());
     }
-    /// The level of the newest of them: of a cell's vertices, that which made the cell.
+    /// Returns the level of the newest vertex; for the vertices of a cell, the level that made the
+    /// cell.
     template <std::size_t N>
     [[nodiscard]] std::uint32_t newest(const std::array<VertexIndex, N>& vertices) const {
         return of(newest_of(vertices));
     }
-    /// The same, sooner found where it is the level that is guessed.
+    /// Same as above, faster if the result is `guess`.
     template <std::size_t N>
     [[nodiscard]] std::uint32_t newest(const std::array<VertexIndex, N>& vertices,
                                        std::uint32_t guess) const {
         const VertexIndex v = newest_of(vertices);
         return begin(guess) <= v && v < end(guess) ? guess : of(v);
     }
-    /// The first vertex that this level made, or would have.
+    /// Returns the first vertex that this level made; if it made none, the first that it would have
+    /// made.
     [[nodiscard]] VertexIndex begin(std::uint32_t level) const {
         return level == 0 ? VertexIndex{0} : begins_[level - 1];
     }
-    /// The first vertex that a later level made, or none().
+    /// Returns the first vertex that a later level made, or none().
     [[nodiscard]] VertexIndex end(std::uint32_t level) const {
         return level == begins_.size() ? VertexIndex::none() : begins_[level];
     }
     [[nodiscard]] std::uint32_t count() const { return static_cast<std::uint32_t>(begins_.size()); }
 
-    /// The ends of the edge that a midpoint halves, lower first.
+    /// Returns the ends of the edge that the midpoint halves, lower index first.
     [[nodiscard]] const EdgeVertices& ends(VertexIndex midpoint) const {
         return ends_[midpoint.value() - first_midpoint_];
     }

@@ -12,7 +12,7 @@
 namespace octetra::distributed {
 namespace {
 
-/// Owned entities and copies, without numbers.
+/// Returns the map with owned entities first, then copies; global numbers are not yet set.
 template <class I>
 IndexMap<I> owned_first(const Sharing<I>& sharing, std::size_t entity_count) {
     IndexMap<I> map;
@@ -33,7 +33,7 @@ IndexMap<I> owned_first(const Sharing<I>& sharing, std::size_t entity_count) {
     return map;
 }
 
-/// Collective. 0, and the sums of the counts of ranks 0 .. r for each r.
+/// Collective. Returns 0 followed by the inclusive prefix sums of the counts over the ranks.
 std::vector<std::uint64_t> running_sums(const Communicator& processes, std::uint64_t count) {
     std::vector<std::uint64_t> sums{0};
     ProcessGroup::Bytes bytes(sizeof count);

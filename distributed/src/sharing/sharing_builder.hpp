@@ -12,7 +12,8 @@
 
 namespace octetra::distributed {
 
-/// Which of the processes that have an entity owns it; `ranks` ascending, this one among them.
+/// Returns the owner among the `ranks` that have an entity: a hash of its global number selects it.
+/// `ranks` is ascending and includes this rank.
 [[nodiscard]] inline int owner_of(std::uint64_t number, std::span<const int> ranks) {
     std::uint64_t h = number + 0x9e3779b97f4a7c15U;  // splitmix64
     h = (h ^ h >> 30U) * 0xbf58476d1ce4e5b9U;
@@ -20,19 +21,21 @@ namespace octetra::distributed {
     return ranks[(h ^ h >> 31U) % ranks.size()];
 }
 
-/// Adds entities to a Sharing: first prepared, which may fail and changes nothing, then committed.
+/// Adds entities to a Sharing in two phases: prepare() may throw and changes nothing, commit()
+/// cannot fail.
 template <class I>
 class SharingBuilder {
 public:
     SharingBuilder(Sharing<I>& sharing, int rank) : sharing_(&sharing) { sharing.rank_ = rank; }
 
-    /// With this rank; `entities` in an order that both sides know. Each rank at most once.
+    /// Adds entities shared with `rank`, in an order that both ranks know. At most one call for
+    /// each rank.
     void share(int rank, std::vector<I> entities) {
         if (!entities.empty()) added_.push_back({rank, std::move(entities), {}, {}});
     }
 
-    /// Once all is told. All added entities have greater numbers than those that are there;
-    /// `number_of(i)` is the global number.
+    /// Computes owners and reserves memory, after the last share(). All added entities have greater
+    /// local indices than those already in the Sharing; number_of(i) is the global number.
     void prepare(auto&& number_of) {
         struct Entry {
             I entity;

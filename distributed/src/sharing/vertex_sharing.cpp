@@ -11,7 +11,7 @@ namespace octetra::distributed {
 Sharing<VertexIndex> find_vertex_sharing(const DistributedMesh& mesh,
                                          std::span<const std::uint8_t> may_be_shared) {
     LocalFailure failure;
-    std::optional<Sharing<VertexIndex>> sharing;  // made, even of nothing, it takes memory
+    std::optional<Sharing<VertexIndex>> sharing;  // construction allocates, even of an empty one
     std::optional<SharingBuilder<VertexIndex>> builder;
     std::vector<std::array<std::uint64_t, 1>> keys;
     std::vector<VertexIndex> vertex_of;
@@ -28,7 +28,7 @@ Sharing<VertexIndex> find_vertex_sharing(const DistributedMesh& mesh,
     if (mesh.processes.size() == 1) return *std::move(sharing);
     const auto sharers = find_sharers(mesh.processes, keys, failure);
     failure.attempt([&] {
-        // By key, so the vertices of each process ascend, here as there.
+        // Ordered by key, so both sides list the vertices of a pair of ranks in the same order.
         std::map<int, std::vector<VertexIndex>> by_rank;
         for (const Sharer& s : sharers) by_rank[s.rank].push_back(vertex_of[s.key]);
         for (auto& [rank, vertices] : by_rank) builder->share(rank, std::move(vertices));

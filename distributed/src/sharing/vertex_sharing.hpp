@@ -8,9 +8,9 @@
 
 namespace octetra::distributed {
 
-/// Collective. Who has the vertices of a mesh that is still as the input was. A vertex stays on the
-/// processes that it is on, whatever is refined; what is added are midpoints of shared edges.
-/// `may_be_shared` says of each vertex whether another process has it, if that is known already.
+/// Collective. Finds the sharers of the vertices of a mesh without levels. Refinement never changes
+/// the ranks that have a vertex; it only adds midpoints of shared edges. `may_be_shared` states for
+/// each local vertex whether another process has it, if that is known; empty if not.
 [[nodiscard]] Sharing<VertexIndex> find_vertex_sharing(
     const DistributedMesh& mesh, std::span<const std::uint8_t> may_be_shared = {});
 

@@ -11,9 +11,9 @@
 namespace octetra::distributed {
 namespace {
 
-/// The vertices that other processes have too, ascending. A midpoint is shared where its edge was,
-/// and its halves are then; what is shared at a single vertex is the input's, of which
-/// `input_sharing` tells.
+/// Returns the vertices that other processes have, too, ascending. A shared midpoint is an end of a
+/// shared edge, one of the halves of its own edge, so the interfaces have it. Vertices that are
+/// shared without a shared edge are input vertices, which `input_sharing` has.
 std::vector<VertexIndex> shared_vertices_of(const DistributedMesh& mesh,
                                             const Sharing<VertexIndex>& input_sharing) {
     std::vector<VertexIndex> shared = input_sharing.shared();
@@ -73,7 +73,7 @@ CanonicalNumbers canonical_numbers(const DistributedMesh& mesh) {
         numbers = input_numbers(mesh);
         numbers.of_vertex.reserve(mesh.points.size());
     });
-    // All processes have as many levels.
+    // All processes have the same number of levels.
     for (std::size_t level = 0; level < mesh.level_begin.size(); ++level) {
         const VertexIndex end = level + 1 < mesh.level_begin.size() ? mesh.level_begin[level + 1]
                                                                     : mesh.points.end_index();

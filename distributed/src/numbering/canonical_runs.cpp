@@ -8,8 +8,7 @@
 namespace octetra::distributed {
 namespace {
 
-/// Roots meet at a process that their number decides: the first has the first block of numbers, and
-/// so on.
+/// Distributes root numbers to rendezvous processes in blocks of equal size, in the order of ranks.
 struct Blocks {
     std::uint64_t size = 0;
 
@@ -21,16 +20,16 @@ struct Blocks {
     [[nodiscard]] std::uint64_t begin_of(std::size_t rank) const { return size * rank; }
 };
 
-/// Roots of one process that follow each other in their block and have as many descendants each.
+/// A run of consecutive roots of one process in a block with equal numbers of descendants.
 struct Alike {
-    std::uint32_t first;  ///< of them, by its place in the block
+    std::uint32_t first;  ///< first root, relative to the begin of the block
     std::uint32_t count;
-    std::uint32_t descendants;  ///< of each
+    std::uint32_t descendants;  ///< of each root
 
     [[nodiscard]] std::uint64_t entities() const { return std::uint64_t{count} * descendants; }
 };
 
-/// Of this process's roots those of each block; as roots are ascending, one after the other.
+/// Returns this process's roots, grouped by block; the roots are ascending.
 std::vector<std::vector<Alike>> roots_of_blocks(const AncestorMap& ancestors, const Blocks& blocks,
                                                 std::size_t process_count) {
     std::vector<std::vector<Alike>> of_blocks(process_count);
@@ -54,12 +53,13 @@ std::vector<std::vector<Alike>> roots_of_blocks(const AncestorMap& ancestors, co
     return of_blocks;
 }
 
-/// Of what all processes have of a block: the number of the first descendant of all that are alike,
-/// where those of the whole block are numbered from `next` on.
+/// Returns, for each run in a block, received from each process, the number of its first
+/// descendant. The numbers of the block start with `next`.
 std::vector<std::vector<std::uint64_t>> numbers_in_block(
     const std::vector<std::vector<Alike>>& from_each, std::uint64_t next) {
     std::vector<std::vector<std::uint64_t>> numbers(from_each.size());
-    std::vector<std::pair<std::uint32_t, std::size_t>> waiting;  // a heap: first root, rank
+    // a heap of pairs (first root, rank)
+    std::vector<std::pair<std::uint32_t, std::size_t>> waiting;
     const auto wait = [&](std::size_t rank) {
         const std::size_t k = numbers[rank].size();
         if (k == from_each[rank].size()) return;
@@ -116,7 +116,7 @@ CanonicalRuns canonical_runs(const Communicator& processes, const AncestorMap& a
 std::pair<std::size_t, std::size_t> local_range(const CanonicalRuns& runs,
                                                 const AncestorMap& ancestors, std::uint64_t begin,
                                                 std::uint64_t end) {
-    // The first of this process's entities that is not numbered below.
+    // The local index of this process's first entity whose number is at least `number`.
     const auto local_from = [&](std::uint64_t number) -> std::size_t {
         const auto after = std::ranges::upper_bound(runs.begin, number);
         if (after == runs.begin.begin()) return 0;

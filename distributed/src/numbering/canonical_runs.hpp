@@ -9,22 +9,22 @@
 
 namespace octetra::distributed {
 
-/// Where a kind of entity stands in the canonical order: roots in the order of the input, and in
-/// their place their descendants.
+/// Positions of entities of one kind in the canonical order, in which the roots are in input order
+/// and each root is replaced by its descendants.
 struct CanonicalRuns {
     /// The number of the first descendant of each of this process's roots.
     std::vector<std::uint64_t> begin;
-    std::uint64_t count = 0;  ///< entities of all processes
+    std::uint64_t count = 0;  ///< of entities of all processes
 };
 
-/// Collective. A root is one process's only.
+/// Collective. Every root must be on exactly one process.
 [[nodiscard]] CanonicalRuns canonical_runs(const Communicator& processes,
                                            const AncestorMap& ancestors);
 
-/// Calls emit(number, local number, root) for this process's entities numbered begin .. end-1.
+/// Calls emit(number, local index, root) for this process's entities numbered begin .. end - 1.
 void for_each_between(const CanonicalRuns& runs, const AncestorMap& ancestors, std::uint64_t begin,
                       std::uint64_t end, auto&& emit) {
-    // The run that has `begin`, if any has, is the last that does not begin after it.
+    // The run that contains `begin`, if any does, is the last one that starts at or before it.
     const auto after = std::ranges::upper_bound(runs.begin, begin);
     auto r = static_cast<std::size_t>(after - runs.begin.begin());
     if (r > 0) --r;
@@ -38,7 +38,7 @@ void for_each_between(const CanonicalRuns& runs, const AncestorMap& ancestors, s
     }
 }
 
-/// The local numbers of this process's entities numbered begin .. end-1: from one up to another.
+/// Returns the range of local indices of this process's entities numbered begin .. end - 1.
 [[nodiscard]] std::pair<std::size_t, std::size_t> local_range(const CanonicalRuns& runs,
                                                               const AncestorMap& ancestors,
                                                               std::uint64_t begin,

@@ -7,8 +7,8 @@
 
 namespace octetra::distributed {
 
-/// Collective. The number of each cell of this process in the canonical order of the whole mesh.
-/// Throws alike on all processes.
+/// Collective. Returns the number of each cell of this process in the canonical order of the whole
+/// mesh. A failure of one process is thrown on all.
 [[nodiscard]] std::vector<std::uint64_t> cell_numbers(const DistributedMesh& mesh);
 
 }  // namespace octetra::distributed

@@ -20,19 +20,21 @@
 
 namespace octetra::distributed {
 
-/// The two ends of an edge, lower first, or the three vertices of a face: local numbers, which
-/// ascend as global ones do.
+/// The two ends of an edge, lower first, or the three vertices of a face, as local indices. Local
+/// indices ascend as global numbers do.
 template <std::size_t N>
 using VertexTuple = std::array<VertexIndex, N>;
 
-/// What a process asks about its tuples: by lowest vertex, how many there are. Only where other
-/// processes have that vertex too, the tuples themselves are told, as others may have the same.
+/// A process's description of its tuples for a rendezvous process: the number of tuples for each
+/// lowest vertex. The tuples themselves are included only if other processes have that vertex, too,
+/// because these may have the same tuples.
 ///
-/// In words of 64 bits, for each lowest vertex: its global number; twice the count, plus 1 where it
-/// is shared; and of a shared one, the other N-1 vertices of each tuple. All ascend.
+/// In 64-bit words, for each lowest vertex: its global number; twice the count, plus 1 if it is
+/// shared; and for a shared one, the other N - 1 vertices of each tuple. All are in ascending
+/// order.
 using Question = std::vector<std::uint64_t>;
 
-/// The questions to each process: those about blocks of lowest numbers.
+/// Returns the question to each process, which answers for a block of lowest numbers.
 template <std::size_t N>
 std::vector<Question> questions_about(std::span<const VertexTuple<N>> tuples,
                                       const IndexVector<VertexIndex, GlobalVertex>& numbers,
@@ -61,7 +63,7 @@ std::vector<Question> questions_about(std::span<const VertexTuple<N>> tuples,
     return questions;
 }
 
-/// Reads a question lowest vertex by lowest vertex.
+/// Iterates over the lowest vertices in a question.
 template <std::size_t N>
 class QuestionReader {
 public:
@@ -72,7 +74,7 @@ public:
     [[nodiscard]] std::uint64_t lowest() const { return words_[0]; }
     [[nodiscard]] std::uint64_t count() const { return words_[1] >> 1U; }
     [[nodiscard]] bool is_shared() const { return (words_[1] & 1U) != 0; }
-    /// Of tuple i about a shared vertex.
+    /// Returns the other vertices of tuple i of a shared lowest vertex.
     [[nodiscard]] Rest rest(std::size_t i) const {
         Rest rest;
         std::ranges::copy(words_.subspan(2 + i * (N - 1), N - 1), rest.begin());
@@ -84,9 +86,9 @@ private:
     std::span<const std::uint64_t> words_;
 };
 
-/// The answers to all processes' questions: the places of tuples among all different ones of the
-/// block, in ascending order. For a lowest vertex that is one process's alone, the first tuple's
-/// place; for a shared one, each tuple's.
+/// Computes the answers to the questions of all processes: the ranks of tuples in the ascending
+/// order of all distinct tuples of the block. For a lowest vertex of a single process this is the
+/// rank of its first tuple; for a shared one, the rank of each tuple.
 template <std::size_t N>
 class Answers {
 public:
@@ -107,7 +109,7 @@ public:
         }
     }
 
-    /// How many different tuples there are.
+    /// Returns the number of distinct tuples.
     [[nodiscard]] std::uint64_t count() const { return count_; }
     [[nodiscard]] std::vector<std::vector<std::uint64_t>> take() && { return std::move(to_); }
 
@@ -128,7 +130,7 @@ private:
             waiting_.pop_back();
         }
     }
-    /// All lowest vertices until one that another process asks about, too, or one less.
+    /// Answers all lowest vertices of process r that precede the next one of any other process.
     void answer_one(std::size_t r) {
         QuestionReader<N>& reader = readers_[r];
         const std::uint64_t end =
@@ -160,14 +162,16 @@ private:
 
     std::vector<std::vector<std::uint64_t>> to_;
     std::vector<QuestionReader<N>> readers_;
-    std::vector<std::pair<std::uint64_t, std::size_t>> waiting_;  ///< a heap: lowest, rank
-    std::vector<std::size_t> ranks_;                              ///< that ask about one lowest
+    std::vector<std::pair<std::uint64_t, std::size_t>> waiting_;  ///< a heap of pairs (lowest
+                                                                  ///< vertex, process)
+    std::vector<std::size_t> ranks_;                              ///< processes that ask about the
+                                                                  ///< current lowest vertex
     std::vector<Rest> different_;
     std::uint64_t count_ = 0;
 };
 
-/// Appends the place of each of `count` tuples to the list, from the answers to this process's
-/// questions. A process that has failed answers nothing; places are not to be used then.
+/// Appends the rank of each of `count` tuples to `list`, from the answers to this process's
+/// questions. The answer of a failed process is empty; the appended values must not be used then.
 template <std::size_t N>
 void append_places(auto& list, std::size_t count, const std::vector<Question>& questions,
                    const std::vector<std::vector<std::uint64_t>>& answers) {
@@ -189,15 +193,16 @@ void append_places(auto& list, std::size_t count, const std::vector<Question>& q
     list.resize(end);
 }
 
-/// Collective. Appends to `list` the places of tuples among the different tuples of all processes,
-/// in ascending order, counted from `total`, to which it adds their number. This process's `tuples`
-/// ascend; their vertices have global numbers less than `end_count`. `shared_vertices` are those
-/// that other processes have too, ascending. False where a process is known to have failed, on all
-/// alike; where one fails at the end, that shows at the next agreement only. `list` may be
-/// `numbers`: they are appended when those are read.
+/// Collective. Appends to `list` the ranks of tuples in the ascending order of all distinct tuples
+/// of all processes, counted from `total`, and adds their number to `total`. This process's
+/// `tuples` ascend; their vertices have global numbers less than `end_count`. `shared_vertices` are
+/// those that other processes have, too, ascending. Returns false on all processes if one is known
+/// to have failed; a failure in the last step is reported only by the next agreement. `list` may be
+/// `numbers`, since they are read before `list` is extended.
 ///
-/// Each lowest vertex meets its equals at a process that its number decides. Memory and messages
-/// are in proportion to the lowest vertices, and to the tuples of shared ones.
+/// Tuples are compared at a rendezvous process that is determined by their lowest vertex. Memory
+/// and messages are proportional to the number of lowest vertices plus the number of tuples of
+/// shared ones.
 template <std::size_t N>
 [[nodiscard]] bool append_ranked(auto& list, const Communicator& processes,
                                  std::span<const VertexTuple<N>> tuples,
@@ -210,7 +215,8 @@ template <std::size_t N>
     };
     const std::uint64_t block = end_count / static_cast<std::uint64_t>(processes.size()) + 1;
     std::vector<Question> questions;
-    std::vector<ShortWords> sent;  // made before: who cannot send leaves others waiting
+    // allocated before the exchange, because a process that cannot send would leave others waiting
+    std::vector<ShortWords> sent;
     failure.attempt([&] {
         questions = questions_about<N>(tuples, numbers, shared_vertices, block, processes.size());
         sent = of_each(questions, shortened);

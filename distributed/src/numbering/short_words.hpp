@@ -11,8 +11,9 @@ namespace octetra::distributed {
 
 using ShortWords = std::vector<std::uint8_t>;
 
-/// Words on their way to another process, each as its difference to the one before the last, in as
-/// few bytes as it takes: numbers ascend, or every other word does, by little.
+/// Compresses words for a message: each is encoded as its difference to the word before the
+/// previous one, as a variable-length signed number. Every other word, or every word, ascends in
+/// small steps.
 [[nodiscard]] inline ShortWords shortened(std::span<const std::uint64_t> words) {
     ShortWords bytes;
     bytes.reserve(2 * words.size());
@@ -40,7 +41,7 @@ using ShortWords = std::vector<std::uint8_t>;
     return words;
 }
 
-/// Of the messages to each process, or from each.
+/// Converts the message to each process, or from each.
 template <class From>
 [[nodiscard]] auto of_each(const std::vector<From>& messages, auto&& convert) {
     std::vector<decltype(convert(std::span(messages.front())))> converted;

@@ -6,13 +6,13 @@
 namespace octetra::distributed {
 namespace {
 
-/// The marker of a vertex as far as one process can tell.
+/// The marker of a vertex as derived from the entities of one process.
 struct Known {
     std::uint64_t number;
     MidpointMarker marker;
 };
 
-/// The markers of a block of vertex numbers, as replies to all that have sent what they know.
+/// Merges the markers of a block of vertex numbers and returns the replies to all senders.
 std::vector<std::vector<Marker>> replies_to(const std::vector<std::vector<Known>>& inboxes,
                                             std::uint64_t first, std::uint64_t block) {
     std::vector<MidpointMarker> merged(block);
@@ -36,10 +36,10 @@ std::vector<std::vector<Marker>> replies_to(const std::vector<std::vector<Known>
 
 }  // namespace
 
-/// All that is known of a vertex is sent to a process that its number determines.
+/// The markers of a vertex are merged at a rendezvous process determined by its number.
 std::vector<Marker> vertex_markers(const DistributedMesh& mesh, const CanonicalNumbers& numbers) {
     const Communicator& processes = mesh.processes;
-    // A process without vertices has no markers either.
+    // A process without vertices has no markers, so the presence of markers is reduced over all.
     const bool has_markers = !mesh.input_vertex_markers.empty() || !mesh.midpoint_markers.empty();
     if (processes.max(has_markers ? 1 : 0) == 0) return {};
     const auto process_count = static_cast<std::size_t>(processes.size());
@@ -62,7 +62,7 @@ std::vector<Marker> vertex_markers(const DistributedMesh& mesh, const CanonicalN
     });
     failure.agree(processes);
     failure.attempt([&] {
-        // Vertices are in canonical order, so the concatenated answers are in theirs.
+        // Vertices are in canonical order, so the concatenated answers are in their order.
         for (const auto& answers : processes.all_to_all(replies)) {
             markers.insert(markers.end(), answers.begin(), answers.end());
         }

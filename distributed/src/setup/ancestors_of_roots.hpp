@@ -9,7 +9,7 @@
 
 namespace octetra::distributed {
 
-/// Of entities that are as the input was: each is its own root.
+/// Returns the ancestors of input entities: each is its own root.
 [[nodiscard]] inline AncestorMap ancestors_of_roots(std::vector<std::uint64_t> numbers,
                                                     std::vector<Marker> markers) {
     AncestorMap ancestors{.roots = std::move(numbers), .first = {}, .markers = std::move(markers)};

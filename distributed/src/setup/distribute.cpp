@@ -22,7 +22,7 @@
 namespace octetra::distributed {
 namespace {
 
-/// Facts about the whole mesh that every process needs.
+/// Global properties of the mesh that every process needs.
 struct Facts {
     std::uint64_t vertices = 0;
     std::uint64_t cells = 0;
@@ -36,7 +36,7 @@ Facts facts_of(const Mesh& mesh) {
             has_any(mesh.features) ? 1U : 0U};
 }
 
-/// Collective. What all get to know of the first process's mesh, in one message.
+/// Collective. Broadcasts the facts and group names of the first process's mesh in one message.
 std::pair<Facts, std::vector<GroupName>> shared_facts(const Communicator& processes,
                                                       const Mesh& mesh) {
     std::vector<char> bytes;
@@ -74,15 +74,15 @@ std::pair<Facts, std::vector<GroupName>> shared_facts(const Communicator& proces
     return shared;
 }
 
-/// Entities of one kind that go to one process.
+/// The entities of one kind that one process receives.
 template <std::size_t N>
 struct ListShare {
-    std::vector<std::uint64_t> numbers;                ///< in the input, ascending
-    std::vector<std::array<VertexIndex, N>> vertices;  ///< numbered locally
-    std::vector<Marker> markers;                       ///< or empty
+    std::vector<std::uint64_t> numbers;                ///< global numbers, ascending
+    std::vector<std::array<VertexIndex, N>> vertices;  ///< local indices
+    std::vector<Marker> markers;                       ///< may be empty
 };
 
-/// All that goes to one process.
+/// All data that one process receives.
 struct Share {
     std::vector<GlobalVertex> vertices;  ///< ascending
     std::vector<Point> points;
@@ -92,7 +92,7 @@ struct Share {
     ListShare<3> facets;
     ListShare<2> edges;
 
-    /// Calls f on each array, on all processes in the same order.
+    /// Calls f on each array, in the same order on all processes.
     void for_each_array(auto&& f) {
         f(vertices), f(points), f(point_markers), f(point_attributes);
         const auto list = [&](auto& l) { f(l.numbers), f(l.vertices), f(l.markers); };
@@ -100,7 +100,7 @@ struct Share {
     }
 };
 
-/// The numbers of a list's entities, by the ranks that they go to.
+/// The entities of a list, grouped by receiving rank.
 class ByRank {
 public:
     ByRank() = default;
@@ -123,7 +123,7 @@ private:
     std::vector<std::uint32_t> numbers_;
 };
 
-/// The rank of each entity of a list: that of the first cell that has it among its `sides`.
+/// Returns the rank of each entity of a list: that of the first cell that has it among its `sides`.
 template <class I, std::size_t N, std::size_t Sides>
 std::vector<int> ranks_of(const Mesh& mesh, const std::vector<int>& cell_to_rank,
                           const IndexVector<I, std::array<VertexIndex, N>>& list,
@@ -131,7 +131,8 @@ std::vector<int> ranks_of(const Mesh& mesh, const std::vector<int>& cell_to_rank
     std::vector<int> ranks(list.size(), 0);
     if (list.empty()) return ranks;
     const VertexBuckets<I, N> buckets(list, mesh.points.size());
-    for (CellIndex c{mesh.cells.size()}; c > CellIndex{0};) {  // the first one comes last
+    // descending, so the first cell is written last
+    for (CellIndex c{mesh.cells.size()}; c > CellIndex{0};) {
         c = CellIndex{c.value() - 1U};
         for (const auto& side : sides) {
             std::array<VertexIndex, N> vertices;
@@ -142,8 +143,8 @@ std::vector<int> ranks_of(const Mesh& mesh, const std::vector<int>& cell_to_rank
     return ranks;
 }
 
-/// Takes a mesh apart, one process's share at a time. The first process's comes last: vertices that
-/// no cell has are in it, so that they are not lost.
+/// Extracts one process's share of a mesh at a time. The first process's share must be extracted
+/// last: it also contains the vertices that no cell has.
 class Cutter {
 public:
     Cutter(const Mesh& mesh, const std::vector<int>& cell_to_rank, int rank_count)
@@ -218,8 +219,8 @@ private:
     ByRank cells_;
     ByRank facets_;
     ByRank edges_;
-    IndexVector<VertexIndex, int> seen_by_;        ///< the last rank that a vertex went to
-    IndexVector<VertexIndex, VertexIndex> local_;  ///< its number there
+    IndexVector<VertexIndex, int> seen_by_;        ///< the last rank that received a vertex
+    IndexVector<VertexIndex, VertexIndex> local_;  ///< its local index there
 };
 
 void check_ranks(const Mesh& mesh, const std::vector<int>& cell_to_rank, int rank_count) {
@@ -234,8 +235,8 @@ void check_ranks(const Mesh& mesh, const std::vector<int>& cell_to_rank, int ran
     }
 }
 
-/// Collective. The first process sends each other one its share, and keeps its own; it holds no
-/// more than one share at a time beside the mesh.
+/// Collective. The first process sends each share and keeps its own. It holds at most one share at
+/// a time in addition to the mesh.
 Share share_out(const Communicator& processes, const Mesh& mesh,
                 const std::vector<int>& cell_to_rank) {
     Share share;
@@ -269,7 +270,7 @@ void take_share(Share share, DistributedMesh& part) {
     take_list(std::move(share.edges), part.edges, part.edge_ancestors);
 }
 
-/// The whole mesh on one process: nothing to send, and nothing to copy.
+/// Moves the whole mesh to the part if there is only one process.
 void take_over(Mesh mesh, DistributedMesh& part) {
     const auto all = [](std::size_t count) {
         std::vector<std::uint64_t> numbers(count);
@@ -318,7 +319,7 @@ DistributedMesh distribute(const Communicator& processes, Mesh mesh,
         return part;
     }
     take_share(share_out(processes, mesh, cell_to_rank), part);
-    mesh = {};  // no longer needed, and large
+    mesh = {};  // releases the memory
     const Phase finding(processes, "interfaces");
     part.interfaces = find_interfaces(part, find_vertex_sharing(part));
     return part;

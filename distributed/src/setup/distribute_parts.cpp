@@ -66,7 +66,7 @@ void check_sizes(const Communicator& processes, const MeshPart& part) {
     if (!wrong.empty()) refuse(processes, "{}", wrong);
 }
 
-/// Of equal names the same.
+/// Returns a hash of the names; equal lists have equal hashes.
 std::uint64_t hash_of(const std::vector<GroupName>& names) {
     std::uint64_t hash = names.size();
     for (const GroupName& group : names) {
@@ -80,8 +80,8 @@ std::uint64_t hash_of(const std::vector<GroupName>& names) {
     return hash;
 }
 
-/// Collective. Refuses a list that some processes have of their entities and others have not, and
-/// numbers that are not the same on all.
+/// Collective. Throws InputError if some processes have an optional list and others do not, or if a
+/// number that must be global differs.
 void check_alike(const Communicator& processes, const MeshPart& part) {
     const auto check = [&](const char* what, std::size_t values, std::size_t entities) {
         const bool given = processes.max(values > 0 ? 1 : 0) == 1;
@@ -108,7 +108,8 @@ void check_alike(const Communicator& processes, const MeshPart& part) {
     if (processes.max(part.index_base) > 1) throw InputError("the index base is 0 or 1");
 }
 
-/// The vertices of a part in ascending order of their numbers, those that others use left out.
+/// The vertices of a part in ascending order of their global numbers. "Position" below means the
+/// index in this order. Later steps drop the vertices that only cells of other processes use.
 class PartVertices {
 public:
     PartVertices(const Communicator& processes, const MeshPart& part)
@@ -121,13 +122,13 @@ public:
         for (std::size_t v = 0; v < part.points.size(); ++v) {
             const Point& p = part.points[v];
             const auto fits = [](double x) { return std::abs(x) < coordinate_limit; };
-            if (fits(p.x) && fits(p.y) && fits(p.z)) continue;  // and finite
+            if (fits(p.x) && fits(p.y) && fits(p.z)) continue;  // false for NaN as well
             refuse(processes, "vertex {} has a coordinate that is not finite, or too large",
                    part.vertex_numbers[v]);
         }
     }
 
-    /// The places of an entity's vertices in the order, by their numbers.
+    /// Returns the positions of an entity's vertices, which are given by global numbers.
     template <std::size_t N>
     [[nodiscard]] std::array<VertexIndex, N> places_of(
         const Communicator& processes, const std::array<std::uint64_t, N>& numbers) const {
@@ -147,7 +148,7 @@ public:
 
     [[nodiscard]] const std::vector<std::uint64_t>& numbers() const { return numbers_; }
     [[nodiscard]] const std::vector<std::uint8_t>& used() const { return used_; }
-    /// Which of the part's vertices stands at this place.
+    /// Returns the index in MeshPart of the vertex at a position.
     [[nodiscard]] std::size_t at(std::size_t place) const { return order_[place]; }
 
 private:
@@ -156,7 +157,7 @@ private:
     std::vector<std::uint8_t> used_;  ///< by a cell of this process
 };
 
-/// The cells with vertices by place.
+/// Returns the cells with vertices by position.
 IndexVector<CellIndex, CellVertices> cells_by_place(const Communicator& processes,
                                                     const MeshPart& part, PartVertices& vertices) {
     IndexVector<CellIndex, CellVertices> cells;
@@ -185,8 +186,8 @@ IndexVector<CellIndex, CellVertices> cells_by_place(const Communicator& processe
     return cells;
 }
 
-/// Facets or edges with vertices by place; each must be one of the cells' `sides`, and if it is
-/// there again have the same marker.
+/// Returns facets or edges with vertices by position. Each must be one of the cells' `sides`; an
+/// entity that is listed repeatedly must have the same marker each time.
 template <class I, std::size_t N, std::size_t Sides>
 IndexVector<I, std::array<VertexIndex, N>> tagged_by_place(
     const Communicator& processes, const PartVertices& vertices,
@@ -218,13 +219,14 @@ IndexVector<I, std::array<VertexIndex, N>> tagged_by_place(
     return list;
 }
 
-/// Collective. Which of this process's facets or edges it keeps: a lower rank may have them, too.
+/// Collective. Returns which of this process's facets or edges it keeps: of several processes that
+/// list the same entity, the lowest rank keeps it.
 template <class I, std::size_t N>
 std::vector<std::uint8_t> kept(const Communicator& processes, const PartVertices& vertices,
                                const IndexVector<I, std::array<VertexIndex, N>>& list,
                                const std::vector<Marker>& markers, const char* what,
                                LocalFailure& failure) {
-    using Key = std::array<std::uint64_t, N + 1>;  // with the marker
+    using Key = std::array<std::uint64_t, N + 1>;  // vertices and marker
     std::vector<std::pair<Key, std::uint32_t>> entries;
     std::vector<std::array<std::uint64_t, N>> keys;
     std::vector<Key> marked_keys;
@@ -246,7 +248,7 @@ std::vector<std::uint8_t> kept(const Communicator& processes, const PartVertices
     });
     const auto sharers = find_sharers(processes, keys, failure);
     const auto agreeing = find_sharers(processes, marked_keys, failure);
-    failure.agree(processes);  // else some may be missing
+    failure.agree(processes);  // otherwise messages may be missing
     std::vector<std::uint8_t> keeps;
     failure.attempt([&] {
         if (sharers != agreeing) {
@@ -266,7 +268,7 @@ std::vector<std::uint8_t> kept(const Communicator& processes, const PartVertices
     return keeps;
 }
 
-/// The facets or edges of a part, by place.
+/// The facets or edges of a part, with vertices by position.
 template <class I, std::size_t N>
 struct TaggedList {
     const char* what;
@@ -275,7 +277,7 @@ struct TaggedList {
     const std::vector<std::uint64_t>& numbers;
 };
 
-/// Collective. Puts the facets or edges that this process keeps into its part of the mesh.
+/// Collective. Adds the facets or edges that this process keeps to its part of the mesh.
 template <class I, std::size_t N>
 void take_tagged(const Communicator& processes, const PartVertices& vertices,
                  const TaggedList<I, N>& listed,
@@ -301,7 +303,8 @@ void take_tagged(const Communicator& processes, const PartVertices& vertices,
     check_complete(processes, ancestors.roots, processes.sum(count), listed.what);
 }
 
-/// Leaves out the vertices that this process does not keep, and numbers by those that it does.
+/// Adds the vertices that this process keeps to the mesh, and renumbers its entities from positions
+/// to local indices.
 void take_vertices(const MeshPart& part, const PartVertices& vertices,
                    const std::vector<std::uint8_t>& keeps, DistributedMesh& mesh) {
     std::vector<VertexIndex> local(keeps.size());

@@ -28,15 +28,16 @@
 namespace octetra::distributed {
 namespace {
 
-/// The places of cells, which are judged when their corners are looked at for the first time, as
-/// points are anywhere in memory.
+/// Computes the centroids of cells. Each cell is checked for positive orientation when its corners
+/// are first accessed, because points are scattered in memory.
 class CellPlaces {
 public:
     explicit CellPlaces(const StretchCorners& corners) : corners_(&corners) {
         filter_.add(corners.points());
     }
 
-    /// From one cell on; first of all cells, in order.
+    /// Writes the centroids of the cells from `first` on. The first pass over all cells must be in
+    /// order.
     void write(std::size_t first, std::span<Point> places) {
         for (std::size_t k = 0; k < places.size(); ++k) {
             corners_->ask_for(first + k + 16);
@@ -48,7 +49,7 @@ public:
                             orientation(at[0], at[1], at[2], at[3]) > 0;
         }
     }
-    /// Has each of so many cells been judged, and been found to be positive?
+    /// Returns whether the first `cells` cells are all positive; checks those not yet visited.
     [[nodiscard]] bool are_positive(std::size_t cells) {
         while (judged_ < cells && are_positive_) {
             Point place;
@@ -66,13 +67,13 @@ private:
 
 using Weigh = std::function<std::vector<float>(const CellsToWeigh&)>;
 
-/// What rcb is to take cells for.
+/// The weights that bisect_coordinates() applies to cells.
 struct Weights {
-    std::vector<float> of_cells;  // of this process's stretch; empty where all weigh the same
-    float least = 1;              // of all processes
+    std::vector<float> of_cells;  // of this process's share; empty if all cells weigh the same
+    float least = 1;              // over all processes
 };
 
-/// Collective.
+/// Collective. Computes and checks the weights.
 Weights weights_of(const Communicator& processes, const MeshStretch& stretch,
                    const StretchCorners& corners, const Weigh& weigh, LocalFailure& failure) {
     if (!weigh) return {};
@@ -84,7 +85,8 @@ Weights weights_of(const Communicator& processes, const MeshStretch& stretch,
                                         .regions = stretch.lists.regions});
     if (processes.max(weights.empty() ? 0 : 1) == 0) return {};
     constexpr std::uint64_t complement = 0xffff'ffff;
-    std::uint64_t least = complement;  // by bits, which positive numbers are ordered by
+    // compared by bit pattern, which orders positive numbers correctly
+    std::uint64_t least = complement;
     failure.attempt([&] {
         check_weights(count, weights);
         for (const float weight : weights) {
@@ -96,7 +98,7 @@ Weights weights_of(const Communicator& processes, const MeshStretch& stretch,
     return {std::move(weights), std::bit_cast<float>(static_cast<std::uint32_t>(least))};
 }
 
-/// As even in numbers as can be.
+/// Returns parts that are blocks of cell numbers of nearly equal size.
 std::vector<int> parts_by_number(const Communicator& processes, const MeshStretch& stretch) {
     std::vector<int> parts(stretch.lists.cells.size());
     const auto size = static_cast<std::uint64_t>(processes.size());
@@ -106,15 +108,15 @@ std::vector<int> parts_by_number(const Communicator& processes, const MeshStretc
     return parts;
 }
 
-/// Of cells by local numbers: have two the same vertices?
+/// Returns whether two cells, with local vertex indices, have the same vertices.
 bool has_cell_twice(const IndexVector<CellIndex, CellVertices>& cells, std::size_t vertex_count) {
     RepeatedCells repeated(cells.size());
     for (const CellVertices& cell : cells) repeated.add(cell);
     return !repeated.find(cells, vertex_count).cell.is_none();
 }
 
-/// Collective. Has another process a cell with the vertices of one of this process's? Only cells
-/// all of whose vertices others have can be meant.
+/// Collective. Returns whether another process has a cell with the same vertices as a cell of this
+/// process. Only cells whose vertices are all shared are candidates.
 bool has_cell_of_others(const DistributedMesh& mesh, const StretchVertices& vertices,
                         LocalFailure& failure) {
     std::vector<std::array<std::uint64_t, 4>> keys;
@@ -134,7 +136,7 @@ bool has_cell_of_others(const DistributedMesh& mesh, const StretchVertices& vert
     return !find_sharers(mesh.processes, keys, failure).empty();
 }
 
-/// Puts a mesh together from stretches, step by step.
+/// Assembles a distributed mesh from the shares that processes have read, step by step.
 class Assembly {
 public:
     Assembly(const Communicator& processes, MeshStretch stretch)
@@ -150,7 +152,7 @@ public:
         mesh_.input_cell_count = stretch_.facts.cells;
     }
 
-    /// Collective. Cells go to their parts.
+    /// Collective. Partitions the cells and sends them to their parts.
     void bring_cells(const Homes& homes, PartitionMethod method, const Weigh& weigh) {
         std::optional<StretchCorners> corners;
         std::vector<int> parts;
@@ -169,7 +171,7 @@ public:
         failure_.agree(processes_);
     }
 
-    /// Collective. Vertices follow the cells, and facets and edges the vertices.
+    /// Collective. Fetches the vertices of the cells, and the facets and edges at these vertices.
     void bring_what_is_at_cells(const Homes& homes) {
         const Phase phase(processes_, "distribute");
         StretchVertices vertices =
@@ -194,7 +196,7 @@ public:
         failure_.agree(processes_);
     }
 
-    /// Collective. Nothing if any process has found something wrong.
+    /// Collective. Returns the mesh, or nothing on all processes if one has found an error.
     [[nodiscard]] std::optional<DistributedMesh> finish() && {
         const Phase phase(processes_, "interfaces");
         if (processes_.max(is_sound_ ? 0 : 1) == 1) return std::nullopt;
@@ -208,7 +210,7 @@ public:
     }
 
 private:
-    /// Collective. The parts of this process's cells; finds out whether all are positive.
+    /// Collective. Returns the parts of this process's cells; checks that all are positive.
     [[nodiscard]] std::vector<int> find_parts(StretchCorners& corners, PartitionMethod method,
                                               const Weigh& weigh) {
         CellPlaces places(corners);
@@ -254,7 +256,7 @@ private:
     Communicator processes_;
     MeshStretch stretch_;
     LocalFailure failure_;
-    bool is_sound_ = true;  // as far as this process has seen
+    bool is_sound_ = true;  // as far as this process has checked
     std::vector<std::uint8_t> is_shared_;
     DistributedMesh mesh_;
 };

@@ -12,17 +12,17 @@
 
 namespace octetra::distributed {
 
-/// Can cells find their parts by this method while no process has all of them?
+/// Returns whether the method can partition cells that no process has entirely.
 [[nodiscard]] inline bool works_by_stretches(PartitionMethod method) {
     return method == PartitionMethod::rcb || method == PartitionMethod::block;
 }
 
-/// Collective. Brings what processes have read of a mesh to its parts; no process takes more memory
-/// than in proportion to its stretch and its part, and a sixth of a byte for each vertex of the
-/// mesh. Judges what read_mesh() does: cells are positive, and no two have the same vertices; every
-/// tagged facet and edge is of some cell, of no more than one on each side, and has one marker.
-/// Returns nothing, on all processes, if that does not hold. Throws OutOfMemory, and what `weigh`
-/// throws; see ReadPartsOptions.
+/// Collective. Distributes the shares of a mesh that processes have read to its parts. The memory
+/// of a process is proportional to its share and its part, plus three sixteenths of a byte for each
+/// vertex of the mesh. Checks the same conditions as read_mesh(): cells are positive, and no two
+/// have the same vertices; every tagged facet and edge belongs to a cell, a facet to at most one on
+/// each side, and has one marker. Returns nothing on all processes if one of them does not hold.
+/// Throws OutOfMemory, and exceptions of `weigh`; see ReadPartsOptions.
 [[nodiscard]] std::optional<DistributedMesh> distribute_stretch(
     const Communicator& processes, MeshStretch stretch, PartitionMethod method,
     const std::function<std::vector<float>(const CellsToWeigh&)>& weigh);

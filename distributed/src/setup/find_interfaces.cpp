@@ -11,7 +11,7 @@
 namespace octetra::distributed {
 namespace {
 
-/// The processes that share each vertex, ascending, as pieces of one array.
+/// The processes that share each vertex, ascending, as ranges of one array.
 class VertexSharers {
 public:
     VertexSharers(const DistributedMesh& mesh, const Sharing<VertexIndex>& sharing)
@@ -47,10 +47,10 @@ private:
     std::vector<int> ranks_;
 };
 
-/// The cells with two shared vertices or more.
+/// Returns the cells with two or more shared vertices.
 std::vector<CellVertices> cells_at_border(const DistributedMesh& mesh,
                                           const VertexSharers& sharers) {
-    IndexVector<VertexIndex, std::uint8_t> is_shared;  // small enough for a cache
+    IndexVector<VertexIndex, std::uint8_t> is_shared;  // small enough to stay in the cache
     is_shared.resize(mesh.points.size());
     for (VertexIndex v{0}; v < mesh.points.end_index(); ++v) {
         is_shared[v] = sharers.is_shared(v) ? 1 : 0;
@@ -66,10 +66,10 @@ std::vector<CellVertices> cells_at_border(const DistributedMesh& mesh,
 template <std::size_t N>
 using VertexLists = std::vector<std::array<VertexIndex, N>>;
 
-/// What this process has with another one that has all its vertices, and so may have it, too. In
-/// ascending order of the vertices; each ascending.
+/// The edges and faces of this process all of whose vertices another process has, so that it may
+/// have them, too. Lists and their entries are in ascending order of vertices.
 struct Candidates {
-    const std::vector<VertexIndex>* shared = nullptr;  ///< all vertices of both
+    const std::vector<VertexIndex>* shared = nullptr;  ///< all vertices that both processes have
     VertexLists<2> edges;
     VertexLists<3> faces;
 };
@@ -78,7 +78,7 @@ class CandidatesOfAll {
 public:
     CandidatesOfAll(const DistributedMesh& mesh, const Sharing<VertexIndex>& sharing) {
         for (const SharedWith<VertexIndex>& with : sharing.neighbours()) {
-            if (with.entities.size() < 2) continue;  // there it is as many
+            if (with.entities.size() < 2) continue;  // the count is the same on the other process
             ranks.push_back(with.rank);
             of_rank.push_back({&with.entities, {}, {}});
         }
@@ -92,7 +92,7 @@ public:
     std::vector<Candidates> of_rank;
 
 private:
-    /// Sides (edges or faces) of these cells.
+    /// Adds the sides (edges or faces) of these cells to a list of the candidates.
     template <std::size_t N, std::size_t Sides>
     void find(const std::vector<CellVertices>& cells, const VertexSharers& sharers,
               const std::array<std::array<std::uint8_t, N>, Sides>& sides,
@@ -123,8 +123,8 @@ private:
 
 using Places = std::vector<std::uint32_t>;
 
-/// The places of vertices among those that this process has with another one, which are the same on
-/// both and ascend. The array is made once for all of them.
+/// Maps vertices to their indices in the list of vertices shared with another process, which is the
+/// same on both sides and ascending. The array is allocated once for all processes.
 class PlacesAmong {
 public:
     explicit PlacesAmong(std::size_t vertex_count) { place_.resize(vertex_count); }
@@ -143,10 +143,10 @@ public:
     }
 
 private:
-    IndexVector<VertexIndex, std::uint32_t> place_;  ///< of the vertices looked at
+    IndexVector<VertexIndex, std::uint32_t> place_;  ///< valid for the vertices of the last list
 };
 
-/// How many edges; then edges and faces.
+/// Returns the message: the number of edges, then edges and faces as indices of shared vertices.
 Places message_of(const Candidates& candidates, PlacesAmong& among) {
     Places message{static_cast<std::uint32_t>(candidates.edges.size())};
     message.reserve(1 + 2 * candidates.edges.size() + 3 * candidates.faces.size());
@@ -162,7 +162,7 @@ Places message_of(const Candidates& candidates, PlacesAmong& among) {
     return message;
 }
 
-/// Those that another process has told of, too. Both lists ascend.
+/// Returns the entries of `own` that are also in the received list. Both lists ascend.
 template <std::size_t N>
 VertexLists<N> common(const VertexLists<N>& own, const PlacesAmong& among,
                       std::span<const std::uint32_t> told) {
@@ -202,7 +202,7 @@ std::vector<Interface> find_interfaces(const DistributedMesh& mesh,
         for (std::size_t i = 0; i < inboxes.size(); ++i) {
             const Candidates& own = candidates->of_rank[i];
             const std::span<const std::uint32_t> told(inboxes[i]);
-            if (told.empty()) continue;  // a process that has failed
+            if (told.empty()) continue;  // the process has failed
             among->look_at(*own.shared);
             const std::size_t edges = std::size_t{2} * told.front();
             Interface interface {

@@ -7,10 +7,10 @@
 
 namespace octetra::distributed {
 
-/// Collective. The edges and faces that this process shares with others, found when a mesh has been
-/// distributed or has moved; `mesh` is still as the input was. From level to level they follow from
-/// what is bisected. `sharing` is that of its vertices: whoever has all vertices of an edge or face
-/// may have it, and is asked; one message to each.
+/// Collective. Returns the edges and faces that this process shares with others, after a mesh
+/// without levels was distributed or migrated; levels derive the new interfaces from the old ones.
+/// `sharing` is that of its vertices: a process that has all vertices of an edge or face may have
+/// it, and is asked in one message.
 [[nodiscard]] std::vector<Interface> find_interfaces(const DistributedMesh& mesh,
                                                      const Sharing<VertexIndex>& sharing);
 

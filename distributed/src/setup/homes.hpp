@@ -13,12 +13,14 @@
 
 namespace octetra::distributed {
 
-/// Which process has read which stretch of a list of a file: its home.
+/// Maps the entities of a list in a file to the processes that have read them, their owners. Each
+/// process has read one block.
 class Homes {
 public:
     Homes() = default;
 
-    /// `begins`: number of the first entity of each process, and the number of all.
+    /// `begins`: the number of the first entity of each process, followed by the number of all
+    /// entities.
     explicit Homes(std::vector<std::uint64_t> begins) : begins_(std::move(begins)) {}
 
     [[nodiscard]] std::uint64_t begin_of(int rank) const {
@@ -33,14 +35,14 @@ private:
     std::vector<std::uint64_t> begins_;
 };
 
-/// The first of the blocks of a list that a process reads, if they are shared out evenly.
+/// Returns the first block of a list that a process reads if the blocks are distributed evenly.
 [[nodiscard]] inline std::uint64_t first_block_of(int rank, std::uint64_t blocks, int processes) {
     const auto r = static_cast<std::uint64_t>(rank);
     const auto count = static_cast<std::uint64_t>(processes);
     return blocks / count * r + std::min(blocks % count, r);
 }
 
-/// Whole blocks of a list, shared out evenly.
+/// Returns the owners of a list whose blocks are distributed evenly.
 [[nodiscard]] inline Homes homes_of_blocks(std::uint64_t count, std::uint64_t block_length,
                                            int processes) {
     const std::uint64_t blocks = count / block_length + (count % block_length != 0 ? 1 : 0);
@@ -51,7 +53,7 @@ private:
     return Homes(std::move(begins));
 }
 
-/// Collective. Stretches of which each process knows where its own begins.
+/// Collective. Returns the owners of blocks of which each process passes the first number.
 [[nodiscard]] inline Homes homes_of_stretches(const Communicator& processes, std::uint64_t first,
                                               std::uint64_t count, LocalFailure& failure) {
     std::vector<std::uint64_t> begins;
@@ -65,19 +67,19 @@ private:
     return Homes(std::move(begins));
 }
 
-// All are collective, and throw what LocalFailure::agree() does if a process fails: what comes of
-// them is complete.
+// The functions below are collective and throw as LocalFailure::agree() does if a process fails, so
+// their results are complete.
 
-/// Who wants which entities of a list, each asked for by its number at its home.
+/// Requests for entities of a list, by number, sent to their owners.
 template <class Number = std::uint64_t>
 struct Requests {
-    /// To each home, ascending: and so in the order in which answers come.
+    /// To each owner, ascending; answers arrive in the same order.
     std::vector<std::vector<Number>> sent;
     /// From each process.
     std::vector<std::vector<Number>> received;
 };
 
-/// Collective. `numbers` ascend.
+/// Collective. Sends the requests for `numbers`, which ascend.
 template <class Number>
 [[nodiscard]] Requests<Number> request(const Communicator& processes, const Homes& homes,
                                        const std::vector<Number>& numbers, LocalFailure& failure) {
@@ -98,8 +100,8 @@ template <class Number>
     return requests;
 }
 
-/// Collective. What was asked for, in the order of the numbers: `components` for each. `home` are
-/// the entities from number `first` on, which this process is the home of.
+/// Collective. Returns the requested values in the order of the numbers, `components` for each.
+/// `home` are the values of the entities from number `first` on, which this process owns.
 template <class T, class Number>
 [[nodiscard]] std::vector<T> fetch(const Communicator& processes, const Requests<Number>& requests,
                                    const std::vector<T>& home, std::uint64_t first,

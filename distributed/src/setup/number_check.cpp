@@ -20,22 +20,24 @@ struct Listed {
 };
 
 bool same(const Listed& a, const Listed& b) {
-    const auto bits = [](double x) { return std::bit_cast<std::uint64_t>(x + 0.0); };  // -0 is 0
+    // -0 equals 0
+    const auto bits = [](double x) { return std::bit_cast<std::uint64_t>(x + 0.0); };
     return bits(a.point.x) == bits(b.point.x) && bits(a.point.y) == bits(b.point.y) &&
            bits(a.point.z) == bits(b.point.z) && a.marker == b.marker;
 }
 
-/// The same for equal attributes.
+/// Returns a hash; equal attributes have equal hashes.
 std::uint64_t hash_of(std::span<const double> attributes) {
     std::uint64_t hash = 0;
     for (const double value : attributes) {
-        hash = (hash ^ std::bit_cast<std::uint64_t>(value + 0.0)) * 0x9e3779b97f4a7c15U;  // -0 is 0
+        // -0 equals 0
+        hash = (hash ^ std::bit_cast<std::uint64_t>(value + 0.0)) * 0x9e3779b97f4a7c15U;
         hash ^= hash >> 32U;
     }
     return hash;
 }
 
-/// One process's block of the numbers 0 .. count-1.
+/// This process's block of the numbers 0 .. count - 1.
 struct Block {
     std::uint64_t begin = 0;
     std::uint64_t end = 0;
@@ -52,8 +54,8 @@ struct Block {
     throw InputError(fmt::format("{} {} is missing: no process lists it", what, number));
 }
 
-/// What processes say of the vertices of a block: for each of them, in their order, does the
-/// process keep it?
+/// Compares the entries of all processes for the vertices of a block. Returns for each entry, in
+/// the order received, whether its sender keeps the vertex.
 std::vector<std::vector<std::uint8_t>> answers_to(const std::vector<std::vector<Listed>>& inboxes,
                                                   const Block& block) {
     constexpr int nobody = -1;
@@ -102,7 +104,8 @@ CheckedVertices check_vertices(
     const std::vector<std::uint8_t>& used, const std::function<Point(std::size_t)>& point_at,
     const std::function<Marker(std::size_t)>& marker_at,
     const std::function<std::span<const double>(std::size_t)>& attributes_at) {
-    // The greatest number must not make anybody ask for memory that no list accounts for.
+    // Limits the memory that is allocated by the number of listed vertices, not by the greatest
+    // number.
     const std::uint64_t listed = processes.sum(numbers.size());
     const std::uint64_t greatest = processes.max(numbers.empty() ? 0 : numbers.back());
     if (listed == 0) return {};
@@ -124,12 +127,12 @@ CheckedVertices check_vertices(
     failure.agree(processes);
     std::vector<std::vector<Listed>> inboxes;
     failure.attempt([&] { inboxes = processes.all_to_all(outboxes); });
-    failure.agree(processes);  // else a number may seem to be missing
+    failure.agree(processes);  // otherwise a number may seem to be missing
     std::vector<std::vector<std::uint8_t>> answers;
     failure.attempt([&] { answers = answers_to(inboxes, block); });
     failure.agree(processes);
     failure.attempt([&] {
-        // Numbers ascend, so the answers come in their order.
+        // Numbers ascend, so the answers arrive in their order.
         for (const auto& from_one : processes.all_to_all(answers)) {
             checked.keeps.insert(checked.keeps.end(), from_one.begin(), from_one.end());
         }

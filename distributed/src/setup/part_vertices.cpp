@@ -5,8 +5,8 @@
 namespace octetra::distributed {
 namespace {
 
-/// By how many processes each vertex of this one's stretch is wanted, none, one or more; the
-/// vertices that nobody wants become wanted by this process.
+/// Counts the processes that request each vertex of this process's share: 0, 1, or 2 for several.
+/// This process then requests the vertices that no process has requested.
 std::vector<std::uint8_t> keep_unwanted(int rank, const MeshStretch& stretch,
                                         StretchVertices& vertices) {
     std::vector<std::uint8_t> wanted(stretch.lists.points.size(), 0);

@@ -13,21 +13,22 @@
 
 namespace octetra::distributed {
 
-/// The vertices of a process's part: those of its cells, and of those of its stretch the ones that
-/// no cell of any process has.
+/// The vertices of a process's part: those of its cells, and those of its share of the file that no
+/// cell of any process has.
 struct StretchVertices {
     VertexSet set;
-    Requests<std::uint32_t> requests;     ///< who wants which
-    std::vector<std::uint8_t> is_shared;  ///< of each vertex of the set: has another process it?
+    Requests<std::uint32_t> requests;     ///< requests of all processes, by owner of the vertices
+    std::vector<std::uint8_t> is_shared;  ///< for each vertex of the set: whether another process
+                                          ///< has it
 };
 
-/// Collective. Finds the vertices of these cells, which go by their numbers in the whole mesh.
+/// Collective. Finds the vertices of these cells, which have global vertex numbers.
 [[nodiscard]] StretchVertices find_vertices(const Communicator& processes, const Homes& homes,
                                             const MeshStretch& stretch,
                                             const IndexVector<CellIndex, CellVertices>& cells,
                                             LocalFailure& failure);
 
-/// Collective. Brings points, markers and attributes into the mesh.
+/// Collective. Fetches points, markers and attributes into the mesh.
 void bring_vertices(const Communicator& processes, const StretchVertices& vertices,
                     const MeshStretch& stretch, DistributedMesh& mesh, LocalFailure& failure);
 

@@ -17,8 +17,8 @@
 namespace octetra::distributed {
 namespace {
 
-/// Collective. Does the caller take such a mesh? What is wrong with it is told when it is known
-/// that nothing is wrong with the file, which one process is to find out.
+/// Collective. Returns whether the caller accepts a mesh with these facts. Its exception is not
+/// thrown here: read_on_first() calls on_facts() again once the file is known to be correct.
 bool are_welcome(const MeshFacts& facts, const ReadPartsOptions& options) {
     if (!options.on_facts) return true;
     try {
@@ -29,7 +29,8 @@ bool are_welcome(const MeshFacts& facts, const ReadPartsOptions& options) {
     return true;
 }
 
-/// Collective. Nothing, on all processes, if one must read all of it.
+/// Collective. Reads the file with all processes. Returns nothing on all processes if the first one
+/// must read it alone.
 std::optional<DistributedMesh> read_together(const Communicator& processes,
                                              const std::filesystem::path& path,
                                              PartitionMethod method,
@@ -55,7 +56,8 @@ std::optional<DistributedMesh> read_together(const Communicator& processes,
     return mesh;
 }
 
-/// Collective. Of the first process's mesh, which was read: but for names of groups, on all.
+/// Collective. Returns the facts of the first process's mesh on all processes; only group names are
+/// complete on the first process alone.
 MeshFacts facts_of_first(const Communicator& processes, const Mesh& mesh) {
     MeshFacts facts = WholeMesh(mesh).facts();
     struct Numbers {
@@ -83,7 +85,7 @@ MeshFacts facts_of_first(const Communicator& processes, const Mesh& mesh) {
     return facts;
 }
 
-/// Collective. The first process reads and shares out.
+/// Collective. The first process reads the mesh and distributes it.
 DistributedMesh read_on_first(const Communicator& processes, const std::filesystem::path& path,
                               const Partition& partition, const ReadPartsOptions& options) {
     Mesh mesh;
@@ -95,7 +97,7 @@ DistributedMesh read_on_first(const Communicator& processes, const std::filesyst
     std::vector<int> cell_to_rank;
     in_phase(processes, "partition", [&] {
         processes.on_first([&] {
-            // A part file that does not fit is a mistake on one rank, too.
+            // A part file that does not match the mesh is an error on one rank, too.
             if (processes.size() == 1 && partition.method != PartitionMethod::file) return;
             const bool is_weighed = options.weigh && takes_weights(partition);
             cell_to_rank = partition_cells(

@@ -15,7 +15,7 @@ struct CellToSend {
     Marker region = 0;
 };
 
-/// Collective. How many cells come from each process.
+/// Collective. Returns the number of cells that this process receives from each process.
 std::vector<std::uint64_t> counts_to_come(const Communicator& processes,
                                           const std::vector<int>& parts, LocalFailure& failure) {
     std::vector<std::vector<std::uint64_t>> to_go;
@@ -30,7 +30,7 @@ std::vector<std::uint64_t> counts_to_come(const Communicator& processes,
     failure.agree(processes);
     std::vector<std::vector<std::uint64_t>> to_come;
     failure.attempt([&] { to_come = processes.all_to_all(to_go); });
-    failure.agree(processes);  // else who has no memory may have sent nothing
+    failure.agree(processes);  // otherwise a process without memory may have sent nothing
     std::vector<std::uint64_t> counts;
     failure.attempt([&] {
         for (const auto& from_one : to_come) {
@@ -41,8 +41,8 @@ std::vector<std::uint64_t> counts_to_come(const Communicator& processes,
     return counts;
 }
 
-/// The cells of a part while they come together: those that stay at the front of what was read,
-/// what comes from others in lists until there is room between them.
+/// The cells of a part during the exchange. Cells that stay are kept at the front of the lists that
+/// were read; received cells are kept in separate lists until there is room between them.
 class Gathering {
 public:
     Gathering(const Communicator& processes, MeshStretch& stretch, const StretchCorners& corners,
@@ -52,7 +52,7 @@ public:
           corners_(&corners),
           parts_(&parts) {}
 
-    /// Makes room for all that there will be.
+    /// Reserves the memory for the whole part.
     void make_room(const std::vector<std::uint64_t>& counts) {
         const auto own = counts.begin() + static_cast<std::ptrdiff_t>(own_);
         before_ = std::accumulate(counts.begin(), own, std::uint64_t{0});
@@ -69,7 +69,7 @@ public:
     }
     [[nodiscard]] const std::vector<std::vector<CellToSend>>& boxes() const { return boxes_; }
 
-    /// Goes on through the cells read, until so many that leave are in boxes.
+    /// Continues to iterate over the cells read, until `at_once` leaving cells are in boxes.
     void fill_boxes(std::size_t at_once) {
         for (auto& box : boxes_) box.clear();
         for (std::size_t in_boxes = 0; next_ < parts_->size() && in_boxes < at_once; ++next_) {
@@ -91,7 +91,7 @@ public:
         }
     }
 
-    /// The stretches come in the order of the ranks, and each in its own.
+    /// Joins the shares in the order of ranks, which is the order of cell numbers.
     [[nodiscard]] CellsOfPart put_together() && {
         make_room_before(cells());
         if (has_regions()) make_room_before(regions());
@@ -116,7 +116,7 @@ private:
     }
     [[nodiscard]] bool has_regions() const { return stretch_->facts.has_regions; }
 
-    /// Where a cell is written that was read before, or is the one that was just read.
+    /// Moves a staying cell forward; the target was already read, or is the cell itself.
     void stay(const CellVertices& vertices, std::uint64_t number, Marker region) {
         cells()[CellIndex{stayed_}] = vertices;
         if (has_regions()) regions()[CellIndex{stayed_}] = region;
@@ -134,7 +134,7 @@ private:
     MeshStretch* stretch_;
     const StretchCorners* corners_;
     const std::vector<int>* parts_;
-    std::uint64_t before_ = 0;  // cells from lower ranks
+    std::uint64_t before_ = 0;  // number of cells received from lower ranks
     std::size_t stayed_ = 0;
     std::size_t next_ = 0;
     std::vector<std::uint64_t> numbers_;

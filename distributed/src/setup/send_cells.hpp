@@ -11,16 +11,16 @@
 
 namespace octetra::distributed {
 
-/// Cells that have come to their part, in the order of their numbers in the whole mesh.
+/// The cells of a part, in the order of their global numbers.
 struct CellsOfPart {
-    IndexVector<CellIndex, CellVertices> cells;  ///< vertices by numbers in the whole mesh
+    IndexVector<CellIndex, CellVertices> cells;  ///< with global vertex numbers
     std::vector<std::uint64_t> numbers;
-    std::vector<Marker> regions;  ///< or empty
+    std::vector<Marker> regions;  ///< may be empty
 };
 
-/// Collective. The cells of all stretches go where `parts` says, one of each cell of this
-/// process's stretch, whose vertices `corners` knows. Those that stay do so in the memory that they
-/// were read into: of `stretch` no cells and regions are left, and of `corners` no cells.
+/// Collective. Sends each cell of this process's share to the rank that `parts` states; `corners`
+/// provides their vertices. Cells that stay are kept in the memory that they were read into: the
+/// cells and regions of `stretch` and the cells of `corners` must not be used afterwards.
 [[nodiscard]] CellsOfPart send_cells(const Communicator& processes, MeshStretch& stretch,
                                      const StretchCorners& corners, const std::vector<int>& parts,
                                      LocalFailure& failure);

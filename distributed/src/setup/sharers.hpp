@@ -15,17 +15,17 @@ namespace octetra::distributed {
 
 /// Another process that has the same key.
 struct Sharer {
-    std::uint32_t key = 0;  ///< which of this process's keys
+    std::uint32_t key = 0;  ///< index among this process's keys
     std::int32_t rank = 0;
 
     friend auto operator<=>(const Sharer&, const Sharer&) = default;
 };
 
-/// Calls meet(processes, positions) for each key that several processes have sent: which these are,
-/// ascending, and where the key stands in what has come from each. Each process's keys ascend.
+/// Calls meet(processes, positions) for each key that several processes have sent, with these
+/// processes, ascending, and the index of the key in the list of each. Each process's keys ascend.
 template <class Key>
 void for_each_common(const std::vector<std::vector<Key>>& from_each, auto&& meet) {
-    std::vector<std::pair<Key, std::size_t>> waiting;  // a heap: the next key of each, the process
+    std::vector<std::pair<Key, std::size_t>> waiting;  // a heap of pairs (next key, process)
     std::vector<std::size_t> next(from_each.size(), 0);
     const auto wait = [&](std::size_t r) {
         if (next[r] == from_each[r].size()) return;
@@ -51,13 +51,13 @@ void for_each_common(const std::vector<std::vector<Key>>& from_each, auto&& meet
     }
 }
 
-/// Collective. For each of this process's keys, which ascend and are different from each other, the
-/// other processes that have it too; ascending by key and rank. A key is a vertex, or the vertices
-/// of an edge or face, by global numbers, ascending. None on any process, if one has failed or
-/// fails.
+/// Collective. Returns for each of this process's keys, which ascend and are distinct, the other
+/// processes that have it, too; ascending by key and rank. A key is a vertex, or the vertices of an
+/// edge or face, by global numbers, ascending. The result is empty on all processes if one has
+/// failed or fails.
 ///
-/// Each key meets its equals at a process that its value decides. Memory and messages are in
-/// proportion to the keys, and evenly spread.
+/// Equal keys are sent to the same rendezvous process, which a hash determines. Memory and messages
+/// are proportional to the number of keys, and evenly distributed.
 template <std::size_t N>
 [[nodiscard]] std::vector<Sharer> find_sharers(
     const Communicator& processes, const std::vector<std::array<std::uint64_t, N>>& keys,

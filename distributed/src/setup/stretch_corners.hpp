@@ -12,11 +12,12 @@
 
 namespace octetra::distributed {
 
-/// The corners of the cells of a stretch. While there is one, these cells have their vertices by
-/// place among all that they have, as looking a place up takes time.
+/// Provides the corners of the cells of a process's share. During the lifetime of this object,
+/// these cells refer to their vertices by index in the sorted list of their vertices, because
+/// looking up the index of a global number is slow.
 class StretchCorners {
 public:
-    /// Collective. Fetches the points that this process has not read itself.
+    /// Collective. Fetches the points that other processes have read.
     StretchCorners(const Communicator& processes, const Homes& homes, MeshStretch& stretch,
                    LocalFailure& failure)
         : cells_(&stretch.lists.cells) {
@@ -35,26 +36,26 @@ public:
         });
     }
 
-    /// The cells with their vertices by place, and the points.
+    /// The cells, with vertex indices into points().
     [[nodiscard]] std::span<const CellVertices> cells() const {
         return {cells_->data(), cells_->size()};
     }
     [[nodiscard]] std::span<const Point> points() const { return points_; }
 
-    /// Of the stretch's cell number i.
+    /// Returns the corners of cell i of the share.
     [[nodiscard]] Corners of(std::size_t i) const {
         const auto& [a, b, c, d] = (*cells_)[CellIndex{i}];
         return {points_[a.value()], points_[b.value()], points_[c.value()], points_[d.value()]};
     }
 
-    /// Brings the points of cell number i, if there is one, near the processor: in a mesh in no
-    /// order they are far from each other, and would be waited for.
+    /// Prefetches the points of cell i, if there is one. In an unordered mesh they are scattered,
+    /// and access to them would be bound by memory latency.
     void ask_for(std::size_t i) const {
         if (i >= cells_->size()) return;
         for (const VertexIndex v : (*cells_)[CellIndex{i}]) __builtin_prefetch(&points_[v.value()]);
     }
 
-    /// The numbers of its vertices in the whole mesh.
+    /// Returns the global vertex numbers of cell i.
     [[nodiscard]] CellVertices numbers_of(std::size_t i) const {
         CellVertices numbers;
         for (std::size_t k = 0; k < 4; ++k) {
@@ -67,7 +68,7 @@ public:
 
 private:
     IndexVector<CellIndex, CellVertices>* cells_;
-    std::vector<std::uint32_t> numbers_;  // of the vertices, by place
+    std::vector<std::uint32_t> numbers_;  // global numbers, by vertex index
     std::vector<Point> points_;
 };
 

@@ -18,8 +18,8 @@
 
 namespace octetra::distributed {
 
-/// A tagged facet or edge on its way to a process that has a cell at it; vertices go by their
-/// numbers in the whole mesh.
+/// A tagged facet or edge that is being sent to a process with a cell at it; vertices are global
+/// numbers.
 template <std::size_t N>
 struct TaggedSide {
     std::array<VertexIndex, N> vertices{};
@@ -34,16 +34,16 @@ struct TaggedSide {
     }
 };
 
-/// What a process knows of a side: cells that have it lie on the one side of it, on the other, or
-/// more than one on the same.
+/// Bits for the cells that a process has at a facet: on its even side, on its odd side, and whether
+/// several are on the same side.
 namespace side {
 inline constexpr std::uint8_t even = 1;
 inline constexpr std::uint8_t odd = 2;
 inline constexpr std::uint8_t overlap = 4;
 }  // namespace side
 
-/// On which of the two sides of its face k a positive cell lies, by the order of the face's
-/// vertices, which all processes number in the same order. Of an edge there are no sides.
+/// Returns the side of its face k on which a positive cell lies, defined by the order of the global
+/// numbers of the face's vertices, so all processes agree. Edges have no sides.
 inline std::uint8_t cell_side(const FacetVertices& face, std::size_t k) {
     const auto& [a, b, c] = face;
     const bool is_even = (a < b) == ((b < c) == (a < c));
@@ -51,8 +51,9 @@ inline std::uint8_t cell_side(const FacetVertices& face, std::size_t k) {
 }
 inline std::uint8_t cell_side(const EdgeVertices&, std::size_t) { return side::even; }
 
-/// Facets or edges that all processes have read, a stretch each, on their way to the processes that
-/// have cells at them. They meet at the home of their lowest vertex, which knows who has that one.
+/// Assigns facets or edges, of which each process has read a share, to processes that have cells at
+/// them. The owner of its lowest vertex handles an entity, because it knows the processes that have
+/// this vertex.
 template <class I, std::size_t N>
 class TaggedSides {
 public:
@@ -63,8 +64,9 @@ public:
                 LocalFailure& failure)
         : processes_(&processes), vertices_(&vertices), failure_(&failure) {}
 
-    /// Collective. To the homes: a stretch, of which the first has this number. False if one of
-    /// them is there again with another marker.
+    /// Collective. Sends this process's share, whose first entity has number `first`, to the owners
+    /// of the lowest vertices. Returns false if an entity is listed repeatedly with different
+    /// markers.
     [[nodiscard]] bool collect(const Homes& homes, const List& list,
                                const IndexVector<I, Marker>& markers, std::uint64_t first) {
         std::vector<std::vector<Side>> to_homes;
@@ -99,8 +101,9 @@ public:
         return agree;
     }
 
-    /// Collective. To all that have the lowest vertex; these tell what cells they have there, by
-    /// local numbers. False if a side has no cell, or two on the same side of it.
+    /// Collective. Sends entities to all processes that have their lowest vertex; these report the
+    /// cells that they have there. `cells` have local vertex indices. Returns false if an entity
+    /// has no cell, or two on the same side.
     template <std::size_t Sides>
     [[nodiscard]] bool find_cells(const IndexVector<CellIndex, CellVertices>& cells,
                                   const std::array<std::array<std::uint8_t, N>, Sides>& sides) {
@@ -116,7 +119,7 @@ public:
         failure_->agree(*processes_);
         std::vector<std::vector<std::uint8_t>> kept_by;
         failure_->attempt([&] { kept_by = processes_->all_to_all(replies); });
-        failure_->agree(*processes_);  // all replies are there
+        failure_->agree(*processes_);  // all replies have been received
         bool well = true;
         failure_->attempt([&] { well = give_to_the_lowest(kept_by); });
         failure_->agree(*processes_);
@@ -125,7 +128,7 @@ public:
         return well;
     }
 
-    /// The ones that this process keeps, in the order of their numbers.
+    /// Appends the entities that this process keeps, in the order of their numbers.
     void take(bool has_markers, List& list, AncestorMap& ancestors) {
         std::vector<Side> kept;
         for (std::size_t rank = 0; rank < come_.size(); ++rank) {
@@ -151,8 +154,8 @@ private:
         return static_cast<std::size_t>(processes_->size());
     }
 
-    /// Calls send(rank, place) for whoever has the lowest vertex of what is at home; for each rank
-    /// in the same order.
+    /// Calls send(rank, index) for each process that has the lowest vertex of an entity in
+    /// at_home_; the order is the same in each call.
     void for_each_sent(auto&& send) const {
         for (std::size_t rank = 0; rank < process_count(); ++rank) {
             std::size_t next = 0;
@@ -183,7 +186,7 @@ private:
         return places;
     }
 
-    /// What cells there are at each of those that have come.
+    /// Returns the bits of the cells at each received entity.
     template <std::size_t Sides>
     [[nodiscard]] std::vector<std::vector<std::uint8_t>> look_at(
         const IndexVector<CellIndex, CellVertices>& cells,
@@ -223,8 +226,8 @@ private:
         found |= static_cast<std::uint8_t>(of_cell | (again ? side::overlap : 0));
     }
 
-    /// Of what the parts have found, leaves to each those that it keeps: the lowest rank that has a
-    /// cell there. False if there is none, or cells lie on the same side.
+    /// Replaces the found bits by 1 for the lowest rank that has a cell at the entity, which keeps
+    /// it, and by 0 for others. Returns false if there is no cell, or two on the same side.
     [[nodiscard]] bool give_to_the_lowest(std::vector<std::vector<std::uint8_t>>& found) const {
         std::vector<std::uint8_t> all(at_home_.size(), 0);
         std::vector<std::size_t> next(process_count(), 0);
@@ -242,9 +245,10 @@ private:
     const Communicator* processes_;
     const StretchVertices* vertices_;
     LocalFailure* failure_;
-    std::vector<Side> at_home_;                     // by their vertices
-    std::vector<std::vector<Side>> come_;           // from each home
-    std::vector<std::vector<std::uint8_t>> keeps_;  // of each of these: is it this process's?
+    std::vector<Side> at_home_;            // sorted by vertices
+    std::vector<std::vector<Side>> come_;  // from each owner
+    // for each of these: whether this process keeps it
+    std::vector<std::vector<std::uint8_t>> keeps_;
 };
 
 }  // namespace octetra::distributed

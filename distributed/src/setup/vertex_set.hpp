@@ -13,11 +13,11 @@
 
 namespace octetra::distributed {
 
-/// Vertices by their numbers in a whole mesh that 32 bits number, and the place of each among them
-/// in constant time. Memory: 12 bytes for 64 numbers between the least and the greatest, so at most
-/// a sixth of a byte for each vertex of the whole mesh; and where no more than four numbers of
-/// these come to a vertex, 4 bytes for each number, as places are then sooner looked up than
-/// counted.
+/// A set of vertices by global numbers of 32 bits, which returns the index of each number among
+/// them in constant time. Memory: 12 bytes for every 64 numbers between the least and the greatest,
+/// at most three sixteenths of a byte for each vertex of the whole mesh. If at least a quarter of
+/// these numbers are in the set, also 4 bytes for each number, because a table of indices is then
+/// faster than counting bits.
 class VertexSet {
 public:
     VertexSet() = default;
@@ -58,11 +58,12 @@ public:
     [[nodiscard]] std::size_t size() const { return size_; }
 
     [[nodiscard]] bool has(std::uint32_t number) const {
-        const std::size_t word = word_of(number);  // far beyond the end below the first
+        // wraps around to beyond the end for numbers below first_
+        const std::size_t word = word_of(number);
         return word < bits_.size() && (bits_[word] & bit_of(number)) != 0;
     }
 
-    /// How many vertices of the set have lower numbers. This one is in it.
+    /// Returns the number of vertices in the set with lower numbers. `v` must be in the set.
     [[nodiscard]] VertexIndex place_of(VertexIndex v) const {
         if (!places_.empty()) return places_[v.value() - first_];
         const std::size_t word = word_of(v.value());
@@ -70,7 +71,7 @@ public:
         return VertexIndex{before_[word] + ones_of(lower)};
     }
 
-    /// Ascending.
+    /// Returns the numbers in ascending order.
     [[nodiscard]] std::vector<std::uint32_t> numbers() const {
         std::vector<std::uint32_t> numbers;
         reserve_in_huge_pages(numbers, size_);
@@ -90,7 +91,7 @@ private:
     [[nodiscard]] static std::uint64_t bit_of(std::uint32_t number) {
         return std::uint64_t{1} << (number % 64U);
     }
-    /// std::popcount, which is a call where programs must run on any processor of the kind.
+    /// std::popcount, which is a library call in builds for the baseline instruction set.
     [[nodiscard]] static std::size_t ones_of(std::uint64_t bits) {
         bits -= bits >> 1U & 0x5555555555555555U;
         bits = (bits & 0x3333333333333333U) + (bits >> 2U & 0x3333333333333333U);
@@ -127,8 +128,8 @@ private:
 
     std::uint32_t first_ = 0;  // a multiple of 64
     std::vector<std::uint64_t> bits_;
-    std::vector<std::uint32_t> before_;  // how many there are before each word
-    std::vector<VertexIndex> places_;    // of each number, or none
+    std::vector<std::uint32_t> before_;  // number of vertices before each word
+    std::vector<VertexIndex> places_;    // index of each number, or empty
     std::size_t size_ = 0;
 };
 

@@ -19,7 +19,7 @@
 namespace octetra::distributed {
 namespace {
 
-/// Cells of the input, with what became of them.
+/// Input cells with the patterns of their descendants.
 struct Roots {
     struct Root {
         std::uint64_t number = 0;
@@ -31,7 +31,7 @@ struct Roots {
     std::vector<std::uint8_t> cuts;  ///< see RootBytes
 };
 
-/// The runs of a step that a block tells of.
+/// The runs of one step in a block.
 class RunList {
 public:
     explicit RunList(std::span<const CutRun> runs) : rest_(runs) {}
@@ -45,7 +45,7 @@ private:
     std::span<const CutRun> rest_;
 };
 
-/// What this process reads of the cells and their cuts.
+/// The share of cells and patterns that this process reads.
 class ShareOfFile {
 public:
     ShareOfFile(const Communicator& processes, const CheckpointReader& file) : file_(&file) {
@@ -70,8 +70,8 @@ public:
     }
 
     Roots roots;
-    std::vector<std::uint64_t> weights;  ///< the cells that each root has become
-    std::vector<StepFacts> found;        ///< what the cuts that were read have of each step
+    std::vector<std::uint64_t> weights;  ///< the number of descendants of each root
+    std::vector<StepFacts> found;        ///< totals of the patterns read, for each step
 
 private:
     void take_block(std::uint64_t block) {
@@ -101,7 +101,7 @@ std::vector<std::uint64_t> vertices_of(const Roots& roots) {
     return numbers;
 }
 
-/// Collective. Is what the table has of each step what the cuts of all processes have?
+/// Collective. Throws unless the table's facts about each step equal the sums over all processes.
 void check_steps(const Communicator& processes, const CheckpointReader& file,
                  const ShareOfFile& share, LocalFailure& failure) {
     if (file.facts().steps.empty()) return;
@@ -126,7 +126,7 @@ void check_steps(const Communicator& processes, const CheckpointReader& file,
     failure.agree(processes);
 }
 
-/// What this process reads of the vertices.
+/// The share of vertices that this process reads.
 struct VertexShare {
     Homes homes;
     std::uint64_t begin = 0;
@@ -144,7 +144,7 @@ struct VertexShare {
     }
 };
 
-/// Collective. The parts of this process's share of the cells, by coordinates.
+/// Collective. Returns the parts of this process's share of the cells, by coordinates.
 std::vector<int> parts_by_coordinates(const Communicator& processes, const ShareOfFile& share,
                                       const VertexShare& vertices, LocalFailure& failure) {
     std::vector<std::uint64_t> numbers;
@@ -178,7 +178,7 @@ std::vector<int> parts_by_coordinates(const Communicator& processes, const Share
     return parts;
 }
 
-/// Collective. The same, by a method that wants the whole input on the first process.
+/// Collective. Same, by a method that requires the whole input on the first process.
 std::vector<int> parts_of_whole(const Communicator& processes, const ShareOfFile& share,
                                 const std::filesystem::path& path, const Partition& partition) {
     const auto weights = processes.gather(share.weights);
@@ -202,7 +202,7 @@ std::vector<int> parts_of_whole(const Communicator& processes, const ShareOfFile
     return processes.scatter(parts);
 }
 
-/// Collective. Cells go to their parts; each process gets its own, in the order of their numbers.
+/// Collective. Sends cells to their parts; each process receives its own in ascending order.
 Roots send(const Communicator& processes, const Roots& roots, const std::vector<int>& parts,
            LocalFailure& failure) {
     std::vector<std::vector<Roots::Root>> root_boxes;
@@ -220,7 +220,7 @@ Roots send(const Communicator& processes, const Roots& roots, const std::vector<
         }
     });
     failure.agree(processes);
-    // Shares are in the order of the ranks, and in their own.
+    // Shares are in the order of ranks, so the received cells ascend.
     Roots received;
     failure.attempt([&] {
         for (const auto& box : processes.all_to_all(root_boxes)) {
@@ -238,7 +238,7 @@ Roots send(const Communicator& processes, const Roots& roots, const std::vector<
     return received;
 }
 
-/// Takes cells with their tags, and steps.
+/// Adds cells with their tags and patterns to the part.
 void take_roots(Roots roots, const CheckpointFacts& facts, LoadedPart& part) {
     for (const auto& root : roots.roots) {
         if (root.cut_bytes > 0) {
@@ -252,7 +252,7 @@ void take_roots(Roots roots, const CheckpointFacts& facts, LoadedPart& part) {
     part.cuts.bytes = std::move(roots.cuts);
 }
 
-/// Adds the vertices of this process's share that nobody has asked for.
+/// Adds the vertices of this process's share that no process has requested.
 void take_unwanted(const VertexShare& share, const Requests<>& requests, MeshPart& part) {
     std::vector<bool> is_wanted(share.points.size(), false);
     for (const auto& numbers : requests.received) {
@@ -270,8 +270,8 @@ void take_unwanted(const VertexShare& share, const Requests<>& requests, MeshPar
     }
 }
 
-/// Collective. The vertices of this process's cells, and those of its share that no cell has.
-/// Returns who has asked for what.
+/// Collective. Fetches the vertices of this process's cells, and adds those of its share that no
+/// cell has. Returns the requests of all processes.
 Requests<> take_vertices(const Communicator& processes, const VertexShare& share,
                          const CheckpointFacts& facts, const Roots& roots, MeshPart& part,
                          LocalFailure& failure) {
@@ -298,7 +298,7 @@ void take_tagged(const std::vector<Tagged<N>>& tagged, bool has_markers,
     }
 }
 
-/// What this process reads of them: whole blocks.
+/// Reads this process's share of the features, in whole blocks.
 SharedFeatures share_of_features(const Communicator& processes, const CheckpointReader& file) {
     const FeatureCounts& counts = file.facts().features;
     if (!has_any(counts)) return {};

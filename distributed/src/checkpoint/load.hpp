@@ -9,17 +9,17 @@
 
 namespace octetra::distributed {
 
-/// What a process has of a checkpoint.
+/// The part of a checkpoint that a process has.
 struct LoadedPart {
     MeshPart input;  ///< its cells ascend by number
     CutRoots cuts;
     SharedFeatures features;  ///< see DistributedMesh
 };
 
-/// Collective. Every process reads its share of the blocks; then cells go where the partition gives
-/// them, with what the steps did to them. Of the methods of partition, rcb works without any
-/// process having more than its share and its part; for the others the first one reads the whole
-/// input. Cells weigh as many as they have become. Throws as AdaptiveMesh::load().
+/// Collective. Every process reads its share of the blocks; then cells are sent to the ranks that
+/// the partition assigns, with their patterns. The method rcb needs only a share and a part on each
+/// process; for other methods, the first process reads the whole input. The weight of a cell is the
+/// number of its descendants. Throws as AdaptiveMesh::load().
 [[nodiscard]] LoadedPart load_part(const Communicator& processes, const CheckpointReader& file,
                                    const std::filesystem::path& path, const Partition& partition);
 

@@ -9,7 +9,7 @@
 namespace octetra::distributed {
 namespace {
 
-/// Collective.
+/// Collective. Reads and fetches the values of field `number`.
 template <class T>
 std::vector<T> values_of(const Communicator& processes, const CheckpointReader& file,
                          std::size_t number, std::size_t components, const WantedValues& wanted) {

@@ -11,9 +11,9 @@
 
 namespace octetra::distributed {
 
-/// Collective. The fields of a checkpoint, on this process's part of its mesh. That is in canonical
-/// order; `cells_before` are the numbers by which the cells' values are to go, if not by this
-/// order.
+/// Collective. Returns the fields of a checkpoint on this process's part of its mesh, which is in
+/// canonical order. If the values of cells are to be in another order, `cells_before` maps
+/// canonical local indices to it; otherwise it is empty.
 [[nodiscard]] std::vector<Field> load_fields(const DistributedMesh& mesh,
                                              std::span<const CellIndex> cells_before,
                                              const CanonicalNumbers& numbers,

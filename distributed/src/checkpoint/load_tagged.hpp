@@ -16,7 +16,7 @@
 
 namespace octetra::distributed {
 
-/// A tagged facet or edge on its way to a process that has a cell at it.
+/// A tagged facet or edge that is being sent to a process with a cell at it.
 template <std::size_t N>
 struct Tagged {
     std::uint64_t number = 0;
@@ -24,7 +24,8 @@ struct Tagged {
     Marker marker = 0;
 };
 
-/// Collective. The facets or edges that this process reads, to the homes of their first vertices.
+/// Collective. Sends the facets or edges that this process reads to the owners of their first
+/// vertices.
 template <std::size_t N>
 [[nodiscard]] std::vector<Tagged<N>> send_home(const Communicator& processes,
                                                const CheckpointReader& file,
@@ -55,7 +56,7 @@ template <std::size_t N>
     return at_home;
 }
 
-/// Collective. From there to all that have asked for the first vertex.
+/// Collective. Sends them on to all processes that have requested their first vertex.
 template <std::size_t N>
 [[nodiscard]] std::vector<Tagged<N>> send_to_parts(const Communicator& processes,
                                                    const Requests<>& requests,
@@ -84,7 +85,7 @@ template <std::size_t N>
     return come;
 }
 
-/// Those that are sides of cells, which have `corners`, in the order of their numbers.
+/// Returns the entities that are sides of `cells`, sorted by number.
 template <std::size_t N, std::size_t Sides>
 [[nodiscard]] std::vector<Tagged<N>> sides_among(
     const std::vector<Tagged<N>>& come, const auto& cells,
@@ -120,8 +121,8 @@ template <std::size_t N, std::size_t Sides>
     return tagged;
 }
 
-/// Collective. Throws, on all processes alike, where a facet or edge of the file is a side of no
-/// cell: the processes that have one tell the process that has read it.
+/// Collective. Throws on all processes if a facet or edge of the file is a side of no cell. The
+/// processes that have a cell at an entity report this to the process that has read it.
 template <std::size_t N>
 void check_all_are_sides(const Communicator& processes, const CheckpointReader& file,
                          Section section, const std::vector<Tagged<N>>& tagged,
@@ -139,7 +140,7 @@ void check_all_are_sides(const Communicator& processes, const CheckpointReader& 
     failure.agree(processes);
     std::vector<std::vector<std::uint64_t>> inboxes;
     failure.attempt([&] { inboxes = processes.all_to_all(outboxes); });
-    failure.agree(processes);  // or numbers of a process that has failed would seem to be missing
+    failure.agree(processes);  // otherwise numbers of a failed process would seem to be missing
     failure.attempt([&] {
         const std::uint64_t begin = homes.begin_of(processes.rank());
         std::vector<bool> is_side(homes.end_of(processes.rank()) - begin, false);
@@ -155,8 +156,9 @@ void check_all_are_sides(const Communicator& processes, const CheckpointReader& 
     failure.agree(processes);
 }
 
-/// Collective. The facets or edges that are sides of this process's cells. Each goes from who has
-/// read it to the home of one of its vertices, and from there to all that have asked for that one.
+/// Collective. Returns the facets or edges that are sides of this process's cells. Each is sent
+/// from its reader to the owner of its first vertex, and from there to all processes that have
+/// requested that vertex.
 template <std::size_t N, std::size_t Sides>
 [[nodiscard]] std::vector<Tagged<N>> bring_tagged(
     const Communicator& processes, const CheckpointReader& file, const Homes& vertex_homes,

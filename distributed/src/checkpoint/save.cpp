@@ -45,13 +45,13 @@ CheckpointFacts facts_of(const SavedMesh& saved, const MeshFacts& input,
     return facts;
 }
 
-/// This process's roots, in their order, as messages to whoever writes their blocks.
+/// Sends this process's roots, in order, to the processes that write their blocks.
 class RootSender {
 public:
     explicit RootSender(const SavedMesh& saved)
         : ancestors_(&saved.mesh->cell_ancestors), apart_(readers(saved.steps)) {}
 
-    /// Collective. What the slice of this process gets, by root.
+    /// Collective. Returns the steps of the roots in this process's slice.
     std::vector<CutRuns> bring(const Window& window, const Communicator& processes,
                                std::size_t step_count) {
         std::vector<std::vector<std::uint8_t>> outboxes(static_cast<std::size_t>(processes.size()));
@@ -116,11 +116,12 @@ private:
 
     const AncestorMap* ancestors_;
     RootsApart<CutReader> apart_;
-    std::size_t next_ = 0;     ///< of this process's roots
-    std::uint64_t whole_ = 0;  ///< roots before it that were never cut and are yet to be passed
+    std::size_t next_ = 0;     ///< index of the next root of this process
+    std::uint64_t whole_ = 0;  ///< preceding roots that were never cut and have not been skipped
+                               ///< yet
 };
 
-/// Collective.
+/// Collective. Writes the history.
 void put_cuts(CheckpointWriter& writer, const SavedMesh& saved) {
     const Communicator& processes = saved.mesh->processes;
     RootSender sender(saved);
@@ -139,7 +140,7 @@ void put_cuts(CheckpointWriter& writer, const SavedMesh& saved) {
     }
 }
 
-/// Collective. Throws where the state cannot be saved, or is not the same on all processes.
+/// Collective. Throws if the state cannot be saved, or differs between processes.
 void check_state(const Communicator& processes, const std::optional<SavedState>& state) {
     std::vector<std::uint8_t> bytes;
     if (state) {
@@ -154,7 +155,7 @@ void check_state(const Communicator& processes, const std::optional<SavedState>&
     throw InputError("processes have different times, steps or texts for a checkpoint");
 }
 
-/// Collective. A process may fail anywhere in it.
+/// Collective. A process may fail at any point.
 void write_checkpoint(const SavedMesh& saved, std::span<const Field> fields,
                       const std::filesystem::path& path) {
     const Communicator& processes = saved.mesh->processes;

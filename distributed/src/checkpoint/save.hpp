@@ -14,10 +14,10 @@
 
 namespace octetra::distributed {
 
-/// A mesh as its checkpoint has it.
+/// The data that a checkpoint stores.
 struct SavedMesh {
-    /// In canonical order; `cells_before` are the numbers that its cells had where that was not so,
-    /// by which the fields go.
+    /// In canonical order. `cells_before` maps canonical local indices to the indices of field
+    /// values; if it is empty, they are the same.
     const DistributedMesh* mesh = nullptr;
     std::span<const CellIndex> cells_before;
     const CanonicalNumbers* numbers = nullptr;

@@ -13,7 +13,7 @@
 namespace octetra::distributed {
 namespace {
 
-/// An entry of a list of one of the messages.
+/// An entry of a list in one of the messages.
 struct Entry {
     std::uint64_t number = 0;
     std::uint32_t message = 0;
@@ -22,7 +22,7 @@ struct Entry {
     friend auto operator<=>(const Entry&, const Entry&) = default;
 };
 
-/// All entries of a list of the messages, by number.
+/// Returns the entries of a list in all messages, sorted by number.
 std::vector<Entry> entries(const std::vector<RootMessage>& messages, auto list, auto&& number_of) {
     std::vector<Entry> all;
     for (std::uint32_t m = 0; m < messages.size(); ++m) {
@@ -33,7 +33,7 @@ std::vector<Entry> entries(const std::vector<RootMessage>& messages, auto list, 
     return all;
 }
 
-/// Puts what is in the messages together, as the input was.
+/// Merges the roots of all messages into a part without levels.
 class ArrivalsTogether {
 public:
     ArrivalsTogether(const std::vector<RootMessage>& messages, const HasLists& has,
@@ -122,11 +122,12 @@ private:
     const std::vector<RootMessage>* messages_;
     Arrivals* arrivals_;
     DistributedMesh* part_;
-    std::vector<std::vector<VertexIndex>> local_;  ///< of each message, its vertices
+    std::vector<std::vector<VertexIndex>> local_;  ///< for each message, its vertices
 };
 
-/// Of a part whose group is this process alone: where that has no memory, it is not rank 0 of the
-/// group that moves cells.
+/// Replays the steps on a part whose communicator contains this process alone. OutOfMemory would
+/// name rank 0 of that communicator, so it is replaced by bad_alloc, for which the migrating
+/// communicator's rank is reported.
 void replay_alone(DistributedMesh& part, CutRoots cuts, std::size_t step_count) {
     try {
         replay(part, std::move(cuts), step_count);

@@ -10,15 +10,15 @@
 
 namespace octetra::distributed {
 
-/// The roots that have come, with all that the steps made of them: a part without interfaces, of
-/// a group of this process alone, in canonical order.
+/// The received roots with their descendants: a part without interfaces, in canonical order, whose
+/// communicator contains this process alone.
 struct Arrivals {
     DistributedMesh part;
-    std::vector<int> rank_of_root;  ///< the process that each root comes from
+    std::vector<int> rank_of_root;  ///< the process that sent each root
 };
 
-/// Of the messages from each process, by rank, of so many steps; attributes_per_point of vertices.
-/// Not collective.
+/// Assembles the messages from each process, by rank, and applies `step_count` steps to the roots.
+/// `attributes_per_point` is that of the mesh. Not collective.
 [[nodiscard]] Arrivals arrivals_of(const std::vector<RootMessage>& messages, const HasLists& has,
                                    std::size_t attributes_per_point, std::size_t step_count);
 

@@ -12,8 +12,8 @@
 namespace octetra::distributed {
 namespace {
 
-/// Midpoints by the edge that they halve, of the edges that may be shared: their ends are vertices
-/// of the shared edges and faces, or midpoints between such.
+/// The midpoints of edges that may be shared, by edge: edges whose ends are vertices of shared
+/// input edges, or midpoints between such vertices.
 class BorderMidpoints {
     using Entry = std::pair<EdgeVertices, VertexIndex>;
 
@@ -40,7 +40,7 @@ public:
         std::partial_sum(begin_.begin(), begin_.end(), begin_.begin());
     }
 
-    /// none() where the edge is not bisected.
+    /// Returns the midpoint, or none() if the edge is not bisected.
     [[nodiscard]] VertexIndex of(VertexIndex a, VertexIndex b) const {
         const auto [low, high] = std::minmax(a, b);
         const auto end = midpoints_.begin() + begin_[low.value() + 1U];
@@ -52,11 +52,11 @@ public:
     }
 
 private:
-    std::vector<Entry> midpoints_;      ///< by edge
-    std::vector<std::uint32_t> begin_;  ///< of those whose edge has this lower end
+    std::vector<Entry> midpoints_;      ///< sorted by edge
+    std::vector<std::uint32_t> begin_;  ///< offset of the midpoints of edges with this lower end
 };
 
-/// Goes from edges and faces of the input to what became of them.
+/// Traverses the descendants of shared edges and faces of the input.
 class Descent {
 public:
     Descent(const DistributedMesh& mesh, const BorderMidpoints& midpoints, BorderWith& border)
@@ -80,7 +80,7 @@ public:
             border_->interface.faces.push_back(vertices);
             return;
         }
-        // The level that bisects the face first leaves its other edges to pieces of it.
+        // The first level that bisects the face may leave some of its edges to its children.
         const VertexIndex end = levels_.end(levels_.of(first));
         for (VertexIndex& m : midpoints) m = m < end ? m : VertexIndex::none();
         const BisectedTriangle bisected = bisect_triangle(vertices, midpoints, mesh_->points);

@@ -6,15 +6,16 @@
 
 namespace octetra::distributed {
 
-/// What a part shares with another process, after all steps.
+/// The entities that a part shares with another process, after all steps.
 struct BorderWith {
-    Interface interface;                 ///< in ascending order of the vertices, here as there
+    Interface interface;                 ///< ascending by vertices, in the same order on both
+                                         ///< processes
     std::vector<VertexIndex> midpoints;  ///< of shared edges, ascending
 };
 
-/// What became of the shared edges and faces of the input, by the midpoints that there are. Both
-/// sides come to equal lists, as the order of their vertices is the same. Takes time in proportion
-/// to the border, but for one pass over the midpoints. Not collective.
+/// Derives the border after all steps from the shared edges and faces of the input and the
+/// midpoints of the mesh. Both sides derive equal lists, because the order of their vertices is the
+/// same. Takes time proportional to the border, plus one pass over the midpoints. Not collective.
 [[nodiscard]] std::vector<BorderWith> border_after_steps(const DistributedMesh& mesh,
                                                          const std::vector<Interface>& of_input);
 

@@ -18,7 +18,7 @@ std::vector<int> ranks_of_tagged(const IndexVector<I, std::array<VertexIndex, N>
     std::vector<int> ranks(list.size(), -1);
     if (list.empty()) return ranks;
     const VertexBuckets<I, N> buckets(list, input.points.size());
-    IndexVector<VertexIndex, std::uint8_t> is_tagged;  // small enough for a cache
+    IndexVector<VertexIndex, std::uint8_t> is_tagged;  // small enough to stay in the cache
     is_tagged.assign(input.points.size(), 0);
     for (const auto& vertices : list) {
         for (const VertexIndex v : vertices) is_tagged[v] = 1;
@@ -39,7 +39,7 @@ std::vector<int> ranks_of_tagged(const IndexVector<I, std::array<VertexIndex, N>
     return ranks;
 }
 
-/// By rank, places in a list of the input.
+/// For each rank, indices in a list of the input.
 using PlacesByRank = std::vector<std::vector<std::uint32_t>>;
 
 PlacesByRank by_rank(const std::vector<int>& ranks, std::size_t process_count) {
@@ -138,9 +138,9 @@ private:
 
     const DistributedMesh* input_;
     const std::vector<std::uint8_t>* cuts_;
-    std::vector<std::size_t> cut_begin_;  ///< of each root, and the end
-    std::vector<std::uint32_t> place_;    ///< of each vertex in the message that is being made
-    std::vector<int> last_message_;       ///< in which it has one
+    std::vector<std::size_t> cut_begin_;  ///< offset for each root, and the end
+    std::vector<std::uint32_t> place_;    ///< index of each vertex in the current message
+    std::vector<int> last_message_;       ///< the last message that contains the vertex
 };
 
 }  // namespace

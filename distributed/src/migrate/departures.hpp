@@ -10,22 +10,23 @@
 
 namespace octetra::distributed {
 
-/// What a process has of the input, and the process that each of it goes to, or stays with.
+/// The part of the input that a process has, and the destination rank of each entity, which may be
+/// this rank.
 struct Departures {
     DistributedMesh input;
-    CutRoots cuts;  ///< what the steps did to the roots
+    CutRoots cuts;  ///< patterns of the roots in all steps
     std::vector<int> rank_of_root;
     std::vector<int>
-        rank_of_facet;  ///< a facet or tagged edge goes with the first cell that has it
+        rank_of_facet;  ///< a facet or tagged edge moves with the first cell that has it
     std::vector<int> rank_of_edge;
 };
 
-/// Of a mesh in canonical order. Not collective.
+/// Requires a mesh in canonical order. Not collective.
 [[nodiscard]] Departures departures_of(const DistributedMesh& mesh,
                                        std::span<const int> rank_of_root);
 
-/// The bytes of a RootMessage to each process; none to this one, and to those that get nothing. Not
-/// collective.
+/// Returns a packed RootMessage to each process; empty for this one, and for those that receive no
+/// root. Not collective.
 [[nodiscard]] std::vector<std::vector<std::byte>> packed_messages(const Departures& departures);
 
 }  // namespace octetra::distributed

@@ -13,14 +13,14 @@
 namespace octetra::distributed {
 namespace {
 
-/// How much of a part a process has.
+/// The weight of a part that a process has.
 struct ShareOfPart {
     std::uint64_t weight = 0;
     int part = 0;
     int rank = 0;
 };
 
-/// One part for each process, the greatest share first.
+/// Assigns one part to each process, in descending order of weights.
 std::vector<int> matched(std::vector<ShareOfPart> shares, std::size_t process_count) {
     std::ranges::sort(shares, [](const ShareOfPart& a, const ShareOfPart& b) {
         return std::tie(b.weight, a.part, a.rank) < std::tie(a.weight, b.part, b.rank);
@@ -45,7 +45,8 @@ std::vector<int> matched(std::vector<ShareOfPart> shares, std::size_t process_co
     return rank_of_part;
 }
 
-/// Collective. What each process would have. Nothing where one has failed or fails.
+/// Collective. Returns the load of each process after the move. Empty on all processes if one has
+/// failed or fails.
 std::vector<std::uint64_t> loads_after(const Communicator& processes, std::span<const int> ranks,
                                        std::span<const std::uint64_t> weights,
                                        LocalFailure& failure) {
@@ -87,7 +88,7 @@ std::vector<int> ranks_of_parts(const Communicator& processes, std::span<const i
         rank_of_part = matched(std::move(all), gathered.size());
     });
     if (failure.max_unless_failed(processes, 0) == LocalFailure::somewhere) return {};
-    processes.broadcast(rank_of_part);  // into memory that is there
+    processes.broadcast(rank_of_part);  // the memory is already allocated
     return rank_of_part;
 }
 

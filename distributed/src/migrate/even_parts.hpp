@@ -13,25 +13,25 @@ namespace octetra::distributed {
 
 struct EvenParts {
     std::vector<int> rank_of_root;
-    std::uint64_t most = 0;  ///< what the process that has most has then
+    std::uint64_t most = 0;  ///< the greatest load of a process after the move
 };
 
-/// Collective. For each root of this process, of a mesh in canonical order, the process that is to
-/// have it so that all have about the same weight: by recursive coordinate bisection, the parts
-/// given to processes so that much stays where it is; and where one would have more than so many
-/// times the mean, heavy roots move on. `weights` are those of this process's roots.
-/// Nothing, on all processes, where the one that has most would not have less, or where a process
-/// has failed or fails.
+/// Collective. Returns for each root of this process, of a mesh in canonical order, the process
+/// that is to have it so that loads are nearly equal. Parts are computed by recursive coordinate
+/// bisection and assigned to processes so that little moves. If the greatest load exceeds
+/// `most_over_mean` times the mean, heavy roots are reassigned. `weights` are those of this
+/// process's roots. Returns nothing on all processes if the greatest load would not decrease, or if
+/// a process has failed or fails.
 [[nodiscard]] std::optional<EvenParts> even_parts(const DistributedMesh& mesh,
                                                   std::span<const std::uint64_t> weights,
                                                   double most_over_mean, LocalFailure& failure);
 
-/// How many cells each root of this process has become, of a mesh in canonical order.
+/// Returns the number of cells in each root of this process, of a mesh in canonical order.
 [[nodiscard]] std::vector<std::uint64_t> cells_of_roots(const DistributedMesh& mesh);
 
-/// Collective. Gives parts, as many as there are processes, to processes: in descending order of
-/// what a process has of a part. `weights` are those of what this process has, each of the part
-/// that `parts` names. Returns the process of each part, or nothing where one has failed or fails.
+/// Collective. Assigns parts, one to each process, in descending order of the weight of the part
+/// that the process has. Element i on this process belongs to part parts[i] and has weight
+/// weights[i]. Returns the process of each part, or nothing if a process has failed or fails.
 [[nodiscard]] std::vector<int> ranks_of_parts(const Communicator& processes,
                                               std::span<const int> parts,
                                               std::span<const std::uint64_t> weights,

@@ -13,8 +13,8 @@ namespace octetra::distributed {
 
 using MessageBytes = std::vector<std::byte>;
 
-/// Collective. Sends pack(message) to each partner, this process among them, and gives what has
-/// come from each to take(). Both may throw.
+/// Collective. Sends pack(message) to each partner, including this process, and passes the received
+/// messages, by partner, to take(). Both functions may throw.
 void exchange_entities(const Communicator& processes, const std::vector<int>& partners,
                        const Migration::Entities& entities, LocalFailure& failure, auto&& pack,
                        auto&& take) {

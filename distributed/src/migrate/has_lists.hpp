@@ -8,7 +8,8 @@
 
 namespace octetra::distributed {
 
-/// Which lists of tags the input has. A process without entities of a kind cannot tell.
+/// States which lists of tags the input has; a process without entities of a kind cannot determine
+/// this alone.
 struct HasLists {
     bool regions = false;
     bool facet_markers = false;

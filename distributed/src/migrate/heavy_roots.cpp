@@ -6,25 +6,25 @@
 namespace octetra::distributed {
 namespace {
 
-/// At most so many of all processes are heavy.
+/// The maximum number of heavy roots on all processes.
 constexpr std::uint64_t most_heavy = 4096;
-/// And none that is less than such a part of a mean load.
+/// A heavy root weighs at least the mean load divided by this.
 constexpr std::uint64_t parts_of_mean = 64;
 
-/// The fullest process and the emptiest, and how much more the first has.
+/// The processes with the greatest and the smallest load, and the difference of their loads.
 struct Uneven {
     int fullest = 0;
     int emptiest = 0;
     std::uint64_t gap = 0;
 
-    /// What one has more than the other when so much more goes than comes.
+    /// Returns the difference after moving the net weight from the fullest to the emptiest process.
     [[nodiscard]] std::uint64_t left(std::uint64_t weight) const {
         return weight > gap - weight ? 2 * weight - gap : gap - 2 * weight;
     }
     [[nodiscard]] bool helps(std::uint64_t weight) const { return weight > 0 && weight < gap; }
 };
 
-/// A root that goes from the fullest to the emptiest, and one that comes for it, if any.
+/// A root that moves from the fullest to the emptiest process, and one that moves back, or null.
 struct Exchange {
     PlacedRoot* goes = nullptr;
     PlacedRoot* comes = nullptr;
@@ -34,7 +34,8 @@ struct Exchange {
     }
 };
 
-/// The one that leaves the two most alike; without a root that goes if none makes the most less.
+/// Returns the move of one root that minimises the remaining difference; its `goes` is null if no
+/// move reduces the greatest load.
 Exchange best_move(std::span<PlacedRoot> roots, const Uneven& uneven) {
     Exchange best;
     for (PlacedRoot& root : roots) {
@@ -46,7 +47,7 @@ Exchange best_move(std::span<PlacedRoot> roots, const Uneven& uneven) {
     return best;
 }
 
-/// The same of two roots, each of which takes the other's place.
+/// Same for swaps of two roots.
 Exchange best_swap(std::span<PlacedRoot> roots, const Uneven& uneven) {
     std::vector<PlacedRoot*> of_emptiest;
     for (PlacedRoot& root : roots) {
@@ -56,7 +57,7 @@ Exchange best_swap(std::span<PlacedRoot> roots, const Uneven& uneven) {
     Exchange best;
     for (PlacedRoot& root : roots) {
         if (root.rank != uneven.fullest) continue;
-        // The best are those next to what leaves both the same.
+        // Candidates are the neighbours of the weight that would equalise the loads.
         const std::uint64_t wanted = root.weight - std::min(root.weight, uneven.gap / 2);
         const auto next = std::ranges::lower_bound(of_emptiest, wanted, {}, &PlacedRoot::weight);
         const auto first = next == of_emptiest.begin() ? next : next - 1;
@@ -75,7 +76,7 @@ Exchange best_swap(std::span<PlacedRoot> roots, const Uneven& uneven) {
 }  // namespace
 
 void relieve(std::vector<std::uint64_t>& loads, std::span<PlacedRoot> roots, std::uint64_t goal) {
-    // Loads become more alike each time, so this would end by itself, if not how soon.
+    // Each move reduces the difference, so the loop terminates; the limit bounds its time.
     for (std::size_t moves = 0; moves < 16 * roots.size(); ++moves) {
         const auto most = std::ranges::max_element(loads);
         const auto least = std::ranges::min_element(loads);
@@ -106,7 +107,7 @@ bool relieve_of_heavy_roots(const Communicator& processes, std::span<const std::
     std::vector<std::size_t> which;
     std::vector<int> placed;
     failure.attempt([&] {
-        placed.resize(most_heavy);  // as many as there may be: all have room for what is told
+        placed.resize(most_heavy);  // upper bound, so every process has memory for the broadcast
         for (std::size_t r = 0; r < weights.size(); ++r) {
             if (weights[r] <= heavy) continue;
             here.push_back({weights[r], ranks[r]});

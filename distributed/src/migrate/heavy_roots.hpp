@@ -10,21 +10,22 @@
 
 namespace octetra::distributed {
 
-/// A root that a process is to have.
+/// A root and the process that it is assigned to.
 struct PlacedRoot {
     std::uint64_t weight = 0;
     int rank = 0;
 };
 
-/// Moves roots from whoever has most to whoever has least, as long as that makes the most less, and
-/// more than `goal`: each time the one that leaves these two most alike. Where none does, two take
-/// each other's place. `loads` are those of all processes, with more than the roots given.
+/// Moves roots from the process with the greatest load to the one with the smallest, as long as the
+/// greatest load exceeds `goal` and decreases. Each time it selects the root that minimises the
+/// difference between the two; if there is none, it swaps two roots. `loads` are those of all
+/// processes, including roots that are not passed.
 void relieve(std::vector<std::uint64_t>& loads, std::span<PlacedRoot> roots, std::uint64_t goal);
 
-/// Collective. The same of this process's roots, of which the heavy ones may move, some thousand of
-/// all processes: bisection cuts between roots as they lie, and where these are heavy it may miss
-/// the middle at each cut. False, on all alike, where a process has failed or fails; else `loads`
-/// are what processes have then.
+/// Collective. Applies relieve() to the heavy roots of all processes, at most a few thousand.
+/// Bisection separates roots by position, so heavy ones may cause an imbalance in each cut. Returns
+/// false on all processes if one has failed or fails; otherwise `loads` are the loads after the
+/// moves.
 [[nodiscard]] bool relieve_of_heavy_roots(const Communicator& processes,
                                           std::span<const std::uint64_t> weights,
                                           std::span<int> ranks, std::vector<std::uint64_t>& loads,

@@ -15,8 +15,8 @@ namespace {
 
 using NumbersAfter = IndexVector<VertexIndex, VertexIndex>;
 
-/// The vertices of cells that stay, and those that no cell has. Others may stay, too, with cells
-/// that come.
+/// Returns the vertices of staying cells, and those that no cell has. Other vertices may stay as
+/// vertices of received cells.
 IndexVector<VertexIndex, std::uint8_t> staying_vertices(const DistributedMesh& before,
                                                         const Departures& departures) {
     IndexVector<VertexIndex, std::uint8_t> stays;
@@ -36,11 +36,11 @@ IndexVector<VertexIndex, std::uint8_t> staying_vertices(const DistributedMesh& b
     return stays;
 }
 
-/// One of the two parts whose vertices are merged, and how far it has come.
+/// One of two parts whose vertices are merged, with the progress of the merge.
 struct Source {
     const DistributedMesh* mesh;
-    const IndexVector<VertexIndex, std::uint8_t>* stays;  ///< null: all do
-    NumbersAfter numbers;                                 ///< none() where it does not stay
+    const IndexVector<VertexIndex, std::uint8_t>* stays;  ///< null: all stay
+    NumbersAfter numbers;                                 ///< none() if it does not stay
     VertexIndex next{0};
 
     Source(const DistributedMesh& of, const IndexVector<VertexIndex, std::uint8_t>* of_these)
@@ -49,7 +49,7 @@ struct Source {
     }
 
     [[nodiscard]] bool next_stays() const { return stays == nullptr || (*stays)[next] != 0; }
-    /// Passes over midpoints that the merged part cannot have: it has not both of their ends.
+    /// Skips midpoints that the merged part cannot have, because it lacks one of their ends.
     void pass_impossible(VertexIndex end) {
         if (stays == nullptr || next < VertexIndex{mesh->input_vertices.size()}) return;
         const auto is_impossible = [&] {
@@ -67,7 +67,7 @@ struct Source {
         return level < mesh->level_begin.size() ? mesh->level_begin[level]
                                                 : mesh->points.end_index();
     }
-    /// The ends of the edge that the next vertex halves, by their new numbers.
+    /// Returns the ends of the edge that the next vertex halves, by new index.
     [[nodiscard]] EdgeVertices ends() const {
         const auto& [a, b] = mesh->midpoint_to_edge[next.value() - mesh->input_vertices.size()];
         return {numbers[a], numbers[b]};
@@ -93,7 +93,7 @@ public:
     }
 
 private:
-    /// `key_of` orders the vertices of a level, and tells when they are the same.
+    /// `key_of` orders the vertices of a level and is equal for equal vertices.
     void merge_level(std::size_t level, auto&& key_of) {
         const VertexIndex end_a = a_->level_end(level);
         const VertexIndex end_b = b_->level_end(level);
@@ -132,7 +132,7 @@ private:
         result_->input_vertex_markers.push_back(
             source.mesh->input_vertex_markers[source.next.value()]);
     }
-    /// What both have is known by what both know of it.
+    /// Adds a midpoint. If both parts have it, the marker with priority is adopted.
     void take_midpoint(bool takes_a, bool takes_b) {
         const Source& source = takes_a ? *a_ : *b_;
         result_->midpoint_to_edge.push_back(source.ends());
@@ -153,7 +153,7 @@ private:
     bool has_markers_ = false;
 };
 
-/// A list of one of the parts, of which the roots that `stays` names are taken.
+/// A list of one of the parts, from which single roots are copied.
 template <class I, std::size_t N>
 struct ListSource {
     const IndexVector<I, std::array<VertexIndex, N>>* list;
@@ -176,8 +176,8 @@ template <class I, std::size_t N>
 ListSource(const IndexVector<I, std::array<VertexIndex, N>>*, const AncestorMap*,
            const NumbersAfter*) -> ListSource<I, N>;
 
-/// Merges what stays of one list with another, root by root. Calls taken(root of b, or its count)
-/// for each.
+/// Merges the staying roots of one list with another list. Calls taken(root of b) for each root of
+/// b, and taken(number of roots of b) for each of a.
 template <class I, std::size_t N>
 void merge_lists(const ListSource<I, N>& a, const std::vector<int>& rank_of_a, int rank,
                  const ListSource<I, N>& b, bool has_markers,
@@ -201,7 +201,8 @@ void merge_lists(const ListSource<I, N>& a, const std::vector<int>& rank_of_a, i
     take_b_before(~std::uint64_t{0});
 }
 
-/// Throws where 32 bits might not number what is together then: what goes away is counted, too.
+/// Throws InputError if the number of entities may exceed the range of 32-bit indices; departing
+/// entities are counted, too.
 void check_countable(const DistributedMesh& before, const DistributedMesh& come) {
     const std::size_t most = std::max(
         {before.points.size() + come.points.size(), before.cells.size() + come.cells.size(),

@@ -11,15 +11,17 @@
 
 namespace octetra::distributed {
 
-/// What stays and what has come as one part, in canonical order; without interfaces.
+/// Staying and received entities as one part, in canonical order, without interfaces.
 struct MergedPart {
     DistributedMesh mesh;
-    std::vector<int> rank_of_root;     ///< the process that each root comes from, or this one
-    Migration::Message kept_vertices;  ///< the numbers that they had, and that they have
+    std::vector<int> rank_of_root;     ///< the process that sent each root; this one for staying
+                                       ///< roots
+    Migration::Message kept_vertices;  ///< old and new local indices
 };
 
-/// Both are in canonical order, and so is the result: vertices are merged as they ascend, all else
-/// root by root. Takes time in proportion to both, and none to bisect anything. Not collective.
+/// Merges a part with received roots. Both are in canonical order, and so is the result: vertices
+/// are merged in ascending order, other entities root by root. Takes time proportional to the size
+/// of both; nothing is bisected again. Not collective.
 [[nodiscard]] MergedPart merge_parts(const DistributedMesh& before, const Departures& departures,
                                      const Arrivals& arrivals, const HasLists& has);
 

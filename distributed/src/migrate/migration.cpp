@@ -41,7 +41,7 @@ void copy(std::byte* to, const std::byte* from, std::size_t size) {
     if (size > 0) std::memcpy(to, from, size);
 }
 
-/// Where the list of each entity begins, and where the last ends, if these are their lengths.
+/// Replaces the lengths of lists by their offsets, and appends the end of the last list.
 void sum_up(std::vector<std::uint64_t>& lengths) {
     std::uint64_t end = 0;
     for (std::uint64_t& length : lengths) end += std::exchange(length, end);
@@ -104,7 +104,7 @@ void Migration::move_lists(const Entities& entities, std::span<const std::uint64
     LocalFailure failure;
     failure.attempt([&] { check(processes_, begin, values.size() / size, entities.count_before); });
     agree_on_kind(processes_, failure, kind);
-    // Of each entity the length of its list, and then all lists.
+    // The message has the lengths of all lists, followed by the lists.
     const auto pack = [&](const std::vector<std::uint32_t>& sent) {
         std::size_t length = sent.size() * sizeof(std::uint64_t);
         for (const std::uint32_t i : sent) length += (begin[i + 1] - begin[i]) * size;

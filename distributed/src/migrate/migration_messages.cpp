@@ -8,7 +8,7 @@ namespace {
 
 using Numbers = std::vector<std::uint32_t>;
 
-/// The processes that this one sends to or receives from, and itself.
+/// Returns the processes that this one sends to or receives from, and this process.
 std::vector<int> partners_of(const SideOfMove& before, const SideOfMove& after) {
     const Communicator& processes = before.mesh->processes;
     std::vector<bool> is_partner(static_cast<std::size_t>(processes.size()), false);
@@ -42,7 +42,7 @@ public:
         });
         return cells;
     }
-    /// The vertices of these cells that are wanted, ascending.
+    /// Returns the vertices of these cells for which is_wanted() is true, ascending.
     [[nodiscard]] Numbers vertices(std::size_t partner, auto&& is_wanted) {
         Numbers vertices;
         const auto mark = static_cast<std::uint32_t>(partner);
@@ -68,7 +68,8 @@ private:
 
     const SideOfMove* side_;
     std::vector<Numbers> roots_;                        ///< by partner
-    IndexVector<VertexIndex, std::uint32_t> last_met_;  ///< with which partner's cells
+    IndexVector<VertexIndex, std::uint32_t> last_met_;  ///< the last partner with a cell at the
+                                                        ///< vertex
 };
 
 }  // namespace

@@ -9,26 +9,27 @@
 
 namespace octetra::distributed {
 
-/// A mesh before its cells moved, or after, in canonical order.
+/// A mesh before or after a migration, in canonical order.
 struct SideOfMove {
     const DistributedMesh* mesh = nullptr;
-    /// Of each root the process that it goes to, or comes from.
+    /// For each root, the process that it moves to, or is received from.
     std::span<const int> rank_of_root;
-    /// The number that each cell has when the mesh is not in this order, or empty.
+    /// Maps canonical to actual indices of the cells if the mesh is not in canonical order; else
+    /// empty.
     std::span<const CellIndex> cells_outside{};
 };
 
-/// Which cells and vertices go along in messages between partners, for a Migration.
+/// The cells and vertices in the messages between partners, for a Migration.
 struct MovedEntities {
     std::vector<int> partners;
     Migration::Entities cells;
     Migration::Entities vertices;
 };
 
-/// Which cells and vertices went where: both processes of a move know it without asking, as the
-/// descendants of a root have the same order on both. A vertex goes along with the cells that have
-/// it, but not to a process that has it already: those are `kept`. `sharing` is that of before. Not
-/// collective.
+/// Determines the messages of a migration. Both processes of a move compute them without
+/// communication, because the descendants of a root have the same order on both. A vertex is sent
+/// with the cells that have it, except to processes that have it already: there it is one of
+/// `kept`. `sharing` is that before the migration. Not collective.
 [[nodiscard]] MovedEntities moved_entities(const SideOfMove& before, const SideOfMove& after,
                                            const Sharing<VertexIndex>& sharing,
                                            Migration::Message kept);

@@ -7,9 +7,9 @@
 
 namespace octetra::distributed {
 
-/// Collective. The numbers in the whole mesh of the vertices that this process has after a move, of
-/// those that it had before. Both ascend, so that of each but the difference to the one before it
-/// is sent, in as few bytes as it takes.
+/// Collective. Returns the global numbers of this process's vertices after a migration, from those
+/// before it. Numbers ascend within each message, so only differences are sent, as numbers of
+/// variable length.
 [[nodiscard]] IndexVector<VertexIndex, GlobalVertex> moved_numbers(
     const Communicator& processes, const MovedEntities& moved,
     const IndexVector<VertexIndex, GlobalVertex>& numbers);

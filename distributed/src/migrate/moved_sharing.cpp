@@ -18,8 +18,8 @@ void sort_and_unite(Destinations& list) {
     list.erase(std::unique(list.begin(), list.end()), list.end());
 }
 
-/// Of each neighbour before the destinations that it is to know, as the owner of the vertex; those
-/// of this process's own vertices stay in `own`. Vertices and their numbers ascend alike.
+/// Groups the destinations by the neighbour that owned the vertex before; those of this process's
+/// own vertices are appended to `own`. Vertices and their numbers ascend alike.
 std::vector<Destinations> by_owner(const Sharing<VertexIndex>& sharing,
                                    const std::vector<GlobalVertex>& vertices,
                                    const Destinations& destinations, std::span<const int> ranks,
@@ -39,7 +39,7 @@ std::vector<Destinations> by_owner(const Sharing<VertexIndex>& sharing,
     return to_owners;
 }
 
-/// To each process that gets a vertex the others that do, if there are any.
+/// Returns for each process that receives a vertex the other processes that do.
 std::vector<Destinations> to_holders(const Destinations& all, std::size_t process_count) {
     std::vector<Destinations> told(process_count);
     for (auto begin = all.begin(); begin != all.end();) {
@@ -84,7 +84,7 @@ Destinations vertex_destinations(const Departures& departures,
         for (const VertexIndex v : input.cells[c]) is_told[v.value()] = true;
     }
     Destinations destinations;
-    std::vector<int> last_rank(input.points.size(), -1);  // most repetitions follow each other
+    std::vector<int> last_rank(input.points.size(), -1);  // most duplicates are consecutive
     for (CellIndex c{0}; c < input.cells.end_index(); ++c) {
         const int rank = departures.rank_of_root[c.value()];
         for (const VertexIndex v : input.cells[c]) {
@@ -101,7 +101,7 @@ Sharing<VertexIndex> moved_sharing(const DistributedMesh& after, const Sharing<V
                                    const Destinations& destinations) {
     const Communicator& processes = after.processes;
     LocalFailure failure;
-    std::optional<Sharing<VertexIndex>> sharing;  // made, even of nothing, it takes memory
+    std::optional<Sharing<VertexIndex>> sharing;  // construction allocates, even of an empty one
     std::optional<SharingBuilder<VertexIndex>> builder;
     std::vector<int> ranks;
     Destinations all;

@@ -9,7 +9,7 @@
 
 namespace octetra::distributed {
 
-/// A vertex of the input that some process will have.
+/// An input vertex and a process that will have it.
 struct VertexDestination {
     GlobalVertex vertex{};
     int rank = 0;
@@ -17,14 +17,15 @@ struct VertexDestination {
     friend auto operator<=>(const VertexDestination&, const VertexDestination&) = default;
 };
 
-/// By vertex and rank, of the vertices that this process shares or whose cells do not all stay:
-/// where its cells at them go. `sharing` is that of before. Not collective.
+/// Returns the destinations, sorted by vertex and rank, of this process's cells at vertices that
+/// are shared or have a departing cell. `sharing` is that before the migration. Not collective.
 [[nodiscard]] std::vector<VertexDestination> vertex_destinations(
     const Departures& departures, const Sharing<VertexIndex>& sharing);
 
-/// Collective. Who has the vertices of the input after a move; `after` is as the input was. Of each
-/// vertex its owner before hears where the cells at it go, and tells those that get it: messages go
-/// to neighbours of before, and from there to whom cells go. Throws alike on all processes.
+/// Collective. Returns the sharing of the input vertices after a migration; `after` has no levels.
+/// The previous owner of each vertex receives the destinations of the cells at it, and sends them
+/// to the processes that will have the vertex. So messages are sent to previous neighbours, and
+/// from these to destinations of cells. A failure of one process is thrown on all.
 [[nodiscard]] Sharing<VertexIndex> moved_sharing(
     const DistributedMesh& after, const Sharing<VertexIndex>& before,
     const std::vector<GlobalVertex>& vertices_before,

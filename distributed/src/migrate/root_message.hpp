@@ -11,8 +11,8 @@
 
 namespace octetra::distributed {
 
-/// What one process sends to another of roots, and of what belongs to them. Vertices go by their
-/// places in the message; numbers are those of the input, and ascend.
+/// The roots that one process sends to another, with their vertices, facets and edges. Vertices are
+/// indices into the message; numbers are global numbers of the input, ascending.
 struct RootMessage {
     struct Root {
         std::uint64_t number = 0;
@@ -31,12 +31,12 @@ struct RootMessage {
     std::vector<std::uint8_t> cuts;  ///< see RootBytes
     std::vector<GlobalVertex> vertices;
     std::vector<Point> points;
-    std::vector<Marker> point_markers;  ///< or empty
+    std::vector<Marker> point_markers;  ///< may be empty
     std::vector<double> point_attributes;
     std::vector<Tagged<3>> facets;
     std::vector<Tagged<2>> edges;
 
-    /// No bytes where there is nothing.
+    /// Returns no bytes if the message is empty.
     [[nodiscard]] std::vector<std::byte> packed() const;
     [[nodiscard]] static RootMessage unpacked(std::span<const std::byte> bytes);
 };

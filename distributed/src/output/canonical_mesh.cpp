@@ -8,7 +8,8 @@
 
 namespace octetra::distributed {
 
-/// One process that may keep the mesh has all of it in canonical order; else slices are exchanged.
+/// A single process that owns the mesh restores its canonical order in place; otherwise slices are
+/// exchanged.
 struct CanonicalMesh::Parts {
     DistributedMesh own;
     const DistributedMesh* mesh = &own;

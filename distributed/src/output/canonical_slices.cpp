@@ -10,8 +10,8 @@
 namespace octetra::distributed {
 namespace {
 
-/// Made at once: written one by one into an array that is then read as a whole, they would be
-/// waited for.
+/// Returns the numbers of the vertices. The array is constructed as a whole, because element-wise
+/// stores followed by a read of the whole array would stall store forwarding.
 template <class Number, std::size_t N>
 std::array<Number, N> numbered(const std::array<VertexIndex, N>& vertices, const auto& of_vertex) {
     return [&]<std::size_t... k>(std::index_sequence<k...>) {
@@ -20,12 +20,12 @@ std::array<Number, N> numbered(const std::array<VertexIndex, N>& vertices, const
     (std::make_index_sequence<N>());
 }
 
-/// How many digits the vertices of these have in all, those from first_longer[0] on at least two,
-/// and so on.
+/// Returns the total number of decimal digits of the vertices of these entities. Vertices from
+/// first_longer[k] on have at least k + 2 digits.
 template <std::size_t N>
 std::uint64_t digits_of(std::span<const std::array<VertexIndex, N>> entities,
                         std::span<const std::uint32_t> first_longer) {
-    constexpr std::size_t at_once = 1U << 12U;  // in the cache, for all thresholds
+    constexpr std::size_t at_once = 1U << 12U;  // stays in the cache, for all thresholds
     std::uint64_t digits = N * entities.size();
     for (std::size_t begin = 0; begin < entities.size(); begin += at_once) {
         const auto some = entities.subspan(begin, std::min(at_once, entities.size() - begin));
@@ -61,14 +61,15 @@ CanonicalSlices::CanonicalSlices(const DistributedMesh& mesh, const CanonicalNum
     }
 }
 
-/// The same on all processes, also on one that has no vertices.
+/// Returns whether vertex numbers are sent in 32 bits; the same on all processes, even without
+/// vertices.
 bool CanonicalSlices::sends_short_numbers() const {
     return mesh_->processes.size() > 1 &&
            numbers().vertex_count <= std::numeric_limits<std::uint32_t>::max();
 }
 
 MeshFacts CanonicalSlices::find_facts() const {
-    // A process without cells does not know whether the others' have tags.
+    // A process without cells has no tags, so their presence is reduced over all.
     const auto any_has = [&](const std::vector<Marker>& markers) {
         return mesh_->processes.max(markers.empty() ? 0 : 1) == 1;
     };
@@ -88,7 +89,7 @@ MeshFacts CanonicalSlices::find_facts() const {
             .group_names = mesh_->group_names};
 }
 
-/// Calls emit(number, local vertex) for this process's vertices numbered begin .. end-1.
+/// Calls emit(number, local index) for this process's vertices numbered begin .. end - 1.
 void CanonicalSlices::for_each_vertex(std::uint64_t begin, std::uint64_t end, auto&& emit) const {
     const auto& numbers = this->numbers().of_vertex;
     const auto from = std::ranges::lower_bound(numbers, GlobalVertex{begin});
@@ -178,8 +179,8 @@ void CanonicalSlices::bring_as(const Window& window,
         [&](std::uint64_t begin, std::uint64_t end, auto&& emit) {
             for_each_between(runs, list.ancestors(), begin, end,
                              [&](std::uint64_t number, std::size_t local, std::size_t) {
-                                 // In a mesh in no order these are far from each other: they are
-                                 // asked for before it is their turn.
+                                 // In an unordered mesh the numbers are scattered, so they are
+                                 // prefetched.
                                  if (const std::size_t next = local + 16; next < entities.size()) {
                                      for (const VertexIndex v : entities[I{next}]) {
                                          __builtin_prefetch(&of_vertex[v]);
@@ -225,8 +226,7 @@ std::span<const VertexNumbers<4>> CanonicalSlices::cells(const Window& window) {
     return bring(window, lists_.cells, cell_runs_, cells_);
 }
 
-/// A process's vertices stand in the order of their numbers: how many digits one has is seen from
-/// its place there.
+/// A process's vertices ascend by number, so the local index determines the number of digits.
 template <class I, std::size_t N>
 std::uint64_t CanonicalSlices::digits_in(
     const Window& window, std::uint64_t index_base,

@@ -14,13 +14,13 @@
 
 namespace octetra::distributed {
 
-/// A mesh in its canonical order, from the processes that hold its parts. See MeshSource.
+/// A distributed mesh in canonical order, as a MeshSource.
 class CanonicalSlices final : public MeshSource {
 public:
-    /// Collective. Refers to the mesh, and to the numbers of its vertices where these are known.
+    /// Collective. Refers to the mesh and, if they are known, to the numbers of its vertices.
     explicit CanonicalSlices(const DistributedMesh& mesh, const CanonicalNumbers* known = nullptr);
 
-    /// Fields of the mesh go with it from now on. Refers to them.
+    /// Adds fields to the output. Refers to them.
     void add(std::span<const Field> fields, const Sharing<VertexIndex>& sharing);
 
     [[nodiscard]] const MeshFacts& facts() const override { return facts_; }
@@ -78,9 +78,9 @@ private:
     const DistributedMesh* mesh_;
     OrderedLists lists_;
     const CanonicalNumbers* known_numbers_;
-    CanonicalNumbers own_numbers_;  ///< where none are known
-    /// The same numbers, where they are short: half as much is looked up, and sent. Of one process
-    /// alone, none.
+    CanonicalNumbers own_numbers_;  ///< used if none are known
+    /// The same numbers in 32 bits if they fit, which halves lookups and messages. Empty on a
+    /// single process.
     IndexVector<VertexIndex, std::uint32_t> short_numbers_;
     CanonicalRuns cell_runs_;
     CanonicalRuns facet_runs_;
@@ -89,7 +89,7 @@ private:
     MeshFacts facts_;
     std::optional<FieldSlices> fields_;
 
-    // What was asked for last.
+    // The slices requested last.
     std::vector<Point> points_;
     std::vector<Marker> point_markers_;
     std::vector<double> point_attributes_;

@@ -14,7 +14,7 @@
 namespace octetra::distributed {
 namespace {
 
-/// As many as a checkpoint's table may tell of.
+/// The maximum number of components in a checkpoint's table.
 constexpr std::size_t most_components = std::size_t{1} << 20U;
 
 std::size_t value_count(const Field& field) {

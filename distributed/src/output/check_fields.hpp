@@ -8,11 +8,11 @@
 
 namespace octetra::distributed {
 
-/// Not collective. Throws InputError for fields that do not fit this process's part, or that a
-/// checkpoint's table could not tell of.
+/// Throws InputError for fields that do not match this process's part, or that a checkpoint's table
+/// cannot represent. Not collective.
 void check_sizes(const DistributedMesh& mesh, std::span<const Field> fields);
 
-/// Collective. Throws InputError where processes have other fields than the first one has.
+/// Collective. Throws InputError if the fields of a process differ from those of the first one.
 void check_same(const Communicator& processes, std::span<const Field> fields);
 
 [[nodiscard]] FieldFacts facts_of(const Field& field);

@@ -12,7 +12,7 @@
 namespace octetra::distributed {
 namespace {
 
-/// The markers of a process's own vertices, when it has all of them.
+/// Returns the markers of the vertices of the only process.
 IndexVector<VertexIndex, Marker> own_markers(const DistributedMesh& part) {
     IndexVector<VertexIndex, Marker> markers;
     markers.assign(part.input_vertex_markers.begin(), part.input_vertex_markers.end());
@@ -30,7 +30,7 @@ void expand(const AncestorMap& ancestors, IndexVector<I, Marker>& markers,
     }
 }
 
-/// Of one process that has all.
+/// Returns the features of the only process.
 FeatureLists own_features(const DistributedMesh& part) {
     FeatureLists lists;
     if (!part.features) return lists;
@@ -47,7 +47,7 @@ FeatureLists own_features(const DistributedMesh& part) {
     return lists;
 }
 
-/// One process's vertices, cells and lists are in canonical order as they are.
+/// Converts the part of the only process, whose lists are in canonical order, without copying them.
 Collected hand_over(DistributedMesh part) {
     Collected whole;
     Mesh& mesh = whole.mesh;
@@ -67,7 +67,7 @@ Collected hand_over(DistributedMesh part) {
     return whole;
 }
 
-/// Throws, on all processes, where 32 bits cannot number the entities of one memory.
+/// Throws InputError on all processes if one of the counts exceeds the range of 32-bit indices.
 void check_countable(const MeshFacts& facts) {
     const std::uint64_t most = std::max({facts.vertices, facts.cells, facts.facets, facts.edges});
     if (most < VertexIndex::limit) return;
@@ -77,8 +77,8 @@ void check_countable(const MeshFacts& facts) {
                     most, VertexIndex::limit));
 }
 
-/// The first process's list gets all `count` entities, a window at a time: what is on its way
-/// should take little memory.
+/// Appends all `count` entities to the first process's list, one window at a time to limit the
+/// memory of messages.
 void fetch(auto& list, std::uint64_t count, std::size_t per_entity, auto&& slice_of) {
     constexpr std::uint64_t length = 1U << 18U;
     for (std::uint64_t begin = 0; begin < count; begin += length) {
@@ -130,7 +130,8 @@ Collected gather(const DistributedMesh& part) {
 }  // namespace
 
 Collected collect(DistributedMesh mesh) {
-    const Communicator processes = mesh.processes;  // the mesh may be gone before the phase ends
+    // the mesh may be destroyed before the phase ends
+    const Communicator processes = mesh.processes;
     if (processes.size() > 1) return collect_copy(mesh);
     const Phase phase(processes, "collect");
     restore_canonical_order(mesh);

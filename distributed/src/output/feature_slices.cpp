@@ -8,8 +8,8 @@
 namespace octetra::distributed {
 namespace {
 
-/// Numbers of an input's entities of a kind meet at a process that they decide: the first has the
-/// first block of them, and so on.
+/// Distributes the numbers of input entities of one kind to rendezvous processes in blocks of equal
+/// size, in the order of ranks.
 struct NumberBlocks {
     std::uint64_t size = 1;
     std::size_t processes = 1;
@@ -18,7 +18,7 @@ struct NumberBlocks {
         : size(count / static_cast<std::uint64_t>(group.size()) + 1),
           processes(static_cast<std::size_t>(group.size())) {}
 
-    /// What each process gets of these.
+    /// Returns the elements to send to each process.
     template <class T>
     [[nodiscard]] std::vector<std::vector<T>> outboxes(const std::vector<T>& all,
                                                        auto&& number_of) const {
@@ -28,14 +28,14 @@ struct NumberBlocks {
     }
 };
 
-/// A root, and where its pieces stand in the canonical order.
+/// A root, and the range of its descendants in the canonical order.
 struct PiecesOfRoot {
     std::uint64_t root;
     std::uint64_t begin;
     std::uint64_t count;
 };
 
-/// Collective. Of this process's block of roots, by their numbers.
+/// Collective. Returns the roots in this process's block, sorted by number.
 std::vector<PiecesOfRoot> pieces_in_block(const Communicator& processes,
                                           const FeatureSlices::Kind& kind,
                                           const NumberBlocks& blocks) {
@@ -54,7 +54,7 @@ std::vector<PiecesOfRoot> pieces_in_block(const Communicator& processes,
     return met;
 }
 
-/// Collective. The numbers with a feature that are in this process's block, in order.
+/// Collective. Returns the numbers with a feature that are in this process's block, ascending.
 std::vector<std::uint64_t> numbers_in_block(const Communicator& processes,
                                             const std::vector<std::uint64_t>& numbers,
                                             const NumberBlocks& blocks) {
@@ -66,7 +66,7 @@ std::vector<std::uint64_t> numbers_in_block(const Communicator& processes,
     return met;
 }
 
-/// Collective. How many entities of a dimension the input has.
+/// Collective. Returns the number of input entities of a dimension.
 std::uint64_t input_count(const DistributedMesh& mesh, std::size_t dimension,
                           const AncestorMap* ancestors) {
     if (dimension == 0) return mesh.input_vertex_count;
@@ -94,7 +94,7 @@ FeatureSlices::FeatureSlices(const DistributedMesh& mesh, const std::array<Kind,
             std::uint64_t own = 0;
             for (const std::uint64_t number :
                  numbers_in_block(processes_, (*mesh.features)[f], blocks)) {
-                Run run{own, number, 1};  // a vertex keeps its number
+                Run run{own, number, 1};  // vertices keep their numbers
                 if (kind != nullptr) {
                     const auto found =
                         std::ranges::lower_bound(pieces, number, {}, &PiecesOfRoot::root);
@@ -116,7 +116,7 @@ std::span<const std::uint64_t> FeatureSlices::slice(Feature feature, const Windo
     bring_to_slices<std::uint64_t>(
         processes_, window,
         [&](std::uint64_t begin, std::uint64_t end, auto&& emit) {
-            // The first run that does not end before `begin`.
+            // The first run that ends after `begin`.
             auto run = std::ranges::partition_point(
                 runs, [&](const Run& r) { return r.place + r.count <= begin; });
             for (; run != runs.end() && run->place < end; ++run) {

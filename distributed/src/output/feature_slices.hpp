@@ -14,27 +14,28 @@
 
 namespace octetra::distributed {
 
-/// The canonical numbers of what has the features of a mesh, in slices: vertices of the input, and
-/// the pieces of what else had them in the input.
+/// The canonical numbers of the entities with features, in slices: input vertices, and the
+/// descendants of input edges, facets and cells with features.
 class FeatureSlices {
 public:
-    /// A kind of entity, in canonical order.
+    /// The entities of one kind, in canonical order.
     struct Kind {
         const AncestorMap* ancestors;
         const CanonicalRuns* runs;
     };
 
-    /// Collective. `kinds`: tagged edges, tagged facets, cells. Refers to nothing of it afterwards
-    /// but the mesh's processes.
+    /// Collective. `kinds`: tagged edges, tagged facets, cells. The object keeps a reference only
+    /// to the mesh's communicator.
     FeatureSlices(const DistributedMesh& mesh, const std::array<Kind, 3>& kinds);
 
-    /// The same on all processes.
+    /// Equal on all processes.
     [[nodiscard]] const FeatureCounts& counts() const { return counts_; }
     /// Collective. See MeshSource::features().
     [[nodiscard]] std::span<const std::uint64_t> slice(Feature feature, const Window& window);
 
 private:
-    /// Numbers begin .. begin+count-1, at this place and the following of a list.
+    /// Entries `position` to position + count - 1 of a list: the numbers begin .. begin + count -
+    /// 1.
     struct Run {
         std::uint64_t place;
         std::uint64_t begin;
@@ -43,7 +44,7 @@ private:
 
     Communicator processes_;
     FeatureCounts counts_;
-    PerFeature<std::vector<Run>> runs_;  ///< this process's part of each list
+    PerFeature<std::vector<Run>> runs_;  ///< this process's share of each list
     std::vector<std::uint64_t> slice_;
 };
 

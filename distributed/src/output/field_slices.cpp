@@ -10,7 +10,8 @@
 namespace octetra::distributed {
 namespace {
 
-/// Calls visit(number, local number) for what this process has to tell of begin .. end-1.
+/// Calls visit(number, local index) for the values of entities begin .. end - 1 that this process
+/// sends.
 void for_each_told(const FieldsOfPart& part, FieldOn on, std::uint64_t begin, std::uint64_t end,
                    auto&& visit) {
     if (on == FieldOn::cells) {

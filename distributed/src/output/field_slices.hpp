@@ -14,23 +14,24 @@
 
 namespace octetra::distributed {
 
-/// Where the values of a process are, and what numbers they have in the whole mesh.
+/// The fields of a process, with the numbering of their entities in the whole mesh.
 struct FieldsOfPart {
     std::span<const Field> fields;
     const Communicator* processes = nullptr;
     const CanonicalNumbers* numbers = nullptr;
     const Sharing<VertexIndex>* sharing = nullptr;
-    /// Of the cells in canonical order; `cells_before` are the numbers by which fields have them,
-    /// or empty where these are the same.
+    /// Of the cells in canonical order. `cells_before` maps canonical local indices to the indices
+    /// of field values; if it is empty, they are the same.
     const AncestorMap* cell_ancestors = nullptr;
     std::span<const CellIndex> cells_before;
     const CanonicalRuns* cell_runs = nullptr;
 };
 
-/// The values of fields in canonical order, those of a vertex from its owner; see MeshSource.
+/// The values of fields in canonical order, as for a MeshSource. The value of a vertex is taken
+/// from its owner.
 class FieldSlices {
 public:
-    /// Refers to what the part refers to.
+    /// Refers to the objects that `part` refers to.
     explicit FieldSlices(const FieldsOfPart& part);
 
     [[nodiscard]] std::span<const FieldFacts> facts() const { return facts_; }

@@ -11,7 +11,7 @@
 
 namespace octetra::distributed {
 
-/// A list of a mesh in canonical order, and its ancestors: the mesh's own, or a copy where that is
+/// A list of a mesh and its ancestors in canonical order: the mesh's own list, or a copy if that is
 /// unordered. Refers to the mesh.
 template <class List>
 class OrderedList {
@@ -36,7 +36,7 @@ public:
 
     [[nodiscard]] const List& list() const { return *list_; }
     [[nodiscard]] const AncestorMap& ancestors() const { return *ancestors_; }
-    /// The number that each entity has in the mesh; empty where it is the same.
+    /// The index of each entity in the mesh; empty if it is the same.
     [[nodiscard]] std::span<const I> before() const { return before_; }
 
 private:
@@ -47,7 +47,7 @@ private:
     std::vector<I> before_;
 };
 
-/// All lists of a mesh, which stays as it is.
+/// All lists of a mesh, which is not modified.
 struct OrderedLists {
     explicit OrderedLists(const DistributedMesh& mesh)
         : cells(mesh.cells, mesh.cell_ancestors, mesh.adjacency ? &mesh.adjacency->cells : nullptr),

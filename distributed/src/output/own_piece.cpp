@@ -23,7 +23,7 @@ void for_each_root(const AncestorMap& ancestors, const Window& window, auto&& em
     }
 }
 
-/// Of each entity of a piece, the values that it has under the number before.
+/// Returns the values of each entity of the piece, reordered from the indices in `before`.
 std::vector<std::byte> bytes_in_order(std::span<const std::byte> values, std::size_t entity_size,
                                       std::span<const CellIndex> before) {
     if (before.empty()) return {values.begin(), values.end()};

@@ -12,15 +12,16 @@
 
 namespace octetra::distributed {
 
-/// What this process has of a mesh, in its own order and with its own numbers; see MeshSource.
-/// The tagged facets and edges are only counted.
+/// The part of this process as a MeshSource, in its own order and with local indices. Tagged facets
+/// and edges are only counted.
 class OwnPiece final : public MeshSource {
 public:
-    /// Collective. `whole` tells of the whole mesh. Refers to the mesh, its lists and the numbers.
+    /// Collective. `whole` are the facts of the whole mesh. Refers to the mesh, its lists and the
+    /// numbers.
     OwnPiece(const DistributedMesh& mesh, const OrderedLists& lists,
              const CanonicalNumbers& numbers, const MeshFacts& whole);
 
-    /// Collective. Fields of the mesh go with it from now on; copies get the owners' values.
+    /// Collective. Adds fields to the output; copies of shared vertices get the owners' values.
     void add(std::span<const Field> fields, const Sharing<VertexIndex>& sharing);
 
     // Not collective:

@@ -15,7 +15,7 @@
 
 namespace octetra::distributed {
 
-/// Values for one process's slice, and their positions there, ascending, no two alike.
+/// Values for one process's slice with their positions there, which strictly ascend.
 template <class T>
 class ValuesOfSlice {
 public:
@@ -53,18 +53,18 @@ private:
 
 namespace detail {
 
-/// How a message tells where its values go, whichever takes least.
+/// Encodings of positions in a message; the shortest one is used.
 enum class Told : std::uint64_t {
-    one_by_one,  ///< a position of each
-    by_runs,     ///< runs of positions that follow each other
-    by_bits      ///< a bit of each position, as far as there are any
+    one_by_one,  ///< each position
+    by_runs,     ///< runs of consecutive positions
+    by_bits      ///< a bit for each position up to the last
 };
 
-/// What a message begins with. Then come the values, and where they go.
+/// The header of a message. It is followed by the values, and then by their positions.
 struct SliceHead {
     std::uint64_t values;
     Told told;
-    std::uint64_t count;  ///< of positions, runs, or words of 64 bits
+    std::uint64_t count;  ///< number of positions, runs, or 64-bit words
 };
 struct SliceRun {
     std::uint32_t position;
@@ -106,7 +106,8 @@ inline void put_bits(std::byte* place, std::span<const std::uint32_t> positions)
     put_bytes(place, &bits, sizeof bits);
 }
 
-/// Of positions, of which there is at least one; and in how many bytes it is told.
+/// Returns the header for positions, of which there is at least one, and the size of their encoding
+/// in bytes.
 inline std::pair<SliceHead, std::size_t> head_of(std::span<const std::uint32_t> positions) {
     std::size_t runs = 1;
     for (std::size_t i = 1; i < positions.size(); ++i) {
@@ -176,11 +177,11 @@ void unpack(std::span<const std::byte> bytes, auto&& place) {
     }
 }
 
-/// Collective. Brings values from the processes that have them to the processes whose slice of a
-/// window they are in.
-/// `between(begin, end, emit)` calls emit(number, value) for this process's values numbered begin
-/// .. end-1, ascending; place(position in the slice, value) is called for each value of this
-/// process's slice, once for each process that has it.
+/// Collective. Sends values from the processes that have them to the processes whose slice of a
+/// window contains them. `between(begin, end, emit)` calls emit(number, value) for this process's
+/// values numbered begin .. end - 1, ascending. `place(position, value)` is called for each value
+/// of this process's slice, once for each process that has it; the position is relative to the
+/// slice.
 template <class T>
 void bring_to_slices(const Communicator& processes, const Window& window, auto&& between,
                      auto&& place) {
@@ -205,7 +206,7 @@ void bring_to_slices(const Communicator& processes, const Window& window, auto&&
     for (const auto& bytes : processes.all_to_all(outboxes)) unpack<T>(bytes, place);
 }
 
-/// The same, for values that are the same wherever they come from.
+/// Same as above, for values that are equal on all processes that have them.
 template <class T>
 void bring_to_slices(const Communicator& processes, const Window& window, auto&& between,
                      std::vector<T>& slice) {

@@ -117,8 +117,7 @@ private:
     const AncestorMap* ancestors_;
     RootsApart<CutReader> apart_;
     std::size_t next_ = 0;     ///< index of the next root of this process
-    std::uint64_t whole_ = 0;  ///< preceding roots that were never cut and have not been skipped
-                               ///< yet
+    std::uint64_t whole_ = 0;  ///< preceding uncut roots that are not yet skipped
 };
 
 /// Collective. Writes the history.

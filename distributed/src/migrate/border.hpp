@@ -8,8 +8,7 @@ namespace octetra::distributed {
 
 /// The entities that a part shares with another process, after all steps.
 struct BorderWith {
-    Interface interface;                 ///< ascending by vertices, in the same order on both
-                                         ///< processes
+    Interface interface;                 ///< ascending by vertices on both processes
     std::vector<VertexIndex> midpoints;  ///< of shared edges, ascending
 };
 

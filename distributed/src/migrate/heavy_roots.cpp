@@ -8,7 +8,7 @@ namespace {
 
 /// The maximum number of heavy roots on all processes.
 constexpr std::uint64_t most_heavy = 4096;
-/// A heavy root weighs at least the mean load divided by this.
+/// A heavy root weighs more than the mean load divided by this.
 constexpr std::uint64_t parts_of_mean = 64;
 
 /// The processes with the greatest and the smallest load, and the difference of their loads.

@@ -14,8 +14,7 @@ namespace octetra::distributed {
 /// Staying and received entities as one part, in canonical order, without interfaces.
 struct MergedPart {
     DistributedMesh mesh;
-    std::vector<int> rank_of_root;     ///< the process that sent each root; this one for staying
-                                       ///< roots
+    std::vector<int> rank_of_root;     ///< the process that sent each root, or this one
     Migration::Message kept_vertices;  ///< old and new local indices
 };
 

@@ -68,8 +68,7 @@ private:
 
     const SideOfMove* side_;
     std::vector<Numbers> roots_;                        ///< by partner
-    IndexVector<VertexIndex, std::uint32_t> last_met_;  ///< the last partner with a cell at the
-                                                        ///< vertex
+    IndexVector<VertexIndex, std::uint32_t> last_met_;  ///< the last partner that has the vertex
 };
 
 }  // namespace

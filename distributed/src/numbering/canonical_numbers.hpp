@@ -11,7 +11,7 @@ namespace octetra::distributed {
 /// The canonical (global) numbers of a process's vertices.
 struct CanonicalNumbers {
     IndexVector<VertexIndex, GlobalVertex> of_vertex;
-    std::uint64_t vertex_count = 0;  ///< of all processes
+    std::uint64_t vertex_count = 0;  ///< in the whole mesh
 
     /// Collective. Numbers the midpoints of one more level: this process's vertices from the first
     /// without a number to before `end`. They are ordered by the numbers of their ends; see

@@ -14,7 +14,7 @@ namespace octetra::distributed {
 struct CanonicalRuns {
     /// The number of the first descendant of each of this process's roots.
     std::vector<std::uint64_t> begin;
-    std::uint64_t count = 0;  ///< of entities of all processes
+    std::uint64_t count = 0;  ///< number of entities of all processes
 };
 
 /// Collective. Every root must be on exactly one process.

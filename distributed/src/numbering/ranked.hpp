@@ -86,9 +86,9 @@ private:
     std::span<const std::uint64_t> words_;
 };
 
-/// Computes the answers to the questions of all processes: the ranks of tuples in the ascending
+/// Computes the answers to the questions of all processes: the positions of tuples in the ascending
 /// order of all distinct tuples of the block. For a lowest vertex of a single process this is the
-/// rank of its first tuple; for a shared one, the rank of each tuple.
+/// position of its first tuple; for a shared one, the position of each tuple.
 template <std::size_t N>
 class Answers {
 public:
@@ -162,15 +162,13 @@ private:
 
     std::vector<std::vector<std::uint64_t>> to_;
     std::vector<QuestionReader<N>> readers_;
-    std::vector<std::pair<std::uint64_t, std::size_t>> waiting_;  ///< a heap of pairs (lowest
-                                                                  ///< vertex, process)
-    std::vector<std::size_t> ranks_;                              ///< processes that ask about the
-                                                                  ///< current lowest vertex
+    std::vector<std::pair<std::uint64_t, std::size_t>> waiting_;  ///< a heap: lowest, process
+    std::vector<std::size_t> ranks_;                              ///< that have the lowest vertex
     std::vector<Rest> different_;
     std::uint64_t count_ = 0;
 };
 
-/// Appends the rank of each of `count` tuples to `list`, from the answers to this process's
+/// Appends the position of each of `count` tuples to `list`, from the answers to this process's
 /// questions. The answer of a failed process is empty; the appended values must not be used then.
 template <std::size_t N>
 void append_places(auto& list, std::size_t count, const std::vector<Question>& questions,
@@ -193,8 +191,8 @@ void append_places(auto& list, std::size_t count, const std::vector<Question>& q
     list.resize(end);
 }
 
-/// Collective. Appends to `list` the ranks of tuples in the ascending order of all distinct tuples
-/// of all processes, counted from `total`, and adds their number to `total`. This process's
+/// Collective. Appends to `list` the positions of tuples in the ascending order of all distinct
+/// tuples of all processes, counted from `total`, and adds their number to `total`. This process's
 /// `tuples` ascend; their vertices have global numbers less than `end_count`. `shared_vertices` are
 /// those that other processes have, too, ascending. Returns false on all processes if one is known
 /// to have failed; a failure in the last step is reported only by the next agreement. `list` may be

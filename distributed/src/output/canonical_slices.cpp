@@ -10,8 +10,8 @@
 namespace octetra::distributed {
 namespace {
 
-/// Returns the numbers of the vertices. The array is constructed as a whole, because element-wise
-/// stores followed by a read of the whole array would stall store forwarding.
+/// Returns the numbers of the vertices. The array is constructed as a whole: a load of the whole
+/// array after element-wise stores would stall.
 template <class Number, std::size_t N>
 std::array<Number, N> numbered(const std::array<VertexIndex, N>& vertices, const auto& of_vertex) {
     return [&]<std::size_t... k>(std::index_sequence<k...>) {

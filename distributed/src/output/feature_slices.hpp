@@ -34,8 +34,7 @@ public:
     [[nodiscard]] std::span<const std::uint64_t> slice(Feature feature, const Window& window);
 
 private:
-    /// Entries `position` to position + count - 1 of a list: the numbers begin .. begin + count -
-    /// 1.
+    /// Entries from `place` on of a list: the numbers begin .. begin + count - 1.
     struct Run {
         std::uint64_t place;
         std::uint64_t begin;

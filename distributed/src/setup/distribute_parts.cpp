@@ -81,7 +81,7 @@ std::uint64_t hash_of(const std::vector<GroupName>& names) {
 }
 
 /// Collective. Throws InputError if some processes have an optional list and others do not, or if a
-/// number that must be global differs.
+/// property of the whole mesh differs.
 void check_alike(const Communicator& processes, const MeshPart& part) {
     const auto check = [&](const char* what, std::size_t values, std::size_t entities) {
         const bool given = processes.max(values > 0 ? 1 : 0) == 1;

@@ -13,7 +13,7 @@
 namespace octetra::distributed {
 
 struct CheckedVertices {
-    std::uint64_t count = 0;          ///< of all processes
+    std::uint64_t count = 0;          ///< number of vertices in the whole mesh
     std::vector<std::uint8_t> keeps;  ///< for each listed vertex: whether this process keeps it
 };
 

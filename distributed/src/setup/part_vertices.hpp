@@ -18,8 +18,7 @@ namespace octetra::distributed {
 struct StretchVertices {
     VertexSet set;
     Requests<std::uint32_t> requests;     ///< requests of all processes, by owner of the vertices
-    std::vector<std::uint8_t> is_shared;  ///< for each vertex of the set: whether another process
-                                          ///< has it
+    std::vector<std::uint8_t> is_shared;  ///< whether another process has each vertex of the set
 };
 
 /// Collective. Finds the vertices of these cells, which have global vertex numbers.

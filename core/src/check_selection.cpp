@@ -9,7 +9,7 @@
 namespace octetra {
 namespace {
 
-/// False also for what is not a number.
+/// False for NaN.
 bool is_between(double low, double x, double high) { return low <= x && x <= high; }
 
 std::string numbers_of(const Point& p) { return fmt::format("{},{},{}", p.x, p.y, p.z); }
@@ -45,7 +45,7 @@ void check(const RandomShare& share, std::string_view name) {
     if (!is_between(0, fraction, 1)) {
         throw InputError(fmt::format("{} takes a number from 0 to 1, not '{}'", name, fraction));
     }
-    // No share that anybody means, and one of few digits.
+    // A denormal fraction is not useful, and has few significant digits.
     if (fraction > 0 && fraction < std::numeric_limits<double>::min()) {
         throw InputError(fmt::format("{} takes a number from 0 to 1, not '{}'; it is out of range",
                                      name, fraction));

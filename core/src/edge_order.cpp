@@ -7,7 +7,7 @@
 namespace octetra {
 namespace {
 
-/// fraction * 2^exponent, with 1/2 <= fraction < 1; nothing is shorter than 0.
+/// fraction * 2^exponent, with 1/2 <= fraction < 1, or 0 as the least value.
 struct WideSquare {
     int exponent = std::numeric_limits<int>::min();
     double fraction = 0;
@@ -21,8 +21,8 @@ Point scaled(const Point& p, int exponent) {
     return {std::scalbn(p.x, exponent), std::scalbn(p.y, exponent), std::scalbn(p.z, exponent)};
 }
 
-/// The largest difference of coordinates is brought to 1 <= d < 2. What the others may lose by
-/// that, or by the quarter, is too small beside it to be seen in the sum.
+/// Scales the largest difference of coordinates to 1 <= d < 2. The digits that the others may lose
+/// thereby, or by the quarter, are too small to affect the sum.
 WideSquare wide_squared_length(const Segment& s) {
     int exponent = 0;
     Point d = difference(s.a, s.b);

@@ -12,11 +12,11 @@ namespace {
 
 using boost::multiprecision::cpp_int;
 
-/// The 3 x 3 matrix whose rows are b-a, c-a, d-a.
+/// The 3 x 3 matrix whose rows are b - a, c - a, d - a.
 template <class Number>
 using Rows = std::array<std::array<Number, 3>, 3>;
 
-/// Expanded along the third column; for both the filter and the exact evaluation.
+/// Expands along the third column; used by the filter and the exact evaluation.
 template <class Number>
 Number determinant(const Rows<Number>& m) {
     return m[0][2] * (m[1][0] * m[2][1] - m[1][1] * m[2][0]) +
@@ -24,7 +24,7 @@ Number determinant(const Rows<Number>& m) {
            m[2][2] * (m[0][0] * m[1][1] - m[0][1] * m[1][0]);
 }
 
-/// A bound on the sum of the absolute values of the six products.
+/// Returns a bound on the sum of the absolute values of the six products.
 double permanent(const Rows<double>& m) {
     const auto abs2 = [](double a, double b, double c, double d) {
         return std::abs(a * b) + std::abs(c * d);
@@ -49,7 +49,7 @@ Binary split(double x) {
 }
 
 int exact_orientation(const std::array<std::array<double, 3>, 4>& points) {
-    // Scaled by one power of two, all coordinates become integers; the sign stays.
+    // Scaling by a power of two makes all coordinates integers and preserves the sign.
     std::array<std::array<Binary, 3>, 4> parts;
     int lowest = 0;
     for (std::size_t i = 0; i < 4; ++i) {
@@ -80,12 +80,12 @@ int orientation(const Point& a, const Point& b, const Point& c, const Point& d) 
                              {d.x - a.x, d.y - a.y, d.z - a.z}}};
     const double value = determinant(rows);
 
-    // Forward error. Every term of the determinant goes through at most 8 roundings (3 differences,
-    // 2 products, 3 sums), so |error| <= 8 * 2^-53 * permanent up to higher orders; twice that
-    // leaves room for them and for the rounding of the permanent. A product that underflows is off
-    // by at most 2^-1075, and may then be multiplied by a third column entry. The bound for that is
-    // larger than it need be: below 2^-1022 arithmetic is slow on many processors. Where something
-    // overflows the bound is infinite or not a number, and both comparisons are false.
+    // Forward error: every term of the determinant passes through at most 8 roundings (3
+    // differences, 2 products, 3 sums), so |error| <= 8 * 2^-53 * permanent up to higher orders;
+    // twice that covers them and the rounding of the permanent. A product that underflows is off by
+    // at most 2^-1075, and may then be multiplied by a third column entry. The bound for that is
+    // larger than necessary, because arithmetic below 2^-1022 is slow on many processors. On
+    // overflow the bound is infinite or NaN, and both comparisons are false.
     constexpr double relative_error = 0x1p-49;
     constexpr double underflow_error = 0x1p-1022;
     const double third_column = std::abs(rows[0][2]) + std::abs(rows[1][2]) + std::abs(rows[2][2]);

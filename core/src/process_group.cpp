@@ -16,7 +16,7 @@ using Bytes = ProcessGroup::Bytes;
 
 enum class Outcome : unsigned char { done, bad_input, system_failed };
 
-/// Words to go with an outcome, as bytes.
+/// Serialises an outcome and a message.
 Bytes packed(Outcome outcome, const std::string& what) {
     Bytes bytes(1 + what.size());
     bytes[0] = static_cast<std::byte>(outcome);
@@ -53,7 +53,7 @@ std::uint64_t number_of(const Bytes& bytes) {
     return number;
 }
 
-/// The sum of the numbers of processes 0 .. end-1.
+/// Returns the sum of the numbers of processes 0 .. end - 1.
 std::uint64_t sum_to(int end, std::uint64_t number, const ProcessGroup& group) {
     const auto all = group.of_all(bytes_of(number));
     std::uint64_t sum = 0;

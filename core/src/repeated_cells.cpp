@@ -13,17 +13,17 @@ CellVertices sorted(CellVertices cell) {
     return cell;
 }
 
-/// A cell by its vertices, ascending.
+/// A cell and its vertices, ascending.
 using ByVertices = std::pair<CellVertices, CellIndex>;
 
 }  // namespace
 
 RepeatedCells::RepeatedCells(std::uint64_t cell_count) : word_count_(cell_count / 4 + 1) {
-    reserve_in_huge_pages(seen_, word_count_);  // looked at anywhere
+    reserve_in_huge_pages(seen_, word_count_);  // random access
     seen_.resize(word_count_, 0);
 }
 
-/// All that wait.
+/// Looks up all waiting cells.
 void RepeatedCells::look_up() {
     for (std::uint32_t i = 0; i < waiting_count_; ++i) {
         std::uint64_t& word = seen_[waiting_[i].word];
@@ -50,10 +50,10 @@ CellPair RepeatedCells::find(const IndexVector<CellIndex, CellVertices>& cells,
     CellPair pair;
     for (CellIndex c{0}; c < cells.end_index(); ++c) {
         const CellVertices& cell = cells[c];
-        std::uint8_t are_corners = 1;  // no branch for each
+        std::uint8_t are_corners = 1;  // branch-free
         for (const VertexIndex v : cell) are_corners &= is_corner[v.value()];
         if (are_corners == 0) continue;
-        // The first suspect with these vertices that comes behind this cell.
+        // The first suspect with these vertices after this cell.
         const ByVertices wanted{sorted(cell), c};
         const auto later = std::ranges::upper_bound(suspects, wanted);
         if (later == suspects.end() || later->first != wanted.first) continue;

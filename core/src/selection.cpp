@@ -10,12 +10,12 @@
 namespace octetra {
 namespace {
 
-/// What is computed here again where a double over- or underflows.
+/// The type for repeating a computation in which a double overflows or underflows.
 using Wide = long double;
 static_assert(std::numeric_limits<Wide>::max_exponent >
               4 * std::numeric_limits<double>::max_exponent);
 
-/// Products in Float; remembers whether one was less than the least number that has all digits.
+/// Computes products in Float and records whether one was denormal or rounded to zero.
 template <class Float>
 struct Products {
     bool underflow = false;
@@ -46,7 +46,7 @@ double mean_of_four(double a, double b, double c, double d) {
     return static_cast<double>(((Wide{a} + b) + c + d) / 4);
 }
 
-/// Is p nearer to the centre than the radius? Nothing if that cannot be told in Float.
+/// Returns whether p is nearer to the centre than the radius, or nothing if Float cannot decide.
 template <class Float>
 std::optional<bool> is_nearer(const Sphere& sphere, const Point& p) {
     const Float dx = Float{p.x} - sphere.centre.x;
@@ -81,20 +81,21 @@ std::uint64_t scramble(std::uint64_t x) {
 
 std::uint64_t hash(const Point& p) {
     std::uint64_t h = 0;
-    // Adding +0.0 turns -0.0 into +0.0, which compares equal to it and so must hash the same.
+    // Adding +0.0 turns -0.0 into +0.0, because equal numbers must have equal hashes.
     for (const double c : {p.x, p.y, p.z}) h = scramble(h ^ std::bit_cast<std::uint64_t>(c + 0.0));
     return h;
 }
 
 bool draws(const RandomShare& random, const Corners& corners) {
-    std::uint64_t sum = 0;  // a sum, so that the order of the corners does not matter
+    std::uint64_t sum = 0;  // a sum does not depend on the order of the corners
     for (const Point& p : corners) sum += hash(p);
     const std::uint64_t lot = scramble(scramble(random.seed) ^ sum);
     constexpr double two_to_minus_53 = 0x1p-53;
     return static_cast<double>(lot >> 11U) * two_to_minus_53 < random.fraction;
 }
 
-/// The volume times six, of corners in a fixed order. Nothing if that cannot be told in Float.
+/// Returns six times the volume of corners in a fixed order, or nothing if Float cannot represent
+/// it.
 template <class Float>
 std::optional<Float> six_volumes(const Corners& sorted) {
     const auto& [a, b, c, d] = sorted;

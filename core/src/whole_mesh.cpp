@@ -14,7 +14,7 @@ VertexNumbers<N> number_of(const std::array<VertexIndex, N>& vertices) {
     return numbers;
 }
 
-/// The slice of a list, with 64-bit numbers.
+/// Returns a slice of a list, with 64-bit numbers.
 auto numbered(const auto& list, const Window& window, auto& numbers) {
     const auto entities = slice(list, window);
     numbers.resize(entities.size());

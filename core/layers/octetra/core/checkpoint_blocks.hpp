@@ -15,11 +15,12 @@
 #include <octetra/core/files/checkpoint.hpp>
 #include <octetra/core/mesh_source.hpp>
 
-/// Checkpoints block by block: what a process writes or reads of one is its own business.
+/// Reads and writes checkpoints block by block; every process chooses the blocks it reads or
+/// writes.
 namespace octetra {
 
-/// The parts of a checkpoint, in the order of the file; then come the fields, numbered from
-/// first_field. Those that the input has nothing of have no blocks.
+/// The sections of a checkpoint, in the order of the file, followed by one for each field, numbered
+/// from first_field. Sections of data that the input does not have contain no blocks.
 enum class Section : std::size_t {
     points,
     point_markers,
@@ -42,10 +43,11 @@ inline constexpr std::size_t first_field = static_cast<std::size_t>(Section::cut
     return static_cast<Section>(first_field + field);
 }
 
-/// Every block but the last of a section has this many entities; one of the cuts, roots.
+/// The number of entities in every block of a section but the last; roots in the section of cuts.
 inline constexpr std::uint64_t block_length = 4096;
 
-/// The entities of a section, and the bytes of each; 0 for the cuts, of which none is like another.
+/// The number of entities of a section, and the bytes of each; 0 bytes for the cuts, whose size
+/// varies.
 struct SectionShape {
     std::uint64_t count = 0;
     std::size_t entity_size = 0;
@@ -53,7 +55,7 @@ struct SectionShape {
     [[nodiscard]] std::uint64_t blocks() const {
         return count / block_length + (count % block_length != 0 ? 1 : 0);
     }
-    /// Entities of a block.
+    /// Returns the number of entities of a block.
     [[nodiscard]] std::uint64_t length_of(std::uint64_t block) const {
         const std::uint64_t rest = count - block * block_length;
         return rest < block_length ? rest : block_length;
@@ -61,24 +63,26 @@ struct SectionShape {
 };
 
 [[nodiscard]] SectionShape shape_of(const CheckpointFacts& facts, Section section);
-/// "points", "cuts", "field 'u'" ...: for messages.
+/// Returns the name of a section for messages: "points", "cuts", "field 'u'" ...
 [[nodiscard]] std::string name_of(const CheckpointFacts& facts, Section section);
-/// Can this be the name of a field? That is UTF-8 without control characters, so that programs may
-/// print it.
+/// Returns whether `text` is a valid name of a field: UTF-8 without control characters, so that
+/// programs may print it.
 [[nodiscard]] bool is_name(std::string_view text);
-/// The reason why a state cannot be saved; empty if it can.
+/// Returns the reason why a state cannot be saved, or an empty string.
 [[nodiscard]] std::string wrong_in(const SavedState& state);
-/// Bytes of a vertex number in lists of cells, facets and edges: 4 where that is enough, or 8.
+/// Returns the bytes of a vertex number in lists of cells, facets and edges: 4 if that suffices, or
+/// 8.
 [[nodiscard]] std::size_t vertex_number_size(const CheckpointFacts& facts);
 
-/// Writes a checkpoint beside its place, and puts it there when it is complete and on the disk.
-/// All but facts() is collective in the group; failures are thrown on all processes.
+/// Writes a checkpoint to a temporary file, and renames it when it is complete and synchronised to
+/// disk. All functions but facts() are collective in the group; failures are thrown on all
+/// processes.
 ///
-/// Sections come in their order. Of each one window after the other: the next block is the first
-/// process's, then the second's, and so on, until the section has all of its blocks.
+/// Sections must be written in order, each one window at a time: consecutive blocks of a window
+/// belong to consecutive processes, from the first one on, until the section is complete.
 class CheckpointWriter {
 public:
-    /// Facts of the steps may still be unknown.
+    /// The facts of the steps may be set later.
     CheckpointWriter(const std::filesystem::path& path, const ProcessGroup& group,
                      CheckpointFacts facts);
     ~CheckpointWriter();
@@ -89,11 +93,11 @@ public:
 
     [[nodiscard]] CheckpointFacts& facts();
 
-    /// All sections before the cuts.
+    /// Writes all sections before the cuts.
     void put_input(MeshSource& input);
 
-    /// Calls make(window) for each window of a section, which gives this process's slice as bytes;
-    /// it is not called for where the section has no entities.
+    /// Calls make(window), which returns this process's slice as bytes, for each window of a
+    /// section. make() is not called if the section has no entities.
     void put_section(Section section, auto&& make) {
         const SectionShape shape = shape_of(facts(), section);
         for (std::uint64_t begin = 0; begin < shape.count; begin += window_length()) {
@@ -102,22 +106,23 @@ public:
         }
     }
 
-    /// After the last section.
+    /// To be called after the last section.
     void commit();
 
 private:
     [[nodiscard]] std::uint64_t window_length() const;
-    /// A process without a slice of the window gives no bytes.
+    /// A process without a slice of the window passes no bytes.
     void put_slice(const Window& window, std::span<const std::byte> bytes);
 
     struct Parts;
     std::unique_ptr<Parts> parts_;
 };
 
-/// Reads a checkpoint. Nothing is collective. Every size was checked against the file's.
+/// Reads a checkpoint. No function is collective. Every size has been checked against the file
+/// size.
 class CheckpointReader {
 public:
-    /// Reads the table. Throws InputError or SystemError, here and below.
+    /// Reads the table. Throws InputError or SystemError, as the functions below.
     explicit CheckpointReader(const std::filesystem::path& path);
     ~CheckpointReader();
     CheckpointReader(const CheckpointReader&) = delete;
@@ -127,10 +132,10 @@ public:
 
     [[nodiscard]] const CheckpointFacts& facts() const;
 
-    /// A block, once it has the hash that it should have.
+    /// Returns a block after verifying its hash.
     [[nodiscard]] std::vector<std::byte> read_block(Section section, std::uint64_t block) const;
 
-    /// Entities begin .. end-1 of a section, each as `T`s.
+    /// Returns entities begin .. end - 1 of a section, each as one or more `T`.
     template <class T>
     [[nodiscard]] std::vector<T> read(Section section, std::uint64_t begin,
                                       std::uint64_t end) const {
@@ -140,7 +145,7 @@ public:
         if (!values.empty()) std::memcpy(values.data(), bytes.data(), values.size() * sizeof(T));
         return values;
     }
-    /// Of cells, facets or edges: their vertices, which are in range.
+    /// Returns the vertices of cells, facets or edges begin .. end - 1, which are in range.
     template <std::size_t N>
     [[nodiscard]] std::vector<VertexNumbers<N>> read_vertices(Section section, std::uint64_t begin,
                                                               std::uint64_t end) const {
@@ -149,20 +154,21 @@ public:
         for (std::size_t i = 0; i < numbers.size(); ++i) lists[i / N][i % N] = numbers[i];
         return lists;
     }
-    /// Numbers begin .. end-1 of those with a feature, which are in range and ascend.
+    /// Returns entries begin .. end - 1 of the list of entities with a feature. They are numbers
+    /// that are in range and ascend.
     [[nodiscard]] std::vector<std::uint64_t> read_features(Feature feature, std::uint64_t begin,
                                                            std::uint64_t end) const;
-    /// Points, which are finite and not too large.
+    /// Returns points, whose coordinates are finite and within the limit.
     [[nodiscard]] std::vector<Point> read_points(std::uint64_t begin, std::uint64_t end) const;
 
-    /// How each step cuts what the roots of a block have become. For each step as many cells as the
-    /// steps before it have made. Adds what the block has of each step to `found`.
+    /// Returns for each step the cuts of the descendants of a block's roots, as many as the steps
+    /// before it have made. Adds the totals of the block for each step to `found`.
     [[nodiscard]] std::vector<std::vector<CutRun>> read_cuts(std::uint64_t block,
                                                              std::vector<StepFacts>& found) const;
-    /// Throws InputError where the table has other figures of a step than all blocks together.
+    /// Throws InputError if the table's facts about a step differ from the totals over all blocks.
     void check_steps(const std::vector<StepFacts>& found) const;
 
-    /// Throws InputError: what is wrong with a block.
+    /// Throws InputError with a message on a block.
     [[noreturn]] void fail(Section section, std::uint64_t block, const std::string& what) const;
 
 private:
@@ -175,8 +181,8 @@ private:
     std::unique_ptr<Parts> parts_;
 };
 
-/// The block of the cuts that `steps` make, each of as many cells as those before it have made.
-/// Adds what they say to the facts of the steps.
+/// Returns the block of cuts for `steps`, each of which has as many cells as the steps before it
+/// have made. Adds its totals to the facts of the steps.
 [[nodiscard]] std::vector<std::byte> cuts_block(const std::vector<CutRuns>& steps,
                                                 std::vector<StepFacts>& facts);
 

@@ -5,21 +5,21 @@
 #include <span>
 #include <vector>
 
-/// How a refinement step cuts cells, one byte each, as checkpoints have it.
+/// The patterns by which a refinement step cuts cells, one byte each, as stored in checkpoints.
 namespace octetra {
 
-/// What a step did to a cell, in seven bits: bits 0 to 5 are the edges that it bisected, in the
-/// order of cell_edges; bit 6 is set where these made one child more than there are edges and one,
-/// as they do where the longest and its opposite are both among them. 0: the cell stayed whole.
+/// The pattern of a cell in a step, in seven bits. Bits 0 to 5 are the bisected edges, in the order
+/// of cell_edges; bit 6 is set if they make one more child than the number of edges plus one, as
+/// when the longest edge and its opposite are both bisected. 0: the cell is not cut.
 using Cut = std::uint8_t;
 
 inline constexpr Cut cut_edges = 0b0111111;
 inline constexpr Cut one_child_more = 0b1000000;
 
-/// The cells that one of them is cut into; 1 if it stays whole.
+/// Returns the number of cells into which a cell is cut; 1 if it is not cut.
 [[nodiscard]] std::size_t child_count_of(Cut cut);
 
-/// Cells that follow each other and are cut alike.
+/// A run of consecutive cells with equal cuts.
 struct CutRun {
     Cut cut = 0;
     std::uint64_t count = 0;
@@ -27,14 +27,14 @@ struct CutRun {
     friend bool operator==(const CutRun&, const CutRun&) = default;
 };
 
-/// The cuts of cells that follow each other, run-length coded. A byte below 128 is one cell's cut;
-/// another is that of several, less 128, and their number less 2 follows: seven bits a byte, the
-/// lowest first, with the eighth bit set in all but the last.
+/// The cuts of consecutive cells, run-length encoded. A byte below 128 is the cut of one cell. Any
+/// other byte is 128 plus the cut of several cells; it is followed by their number minus 2, encoded
+/// as by append_number().
 class CutRuns {
 public:
-    /// One by one, or many at once; in the order of the cells.
+    /// Appends the cut of `count` cells; in the order of the cells.
     void append(Cut cut, std::uint64_t count = 1);
-    /// After the last.
+    /// To be called after the last append().
     void finish() { write_run(); }
     void clear() { bytes_.clear(); }
 
@@ -46,17 +46,17 @@ private:
     void write_run();
 
     std::vector<std::uint8_t> bytes_;
-    Cut cut_ = 0;  ///< of a run that is not yet among the bytes
+    Cut cut_ = 0;  ///< of the run that is not yet encoded
     std::uint64_t count_ = 0;
 };
 
-/// Reads runs one by one. The bytes may be anything: what is no run is found.
+/// Decodes runs one by one. The bytes may be invalid; this is detected.
 class CutReader {
 public:
     explicit CutReader(std::span<const std::uint8_t> bytes) : rest_(bytes) {}
 
     [[nodiscard]] bool at_end() const { return rest_.empty(); }
-    /// The next run; of no cells where what is there is none.
+    /// Returns the next run; its count is 0 if the bytes are invalid.
     [[nodiscard]] CutRun next();
 
 private:
@@ -71,10 +71,10 @@ void for_each_run(const CutRuns& runs, auto&& visit) {
     }
 }
 
-/// A number in as few bytes as it takes: seven bits a byte, the lowest first, with the eighth bit
-/// set in all but the last.
+/// Appends a number in an encoding of variable length: seven bits a byte, the lowest first, with
+/// the eighth bit set in all but the last byte.
 void append_number(std::uint64_t number, std::vector<std::uint8_t>& bytes);
-/// Takes one from the front; false where there is none that 64 bits hold.
+/// Removes a number from the front. Returns false if there is none that fits into 64 bits.
 [[nodiscard]] bool take_number(std::span<const std::uint8_t>& bytes, std::uint64_t& number);
 
 }  // namespace octetra

@@ -4,20 +4,21 @@
 
 #include <octetra/core/point.hpp>
 
-/// The strict order of edges by length that all of Octetra bisects by.
+/// The strict total order of edges by length, which determines every bisection.
 ///
 /// Laws, for edges of one cell that is not flat:
-///  - exactly one of longer(e, f), longer(f, e) holds when e and f are different edges;
-///  - longer(e, f) does not depend on the order in which end points are given, nor on any vertex
+/// - exactly one of longer(e, f), longer(f, e) holds when e and f are different edges;
+/// - longer(e, f) does not depend on the order in which end points are given, nor on any vertex
 ///    number: only on coordinates. Every process finds the same longest edge;
-///  - nor on the scale: multiplying all coordinates by a power of two changes no answer, as long as
-///    it is exact.
-/// For layers only, and not installed: a fused multiply-add would round a squared length otherwise
-/// in one place than in another, so what includes this is compiled with -ffp-contract=off. Users of
-/// the libraries need no such option.
+/// - nor on the scale: multiplying all coordinates by a power of two changes no result, as long as
+///    the multiplication is exact.
+///
+/// Internal to the libraries and not installed: a fused multiply-add could round a squared length
+/// differently in different places, so sources that include this header are compiled with
+/// -ffp-contract=off. Users of the libraries need no such option.
 namespace octetra {
 
-/// An edge by the positions of its end points.
+/// An edge, given by its end points.
 struct Segment {
     Point a;
     Point b;
@@ -30,9 +31,9 @@ struct Segment {
     return (dx * dx + dy * dy) + dz * dz;
 }
 
-/// A squared length that is not less than this, and finite, is what it would be if exponents had no
-/// limits: a square that is denormal, and so has lost digits, is less than 2^-108 of it, and adding
-/// what is less than 2^-54 of a number to it changes nothing, neither once nor twice.
+/// A squared length that is finite and at least this equals the result with unlimited exponents: a
+/// denormal square, which has lost digits, is less than 2^-108 of it, and adding less than 2^-54 of
+/// a number to it, once or twice, does not change it.
 inline constexpr double least_sure_square = 0x1p-900;
 
 [[nodiscard]] constexpr bool is_sure_square(double square) {
@@ -40,13 +41,12 @@ inline constexpr double least_sure_square = 0x1p-900;
     return least_sure_square <= square && square <= largest;
 }
 
-/// Compares the squared lengths of two edges as binary64 would round them if exponents had no
-/// limits.
+/// Compares the squared lengths of two edges, each rounded as binary64 with unlimited exponents.
 [[nodiscard]] std::strong_ordering compare_lengths_of_any_scale(const Segment& e, const Segment& f);
 
-/// Is e longer than f in the strict order: by squared length, in binary64 as if exponents had no
-/// limits; a tie goes to the edge whose lexicographically smaller end point is larger, then to the
-/// one whose larger end point is.
+/// Returns whether e is longer than f in the strict order: by squared length, in binary64 with
+/// unlimited exponents; of edges of equal length, the one whose lexicographically smaller end point
+/// is larger, then the one whose larger end point is larger.
 [[nodiscard]] constexpr bool longer(const Segment& e, const Segment& f) {
     const double length_e = squared_length(e);
     const double length_f = squared_length(f);

@@ -10,33 +10,33 @@
 #include <octetra/core/mesh_source.hpp>
 #include <octetra/core/process_group.hpp>
 
-/// A mesh file that processes read together, so that none has all of it in memory.
+/// Reads a mesh file with several processes, none of which has the whole mesh in memory.
 namespace octetra {
 
-/// What one process has read: of each list a stretch, those of the first process first.
+/// The share of a mesh that one process has read: of each list one block, in the order of ranks.
 struct MeshStretch {
     MeshFacts facts;  ///< of the whole mesh
-    /// The entities of the stretches; vertices go by their numbers in the whole mesh. Markers that
-    /// facts says there are none of are left out on all processes. Of features a process has what
-    /// it has read, as it stands: any numbers in range, and facts counts what comes twice twice.
+    /// The entities of this process's blocks, with global vertex numbers. Markers that `facts` does
+    /// not have are empty on all processes. Features are as read: numbers in range in any order;
+    /// `facts` counts repeated ones repeatedly.
     Mesh lists;
     std::uint64_t first_vertex = 0;
     std::uint64_t first_cell = 0;
     std::uint64_t first_facet = 0;
     std::uint64_t first_edge = 0;
-    /// What read_mesh() would tell ReadOptions::note; the same on all processes.
+    /// Messages for ReadOptions::note; equal on all processes.
     std::vector<std::string> notes;
 };
 
-/// Collective. Reads a mesh, of each file every process an even share of the bytes. What of
-/// read_mesh()'s checks needs no more than a line or row and the counts is done: syntax, counts,
-/// numbers in range, an entity's vertices different. The others are left to who calls: orientation,
-/// cells that are there twice, tagged facets and edges.
+/// Collective. Reads a mesh; every process reads an even share of the bytes of each file. Performs
+/// the checks of read_mesh() that need only a line or row and the counts: syntax, counts, number
+/// ranges, and that the vertices of an entity are distinct. The caller performs the others:
+/// orientation, repeated cells, tagged facets and edges.
 ///
-/// Returns nothing, on all processes, where a check fails, a file cannot be read, or is not in the
-/// form that lends itself to it, of text an entity on each line. What is to be said of the file
-/// read_mesh() then says. A process that has no memory throws std::bad_alloc, and all others get
-/// nothing: whoever calls must tell them.
+/// Returns nothing on all processes if a check fails, a file cannot be read, or its format is not
+/// suitable; text formats require one entity on each line. read_mesh() then reports the error. If a
+/// process is out of memory, it throws std::bad_alloc and the others return nothing: the caller
+/// must inform them.
 [[nodiscard]] std::optional<MeshStretch> read_stretch(const std::filesystem::path& path,
                                                       const ProcessGroup& group);
 

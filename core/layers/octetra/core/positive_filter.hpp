@@ -9,12 +9,12 @@
 
 namespace octetra {
 
-/// Tells of nearly every positive tetrahedron of a mesh that it is one, sooner than orientation():
-/// its bound on the error of the determinant is worked out once, for the box around all points,
-/// where orientation() works one out for each tetrahedron.
+/// Confirms nearly every positive tetrahedron of a mesh, faster than orientation(): the error bound
+/// of the determinant is computed once, for the bounding box of all points, instead of for each
+/// tetrahedron.
 class PositiveFilter {
 public:
-    /// From now on, these points may be corners, too.
+    /// Adds points that may be corners.
     void add(std::span<const Point> points) {
         for (const Point& p : points) {
             const std::array<double, 3> x{p.x, p.y, p.z};
@@ -28,7 +28,7 @@ public:
     }
     [[nodiscard]] std::size_t point_count() const { return point_count_; }
 
-    /// False says nothing: orientation() decides.
+    /// If the result is false, the orientation is undetermined; use orientation().
     [[nodiscard]] bool is_surely_positive(const Point& a, const Point& b, const Point& c,
                                           const Point& d) const {
         const Point u{b.x - a.x, b.y - a.y, b.z - a.z};
@@ -40,11 +40,11 @@ public:
     }
 
 private:
-    // The determinant has six terms of three factors, none larger than the box. Each goes through
-    // at most 8 roundings, so the error is at most 8 * 6 * 2^-53 times the box's volume up to
-    // higher orders; 64 * 2^-53 leaves room for those and for the rounding of the volume. A product
-    // that underflows adds at most 2^-1075, which may be multiplied by a height. Where something
-    // overflows, the bound is infinite or not a number, and nothing is surely positive.
+    // The determinant has six terms of three factors, none larger than the box. Each term passes
+    // through at most 8 roundings, so the error is at most 8 * 6 * 2^-53 times the volume of the
+    // box, up to higher orders; 64 * 2^-53 covers those and the rounding of the volume. A product
+    // that underflows adds at most 2^-1075, which may be multiplied by a height. On overflow the
+    // bound is infinite or NaN, and no cell is confirmed.
     [[nodiscard]] double bound() const {
         const double height = high_[2] - low_[2];
         const double volume = (high_[0] - low_[0]) * (high_[1] - low_[1]) * height;

@@ -8,20 +8,20 @@
 
 namespace octetra {
 
-/// A cell of a mesh, and an earlier one that cannot be in it, too.
+/// A cell of a mesh, and an earlier one with which it is in conflict.
 struct CellPair {
     CellIndex cell = CellIndex::none();  ///< none: there is no such pair
     CellIndex earlier = CellIndex::none();
 };
 
-/// Finds a cell that has the vertices of an earlier one. While cells come, it keeps a few bits of
-/// each, and suspects those whose bits were all there already: whatever is repeated, and two or
-/// three of a thousand others. Only these are compared, in the end. Memory: 2 bytes per cell.
+/// Finds a cell with the same vertices as an earlier one. It keeps three bits of each cell in a bit
+/// field; cells whose bits were all set before are suspects: all repeated ones, and two or three of
+/// a thousand others. Only suspects are compared in the end. Memory: 2 bytes per cell.
 class RepeatedCells {
 public:
     explicit RepeatedCells(std::uint64_t cell_count);
 
-    /// The next cell.
+    /// Adds the next cell.
     void add(const CellVertices& cell) {
         if (waiting_count_ == ahead) look_up();
         Waiting& place = waiting_[waiting_count_++];
@@ -29,23 +29,25 @@ public:
         __builtin_prefetch(&seen_[place.word]);
     }
 
-    /// All cells have come, and these are they: the first that has the vertices of an earlier one,
-    /// and the first of these. Numbers of vertices must be less than `vertex_count`.
+    /// To be called after the last add(), with the same cells. Returns the first cell with the same
+    /// vertices as an earlier one, and the first of these. Vertex numbers must be less than
+    /// `vertex_count`.
     [[nodiscard]] CellPair find(const IndexVector<CellIndex, CellVertices>& cells,
                                 std::size_t vertex_count);
 
 private:
     static constexpr std::uint32_t ahead = 32;
 
-    /// What is kept of a cell: three bits of a word. They are looked up some cells later, when the
-    /// word has come from memory.
+    /// Three bits of a word, which represent a cell. They are looked up some cells later, when the
+    /// prefetched word has arrived.
     struct Waiting {
         std::uint64_t word = 0;
         std::uint64_t bits = 0;
     };
 
     [[nodiscard]] Waiting of(const CellVertices& cell) const {
-        // The order of the factors does not matter; all of them are odd, so that none is lost.
+        // The product does not depend on the order of the factors; all are odd, so none loses
+        // information.
         constexpr std::uint64_t odd = 0x9e3779b97f4a7c15;
         std::uint64_t product = 1;
         for (const VertexIndex v : cell) product *= odd + 2 * std::uint64_t{v.value()};
@@ -55,7 +57,7 @@ private:
 
     void look_up();
 
-    std::uint32_t count_ = 0;  ///< of those looked up
+    std::uint32_t count_ = 0;  ///< number of cells that were looked up
     std::uint32_t waiting_count_ = 0;
     std::array<Waiting, ahead> waiting_;
     std::uint64_t word_count_;

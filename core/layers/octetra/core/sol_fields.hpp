@@ -11,22 +11,22 @@
 #include <octetra/core/field.hpp>
 #include <octetra/core/process_group.hpp>
 
-/// Reading Medit's files of values, alone or together.
+/// Reads Medit files of values, on one process or several.
 namespace octetra {
 
-/// How many there are in the whole mesh.
+/// Numbers of entities in the whole mesh.
 struct EntityCounts {
     std::uint64_t vertices = 0;
     std::uint64_t cells = 0;
 };
 
-/// Fields of vertices, or of cells: for each of these a row, with the values of all the fields.
+/// Fields on vertices, or on cells: a row for each entity, with the values of all fields.
 struct FieldRows {
     FieldOn on = FieldOn::vertices;
     std::vector<std::size_t> components;  ///< of each field
-    std::uint64_t count = 0;              ///< rows of the whole
-    std::uint64_t first = 0;              ///< number of the first row that this process has
-    std::vector<double> values;           ///< of its rows as the file has them; see place_in_sol()
+    std::uint64_t count = 0;              ///< number of rows in the file
+    std::uint64_t first = 0;              ///< number of this process's first row
+    std::vector<double> values;           ///< its rows in the order of the file; see place_in_sol()
 
     [[nodiscard]] std::size_t width() const {
         return std::accumulate(components.begin(), components.end(), std::size_t{0});
@@ -34,20 +34,20 @@ struct FieldRows {
 };
 
 struct SolFields {
-    std::vector<FieldRows> lists;    ///< at most one of vertices and one of cells
-    std::vector<std::string> notes;  ///< on what is not kept; one process alone is told
+    std::vector<FieldRows> lists;    ///< at most one on vertices and one on cells
+    std::vector<std::string> notes;  ///< on data that is not kept; on one process
 };
 
-/// Reads all of a file. Values are finite, and less than coordinate_limit, so that means do not
-/// overflow. Throws InputError "FILE:LINE: what is wrong", of a binary file "FILE: at byte N: ...",
-/// also where there are not as many rows as `expected` says, if it does; or SystemError.
+/// Reads a whole file. Values are finite, and less than coordinate_limit, so that means do not
+/// overflow. Throws InputError "FILE:LINE: message" (of a binary file "FILE: at byte N: message"),
+/// also if the number of rows differs from `expected`; or SystemError.
 [[nodiscard]] SolFields read_sol(const std::filesystem::path& path,
                                  const std::optional<EntityCounts>& expected);
 
-/// Collective. Every process reads an even share of the file, those of the first process first.
-/// Returns nothing, on all processes, where read_sol() would refuse the file, or it is not in the
-/// form that lends itself to it, of text a row on each line. A process that has no memory throws
-/// std::bad_alloc, and all others get nothing: whoever calls must tell them.
+/// Collective. Every process reads an even share of the file, in the order of ranks. Returns
+/// nothing on all processes if read_sol() would reject the file, or if its format is not suitable;
+/// text files require one row on each line. If a process is out of memory, it throws std::bad_alloc
+/// and the others return nothing: the caller must inform them.
 [[nodiscard]] std::optional<SolFields> read_sol_stretch(const std::filesystem::path& path,
                                                         const EntityCounts& expected,
                                                         const ProcessGroup& group);

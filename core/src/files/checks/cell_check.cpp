@@ -11,7 +11,8 @@ void CellCheck::know_all_points() {
     filter_.add(std::span(mesh_->points).subspan(filter_.point_count()));
 }
 
-/// The first of the cells from there on that is not surely positive, or their number.
+/// Returns the first cell from `from` on that the filter does not confirm as positive, or their
+/// number.
 std::size_t CellCheck::find_doubtful(std::span<const CellVertices> cells, std::size_t from) const {
     const PositiveFilter filter = filter_;
     const Point* const points = mesh_->points.data();

@@ -10,7 +10,7 @@
 
 namespace octetra {
 
-/// Judges cells while they are read, by their corners' positions.
+/// Checks cells by the positions of their corners while they are read.
 class CellCheck {
 public:
     CellCheck(const Mesh& mesh, const ReadOptions& options)
@@ -18,8 +18,9 @@ public:
           fix_orientation_(options.fix_orientation),
           takes_all_(options.only_syntax) {}
 
-    /// Returns what is wrong with the cell, or nothing. Turns an inverted one round if asked to.
-    /// Its vertex numbers must be in range. Finds nothing wrong if only syntax is asked for.
+    /// Returns a message on what is wrong with the cell, or an empty string. Reverses an inverted
+    /// cell if the options say so. Vertex numbers must be in range. Accepts every cell if only
+    /// syntax is checked.
     [[nodiscard]] std::string_view judge(CellVertices& cell) {
         if (takes_all_) return {};
         const auto& points = mesh_->points;
@@ -29,7 +30,7 @@ public:
         return judge_slowly(cell);
     }
 
-    /// The same for many cells: the first that something is wrong with, and what.
+    /// Same for several cells: returns the first wrong one and the message.
     struct WrongCell {
         std::size_t cell = 0;
         std::string_view what;  ///< empty: there is none
@@ -45,7 +46,7 @@ private:
     [[nodiscard]] std::string_view judge_slowly(CellVertices& cell);
 
     const Mesh* mesh_;
-    PositiveFilter filter_;  ///< of the points that there were at the last cell
+    PositiveFilter filter_;  ///< for the points known at the last cell
     bool fix_orientation_;
     bool takes_all_;
     std::size_t fixed_count_ = 0;

@@ -10,7 +10,7 @@ std::uint64_t number(I entry, const Mesh& mesh) {
     return std::uint64_t{entry.value()} + mesh.index_base;
 }
 
-/// "cell 2 (line 3)"
+/// Returns for example "cell 2 (line 3)".
 template <class I>
 std::string with_line(std::string_view name, I entry, const Mesh& mesh, const LineOf& line_of) {
     const std::string numbered = fmt::format("{} {}", name, number(entry, mesh));

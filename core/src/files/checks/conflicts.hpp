@@ -11,10 +11,10 @@
 
 #include "files/checks/tagged_entities.hpp"
 
-/// What error messages say of an entry of a file that contradicts an earlier one.
+/// Error messages for entries of a file that contradict earlier ones.
 namespace octetra {
 
-/// The line of an entry, counted from 0, where that is known.
+/// Returns the line of an entry, counted from 0, if it is known.
 using LineOf = std::function<std::optional<std::uint64_t>(std::uint64_t entry)>;
 
 [[nodiscard]] std::string describe_repeated(const CellPair& cells, const Mesh& mesh,
@@ -23,7 +23,7 @@ using LineOf = std::function<std::optional<std::uint64_t>(std::uint64_t entry)>;
 [[nodiscard]] std::string describe_overlap(const WrongFacets& wrong, const Mesh& mesh,
                                            const LineOf& line_of);
 
-/// Of a facet or an edge, which the file calls `name`.
+/// Describes a facet or an edge, which the file calls `name`.
 template <class I>
 [[nodiscard]] std::string describe_wrong(const WrongEntry<I>& wrong, std::string_view name,
                                          const IndexVector<I, Marker>& markers, const Mesh& mesh,

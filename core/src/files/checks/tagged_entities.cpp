@@ -10,7 +10,7 @@
 namespace octetra {
 namespace {
 
-/// Which vertices entities have, looked at without a branch.
+/// The vertices of a list of entities, with branch-free lookup.
 class VertexSet {
 public:
     template <class I, std::size_t N>
@@ -20,7 +20,7 @@ public:
             for (const VertexIndex v : vertices) is_in_[v.value()] = 1;
         }
     }
-    /// Which of the cell's vertices are in the set, a bit for each.
+    /// Returns a bit for each of the cell's vertices that is in the set.
     [[nodiscard]] unsigned in(const CellVertices& cell) const {
         unsigned corners = 0;
         for (std::size_t k = 0; k < 4; ++k) corners |= unsigned{is_in_[cell[k].value()]} << k;
@@ -31,7 +31,7 @@ private:
     std::vector<std::uint8_t> is_in_;
 };
 
-/// A bit for each corner of a cell that a side has.
+/// Returns a bit for each corner of a cell that a side has.
 template <std::size_t N>
 constexpr unsigned corners_of(const std::array<std::uint8_t, N>& side) {
     unsigned corners = 0;
@@ -39,7 +39,7 @@ constexpr unsigned corners_of(const std::array<std::uint8_t, N>& side) {
     return corners;
 }
 
-/// Whether a set of corners has all those of a side.
+/// Returns for each set of corners whether it contains those of a side.
 template <std::size_t N, std::size_t Sides>
 std::array<bool, 16> with_a_side(const std::array<std::array<std::uint8_t, N>, Sides>& sides) {
     std::array<bool, 16> has{};
@@ -51,9 +51,9 @@ std::array<bool, 16> with_a_side(const std::array<std::array<std::uint8_t, N>, S
     return has;
 }
 
-/// Finds the first of the list that no cell has among its `sides` (faces or edges), or that repeats
-/// an earlier one with another marker. Calls met(c, k, vertices, i) where side k of cell c, which
-/// has these vertices, is entry i.
+/// Finds the first entry of the list that no cell has among its `sides` (faces or edges), or that
+/// repeats an earlier one with another marker. Calls met(c, k, vertices, i) if side k of cell c,
+/// which has these vertices, is entry i.
 template <class I, std::size_t N, std::size_t Sides>
 WrongEntry<I> find_wrong(const Mesh& mesh, const IndexVector<I, std::array<VertexIndex, N>>& list,
                          const IndexVector<I, Marker>& markers,
@@ -64,7 +64,7 @@ WrongEntry<I> find_wrong(const Mesh& mesh, const IndexVector<I, std::array<Verte
     const std::array<bool, 16> has_side = with_a_side(sides);
     std::vector<bool> of_cells(list.size(), false);
     for (CellIndex c{0}; c < mesh.cells.end_index(); ++c) {
-        // Most cells have too few such corners where only the boundary is tagged.
+        // If only the boundary is tagged, most cells have too few such corners.
         const unsigned corners = corners_of_list.in(mesh.cells[c]);
         if (!has_side[corners]) continue;
         for (std::size_t k = 0; k < Sides; ++k) {
@@ -89,14 +89,14 @@ WrongEntry<I> find_wrong(const Mesh& mesh, const IndexVector<I, std::array<Verte
     return wrong;
 }
 
-/// On which of the two sides of its face k a positive cell lies; the face has these vertices.
+/// Returns the side of its face k on which a positive cell lies; the face has these vertices.
 bool lies_on_even_side(const FacetVertices& face, std::size_t k) {
     const auto& [a, b, c] = face;
     const bool is_even = (a < b) == ((b < c) == (a < c));
     return is_even == (k % 2 == 0);
 }
 
-/// The first cell that lies on this side of a face with these vertices, in whatever order.
+/// Returns the first cell on this side of a face with these vertices, in any order.
 CellIndex first_on_side(const Mesh& mesh, FacetVertices face, bool even) {
     std::ranges::sort(face);
     for (CellIndex c{0}; c < mesh.cells.end_index(); ++c) {
@@ -116,7 +116,7 @@ CellIndex first_on_side(const Mesh& mesh, FacetVertices face, bool even) {
 WrongFacets find_wrong_facets(const Mesh& mesh) {
     WrongFacets wrong;
     bool even = false;
-    std::vector<bool> has_cell(2 * mesh.facets.size(), false);  // on either side of a facet
+    std::vector<bool> has_cell(2 * mesh.facets.size(), false);  // for each side of a facet
     const auto met = [&](CellIndex c, std::size_t k, const FacetVertices& vertices, FacetIndex i) {
         const bool is_even = lies_on_even_side(vertices, k);
         const std::size_t side = 2 * std::size_t{i.value()} + (is_even ? 1 : 0);

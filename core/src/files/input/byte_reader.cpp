@@ -38,8 +38,8 @@ void ByteReader::skip(std::uint64_t bytes, std::string_view what) {
     seek(position() + bytes);
 }
 
-/// Reads on until `wanted` bytes or a full buffer are at hand; at least a few, for who takes number
-/// after number, and not much more, for who takes one here and one there.
+/// Reads until `wanted` bytes are buffered or the buffer is full. Reads at least 64 KiB, for
+/// sequential access, and not much more than requested, for random access.
 void ByteReader::fill(std::uint64_t wanted) {
     constexpr std::uint64_t few = std::uint64_t{1} << 16U;
     const std::size_t pending = end_ - begin_;
@@ -80,7 +80,7 @@ void ByteReader::take_raw(void* place, std::uint64_t size, std::string_view what
     begin_ += at_hand;
     to += at_hand;
     size -= at_hand;
-    if (size >= buffer_.size()) {  // there is nothing to be gained from the buffer
+    if (size >= buffer_.size()) {  // large reads bypass the buffer
         const std::uint64_t from = position();
         file_.read(from, to, size);
         return seek(from + size);

@@ -15,13 +15,13 @@
 
 namespace octetra {
 
-/// Numbers that binary files are made of: whole ones and reals of 1, 2, 4 or 8 bytes.
+/// Numbers in binary files: integers and reals of 1, 2, 4 or 8 bytes.
 template <class T>
 concept BinaryNumber = (std::integral<T> || std::floating_point<T>)&&!std::same_as<T, bool> &&
                        sizeof(T) <= 8;
 
-/// The number in these bytes, which need not be aligned; with `swapped`, in the other byte order
-/// than this machine's.
+/// Returns the number in these bytes, which need not be aligned; with `swapped`, in the byte order
+/// opposite to that of this machine.
 template <BinaryNumber T>
 [[nodiscard]] T number_at(const std::byte* bytes, bool swapped) {
     T value;
@@ -47,12 +47,12 @@ template <BinaryNumber T>
     }
 }
 
-/// Reads a binary file from any place on, through one buffer, never the whole of it. Nothing beyond
-/// the file's end is read, and nothing is allocated that depends on what the file says.
+/// Reads a binary file from any position on, through one buffer. Never reads beyond the end of the
+/// file, and never allocates memory whose size the file determines.
 ///
-/// Bytes are counted from 0. `what` in these calls names what is read for the error message where
-/// the file ends before it: "FILE: at byte N: the file ends where WHAT should be", N being where
-/// it should begin. Throws InputError, or SystemError where reading fails.
+/// Bytes are counted from 0. `what` names the data for the error message if the file ends early:
+/// "FILE: at byte N: the file ends where WHAT should be", where N is the position of the data.
+/// Throws InputError, or SystemError if reading fails.
 class ByteReader {
 public:
     static constexpr std::size_t buffer_size = std::size_t{1} << 20U;
@@ -61,53 +61,53 @@ public:
 
     [[nodiscard]] const std::filesystem::path& path() const { return file_.path(); }
     [[nodiscard]] std::uint64_t size() const { return file_.size(); }
-    /// Of the next byte.
+    /// The position of the next byte.
     [[nodiscard]] std::uint64_t position() const { return buffer_position_ + begin_; }
     [[nodiscard]] std::uint64_t remaining() const { return size() - position(); }
 
-    /// Are numbers from here on in the other byte order than this machine's?
+    /// Sets whether numbers from here on have the byte order opposite to that of this machine.
     void swap_bytes(bool swapped) { swapped_ = swapped; }
     [[nodiscard]] bool swaps_bytes() const { return swapped_; }
 
-    /// Goes to a place from 0 to size(); others are refused.
+    /// Moves to a position from 0 to size(); throws InputError for others.
     void seek(std::uint64_t position);
     void skip(std::uint64_t bytes, std::string_view what);
 
-    /// The next number.
+    /// Returns the next number.
     template <BinaryNumber T>
     [[nodiscard]] T take(std::string_view what) {
         return number_at<T>(take_bytes(sizeof(T), what), swapped_);
     }
-    /// As many numbers as there is room for.
+    /// Reads as many numbers as the span holds.
     template <BinaryNumber T>
     void take(std::span<T> numbers, std::string_view what);
 
-    /// The next bytes as they are, at most buffer_size of them; valid until the next call.
+    /// Returns the next bytes, at most buffer_size of them; valid until the next call.
     [[nodiscard]] const std::byte* take_bytes(std::size_t size, std::string_view what) {
         const std::byte* const bytes = look_at_bytes(size, what);
         begin_ += size;
         return bytes;
     }
-    /// The same bytes, which stay the next ones.
+    /// Same, without advancing.
     [[nodiscard]] const std::byte* look_at_bytes(std::size_t size, std::string_view what) {
         if (end_ - begin_ < size) have_at_hand(size, what);
         return buffer_.data() + begin_;
     }
-    /// Of `rows` rows to come, each of `row_size` bytes, as many as are at hand, one at least: it
-    /// is for the caller to ask again for the others. Valid until the next call.
+    /// Returns between one and `rows` rows of `row_size` bytes, as many as are buffered; the caller
+    /// asks again for the rest. Valid until the next call.
     [[nodiscard]] std::span<const std::byte> take_rows(std::uint64_t rows, std::size_t row_size,
                                                        std::string_view what);
-    /// The rest of a line of text, without its end, which may be CRLF, or the file's end. Lines of
-    /// more than buffer_size bytes are refused.
+    /// Returns the rest of a line of text, without its end, which may be LF, CRLF, or the end of
+    /// the file. Throws InputError for lines of more than buffer_size bytes.
     [[nodiscard]] std::string take_line(std::string_view what);
 
-    /// Refuses a count of entries of `entry_size` bytes each that the rest of the file does not
-    /// hold, so that nobody allocates for it; also what no index can number. `counted_at`: where
-    /// the count stands.
+    /// Throws InputError if the rest of the file cannot hold `count` entries of `entry_size` bytes
+    /// each, so that no memory is allocated for them, or if the count exceeds the range of indices.
+    /// `counted_at`: the position of the count.
     void check_count(std::uint64_t count, std::uint64_t entry_size, std::string_view what,
                      std::uint64_t counted_at) const;
 
-    /// Throws InputError "FILE: at byte N: what", for the next byte or another.
+    /// Throws InputError "FILE: at byte N: what", for the next byte or the given position.
     [[noreturn]] void fail(std::string_view what) const { fail(what, position()); }
     [[noreturn]] void fail(std::string_view what, std::uint64_t position) const;
 
@@ -119,9 +119,9 @@ private:
 
     InputFile file_;
     std::vector<std::byte> buffer_;
-    std::uint64_t buffer_position_ = 0;  // of the buffer's beginning, in the file
-    std::size_t begin_ = 0;              // of what is not yet handed out
-    std::size_t end_ = 0;                // of what was read
+    std::uint64_t buffer_position_ = 0;  // position in the file of the start of the buffer
+    std::size_t begin_ = 0;              // of the bytes that are not yet taken
+    std::size_t end_ = 0;                // of the bytes that were read
     bool swapped_ = false;
 };
 

@@ -82,7 +82,7 @@ std::uint64_t Fields::any_unsigned_integer(std::string_view what) {
 
 std::int32_t Fields::any_marker(std::string_view what) {
     const char* const first = next_;
-    // Programs that keep attributes as reals write whole ones as 2.0 or 2e0 too.
+    // Programs that store attributes as reals also write whole ones as 2.0 or 2e0.
     const double value = real(what);
     const bool whole = value == std::trunc(value);
     if (!whole || value < std::numeric_limits<std::int32_t>::min() ||

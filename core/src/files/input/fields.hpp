@@ -12,21 +12,21 @@
 
 namespace octetra {
 
-/// Does this stand between fields, or at the end of a line that Windows wrote?
+/// Returns whether this separates fields, or belongs to a CRLF line end.
 [[nodiscard]] constexpr bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\r'; }
 
-/// A token as an error message can show it: quoted, cut short, control characters escaped.
+/// Returns a token for an error message: quoted, truncated, control characters escaped.
 [[nodiscard]] std::string shown(std::string_view token);
 
-/// What is wrong with a coordinate or another real, `what`, that files show as `number`.
+/// Messages on a coordinate or another real, `what`, which the file shows as `number`.
 [[nodiscard]] std::string not_finite(std::string_view what, std::string_view number);
 [[nodiscard]] std::string too_large(std::string_view what, std::string_view number);
 
 /// Takes the fields of one line one after the other. `what` in these calls names the field for the
-/// error message that a missing or malformed one gets, with the line reader's file and line.
+/// error message if it is missing or malformed; messages have the line reader's file and line.
 class Fields {
 public:
-    /// `line`: of the reader, a part of one, or empty.
+    /// `line`: the reader's line, a part of it, or empty.
     Fields(const LineReader& reader, std::string_view line)
         : reader_(&reader), next_(line.data()), end_(line.data() + line.size()) {
         skip_blanks();
@@ -34,14 +34,13 @@ public:
     explicit Fields(const LineReader& reader) : Fields(reader, reader.line()) {}
 
     [[nodiscard]] bool at_end() const { return next_ == end_; }
-    /// How many fields are left.
+    /// Returns the number of remaining fields.
     [[nodiscard]] std::size_t count_left() const;
 
-    /// The next field as it stands, or an empty one at the end.
+    /// Returns the next field verbatim, or an empty one at the end of the line.
     [[nodiscard]] std::string_view text();
     [[nodiscard]] std::uint64_t unsigned_integer(std::string_view what) {
-        // Nearly all are a few digits and nothing else, and most of a file; the rest goes the long
-        // way.
+        // Fast path: nearly all fields are a few digits.
         const Digits digits = digits_at(next_);
         if (!is_field(digits)) return any_unsigned_integer(what);
         take(digits);
@@ -56,22 +55,22 @@ public:
         const auto value = static_cast<std::int32_t>(digits.value);
         return negative ? -value : value;
     }
-    /// A finite number.
+    /// Returns a finite number.
     [[nodiscard]] double real(std::string_view what);
-    /// A number that a coordinate can be.
+    /// Returns a number within the limit of coordinates.
     [[nodiscard]] double coordinate(std::string_view what);
 
-    /// Refuses anything that is left on the line, after `expected` fields.
+    /// Throws InputError if there are more than `expected` fields on the line.
     void expect_end(std::size_t expected) const;
 
 private:
     void skip_blanks() {
         while (next_ != end_ && (*next_ == ' ' || *next_ == '\t' || *next_ == '\r')) ++next_;
     }
-    /// Digits, fifteen at most, so that their value always fits.
+    /// At most fifteen digits, so that the value always fits.
     struct Digits {
         std::uint64_t value = 0;
-        const char* stop = nullptr;  ///< where they end; null: there are none, or more
+        const char* stop = nullptr;  ///< end of the digits; null: none, or too many
     };
     Digits digits_at(const char* first) const {
         if (first == end_) return {};
@@ -88,25 +87,26 @@ private:
         std::uint64_t value;
         unsigned count;
     };
-    /// Looks at eight bytes at once, which need not be the line's.
+    /// Inspects eight bytes at once, which may extend beyond the line.
     static DigitsOfWord digits_of_word(const char* first) {
         static_assert(std::endian::native == std::endian::little);
         std::uint64_t word;
         std::memcpy(&word, first, sizeof word);
-        word ^= 0x3030'3030'3030'3030;  // digits are 0 to 9, and nothing else is
-        // A byte above 9 carries into its own highest bit; into the next byte, too, but only the
-        // first such byte counts.
+        word ^= 0x3030'3030'3030'3030;  // digits become 0 to 9, all other bytes more
+        // A byte above 9 sets its own highest bit; a carry may also affect the next byte, but only
+        // the first such byte counts.
         const std::uint64_t others =
             ((word + 0x7676'7676'7676'7676) | word) & 0x8080'8080'8080'8080;
         const auto count = static_cast<unsigned>(std::countr_zero(others)) / 8;
         if (count == 0) return {0, 0};
-        // Zeros come in front of the digits. Then pairs are joined, pairs of these, and the rest.
+        // Shifts zeros in front of the digits; then joins pairs of digits, pairs of these, and both
+        // halves.
         word <<= 64 - 8 * count;
         word = (word * 10 + (word >> 8U)) & 0x00ff'00ff'00ff'00ff;
         word = (word * 100 + (word >> 16U)) & 0x0000'ffff'0000'ffff;
         return {(word * 10'000 + (word >> 32U)) & 0xffff'ffff, count};
     }
-    /// Do these make the next field?
+    /// Returns whether the digits are the whole next field.
     [[nodiscard]] bool is_field(const Digits& digits) const {
         if (digits.stop == nullptr || digits.stop > end_) return false;
         return digits.stop == end_ || is_blank(*digits.stop);

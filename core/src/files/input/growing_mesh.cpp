@@ -56,7 +56,7 @@ void GrowingMesh::tell(const EntityKind<I, N>& kind) {
 
 void GrowingMesh::finish() {
     const bool is_empty = is_streaming() ? facts_.vertices == 0 : mesh.points.empty();
-    if (is_empty) mesh.index_base = 0;  // of nothing, whatever the format counts from
+    if (is_empty) mesh.index_base = 0;  // of an empty mesh, whatever the format counts from
     if (is_streaming()) {
         facts_.index_base = mesh.index_base;
         facts_.first_midpoint = facts_.vertices;

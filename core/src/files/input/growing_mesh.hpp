@@ -10,7 +10,8 @@
 
 namespace octetra {
 
-/// A kind of entity, cells or what is tagged: where a mesh has it, and how a sink takes it.
+/// A kind of entity (cells, tagged facets or edges): its members in a mesh, and its functions of a
+/// sink.
 template <class I, std::size_t N>
 struct EntityKind {
     IndexVector<I, std::array<VertexIndex, N>> Mesh::*list;
@@ -40,29 +41,29 @@ inline constexpr EntityKind<EdgeIndex, 2> edge_kind{&Mesh::edges,
                                                     &MeshSink::expect_edges,
                                                     &MeshSink::take_edges};
 
-/// Which entities go to the sink. The others are counted, and dropped.
+/// The entities that are passed to the sink. Others are counted and dropped.
 enum class Streamed { everything, points, all_but_points, nothing };
 
-/// What a parser fills, entity by entity: a whole mesh or, where there is a sink, one stretch of it
-/// after the other, each handed to the sink as soon as it is full, and then dropped.
+/// The target of a parser, filled entity by entity: a whole mesh or, with a sink, one block at a
+/// time, which is passed to the sink when it is full, and then dropped.
 class GrowingMesh {
 public:
-    /// `zeros_are_none`: markers that are all 0 say that the file has none.
+    /// `zeros_are_none`: if all markers are 0, the file has no markers.
     GrowingMesh(MeshSink* sink, bool zeros_are_none, Streamed streamed = Streamed::everything)
         : sink_(sink), zeros_are_none_(zeros_are_none), streamed_(streamed) {}
 
-    /// The parser appends here; calls of ..._complete() tell that it has done so.
+    /// The parser appends here, and calls the ..._complete() functions afterwards.
     Mesh mesh;
 
     void expect_points(std::uint64_t count, std::size_t attributes, bool has_markers);
     void point_complete() {
         if (mesh.points.size() == points_stretch_) tell_points();
     }
-    /// How many points may be appended before point_complete() is called, for who appends several.
+    /// Returns how many points may be appended before point_complete() must be called.
     [[nodiscard]] std::size_t room_for_points() const {
         return points_stretch_ - mesh.points.size();
     }
-    /// No more points.
+    /// To be called after the last point.
     void points_complete() { tell_points(); }
 
     template <class I, std::size_t N>
@@ -75,22 +76,23 @@ public:
     [[nodiscard]] std::size_t room_for(const EntityKind<I, N>& kind) const {
         return entity_stretch_ - (mesh.*kind.list).size();
     }
-    /// No more of this kind.
+    /// To be called after the last entity of this kind.
     template <class I, std::size_t N>
     void all_complete(const EntityKind<I, N>& kind) {
         tell(kind);
     }
 
-    /// What goes to the sink from now on.
+    /// Sets the entities that are passed to the sink from now on.
     void stream_only(Streamed streamed) { streamed_ = streamed; }
     [[nodiscard]] Streamed streamed() const { return streamed_; }
 
-    /// The file is good: drops markers that are none, or tells the sink of the end.
+    /// To be called after successful parsing: drops markers that do not count, or finishes the
+    /// sink.
     void finish();
 
     [[nodiscard]] MeshSink* sink() const { return sink_; }
     [[nodiscard]] bool is_streaming() const { return sink_ != nullptr; }
-    /// What was announced up to now.
+    /// The counts announced so far.
     [[nodiscard]] const MeshFacts& facts() const { return facts_; }
 
 private:
@@ -102,7 +104,7 @@ private:
     [[nodiscard]] bool streams_others() const {
         return streamed_ == Streamed::everything || streamed_ == Streamed::all_but_points;
     }
-    /// Whether the file has markers, after all that came.
+    /// Returns whether the file has markers, given all of them so far.
     [[nodiscard]] bool means_something(const std::vector<Marker>& markers) const;
     void tell_points();
     template <class I, std::size_t N>

@@ -6,8 +6,8 @@
 
 namespace octetra {
 
-/// {take(), take(), ...}: N of them, taken in order. Written one by one into an array, they would
-/// be waited for where the array is then read as a whole, which takes as long as parsing one.
+/// Returns {take(), take(), ...}, N results in order. Element-wise stores into an array that is
+/// then loaded as a whole would stall for as long as parsing a number takes.
 template <std::size_t N>
 [[nodiscard]] auto taken_in_order(auto&& take) {
     return [&]<std::size_t... k>(std::index_sequence<k...>) {

@@ -15,7 +15,7 @@
 namespace octetra {
 
 InputFile::InputFile(std::filesystem::path path) : path_(std::move(path)) {
-    // O_NONBLOCK: a named pipe must be refused, not waited for.
+    // O_NONBLOCK: opening a named pipe must fail, not block.
     file_ = ::open(path_.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
     if (file_ < 0) fail(fmt::format("cannot be opened: {}", std::strerror(errno)));
     struct stat status {};

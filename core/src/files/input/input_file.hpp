@@ -8,8 +8,8 @@
 
 namespace octetra {
 
-/// A file that is read in places. Throws InputError where it cannot be opened or is no file, or has
-/// become shorter, and SystemError where reading fails.
+/// A file with random access. Throws InputError if it cannot be opened, is not a regular file, or
+/// has become shorter, and SystemError if reading fails.
 class InputFile {
 public:
     explicit InputFile(std::filesystem::path path);

@@ -46,7 +46,7 @@ LineReader::LineReader(std::filesystem::path path, std::uint64_t begin, std::uin
 }
 
 void LineReader::open() {
-    // O_NONBLOCK: a named pipe must be refused, not waited for.
+    // O_NONBLOCK: opening a named pipe must fail, not block.
     file_ = ::open(path_.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
     if (file_ < 0) {
         throw InputError(
@@ -84,7 +84,7 @@ std::string_view LineReader::without_comment(std::string_view raw) {
     return raw.substr(0, static_cast<std::size_t>(comment - raw.data()));
 }
 
-/// In what was read, from there on.
+/// Finds the next comment in the buffer, from this index on.
 void LineReader::find_comment(std::size_t from) {
     const void* const comment = std::memchr(buffer_.data() + from, '#', end_ - from);
     comment_ = comment == nullptr
@@ -126,7 +126,7 @@ void LineReader::fill() {
     if (pending == longest_line) {
         fail("this line is longer than 1 MiB: not a text file?", line_number_ + 1);
     }
-    if (pending == room_) make_room(longest_line);  // the file has grown meanwhile
+    if (pending == room_) make_room(longest_line);  // the file has grown since it was opened
     std::memmove(buffer_.data(), buffer_.data() + begin_, pending);
     buffer_position_ += begin_;
     comment_ -= begin_;

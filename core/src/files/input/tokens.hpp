@@ -10,12 +10,12 @@
 
 namespace octetra {
 
-/// The file as a sequence of tokens that goes on over line ends.
+/// The file as a sequence of tokens that ignores line ends.
 class Tokens {
 public:
     explicit Tokens(LineReader& reader) : reader_(&reader), fields_(reader, {}) {}
 
-    /// The next token as it stands; empty at the end of the file.
+    /// Returns the next token verbatim; empty at the end of the file.
     std::string_view text() { return advance() ? fields_.text() : std::string_view{}; }
     std::uint64_t unsigned_integer(std::string_view what) {
         require(what);
@@ -34,13 +34,13 @@ public:
         return fields_.coordinate(what);
     }
 
-    /// Goes to the line that the next token is on. The file must not end before it.
+    /// Moves to the line of the next token. Throws InputError if the file ends before it.
     void require(std::string_view what) {
         if (!advance()) reader_->fail(fmt::format("the file ends where {} should be", what));
     }
-    /// Is no token left on the line of the last one?
+    /// Returns whether the last token was the last one on its line.
     [[nodiscard]] bool at_line_end() const { return fields_.at_end(); }
-    /// Goes on behind the line on which the reader is, which was not read by tokens.
+    /// Skips the rest of the reader's current line, which was not read through this object.
     void leave_line() { fields_ = Fields(*reader_, {}); }
 
 private:

@@ -10,7 +10,7 @@
 
 namespace octetra {
 
-/// What a file lists of the cells, facets or edges of a MeshSource: their vertices and markers.
+/// The vertices and markers of the cells, facets or edges of a MeshSource, as a file lists them.
 template <std::size_t N>
 struct EntityList {
     std::uint64_t count;
@@ -33,15 +33,16 @@ struct EntityList {
             &MeshSource::edge_digits};
 }
 
-/// Collective. How many bytes rows of the vertices of this process's slice take as text, numbered
-/// from `index_base` on, with one character behind each number.
+/// Collective. Returns the size in bytes of the vertices of this process's slice as text, numbered
+/// from `index_base`, with one separator after each number.
 template <std::size_t N>
 [[nodiscard]] std::uint64_t bytes_of_vertices(MeshSource& mesh, const EntityList<N>& list,
                                               const Window& slices, std::uint64_t index_base) {
     return (mesh.*list.digits)(slices, index_base) + N * slices.length_of(mesh.group().rank());
 }
 
-/// Collective. The sum of bytes_of(marker) over this process's slice of a list that has markers.
+/// Collective. Returns the sum of bytes_of(marker) over this process's slice of a list with
+/// markers.
 template <std::size_t N>
 [[nodiscard]] std::uint64_t bytes_of_markers(MeshSource& mesh, const EntityList<N>& list,
                                              const Window& slices, auto&& bytes_of) {

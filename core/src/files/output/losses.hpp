@@ -3,10 +3,10 @@
 #include <string>
 #include <string_view>
 
-/// What is said of what a format cannot hold.
+/// Messages on data that a format cannot represent.
 namespace octetra {
 
-/// One more thing that is lost.
+/// Appends a loss to a message.
 inline void add_loss(std::string& lost, std::string_view loss) {
     if (loss.empty()) return;
     lost += lost.empty() ? "" : "; ";

@@ -9,17 +9,17 @@
 
 namespace octetra {
 
-/// No number takes more room while it is put as text.
+/// The maximum size of a number as text, including temporary space.
 inline constexpr std::size_t longest_number = 32;
 
 namespace detail {
 
-/// The decimal digits of a number below 10^8, one a byte, the leading one in the lowest byte: all
-/// are found at once, in halves of halves of a word.
+/// Returns the decimal digits of a number below 10^8, one a byte, the leading one in the lowest
+/// byte. All are computed at once, by halving the words repeatedly.
 inline std::uint64_t eight_digits(std::uint64_t number) {
     const std::uint64_t leading_four = number / 10'000;
     std::uint64_t word = leading_four | (number - leading_four * 10'000) << 32U;
-    // Division by 100 of numbers below 10^4, and by 10 of numbers below 100.
+    // Divides numbers below 10^4 by 100, and numbers below 100 by 10.
     const std::uint64_t hundreds = word * 5243 >> 19U & 0x0000'007f'0000'007f;
     word = hundreds | (word - hundreds * 100) << 16U;
     const std::uint64_t tens = word * 103 >> 10U & 0x000f'000f'000f'000f;
@@ -41,7 +41,7 @@ inline char* put_digits(char* place, std::uint64_t number) {
         return place + 8;
     }
     const std::uint64_t digits = detail::eight_digits(number);
-    // Bytes of leading zeros; the last digit is there in any case.
+    // The number of leading zeros; the last digit is never removed.
     const auto zeros = static_cast<unsigned>(__builtin_ctzll(digits | std::uint64_t{1} << 56U)) / 8;
     detail::put_eight(place, digits >> 8 * zeros);
     return place + (8 - zeros);
@@ -49,8 +49,8 @@ inline char* put_digits(char* place, std::uint64_t number) {
 
 }  // namespace detail
 
-/// Put a number as text at `place` and return where it ends: a real one in the fewest digits that
-/// read back to the same bits. There must be room for longest_number.
+/// Writes a number as text at `place` and returns its end: a real in the fewest digits that read
+/// back to the same bits. There must be room for longest_number bytes.
 inline char* put_number(char* place, double number) {
     return std::to_chars(place, place + longest_number, number).ptr;
 }
@@ -64,7 +64,7 @@ inline char* put_number(char* place, std::signed_integral auto number) {
     return detail::put_digits(place + 1, 0 - bits);
 }
 
-/// How long the text of a whole number is.
+/// Returns the length of a whole number as text.
 inline std::uint64_t text_length(std::unsigned_integral auto number) {
     std::uint64_t length = 1;
     for (std::uint64_t rest = number; rest >= 10; rest /= 10) ++length;

@@ -23,8 +23,8 @@ namespace {
 
 constexpr std::size_t buffer_size = std::size_t{1} << 20U;
 
-/// Owner and group as far as the system allows. Where the group is another, it gets no more than
-/// everybody had.
+/// Copies owner, group and permissions as far as the system allows. If the group cannot be copied,
+/// the new group gets no more permissions than others had.
 void pass_on_permissions(const struct stat& old, int file) {
     mode_t mode = old.st_mode & 0777U;
     constexpr auto same_owner = static_cast<uid_t>(-1);
@@ -32,11 +32,12 @@ void pass_on_permissions(const struct stat& old, int file) {
         ::fchown(file, same_owner, old.st_gid) != 0) {
         mode = (mode & 0707U) | ((mode & 0007U) << 3U);
     }
-    // Where this fails, as on file systems without permissions, there is nothing to pass on.
+    // Fails on file systems without permissions, where nothing needs to be copied.
     (void)::fchmod(file, mode);
 }
 
-/// Some file systems cannot, and then need not. Needs no memory.
+/// Synchronises a directory to disk; file systems that do not support this do not need it.
+/// Allocates no memory.
 void sync_folder(const std::filesystem::path& folder) {
     const int opened = ::open(folder.c_str(), O_RDONLY | O_CLOEXEC | O_DIRECTORY);
     if (opened < 0) return;
@@ -76,7 +77,7 @@ OutputFile::~OutputFile() {
 
 void OutputFile::put(std::string_view text) { put_bytes(text.data(), text.size()); }
 
-/// More than there is room for.
+/// Handles data that exceed the room in the buffer.
 void OutputFile::put_many_bytes(const void* data, std::size_t size) {
     if (is_alone() && size > buffer_.size()) {
         end_turn();
@@ -100,8 +101,8 @@ void OutputFile::end_turn() {
     used_ = 0;
 }
 
-/// Most file systems let one process at a time write to a file. So one half of the group writes
-/// when the next turn begins, the other when it is half done: while ones write, the others prepare.
+/// Most file systems let one process at a time write to a file. Therefore even ranks write when the
+/// next turn begins, odd ranks in the middle of it: one half writes while the other prepares.
 void OutputFile::end_turn_later() {
     kept_position_ = place_of_turn();
     kept_.swap(buffer_);
@@ -115,7 +116,7 @@ std::uint64_t OutputFile::place_of_turn() {
     return place_in_group(used_);
 }
 
-/// Collective. Where so many bytes of each process stand.
+/// Collective. Returns the position of this process's bytes, of which each process has `size`.
 std::uint64_t OutputFile::place_in_group(std::uint64_t size) {
     const std::uint64_t place = flushed_ + group_->sum_before(size);
     flushed_ += group_->sum(size);
@@ -170,9 +171,9 @@ void OutputFile::commit() {
 void OutputFile::commit_all(const std::vector<std::unique_ptr<OutputFile>>& files,
                             const ProcessGroup& group, const std::function<void()>& rest) {
     for (const auto& file : files) file->close();
-    // Ended by a signal, every process removes the temporary files. So none may begin to rename
-    // before all defer such an end. The first begins last, to be ended as ever where another is not
-    // there any more.
+    // If a signal ends a process, its handler removes the temporary files. No file may be renamed
+    // until all processes defer such signals. The first process defers last, so that it can still
+    // be ended if another process does not arrive.
     std::optional<DeferredEnd> deferred;
     if (!group.is_first()) deferred.emplace();
     group.agree({});
@@ -189,13 +190,14 @@ void OutputFile::commit_all(const std::vector<std::unique_ptr<OutputFile>>& file
 }
 
 void OutputFile::rename() {
-    // Nothing must fail once the file has its place.
+    // No operation may fail after the rename.
     const std::filesystem::path folder = place_.has_parent_path() ? place_.parent_path() : ".";
     if (::rename(temporary_.c_str(), place_.c_str()) != 0) return fail("cannot be put in place");
     if (is_synced_) sync_folder(folder);
 }
 
-/// One process alone writes what it has; one of a group keeps it until its turn.
+/// Flushes the buffer on a single process; enlarges it in a group, where it is kept until the turn
+/// ends.
 void OutputFile::make_room(std::size_t size) {
     if (is_alone()) return end_turn();
     write_kept();
@@ -214,9 +216,9 @@ void OutputFile::name_temporary(std::uint64_t number) {
 /// as a link to another file, or be in use by a program of the same process number in another
 /// container.
 std::uint64_t OutputFile::create() {
-    // Readers without access to the replaced file have none to the incomplete one, either.
+    // Users without access to the replaced file must not get access to the incomplete one.
     const bool replaces = ::access(place_.c_str(), F_OK) == 0;
-    const mode_t mode = replaces ? 0600 : 0666;  // less what the umask takes away
+    const mode_t mode = replaces ? 0600 : 0666;  // subject to the umask
     std::uint64_t number = 0;
     constexpr int most_attempts = 100;
     for (int attempt = 0; attempt < most_attempts; ++attempt) {
@@ -232,7 +234,7 @@ std::uint64_t OutputFile::create() {
     return number;
 }
 
-/// The file that the first process has created.
+/// Opens the file that the first process has created.
 void OutputFile::open_created(std::uint64_t number) {
     name_temporary(number);
     file_ = ::open(temporary_.c_str(), O_WRONLY | O_NOFOLLOW | O_CLOEXEC);
@@ -240,7 +242,7 @@ void OutputFile::open_created(std::uint64_t number) {
 }
 
 void OutputFile::write_at(std::uint64_t position, const void* data, std::size_t size) {
-    if (!failure_.empty()) return;  // all will hear of it at the end
+    if (!failure_.empty()) return;  // the failure is reported when the processes agree
     const char* bytes = static_cast<const char*>(data);
     while (size > 0) {
         const ssize_t written = ::pwrite(file_, bytes, size, static_cast<off_t>(position));
@@ -256,7 +258,7 @@ void OutputFile::fail(std::string_view doing) {
     if (failure_.empty()) {
         failure_ = fmt::format("{}: {}: {}", path_.native(), doing, std::strerror(errno));
     }
-    // The others of a group may be waiting for this process's turn.
+    // Other processes of a group may be waiting for this process's turn.
     if (is_alone()) throw SystemError(failure_);
 }
 

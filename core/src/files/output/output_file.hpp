@@ -18,15 +18,15 @@
 
 namespace octetra {
 
-/// A file that is written under a temporary name beside its final place and takes that place only
-/// on commit(). Destroyed before, it leaves no trace. Every failure throws SystemError.
-/// A link is followed: the place is where it leads. A file that is there already passes its
-/// permissions on and, as far as the system allows, its owner and group.
+/// A file that is written under a temporary name in the same directory and renamed on commit(). The
+/// destructor removes an uncommitted file. Every failure throws SystemError. Symbolic links are
+/// followed to the final path. An existing file is replaced; its permissions and, as far as the
+/// system allows, its owner and group are kept.
 ///
-/// A group of processes writes one file by taking turns: what each has put since the last turn
-/// follows what the lower ranks have put. Constructing, both ways of ending a turn, close() and
-/// commit() are collective, and failures are thrown there, on all processes. One process alone
-/// needs no turns.
+/// A group of processes writes one file in turns: the bytes that each process has put since the
+/// last turn follow those of lower ranks. The constructor, both functions that end a turn, close()
+/// and commit() are collective, and throw failures on all processes. A single process needs no
+/// turns.
 class OutputFile {
 public:
     explicit OutputFile(std::filesystem::path path,
@@ -51,43 +51,44 @@ public:
         used_ += size;
     }
 
-    /// Room for so many bytes, for who puts text there himself and then tells where it ends.
+    /// Returns space for `size` bytes. The caller writes text there and passes its end to
+    /// put_up_to().
     [[nodiscard]] char* room_for(std::size_t size) {
         if (room_ - used_ < size) make_room(size);
         return buffer_.data() + used_;
     }
     void put_up_to(const char* end) { used_ = static_cast<std::size_t>(end - buffer_.data()); }
 
-    /// Where it is until commit().
+    /// The path of the file until commit().
     [[nodiscard]] const std::filesystem::path& temporary() const { return temporary_; }
 
-    /// Brings what has been put to the file.
+    /// Writes the buffered bytes to the file.
     void end_turn();
-    /// The same, but what has been put may come to the file in the course of the next turn: until
-    /// that has ended nothing of it may be overwritten.
+    /// Same, but the bytes may be written during the next turn; they must not be overwritten before
+    /// that has ended.
     void end_turn_later();
 
-    /// From here to end_stretches() each process has a stretch of `size` bytes of the file to
-    /// itself, by rank, and its turns, which end_turn_later() ends, are no other's affair.
+    /// Until end_stretches(), each process writes to a byte range of the given size of its own, in
+    /// the order of ranks. end_turn_later() is not collective meanwhile.
     void begin_stretches(std::uint64_t size);
-    /// Fails where a process has not put as many bytes as it said.
+    /// Fails if a process has not put as many bytes as it announced.
     void end_stretches();
 
-    /// How many bytes have been put so far: where the next one will stand. For a group: at the end
-    /// of a turn, and the same on all processes.
+    /// The number of bytes put so far, which is the position of the next one. In a group it is
+    /// valid at the end of a turn, and equal on all processes.
     [[nodiscard]] std::uint64_t position() const { return flushed_ + used_; }
-    /// Replaces bytes that were put before (in earlier turns, by whichever process).
+    /// Overwrites bytes that were put before (in earlier turns, by any process).
     void overwrite(std::uint64_t position, const void* data, std::size_t size);
 
-    /// Collective. Brings everything to the disk, and its place when it is put there: once it has
-    /// its final name it has it for good, whatever becomes of the machine.
+    /// Collective. Synchronises the file to disk, and its directory after the rename, so that a
+    /// committed file survives a crash of the machine.
     void sync();
-    /// Brings everything to the file and closes it.
+    /// Writes all bytes to the file and closes it.
     void close();
     void commit();
-    /// Commits files that belong together, when all are complete: the last first, so that where the
-    /// first one is in its place all are. Then does `rest` on the first process. A signal that
-    /// would end the program in between waits until all is done.
+    /// Commits files that belong together, when all are complete: the last one first, so that all
+    /// are committed if the first one is. Then calls `rest` on the first process. Signals that
+    /// would end the program are deferred meanwhile.
     static void commit_all(const std::vector<std::unique_ptr<OutputFile>>& files,
                            const ProcessGroup& group, const std::function<void()>& rest);
 
@@ -108,19 +109,19 @@ private:
     void agree();
 
     const ProcessGroup* group_;
-    std::filesystem::path path_;       ///< as it was named
-    std::filesystem::path place_;      ///< where its links lead
-    std::filesystem::path temporary_;  ///< the place, a random number and ".tmp"
+    std::filesystem::path path_;       ///< as passed by the caller
+    std::filesystem::path place_;      ///< after following links
+    std::filesystem::path temporary_;  ///< place_, a random number and ".tmp"
     std::unique_ptr<UnfinishedFile> unfinished_;
     int file_ = -1;
     std::vector<char> buffer_;
-    std::size_t room_ = 0;  ///< so much of the buffer may be used before something must be done
+    std::size_t room_ = 0;  ///< bytes of the buffer that may be used before make_room()
     std::size_t used_ = 0;
     std::uint64_t flushed_ = 0;
-    std::vector<char> kept_;     ///< of a group: what the last turn has put, kept_size_ bytes,
-    std::size_t kept_size_ = 0;  ///< until it is written: then 0
+    std::vector<char> kept_;     ///< of a group: the bytes of the last turn, kept_size_ of them,
+    std::size_t kept_size_ = 0;  ///< until they are written: then 0
     std::uint64_t kept_position_ = 0;
-    /// What is left of this process's stretch, while there is one.
+    /// The rest of this process's byte range, while there is one.
     struct Stretch {
         std::uint64_t begin;
         std::uint64_t end;

@@ -17,14 +17,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Where the links end that `path` names; nothing if they lead in a circle.
+/// Returns the target of the chain of links at `path`; nothing if it is circular.
 std::optional<fs::path> end_of_links(fs::path path) {
-    constexpr int most_links = 40;  // as many as the system itself follows
+    constexpr int most_links = 40;  // as many as the system follows
     for (int followed = 0; followed <= most_links; ++followed) {
         std::error_code not_a_link;
         const fs::path next = fs::read_symlink(path, not_a_link);
         if (not_a_link) return path;
-        path = path.parent_path() / next;  // which is `next` if that is absolute
+        path = path.parent_path() / next;  // equals `next` if that is absolute
     }
     return {};
 }
@@ -41,7 +41,7 @@ void add(std::vector<fs::path>& paths, const fs::path& path) {
     if (std::ranges::find(paths, path) == paths.end()) paths.push_back(path);
 }
 
-/// Files of one mesh that are one by their links would take each other's place.
+/// Throws InputError if two files of one mesh are the same file through links.
 void refuse_one_place_for_two(const std::vector<fs::path>& paths) {
     for (std::size_t i = 0; i < paths.size(); ++i) {
         for (std::size_t j = 0; j < i; ++j) {
@@ -76,7 +76,7 @@ std::string in_the_way(const fs::path& path) {
     std::error_code ignored;
     const fs::file_status there = fs::status(path, ignored);
     if (fs::is_directory(there)) return "is a directory, not a file";
-    // Taking the name of a device would put an end to the device: think of /dev/null.
+    // Renaming a file onto a device, such as /dev/null, would destroy the device.
     if (fs::exists(there) && !fs::is_regular_file(there)) {
         return "is a device or the like, not a file";
     }
@@ -139,7 +139,7 @@ std::vector<fs::path> files_to_write(const fs::path& path, int pieces) {
 }
 
 void check_places(const fs::path& path, int pieces) {
-    check_place(path);  // first, as it was named
+    check_place(path);  // first, with the given name
     for (const fs::path& file : files_to_write(path, pieces)) check_place(file);
     refuse_one_place_for_two(is_in_pieces(path) ? pieces_to_write(path, pieces)
                                                 : files_of_mesh(path));

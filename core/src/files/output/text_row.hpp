@@ -7,8 +7,8 @@
 
 namespace octetra {
 
-/// A line of numbers with a space between them. Room in the file is asked for once for eight
-/// numbers: who puts more calls go_on() before the ninth, and so on.
+/// A line of numbers separated by spaces. Space in the file is requested for eight numbers at a
+/// time: the caller must call go_on() before the ninth, and so on.
 class TextRow {
 public:
     explicit TextRow(OutputFile& out) : out_(&out), place_(out.room_for(most_bytes)) {}
@@ -22,7 +22,7 @@ public:
         out_->put_up_to(place_);
         place_ = out_->room_for(most_bytes);
     }
-    /// Once, and nothing behind it.
+    /// To be called once, after the last number.
     void end() {
         *place_++ = '\n';
         out_->put_up_to(place_);
@@ -36,7 +36,7 @@ private:
     bool is_empty_ = true;
 };
 
-/// A line of what is given: at most eight numbers.
+/// Writes a line of at most eight numbers.
 void put_line(OutputFile& out, auto... numbers) {
     static_assert(sizeof...(numbers) <= 8);
     TextRow row(out);

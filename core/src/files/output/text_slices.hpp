@@ -10,8 +10,8 @@
 
 namespace octetra {
 
-/// How much of a list each process puts before it writes: little enough for a buffer, much enough
-/// that turns are rare; of a small list, an equal share.
+/// Returns the number of list entries that each process puts in one turn: few enough for a buffer,
+/// and enough to make turns rare; of a short list, an equal share.
 [[nodiscard]] inline std::uint64_t lines_of_a_turn(std::uint64_t count, const ProcessGroup& group) {
     const std::uint64_t most = group.size() > 1 ? 1U << 15U : 1U << 12U;
     return std::clamp(count / static_cast<std::uint64_t>(group.size()) + 1, std::uint64_t{1}, most);
@@ -28,14 +28,14 @@ void put_list(OutputFile& out, std::uint64_t count, const ProcessGroup& group, a
     }
 }
 
-/// The whole of a list in one slice for each process.
+/// Returns a window that is the whole list, with one slice for each process.
 [[nodiscard]] inline Window stretches_of(std::uint64_t count, const ProcessGroup& group) {
     const auto processes = static_cast<std::uint64_t>(group.size());
     return {0, (count + processes - 1) / processes, count};
 }
 
-/// Calls take(window) for windows that go through all slices of a larger one at once, `length`
-/// entities of each at a time.
+/// Calls take(window) for windows that together cover all slices of a larger one, `length` entities
+/// of each slice at a time.
 void for_each_piece(const Window& slices, std::uint64_t length, auto&& take) {
     Window piece = slices;
     if (piece.distance == 0) piece.distance = slices.slice_length;
@@ -46,9 +46,9 @@ void for_each_piece(const Window& slices, std::uint64_t length, auto&& take) {
     }
 }
 
-/// Collective. The same as put_list(), where each process can tell how many bytes there are in its
-/// slice of stretches_of(): no process has to wait for what those before it put. In most meshes a
-/// stretch of the order lies in few parts, and turns would have few processes at work at a time.
+/// Collective. Same as put_list(), if each process can compute the size in bytes of its slice of
+/// stretches_of(): then no process waits for the output of lower ranks. In most meshes a block of
+/// the canonical order lies in few parts, so that turns would keep most processes idle.
 void put_list_in_stretches(OutputFile& out, std::uint64_t count, const ProcessGroup& group,
                            auto&& bytes_of, auto&& put_slice) {
     if (group.size() == 1) return put_list(out, count, group, put_slice);
@@ -61,7 +61,7 @@ void put_list_in_stretches(OutputFile& out, std::uint64_t count, const ProcessGr
     out.end_stretches();
 }
 
-/// The same for rows of `row_size` bytes.
+/// Same for rows of `row_size` bytes.
 void put_list_of_rows(OutputFile& out, std::uint64_t count, const ProcessGroup& group,
                       std::size_t row_size, auto&& put_slice) {
     const auto bytes_of = [&](const Window& stretches) {
@@ -70,7 +70,7 @@ void put_list_of_rows(OutputFile& out, std::uint64_t count, const ProcessGroup& 
     put_list_in_stretches(out, count, group, bytes_of, put_slice);
 }
 
-/// How long the texts of the numbers begin .. end-1 are in all.
+/// Returns the total length of the numbers begin .. end - 1 as text.
 [[nodiscard]] inline std::uint64_t text_length_between(std::uint64_t begin, std::uint64_t end) {
     std::uint64_t length = 0;
     while (begin < end) {
@@ -84,8 +84,8 @@ void put_list_of_rows(OutputFile& out, std::uint64_t count, const ProcessGroup& 
     return length;
 }
 
-/// How many bytes the numbers of the rows of a process's slice take as text, those of the whole
-/// list from `first` on, with one character behind each.
+/// Returns the size in bytes of the row numbers of a process's slice as text, with one separator
+/// after each; the rows of the list are numbered from `first`.
 [[nodiscard]] inline std::uint64_t bytes_of_row_numbers(const Window& slices, int rank,
                                                         std::uint64_t first) {
     return text_length_between(first + slices.begin_of(rank), first + slices.end_of(rank)) +

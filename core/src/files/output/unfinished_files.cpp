@@ -12,7 +12,7 @@
 namespace octetra {
 namespace {
 
-/// A signal handler may look at this at any time: each path is complete before it is marked as
+/// A signal handler may read a slot at any time, so its path is complete before it is marked as
 /// used.
 struct Slot {
     std::array<char, 4096> path{};
@@ -24,8 +24,8 @@ constexpr std::size_t slot_count = 8;
 std::array<Slot, slot_count> slots;
 static_assert(std::atomic<bool>::is_always_lock_free);
 
-/// A set of files is put in place, or temporary files are removed; never both. The handler may run
-/// in another thread than the one that writes: MPI has some of its own.
+/// Committing a set of files and removing temporary files exclude each other. The handler may run
+/// in another thread than the writer, for example in one of MPI.
 enum class Doing { neither, putting_in_place, removing };
 std::atomic<Doing> doing = Doing::neither;
 std::atomic<int> deferred_signal = 0;
@@ -34,7 +34,7 @@ static_assert(std::atomic<Doing>::is_always_lock_free && std::atomic<int>::is_al
 }  // namespace
 
 UnfinishedFile::UnfinishedFile(const std::filesystem::path& path) : slot_(slot_count) {
-    // Relative to where the program now is, which may change before the signal comes.
+    // The working directory may change before a signal arrives.
     const std::string absolute = std::filesystem::absolute(path).native();
     if (absolute.size() >= Slot{}.path.size()) return;
     for (std::size_t s = 0; s < slot_count; ++s) {
@@ -65,7 +65,7 @@ DeferredEnd::~DeferredEnd() {
 }
 
 bool remove_unfinished_files(int signal) noexcept {
-    deferred_signal = signal;  // before the look at `doing`, or it could come too late to be seen
+    deferred_signal = signal;  // before `doing` is read, so that the signal is not missed
     Doing now = Doing::neither;
     if (!doing.compare_exchange_strong(now, Doing::removing) && now == Doing::putting_in_place) {
         return false;

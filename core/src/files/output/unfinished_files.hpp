@@ -4,8 +4,8 @@
 
 namespace octetra {
 
-/// Remembers a temporary file while it is being written, for remove_unfinished_files(). A few at a
-/// time; those beyond are not remembered, and stay behind if a signal ends the program.
+/// Registers a temporary file for remove_unfinished_files() while it is being written. The number
+/// of slots is limited; a file without a slot is not removed if a signal ends the program.
 class UnfinishedFile {
 public:
     explicit UnfinishedFile(const std::filesystem::path& path);
@@ -19,8 +19,8 @@ private:
     std::size_t slot_;
 };
 
-/// While one of these lives, a signal that would end the program waits, as far as
-/// remove_unfinished_files() is its handler's way to ask. One at a time.
+/// Defers signals that would end the program, if their handler calls remove_unfinished_files().
+/// There may be one object at a time.
 class DeferredEnd {
 public:
     DeferredEnd();

@@ -10,40 +10,41 @@
 #include "files/stretches/progress.hpp"
 #include "files/stretches/shares.hpp"
 
-/// Sections that are made of blocks, each behind a head that says how many rows it has: so a block
-/// is found from the one before. The first process reads the heads and finds where the rows of each
-/// process begin. None keeps heads: there may be as many as rows.
+/// Sections that consist of blocks, each with a header that has the number of its rows: the
+/// position of a block follows from the one before. The first process reads the headers and
+/// determines where the rows of each process begin. No process stores headers, because there may be
+/// as many as rows.
 namespace octetra::gmsh {
 
-/// A place between two blocks.
+/// A position between two blocks.
 struct BlockStart {
-    std::uint64_t place = 0;        ///< a line or byte: of the head that follows
+    std::uint64_t place = 0;        ///< a line or byte: of the header that follows
     std::uint64_t first_row = 0;    ///< number of the row that follows
-    std::uint64_t blocks_left = 0;  ///< to come, at most; 0: no more come
+    std::uint64_t blocks_left = 0;  ///< maximum number of blocks that follow; 0: none
 };
 
-/// A block whose head was read.
+/// A block whose header was read.
 template <class Block>
 struct ReadBlock {
     Block block;
-    std::uint64_t rows = 0;  ///< where they stand
+    std::uint64_t rows = 0;  ///< position of its rows
     BlockStart next;
 };
 
-/// Where a process begins, and where the section ends.
+/// The positions of a process's first row and of the end of the section.
 struct BlockShare {
     BlockStart own;
     BlockStart end;
 };
 
-/// Collective. Of a section of so many rows. `read_head(at)` gives a ReadBlock; the first process
-/// reads each head once, and all others receive where they begin. `begin` is the same on all
-/// processes. Nothing, on all processes, if something has failed.
+/// Collective. Distributes a section of `row_count` rows. `read_head(at)` returns a ReadBlock; the
+/// first process reads each header once, and sends the other processes their positions. `begin`
+/// must be equal on all processes. Returns nothing on all processes if one has failed.
 [[nodiscard]] inline std::optional<BlockShare> share_blocks(Progress& progress,
                                                             std::uint64_t row_count,
                                                             BlockStart begin, auto&& read_head) {
     const int size = progress.group().size();
-    std::vector<BlockStart> starts;  // of each process, and where the section ends
+    std::vector<BlockStart> starts;  // of each process, and of the end of the section
     progress.attempt([&] {
         starts.resize(static_cast<std::size_t>(size) + 1);
         if (!progress.group().is_first()) return;
@@ -64,8 +65,8 @@ struct BlockShare {
     return BlockShare{starts[own], starts.back()};
 }
 
-/// Reads a process's rows: `read_rows(block, first, count)` is called for those of each block, the
-/// first being counted within the block.
+/// Reads a process's rows. Calls read_rows(block, first, count) for the rows of each block; `first`
+/// is relative to the block.
 void read_blocks(const RowShare& mine, BlockStart at, auto&& read_head, auto&& read_rows) {
     const std::uint64_t end = mine.first + mine.count;
     for (std::uint64_t row = mine.first; row < end;) {

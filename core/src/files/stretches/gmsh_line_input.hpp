@@ -13,20 +13,19 @@
 
 namespace octetra::gmsh {
 
-/// The rows of a text file of which each has a line of its own, for who reads some here and some
-/// there. Throws where the file has another form; numbers that are no rows may stand where they
-/// will.
+/// A text file in which each row has a line of its own, with random access to rows. Throws if the
+/// file has another form; numbers outside of rows may be anywhere.
 class LineInput : public TextInput {
 public:
-    /// `head`: read up to here.
+    /// `head`: the reader, positioned at the first section.
     LineInput(LineReader& head, const LineIndex& index) : TextInput(head), index_(&index) {}
 
-    /// The line of what follows, at whose beginning that must stand.
+    /// Returns the number of the next line; the current one must have been read to its end.
     [[nodiscard]] std::uint64_t here() const {
         if (!at_line_end()) refuse();
         return current_line() + 1;
     }
-    /// Lines that are near are read over.
+    /// Moves to a line. Lines within a short distance are skipped by reading.
     void go_to(std::uint64_t line_to_come) {
         constexpr std::uint64_t near = std::uint64_t{1} << 17U;
         if (line_to_come <= current_line() ||
@@ -44,7 +43,7 @@ public:
         if (current_line() != expected_) refuse();
         return expected_++;
     }
-    /// No more rows: has each had one line?
+    /// To be called after the last row: checks that each row had one line.
     void end_rows() const {
         if (!at_line_end() || current_line() + 1 != expected_) refuse();
     }
@@ -64,8 +63,8 @@ private:
     }
 
     const LineIndex* index_;
-    std::optional<LineReader> lines_;  // where they were gone to
-    std::uint64_t lines_before_ = 0;   // the reader's first
+    std::optional<LineReader> lines_;  // reader after a jump
+    std::uint64_t lines_before_ = 0;   // lines before the reader's first one
     std::uint64_t expected_ = 0;
 };
 

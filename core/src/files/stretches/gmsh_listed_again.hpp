@@ -11,15 +11,15 @@
 
 namespace octetra::gmsh {
 
-/// An element of version 2 that is listed once for each of its groups may be listed by the last of
-/// a process's rows and again by the first of another's, who keeps it. `runs`: of each process.
-/// Returns how many elements at the beginning of the list of `rank` must go; nothing if what each
-/// process has told does not decide it for all.
+/// In version 2, an element is listed once for each of its groups. It may be listed by the last
+/// rows of one process and again by the first rows of another, which keeps it at first. `runs`:
+/// those of each process. Returns the number of elements to be removed from the begin of the list
+/// of `rank`; nothing if the runs do not determine it on all processes.
 template <std::size_t N>
 [[nodiscard]] std::optional<std::uint64_t> count_listed_again(std::span<const ListedRun<N>> runs,
                                                               std::size_t rank) {
     std::uint64_t to_go = 0;
-    ListedElement<N> last;  // that is kept, of all before
+    ListedElement<N> last;  // the last element kept so far
     for (std::size_t r = 0; r < runs.size(); ++r) {
         const ListedRun<N>& run = runs[r];
         if (run.kept == 0) continue;

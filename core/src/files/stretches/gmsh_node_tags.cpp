@@ -29,7 +29,7 @@ TagsFound look_at(const std::vector<std::uint64_t>& tags) {
     return found;
 }
 
-/// Those of all processes.
+/// Returns the facts about the tags of all processes.
 TagsFound together(const std::vector<TagsFound>& found) {
     TagsFound all;
     for (const TagsFound& one : found) {
@@ -55,14 +55,14 @@ void put_word(ProcessGroup::Bytes& bytes, std::size_t k, Word word) {
     std::memcpy(bytes.data() + k * sizeof word, &word, sizeof word);
 }
 
-/// Room for words to each process, and how many are there.
+/// Buffers of words to each process.
 struct Outboxes {
     std::vector<ProcessGroup::Bytes> bytes;
     std::vector<std::size_t> counts;
 
     explicit Outboxes(std::size_t processes) : bytes(processes), counts(processes, 0) {}
 
-    /// All are counted: they may be put now.
+    /// To be called after all words were counted, before they are put.
     void make_room() {
         for (std::size_t k = 0; k < bytes.size(); ++k) bytes[k].resize(counts[k] * sizeof(Word));
         std::ranges::fill(counts, 0);
@@ -83,7 +83,7 @@ std::optional<NodeTags> NodeTags::make(Progress& progress, const std::vector<std
     result.are_consecutive_ = all.are_consecutive == 1;
     if (result.are_consecutive_) return result;
     result.processes_ = static_cast<std::uint32_t>(progress.group().size());
-    constexpr std::uint64_t gaps = 4;  // as NodeNumbers makes tables
+    constexpr std::uint64_t gaps = 4;  // the same limit as for tables of NodeNumbers
     result.is_dense_ = result.tag_span_ < gaps * all.count;
     result.block_ = static_cast<Offset>((result.tag_span_ - 1) / result.processes_ + 1);
     if (!result.find_homes(progress, tags, first)) return std::nullopt;
@@ -116,7 +116,7 @@ bool NodeTags::find_homes(Progress& progress, const std::vector<std::uint64_t>& 
     return progress.all_well();
 }
 
-/// Puts numbers in place of offsets.
+/// Replaces offsets by vertex numbers.
 void NodeTags::answer(ProcessGroup::Bytes& offsets) const {
     for (std::size_t k = 0; k < offsets.size() / sizeof(Word); ++k) {
         const VertexIndex here = tags_here_.find(word_at(offsets, k));
@@ -128,7 +128,7 @@ void NodeTags::answer(ProcessGroup::Bytes& offsets) const {
 template <class I, std::size_t N>
 bool NodeTags::number(Progress& progress, IndexVector<I, std::array<VertexIndex, N>>& list) const {
     if (are_consecutive_) return true;
-    constexpr std::size_t at_once = std::size_t{1} << 18U;  // so that messages take little memory
+    constexpr std::size_t at_once = std::size_t{1} << 18U;  // limits the size of messages
     const auto counts = of_each(progress, std::uint64_t{list.size()});
     if (!progress.all_well()) return false;
     const std::uint64_t most = *std::ranges::max_element(counts);

@@ -32,8 +32,8 @@ namespace {
 namespace fs = std::filesystem;
 using namespace gmsh;
 
-/// Reads the sections of a file behind $MeshFormat. All processes go from section to section, each
-/// with an input of its own; of nodes and elements each reads its share of the rows.
+/// Reads the sections after $MeshFormat. All processes read all sections, each with an input of its
+/// own; of nodes and elements, each process reads its share of the rows.
 template <class Input>
 class GmshStretch {
 public:
@@ -45,7 +45,7 @@ public:
           order_(format.is_4),
           intake_(stretch_.lists) {}
 
-    /// Collective.
+    /// Collective. Reads the whole file.
     [[nodiscard]] std::optional<MeshStretch> read() {
         while (true) {
             std::string name;
@@ -62,8 +62,8 @@ private:
     const ProcessGroup& group() const { return progress_->group(); }
     static void refuse(const std::string& what) { throw std::runtime_error(what); }
 
-    // All functions that return bool are collective, and return false, on all processes, where one
-    // has failed.
+    // All functions that return bool are collective, and return false on all processes if one has
+    // failed.
 
     bool read_section(const std::string& name) {
         auto section = SectionKind::other;
@@ -98,7 +98,7 @@ private:
         return progress_->all_well();
     }
 
-    /// What the section holds is not known: the first process looks where it ends.
+    /// Skips a section of unknown content, whose end the first process finds.
     bool skip_section(const std::string& name) {
         std::uint64_t behind = 0;
         progress_->attempt([&] {
@@ -222,7 +222,7 @@ private:
         return read_shared_blocks(begin, count, read_head, read_rows);
     }
 
-    /// Of a text file of version 2.
+    /// For text files of version 2.
     bool read_element_lines(auto& elements) {
         progress_->attempt([&] {
             const std::uint64_t count = read_element_count_2(*in_);
@@ -236,7 +236,7 @@ private:
         return progress_->all_well();
     }
 
-    /// Of a binary file of version 2, which says how many elements come, but not how many blocks.
+    /// For binary files of version 2, which have the number of elements, but not that of blocks.
     bool read_element_blocks(auto& elements) {
         BlockStart begin;
         std::uint64_t count = 0;
@@ -285,7 +285,7 @@ private:
         return true;
     }
 
-    /// A section of blocks with so many rows, of which this process reads its share.
+    /// Reads this process's share of a section of blocks with `row_count` rows.
     bool read_shared_blocks(const BlockStart& begin, std::uint64_t row_count, auto&& read_head,
                             auto&& read_rows) {
         if (!progress_->all_well()) return false;
@@ -298,9 +298,9 @@ private:
         return progress_->all_well();
     }
 
-    // The whole
+    // Completion
 
-    /// The file is read.
+    /// To be called after the last section.
     bool complete() {
         progress_->attempt([&] { order_.end(refuse); });
         if (!progress_->all_well()) return false;
@@ -320,7 +320,7 @@ private:
     }
 
     bool tell_notes() {
-        LeftOut& all = intake_.left_out;  // names are the same on all
+        LeftOut& all = intake_.left_out;  // names are equal on all processes
         for (std::uint64_t& count : all.of_shape) count = group().sum(count);
         all.interfaces = group().sum(all.interfaces);
         all.degenerate_lines = group().sum(all.degenerate_lines);
@@ -336,7 +336,7 @@ private:
 
     bool settle(const MeshFacts& counts) {
         if (!wrong_without_cells(counts.cells, counts.facets, intake_.left_out).empty()) {
-            return false;  // the first process names the place
+            return false;  // the first process reports the position
         }
         settle_facts(counts, group(), stretch_);
         progress_->attempt(

@@ -19,9 +19,9 @@
 
 namespace octetra::gmsh {
 
-/// What a process takes of a file that several read: has the functions of MeshIntake by which
-/// sections are read, and does of its checks those that need no more than a row. Vertices are
-/// stand-ins of tags.
+/// Receives the share of a file that one process reads. Has the functions of MeshIntake that the
+/// readers of sections call, and performs those of its checks that need only a row. Vertices are
+/// provisional indices of tags.
 class StretchIntake {
 public:
     explicit StretchIntake(Mesh& lists) : lists_(&lists) {}
@@ -35,7 +35,7 @@ public:
     }
     void take_point(const Point& point) { lists_->points.push_back(point); }
 
-    /// Nodes are complete.
+    /// To be called after the last node.
     [[nodiscard]] std::vector<std::uint64_t> release_tags() { return std::exchange(tags_, {}); }
     void know_tags(const NodeTags& tags) { node_tags_ = &tags; }
 
@@ -74,7 +74,7 @@ public:
     void skip_in_another_group() { ++left_out.in_another_group; }
     void note_missing_entity(std::uint64_t count) { left_out.of_missing_entities += count; }
 
-    /// By this process.
+    /// elements left out by this process
     LeftOut left_out;
     UntaggedGroups untagged;
 

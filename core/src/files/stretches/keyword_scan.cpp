@@ -17,10 +17,10 @@ constexpr std::size_t most_keywords = 1000;
 
 bool is_letter(char c) { return (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z'); }
 
-/// Looks through bytes for lines that begin with a letter, if blanks are left out.
+/// Finds the lines whose first character after blanks is a letter.
 class KeywordScan {
 public:
-    /// `position`: of the first byte in the file, with which a line begins.
+    /// `position`: of the first byte in the file, which begins a line.
     explicit KeywordScan(std::uint64_t position) : position_(position), line_(position) {}
 
     void look_through(const char* bytes, std::size_t size) {
@@ -45,7 +45,7 @@ public:
         position_ += size;
     }
 
-    /// What was found, numbered from 0 where the scan began; and how many lines have ended.
+    /// The lines found, numbered from 0 at the begin of the scan, and the number of line ends.
     [[nodiscard]] const std::vector<NumberedLine>& found() const { return found_; }
     [[nodiscard]] std::uint64_t lines() const { return lines_; }
 
@@ -62,7 +62,7 @@ private:
     std::vector<NumberedLine> found_;
 };
 
-/// Those of a share; then how many lines it has, as the number of one more.
+/// Returns the keywords of a share; the last element has the number of lines of the share.
 std::vector<NumberedLine> keywords_in(const std::filesystem::path& path, const FileStretch& share) {
     const InputFile file(path);
     KeywordScan scan(share.begin);
@@ -96,7 +96,7 @@ std::optional<std::vector<NumberedLine>> scan_for_keywords(Progress& progress,
         std::uint64_t lines_before = 0;
         for (const ProcessGroup::Bytes& bytes : group.of_all(std::move(own))) {
             std::vector<NumberedLine> of_share(bytes.size() / sizeof(NumberedLine));
-            if (of_share.empty()) continue;  // of a process that has failed
+            if (of_share.empty()) continue;  // the process has failed
             std::memcpy(of_share.data(), bytes.data(), bytes.size());
             for (std::size_t k = 0; k + 1 < of_share.size(); ++k) {
                 keywords.push_back({of_share[k].position, lines_before + of_share[k].number + 1});

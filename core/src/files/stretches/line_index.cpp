@@ -15,7 +15,7 @@ namespace {
 constexpr std::uint64_t most_stretches = std::uint64_t{1} << 16U;
 constexpr std::uint64_t least_stretch = 64;
 
-/// How many lines end in each of these stretches.
+/// Returns the number of line ends in each of these blocks.
 std::vector<std::uint64_t> count_ends(const InputFile& file, std::uint64_t stretch,
                                       const RowShare& share) {
     std::vector<std::uint64_t> ends(share.count, 0);

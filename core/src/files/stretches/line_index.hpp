@@ -9,19 +9,20 @@
 
 namespace octetra {
 
-/// Where lines of a text file begin: how many end in each of equally long stretches of the file is
-/// kept, a megabyte at most, and the rest looked up. Lines are counted from 1, empty ones too.
+/// Maps line numbers of a text file to positions. It stores the number of line ends in each of
+/// equally long blocks of the file, in at most a megabyte, and reads a block to find a line. Lines
+/// are counted from 1; empty ones count.
 class LineIndex {
 public:
-    /// Collective. Each process counts in its share. Nothing, on all processes, if something has
-    /// failed.
+    /// Collective. Each process counts line ends in its share. Returns nothing on all processes if
+    /// one has failed.
     [[nodiscard]] static std::optional<LineIndex> make(Progress& progress,
                                                        const std::filesystem::path& path,
                                                        std::uint64_t file_size);
 
     /// Throws std::out_of_range if the file has no such line.
     [[nodiscard]] std::uint64_t position_of(std::uint64_t line) const;
-    /// Somewhere before the line, and not far: costs no look at the file.
+    /// Returns a position shortly before the line, without reading the file.
     [[nodiscard]] std::uint64_t position_before(std::uint64_t line) const;
 
     [[nodiscard]] const std::filesystem::path& path() const { return path_; }
@@ -30,13 +31,13 @@ public:
 private:
     LineIndex(std::filesystem::path path, std::uint64_t file_size);
 
-    /// The stretch in which the line before this one ends.
+    /// Returns the block that contains the end of the preceding line.
     [[nodiscard]] std::uint64_t stretch_before(std::uint64_t line) const;
 
     std::filesystem::path path_;
     std::uint64_t file_size_ = 0;
     std::uint64_t stretch_ = 0;               // in bytes
-    std::vector<std::uint64_t> ends_before_;  // how many lines end before each stretch; and all
+    std::vector<std::uint64_t> ends_before_;  // number of line ends before each block; and in all
 };
 
 }  // namespace octetra

@@ -30,14 +30,14 @@ struct SectionPlan {
     FileStretch bytes;
 };
 
-/// A section whose entries are read over, as skipped_sections[kind] says.
+/// A section that is skipped, skipped_sections[kind].
 struct SkippedPlan {
     std::uint64_t kind = 0;
     std::uint64_t keyword_line = 0;
     SectionPlan section;
 };
 
-/// What the first process finds between the keywords.
+/// The sections that the first process finds between the keywords.
 struct MeditPlan {
     SectionPlan vertices;
     SectionPlan tetrahedra;
@@ -51,7 +51,7 @@ struct MeditPlan {
 
 [[noreturn]] void leave_it_to_one_process() { throw std::runtime_error("not one entity a line"); }
 
-/// A keyword and the number behind it, which may stand on the next line.
+/// A keyword and the number after it, which may be on the next line.
 class SectionHead {
 public:
     SectionHead(const fs::path& path, std::uint64_t begin, std::uint64_t end)
@@ -74,7 +74,7 @@ public:
     [[nodiscard]] const std::string& keyword() const { return keyword_; }
     [[nodiscard]] std::uint64_t number() const { return number_; }
 
-    /// For what has no entries: nothing may follow.
+    /// To be called if the keyword has no entries: throws if any follow.
     void expect_nothing() {
         if (reader_.next()) leave_it_to_one_process();
     }
@@ -91,7 +91,7 @@ private:
     std::uint64_t number_ = 0;
 };
 
-/// Of what is no list of the mesh.
+/// Handles keywords that are not lists of the mesh.
 void plan_other(SectionHead& head, std::uint64_t keyword_line, MeditPlan& plan) {
     if (std::ranges::find(other_cell_shapes, head.keyword(), &MeditKeyword::keyword) !=
         other_cell_shapes.end()) {
@@ -157,7 +157,7 @@ MeditPlan medit_plan(const fs::path& path, const std::vector<NumberedLine>& keyw
     return plan;
 }
 
-/// What this process reads of each section.
+/// Reads this process's share of each section.
 class MeditShares {
 public:
     MeditShares(const fs::path& path, const MeditPlan& plan, const ProcessGroup& group)
@@ -184,7 +184,8 @@ public:
         for (std::size_t k = 0; k < plan_->skipped_count; ++k) read_over(k);
     }
 
-    /// Collective. False, on all processes, if entries are more or fewer than announced.
+    /// Collective. Returns false on all processes if the number of entries differs from the
+    /// announced one.
     [[nodiscard]] bool number(MeshStretch& stretch) const {
         bool well = true;
         const auto number = [&](std::size_t read, const SectionPlan& section) {
@@ -228,7 +229,8 @@ private:
             std::array<VertexIndex, N> vertices;
             for (VertexIndex& vertex : vertices) {
                 const std::uint64_t index = fields.unsigned_integer("a vertex number") - 1;
-                if (index >= vertex_count) reader.fail("there is no such vertex");  // 0 wraps round
+                // 0 wraps around
+                if (index >= vertex_count) reader.fail("there is no such vertex");
                 vertex = VertexIndex{index};
             }
             for (std::size_t k = 0; k < N; ++k) {
@@ -254,7 +256,7 @@ private:
             plan_->features[feature], 1, [&](std::size_t room) { numbers.reserve(room); },
             [&](Fields& fields, const LineReader& reader) {
                 const std::uint64_t number = fields.unsigned_integer("a number") - 1;
-                if (number >= count) reader.fail("there is no such entity");  // 0 wraps round
+                if (number >= count) reader.fail("there is no such entity");  // 0 wraps around
                 numbers.push_back(number);
             });
     }
@@ -275,7 +277,7 @@ private:
     const fs::path* path_;
     const MeditPlan* plan_;
     const ProcessGroup* group_;
-    std::array<std::uint64_t, 2 * skipped_sections.size()> read_over_{};  // entries
+    std::array<std::uint64_t, 2 * skipped_sections.size()> read_over_{};  // number of entries
 };
 
 }  // namespace

@@ -27,7 +27,7 @@ void refuse_repeated_vertices(const IndexVector<I, std::array<VertexIndex, N>>& 
     }
 }
 
-/// This process's shares of all lists.
+/// Reads this process's shares of all lists.
 void read_shares(const std::filesystem::path& path, const MeshbLists& sections,
                  const ProcessGroup& group, MeshStretch& stretch) {
     ByteReader reader(path);
@@ -56,7 +56,7 @@ void read_shares(const std::filesystem::path& path, const MeshbLists& sections,
     }
 }
 
-/// Collective. Notes of the first process, one after the other with zeros between, are all's.
+/// Collective. Sends the notes of the first process, each terminated by a zero, to all.
 bool take_notes(Progress& progress, std::vector<std::string>& notes) {
     ProcessGroup::Bytes bytes;
     progress.attempt([&] {

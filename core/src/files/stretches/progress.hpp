@@ -12,16 +12,16 @@
 
 namespace octetra {
 
-/// Whether processes that read a file together can go on. Work is attempted between two places
-/// where all agree; with an exchange in it, all must enter that whatever has failed before.
+/// The common status of processes that read a file together. Work is attempted between two
+/// agreements; an exchange in it must be entered by all processes, even by those that have failed.
 class Progress {
 public:
     explicit Progress(const ProcessGroup& group) : group_(&group) {}
 
     [[nodiscard]] const ProcessGroup& group() const { return *group_; }
 
-    /// Does the work, unless something has failed. What exactly, whoever reads the file alone will
-    /// say; only that there is no memory is kept apart.
+    /// Calls `work`, unless something has failed. The error is not kept, because the process that
+    /// reads the file alone afterwards reports it; only std::bad_alloc is kept.
     void attempt(auto&& work) noexcept {
         if (!is_well_) return;
         try {
@@ -34,8 +34,8 @@ public:
         }
     }
 
-    /// Collective. Has nothing failed anywhere? Throws the std::bad_alloc that this process has
-    /// met.
+    /// Collective. Returns whether no process has failed. Rethrows the std::bad_alloc of this
+    /// process.
     [[nodiscard]] bool all_well() const {
         const bool well = group_->sum(is_well_ ? 0 : 1) == 0;
         if (no_memory_) std::rethrow_exception(no_memory_);
@@ -48,8 +48,8 @@ private:
     std::exception_ptr no_memory_;
 };
 
-/// Collective. Gives all processes the values of the first one, as many as each has, bit by bit.
-/// False, on all processes, if something has failed.
+/// Collective. Broadcasts the values of the first process, bit by bit; the number of values must be
+/// equal on all. Returns false on all processes if one has failed.
 template <class T>
 [[nodiscard]] bool take_from_first(Progress& progress, std::span<T> values) {
     static_assert(std::is_trivially_copyable_v<T>);
@@ -68,7 +68,8 @@ template <class T>
     return take_from_first(progress, std::span(&value, 1));
 }
 
-/// Collective. What each process has, bit by bit, in their order. Of no use unless all_well().
+/// Collective. Returns the values of all processes, in the order of ranks. Valid only if
+/// all_well().
 template <class T>
 [[nodiscard]] std::vector<T> of_each(Progress& progress, const T& value) {
     static_assert(std::is_trivially_copyable_v<T>);

@@ -22,13 +22,13 @@ namespace octetra {
 [[nodiscard]] std::optional<MeshStretch> read_gmsh_stretch(const std::filesystem::path& path,
                                                            const ProcessGroup& group);
 
-/// Collective. What is told of a mesh of Medit's or Gmsh's once all have their shares: `counts` has
-/// how many there are of each kind. Markers that are 0 on all processes are dropped.
+/// Collective. Sets the facts of a Medit or Gmsh mesh after all processes have read their shares;
+/// `counts` has the numbers of entities. Drops markers that are 0 on all processes.
 void settle_facts(const MeshFacts& counts, const ProcessGroup& group, MeshStretch& stretch);
 
-/// Room for the entities of a process's share of a list, of which the whole is `count`: in
-/// proportion to the bytes, and a quarter more, as some lines are shorter. What is not used of it
-/// takes no memory.
+/// Returns the capacity to reserve for a process's share of a list of `count` entities:
+/// proportional to its bytes, plus a quarter, because some lines are shorter. Unused capacity
+/// occupies no memory.
 [[nodiscard]] inline std::size_t room_for(std::uint64_t count, std::uint64_t share,
                                           std::uint64_t whole) {
     if (whole == 0) return 0;
@@ -37,8 +37,8 @@ void settle_facts(const MeshFacts& counts, const ProcessGroup& group, MeshStretc
     return std::min(count, static_cast<std::uint64_t>(1.25 * entities) + 16);
 }
 
-/// Collective. The number of this process's first entity: those that lower ranks have `read` come
-/// before. `well` becomes false, on all processes, if they are not as many as announced.
+/// Collective. Returns the number of this process's first entity, the sum of `read` over lower
+/// ranks. Sets `well` to false on all processes if the total differs from the announced number.
 [[nodiscard]] inline std::uint64_t number_stretch(const ProcessGroup& group, std::uint64_t read,
                                                   std::uint64_t announced, bool& well) {
     well = group.sum(read) == announced && well;

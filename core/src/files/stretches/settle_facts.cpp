@@ -5,8 +5,8 @@
 namespace octetra {
 namespace {
 
-/// Collective. Does any process have a marker that is not 0? Else they are dropped: in this format
-/// zeros say that there are none.
+/// Collective. Returns whether any process has a marker other than 0. If not, drops the markers: in
+/// this format, zeros mean that there are none.
 bool keep_if_any(const ProcessGroup& group, std::vector<Marker>& markers) {
     const bool any = std::ranges::any_of(markers, [](Marker m) { return m != 0; });
     if (group.sum(any ? 1 : 0) > 0) return true;

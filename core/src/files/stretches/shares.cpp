@@ -9,11 +9,11 @@
 namespace octetra {
 namespace {
 
-/// Where the first line begins that does so at `position` or later.
+/// Returns the position of the first line that begins at `position` or later.
 std::uint64_t next_line(const InputFile& file, std::uint64_t position, const FileStretch& whole) {
     if (position <= whole.begin) return whole.begin;
     std::array<char, 4096> bytes;
-    for (--position; position < whole.end;) {  // the line end before may be the last byte
+    for (--position; position < whole.end;) {  // the preceding line end may be the last byte
         const auto size = std::min<std::uint64_t>(bytes.size(), whole.end - position);
         file.read(position, bytes.data(), size);
         if (const void* found = std::memchr(bytes.data(), '\n', size)) {

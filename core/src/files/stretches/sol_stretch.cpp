@@ -21,16 +21,16 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// For files that read_sol() refuses, or that one process has to read.
+/// Throws for files that read_sol() rejects, or that one process must read.
 [[noreturn]] void leave_values_to_one_process() { throw std::runtime_error("not a row a line"); }
 
-/// A section of a text file, and where its rows are.
+/// A section of a text file, and the position of its rows.
 struct TextSection {
     SolSection head;
     FileStretch rows;
 };
 
-/// What every process finds at the keywords for itself.
+/// Reads the sections at the keywords; not collective.
 std::vector<TextSection> sections_of_text(const fs::path& path,
                                           const std::vector<NumberedLine>& keywords,
                                           std::uint64_t file_size, const EntityCounts& expected) {
@@ -67,11 +67,11 @@ std::vector<TextSection> sections_of_text(const fs::path& path,
         }
         if (!tokens.text().empty()) leave_values_to_one_process();
     }
-    if (!has_end) leave_values_to_one_process();  // there is a note on it
+    if (!has_end) leave_values_to_one_process();  // read_sol() has a note on this
     return sections;
 }
 
-/// This process's lines of a section.
+/// Returns the values in this process's lines of a section.
 std::vector<double> values_of_share(const fs::path& path, const FileStretch& share) {
     LineReader reader(path, share.begin, share.end);
     std::vector<double> values;
@@ -82,8 +82,8 @@ std::vector<double> values_of_share(const fs::path& path, const FileStretch& sha
     return values;
 }
 
-/// Collective. Numbers the rows of a list; false, on all processes, if some are not whole, or not
-/// as many as announced.
+/// Collective. Numbers the rows of a list; returns false on all processes if a row is incomplete,
+/// or the number of rows differs from the announced one.
 bool number_rows(FieldRows& list, const ProcessGroup& group) {
     const std::size_t width = list.width();
     // NOLINTNEXTLINE(clang-analyzer-core.DivideZero): a list of no field was refused.
@@ -94,7 +94,7 @@ bool number_rows(FieldRows& list, const ProcessGroup& group) {
     return group.sum(are_whole ? 0 : 1) == 0 && well;
 }
 
-/// Collective.
+/// Collective. Reads a text file.
 std::optional<SolFields> read_text_stretch(const fs::path& path, const EntityCounts& expected,
                                            const ProcessGroup& group) {
     Progress progress(group);
@@ -118,7 +118,7 @@ std::optional<SolFields> read_text_stretch(const fs::path& path, const EntityCou
     return fields;
 }
 
-/// Collective.
+/// Collective. Reads a binary file.
 std::optional<SolFields> read_binary_stretch(const fs::path& path, const EntityCounts& expected,
                                              const ProcessGroup& group) {
     Progress progress(group);

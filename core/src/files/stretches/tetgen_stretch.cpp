@@ -17,14 +17,14 @@ namespace {
 namespace fs = std::filesystem;
 using namespace tetgen;
 
-/// Where the entries of a file are, below its header.
+/// The entries of a file, after its header.
 struct Body {
     FileStretch bytes;
     std::uint32_t is_there = 0;
     std::uint32_t has_adjacent_cells = 0;  ///< for facets and edges
 };
 
-/// What the first process finds at the beginning of each file.
+/// The facts that the first process reads at the begin of each file.
 struct TetgenPlan {
     NodeHead node;
     EleHead ele;
@@ -41,7 +41,7 @@ Body body_behind_head(const LineReader& reader) {
     return {{reader.next_position(), reader.file_size()}, 1, 0};
 }
 
-/// The head of a `.face` or `.edge` file, if there is one.
+/// Reads the header of a `.face` or `.edge` file, if there is one.
 template <std::size_t N>
 ListHead plan_list(const fs::path& path, Body& body) {
     if (!is_there(path)) return {};
@@ -71,8 +71,8 @@ TetgenPlan tetgen_plan(const fs::path& path) {
     return plan;
 }
 
-/// Reads this process's share of a file's entries by read_entry(fields, reader), each of so many
-/// fields. Their numbers must follow each other. Returns the first one's, if there is any.
+/// Reads this process's share of a file's entries by read_entry(fields, reader); each entry has
+/// `field_count` fields. Entry numbers must be consecutive. Returns the first one, if there is any.
 std::optional<std::uint64_t> read_share(const fs::path& path, const FileStretch& share,
                                         std::size_t field_count, auto&& read_entry) {
     LineReader reader(path, share.begin, share.end);
@@ -88,7 +88,7 @@ std::optional<std::uint64_t> read_share(const fs::path& path, const FileStretch&
     return first;
 }
 
-/// What this process reads of each file.
+/// Reads this process's share of each file.
 class TetgenShares {
 public:
     TetgenShares(const fs::path& path, const TetgenPlan& plan, const ProcessGroup& group)
@@ -101,8 +101,8 @@ public:
         read_list("edge", ".edge", edge_kind, plan_->edge, plan_->edges, lists, edges_);
     }
 
-    /// Collective. False, on all processes, if entries are more or fewer than announced, or not in
-    /// their order.
+    /// Collective. Returns false on all processes if the number of entries differs from the
+    /// announced one, or if they are not in order.
     [[nodiscard]] bool number(MeshStretch& stretch) const {
         bool well = true;
         const auto number = [&](std::size_t read, std::uint64_t announced,

@@ -18,7 +18,7 @@ std::vector<GlobalCell> read_cell_list(const std::filesystem::path& path, std::u
         Fields fields(reader);
         while (!fields.at_end()) {
             const std::uint64_t number = fields.unsigned_integer("a cell number");
-            const std::uint64_t index = number - index_base;  // wraps round below index_base
+            const std::uint64_t index = number - index_base;  // wraps around below index_base
             if (index >= cell_count) {
                 reader.fail(fmt::format("there is no cell {}: the {} cells are numbered from {}",
                                         number, cell_count, index_base));

@@ -43,7 +43,7 @@ Format format_of(const fs::path& path) {
     return Format::unknown;
 }
 
-/// What to say of an extension that would be known in lower case.
+/// Returns a hint for error messages if the extension would be known in lower case.
 std::string_view hint_at_case(const fs::path& path) {
     std::string extension = path.extension().native();
     for (char& c : extension) {
@@ -54,7 +54,7 @@ std::string_view hint_at_case(const fs::path& path) {
     return is_known ? "; all in lower case" : "";
 }
 
-/// Why a mesh cannot be read from this file, if its format is none of those that are read.
+/// Throws InputError with the reason why no mesh can be read from this file.
 [[noreturn]] void refuse_to_read(const fs::path& path) {
     if (is_checkpoint(path)) {
         throw InputError(
@@ -97,7 +97,7 @@ void stream_mesh(const fs::path& path, MeshSink& sink, const ReadOptions& option
 
 namespace {
 
-/// "field 'a' is", "fields 'a', 'b' are".
+/// Returns "field 'a' is", or "fields 'a', 'b' are".
 std::string fields_are(const std::vector<FieldFacts>& fields) {
     std::string names;
     for (const FieldFacts& field : fields) {
@@ -107,7 +107,7 @@ std::string fields_are(const std::vector<FieldFacts>& fields) {
                               : fmt::format("fields {} are", names);
 }
 
-/// Fields that another name will be read for than they have.
+/// Returns the fields for which a reader will find another name.
 std::vector<FieldFacts> losing_their_names(const std::vector<FieldFacts>& held) {
     std::vector<FieldFacts> losing;
     std::array<std::size_t, 2> count{};
@@ -145,8 +145,8 @@ bool can_hold_features(const fs::path& path) {
     return format_of(path) == Format::medit || format_of(path) == Format::meshb;
 }
 
-/// What is lost in all, where that is `lost` without names of groups, features
-/// and fields.
+/// Returns the message on all data that a format cannot represent. `lost` is the message without
+/// group names, features and fields.
 std::string all_lost(std::string lost, const MeshSource& mesh, const fs::path& path) {
     if (!mesh.facts().group_names.empty() && format_of(path) != Format::gmsh) {
         add_loss(lost, group_names_are_lost);
@@ -158,7 +158,7 @@ std::string all_lost(std::string lost, const MeshSource& mesh, const fs::path& p
     return lost;
 }
 
-/// Returns what is lost but for names of groups, features and fields.
+/// Returns the message on lost data, except for group names, features and fields.
 std::string write_lists(MeshSource& mesh, const fs::path& path, const WriteOptions& options) {
     mesh.group().on_first([&] { check_writable(path); });
     switch (format_of(path)) {

@@ -22,7 +22,7 @@ struct Blocks {
 
 /// A run of consecutive roots of one process in a block with equal numbers of descendants.
 struct Alike {
-    std::uint32_t first;  ///< first root, relative to the begin of the block
+    std::uint32_t first;  ///< first root, relative to the start of the block
     std::uint32_t count;
     std::uint32_t descendants;  ///< of each root
 

@@ -7,10 +7,10 @@
 /// The strict total order of edges by length, which determines every bisection.
 ///
 /// Laws, for edges of one cell that is not flat:
-/// - exactly one of longer(e, f), longer(f, e) holds when e and f are different edges;
-/// - longer(e, f) does not depend on the order in which end points are given, nor on any vertex
+///  - exactly one of longer(e, f), longer(f, e) holds when e and f are different edges;
+///  - longer(e, f) does not depend on the order in which end points are given, nor on any vertex
 ///    number: only on coordinates. Every process finds the same longest edge;
-/// - nor on the scale: multiplying all coordinates by a power of two changes no result, as long as
+///  - nor on the scale: multiplying all coordinates by a power of two changes no result, as long as
 ///    the multiplication is exact.
 ///
 /// Internal to the libraries and not installed: a fused multiply-add could round a squared length

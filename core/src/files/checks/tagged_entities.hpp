@@ -10,7 +10,7 @@ namespace octetra {
 template <class I>
 struct WrongEntry {
     I entry = I::none();    ///< none: there is no such entry
-    I earlier = I::none();  ///< has the same vertices and another marker; none: entry is of no cell
+    I earlier = I::none();  ///< has the same vertices and another marker; none: no cell has entry
 };
 
 struct WrongFacets {

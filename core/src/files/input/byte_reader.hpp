@@ -48,7 +48,7 @@ template <BinaryNumber T>
 }
 
 /// Reads a binary file from any position on, through one buffer. Never reads beyond the end of the
-/// file, and never allocates memory whose size the file determines.
+/// file, and never allocates memory whose size the file's contents determine.
 ///
 /// Bytes are counted from 0. `what` names the data for the error message if the file ends early:
 /// "FILE: at byte N: the file ends where WHAT should be", where N is the position of the data.

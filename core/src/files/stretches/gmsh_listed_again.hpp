@@ -13,7 +13,7 @@ namespace octetra::gmsh {
 
 /// In version 2, an element is listed once for each of its groups. It may be listed by the last
 /// rows of one process and again by the first rows of another, which keeps it at first. `runs`:
-/// those of each process. Returns the number of elements to be removed from the begin of the list
+/// those of each process. Returns the number of elements to be removed from the front of the list
 /// of `rank`; nothing if the runs do not determine it on all processes.
 template <std::size_t N>
 [[nodiscard]] std::optional<std::uint64_t> count_listed_again(std::span<const ListedRun<N>> runs,

@@ -45,7 +45,7 @@ public:
         position_ += size;
     }
 
-    /// The lines found, numbered from 0 at the begin of the scan, and the number of line ends.
+    /// The lines found, numbered from 0 at the beginning of the scan, and the number of line ends.
     [[nodiscard]] const std::vector<NumberedLine>& found() const { return found_; }
     [[nodiscard]] std::uint64_t lines() const { return lines_; }
 

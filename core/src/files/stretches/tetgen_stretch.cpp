@@ -24,7 +24,7 @@ struct Body {
     std::uint32_t has_adjacent_cells = 0;  ///< for facets and edges
 };
 
-/// The facts that the first process reads at the begin of each file.
+/// The facts that the first process reads at the beginning of each file.
 struct TetgenPlan {
     NodeHead node;
     EleHead ele;

@@ -13,11 +13,12 @@ std::string wrong_in(const std::vector<GroupName>& names) {
     std::vector<std::pair<std::int32_t, std::int32_t>> groups;
     for (const GroupName& group : names) {
         if (group.dimension < 0 || group.dimension > 3) {
-            return fmt::format("a group of dimension {} has a name", group.dimension);
+            return fmt::format("a group with a name has dimension {}, which must be from 0 to 3",
+                               group.dimension);
         }
         if (group.name.empty() || !is_name(group.name)) {
-            return fmt::format("the name of group {} of dimension {} cannot be shown", group.tag,
-                               group.dimension);
+            return fmt::format("the name of group {} of dimension {} is empty or not printable",
+                               group.tag, group.dimension);
         }
         if (group.name == untagged_group_name) {
             return fmt::format("the name {} of group {} of dimension {} is reserved", group.name,

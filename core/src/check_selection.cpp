@@ -33,10 +33,10 @@ void check(const Box& box, std::string_view name, std::string_view text) {
             fmt::format("{} takes 6 finite numbers as X0,Y0,Z0,X1,Y1,Z1, not '{}'", name, text));
     }
     if (low.x > high.x || low.y > high.y || low.z > high.z) {
-        throw InputError(
-            fmt::format("{}: its low corner comes first, each coordinate at most that of the high "
-                        "corner: {}",
-                        name, text));
+        throw InputError(fmt::format(
+            "{}: each coordinate of the first corner must be at most that of the second corner: "
+            "{}",
+            name, text));
     }
 }
 

@@ -114,8 +114,9 @@ void ProcessGroup::check_same(std::string_view name, const std::string& value) c
 void ProcessGroup::check_same_as_first(int rank, std::string_view name, std::string_view value,
                                        std::string_view of_first) {
     if (value == of_first) return;
-    throw InputError(fmt::format("rank {}: the {} is {}, and {} on rank 0: all ranks pass the same",
-                                 rank, name, value, of_first));
+    throw InputError(
+        fmt::format("rank {}: the {} is {}, and {} on rank 0: all ranks must pass the same", rank,
+                    name, value, of_first));
 }
 
 const ProcessGroup& ProcessGroup::alone() {

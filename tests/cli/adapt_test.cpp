@@ -343,7 +343,7 @@ TEST_F(Adapt, EndsInOneMessageOnSeveralRanks) {
     const std::vector<std::pair<std::string, std::string>> failures{
         {"refien --all\n", "octetra: s.txt:1: a step begins with one of"},
         {"refine --all\nrefine --region 3 --levels 9\nwrite no/x.vtu\n",
-         "octetra: s.txt:3: no/x.vtu: there is no folder"},
+         "octetra: s.txt:3: no/x.vtu: there is no directory"},
         {"refine --all\nrefine --all --levels 9\n", "octetra: s.txt:2: level 2 would make "},
         {"refine --cells cells.txt\n", "octetra: s.txt:1: cells.txt:1: there is no cell 99999"},
     };

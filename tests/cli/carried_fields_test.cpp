@@ -251,8 +251,8 @@ TEST_F(CarriedFields, ThatTheFormatCannotHoldAreNamed) {
         run("refine s.octetra --sphere 9,9,9,1 -o t.mesh").err,
         "octetra: note: no cell was marked: the mesh stays as it is\n"
         "octetra: note: fields 'u', 'v', 'id', 'ID', 'N' are not in t.sol, which holds reals, "
-        "and whole numbers of 32 bits, of 1, 3, 6 or 9 components; fields 'p', 'q', 'n' are in "
-        "t.sol without a name, by the order\n");
+        "and whole numbers of 32 bits, of 1, 3, 6 or 9 components; fields 'p', 'q', 'n' are "
+        "stored in t.sol in order, without a name\n");
     EXPECT_EQ(
         run("convert s.octetra t.msh").err,
         "octetra: note: fields 'u', 'v', 'id', 'ID', 'p', 'q', 'n', 'N' are not in t.msh: "

@@ -70,10 +70,9 @@ const std::vector<WrongLine> wrong_lines{
      "coarsen has no option --partition; --partition is for the command octetra adapt, not for a "
      "step"},
     {"write a#b.vtu",
-     "a: a mesh to write is named by its extension: .ele or .node (TetGen), .mesh or .meshb "
-     "(Medit), .msh (Gmsh), .vtu, .pvtu or .vtkhdf (VTK), .xdmf (XDMF and HDF5), .octetra (with "
-     "its history); # begins a "
-     "comment, also within a word"},
+     "a: the extension of a mesh to write must be .ele or .node (TetGen), .mesh or .meshb (Medit), "
+     ".msh (Gmsh), .vtu, .pvtu or .vtkhdf (VTK), .xdmf (XDMF and HDF5), or .octetra (with its "
+     "history); # begins a comment, also within a word"},
     {"save a#b.octetra",
      "save writes .octetra files, not a; write takes the other formats; # begins a comment, also "
      "within a word"},
@@ -104,13 +103,13 @@ const std::vector<WrongLine> wrong_lines{
     {"write \"a b.vtu\"",
      "write takes one word, the name of a file without blanks: write STEP.vtu"},
     {"write step",
-     "step: a mesh to write is named by its extension: .ele or .node (TetGen), .mesh or .meshb "
-     "(Medit), .msh (Gmsh), .vtu, .pvtu or .vtkhdf (VTK), .xdmf (XDMF and HDF5), .octetra (with "
+     "step: the extension of a mesh to write must be .ele or .node (TetGen), .mesh or .meshb "
+     "(Medit), .msh (Gmsh), .vtu, .pvtu or .vtkhdf (VTK), .xdmf (XDMF and HDF5), or .octetra (with "
      "its history)"},
-    {"write no/step.vtu", "no/step.vtu: there is no folder no; make it first"},
+    {"write no/step.vtu", "no/step.vtu: there is no directory no; create it first"},
     {"save", "save takes one word, the name of a file without blanks: save STATE.octetra"},
     {"save x.vtu", "save writes .octetra files, not x.vtu; write takes the other formats"},
-    {"save no/x.octetra", "no/x.octetra: there is no folder no; make it first"},
+    {"save no/x.octetra", "no/x.octetra: there is no directory no; create it first"},
     {"write m.mesh", "write would write over m.mesh of MESH; choose another name"},
     {"write ./first.mesh",
      "line 2 and write name the same file, ./first.mesh, which is first.mesh"},

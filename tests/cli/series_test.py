@@ -109,7 +109,7 @@ class Series(unittest.TestCase):
         for name, words in (("all.vtu", "--series: all.vtu: a series is a .vtkhdf file"),
                             ("4.vtkhdf", "-o and --series name the same file, 4.vtkhdf"),
                             ("2.vtkhdf", "--series and write name the same file, 2.vtkhdf"),
-                            ("no/all.vtkhdf", "there is no folder no; make it first")):
+                            ("no/all.vtkhdf", "there is no directory no; create it first")):
             said = self.octetra("adapt", "m.mesh", "--script", "s.txt", "-o", "4.vtkhdf", "--series", name, status=2)
             self.assertIn(words, said)
         self.assertFalse(list(self.path.glob("*.vtkhdf*")))

@@ -72,7 +72,7 @@ TEST(WriteMesh, TakesThePlaceOfNothingButAFile) {
     const Mesh mesh = test::kuhn(1, 1, 1);
     ASSERT_EQ(::mkfifo((folder / "a.mesh").c_str(), 0600), 0);
     EXPECT_THAT(test::thrown_by<InputError>([&] { (void)write_mesh(mesh, folder / "a.mesh"); }),
-                HasSubstr("a.mesh: is a device or the like"));
+                HasSubstr("a.mesh: is not a regular file"));
     ASSERT_EQ(::mkfifo((folder / "a.node").c_str(), 0600), 0);
     EXPECT_THROW((void)write_mesh(mesh, folder / "a.ele"), InputError);
     const RefinementMaps maps{.first_midpoint = mesh.points.end_index()};
@@ -87,13 +87,13 @@ TEST(WriteMesh, RefusesUnknownExtensionsAndMissingFolders) {
     const TemporaryFolder folder;
     const Mesh mesh = test::kuhn(1, 1, 1);
     EXPECT_THAT(test::thrown_by<InputError>([&] { (void)write_mesh(mesh, folder / "a.stl"); }),
-                HasSubstr("a.stl: a mesh to write is named by its extension"));
+                HasSubstr("a.stl: the extension of a mesh to write must be"));
     EXPECT_THAT(test::thrown_by<InputError>([&] { (void)write_mesh(mesh, folder / "a.octetra"); }),
                 HasSubstr("a.octetra: a checkpoint is written by AdaptiveMesh::save"));
     EXPECT_THAT(test::thrown_by<InputError>([&] { (void)read_mesh(folder / "a.octetra"); }),
                 HasSubstr("a.octetra: a checkpoint is loaded by AdaptiveMesh::load"));
     EXPECT_THAT(test::thrown_by<InputError>([&] { (void)write_mesh(mesh, folder / "x/a.vtu"); }),
-                HasSubstr("make it first"));
+                HasSubstr("create it first"));
     std::filesystem::create_directory(folder / "d.vtu");
     EXPECT_THAT(test::thrown_by<InputError>([&] { (void)write_mesh(mesh, folder / "d.vtu"); }),
                 HasSubstr("is a directory"));

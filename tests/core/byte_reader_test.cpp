@@ -121,8 +121,9 @@ TEST(ByteReader, GoesToAnyPlaceOfTheFileAndToNoOther) {
     reader.seek(bytes.size());
     EXPECT_EQ(reader.remaining(), 0U);
     reader.seek(9);
-    EXPECT_THAT(refusal([&] { reader.seek(bytes.size() + 1); }),
-                HasSubstr("/a: at byte 9: byte 3145736 is meant, and the file has 3145735"));
+    EXPECT_THAT(
+        refusal([&] { reader.seek(bytes.size() + 1); }),
+        HasSubstr("/a: at byte 9: the file refers to byte 3145736, but has only 3145735 bytes"));
 }
 
 TEST(ByteReader, TakesLinesOfText) {

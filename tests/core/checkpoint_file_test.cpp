@@ -218,8 +218,8 @@ TEST(CheckpointFile, WithNamesOfGroupsThatNoMeshHasIsRefused) {
     };
     using testing::HasSubstr;
     EXPECT_THAT(edited(rock, '\n'),
-                HasSubstr("the name of group 1 of dimension 3 cannot be shown"));
-    EXPECT_THAT(edited(rock, '\xff'), HasSubstr("cannot be shown"));
+                HasSubstr("the name of group 1 of dimension 3 is empty or not printable"));
+    EXPECT_THAT(edited(rock, '\xff'), HasSubstr("not printable"));
     EXPECT_THAT(edited(rock - 24, 4), HasSubstr("as a dimension"));
     EXPECT_THAT(edited(rock - 10, 1), HasSubstr("the tag of a group is out of range"));
     std::string twice = good;

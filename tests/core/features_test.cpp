@@ -122,7 +122,7 @@ TEST(Features, ThatAFormatCannotHoldAreNoted) {
     const TemporaryFolder folder;
     for (const std::string name : {"a.ele", "a.msh", "a.vtu", "a.pvtu", "a.vtkhdf", "a.xdmf"}) {
         EXPECT_THAT(write_mesh(featured_cell(), folder / name),
-                    HasSubstr("corners, ridges and what is required are lost"))
+                    HasSubstr("corners, ridges and required entities are lost"))
             << name;
     }
 }

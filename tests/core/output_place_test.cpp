@@ -141,11 +141,11 @@ TEST(OutputLinks, ThatLeadInACircleOrNowhereAreRefused) {
     fs::create_symlink("no/c.mesh", folder / "c.mesh");
     const Mesh mesh = test::kuhn(1, 1, 1);
     EXPECT_THAT(test::thrown_by<InputError>([&] { (void)write_mesh(mesh, folder / "a.mesh"); }),
-                HasSubstr("a.mesh: is a link that leads in a circle"));
+                HasSubstr("a.mesh: is a link that refers to itself through other links"));
     EXPECT_THAT(test::thrown_by<SystemError>([&] { write_text("text", folder / "a.mesh"); }),
-                HasSubstr("a.mesh: is a link that leads in a circle"));
+                HasSubstr("a.mesh: is a link that refers to itself through other links"));
     EXPECT_THAT(test::thrown_by<InputError>([&] { (void)write_mesh(mesh, folder / "c.mesh"); }),
-                HasSubstr("make it first"));
+                HasSubstr("create it first"));
     EXPECT_THAT(names_in(folder.path()), ElementsAre("a.mesh", "b.mesh", "c.mesh"));
 }
 
@@ -264,8 +264,7 @@ TEST(OutputPermissions, ThatForbidWritingAreHeeded) {
     }
     fs::create_symlink("a.mesh", folder / "link.mesh");
     const Mesh mesh = test::kuhn(1, 1, 1);
-    const std::string reason =
-        ": may not be written over; change its permissions or choose another name";
+    const std::string reason = ": is not writable; change its permissions or choose another name";
     const auto refusal = [&](const std::string& output) {
         return as_nobody(folder, [&] { (void)write_mesh(mesh, folder / output); });
     };

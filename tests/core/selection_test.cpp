@@ -195,7 +195,7 @@ TEST(Selection, IsRefusedAsTheCommandLineRefusesIt) {
     EXPECT_EQ(refused({.boxes = {{{0, 0, 0}, {1, 1, infinity}}}}),
               "box takes 6 finite numbers as X0,Y0,Z0,X1,Y1,Z1, not '0,0,0,1,1,inf'");
     EXPECT_EQ(refused({.boxes = {{{0, 2, 0}, {1, 1, 1}}}}),
-              "box: its low corner comes first, each coordinate at most that of the high corner: "
+              "box: each coordinate of the first corner must be at most that of the second corner: "
               "0,2,0,1,1,1");
     EXPECT_EQ(refused({.random = RandomShare{2, 0}}), "random takes a number from 0 to 1, not '2'");
     EXPECT_EQ(refused({.random = RandomShare{nan, 0}}),

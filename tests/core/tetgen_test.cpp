@@ -252,9 +252,9 @@ TEST(TetgenReader, RefusesWhatIsNotAFile) {
     EXPECT_THAT(test::thrown_by<InputError>([&] { (void)read_mesh(folder / "p.mesh"); }),
                 HasSubstr("is not a file"));
     EXPECT_THAT(test::thrown_by<InputError>([&] { (void)read_mesh(folder / "m.stl"); }),
-                HasSubstr("is named by its extension"));
+                HasSubstr("the extension of a mesh to read must be"));
     EXPECT_THAT(test::thrown_by<InputError>([&] { (void)read_mesh(folder / "m.MESH"); }),
-                HasSubstr("(with its history); all in lower case"));
+                HasSubstr("(with its history), in lower case"));
 }
 
 TEST(TetgenReader, ReportsWhatIsThereAndCannotBeOpened) {

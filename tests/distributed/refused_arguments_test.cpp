@@ -153,7 +153,7 @@ TEST_F(RefusedArguments, AreGhostsByAnotherRule) {
     for (const AdaptiveMesh& mesh : meshes()) {
         EXPECT_EQ(
             words_of([&] { (void)mesh.ghosts(is_odd() ? GhostsBy::vertex : GhostsBy::face); }),
-            starting("argument by is vertex, and face on rank 0: all ranks pass the same"));
+            starting("argument by is vertex, and face on rank 0: all ranks must pass the same"));
     }
 }
 
@@ -165,7 +165,7 @@ TEST_F(RefusedArguments, AreOtherPartitions) {
         return parse_partition(is_odd() ? odd : partition);
     };
     const std::string expected =
-        starting("partition is lepp, and rcb on rank 0: all ranks pass the same");
+        starting("partition is lepp, and rcb on rank 0: all ranks must pass the same");
     EXPECT_EQ(words_of([&] {
                   (void)AdaptiveMesh::read(world(), folder / "a.mesh", other_than("rcb", "lepp"));
               }),
@@ -175,11 +175,12 @@ TEST_F(RefusedArguments, AreOtherPartitions) {
                                            other_than("rcb", "lepp"));
               }),
               expected);
-    EXPECT_EQ(words_of([&] {
-                  (void)AdaptiveMesh::read(world(), folder / "a.mesh",
-                                           other_than("random:1", "random:2"));
-              }),
-              starting("partition is random:2, and random:1 on rank 0: all ranks pass the same"));
+    EXPECT_EQ(
+        words_of([&] {
+            (void)AdaptiveMesh::read(world(), folder / "a.mesh",
+                                     other_than("random:1", "random:2"));
+        }),
+        starting("partition is random:2, and random:1 on rank 0: all ranks must pass the same"));
 }
 
 TEST_F(RefusedArguments, AreOtherOptionsOfTheVerifier) {
@@ -191,11 +192,13 @@ TEST_F(RefusedArguments, AreOtherOptionsOfTheVerifier) {
                 (void)verify::verify_mesh(verify::slice_of(canonical.whole()), world(), options);
             });
         };
-        EXPECT_EQ(verified_with({.fast = true}),
-                  starting("option fast is true, and false on rank 0: all ranks pass the same"));
+        EXPECT_EQ(
+            verified_with({.fast = true}),
+            starting("option fast is true, and false on rank 0: all ranks must pass the same"));
         EXPECT_EQ(
             verified_with({.min_dihedral = 10}),
-            starting("option min_dihedral is 10, and none on rank 0: all ranks pass the same"));
+            starting(
+                "option min_dihedral is 10, and none on rank 0: all ranks must pass the same"));
     }
 }
 

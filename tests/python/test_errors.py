@@ -160,10 +160,10 @@ def test_an_argument_that_differs_on_one_rank_is_refused_alike_on_all(mesh, case
 
 def test_an_intercommunicator_is_refused():
     if world.size == 1:
-        pytest.skip("it joins two groups")
+        pytest.skip("it has two groups")
     half = world.Split(world.rank % 2)
     both = half.Create_intercomm(0, world, 1 - world.rank % 2)
-    with pytest.raises(octetra.InputError, match="^an intercommunicator joins two groups"):
+    with pytest.raises(octetra.InputError, match="^an intercommunicator has two groups"):
         octetra.read("cube.mesh", both)
     both.Free()
     half.Free()
@@ -208,7 +208,7 @@ NAN = float("nan")
 CRITERIA = {
     "sphere: the radius is negative: 0,0,0,-1": lambda m: octetra.mark.sphere(m, (0, 0, 0), -1),
     "sphere takes 4 finite numbers .*'nan,0,0,1'": lambda m: octetra.mark.sphere(m, (NAN, 0, 0), 1),
-    "box: its low corner comes first": lambda m: octetra.mark.box(m, (0, 0, 1), (1, 1, 0)),
+    "box: each coordinate of the first corner": lambda m: octetra.mark.box(m, (0, 0, 1), (1, 1, 0)),
     "random takes a number from 0 to 1, not '2'": lambda m: octetra.mark.random(m, 2),
     "max_volume takes a number from 0 up, not '-1'": lambda m: octetra.mark.larger_than(m, -1),
 }

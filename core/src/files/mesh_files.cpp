@@ -51,7 +51,7 @@ std::string_view hint_at_case(const fs::path& path) {
     }
     const fs::path lowered("mesh" + extension);
     const bool is_known = format_of(lowered) != Format::unknown || is_checkpoint(lowered);
-    return is_known ? "; all in lower case" : "";
+    return is_known ? ", in lower case" : "";
 }
 
 /// Throws InputError with the reason why no mesh can be read from this file.
@@ -67,8 +67,8 @@ std::string_view hint_at_case(const fs::path& path) {
                         path.native(), path.extension().native()));
     }
     throw InputError(fmt::format(
-        "{}: a mesh to read is named by its extension: .ele or .node (TetGen), .mesh or .meshb "
-        "(Medit), .msh (Gmsh), .octetra (with its history){}",
+        "{}: the extension of a mesh to read must be .ele or .node (TetGen), .mesh or .meshb "
+        "(Medit), .msh (Gmsh), or .octetra (with its history){}",
         path.native(), hint_at_case(path)));
 }
 
@@ -136,7 +136,7 @@ void add_lost_fields(std::string& lost, const MeshSource& mesh, const fs::path& 
                                    fields_are(left_out), beside->native()));
     }
     if (const auto losing = losing_their_names(held); !losing.empty()) {
-        add_loss(lost, fmt::format("{} in {} without a name, by the order", fields_are(losing),
+        add_loss(lost, fmt::format("{} stored in {} in order, without a name", fields_are(losing),
                                    beside->native()));
     }
 }
@@ -216,9 +216,9 @@ void check_writable(const fs::path& path, int pieces) {
     }
     if (format_of(path) == Format::unknown) {
         throw InputError(
-            fmt::format("{}: a mesh to write is named by its extension: .ele or .node "
+            fmt::format("{}: the extension of a mesh to write must be .ele or .node "
                         "(TetGen), .mesh or .meshb (Medit), .msh (Gmsh), .vtu, .pvtu or .vtkhdf "
-                        "(VTK), .xdmf (XDMF and HDF5), .octetra (with its history){}",
+                        "(VTK), .xdmf (XDMF and HDF5), or .octetra (with its history){}",
                         path.native(), hint_at_case(path)));
     }
     check_places(path, pieces);

@@ -145,8 +145,8 @@ Communicator communicator_of(MPI_Comm comm) {
     MPI_Comm_test_inter(comm, &is_intercommunicator);
     if (is_intercommunicator != 0) {
         throw InputError(
-            "an intercommunicator joins two groups of processes, and a mesh needs one: "
-            "MPI_Intercomm_merge makes one of them");
+            "an intercommunicator has two groups of processes, but a mesh needs one: merge them "
+            "with MPI_Intercomm_merge");
     }
     int size = 0;
     MPI_Comm_size(comm, &size);

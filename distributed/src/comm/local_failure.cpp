@@ -45,7 +45,7 @@ Words words_of(const std::exception_ptr& failure, int rank) {
     } catch (const std::exception& error) {
         words.take(Kind::system_failed, error.what());
     } catch (...) {
-        words.take(Kind::system_failed, "something unknown has failed");
+        words.take(Kind::system_failed, "unknown exception");
     }
     return words;
 }

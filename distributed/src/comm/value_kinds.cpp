@@ -61,8 +61,8 @@ void check_message_size(const Communicator& processes, int sender, std::size_t s
                         std::size_t expected) {
     if (size == expected) return;
     throw InputError(fmt::format(
-        "rank {}: rank {} sends {} bytes of values, and {} are expected: all ranks pass what "
-        "belongs to the same mesh",
+        "rank {}: rank {} sends {} bytes of values, and {} are expected: all ranks must "
+        "pass objects of the same mesh",
         processes.rank(), sender, size, expected));
 }
 

@@ -45,7 +45,8 @@ private:
 
 [[noreturn]] void refuse(const DistributedMesh& mesh, std::size_t root) {
     throw InputError(
-        fmt::format("the steps tell of another number of cells than cell {} has become",
+        fmt::format("the history does not match the mesh: its steps record a different number of "
+                    "descendants of cell {}",
                     mesh.cell_ancestors.roots[root]));
 }
 

@@ -44,7 +44,7 @@ void append(std::vector<T>& list, const std::vector<T>& more) {
 }
 
 void check(bool fits) {
-    if (!fits) throw std::logic_error("roots are not where their history is");
+    if (!fits) throw std::logic_error("roots are on another rank than their history");
 }
 
 /// Returns the map to the roots of `before` for descendants of its entities, which are the roots of

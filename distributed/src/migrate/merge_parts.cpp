@@ -209,8 +209,8 @@ void check_countable(const DistributedMesh& before, const DistributedMesh& come)
          before.facets.size() + come.facets.size(), before.edges.size() + come.edges.size()});
     if (most < VertexIndex::limit) return;
     throw InputError(
-        fmt::format("rank {}: {} entities of a kind would be too many, with those that "
-                    "stay and those that come",
+        fmt::format("rank {}: the migration could result in {} entities of one kind, which are too "
+                    "many",
                     before.processes.rank(), most));
 }
 

@@ -17,22 +17,21 @@ namespace {
 void check(const Communicator& processes, std::size_t count, std::size_t needed) {
     if (count == needed) return;
     throw InputError(
-        fmt::format("rank {}: {} values do not fit the mesh as it was before its cells moved; it "
-                    "takes {}",
+        fmt::format("rank {}: {} values do not match the mesh before the migration, which needs {}",
                     processes.rank(), count, needed));
 }
 
 void check(const Communicator& processes, std::span<const std::uint64_t> begin, std::size_t values,
            std::size_t needed) {
     if (begin.size() != needed + 1) {
-        throw InputError(fmt::format(
-            "rank {}: {} beginnings of lists do not fit the mesh as it was before its cells moved; "
-            "it takes {}, the last of which is the number of values",
-            processes.rank(), begin.size(), needed + 1));
+        throw InputError(
+            fmt::format("rank {}: {} offsets of lists do not match the mesh before the migration, "
+                        "which needs {}; the last one is the number of values",
+                        processes.rank(), begin.size(), needed + 1));
     }
     if (begin.front() != 0 || !std::ranges::is_sorted(begin)) {
-        throw InputError(
-            fmt::format("rank {}: lists of values begin at 0, and ascend", processes.rank()));
+        throw InputError(fmt::format("rank {}: offsets of lists must begin with 0 and ascend",
+                                     processes.rank()));
     }
     check(processes, values, begin.back());
 }

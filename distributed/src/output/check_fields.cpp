@@ -37,13 +37,13 @@ void check_sizes(const DistributedMesh& mesh, std::span<const Field> fields) {
         const std::size_t entities = on_vertices ? mesh.points.size() : mesh.cells.size();
         if (value_count(field) != entities * field.components) {
             throw InputError(
-                fmt::format("rank {}: field '{}' has {} values; {} with {} components take {}",
+                fmt::format("rank {}: field '{}' has {} values; {} with {} components need {}",
                             mesh.processes.rank(), field.name, value_count(field),
                             fmt::format("{} {}", entities, on_vertices ? "vertices" : "cells"),
                             field.components, entities * field.components));
         }
         if (!is_name(field.name)) {
-            throw InputError("the name of a field is no UTF-8, or has a control character");
+            throw InputError("the name of a field is not UTF-8, or has a control character");
         }
         if (!names.insert({field.on, field.name}).second) {
             throw InputError(fmt::format("two fields are called '{}'", field.name));

@@ -225,13 +225,13 @@ private:
 
 void check_ranks(const Mesh& mesh, const std::vector<int>& cell_to_rank, int rank_count) {
     if (cell_to_rank.size() != mesh.cells.size()) {
-        throw InputError(fmt::format("{} ranks for {} cells: each cell takes one",
+        throw InputError(fmt::format("{} ranks for {} cells: pass one rank for each cell",
                                      cell_to_rank.size(), mesh.cells.size()));
     }
     for (const int rank : cell_to_rank) {
         if (rank >= 0 && rank < rank_count) continue;
         throw InputError(
-            fmt::format("a cell is to go to rank {}, and there are {}", rank, rank_count));
+            fmt::format("a cell is assigned to rank {}, but there are {} ranks", rank, rank_count));
     }
 }
 

@@ -99,13 +99,13 @@ void check_alike(const Communicator& processes, const MeshPart& part) {
     check("edge numbers", part.edge_numbers.size(), part.edges.size());
     const auto check_same = [&](const char* what, std::uint64_t number) {
         if (processes.max(number) != ~processes.max(~number)) {
-            throw InputError(fmt::format("processes give different {}", what));
+            throw InputError(fmt::format("processes pass different {}", what));
         }
     };
     check_same("numbers of attributes", part.attributes_per_point);
     check_same("index bases", part.index_base);
     check_same("names of groups", hash_of(part.group_names));
-    if (processes.max(part.index_base) > 1) throw InputError("the index base is 0 or 1");
+    if (processes.max(part.index_base) > 1) throw InputError("the index base must be 0 or 1");
 }
 
 /// The vertices of a part in ascending order of their global numbers. "Position" below means the
@@ -208,7 +208,7 @@ IndexVector<I, std::array<VertexIndex, N>> tagged_by_place(
     }
     const auto stray = std::ranges::find(met, std::uint8_t{0});
     if (stray != met.end()) {
-        refuse(processes, "{} {} is of no cell of this process", what, stray - met.begin());
+        refuse(processes, "{} {} belongs to no cell of this process", what, stray - met.begin());
     }
     if (markers.empty()) return list;
     buckets.for_each_repeated([&](I first, I again) {
@@ -252,7 +252,8 @@ std::vector<std::uint8_t> kept(const Communicator& processes, const PartVertices
     std::vector<std::uint8_t> keeps;
     failure.attempt([&] {
         if (sharers != agreeing) {
-            refuse(processes, "another process lists one of its {}s with another marker", what);
+            refuse(processes, "another process lists a {} of this process with another marker",
+                   what);
         }
         std::vector<std::uint8_t> keeps_key(keys.size(), 1);
         for (const Sharer& s : sharers) {

@@ -165,7 +165,7 @@ void check_complete(const Communicator& processes, const std::vector<std::uint64
         for (const auto& inbox : inboxes) {
             for (const std::uint64_t number : inbox) {
                 if (met[number - block.begin]) {
-                    throw InputError(fmt::format("{} {} is there twice", what, number));
+                    throw InputError(fmt::format("{} {} is listed twice", what, number));
                 }
                 met[number - block.begin] = true;
             }

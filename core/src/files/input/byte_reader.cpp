@@ -23,7 +23,7 @@ void ByteReader::require(std::uint64_t bytes, std::string_view what) const {
 
 void ByteReader::seek(std::uint64_t position) {
     if (position > size()) {
-        fail(fmt::format("byte {} is meant, and the file has {}", position, size()));
+        fail(fmt::format("the file refers to byte {}, but has only {} bytes", position, size()));
     }
     if (position >= buffer_position_ && position - buffer_position_ <= end_) {
         begin_ = position - buffer_position_;

@@ -17,6 +17,6 @@ inline constexpr std::string_view group_names_are_lost =
     "the names of groups are lost; .msh and .octetra files hold them";
 
 inline constexpr std::string_view features_are_lost =
-    "corners, ridges and what is required are lost; .mesh, .meshb and .octetra files hold them";
+    "corners, ridges and required entities are lost; .mesh, .meshb and .octetra files hold them";
 
 }  // namespace octetra

@@ -134,8 +134,8 @@ void OutputFile::end_stretches() {
     const bool is_full = stretch_->begin == stretch_->end;
     stretch_.reset();
     if (!is_full && failure_.empty()) {
-        failure_ = fmt::format("{}: writing failed: rows are not as long as they should be",
-                               path_.native());
+        failure_ =
+            fmt::format("{}: writing failed: rows have an unexpected length", path_.native());
     }
 }
 
@@ -192,7 +192,8 @@ void OutputFile::commit_all(const std::vector<std::unique_ptr<OutputFile>>& file
 void OutputFile::rename() {
     // No operation may fail after the rename.
     const std::filesystem::path folder = place_.has_parent_path() ? place_.parent_path() : ".";
-    if (::rename(temporary_.c_str(), place_.c_str()) != 0) return fail("cannot be put in place");
+    if (::rename(temporary_.c_str(), place_.c_str()) != 0)
+        return fail("renaming the temporary file failed");
     if (is_synced_) sync_folder(folder);
 }
 
@@ -238,7 +239,8 @@ std::uint64_t OutputFile::create() {
 void OutputFile::open_created(std::uint64_t number) {
     name_temporary(number);
     file_ = ::open(temporary_.c_str(), O_WRONLY | O_NOFOLLOW | O_CLOEXEC);
-    if (file_ < 0) fail("cannot be written by all ranks; do they share this folder?");
+    if (file_ < 0)
+        fail("cannot be written by all ranks; is its directory on a shared file system?");
 }
 
 void OutputFile::write_at(std::uint64_t position, const void* data, std::size_t size) {

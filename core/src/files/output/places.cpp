@@ -72,16 +72,16 @@ fs::path place_of(const fs::path& path) {
 bool are_one_place(const fs::path& a, const fs::path& b) { return place_of(a) == place_of(b); }
 
 std::string in_the_way(const fs::path& path) {
-    if (!end_of_links(path)) return "is a link that leads in a circle";
+    if (!end_of_links(path)) return "is a link that refers to itself through other links";
     std::error_code ignored;
     const fs::file_status there = fs::status(path, ignored);
     if (fs::is_directory(there)) return "is a directory, not a file";
     // Renaming a file onto a device, such as /dev/null, would destroy the device.
     if (fs::exists(there) && !fs::is_regular_file(there)) {
-        return "is a device or the like, not a file";
+        return "is not a regular file";
     }
     if (fs::exists(there) && ::access(path.c_str(), W_OK) != 0) {
-        return "may not be written over; change its permissions or choose another name";
+        return "is not writable; change its permissions or choose another name";
     }
     return {};
 }
@@ -92,12 +92,12 @@ void check_place(const fs::path& path) {
     }
     const fs::path folder = folder_of(*end_of_links(path));
     if (std::error_code ignored; !fs::is_directory(folder, ignored)) {
-        throw InputError(fmt::format("{}: there is no folder {}; make it first", path.native(),
+        throw InputError(fmt::format("{}: there is no directory {}; create it first", path.native(),
                                      folder.native()));
     }
     if (::access(folder.c_str(), W_OK) != 0) {
         throw InputError(
-            fmt::format("{}: the folder {} is not writable", path.native(), folder.native()));
+            fmt::format("{}: the directory {} is not writable", path.native(), folder.native()));
     }
 }
 

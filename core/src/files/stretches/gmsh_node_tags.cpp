@@ -111,7 +111,7 @@ bool NodeTags::find_homes(Progress& progress, const std::vector<std::uint64_t>& 
                 numbers_.push_back(word_at(pairs, k + 1));
             }
         }
-        if (tags_here_.complete()) throw std::runtime_error("a tag is there twice");
+        if (tags_here_.complete()) throw std::runtime_error("a tag is listed twice");
     });
     return progress.all_well();
 }

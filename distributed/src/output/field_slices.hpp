@@ -20,8 +20,8 @@ struct FieldsOfPart {
     const Communicator* processes = nullptr;
     const CanonicalNumbers* numbers = nullptr;
     const Sharing<VertexIndex>* sharing = nullptr;
-    /// Of the cells in canonical order. `cells_before` maps canonical local indices to the indices
-    /// of field values; if it is empty, they are the same.
+    /// The ancestors of the cells in canonical order. `cells_before` maps canonical local indices
+    /// to the indices of field values; if it is empty, they are the same.
     const AncestorMap* cell_ancestors = nullptr;
     std::span<const CellIndex> cells_before;
     const CanonicalRuns* cell_runs = nullptr;

@@ -85,7 +85,7 @@ void convert_here(const distributed::Communicator& processes,
 
 void convert_on_each(const distributed::Communicator& processes,
                      const std::function<void()>& convert) {
-    without_gil([&] { processes.on_each([&] { convert_here(processes, convert); }); });
+    without_gil([&] { processes.transaction([&] { convert_here(processes, convert); }); });
 }
 
 std::filesystem::path common_path(const distributed::Communicator& processes,

@@ -78,11 +78,11 @@ TEST_P(AdaptiveMeshIn, LeavesOnlyArraysThatAreInUse) {
 TEST(OnEach, ThrowsOnAllWhatTheLowestRankThatFailedHasThrown) {
     const Communicator& world = test::world();
     int runs = 0;
-    world.on_each([&] { ++runs; });
+    world.transaction([&] { ++runs; });
     EXPECT_EQ(runs, 1);
     const int last = world.size() - 1;
     const auto fail_from = [&](int first) {
-        world.on_each([&] {
+        world.transaction([&] {
             if (world.rank() >= first) throw InputError(std::to_string(world.rank()));
         });
     };

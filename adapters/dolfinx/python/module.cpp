@@ -41,7 +41,7 @@ std::optional<od::GhostsBy> ghosts_by(const std::optional<std::string>& name) {
 py::tuple to_mesh(Mesh& mesh, const std::optional<std::string>& ghosts, bool tags) {
     auto made = mesh.ask([&](const od::AdaptiveMesh& now) {
         dolfinx::HandoverOptions options{.tags = tags};
-        now.processes().on_each([&] { options.ghosts = ghosts_by(ghosts); });
+        now.processes().transaction([&] { options.ghosts = ghosts_by(ghosts); });
         return dolfinx::to_mesh(now, options);
     });
     return py::make_tuple(std::const_pointer_cast<DolfinxMesh>(made.mesh),

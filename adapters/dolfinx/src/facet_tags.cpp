@@ -81,7 +81,7 @@ void tell_all(const ::dolfinx::common::IndexMap& facets, std::vector<std::int64_
 std::optional<MarkerTags> tag_facets(const od::AdaptiveMesh& mesh, const Nodes& nodes,
                                      const std::shared_ptr<const ::dolfinx::mesh::Mesh>& made) {
     std::vector<TaggedFacet> tagged;
-    mesh.processes().on_each([&] { tagged = tagged_facets(mesh, nodes); });
+    mesh.processes().transaction([&] { tagged = tagged_facets(mesh, nodes); });
     if (mesh.processes().max(std::uint64_t{tagged.size()}) == 0) return std::nullopt;
     ::dolfinx::mesh::Topology& topology = made->topology_mutable();
     topology.create_entities(2);

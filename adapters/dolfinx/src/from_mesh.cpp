@@ -228,13 +228,13 @@ std::pair<od::AdaptiveMesh, Handover> from_mesh(std::shared_ptr<const Mesh> mesh
     const bool of_input = processes.max(std::uint64_t{dolfinx.knows_input() ? 0U : 1U}) == 0;
     std::vector<std::size_t> order;
     od::MeshPart part;
-    processes.on_each([&] {
+    processes.transaction([&] {
         order = dolfinx.ordered_cells(of_input);
         part = part_of(*mesh, dolfinx, of_input, order, cell_tags, facet_tags);
     });
     auto made = od::AdaptiveMesh::from_parts(processes, std::move(part));
     Handover handover{.mesh = std::move(mesh)};
-    processes.on_each([&] { take_numbers(made, dolfinx, order, handover); });
+    processes.transaction([&] { take_numbers(made, dolfinx, order, handover); });
     if (cell_tags != nullptr) handover.cell_tags = *cell_tags;
     if (facet_tags != nullptr) handover.facet_tags = *facet_tags;
     return {std::move(made), std::move(handover)};

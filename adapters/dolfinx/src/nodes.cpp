@@ -99,7 +99,7 @@ void take_cells(const od::AdaptiveMesh& mesh, const od::GhostLayer& ghosts,
 void number_ghost_cells(const od::AdaptiveMesh& mesh, const od::GhostLayer& ghosts, Nodes& nodes) {
     std::vector<int> ranks;
     std::vector<std::vector<SentCell>> outboxes;
-    mesh.processes().on_each([&] {
+    mesh.processes().transaction([&] {
         for (const auto& exchange : ghosts.exchanges) {
             ranks.push_back(exchange.rank);
             auto& outbox = outboxes.emplace_back();
@@ -112,7 +112,7 @@ void number_ghost_cells(const od::AdaptiveMesh& mesh, const od::GhostLayer& ghos
         }
     });
     const auto inboxes = mesh.processes().exchange_with(ranks, outboxes);
-    mesh.processes().on_each([&] { take_cells(mesh, ghosts, inboxes, nodes); });
+    mesh.processes().transaction([&] { take_cells(mesh, ghosts, inboxes, nodes); });
     nodes.numbering.knows_destinations = false;
 }
 
@@ -120,13 +120,13 @@ void number_ghost_cells(const od::AdaptiveMesh& mesh, const od::GhostLayer& ghos
 
 Nodes number_nodes(const od::AdaptiveMesh& mesh, const od::GhostLayer* ghosts) {
     Nodes nodes;
-    mesh.processes().on_each([&] {
+    mesh.processes().transaction([&] {
         check_counts(mesh, ghosts);
         nodes.cell_numbering.own_count = static_cast<std::int32_t>(mesh.cells().size());
     });
     od::IndexMap<VertexIndex> map =
         od::make_index_map(mesh.processes(), mesh.vertex_sharing(), mesh.points().size());
-    mesh.processes().on_each([&] { number_vertices(mesh, std::move(map), nodes); });
+    mesh.processes().transaction([&] { number_vertices(mesh, std::move(map), nodes); });
     nodes.cell_numbering.first =
         static_cast<std::int64_t>(mesh.processes().sum_before(mesh.cells().size()));
     if (ghosts != nullptr) number_ghost_cells(mesh, *ghosts, nodes);

@@ -110,7 +110,7 @@ std::optional<MarkerTags> tag_cells(const od::AdaptiveMesh& mesh, const od::Ghos
                                     const std::shared_ptr<const ::dolfinx::mesh::Mesh>& made) {
     std::vector<Marker> values;
     std::vector<std::int32_t> cells;
-    mesh.processes().on_each([&] {
+    mesh.processes().transaction([&] {
         values = mesh.regions();
         if (ghosts != nullptr) {
             values.insert(values.end(), ghosts->regions.begin(), ghosts->regions.end());
@@ -132,7 +132,7 @@ Handover to_mesh(const od::AdaptiveMesh& mesh, const HandoverOptions& options) {
     Nodes nodes = number_nodes(mesh, ghosts);
     Arrays arrays;
     Handover made;
-    mesh.processes().on_each([&] {
+    mesh.processes().transaction([&] {
         take_cells(mesh, nodes, arrays);
         take_points(mesh, ghosts, nodes, arrays);
         made.cells.reserve(mesh.cells().size());

@@ -38,10 +38,10 @@ class PlexReader {
 public:
     /// Collective.
     explicit PlexReader(DM plex, const Communicator& processes) : plex_(plex) {
-        processes.on_each([&] { check_kind(); });
+        processes.transaction([&] { check_kind(); });
         check(DMGetCoordinatesLocalSetUp(plex_));
         check(DMPlexGetVertexNumbering(plex_, &numbering_));
-        processes.on_each([&] { find_cells(); });
+        processes.transaction([&] { find_cells(); });
     }
 
     [[nodiscard]] DM plex() const { return plex_; }
@@ -257,7 +257,7 @@ MeshFromPlex from_plex(DM plex, const PlexLabels& labels) {
     const SilentErrors silent;
     const PlexReader reader(plex, processes);
     MeshPart part;
-    processes.on_each([&] {
+    processes.transaction([&] {
         part.vertex_numbers = reader.vertex_numbers();
         part.points = reader.points();
         part.cells = cells_of(reader, part);
@@ -271,13 +271,13 @@ MeshFromPlex from_plex(DM plex, const PlexLabels& labels) {
     if (!has_tags) part.regions.clear();
     std::vector<std::uint64_t> numbers;
     std::vector<PetscInt> cell_points;
-    processes.on_each([&] {
+    processes.transaction([&] {
         numbers = part.vertex_numbers;
         cell_points = reader.cells();
     });
     MeshFromPlex made{
         AdaptiveMesh::from_parts(processes, std::move(part)), std::move(cell_points), {}};
-    processes.on_each([&] { made.vertex_points = points_of_vertices(made.mesh, reader, numbers); });
+    processes.transaction([&] { made.vertex_points = points_of_vertices(made.mesh, reader, numbers); });
     return made;
 }
 

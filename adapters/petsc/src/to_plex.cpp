@@ -124,12 +124,12 @@ template <class I>
 void add_leaves(const Communicator& processes, const Sharing<I>& sharing, std::size_t count,
                 PetscInt first, Leaves& leaves) {
     std::vector<PetscInt> points;
-    processes.on_each([&] {
+    processes.transaction([&] {
         points.resize(count);
         for (std::size_t i = 0; i < count; ++i) points[i] = first + static_cast<PetscInt>(i);
     });
     distributed::update_copies(processes, sharing, count, points);
-    processes.on_each([&] {
+    processes.transaction([&] {
         for (const I i : sharing.shared()) {
             const int owner = sharing.owner(i);
             if (owner == processes.rank()) continue;
@@ -166,7 +166,7 @@ void label_sides(DM plex, const Communicator& processes,
     if (name.empty() || processes.sum(listed.size()) == 0) return;
     constexpr auto none = std::numeric_limits<std::int64_t>::min();
     std::vector<std::int64_t> of_side;
-    processes.on_each([&] {
+    processes.transaction([&] {
         const std::vector<Marker> markers = markers_of_listed();
         of_side.assign(sides.vertices.size(), none);
         for (std::size_t i = 0; i < listed.size(); ++i) {
@@ -179,7 +179,7 @@ void label_sides(DM plex, const Communicator& processes,
     });
     distributed::combine_everywhere(processes, sides.sharing, of_side.size(), of_side,
                                     [](std::int64_t a, std::int64_t b) { return std::max(a, b); });
-    processes.on_each([&] {
+    processes.transaction([&] {
         std::vector<MarkedPoint> marked;
         for (std::size_t i = 0; i < of_side.size(); ++i) {
             if (of_side[i] == none) continue;
@@ -192,9 +192,9 @@ void label_sides(DM plex, const Communicator& processes,
 /// Collective.
 void label_cells(DM plex, const AdaptiveMesh& mesh, const std::string& name) {
     std::vector<Marker> regions;
-    mesh.processes().on_each([&] { regions = mesh.regions(); });
+    mesh.processes().transaction([&] { regions = mesh.regions(); });
     if (name.empty() || mesh.processes().sum(regions.size()) == 0) return;
-    mesh.processes().on_each([&] {
+    mesh.processes().transaction([&] {
         std::vector<MarkedPoint> marked;
         marked.reserve(regions.size());
         for (std::size_t c = 0; c < regions.size(); ++c) {
@@ -208,7 +208,7 @@ void label_cells(DM plex, const AdaptiveMesh& mesh, const std::string& name) {
 void label_boundary(DM plex, const AdaptiveMesh& mesh, const MeshFaces& faces, PetscInt first,
                     const std::string& name) {
     if (name.empty()) return;
-    mesh.processes().on_each([&] {
+    mesh.processes().transaction([&] {
         std::vector<MarkedPoint> marked;
         for (const distributed::BoundaryFace& one : mesh.boundary()) {
             const auto number = faces.of_cell[one.cell][one.face].value();
@@ -231,14 +231,14 @@ PlexPoints points_of(DM plex) {
 
 DM to_plex(const AdaptiveMesh& mesh, MPI_Comm comm, const PlexLabels& labels) {
     const Communicator& processes = mesh.processes();
-    processes.on_each([&] { check_group(processes, comm); });
+    processes.transaction([&] { check_group(processes, comm); });
     const SilentErrors silent;
     const MeshFaces faces = mesh.number_faces();
     const MeshEdges edges = mesh.number_edges();
     PlexPoints points;
-    processes.on_each([&] { points = points_for(mesh, faces, edges); });
+    processes.transaction([&] { points = points_for(mesh, faces, edges); });
     NewPlex plex(comm);
-    processes.on_each([&] {
+    processes.transaction([&] {
         set_cones(plex.get(), points, mesh, faces, edges);
         set_coordinates(plex.get(), points, mesh.points());
     });

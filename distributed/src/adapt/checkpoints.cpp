@@ -15,7 +15,6 @@
 #include "checkpoint/load.hpp"
 #include "checkpoint/load_fields.hpp"
 #include "checkpoint/save.hpp"
-#include "comm/all_or_none.hpp"
 #include "comm/local_failure.hpp"
 #include "comm/same_arguments.hpp"
 #include "history/cut_marks.hpp"
@@ -125,7 +124,7 @@ AdaptiveMesh AdaptiveMesh::load(const Communicator& processes, const std::filesy
     });
     if (fields != nullptr) {
         std::vector<Field> loaded;
-        all_or_none(processes, [&] {
+        processes.transaction([&] {
             const CanonicalOrder order(state->mesh);
             loaded = load_fields(state->mesh, order.cells_before(), state->numbers, *file);
         });

@@ -29,7 +29,7 @@ void check_same(const Communicator& processes, const StepOptions& options) {
 
 void check_same(const Communicator& processes, const BalanceOptions& options) {
     // NaN must be rejected first, since it differs from itself.
-    processes.on_each([&] {
+    processes.transaction([&] {
         if (options.most_over_mean >= 1) return;
         throw InputError(fmt::format(
             "most_over_mean: the largest number of cells of a process over the mean, from 1; "

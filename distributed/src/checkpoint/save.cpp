@@ -11,7 +11,6 @@
 #include <octetra/core/files/places.hpp>
 #include <octetra/distributed/profile.hpp>
 
-#include "comm/all_or_none.hpp"
 #include "history/cut_roots.hpp"
 #include "numbering/canonical_runs.hpp"
 #include "output/canonical_slices.hpp"
@@ -188,7 +187,7 @@ void save(const SavedMesh& saved, std::span<const Field> fields,
           const std::filesystem::path& path) {
     const Communicator& processes = saved.mesh->processes;
     const Phase phase(processes, "save");
-    all_or_none(processes, [&] { write_checkpoint(saved, fields, path); });
+    processes.transaction([&] { write_checkpoint(saved, fields, path); });
 }
 
 }  // namespace octetra::distributed

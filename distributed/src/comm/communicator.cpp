@@ -12,28 +12,13 @@
 #include <octetra/core/error.hpp>
 #include <octetra/distributed/mpi.hpp>
 
-#include "comm/all_or_none.hpp"
 #include "comm/common_lock.hpp"
+#include "comm/launcher.hpp"
 #include "comm/mpi_group.hpp"
+#include "comm/reduce.hpp"
 #include "profile/recorder.hpp"
 
 namespace octetra::distributed {
-
-namespace {
-
-void reduce(std::span<std::uint64_t> numbers, MPI_Op operation, MPI_Comm comm, Profile* profile) {
-    const Communication communication(profile, "reduction");
-    communication.count_collective(numbers.size_bytes());
-    MPI_Allreduce(MPI_IN_PLACE, numbers.data(), static_cast<int>(numbers.size()), MPI_UINT64_T,
-                  operation, comm);
-}
-
-std::uint64_t reduced(std::uint64_t number, MPI_Op operation, MPI_Comm comm, Profile* profile) {
-    reduce(std::span(&number, 1), operation, comm, profile);
-    return number;
-}
-
-}  // namespace
 
 Communicator::Communicator() = default;
 Communicator::Communicator(std::shared_ptr<const Mpi> mpi) : mpi_(std::move(mpi)) {}
@@ -47,47 +32,28 @@ Communicator Communicator::with_profile(std::shared_ptr<Profile> profile) const 
     return same;
 }
 
-Communicator::Watch::Watch(const Communicator& processes) : processes_(&processes) {
-    if (processes.mpi_) processes.mpi_->is_watched = true;
-}
-
-Communicator::Watch::~Watch() {
-    if (processes_->mpi_) processes_->mpi_->is_watched = false;
-}
-
-void Communicator::Watch::answer(bool has_failed) const noexcept {
-    if (!processes_->mpi_) return;
-    // Not profiled, because a profile entry may allocate.
-    (void)reduced(has_failed ? 1 : 0, MPI_MAX, processes_->mpi_->comm, nullptr);
-}
-
-void Communicator::ask_whether_all_work() const {
-    if (!mpi_ || !mpi_->is_watched) return;
-    if (reduced(0, MPI_MAX, mpi_->comm, profile()) != 0) throw OthersFailed();
-}
-
 std::uint64_t Communicator::sum(std::uint64_t number) const {
-    ask_whether_all_work();
+    agree_on_success();
     return mpi_ ? reduced(number, MPI_SUM, mpi_->comm, profile()) : number;
 }
 
 void Communicator::sum(std::span<std::uint64_t> numbers) const {
-    ask_whether_all_work();
+    agree_on_success();
     if (mpi_) reduce(numbers, MPI_SUM, mpi_->comm, profile());
 }
 
 void Communicator::max(std::span<std::uint64_t> numbers) const {
-    ask_whether_all_work();
+    agree_on_success();
     if (mpi_) reduce(numbers, MPI_MAX, mpi_->comm, profile());
 }
 
 std::uint64_t Communicator::max(std::uint64_t number) const {
-    ask_whether_all_work();
+    if (is_in_transaction()) return agreed_max(number);
     return mpi_ ? reduced(number, MPI_MAX, mpi_->comm, profile()) : number;
 }
 
 std::uint64_t Communicator::sum_before(std::uint64_t number) const {
-    ask_whether_all_work();
+    agree_on_success();
     if (!mpi_) return 0;
     const Communication communication(profile(), "reduction");
     communication.count_collective(sizeof number);
@@ -102,7 +68,7 @@ std::span<const int> Communicator::every_rank() const {
 }
 
 std::size_t Communicator::broadcast_size(std::size_t size) const {
-    ask_whether_all_work();
+    agree_on_success();
     if (!mpi_) return size;
     const Communication communication(profile(), "broadcast");
     std::uint64_t number = size;
@@ -112,7 +78,7 @@ std::size_t Communicator::broadcast_size(std::size_t size) const {
 }
 
 void Communicator::broadcast_bytes(void* data, std::size_t size, int root) const {
-    ask_whether_all_work();
+    agree_on_success();
     if (!mpi_) return;
     constexpr std::size_t most = std::size_t{1} << 30U;  // MPI's counts are ints
     const Communication communication(profile(), "broadcast");
@@ -164,18 +130,8 @@ MPI_Comm comm_of(const Communicator& processes) {
     return processes.mpi() == nullptr ? MPI_COMM_SELF : processes.mpi()->comm;
 }
 
-namespace {
-
-/// Returns whether mpirun or srun started this process; otherwise initialising MPI only costs time.
-bool was_started_in_parallel() {
-    constexpr std::array<const char*, 3> told_by{"OMPI_COMM_WORLD_SIZE", "PMIX_RANK", "PMI_RANK"};
-    return std::ranges::any_of(told_by, [](const char* n) { return std::getenv(n) != nullptr; });
-}
-
-}  // namespace
-
 MpiSession::MpiSession(int* argc, char*** argv) {
-    if (!was_started_in_parallel()) return;
+    if (!is_launched_by_mpi(&std::getenv)) return;
     MPI_Init(argc, argv);
     world_ = communicator_of(MPI_COMM_WORLD);
     lock_ = open_common_lock(world_);

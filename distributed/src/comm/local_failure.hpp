@@ -8,16 +8,17 @@
 
 namespace octetra::distributed {
 
-/// Thrown by collective functions inside all_or_none() if another process has failed.
-struct OthersFailed : std::exception {};
+/// Ends a transaction on a process that has not failed itself. Not derived from std::exception, so
+/// that only the transaction catches it.
+struct OthersFailed {};
 
-/// Keeps an exception of this process until all processes know of it, because a process that threw
-/// alone would leave the others waiting. Between two calls of agree() there may be at most one
-/// exchange, which every process enters even if it has failed before.
+/// What has gone wrong on this process, kept until all processes know: one that throws on its own
+/// leaves the others waiting. Between two places where processes agree, there is one exchange at
+/// most, which every process enters whatever has failed before.
 class LocalFailure {
 public:
-    /// Calls `work`, unless something has failed before, and keeps the exception that it throws.
-    /// OthersFailed is rethrown, because the failed process does not reach the next agree().
+    /// Does the work, unless something has failed before. What it throws is kept, but for
+    /// OthersFailed, as those will not come to the place where processes agree.
     void attempt(auto&& work) {
         if (found()) return;
         try {
@@ -30,16 +31,20 @@ public:
     }
     [[nodiscard]] bool found() const { return failure_ != nullptr; }
 
-    /// Collective. If any process has failed, throws the failure of the lowest such rank on all
-    /// processes: OutOfMemory, InputError, or SystemError for all other exceptions. A failure that
-    /// was agreed on before is thrown again unchanged.
+    /// Collective. Throws on all processes the same if any has failed: what has failed on the one
+    /// of the lowest rank. That is OutOfMemory, an InputError, or for all else a SystemError; the
+    /// same once more, if it is what all have agreed on before.
     void agree(const Communicator& processes) const;
 
-    /// Collective. Returns the greatest `number` of all processes, or `somewhere` if any has
-    /// failed. Throws nothing but OthersFailed.
+    /// Collective. The greatest of the processes' numbers, or `somewhere` if any has failed. Throws
+    /// nothing but OthersFailed.
     static constexpr std::uint64_t somewhere = std::numeric_limits<std::uint64_t>::max();
     [[nodiscard]] std::uint64_t max_unless_failed(const Communicator& processes,
                                                   std::uint64_t number) const {
+        if (processes.is_in_transaction()) {
+            agree(processes);
+            return processes.max(number);
+        }
         return processes.max(found() ? somewhere : number);
     }
 

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <list>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include <octetra/distributed/communicator.hpp>
@@ -34,8 +35,9 @@ struct Communicator::Mpi {
     // messages.
     std::unique_ptr<std::byte[]> unwanted{new std::byte[most_bytes]};
     std::unique_ptr<MPI_Request[]> requests;
-    mutable bool is_watched = false;        ///< by a Watch, on all processes
-    mutable unsigned sparse_exchanges = 0;  ///< number of exchanges so far
+    mutable bool is_in_transaction = false;  ///< on all processes
+    mutable std::optional<int> failed_rank;  ///< the lowest rank that has ended the transaction
+    mutable unsigned sparse_exchanges = 0;   ///< number of exchanges so far
 
     /// Allocates all memory of the group. Not collective.
     explicit Mpi(MPI_Comm original);

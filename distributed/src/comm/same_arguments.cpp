@@ -11,9 +11,9 @@ namespace {
 void throw_difference(const Communicator& processes, std::string_view name,
                       const std::string& own) {
     std::vector<char> of_first;
-    processes.on_each([&] { of_first.assign(own.begin(), own.end()); });
+    processes.transaction([&] { of_first.assign(own.begin(), own.end()); });
     processes.broadcast(of_first);
-    processes.on_each([&] {
+    processes.transaction([&] {
         ProcessGroup::check_same_as_first(processes.rank(), name, own,
                                           {of_first.data(), of_first.size()});
     });

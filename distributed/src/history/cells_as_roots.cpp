@@ -3,7 +3,6 @@
 #include <numeric>
 #include <utility>
 
-#include "comm/all_or_none.hpp"
 #include "level/known_marker.hpp"
 #include "numbering/canonical_runs.hpp"
 #include "output/feature_slices.hpp"
@@ -88,7 +87,7 @@ void CellsAsRoots::begin(DistributedMesh& mesh, const CanonicalNumbers* known) {
     CanonicalNumbers own_numbers;
     if (known == nullptr) own_numbers = canonical_numbers(mesh);
     const CanonicalNumbers& numbers = known == nullptr ? own_numbers : *known;
-    all_or_none(processes, [&] {
+    processes.transaction([&] {
         const CanonicalRuns cells = canonical_runs(processes, mesh.cell_ancestors);
         const CanonicalRuns facets = canonical_runs(processes, mesh.facet_ancestors);
         const CanonicalRuns edges = canonical_runs(processes, mesh.edge_ancestors);

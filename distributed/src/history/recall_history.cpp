@@ -1,9 +1,9 @@
+#include "comm/local_failure.hpp"
 #include "history/recall_history.hpp"
 
 #include <algorithm>
 #include <stdexcept>
 
-#include "comm/all_or_none.hpp"
 #include "numbering/canonical_runs.hpp"
 #include "setup/homes.hpp"
 
@@ -61,7 +61,7 @@ AncestorMap composed(const AncestorMap& before, const AncestorMap& since) {
 std::vector<int> ranks_of_roots(const Communicator& processes, const AncestorMap& before,
                                 const std::vector<std::uint64_t>& roots) {
     std::vector<int> ranks;
-    all_or_none(processes, [&] {
+    processes.transaction([&] {
         const CanonicalRuns runs = canonical_runs(processes, before);
         const Homes homes = homes_of_blocks(runs.count, 1, processes.size());
         const std::uint64_t first = homes.begin_of(processes.rank());

@@ -1,3 +1,4 @@
+#include "comm/local_failure.hpp"
 #include "history/tagged_to_history.hpp"
 
 #include <algorithm>
@@ -7,7 +8,6 @@
 #include <utility>
 #include <vector>
 
-#include "comm/all_or_none.hpp"
 #include "history/recall_history.hpp"
 #include "level/known_marker.hpp"
 #include "migrate/has_lists.hpp"
@@ -167,7 +167,7 @@ void bring_tagged_to_history(DistributedMesh& mesh, const NumbersOfVertices& num
         ranks_of_roots(processes, before.facet_ancestors, mesh.facet_ancestors.roots);
     const auto edge_ranks =
         ranks_of_roots(processes, before.edge_ancestors, mesh.edge_ancestors.roots);
-    all_or_none(processes, [&] {
+    processes.transaction([&] {
         TaggedMove<FacetIndex, 3>(mesh, numbers, mesh.facets, mesh.facet_ancestors,
                                   has.facet_markers)
             .move(facet_ranks);

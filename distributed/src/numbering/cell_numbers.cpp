@@ -2,7 +2,6 @@
 
 #include <limits>
 
-#include "comm/all_or_none.hpp"
 #include "numbering/canonical_runs.hpp"
 #include "output/ordered_lists.hpp"
 
@@ -10,7 +9,7 @@ namespace octetra::distributed {
 
 std::vector<std::uint64_t> cell_numbers(const DistributedMesh& mesh) {
     std::vector<std::uint64_t> numbers;
-    all_or_none(mesh.processes, [&] {
+    mesh.processes.transaction([&] {
         numbers.resize(mesh.cells.size());
         const OrderedList<IndexVector<CellIndex, CellVertices>> cells(
             mesh.cells, mesh.cell_ancestors, mesh.adjacency ? &mesh.adjacency->cells : nullptr);

@@ -5,7 +5,6 @@
 
 #include <octetra/distributed/exchange.hpp>
 
-#include "comm/all_or_none.hpp"
 #include "numbering/vertex_markers.hpp"
 #include "output/check_fields.hpp"
 
@@ -92,7 +91,7 @@ std::span<const std::uint64_t> OwnPiece::parents(const Window& w) {
 }
 
 void OwnPiece::add(std::span<const Field> fields, const Sharing<VertexIndex>& sharing) {
-    all_or_none(mesh_->processes, [&] {
+    mesh_->processes.transaction([&] {
         for (const Field& field : fields) add(field, sharing);
     });
 }

@@ -4,8 +4,11 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <string>
 #include <string_view>
+#include <type_traits>
+#include <utility>
 #include <vector>
 
 namespace octetra {
@@ -47,6 +50,25 @@ public:
     [[nodiscard]] std::uint64_t of_first(std::uint64_t number) const;
     void of_first(std::floating_point auto number) const = delete;
 
+    /// Runs `work`, which may call collective functions and may throw on any process, and returns
+    /// what it returns. An exception on one process ends the work on all: the others leave it at
+    /// their next collective function. Then all throw the exception of the lowest process that
+    /// failed first: InputError as it is, std::bad_alloc with the number of the process, all else
+    /// as SystemError. `work` must leave objects that outlive it as they were when it throws, and
+    /// must not catch exceptions of collective functions. A transaction within another is part of
+    /// that one.
+    template <class Work>
+    std::invoke_result_t<Work&> transaction(Work&& work) const {
+        using Result = std::invoke_result_t<Work&>;
+        if constexpr (std::is_void_v<Result>) {
+            run_transaction(std::ref(work));
+        } else {
+            std::optional<Result> result;
+            run_transaction([&] { result.emplace(work()); });
+            return std::move(*result);
+        }
+    }
+
     /// Runs `work` on the first process, while the others wait. What it throws there is thrown on
     /// all: an InputError as such, all else as SystemError.
     void on_first(const std::function<void()>& work) const;
@@ -65,6 +87,9 @@ public:
 
     /// For what one process does on its own.
     [[nodiscard]] static const ProcessGroup& alone();
+
+private:
+    virtual void run_transaction(const std::function<void()>& work) const { work(); }
 
 protected:  // copies are made by derived classes, for those that are values
     ProcessGroup(const ProcessGroup&) = default;

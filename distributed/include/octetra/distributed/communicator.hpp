@@ -26,10 +26,9 @@ class Profile;  // see octetra/distributed/profile.hpp
 /// in the same order. A group of one process never calls MPI, so that a program runs without mpirun
 /// and without the cost of starting MPI.
 ///
-/// A process that cannot allocate memory for a message completes its part of the exchange with
-/// empty messages before it throws std::bad_alloc, so that no other process waits for it. The
-/// caller must notify the other processes of the failure; see LocalFailure and all_or_none() in
-/// src/comm.
+/// Within transaction() every collective function begins with the agreement that no process has
+/// failed. A process that cannot allocate memory for a message completes its part of the exchange
+/// with empty messages before it throws std::bad_alloc, so that no other process waits for it.
 class Communicator final : public ProcessGroup {
 public:
     /// Creates the group of this process alone.
@@ -70,18 +69,13 @@ public:
     [[nodiscard]] std::uint64_t max(std::uint64_t number) const;
     void max(std::floating_point auto number) const = delete;
 
-    /// Collective. Runs `work`, in which nothing may be collective, on every process. If it throws
-    /// on any process, all processes throw the failure of the lowest such rank once every process
-    /// has finished: OutOfMemory, an InputError as such, anything else as SystemError.
-    void on_each(const std::function<void()>& work) const;
-
     /// Collective. Replaces the values on every process by those of the first process. Throws
     /// OutOfMemory on all processes if one cannot allocate them.
     template <class T>
     void broadcast(std::vector<T>& values) const {
         static_assert(std::is_trivially_copyable_v<T>);
         const std::size_t size = broadcast_size(values.size());
-        on_each([&] { values.resize(size); });
+        transaction([&] { values.resize(size); });
         broadcast_bytes(values.data(), values.size() * sizeof(T), 0);
     }
 
@@ -99,7 +93,7 @@ public:
     [[nodiscard]] std::vector<std::vector<T>> all_to_all(
         const std::vector<std::vector<T>>& to_each) const {
         static_assert(std::is_trivially_copyable_v<T>);
-        ask_whether_all_work();
+        agree_on_success();
         std::vector<std::span<const std::byte>> bytes;
         std::vector<std::vector<T>> inboxes;
         try {
@@ -123,11 +117,19 @@ public:
     template <class T>
     [[nodiscard]] std::vector<std::vector<T>> exchange_with(
         std::span<const int> neighbours, const std::vector<std::vector<T>>& outboxes) const {
+        agree_on_success();
+        return exchange_after_agreement(neighbours, outboxes);
+    }
+    /// As exchange_with(), without an agreement of its own, because a collective function, max()
+    /// for example, precedes it immediately.
+    template <class T>
+    [[nodiscard]] std::vector<std::vector<T>> exchange_after_agreement(
+        std::span<const int> neighbours, const std::vector<std::vector<T>>& outboxes) const {
         return send_and_receive<T>(neighbours, outboxes, neighbours);
     }
 
     /// Point-to-point: one process sends and the other receives. Both block until the transfer is
-    /// complete.
+    /// complete. Other processes are not involved, hence no agreement precedes it.
     template <class T>
     void send(const std::vector<T>& values, int receiver) const {
         (void)send_and_receive<T>(std::span(&receiver, 1), std::span(&values, 1), {});
@@ -141,19 +143,21 @@ public:
     /// on the others.
     template <class T>
     [[nodiscard]] std::vector<std::vector<T>> gather(const std::vector<T>& values) const {
+        agree_on_success();
         return send_and_receive<T>(every_rank().first(1), std::span(&values, 1), if_first());
     }
 
     /// Collective. Returns on rank r the vector to_each[r] of the first process.
     template <class T>
     [[nodiscard]] std::vector<T> scatter(const std::vector<std::vector<T>>& to_each) const {
+        agree_on_success();
         return std::move(send_and_receive<T>(if_first(), to_each, every_rank().first(1)).front());
     }
 
-    class Watch;  // see all_or_none() in src/comm
-    struct Mpi;   // wraps an MPI communicator; see octetra/distributed/mpi.hpp
+    struct Mpi;  // wraps an MPI communicator; see octetra/distributed/mpi.hpp
     explicit Communicator(std::shared_ptr<const Mpi> mpi);
     [[nodiscard]] const Mpi* mpi() const { return mpi_.get(); }  ///< null: this process alone
+    [[nodiscard]] bool is_in_transaction() const;
 
 private:
     using Allocate = std::byte* (*)(void* context, std::size_t i, std::size_t size);
@@ -169,9 +173,12 @@ private:
     [[nodiscard]] std::span<const int> if_first() const {
         return is_first() ? every_rank() : std::span<const int>{};
     }
-    /// Throws OthersFailed if a process watched by all_or_none() has failed. Every collective
-    /// function calls this first.
-    void ask_whether_all_work() const;
+    void run_transaction(const std::function<void()>& work) const override;
+    /// Collective within a transaction, where every collective function begins with it; otherwise
+    /// does nothing. Throws OthersFailed if a process has failed.
+    void agree_on_success() const;
+    /// Collective. The same, and the greatest of the numbers.
+    [[nodiscard]] std::uint64_t agreed_max(std::uint64_t number) const;
     [[nodiscard]] std::size_t broadcast_size(std::size_t size) const;
     void broadcast_bytes(void* data, std::size_t size, int root) const;
     /// Sends outboxes[i] to rank receivers[i]; element i of the result was received from
@@ -181,7 +188,6 @@ private:
         std::span<const int> receivers, std::span<const std::vector<T>> outboxes,
         std::span<const int> senders) const {
         static_assert(std::is_trivially_copyable_v<T>);
-        ask_whether_all_work();
         std::vector<std::span<const std::byte>> bytes;
         std::vector<std::vector<T>> inboxes;
         try {

@@ -36,7 +36,7 @@ requires(std::floating_point<T> || is_complex<T>)
                                                          std::size_t components = 1) {
     std::vector<T> after;
     std::vector<T> corrections;
-    mesh.processes().on_each([&] {
+    mesh.processes().transaction([&] {
         if (values.size() != step.vertex_count_before * components) {
             throw InputError("values do not fit the mesh as it was before the step");
         }

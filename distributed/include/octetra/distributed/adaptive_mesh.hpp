@@ -230,7 +230,7 @@ public:
     /// Preserves views of the part across a step: the mesh continues with copies of these arrays,
     /// and the original arrays, to which earlier spans refer, are returned; the spans stay valid as
     /// long as the result lives. Takes time proportional to the arrays. Not collective: if it
-    /// throws std::bad_alloc, nothing has changed, and Communicator::on_each() can notify the other
+    /// throws std::bad_alloc, nothing has changed, and Communicator::transaction() notifies the other
     /// processes.
     [[nodiscard]] ArraysLeft leave_arrays(const ArraysInUse& in_use);
 

@@ -21,7 +21,7 @@
 
 #include <fmt/format.h>
 
-#include <octetra/core/mesh_stretch.hpp>
+#include <octetra/core/mesh_share.hpp>
 #include <octetra/distributed/canonical_mesh.hpp>
 #include <octetra/distributed/read_parts.hpp>
 
@@ -144,7 +144,7 @@ void measure(const Communicator& world, const fs::path& mesh, const fs::path& fo
                         [&](const fs::path& path) { (void)write_mesh(fine, path); });
             if (extension.starts_with(".v")) continue;  // VTK's files are not read
             table.read("a" + extension, [&](const fs::path& path) {
-                if (!read_stretch(path, world)) throw std::runtime_error("not read together");
+                if (!read_mesh_share(path, world)) throw std::runtime_error("not read together");
             });
         }
         const std::uint64_t size = table.largest();

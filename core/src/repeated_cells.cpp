@@ -25,13 +25,13 @@ RepeatedCells::RepeatedCells(std::uint64_t cell_count) : word_count_(cell_count 
 
 /// Looks up all waiting cells.
 void RepeatedCells::look_up() {
-    for (std::uint32_t i = 0; i < waiting_count_; ++i) {
-        std::uint64_t& word = seen_[waiting_[i].word];
-        const std::uint64_t bits = waiting_[i].bits;
+    for (std::uint32_t i = 0; i < pending_count_; ++i) {
+        std::uint64_t& word = seen_[pending_[i].word];
+        const std::uint64_t bits = pending_[i].bits;
         if ((word & bits) == bits) suspects_.push_back(CellIndex{count_ + i});
         word |= bits;
     }
-    count_ += std::exchange(waiting_count_, 0);
+    count_ += std::exchange(pending_count_, 0);
 }
 
 CellPair RepeatedCells::find(const IndexVector<CellIndex, CellVertices>& cells,

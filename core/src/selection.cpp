@@ -89,9 +89,9 @@ std::uint64_t hash(const Point& p) {
 bool draws(const RandomShare& random, const Corners& corners) {
     std::uint64_t sum = 0;  // a sum does not depend on the order of the corners
     for (const Point& p : corners) sum += hash(p);
-    const std::uint64_t lot = scramble(scramble(random.seed) ^ sum);
+    const std::uint64_t bits = scramble(scramble(random.seed) ^ sum);
     constexpr double two_to_minus_53 = 0x1p-53;
-    return static_cast<double>(lot >> 11U) * two_to_minus_53 < random.fraction;
+    return static_cast<double>(bits >> 11U) * two_to_minus_53 < random.fraction;
 }
 
 /// Returns six times the volume of corners in a fixed order, or nothing if Float cannot represent

@@ -23,7 +23,7 @@ from ._octetra import (
     MeshSeries as MeshSeries,
     Migration as Migration,
     Sharing as Sharing,
-    Succession as Succession,
+    EntityTransfer as EntityTransfer,
     SystemFailure as SystemFailure,
     Verdict as Verdict,
     __version__ as __version__,

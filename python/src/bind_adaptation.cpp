@@ -16,7 +16,7 @@ namespace octetra::python {
 namespace {
 
 using Adaptation = std::shared_ptr<od::Adaptation>;
-using Succession = std::shared_ptr<od::Succession>;
+using EntityTransfer = std::shared_ptr<od::EntityTransfer>;
 
 od::CellValues cell_values(const std::string& how) {
     if (how == "copied") return od::CellValues::copied;
@@ -43,29 +43,29 @@ py::array transfer_cells(const Adaptation& step, const py::object& given, const 
     });
 }
 
-py::array parents(const Succession& of) {
-    if (of->merges()) throw InputError("parents are of refinement; of coarsening it is whole_of");
+py::array parents(const EntityTransfer& of) {
+    if (of->merges()) throw InputError("parents are of refinement; of coarsening it is coarse_of");
     return array_of(without_gil([&] { return of->parents(); }));
 }
 
 void bind_succession(py::module_& module) {
-    py::class_<od::Succession, Succession>(
-        module, "Succession",
+    py::class_<od::EntityTransfer, EntityTransfer>(
+        module, "EntityTransfer",
         "How this rank's cells, tagged facets or tagged edges became those after a step.")
-        .def_property_readonly("count_before", &od::Succession::count_before,
+        .def_property_readonly("count_before", &od::EntityTransfer::count_before,
                                "How many there were.")
-        .def_property_readonly("count", &od::Succession::count, "How many there are.")
-        .def_property_readonly("keeps_numbers", &od::Succession::keeps_numbers,
+        .def_property_readonly("count", &od::EntityTransfer::count, "How many there are.")
+        .def_property_readonly("keeps_numbers", &od::EntityTransfer::keeps_numbers,
                                "Has all that was not bisected its number still?")
         .def_property_readonly("parents", &parents,
                                "int32 (count,), of refinement: what each is, or is a piece of. "
                                "Made when asked for.")
         .def_property_readonly(
-            "whole_of", [](const Succession& of) { return view(of->whole_of(), of); },
+            "coarse_of", [](const EntityTransfer& of) { return view(of->coarse_of(), of); },
             "int32 (count_before,), of coarsening: what each became, or is a piece of; (0,) of "
             "refinement.")
         .def_property_readonly(
-            "halvings", [](const Succession& of) { return view(of->halvings(), of); },
+            "halvings", [](const EntityTransfer& of) { return view(of->halvings(), of); },
             "uint8 (count_before,), of cells in coarsening: how often the whole had been halved "
             "for "
             "each; else (0,).");
@@ -108,8 +108,8 @@ void bind_adaptation(py::module_& module, MeshClass& mesh) {
              "coarsening, what the function deviates from its interpolant at a vertex that went "
              "is given to the ends of the edge that the vertex halved; a function that is linear "
              "there stays as it is.");
-    const auto succession = [](od::Succession od::Adaptation::*of) {
-        return [of](const Adaptation& step) { return Succession(step, &((*step).*of)); };
+    const auto entity_transfer = [](od::EntityTransfer od::Adaptation::*of) {
+        return [of](const Adaptation& step) { return EntityTransfer(step, &((*step).*of)); };
     };
     const auto list = [](auto of) {
         return [of](const Adaptation& step) {
@@ -124,10 +124,11 @@ void bind_adaptation(py::module_& module, MeshClass& mesh) {
         .def_readonly("changed", &od::Adaptation::changed,
                       "Did anything change, on any rank? The same on all.")
         .def_property_readonly("is_coarser", &od::Adaptation::is_coarser, "Was this coarsening?")
-        .def_property_readonly("cells", succession(&od::Adaptation::cells), "This rank's cells.")
-        .def_property_readonly("facets", succession(&od::Adaptation::facets),
+        .def_property_readonly("cells", entity_transfer(&od::Adaptation::cells),
+                               "This rank's cells.")
+        .def_property_readonly("facets", entity_transfer(&od::Adaptation::facets),
                                "This rank's tagged facets.")
-        .def_property_readonly("edges", succession(&od::Adaptation::edges),
+        .def_property_readonly("edges", entity_transfer(&od::Adaptation::edges),
                                "This rank's tagged edges.")
         .def_readonly("vertex_count_before", &od::Adaptation::vertex_count_before,
                       "This rank's vertices before the step.")

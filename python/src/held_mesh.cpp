@@ -13,7 +13,7 @@ std::shared_ptr<Memory> Mesh::hold(Array array) {
     return memory;
 }
 
-void Mesh::leave_arrays() {
+void Mesh::detach_arrays() {
     const auto in_use = [&](Array array) { return !held_[array].expired(); };
     const od::ArraysInUse arrays{.points = in_use(points),
                                  .cells = in_use(cells),
@@ -23,8 +23,8 @@ void Mesh::leave_arrays() {
                                  .roots = in_use(roots)};
     const bool none = std::ranges::all_of(held_, [](const auto& held) { return held.expired(); });
     if (none) return;
-    const auto left = std::make_shared<od::ArraysLeft>();  // before: it may find no memory
-    *left = mesh_.leave_arrays(arrays);
+    const auto left = std::make_shared<od::DetachedArrays>();  // before: it may find no memory
+    *left = mesh_.detach_arrays(arrays);
     for (std::weak_ptr<Memory>& held : held_) {
         if (const auto memory = held.lock()) memory->owner = left;
         held.reset();

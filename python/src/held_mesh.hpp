@@ -51,7 +51,7 @@ public:
         const Busy busy(*this);
         convert_on_each(processes(), [&] {
             convert();
-            leave_arrays();
+            detach_arrays();
         });
         return without_gil([&] { return step(mesh_); });
     }
@@ -62,7 +62,7 @@ public:
         const auto ask = [&] {
             convert_here(processes(), [&] {
                 convert();
-                leave_arrays();
+                detach_arrays();
             });
         };
         return without_gil([&] { return step(mesh_, ask); });
@@ -86,7 +86,7 @@ private:
         Mesh* mesh_;
     };
 
-    void leave_arrays();
+    void detach_arrays();
 
     od::AdaptiveMesh mesh_;
     std::array<std::weak_ptr<Memory>, array_count> held_;

@@ -64,7 +64,7 @@ TEST(TextRow, HasASpaceBetweenNumbersAcrossTheFilesBuffer) {
     for (std::uint64_t i = 0; i < 20'000; ++i) {
         TextRow row(out);
         for (std::uint64_t k = 0; k < i % 20; ++k) {
-            if (k % 8 == 0 && k > 0) row.go_on();
+            if (k % 8 == 0 && k > 0) row.reserve_more();
             row.put(i * i * i + k);
             expected += fmt::format("{}{}", k == 0 ? "" : " ", i * i * i + k);
         }

@@ -197,12 +197,12 @@ TEST(OutputFile, OfAGroupHasTheStretchesOfAllInOrder) {
             const std::vector<std::string> pieces = pieces_of(group.rank());
             std::uint64_t own = 0;
             for (const std::string& piece : pieces) own += piece.size();
-            out.begin_stretches(own);
+            out.begin_ranges(own);
             for (const std::string& piece : pieces) {
                 put_in_parts(out, piece);
                 out.end_turn_later();
             }
-            out.end_stretches();
+            out.end_ranges();
             EXPECT_EQ(out.position(), size);
             out.put(std::string_view{"tail"});
             out.commit();
@@ -216,10 +216,10 @@ TEST(OutputFile, IsNotWrittenWhereAStretchIsOfAnotherSizeThanWasSaid) {
     for (const std::uint64_t said : {std::uint64_t{4}, std::uint64_t{6}}) {
         test::run_together(3, [&](const ProcessGroup& group) {
             OutputFile out(folder / "a", group);
-            out.begin_stretches(group.rank() == 1 ? said : 5);
+            out.begin_ranges(group.rank() == 1 ? said : 5);
             out.put(std::string_view{"12345"});
             out.end_turn_later();
-            out.end_stretches();
+            out.end_ranges();
             EXPECT_THROW(out.commit(), SystemError);
         });
         EXPECT_TRUE(std::filesystem::is_empty(folder.path()));

@@ -39,7 +39,7 @@ bool is_read_together(const std::filesystem::path& path, const EntityCounts& cou
     for (const int size : {2, 3, 5}) {
         std::vector<std::optional<SolFields>> shares(static_cast<std::size_t>(size));
         test::run_together(size, [&](const ProcessGroup& group) {
-            shares[static_cast<std::size_t>(group.rank())] = read_sol_stretch(path, counts, group);
+            shares[static_cast<std::size_t>(group.rank())] = read_sol_share(path, counts, group);
         });
         for (const auto& share : shares) EXPECT_EQ(share.has_value(), shares[0].has_value());
         together = together && shares[0];
@@ -74,7 +74,7 @@ std::string refusal_of(const std::string& name, const std::string& bytes,
     const auto file = folder.write(name, bytes);
     const std::string what = test::thrown_by<InputError>([&] { (void)read_sol(file, counts); });
     test::run_together(
-        3, [&](const ProcessGroup& group) { EXPECT_FALSE(read_sol_stretch(file, counts, group)); });
+        3, [&](const ProcessGroup& group) { EXPECT_FALSE(read_sol_share(file, counts, group)); });
     const auto behind = what.find(name + ":");
     if (behind == std::string::npos) return what;
     return what.substr(behind + name.size() + 1);
@@ -250,7 +250,7 @@ TEST(SolbReader, ReadsOrRefusesWhatIsChangedInAnyByte) {
                 try {
                     read += read_sol(file, EntityCounts{2, 1}).lists.empty() ? 0 : 1;
                 } catch (const InputError&) {
-                    EXPECT_FALSE(read_sol_stretch(file, {2, 1}, ProcessGroup::alone()));
+                    EXPECT_FALSE(read_sol_share(file, {2, 1}, ProcessGroup::alone()));
                 }
             }
         }

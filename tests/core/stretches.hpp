@@ -7,14 +7,14 @@
 #include <gtest/gtest.h>
 
 #include <octetra/core/files/mesh_files.hpp>
-#include <octetra/core/mesh_stretch.hpp>
+#include <octetra/core/mesh_share.hpp>
 
 #include "verify/thread_group.hpp"
 
 namespace octetra::test {
 
 /// The stretches of all processes, one after the other.
-inline Mesh put_together(const std::vector<std::optional<MeshStretch>>& stretches) {
+inline Mesh put_together(const std::vector<std::optional<MeshShare>>& stretches) {
     Mesh whole;
     const auto append = [](auto& list, const auto& stretch) {
         list.insert(list.end(), stretch.begin(), stretch.end());
@@ -46,9 +46,9 @@ inline Mesh put_together(const std::vector<std::optional<MeshStretch>>& stretche
 /// Several processes that read this file in stretches have the mesh that it is, or nothing.
 inline void expect_right_stretches(const std::filesystem::path& path) {
     for (const int size : {1, 2, 3, 5}) {
-        std::vector<std::optional<MeshStretch>> stretches(static_cast<std::size_t>(size));
+        std::vector<std::optional<MeshShare>> stretches(static_cast<std::size_t>(size));
         run_together(size, [&](const ProcessGroup& group) {
-            stretches[static_cast<std::size_t>(group.rank())] = read_stretch(path, group);
+            stretches[static_cast<std::size_t>(group.rank())] = read_mesh_share(path, group);
         });
         for (const auto& stretch : stretches) {
             ASSERT_EQ(stretch.has_value(), stretches.front().has_value());

@@ -195,19 +195,21 @@ TEST_P(AdaptiveMeshIn, TellsWhatEachCellFacetAndEdgeWas) {
                       midpoint(mesh.points()[a.value()], mesh.points()[b.value()]));
         }
         // A piece has corners of the whole and midpoints of its edges; shares add up to it.
-        const auto check = [&](const Succession& succession, const auto& before, const auto& after,
-                               const auto& markers_before, const auto& markers_after) {
-            ASSERT_EQ(succession.count_before(), before.size());
-            ASSERT_EQ(succession.count(), after.size());
+        const auto check = [&](const EntityTransfer& entity_transfer, const auto& before,
+                               const auto& after, const auto& markers_before,
+                               const auto& markers_after) {
+            ASSERT_EQ(entity_transfer.count_before(), before.size());
+            ASSERT_EQ(entity_transfer.count(), after.size());
             std::vector<double> shares(before.size(), 0);
             std::vector<char> is_told(after.size(), 0);
-            const auto parents = succession.parents();
-            succession.for_each_new([&](std::size_t number, std::size_t whole, unsigned halvings) {
-                EXPECT_EQ(parents[number], whole);
-                EXPECT_EQ(is_told[number], 0);
-                is_told[number] = 1;
-                shares[whole] += 1.0 / (1U << halvings);
-            });
+            const auto parents = entity_transfer.parents();
+            entity_transfer.for_each_new(
+                [&](std::size_t number, std::size_t whole, unsigned halvings) {
+                    EXPECT_EQ(parents[number], whole);
+                    EXPECT_EQ(is_told[number], 0);
+                    is_told[number] = 1;
+                    shares[whole] += 1.0 / (1U << halvings);
+                });
             for (std::size_t i = 0; i < after.size(); ++i) {
                 const auto& whole = before[parents[i]];
                 const auto is_corner = [&](VertexIndex v) {

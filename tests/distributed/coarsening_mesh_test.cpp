@@ -129,7 +129,7 @@ TEST_P(CoarseningMesh, KeepsValuesOfVerticesAndMakesThoseOfCellsFromTheirPieces)
 
 TEST(MergedValue, IsWhatAllPiecesHaveToTheBitAndElseTheirMeanInNoOrder) {
     using distributed::merged_value;
-    const auto of = []<class T>(CellValues how, std::vector<distributed::PieceValue<T>> pieces) {
+    const auto of = []<class T>(CellValues how, std::vector<distributed::FineValue<T>> pieces) {
         std::vector<T> found;
         for (std::size_t k = 0; k < pieces.size(); ++k) {
             std::rotate(pieces.begin(), pieces.begin() + 1, pieces.end());
@@ -139,10 +139,10 @@ TEST(MergedValue, IsWhatAllPiecesHaveToTheBitAndElseTheirMeanInNoOrder) {
         EXPECT_EQ(std::ranges::count(found, found[0]), std::ssize(found));
         return found[0];
     };
-    using Reals = std::vector<distributed::PieceValue<double>>;
-    using Wholes = std::vector<distributed::PieceValue<int>>;
+    using Reals = std::vector<distributed::FineValue<double>>;
+    using Wholes = std::vector<distributed::FineValue<int>>;
     using Complex = std::complex<double>;
-    using Complexes = std::vector<distributed::PieceValue<Complex>>;
+    using Complexes = std::vector<distributed::FineValue<Complex>>;
     EXPECT_EQ(of(CellValues::copied, Reals{{0.1, 1}, {0.1, 2}, {0.1, 2}}), 0.1);
     EXPECT_EQ(of(CellValues::averaged, Reals{{0.1, 1}, {0.1, 2}, {0.1, 2}}), 0.1);
     EXPECT_EQ(of(CellValues::copied, Reals{{3, 1}, {1, 2}, {2, 2}}), 2.25);
@@ -187,8 +187,8 @@ TEST_P(CoarseningMesh, TellsOfEveryFacetAndTaggedEdgeWhatItBecame) {
     const std::vector<Marker> markers = mesh.facet_markers();
     const std::vector<EdgeVertices> edges(mesh.edges().begin(), mesh.edges().end());
     const Adaptation step = mesh.coarsen(some(0.9, GetParam()));
-    ASSERT_EQ(step.facets.whole_of().size(), facets.size());
-    ASSERT_EQ(step.edges.whole_of().size(), edges.size());
+    ASSERT_EQ(step.facets.coarse_of().size(), facets.size());
+    ASSERT_EQ(step.edges.coarse_of().size(), edges.size());
     // A piece lies in its whole: its corners are some means of the whole's.
     const auto area = [](const Point& a, const Point& b, const Point& c) {
         const Point u{b.x - a.x, b.y - a.y, b.z - a.z};
@@ -198,7 +198,7 @@ TEST_P(CoarseningMesh, TellsOfEveryFacetAndTaggedEdgeWhatItBecame) {
     std::vector<double> areas(mesh.facets().size(), 0);
     const std::vector<Marker> markers_after = mesh.facet_markers();
     for (std::size_t f = 0; f < facets.size(); ++f) {
-        const std::uint32_t whole = step.facets.whole_of()[f];
+        const std::uint32_t whole = step.facets.coarse_of()[f];
         EXPECT_EQ(markers[f], markers_after[whole]);
         areas[whole] += area(points[facets[f][0].value()], points[facets[f][1].value()],
                              points[facets[f][2].value()]);

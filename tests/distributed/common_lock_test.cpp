@@ -28,7 +28,7 @@ protected:
         EXPECT_EQ(::pipe(ends.data()), 0);
         const pid_t child = ::fork();
         if (child == 0) {
-            const bool first = is_first_to_take(open());
+            const bool first = try_claim(open());
             if (::write(ends[1], "x", 1) != 1) ::_exit(EXIT_FAILURE);
             std::this_thread::sleep_for(life);
             ::_exit(first ? EXIT_SUCCESS : EXIT_FAILURE);
@@ -53,7 +53,7 @@ TEST_F(CommonLock, IsTakenOnceAlsoWhenItsHolderHasEnded) {
     const pid_t holder = start_a_holder(std::chrono::milliseconds(0));
     EXPECT_TRUE(was_first(holder));
     const int lock = open();
-    EXPECT_FALSE(is_first_to_take(lock));
+    EXPECT_FALSE(try_claim(lock));
     ::close(lock);
 }
 
@@ -61,15 +61,15 @@ TEST_F(CommonLock, LetsOthersGoOnWhenItsHolderHasEnded) {
     const pid_t holder = start_a_holder(std::chrono::milliseconds(200));
     const auto start = std::chrono::steady_clock::now();
     const int lock = open();
-    EXPECT_FALSE(is_first_to_take(lock));
+    EXPECT_FALSE(try_claim(lock));
     EXPECT_GE(std::chrono::steady_clock::now() - start, std::chrono::milliseconds(100));
     EXPECT_TRUE(was_first(holder));
     ::close(lock);
 }
 
 TEST_F(CommonLock, IsAnybodysWhereThereIsNone) {
-    EXPECT_TRUE(is_first_to_take(-1));
-    EXPECT_TRUE(is_first_to_take(-1));
+    EXPECT_TRUE(try_claim(-1));
+    EXPECT_TRUE(try_claim(-1));
 }
 
 }  // namespace

@@ -7,7 +7,7 @@
 #include <mpi.h>
 
 #include <octetra/core/files/mesh_files.hpp>
-#include <octetra/core/mesh_stretch.hpp>
+#include <octetra/core/mesh_share.hpp>
 #include <octetra/distributed/mpi.hpp>
 #include <octetra/distributed/partition.hpp>
 #include <octetra/distributed/profile.hpp>
@@ -230,7 +230,7 @@ TEST(Communication, OfReadingBlocksOfGmshTakesNoMoreCallsOfAllWithMoreProcesses)
     world.on_first([&] { (void)write_mesh(test::shaken_kuhn(3, 0.2, 1), file); });
     const auto calls_of_all = [&](const Communicator& group) {
         const test::MpiCounts before = test::mpi_counts();
-        EXPECT_TRUE(read_stretch(file, group).has_value());
+        EXPECT_TRUE(read_mesh_share(file, group).has_value());
         return test::mpi_counts().collectives - before.collectives;
     };
     const bool is_in_pair = world.rank() < 2;

@@ -26,7 +26,7 @@ struct Placed {
     [[nodiscard]] std::uint64_t most() const { return std::ranges::max(loads); }
 
     std::vector<std::uint64_t> loads;
-    std::vector<PlacedRoot> roots;
+    std::vector<AssignedRoot> roots;
 };
 
 /// Do the loads of processes follow from where roots are, as they did before?
@@ -44,17 +44,17 @@ TEST(HeavyRoots, MoveUntilNoMoveAndNoSwapMakesTheFullestAndTheEmptiestMoreAlike)
     for (std::uint64_t seed = 0; seed < 2000; ++seed) {
         const Placed before(seed);
         Placed after = before;
-        relieve(after.loads, after.roots, 0);
+        balance_loads(after.loads, after.roots, 0);
         ASSERT_TRUE(are_loads_of(after, before)) << "seed " << seed;
         ASSERT_LE(after.most(), before.most()) << "seed " << seed;
         const auto most = std::ranges::max_element(after.loads);
         const auto least = std::ranges::min_element(after.loads);
         const std::uint64_t gap = *most - *least;
         std::vector<std::uint64_t> of_least{0};  // for a root nothing may come
-        for (const PlacedRoot& root : after.roots) {
+        for (const AssignedRoot& root : after.roots) {
             if (root.rank == least - after.loads.begin()) of_least.push_back(root.weight);
         }
-        for (const PlacedRoot& root : after.roots) {
+        for (const AssignedRoot& root : after.roots) {
             if (root.rank != most - after.loads.begin()) continue;
             for (const std::uint64_t comes : of_least) {
                 ASSERT_TRUE(root.weight <= comes || root.weight - comes >= gap) << "seed " << seed;
@@ -68,14 +68,14 @@ TEST(HeavyRoots, StayWhereNobodyHasMoreThanTheGoal) {
     for (std::uint64_t seed = 0; seed < 2000; ++seed) {
         const Placed before(seed);
         Placed after = before;
-        relieve(after.loads, after.roots, before.most());
+        balance_loads(after.loads, after.roots, before.most());
         ASSERT_EQ(after.loads, before.loads) << "seed " << seed;
         const std::uint64_t goal = before.most() - before.most() / 8;
-        relieve(after.loads, after.roots, goal);
+        balance_loads(after.loads, after.roots, goal);
         if (after.most() > goal) continue;
         ++reached;
         Placed further = after;
-        relieve(further.loads, further.roots, goal);
+        balance_loads(further.loads, further.roots, goal);
         ASSERT_EQ(further.loads, after.loads) << "seed " << seed;
     }
     EXPECT_GT(reached, 500);
@@ -85,7 +85,7 @@ TEST(HeavyRoots, OfEqualWeightsAreSharedOutEvenly) {
     Placed all(0);
     all.loads = {12, 0, 0, 0};
     all.roots.assign(12, {1, 0});
-    relieve(all.loads, all.roots, 3);
+    balance_loads(all.loads, all.roots, 3);
     EXPECT_EQ(all.loads, (std::vector<std::uint64_t>{3, 3, 3, 3}));
 }
 
@@ -93,7 +93,7 @@ TEST(HeavyRoots, MoveByWhatLeavesTwoMostAlikeAndNotByWeight) {
     Placed all(0);
     all.loads = {20, 10};
     all.roots = {{9, 0}, {5, 0}};
-    relieve(all.loads, all.roots, 19);  // either would do, and no swap comes after it
+    balance_loads(all.loads, all.roots, 19);  // either would do, and no swap comes after it
     EXPECT_EQ(all.loads, (std::vector<std::uint64_t>{15, 15}));
 }
 
@@ -101,11 +101,11 @@ TEST(HeavyRoots, TakeEachOthersPlaceWhereNoneMayMoveAlone) {
     Placed all(0);
     all.loads = {14, 6};
     all.roots = {{14, 0}, {6, 1}};
-    relieve(all.loads, all.roots, 0);
+    balance_loads(all.loads, all.roots, 0);
     EXPECT_EQ(all.loads, (std::vector<std::uint64_t>{14, 6}));  // else only the names change
     all.loads = {20, 16};
     all.roots = {{10, 0}, {10, 0}, {8, 1}, {8, 1}};
-    relieve(all.loads, all.roots, 0);
+    balance_loads(all.loads, all.roots, 0);
     EXPECT_EQ(all.loads, (std::vector<std::uint64_t>{18, 18}));
 }
 

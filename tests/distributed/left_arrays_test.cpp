@@ -34,7 +34,7 @@ TEST_P(AdaptiveMeshIn, LeavesArraysInUseAsTheyAreAndGoesOnAsWithout) {
     const Mesh input = test::marked(test::shaken_kuhn(5, 0.2, 2), 2);
     AdaptiveMesh mesh = shared_out(input, GetParam());
     AdaptiveMesh expected = shared_out(input, GetParam());
-    std::vector<ArraysLeft> left;
+    std::vector<DetachedArrays> left;
     std::vector<std::function<bool()>> checks;
     const auto look = [&] {
         const auto check = [&](auto span) {
@@ -46,7 +46,7 @@ TEST_P(AdaptiveMeshIn, LeavesArraysInUseAsTheyAreAndGoesOnAsWithout) {
         check(mesh.edges());
         check(mesh.vertex_numbers());
         check(mesh.roots());
-        left.push_back(mesh.leave_arrays({true, true, true, true, true, true}));
+        left.push_back(mesh.detach_arrays({true, true, true, true, true, true}));
     };
     for (const Selection& selection : steps) {
         look();
@@ -68,7 +68,7 @@ TEST_P(AdaptiveMeshIn, LeavesOnlyArraysThatAreInUse) {
     AdaptiveMesh mesh = shared_out(test::marked(test::shaken_kuhn(3, 0.2, 2), 2), GetParam());
     const Point* const points = mesh.points().data();
     const CellVertices* const cells = mesh.cells().data();
-    const ArraysLeft left = mesh.leave_arrays({.cells = true});
+    const DetachedArrays left = mesh.detach_arrays({.cells = true});
     EXPECT_EQ(left.cells.data(), cells);
     EXPECT_NE(mesh.cells().data(), cells);
     EXPECT_EQ(mesh.points().data(), points);

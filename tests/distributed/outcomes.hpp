@@ -9,11 +9,11 @@
 
 #include <octetra/core/error.hpp>
 #include <octetra/core/files/mesh_files.hpp>
-#include <octetra/core/mesh_stretch.hpp>
+#include <octetra/core/mesh_share.hpp>
 #include <octetra/distributed/read_parts.hpp>
 
 #include "distributed/world.hpp"
-#include "setup/distribute_stretch.hpp"
+#include "setup/distribute_share.hpp"
 
 namespace octetra::test {
 
@@ -54,11 +54,11 @@ inline bool expect_one_outcome(const std::filesystem::path& file, const std::str
         EXPECT_EQ(found.notes, expected.notes) << file;
         EXPECT_TRUE(found.mesh == expected.mesh) << file;
     }
-    auto stretch = read_stretch(file, world());
+    auto stretch = read_mesh_share(file, world());
     if (stretch) {
         // No other process reads it once more, unless there is something to refuse.
         const auto method = distributed::parse_partition(partition).method;
-        const auto mesh = distributed::distribute_stretch(world(), std::move(*stretch), method, {});
+        const auto mesh = distributed::distribute_share(world(), std::move(*stretch), method, {});
         EXPECT_EQ(mesh.has_value(), expected.error.empty()) << file;
         if (mesh) {  // nothing is there twice, which collecting would not show
             EXPECT_EQ(world().sum(mesh->cells.size()), expected.mesh.cells.size()) << file;
@@ -71,7 +71,7 @@ inline bool expect_one_outcome(const std::filesystem::path& file, const std::str
 
 /// Collective. Is the file in a form that all read together?
 inline bool is_read_together(const std::filesystem::path& file) {
-    return read_stretch(file, world()).has_value();
+    return read_mesh_share(file, world()).has_value();
 }
 
 }  // namespace octetra::test

@@ -1,4 +1,4 @@
-#include "numbering/short_words.hpp"
+#include "numbering/compressed_words.hpp"
 
 #include <cstdint>
 #include <limits>
@@ -10,7 +10,7 @@
 namespace octetra::distributed {
 namespace {
 
-TEST(ShortWords, ComeBackAsTheyWere) {
+TEST(CompressedWords, ComeBackAsTheyWere) {
     std::mt19937_64 random(1);
     constexpr std::uint64_t most = std::numeric_limits<std::uint64_t>::max();
     for (int k = 0; k < 500; ++k) {
@@ -19,16 +19,16 @@ TEST(ShortWords, ComeBackAsTheyWere) {
             const std::uint64_t any = random() >> random() % 64U;
             word = random() % 8 == 0 ? most - any : any;
         }
-        EXPECT_EQ(lengthened(shortened(words)), words);
+        EXPECT_EQ(decompressed(compressed(words)), words);
     }
 }
 
 /// Numbers that go up by one, and counts that are about the same.
-TEST(ShortWords, AreAByteEachWhereTheyChangeLittle) {
+TEST(CompressedWords, AreAByteEachWhereTheyChangeLittle) {
     std::vector<std::uint64_t> words;
     for (std::uint64_t k = 0; k < 1000; ++k)
         words.insert(words.end(), {1'000'000'000 + k, 10 + k % 7});
-    EXPECT_LE(shortened(words).size(), words.size() + 10);
+    EXPECT_LE(compressed(words).size(), words.size() + 10);
 }
 
 }  // namespace

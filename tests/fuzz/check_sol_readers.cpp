@@ -80,7 +80,7 @@ void check_values(const fs::path& path) {
         }
         (list.on == FieldOn::vertices ? counts.vertices : counts.cells) = list.count;
     }
-    const auto together = read_sol_stretch(path, counts, ProcessGroup::alone());
+    const auto together = read_sol_share(path, counts, ProcessGroup::alone());
     if (together && !std::ranges::equal(together->lists, found->lists, same_values)) {
         throw BrokenPromise("shares of a file are not what one process reads");
     }

@@ -115,8 +115,8 @@ def test_a_step_tells_what_was_before(mesh):
     before, points = len(mesh.cells), mesh.points
     step = mesh.coarsen(np.ones(before, np.uint8))
     assert step.is_coarser
-    assert step.cells.whole_of.shape == step.cells.halvings.shape == (before,)
-    assert step.cells.whole_of.max(initial=0) < max(1, len(mesh.cells))
+    assert step.cells.coarse_of.shape == step.cells.halvings.shape == (before,)
+    assert step.cells.coarse_of.max(initial=0) < max(1, len(mesh.cells))
     assert np.array_equal(points[step.vertices_before], mesh.points)
     with pytest.raises(octetra.InputError):
         step.cells.parents

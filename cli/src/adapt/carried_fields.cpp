@@ -17,11 +17,11 @@ using distributed::Field;
 /// Of coarsening. Had cells that became one the same?
 template <class T>
 bool are_kept(const std::vector<T>& pieces, const std::vector<T>& wholes, std::size_t components,
-              const distributed::Succession& cells) {
-    const auto whole_of = cells.whole_of();
-    for (std::size_t c = 0; c < whole_of.size(); ++c) {
+              const distributed::EntityTransfer& cells) {
+    const auto coarse_of = cells.coarse_of();
+    for (std::size_t c = 0; c < coarse_of.size(); ++c) {
         for (std::size_t k = 0; k < components; ++k) {
-            if (pieces[c * components + k] != wholes[whole_of[c] * components + k]) return false;
+            if (pieces[c * components + k] != wholes[coarse_of[c] * components + k]) return false;
         }
     }
     return true;

@@ -117,16 +117,16 @@ EvenStep AdaptiveMesh::refine_evenly(const Selection& selection, const BalanceOp
         *state_, [&] { return mark_cells(state_->mesh, selection, false); }, balance, options);
 }
 
-Adaptation AdaptiveMesh::coarsen(std::span<const std::uint8_t> may_go) {
-    return coarsen_state(*state_, [&] { return marked_by_bytes(state_->mesh, may_go); });
+Adaptation AdaptiveMesh::coarsen(std::span<const std::uint8_t> may_coarsen) {
+    return coarsen_state(*state_, [&] { return marked_by_bytes(state_->mesh, may_coarsen); });
 }
 
-Adaptation AdaptiveMesh::coarsen(std::span<const CellIndex> may_go) {
-    return coarsen_state(*state_, [&] { return marked_by_list(state_->mesh, may_go); });
+Adaptation AdaptiveMesh::coarsen(std::span<const CellIndex> may_coarsen) {
+    return coarsen_state(*state_, [&] { return marked_by_list(state_->mesh, may_coarsen); });
 }
 
-Adaptation AdaptiveMesh::coarsen(const Selection& may_go) {
-    return coarsen_state(*state_, [&] { return mark_cells(state_->mesh, may_go, false); });
+Adaptation AdaptiveMesh::coarsen(const Selection& may_coarsen) {
+    return coarsen_state(*state_, [&] { return mark_cells(state_->mesh, may_coarsen, false); });
 }
 
 Migration AdaptiveMesh::rebalance(const BalanceOptions& options) {

@@ -26,16 +26,16 @@ namespace octetra::distributed {
 namespace {
 
 /// Returns the steps of a part with this many roots, each as runs over all its cells.
-std::vector<CutRuns> together(const CutRoots& cuts, std::size_t root_count,
-                              std::size_t step_count) {
-    RootsTogether steps(step_count);
+std::vector<CutRuns> joined_steps(const CutRoots& cuts, std::size_t root_count,
+                                  std::size_t step_count) {
+    RootJoiner steps(step_count);
     RootBytes rest = cuts.bytes;
     std::size_t next = 0;
     for (const CutRoots::Root& root : cuts.roots) {
-        steps.append_whole(root.place - next);
+        steps.append_whole(root.index - next);
         (void)steps.append(rest.first(root.bytes));
         rest = rest.subspan(root.bytes);
-        next = root.place + std::size_t{1};
+        next = root.index + std::size_t{1};
     }
     steps.append_whole(root_count - next);
     return std::move(steps).finish();
@@ -49,7 +49,7 @@ void redo(AdaptiveMesh::State& state, CutRoots cuts, const CheckpointFacts& fact
     std::vector<CutRuns> given;
     std::unique_ptr<CutMarks> marks;
     failure.attempt([&] {
-        given = together(cuts, state.mesh.cells.size(), facts.steps.size());
+        given = joined_steps(cuts, state.mesh.cells.size(), facts.steps.size());
         marks = std::make_unique<CutMarks>(std::move(cuts));
     });
     failure.agree(processes);
@@ -74,7 +74,7 @@ void redo(AdaptiveMesh::State& state, CutRoots cuts, const CheckpointFacts& fact
 }
 
 /// Adds the name of the file to the messages of InputErrors about the mesh.
-auto naming(const std::filesystem::path& path, auto&& work) {
+auto with_file_name(const std::filesystem::path& path, auto&& work) {
     try {
         return work();
     } catch (const InputError& error) {
@@ -116,7 +116,7 @@ AdaptiveMesh AdaptiveMesh::load(const Communicator& processes, const std::filesy
     failure.attempt([&] { file = std::make_unique<CheckpointReader>(path); });
     agree_on_same(processes, failure, "partition", [&] { return text_of(partition); });
     LoadedPart part = load_part(processes, *file, path, partition);
-    auto state = naming(path, [&] {
+    auto state = with_file_name(path, [&] {
         auto made = State::make(distribute_parts(processes, std::move(part.input)));
         made->mesh.features = std::move(part.features);
         redo(*made, std::move(part.cuts), file->facts());

@@ -93,8 +93,8 @@ Adaptation coarsen_state(AdaptiveMesh::State& state, const std::function<MarkedC
         if (suits_incremental_level(mesh, marked, tuning)) adjacency = &Adjacency::of(mesh);
     });
     const KeptVertices kept = find_kept_vertices(mesh, state.sharing, marked, adjacency, failure);
-    const auto gone = static_cast<std::uint64_t>(std::ranges::count(kept, 0));
-    const std::uint64_t most = failure.max_unless_failed(processes, gone);
+    const auto removed_count = static_cast<std::uint64_t>(std::ranges::count(kept, 0));
+    const std::uint64_t most = failure.max_unless_failed(processes, removed_count);
     if (most == LocalFailure::somewhere) failure.agree(processes);
     Adaptation adaptation;
     if (most == 0) {

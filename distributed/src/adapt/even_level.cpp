@@ -34,7 +34,7 @@ struct Loads {
         return static_cast<double>(most) > balance.most_over_mean * mean(processes);
     }
     /// Returns the number of cells that the most loaded process makes while the others wait.
-    [[nodiscard]] std::uint64_t spared(int processes) const {
+    [[nodiscard]] std::uint64_t idle_cells(int processes) const {
         return most - static_cast<std::uint64_t>(mean(processes));
     }
 
@@ -82,7 +82,7 @@ MarkedCells marks_of_masks(const std::vector<EdgeMask>& masks) {
 }
 
 /// Undoes a level, and returns its closed marks in the canonical order that the mesh is in then.
-UnevenLevel undone(DistributedMesh& mesh, PlannedLevel& plan) {
+UnevenLevel undo_level(DistributedMesh& mesh, PlannedLevel& plan) {
     UnevenLevel level;
     level.marks = plan.level->closed_marks();
     plan.level.reset();
@@ -116,7 +116,7 @@ void UnevenLevel::keep_mesh() noexcept {
 
 std::optional<UnevenLevel> uneven_level(DistributedMesh& mesh, PlannedLevel& plan,
                                         const BalanceOptions& balance, const RefineOptions& options,
-                                        const Tuning& tuning, std::uint64_t& waited,
+                                        const Tuning& tuning, std::uint64_t& accumulated_idle,
                                         const CanonicalNumbers* known) {
     const Communicator& processes = mesh.processes;
     if (processes.size() == 1) return std::nullopt;
@@ -127,12 +127,12 @@ std::optional<UnevenLevel> uneven_level(DistributedMesh& mesh, PlannedLevel& pla
     const Loads loads(mesh, count);
     if (loads.sum > options.max_cells) return std::nullopt;  // bisect_level() throws
     if (!loads.are_uneven(balance, processes.size())) return std::nullopt;
-    waited += loads.spared(processes.size());
-    if (balance.only_if_it_pays && waited <= 2 * loads.most_before) return std::nullopt;
-    waited = 0;
+    accumulated_idle += loads.idle_cells(processes.size());
+    if (balance.only_if_it_pays && accumulated_idle <= 2 * loads.most_before) return std::nullopt;
+    accumulated_idle = 0;
 
     UnevenLevel level;
-    failure.attempt([&] { level = undone(mesh, plan); });
+    failure.attempt([&] { level = undo_level(mesh, plan); });
     failure.agree(processes);
     const auto weigh = [&] { return cells_of_roots_after(mesh, level.marks); };
     if (auto parts =

@@ -32,13 +32,14 @@ struct UnevenLevel {
 
 /// Collective. Returns nothing on all processes if the closed level is to be bisected without
 /// migration, because it is even enough or would not become more so; otherwise undoes the level.
-/// `waited`: the sum over uneven levels since the last migration of the cells by which the most
-/// loaded process exceeded the mean, while the others were idle; this level adds to it. `known`:
-/// the global numbers of the mesh's vertices, or null.
+/// `accumulated_idle`: the sum over uneven levels since the last migration of the cells by which
+/// the most loaded process exceeded the mean, while the others were idle; this level adds to it.
+/// `known`: the global numbers of the mesh's vertices, or null.
 [[nodiscard]] std::optional<UnevenLevel> uneven_level(DistributedMesh& mesh, PlannedLevel& plan,
                                                       const BalanceOptions& balance,
                                                       const RefineOptions& options,
-                                                      const Tuning& tuning, std::uint64_t& waited,
+                                                      const Tuning& tuning,
+                                                      std::uint64_t& accumulated_idle,
                                                       const CanonicalNumbers* known = nullptr);
 
 struct MovedLevel {

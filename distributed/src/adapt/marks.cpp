@@ -58,7 +58,7 @@ MarkedCells marked_by_bytes(const DistributedMesh& mesh, std::span<const std::ui
     }
     append_marked(marked, marks, whole_blocks, marks.size());
     marked.count = marked.cells.size();
-    marked.judged = marks.size();
+    marked.tested = marks.size();
     return marked;
 }
 
@@ -73,7 +73,7 @@ MarkedCells marked_by_list(const DistributedMesh& mesh, std::span<const CellInde
                                      mesh.cells.size()));
     }
     marked.count = marked.cells.size();
-    marked.judged = listed.size();
+    marked.tested = listed.size();
     return marked;
 }
 
@@ -112,7 +112,7 @@ MarkedCells cells_with_marked_edges(const DistributedMesh& mesh,
                                      mesh.processes.rank(), a.value(), b.value()));
     }
     cells.count = cells.cells.size();
-    cells.judged = mesh.cells.size();
+    cells.tested = mesh.cells.size();
     return cells;
 }
 

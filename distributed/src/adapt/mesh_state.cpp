@@ -63,9 +63,9 @@ Migration unmoved(const DistributedMesh& mesh) {
 
 Adaptation unchanged(const DistributedMesh& mesh) {
     return {.changed = false,
-            .cells = Succession(mesh.cells.size()),
-            .facets = Succession(mesh.facets.size()),
-            .edges = Succession(mesh.edges.size()),
+            .cells = EntityTransfer(mesh.cells.size()),
+            .facets = EntityTransfer(mesh.facets.size()),
+            .edges = EntityTransfer(mesh.edges.size()),
             .vertex_count_before = mesh.points.size(),
             .new_vertex_ends = {},
             .synchronisation = {}};
@@ -129,7 +129,7 @@ Adaptation AdaptiveMesh::State::take(PlannedLevel& plan) {
         const Phase maps(mesh.processes, "maps");
         adaptation = adaptation_of(plan, mesh);
         note_cells(mesh.processes, step_count + 1, plan.level->cell_count_afterwards(),
-                   plan.judged + plan.level->cells_touched());
+                   plan.tested + plan.level->cells_touched());
     });
     failure.agree(mesh.processes);
 
@@ -146,13 +146,13 @@ void AdaptiveMesh::State::note_cells_before_level() const {
     }
 }
 
-void AdaptiveMesh::State::make_room_for_history() {
+void AdaptiveMesh::State::reserve_history() {
     LocalFailure failure;
     failure.attempt([&] { forgotten.reserve(forgotten.size() + 1); });
     failure.agree(mesh.processes);
 }
 
-void AdaptiveMesh::State::move_on(State&& after, std::unique_ptr<CellsAsRoots> roots) noexcept {
+void AdaptiveMesh::State::replace_by(State&& after, std::unique_ptr<CellsAsRoots> roots) noexcept {
     after.forgotten = std::move(forgotten);
     if (roots != nullptr) after.forgotten.push_back(roots->keep());
     *this = std::move(after);

@@ -20,8 +20,8 @@ struct AdaptiveMesh::State {
     DistributedMesh mesh;
     CanonicalNumbers numbers;
     Sharing<VertexIndex> sharing;
-    int step_count = 0;        ///< including forgotten steps
-    std::uint64_t waited = 0;  ///< see uneven_level()
+    int step_count = 0;                  ///< including forgotten steps
+    std::uint64_t accumulated_idle = 0;  ///< see uneven_level()
     /// The history of this process's part before each time that cells became roots.
     std::vector<History> forgotten;
 
@@ -36,11 +36,12 @@ struct AdaptiveMesh::State {
     Adaptation take(PlannedLevel& plan);
     /// Records the number of cells before the first level of a profile.
     void note_cells_before_level() const;
-    /// Collective. Reserves capacity for the history that `roots` holds; called before move_on().
-    void make_room_for_history();
+    /// Collective. Reserves capacity for the history that `roots` holds; called before
+    /// replace_by().
+    void reserve_history();
     /// Replaces *this by `after`, the state after migration. If `roots` is not null, cells have
     /// become the roots, and the previous history is added to `forgotten`.
-    void move_on(State&& after, std::unique_ptr<CellsAsRoots> roots) noexcept;
+    void replace_by(State&& after, std::unique_ptr<CellsAsRoots> roots) noexcept;
 };
 
 [[nodiscard]] RefineOptions level_options(const StepOptions& options);
@@ -67,10 +68,10 @@ struct AdaptiveMesh::State {
                                       std::span<const int> rank_of_root);
 
 /// Collective. Returns the state after the migration of each root of this process to the given
-/// rank. The mesh must be in canonical order; `cells_outside` has the number of each cell outside
-/// that order, or is empty if it is the same.
+/// rank. The mesh must be in canonical order; `unordered_cell_ids` has the number of each cell
+/// outside that order, or is empty if it is the same.
 [[nodiscard]] std::optional<AdaptiveMesh::State> moved_state(
-    const AdaptiveMesh::State& state, std::span<const CellIndex> cells_outside,
+    const AdaptiveMesh::State& state, std::span<const CellIndex> unordered_cell_ids,
     std::span<const int> rank_of_root, Migration& migration);
 
 /// Collective. Returns the state of a mesh that has only its history, in canonical order.

@@ -113,7 +113,7 @@ std::optional<Border> find_border(const DistributedMesh& mesh, const CanonicalNu
 }  // namespace
 
 std::optional<AdaptiveMesh::State> moved_state(const AdaptiveMesh::State& state,
-                                               std::span<const CellIndex> cells_outside,
+                                               std::span<const CellIndex> unordered_cell_ids,
                                                std::span<const int> rank_of_root,
                                                Migration& migration) {
     const Communicator& processes = state.mesh.processes;
@@ -123,7 +123,7 @@ std::optional<AdaptiveMesh::State> moved_state(const AdaptiveMesh::State& state,
     failure.agree(processes);
     MovedEntities moved;
     failure.attempt([&] {
-        moved = moved_entities({&state.mesh, rank_of_root, cells_outside},
+        moved = moved_entities({&state.mesh, rank_of_root, unordered_cell_ids},
                                {&merged->mesh, merged->rank_of_root}, state.sharing,
                                std::move(merged->kept_vertices));
     });
@@ -185,7 +185,7 @@ Migration migrate_state(AdaptiveMesh::State& state, std::span<const int> rank_of
     std::optional<AdaptiveMesh::State> after =
         moved_state(state, order->cells_before(), rank_of_root, migration);
     order->keep();
-    state.move_on(*std::move(after), nullptr);
+    state.replace_by(*std::move(after), nullptr);
     return migration;
 }
 
@@ -208,13 +208,13 @@ Migration rebalance_state(AdaptiveMesh::State& state, const BalanceOptions& opti
     const auto ranks =
         even_parts_or_roots(state.mesh, std::ref(weigh), options, roots, &state.numbers, failure);
     if (!ranks) return unmoved(state.mesh);
-    if (roots != nullptr) state.make_room_for_history();
+    if (roots != nullptr) state.reserve_history();
     const Phase phase(processes, "migrate");
     Migration migration;
     std::optional<AdaptiveMesh::State> after =
         moved_state(state, order->cells_before(), *ranks, migration);
     order->keep();
-    state.move_on(*std::move(after), std::move(roots));
+    state.replace_by(*std::move(after), std::move(roots));
     return migration;
 }
 
@@ -232,14 +232,14 @@ Migration recall_history(AdaptiveMesh::State& state) {
     Migration migration;
     std::optional<AdaptiveMesh::State> after =
         moved_state(state, order->cells_before(), ranks, migration);
-    bring_tagged_to_history(after->mesh, after->numbers.of_vertex, before);
+    move_tagged_to_history(after->mesh, after->numbers.of_vertex, before);
     std::optional<History> history;  // not a default object, which would allocate
     failure.attempt([&] { history = joined(before, after->mesh); });
     failure.agree(state.mesh.processes);
     history->swap_with(after->mesh);
     order->keep();
     state.forgotten.pop_back();
-    state.move_on(*std::move(after), nullptr);
+    state.replace_by(*std::move(after), nullptr);
     return migration;
 }
 

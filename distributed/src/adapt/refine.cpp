@@ -18,7 +18,7 @@ namespace {
 std::size_t bisect_and_commit(DistributedMesh& mesh, PlannedLevel& plan,
                               const RefineOptions& options, int level) {
     bisect_level(plan, mesh, options, level);
-    const std::size_t touched = plan.judged + plan.level->cells_touched();
+    const std::size_t touched = plan.tested + plan.level->cells_touched();
     plan.commit();
     return touched;
 }
@@ -54,7 +54,7 @@ SynchronisationCounts refine(DistributedMesh& mesh, const Selection& selection,
     }
     note_cells(mesh.processes, 0, mesh.cells.size(), 0);
     RefineOptions of_level = options;
-    std::uint64_t waited = 0;
+    std::uint64_t accumulated_idle = 0;
     for (int level = 1; level <= options.levels; ++level) {
         const Phase phase(mesh.processes, "level", level);
         const auto mark = [&] { return mark_cells(mesh, selection, level > 1); };
@@ -64,7 +64,7 @@ SynchronisationCounts refine(DistributedMesh& mesh, const Selection& selection,
         const SynchronisationCounts counts = plan.counts;
         std::optional<UnevenLevel> uneven;
         if (options.balance)
-            uneven = uneven_level(mesh, plan, *options.balance, of_level, tuning, waited);
+            uneven = uneven_level(mesh, plan, *options.balance, of_level, tuning, accumulated_idle);
         const std::size_t touched =
             uneven ? move_and_bisect(mesh, *std::move(uneven), of_level, tuning, level)
                    : bisect_and_commit(mesh, plan, of_level, level);

@@ -23,14 +23,14 @@ EvenStep refine_state_evenly(AdaptiveMesh::State& state, const std::function<Mar
     PlannedLevel plan = close_level(state.mesh, mark, level_of, tuning);
     if (!plan.changes_anything()) return {unmoved(state.mesh), unchanged(state.mesh)};
     const SynchronisationCounts counts = plan.counts;
-    std::optional<UnevenLevel> uneven =
-        uneven_level(state.mesh, plan, balance, level_of, tuning, state.waited, &state.numbers);
+    std::optional<UnevenLevel> uneven = uneven_level(state.mesh, plan, balance, level_of, tuning,
+                                                     state.accumulated_idle, &state.numbers);
     if (!uneven) {
         Migration nothing = unmoved(state.mesh);  // of the mesh before the level
         bisect_level(plan, state.mesh, level_of, level);
         return {std::move(nothing), state.take(plan)};
     }
-    if (uneven->roots != nullptr) state.make_room_for_history();
+    if (uneven->roots != nullptr) state.reserve_history();
     MovedLevel moved = moved_level(state, *uneven, level_of, tuning);
     bisect_level(moved.plan, moved.state->mesh, level_of, level);
     EvenStep done{std::move(moved.migration), moved.state->take(moved.plan)};
@@ -39,7 +39,7 @@ EvenStep refine_state_evenly(AdaptiveMesh::State& state, const std::function<Mar
     std::unique_ptr<CellsAsRoots> roots = std::move(uneven->roots);
     if (uneven->order != nullptr) uneven->order->keep();
     uneven.reset();
-    state.move_on(std::move(*moved.state), std::move(roots));
+    state.replace_by(std::move(*moved.state), std::move(roots));
     return done;
 }
 

@@ -14,7 +14,7 @@
 #include "comm/local_failure.hpp"
 #include "history/cut_roots.hpp"
 #include "partition/rcb.hpp"
-#include "setup/homes.hpp"
+#include "setup/owners.hpp"
 
 namespace octetra::distributed {
 namespace {
@@ -50,9 +50,10 @@ class ShareOfFile {
 public:
     ShareOfFile(const Communicator& processes, const CheckpointReader& file) : file_(&file) {
         const int rank = processes.rank();
-        const Homes homes = homes_of_blocks(file.facts().cells, block_length, processes.size());
-        begin_ = homes.begin_of(rank);
-        const std::uint64_t end = homes.end_of(rank);
+        const OwnerMap owners =
+            owners_of_blocks(file.facts().cells, block_length, processes.size());
+        begin_ = owners.begin_of(rank);
+        const std::uint64_t end = owners.end_of(rank);
         const auto corners = file.read_vertices<4>(Section::cells, begin_, end);
         const auto regions = file.read<Marker>(Section::regions, begin_, end);
         roots.roots.reserve(corners.size());
@@ -76,12 +77,12 @@ public:
 private:
     void take_block(std::uint64_t block) {
         const auto steps = file_->read_cuts(block, found);
-        RootsApart<RunList> apart({steps.begin(), steps.end()});
+        RootSplitter<RunList> splitter({steps.begin(), steps.end()});
         const std::uint64_t first = block * block_length - begin_;
         const std::uint64_t length = shape_of(file_->facts(), Section::cuts).length_of(block);
         for (std::uint64_t i = first; i < first + length; ++i) {
             const std::size_t before = roots.cuts.size();
-            weights[i] = apart.append_next(roots.cuts);
+            weights[i] = splitter.append_next(roots.cuts);
             roots.roots[i].cut_bytes = static_cast<std::uint32_t>(roots.cuts.size() - before);
         }
     }
@@ -128,16 +129,16 @@ void check_steps(const Communicator& processes, const CheckpointReader& file,
 
 /// The share of vertices that this process reads.
 struct VertexShare {
-    Homes homes;
+    OwnerMap owners;
     std::uint64_t begin = 0;
     std::vector<Point> points;
     std::vector<Marker> markers;
     std::vector<double> attributes;
 
     VertexShare(const Communicator& processes, const CheckpointReader& file)
-        : homes(homes_of_blocks(file.facts().vertices, block_length, processes.size())),
-          begin(homes.begin_of(processes.rank())) {
-        const std::uint64_t end = homes.end_of(processes.rank());
+        : owners(owners_of_blocks(file.facts().vertices, block_length, processes.size())),
+          begin(owners.begin_of(processes.rank())) {
+        const std::uint64_t end = owners.end_of(processes.rank());
         points = file.read_points(begin, end);
         markers = file.read<Marker>(Section::point_markers, begin, end);
         attributes = file.read<double>(Section::point_attributes, begin, end);
@@ -149,7 +150,7 @@ std::vector<int> parts_by_coordinates(const Communicator& processes, const Share
                                       const VertexShare& vertices, LocalFailure& failure) {
     std::vector<std::uint64_t> numbers;
     failure.attempt([&] { numbers = vertices_of(share.roots); });
-    const Requests requests = request(processes, vertices.homes, numbers, failure);
+    const Requests requests = request(processes, vertices.owners, numbers, failure);
     const auto points = fetch(processes, requests, vertices.points, vertices.begin, failure);
     const auto& roots = share.roots.roots;
     const auto centroid_of = [&](std::size_t i) {
@@ -253,13 +254,13 @@ void take_roots(Roots roots, const CheckpointFacts& facts, LoadedPart& part) {
 }
 
 /// Adds the vertices of this process's share that no process has requested.
-void take_unwanted(const VertexShare& share, const Requests<>& requests, MeshPart& part) {
-    std::vector<bool> is_wanted(share.points.size(), false);
+void add_unrequested(const VertexShare& share, const Requests<>& requests, MeshPart& part) {
+    std::vector<bool> is_requested(share.points.size(), false);
     for (const auto& numbers : requests.received) {
-        for (const std::uint64_t number : numbers) is_wanted[number - share.begin] = true;
+        for (const std::uint64_t number : numbers) is_requested[number - share.begin] = true;
     }
-    for (std::size_t i = 0; i < is_wanted.size(); ++i) {
-        if (is_wanted[i]) continue;
+    for (std::size_t i = 0; i < is_requested.size(); ++i) {
+        if (is_requested[i]) continue;
         part.vertex_numbers.push_back(share.begin + i);
         part.points.push_back(share.points[i]);
         if (!share.markers.empty()) part.point_markers.push_back(share.markers[i]);
@@ -276,14 +277,14 @@ Requests<> take_vertices(const Communicator& processes, const VertexShare& share
                          const CheckpointFacts& facts, const Roots& roots, MeshPart& part,
                          LocalFailure& failure) {
     failure.attempt([&] { part.vertex_numbers = vertices_of(roots); });
-    Requests requests = request(processes, share.homes, part.vertex_numbers, failure);
-    const auto bring = [&](const auto& home, std::size_t components) {
-        return fetch(processes, requests, home, share.begin, failure, components);
+    Requests requests = request(processes, share.owners, part.vertex_numbers, failure);
+    const auto fetch_owned = [&](const auto& owned, std::size_t components) {
+        return fetch(processes, requests, owned, share.begin, failure, components);
     };
-    part.points = bring(share.points, 1);
-    if (facts.has_point_markers) part.point_markers = bring(share.markers, 1);
-    part.point_attributes = bring(share.attributes, part.attributes_per_point);
-    failure.attempt([&] { take_unwanted(share, requests, part); });
+    part.points = fetch_owned(share.points, 1);
+    if (facts.has_point_markers) part.point_markers = fetch_owned(share.markers, 1);
+    part.point_attributes = fetch_owned(share.attributes, part.attributes_per_point);
+    failure.attempt([&] { add_unrequested(share, requests, part); });
     return requests;
 }
 
@@ -304,9 +305,9 @@ SharedFeatures share_of_features(const Communicator& processes, const Checkpoint
     if (!has_any(counts)) return {};
     FeatureLists lists;
     for (const Feature f : all_features) {
-        const Homes homes = homes_of_blocks(counts[f], block_length, processes.size());
-        lists[f] =
-            file.read_features(f, homes.begin_of(processes.rank()), homes.end_of(processes.rank()));
+        const OwnerMap owners = owners_of_blocks(counts[f], block_length, processes.size());
+        lists[f] = file.read_features(f, owners.begin_of(processes.rank()),
+                                      owners.end_of(processes.rank()));
     }
     return std::make_shared<const FeatureLists>(std::move(lists));
 }
@@ -338,10 +339,10 @@ LoadedPart load_part(const Communicator& processes, const CheckpointReader& file
     const Requests requests =
         take_vertices(processes, *vertices, facts, roots, part.input, failure);
     const auto facets =
-        bring_tagged<3>(processes, file, vertices->homes, requests, roots.roots, Section::facets,
-                        Section::facet_markers, cell_faces, failure);
-    const auto edges = bring_tagged<2>(processes, file, vertices->homes, requests, roots.roots,
-                                       Section::edges, Section::edge_markers, cell_edges, failure);
+        load_tagged<3>(processes, file, vertices->owners, requests, roots.roots, Section::facets,
+                       Section::facet_markers, cell_faces, failure);
+    const auto edges = load_tagged<2>(processes, file, vertices->owners, requests, roots.roots,
+                                      Section::edges, Section::edge_markers, cell_edges, failure);
     failure.attempt([&] {
         take_tagged(facets, facts.has_facet_markers, part.input.facets, part.input.facet_markers,
                     part.input.facet_numbers);

@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "comm/local_failure.hpp"
-#include "fields/wanted_values.hpp"
+#include "fields/requested_values.hpp"
 
 namespace octetra::distributed {
 namespace {
@@ -12,14 +12,15 @@ namespace {
 /// Collective. Reads and fetches the values of field `number`.
 template <class T>
 std::vector<T> values_of(const Communicator& processes, const CheckpointReader& file,
-                         std::size_t number, std::size_t components, const WantedValues& wanted) {
+                         std::size_t number, std::size_t components,
+                         const RequestedValues& requested) {
     LocalFailure failure;
-    std::vector<T> home;
-    const std::uint64_t begin = wanted.homes.begin_of(processes.rank());
-    const std::uint64_t end = wanted.homes.end_of(processes.rank());
-    failure.attempt([&] { home = file.read<T>(field_section(number), begin, end); });
+    std::vector<T> owned;
+    const std::uint64_t begin = requested.owners.begin_of(processes.rank());
+    const std::uint64_t end = requested.owners.end_of(processes.rank());
+    failure.attempt([&] { owned = file.read<T>(field_section(number), begin, end); });
     failure.agree(processes);
-    return fetch_values(processes, wanted, home, components);
+    return fetch_values(processes, requested, owned, components);
 }
 
 }  // namespace
@@ -29,20 +30,20 @@ std::vector<Field> load_fields(const DistributedMesh& mesh, std::span<const Cell
     std::vector<Field> fields;
     if (file.facts().fields.empty()) return fields;
     const Communicator& processes = mesh.processes;
-    const auto from_blocks = [&](WantedEntities entities, std::uint64_t count) {
-        return ask_for(processes, std::move(entities),
-                       homes_of_blocks(count, block_length, processes.size()));
+    const auto from_blocks = [&](RequestedEntities entities, std::uint64_t count) {
+        return send_requests(processes, std::move(entities),
+                             owners_of_blocks(count, block_length, processes.size()));
     };
-    const WantedValues vertices = from_blocks(wanted_vertices(numbers), numbers.vertex_count);
+    const RequestedValues vertices = from_blocks(requested_vertices(numbers), numbers.vertex_count);
     const CanonicalRuns runs = canonical_runs(processes, mesh.cell_ancestors);
-    const WantedValues cells =
-        from_blocks(wanted_cells(runs, mesh.cell_ancestors, cells_before), runs.count);
+    const RequestedValues cells =
+        from_blocks(requested_cells(runs, mesh.cell_ancestors, cells_before), runs.count);
     for (std::size_t f = 0; f < file.facts().fields.size(); ++f) {
         const FieldFacts& facts = file.facts().fields[f];
-        const WantedValues& wanted = facts.on == FieldOn::vertices ? vertices : cells;
+        const RequestedValues& requested = facts.on == FieldOn::vertices ? vertices : cells;
         Field field{facts.name, facts.on, facts.components, {}};
         const auto load = [&]<class T>(T) {
-            field.values = values_of<T>(processes, file, f, facts.components, wanted);
+            field.values = values_of<T>(processes, file, f, facts.components, requested);
         };
         switch (facts.type) {
             case FieldType::float64: load(double{}); break;

@@ -12,7 +12,7 @@
 #include <octetra/distributed/communicator.hpp>
 
 #include "comm/local_failure.hpp"
-#include "setup/homes.hpp"
+#include "setup/owners.hpp"
 
 namespace octetra::distributed {
 
@@ -27,71 +27,71 @@ struct Tagged {
 /// Collective. Sends the facets or edges that this process reads to the owners of their first
 /// vertices.
 template <std::size_t N>
-[[nodiscard]] std::vector<Tagged<N>> send_home(const Communicator& processes,
-                                               const CheckpointReader& file,
-                                               const Homes& vertex_homes, Section section,
-                                               Section markers, LocalFailure& failure) {
-    std::vector<std::vector<Tagged<N>>> to_homes;
+[[nodiscard]] std::vector<Tagged<N>> send_to_owners(const Communicator& processes,
+                                                    const CheckpointReader& file,
+                                                    const OwnerMap& vertex_owners, Section section,
+                                                    Section markers, LocalFailure& failure) {
+    std::vector<std::vector<Tagged<N>>> to_owners;
     failure.attempt([&] {
-        const Homes homes =
-            homes_of_blocks(shape_of(file.facts(), section).count, block_length, processes.size());
-        const std::uint64_t begin = homes.begin_of(processes.rank());
-        const std::uint64_t end = homes.end_of(processes.rank());
+        const OwnerMap owners =
+            owners_of_blocks(shape_of(file.facts(), section).count, block_length, processes.size());
+        const std::uint64_t begin = owners.begin_of(processes.rank());
+        const std::uint64_t end = owners.end_of(processes.rank());
         const auto lists = file.read_vertices<N>(section, begin, end);
         const auto tags = file.read<Marker>(markers, begin, end);
-        to_homes.resize(static_cast<std::size_t>(processes.size()));
+        to_owners.resize(static_cast<std::size_t>(processes.size()));
         for (std::size_t i = 0; i < lists.size(); ++i) {
-            const auto home = static_cast<std::size_t>(vertex_homes.rank_of(lists[i][0]));
-            to_homes[home].push_back({begin + i, lists[i], tags.empty() ? Marker{0} : tags[i]});
+            const auto owner = static_cast<std::size_t>(vertex_owners.rank_of(lists[i][0]));
+            to_owners[owner].push_back({begin + i, lists[i], tags.empty() ? Marker{0} : tags[i]});
         }
     });
     failure.agree(processes);
-    std::vector<Tagged<N>> at_home;
+    std::vector<Tagged<N>> owned;
     failure.attempt([&] {
-        for (const auto& box : processes.all_to_all(to_homes)) {
-            at_home.insert(at_home.end(), box.begin(), box.end());
+        for (const auto& box : processes.all_to_all(to_owners)) {
+            owned.insert(owned.end(), box.begin(), box.end());
         }
-        std::ranges::sort(at_home, {}, [](const Tagged<N>& tagged) { return tagged.vertices[0]; });
+        std::ranges::sort(owned, {}, [](const Tagged<N>& tagged) { return tagged.vertices[0]; });
     });
-    return at_home;
+    return owned;
 }
 
 /// Collective. Sends them on to all processes that have requested their first vertex.
 template <std::size_t N>
 [[nodiscard]] std::vector<Tagged<N>> send_to_parts(const Communicator& processes,
                                                    const Requests<>& requests,
-                                                   const std::vector<Tagged<N>>& at_home,
+                                                   const std::vector<Tagged<N>>& owned,
                                                    LocalFailure& failure) {
     std::vector<std::vector<Tagged<N>>> to_parts;
     failure.attempt([&] {
         to_parts.resize(static_cast<std::size_t>(processes.size()));
         for (std::size_t rank = 0; rank < to_parts.size(); ++rank) {
-            auto next = at_home.begin();
+            auto next = owned.begin();
             for (const std::uint64_t number : requests.received[rank]) {  // ascending
-                while (next != at_home.end() && next->vertices[0] < number) ++next;
-                for (auto k = next; k != at_home.end() && k->vertices[0] == number; ++k) {
+                while (next != owned.end() && next->vertices[0] < number) ++next;
+                for (auto k = next; k != owned.end() && k->vertices[0] == number; ++k) {
                     to_parts[rank].push_back(*k);
                 }
             }
         }
     });
     failure.agree(processes);
-    std::vector<Tagged<N>> come;
+    std::vector<Tagged<N>> received;
     failure.attempt([&] {
         for (const auto& box : processes.all_to_all(to_parts)) {
-            come.insert(come.end(), box.begin(), box.end());
+            received.insert(received.end(), box.begin(), box.end());
         }
     });
-    return come;
+    return received;
 }
 
 /// Returns the entities that are sides of `cells`, sorted by number.
 template <std::size_t N, std::size_t Sides>
 [[nodiscard]] std::vector<Tagged<N>> sides_among(
-    const std::vector<Tagged<N>>& come, const auto& cells,
+    const std::vector<Tagged<N>>& received, const auto& cells,
     const std::array<std::array<std::uint8_t, N>, Sides>& sides) {
     std::vector<std::pair<VertexNumbers<N>, Tagged<N>>> candidates;
-    for (const Tagged<N>& tagged : come) {
+    for (const Tagged<N>& tagged : received) {
         VertexNumbers<N> key = tagged.vertices;
         std::ranges::sort(key);
         candidates.emplace_back(key, tagged);
@@ -127,14 +127,14 @@ template <std::size_t N>
 void check_all_are_sides(const Communicator& processes, const CheckpointReader& file,
                          Section section, const std::vector<Tagged<N>>& tagged,
                          LocalFailure& failure) {
-    Homes homes;
+    OwnerMap owners;
     std::vector<std::vector<std::uint64_t>> outboxes;
     failure.attempt([&] {
-        homes =
-            homes_of_blocks(shape_of(file.facts(), section).count, block_length, processes.size());
+        owners =
+            owners_of_blocks(shape_of(file.facts(), section).count, block_length, processes.size());
         outboxes.resize(static_cast<std::size_t>(processes.size()));
         for (const Tagged<N>& one : tagged) {
-            outboxes[static_cast<std::size_t>(homes.rank_of(one.number))].push_back(one.number);
+            outboxes[static_cast<std::size_t>(owners.rank_of(one.number))].push_back(one.number);
         }
     });
     failure.agree(processes);
@@ -142,8 +142,8 @@ void check_all_are_sides(const Communicator& processes, const CheckpointReader& 
     failure.attempt([&] { inboxes = processes.all_to_all(outboxes); });
     failure.agree(processes);  // otherwise numbers of a failed process would seem to be missing
     failure.attempt([&] {
-        const std::uint64_t begin = homes.begin_of(processes.rank());
-        std::vector<bool> is_side(homes.end_of(processes.rank()) - begin, false);
+        const std::uint64_t begin = owners.begin_of(processes.rank());
+        std::vector<bool> is_side(owners.end_of(processes.rank()) - begin, false);
         for (const auto& inbox : inboxes) {
             for (const std::uint64_t number : inbox) is_side[number - begin] = true;
         }
@@ -160,14 +160,14 @@ void check_all_are_sides(const Communicator& processes, const CheckpointReader& 
 /// from its reader to the owner of its first vertex, and from there to all processes that have
 /// requested that vertex.
 template <std::size_t N, std::size_t Sides>
-[[nodiscard]] std::vector<Tagged<N>> bring_tagged(
-    const Communicator& processes, const CheckpointReader& file, const Homes& vertex_homes,
+[[nodiscard]] std::vector<Tagged<N>> load_tagged(
+    const Communicator& processes, const CheckpointReader& file, const OwnerMap& vertex_owners,
     const Requests<>& requests, const auto& cells, Section section, Section markers,
     const std::array<std::array<std::uint8_t, N>, Sides>& sides, LocalFailure& failure) {
-    const auto at_home = send_home<N>(processes, file, vertex_homes, section, markers, failure);
-    const auto come = send_to_parts(processes, requests, at_home, failure);
+    const auto owned = send_to_owners<N>(processes, file, vertex_owners, section, markers, failure);
+    const auto received = send_to_parts(processes, requests, owned, failure);
     std::vector<Tagged<N>> tagged;
-    failure.attempt([&] { tagged = sides_among(come, cells, sides); });
+    failure.attempt([&] { tagged = sides_among(received, cells, sides); });
     failure.agree(processes);
     check_all_are_sides(processes, file, section, tagged, failure);
     return tagged;

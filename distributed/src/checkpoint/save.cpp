@@ -48,20 +48,20 @@ CheckpointFacts facts_of(const SavedMesh& saved, const MeshFacts& input,
 class RootSender {
 public:
     explicit RootSender(const SavedMesh& saved)
-        : ancestors_(&saved.mesh->cell_ancestors), apart_(readers(saved.steps)) {}
+        : ancestors_(&saved.mesh->cell_ancestors), splitter_(readers(saved.steps)) {}
 
     /// Collective. Returns the steps of the roots in this process's slice.
-    std::vector<CutRuns> bring(const Window& window, const Communicator& processes,
-                               std::size_t step_count) {
+    std::vector<CutRuns> receive_slice(const Window& window, const Communicator& processes,
+                                       std::size_t step_count) {
         std::vector<std::vector<std::uint8_t>> outboxes(static_cast<std::size_t>(processes.size()));
         for (int rank = 0; rank < processes.size(); ++rank) {
             pack(window.begin_of(rank), window.end_of(rank),
                  outboxes[static_cast<std::size_t>(rank)]);
         }
         const auto inboxes = processes.all_to_all(outboxes);
-        return together(inboxes,
-                        window.end_of(processes.rank()) - window.begin_of(processes.rank()),
-                        step_count);
+        return joined_steps(inboxes,
+                            window.end_of(processes.rank()) - window.begin_of(processes.rank()),
+                            step_count);
     }
 
 private:
@@ -79,17 +79,17 @@ private:
                 ++whole_;
                 continue;
             }
-            apart_.skip_whole(std::exchange(whole_, 0));
+            splitter_.skip_whole(std::exchange(whole_, 0));
             bytes.clear();
-            (void)apart_.append_next(bytes);
+            (void)splitter_.append_next(bytes);
             append_number(roots[next_] - begin, outbox);
             append_number(bytes.size(), outbox);
             outbox.insert(outbox.end(), bytes.begin(), bytes.end());
         }
     }
 
-    static std::vector<CutRuns> together(const std::vector<std::vector<std::uint8_t>>& inboxes,
-                                         std::uint64_t length, std::size_t step_count) {
+    static std::vector<CutRuns> joined_steps(const std::vector<std::vector<std::uint8_t>>& inboxes,
+                                             std::uint64_t length, std::size_t step_count) {
         std::vector<std::pair<std::uint64_t, RootBytes>> roots;
         for (const auto& inbox : inboxes) {
             for (RootBytes rest = inbox; !rest.empty();) {
@@ -102,7 +102,7 @@ private:
             }
         }
         std::ranges::sort(roots, {}, [](const auto& root) { return root.first; });
-        RootsTogether joined(step_count);
+        RootJoiner joined(step_count);
         std::uint64_t next = 0;
         for (const auto& [position, bytes] : roots) {
             joined.append_whole(position - next);
@@ -114,7 +114,7 @@ private:
     }
 
     const AncestorMap* ancestors_;
-    RootsApart<CutReader> apart_;
+    RootSplitter<CutReader> splitter_;
     std::size_t next_ = 0;     ///< index of the next root of this process
     std::uint64_t whole_ = 0;  ///< preceding uncut roots that are not yet skipped
 };
@@ -126,7 +126,7 @@ void put_cuts(CheckpointWriter& writer, const SavedMesh& saved) {
     std::vector<StepFacts> facts(saved.steps.size());
     std::vector<std::byte> block;
     writer.put_section(Section::cuts, [&](const Window& window) {
-        const auto steps = sender.bring(window, processes, saved.steps.size());
+        const auto steps = sender.receive_slice(window, processes, saved.steps.size());
         const bool has_slice = window.begin_of(processes.rank()) < window.end_of(processes.rank());
         block = has_slice ? cuts_block(steps, facts) : std::vector<std::byte>{};
         return std::span<const std::byte>(block);

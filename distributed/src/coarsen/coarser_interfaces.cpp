@@ -11,10 +11,10 @@ namespace {
 /// of their edges. There is none if that results in too many vertices: an edge between children of
 /// a face is not part of a coarse edge.
 template <std::size_t N>
-class Whole {
+class CoarseEntity {
 public:
-    Whole(const std::array<VertexIndex, N>& piece, const VertexLevels& levels,
-          const KeptVertices& kept) {
+    CoarseEntity(const std::array<VertexIndex, N>& piece, const VertexLevels& levels,
+                 const KeptVertices& kept) {
         for (const VertexIndex v : piece) {
             if (kept[v] != 0) {
                 add(v);
@@ -42,19 +42,21 @@ private:
     std::size_t count_ = 0;
 };
 
-/// Removes repeated entries of `wholes`, which are given with their positions in the list; the
-/// first of each is kept.
+/// Removes repeated entries of `coarse_entities`, which are given with their positions in the list;
+/// the first of each is kept.
 template <class Vertices>
-std::vector<Vertices> each_once(const std::vector<Vertices>& list,
-                                std::vector<std::pair<Vertices, std::size_t>> wholes) {
-    std::ranges::sort(wholes);
-    std::vector<bool> is_again(list.size(), false);
-    for (std::size_t k = 1; k < wholes.size(); ++k) {
-        is_again[wholes[k].second] = wholes[k].first == wholes[k - 1].first;
+std::vector<Vertices> without_duplicates(
+    const std::vector<Vertices>& list,
+    std::vector<std::pair<Vertices, std::size_t>> coarse_entities) {
+    std::ranges::sort(coarse_entities);
+    std::vector<bool> is_duplicate(list.size(), false);
+    for (std::size_t k = 1; k < coarse_entities.size(); ++k) {
+        is_duplicate[coarse_entities[k].second] =
+            coarse_entities[k].first == coarse_entities[k - 1].first;
     }
     std::vector<Vertices> result;
     for (std::size_t k = 0; k < list.size(); ++k) {
-        if (!is_again[k]) result.push_back(list[k]);
+        if (!is_duplicate[k]) result.push_back(list[k]);
     }
     return result;
 }
@@ -64,18 +66,19 @@ std::vector<std::array<VertexIndex, N>> coarser(const std::vector<std::array<Ver
                                                 const VertexLevels& levels,
                                                 const KeptVertices& kept) {
     std::vector<std::array<VertexIndex, N>> result;
-    std::vector<std::pair<std::array<VertexIndex, N>, std::size_t>> wholes;
+    std::vector<std::pair<std::array<VertexIndex, N>, std::size_t>> coarse_entities;
     for (const auto& piece : list) {
         if (std::ranges::all_of(piece, [&](VertexIndex v) { return kept[v] != 0; })) {
             result.push_back(piece);
             continue;
         }
-        const Whole<N> whole(piece, levels, kept);
+        const CoarseEntity<N> whole(piece, levels, kept);
         if (!whole.exists()) continue;
-        wholes.emplace_back(whole.vertices(), result.size());
+        coarse_entities.emplace_back(whole.vertices(), result.size());
         result.push_back(whole.vertices());
     }
-    return wholes.empty() ? result : each_once(result, std::move(wholes));
+    return coarse_entities.empty() ? result
+                                   : without_duplicates(result, std::move(coarse_entities));
 }
 
 }  // namespace

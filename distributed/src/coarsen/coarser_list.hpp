@@ -11,7 +11,7 @@
 #include <octetra/distributed/distributed_mesh.hpp>
 
 #include "coarsen/kept_vertices.hpp"
-#include "coarsen/level_shares.hpp"
+#include "coarsen/level_removals.hpp"
 #include "history/families.hpp"
 
 namespace octetra::distributed {
@@ -24,7 +24,7 @@ struct CoarserList {
     std::vector<std::uint32_t> first;  ///< as in AncestorMap
     /// For each previous entity, the entity that it is or was merged into, and the number of
     /// bisections that separate it from that entity.
-    std::vector<std::uint32_t> whole_of;
+    std::vector<std::uint32_t> coarse_of;
     std::vector<std::uint8_t> halvings;
 };
 
@@ -47,37 +47,39 @@ class ListCoarsening {
 public:
     using Vertices = std::array<VertexIndex, N>;
 
-    ListCoarsening(const VertexLevels& levels, const LevelShares& shares, const KeptVertices& kept)
-        : levels_(&levels), shares_(&shares), kept_(&kept), families_(levels) {}
+    ListCoarsening(const VertexLevels& levels, const LevelRemovals& removals,
+                   const KeptVertices& kept)
+        : levels_(&levels), removals_(&removals), kept_(&kept), families_(levels) {}
 
     /// divide(level, root, parent, midpoints) returns the children of a parent; `root` is the
     /// position of its root among this process's roots.
     [[nodiscard]] CoarserList<I, N> run(const IndexVector<I, Vertices>& list, auto&& divide) {
-        reserve_in_huge_pages(made_.whole_of, list.size());
-        reserve_in_huge_pages(made_.halvings, list.size());
-        reserve_in_huge_pages(made_.list, list.size());
-        const auto parent_met = [&](std::uint32_t level, const Vertices& parent,
-                                    std::span<const Member> members) {
+        reserve_in_huge_pages(result_.coarse_of, list.size());
+        reserve_in_huge_pages(result_.halvings, list.size());
+        reserve_in_huge_pages(result_.list, list.size());
+        const auto on_parent = [&](std::uint32_t level, const Vertices& parent,
+                                   std::span<const Member> members) {
             return merge(level, parent, members, divide);
         };
-        const auto root_met = [&](const Vertices&, const Note& note) {
-            made_.first.push_back(note.begin);
+        const auto on_root = [&](const Vertices&, const Note& note) {
+            result_.first.push_back(note.begin);
         };
         const std::span<const Vertices> all = list;
         for (std::size_t i = 0; i < all.size();) {
             if (i + whole <= all.size()) {
                 const auto next = all.subspan(i).template first<whole>();
                 level_ = levels_->newest(next[0], level_);
-                if (families_.are_family(next, level_) && add_alike(next, parent_met, root_met)) {
+                if (families_.are_family(next, level_) &&
+                    add_uniform_family(next, on_parent, on_root)) {
                     i += whole;
                     continue;
                 }
             }
-            add(all[i++], parent_met, root_met);
+            add(all[i++], on_parent, on_root);
         }
-        made_.first.push_back(end());
-        if (made_.list.size() < made_.list.capacity() / 2) made_.list.shrink_to_fit();
-        return std::move(made_);
+        result_.first.push_back(end());
+        if (result_.list.size() < result_.list.capacity() / 2) result_.list.shrink_to_fit();
+        return std::move(result_);
     }
 
 private:
@@ -85,36 +87,36 @@ private:
     struct Note {
         std::uint32_t begin = 0;
         std::uint32_t begin_before = 0;
-        bool has_gone_vertex = false;  ///< then it is an entity of the old list, not bisected
+        bool has_removed_vertex = false;  ///< then it is an entity of the old list, not bisected
     };
     using Member = typename Families<N, Note>::Member;
 
     static constexpr unsigned whole = Families<N, Note>::whole;
 
-    void add(const Vertices& vertices, auto&& parent_met, auto&& root_met) {
-        const std::uint8_t gone = count_gone(vertices);
-        const Note note{end(), end_before(), gone > 0};
-        made_.whole_of.push_back(note.begin);
-        made_.halvings.push_back(gone);
-        made_.list.push_back(vertices);
-        families_.add(vertices, note, parent_met, root_met);
+    void add(const Vertices& vertices, auto&& on_parent, auto&& on_root) {
+        const std::uint8_t removed = count_removed(vertices);
+        const Note note{end(), end_before(), removed > 0};
+        result_.coarse_of.push_back(note.begin);
+        result_.halvings.push_back(removed);
+        result_.list.push_back(vertices);
+        families_.add(vertices, note, on_parent, on_root);
     }
     /// Adds a family of which all new vertices are kept, or none: the most frequent cases.
-    [[nodiscard]] bool add_alike(std::span<const Vertices, whole> family, auto&& parent_met,
-                                 auto&& root_met) {
-        const bool all_go = shares_->all_go(level_) || has_only(0, family);
-        if (!all_go && !shares_->all_stay(level_) && !has_only(1, family)) return false;
+    [[nodiscard]] bool add_uniform_family(std::span<const Vertices, whole> family, auto&& on_parent,
+                                          auto&& on_root) {
+        const bool all_removed = removals_->all_removed(level_) || has_only(0, family);
+        if (!all_removed && !removals_->all_kept(level_) && !has_only(1, family)) return false;
         const Note note{end(), end_before(), false};
         const Vertices parent = families_.parent_of(family);
-        if (all_go) {
-            made_.whole_of.insert(made_.whole_of.end(), whole, note.begin);
-            made_.list.push_back(parent);
+        if (all_removed) {
+            result_.coarse_of.insert(result_.coarse_of.end(), whole, note.begin);
+            result_.list.push_back(parent);
         } else {
-            for (unsigned k = 0; k < whole; ++k) made_.whole_of.push_back(note.begin + k);
-            made_.list.insert(made_.list.end(), family.begin(), family.end());
+            for (unsigned k = 0; k < whole; ++k) result_.coarse_of.push_back(note.begin + k);
+            result_.list.insert(result_.list.end(), family.begin(), family.end());
         }
-        made_.halvings.insert(made_.halvings.end(), whole, all_go ? N - 1 : 0);
-        families_.add(parent, note, parent_met, root_met);
+        result_.halvings.insert(result_.halvings.end(), whole, all_removed ? N - 1 : 0);
+        families_.add(parent, note, on_parent, on_root);
         return true;
     }
     /// Returns whether all new vertices of a family are kept (1), or all are removed (0).
@@ -128,32 +130,33 @@ private:
     }
 
     [[nodiscard]] std::uint32_t end_before() const {
-        return static_cast<std::uint32_t>(made_.whole_of.size());
+        return static_cast<std::uint32_t>(result_.coarse_of.size());
     }
-    [[nodiscard]] std::uint32_t end() const { return made_.list.end_index().value(); }
-    [[nodiscard]] std::uint8_t count_gone(const Vertices& vertices) const {
-        unsigned gone = 0;
-        for (const VertexIndex v : vertices) gone += 1U - (*kept_)[v];
-        return static_cast<std::uint8_t>(gone);
+    [[nodiscard]] std::uint32_t end() const { return result_.list.end_index().value(); }
+    [[nodiscard]] std::uint8_t count_removed(const Vertices& vertices) const {
+        unsigned removed = 0;
+        for (const VertexIndex v : vertices) removed += 1U - (*kept_)[v];
+        return static_cast<std::uint8_t>(removed);
     }
 
     Note merge(std::uint32_t level, const Vertices& parent, std::span<const Member> members,
                auto&& divide) {
         const Note note{members[0].note.begin, members[0].note.begin_before, false};
-        if (std::ranges::none_of(members, [](const Member& m) { return m.note.has_gone_vertex; })) {
+        if (std::ranges::none_of(members,
+                                 [](const Member& m) { return m.note.has_removed_vertex; })) {
             return note;
         }
         const auto midpoints = kept_midpoints(level, parent, members);
         Pieces<N> pieces{1, {parent}};
         if (std::ranges::any_of(midpoints, [](VertexIndex v) { return !v.is_none(); })) {
-            pieces = divide(level, made_.first.size(), parent, midpoints);
+            pieces = divide(level, result_.first.size(), parent, midpoints);
         }
         family_.clear();
         for (std::size_t k = 0; k < pieces.count; ++k) {
-            append_piece(pieces.vertices[k], parent, members);
+            append_child(pieces.vertices[k], parent, members);
         }
-        made_.list.resize(note.begin);
-        made_.list.insert(made_.list.end(), family_.begin(), family_.end());
+        result_.list.resize(note.begin);
+        result_.list.insert(result_.list.end(), family_.begin(), family_.end());
         return note;
     }
 
@@ -172,18 +175,18 @@ private:
 
     /// Appends to the new list of the family all members that a child is, or that are merged into
     /// it.
-    void append_piece(const Vertices& piece, const Vertices& parent,
+    void append_child(const Vertices& piece, const Vertices& parent,
                       std::span<const Member> members) {
         const auto begin = static_cast<std::uint32_t>(members[0].note.begin + family_.size());
         bool is_made = false;
         for (std::size_t k = 0; k < members.size(); ++k) {
             const auto& [vertices, note] = members[k];
-            if (!note.has_gone_vertex) {
+            if (!note.has_removed_vertex) {
                 if (vertices == piece) move(members, k, begin);
                 continue;
             }
-            if (without_gone(vertices, parent) != piece) continue;
-            made_.whole_of[note.begin_before] = begin;
+            if (without_removed(vertices, parent) != piece) continue;
+            result_.coarse_of[note.begin_before] = begin;
             is_made = true;
         }
         if (is_made) family_.push_back(piece);
@@ -194,16 +197,16 @@ private:
         const bool is_last = k + 1 == members.size();
         const std::uint32_t note_end = is_last ? end() : members[k + 1].note.begin;
         const std::uint32_t before_end = is_last ? end_before() : members[k + 1].note.begin_before;
-        family_.insert(family_.end(), made_.list.begin() + note.begin,
-                       made_.list.begin() + note_end);
+        family_.insert(family_.end(), result_.list.begin() + note.begin,
+                       result_.list.begin() + note_end);
         if (begin == note.begin) return;
         for (std::size_t i = note.begin_before; i < before_end; ++i) {
-            made_.whole_of[i] += begin - note.begin;  // may be negative, modulo 2^32
+            result_.coarse_of[i] += begin - note.begin;  // may be negative, modulo 2^32
         }
     }
     /// A child has a midpoint at the position of an end of its edge. If the midpoint is removed,
     /// the end replaces it.
-    [[nodiscard]] Vertices without_gone(Vertices vertices, const Vertices& parent) const {
+    [[nodiscard]] Vertices without_removed(Vertices vertices, const Vertices& parent) const {
         for (std::size_t k = 0; k < N; ++k) {
             if ((*kept_)[vertices[k]] == 0) vertices[k] = parent[k];
         }
@@ -211,11 +214,11 @@ private:
     }
 
     const VertexLevels* levels_;
-    const LevelShares* shares_;
+    const LevelRemovals* removals_;
     const KeptVertices* kept_;
     std::uint32_t level_ = 0;  ///< of the next list entry, a good guess for the entry after it
     Families<N, Note> families_;
-    CoarserList<I, N> made_;
+    CoarserList<I, N> result_;
     IndexVector<I, Vertices> family_;  ///< the new list of one family
 };
 

@@ -10,21 +10,22 @@ namespace {
 
 /// Encoded numbers of vertices, ascending: of removed vertices, and of vertices whose new numbers
 /// are requested.
-using Questions = std::vector<std::uint64_t>;
+using Requests = std::vector<std::uint64_t>;
 
-std::uint64_t question(GlobalVertex number, bool goes) {
-    return static_cast<std::uint64_t>(number) << 1U | (goes ? 1U : 0U);
+std::uint64_t request(GlobalVertex number, bool is_removed) {
+    return static_cast<std::uint64_t>(number) << 1U | (is_removed ? 1U : 0U);
 }
-bool tells_of_gone(std::uint64_t question) { return (question & 1U) != 0; }
+bool is_removal(std::uint64_t request) { return (request & 1U) != 0; }
 
 /// Collective. Returns the first vertex of this process whose global number is at least the
 /// smallest removed one. Local numbers have the order of global ones.
 VertexIndex first_changed(const Communicator& processes, const CanonicalNumbers& numbers,
-                          VertexIndex first_gone) {
+                          VertexIndex first_removed) {
     constexpr std::uint64_t none = std::numeric_limits<std::uint64_t>::max();
     const auto& of_vertex = numbers.of_vertex;
-    const bool has_any = first_gone < of_vertex.end_index();
-    const std::uint64_t here = has_any ? static_cast<std::uint64_t>(of_vertex[first_gone]) : none;
+    const bool has_any = first_removed < of_vertex.end_index();
+    const std::uint64_t here =
+        has_any ? static_cast<std::uint64_t>(of_vertex[first_removed]) : none;
     const GlobalVertex least{none - processes.max(none - here)};
     return VertexIndex{
         static_cast<std::size_t>(std::ranges::lower_bound(of_vertex, least) - of_vertex.begin())};
@@ -32,43 +33,44 @@ VertexIndex first_changed(const Communicator& processes, const CanonicalNumbers&
 
 /// Returns the messages to each rank, for the numbers of its block. A removed vertex is reported by
 /// its owner only.
-std::vector<Questions> questions_of(const CanonicalNumbers& numbers,
-                                    const Sharing<VertexIndex>& sharing, const KeptVertices& kept,
-                                    VertexIndex first, int process_count) {
+std::vector<Requests> requests_of(const CanonicalNumbers& numbers,
+                                  const Sharing<VertexIndex>& sharing, const KeptVertices& kept,
+                                  VertexIndex first, int process_count) {
     const std::uint64_t block =
         numbers.vertex_count / static_cast<std::uint64_t>(process_count) + 1;
-    std::vector<Questions> questions(static_cast<std::size_t>(process_count));
+    std::vector<Requests> requests(static_cast<std::size_t>(process_count));
     for (VertexIndex v = first; v < kept.end_index(); ++v) {
-        const bool goes = kept[v] == 0;
-        if (goes && !sharing.is_owned(v)) continue;
+        const bool is_removed = kept[v] == 0;
+        if (is_removed && !sharing.is_owned(v)) continue;
         const GlobalVertex number = numbers.of_vertex[v];
-        questions[static_cast<std::uint64_t>(number) / block].push_back(question(number, goes));
+        requests[static_cast<std::uint64_t>(number) / block].push_back(request(number, is_removed));
     }
-    return questions;
+    return requests;
 }
 
 /// Returns the removed vertices of one block as reported by all processes, ascending.
-std::vector<std::uint64_t> gone_of_block(const std::vector<Questions>& asked) {
-    std::vector<std::uint64_t> gone;
-    for (const Questions& questions : asked) {
-        std::ranges::copy_if(questions, std::back_inserter(gone), tells_of_gone);
+std::vector<std::uint64_t> removed_in_block(const std::vector<Requests>& received_requests) {
+    std::vector<std::uint64_t> removed;
+    for (const Requests& requests : received_requests) {
+        std::ranges::copy_if(requests, std::back_inserter(removed), is_removal);
     }
-    std::ranges::sort(gone);
-    return gone;
+    std::ranges::sort(removed);
+    return removed;
 }
 
 /// Returns the number of removed vertices before each requested vertex, including those before the
 /// block.
-std::vector<std::vector<std::uint64_t>> answers_to(const std::vector<Questions>& asked,
-                                                   const std::vector<std::uint64_t>& gone,
-                                                   std::uint64_t gone_before) {
-    std::vector<std::vector<std::uint64_t>> answers(asked.size());
-    for (std::size_t r = 0; r < asked.size(); ++r) {
-        auto next = gone.begin();
-        for (const std::uint64_t question : asked[r]) {
-            if (tells_of_gone(question)) continue;
-            next = std::lower_bound(next, gone.end(), question);
-            answers[r].push_back(gone_before + static_cast<std::uint64_t>(next - gone.begin()));
+std::vector<std::vector<std::uint64_t>> answers_to(const std::vector<Requests>& received_requests,
+                                                   const std::vector<std::uint64_t>& removed,
+                                                   std::uint64_t removed_before) {
+    std::vector<std::vector<std::uint64_t>> answers(received_requests.size());
+    for (std::size_t r = 0; r < received_requests.size(); ++r) {
+        auto next = removed.begin();
+        for (const std::uint64_t request : received_requests[r]) {
+            if (is_removal(request)) continue;
+            next = std::lower_bound(next, removed.end(), request);
+            answers[r].push_back(removed_before +
+                                 static_cast<std::uint64_t>(next - removed.begin()));
         }
     }
     return answers;
@@ -76,14 +78,14 @@ std::vector<std::vector<std::uint64_t>> answers_to(const std::vector<Questions>&
 
 /// Returns the requested numbers after subtraction of the answers. A process that has failed sends
 /// no answers.
-std::vector<GlobalVertex> lessened(const std::vector<Questions>& questions,
-                                   const std::vector<std::vector<std::uint64_t>>& answers) {
+std::vector<GlobalVertex> renumbered_after_removal(
+    const std::vector<Requests>& requests, const std::vector<std::vector<std::uint64_t>>& answers) {
     std::vector<GlobalVertex> after;
-    for (std::size_t r = 0; r < questions.size(); ++r) {
+    for (std::size_t r = 0; r < requests.size(); ++r) {
         if (answers[r].empty()) continue;
         auto less = answers[r].begin();
-        for (const std::uint64_t question : questions[r]) {
-            if (!tells_of_gone(question)) after.push_back(GlobalVertex{(question >> 1U) - *less++});
+        for (const std::uint64_t request : requests[r]) {
+            if (!is_removal(request)) after.push_back(GlobalVertex{(request >> 1U) - *less++});
         }
     }
     return after;
@@ -94,7 +96,7 @@ std::vector<GlobalVertex> lessened(const std::vector<Questions>& questions,
 CoarserNumbers coarser_numbers(const Communicator& processes, const CanonicalNumbers& numbers,
                                const Sharing<VertexIndex>& sharing, const KeptVertices& kept,
                                const CoarserPart& part, LocalFailure& failure) {
-    CoarserNumbers after{.first = first_changed(processes, numbers, part.first_gone)};
+    CoarserNumbers after{.first = first_changed(processes, numbers, part.first_removed)};
     if (processes.size() == 1) {
         failure.attempt([&] {
             const std::size_t count = part.vertices_before.size();
@@ -108,22 +110,24 @@ CoarserNumbers coarser_numbers(const Communicator& processes, const CanonicalNum
     const auto somewhere_failed = [&] {
         return failure.max_unless_failed(processes, 0) == LocalFailure::somewhere;
     };
-    std::vector<Questions> questions;
+    std::vector<Requests> requests;
     failure.attempt(
-        [&] { questions = questions_of(numbers, sharing, kept, after.first, processes.size()); });
+        [&] { requests = requests_of(numbers, sharing, kept, after.first, processes.size()); });
     if (somewhere_failed()) return after;
-    std::vector<Questions> asked;
-    std::vector<std::uint64_t> gone;
+    std::vector<Requests> received_requests;
+    std::vector<std::uint64_t> removed;
     failure.attempt([&] {
-        asked = processes.all_to_all(questions);
-        gone = gone_of_block(asked);
+        received_requests = processes.all_to_all(requests);
+        removed = removed_in_block(received_requests);
     });
-    const std::uint64_t gone_before = processes.sum_before(gone.size());
-    after.vertex_count = numbers.vertex_count - processes.sum(gone.size());
+    const std::uint64_t removed_before = processes.sum_before(removed.size());
+    after.vertex_count = numbers.vertex_count - processes.sum(removed.size());
     std::vector<std::vector<std::uint64_t>> answers;
-    failure.attempt([&] { answers = answers_to(asked, gone, gone_before); });
+    failure.attempt([&] { answers = answers_to(received_requests, removed, removed_before); });
     if (somewhere_failed()) return after;
-    failure.attempt([&] { after.from_first = lessened(questions, processes.all_to_all(answers)); });
+    failure.attempt([&] {
+        after.from_first = renumbered_after_removal(requests, processes.all_to_all(answers));
+    });
     return after;
 }
 

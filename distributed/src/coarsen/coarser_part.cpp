@@ -10,7 +10,7 @@
 #include "coarsen/coarser_interfaces.hpp"
 #include "coarsen/coarser_list.hpp"
 #include "coarsen/family_division.hpp"
-#include "coarsen/level_shares.hpp"
+#include "coarsen/level_removals.hpp"
 #include "comm/local_failure.hpp"
 #include "history/vertex_levels.hpp"
 
@@ -62,8 +62,8 @@ std::vector<T> by_number(std::vector<T> ordered, const std::vector<I>& before) {
 
 /// Moves the values of the remaining entities, `width` for each, whose previous numbers are
 /// `before`. Entities before `first` are unchanged.
-void keep_in_place(auto& list, std::span<const VertexIndex> before, std::size_t first,
-                   std::size_t width) noexcept {
+void compact_values(auto& list, std::span<const VertexIndex> before, std::size_t first,
+                    std::size_t width) noexcept {
     if (list.empty()) return;
     for (std::size_t i = first; i < before.size(); ++i) {
         const auto from = list.begin() + static_cast<std::ptrdiff_t>(before[i].value() * width);
@@ -88,7 +88,7 @@ void keep_midpoints(auto& list, std::span<const VertexIndex> before, std::size_t
 
 CoarserPart coarser_vertices(const DistributedMesh& mesh, const KeptVertices& kept) {
     CoarserPart part;
-    part.first_gone =
+    part.first_removed =
         VertexIndex{static_cast<std::size_t>(std::ranges::find(kept, 0) - kept.begin())};
     part.vertex_after = numbers_after(kept);
     part.vertices_before = list_of(kept, part.vertex_after.back().value());
@@ -106,16 +106,17 @@ CoarserPart coarser_vertices(const DistributedMesh& mesh, const KeptVertices& ke
 void coarsen_lists(const DistributedMesh& mesh, const CanonicalOrder& order,
                    const KeptVertices& kept, CoarserPart& part) {
     const VertexLevels levels(mesh);
-    const LevelShares shares(levels, kept);
+    const LevelRemovals removals(levels, kept);
     FamilyDivision divide(mesh, levels.count());
     const auto take = [&]<class I, std::size_t N>(
                           const IndexVector<I, std::array<VertexIndex, N>>& list,
                           const std::vector<I>& before, NewList<I, N>& after) {
-        CoarserList<I, N> made = ListCoarsening<I, N>(levels, shares, kept).run(list, divide);
+        CoarserList<I, N> made = ListCoarsening<I, N>(levels, removals, kept).run(list, divide);
         after = {std::move(made.list), std::move(made.first)};
         renumber(after.list, part.vertex_after);
-        return Succession::of_merges(after.list.size(), by_number(std::move(made.whole_of), before),
-                                     by_number(std::move(made.halvings), before));
+        return EntityTransfer::of_merges(after.list.size(),
+                                         by_number(std::move(made.coarse_of), before),
+                                         by_number(std::move(made.halvings), before));
     };
     part.cells = take(mesh.cells, order.cells_before(), part.new_cells);
     part.facets = take(mesh.facets, order.facets_before(), part.new_facets);
@@ -150,10 +151,10 @@ void drop_empty_levels(const DistributedMesh& mesh, CoarserPart& part) {
 
 void commit_vertices(DistributedMesh& mesh, CoarserPart& part) noexcept {
     const std::span<const VertexIndex> before = part.vertices_before;
-    const std::size_t first = part.first_gone.value();
+    const std::size_t first = part.first_removed.value();
     const std::size_t inputs = mesh.input_vertices.size();
-    keep_in_place(mesh.points, before, first, 1);
-    keep_in_place(mesh.point_attributes, before, first, mesh.attributes_per_point);
+    compact_values(mesh.points, before, first, 1);
+    compact_values(mesh.point_attributes, before, first, mesh.attributes_per_point);
     keep_midpoints(mesh.midpoint_to_edge, before, first, inputs);
     keep_midpoints(mesh.midpoint_markers, before, first, inputs);
     if (first < before.size()) {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include <octetra/distributed/distributed_mesh.hpp>
-#include <octetra/distributed/succession.hpp>
+#include <octetra/distributed/entity_transfer.hpp>
 
 #include "coarsen/kept_vertices.hpp"
 #include "level/incremental/adjacency.hpp"
@@ -27,7 +27,7 @@ struct CoarserPart {
     /// The previous number of each remaining vertex, ascending.
     std::vector<VertexIndex> vertices_before;
     /// The first removed vertex, or the end: vertices before it keep their numbers.
-    VertexIndex first_gone;
+    VertexIndex first_removed;
     /// For each previous vertex, its number, or the number that it would have if it were kept; and
     /// the end.
     IndexVector<VertexIndex, VertexIndex> vertex_after;
@@ -37,9 +37,9 @@ struct CoarserPart {
     NewList<CellIndex, 4> new_cells;
     NewList<FacetIndex, 3> new_facets;
     NewList<EdgeIndex, 2> new_edges;
-    Succession cells;
-    Succession facets;
-    Succession edges;
+    EntityTransfer cells;
+    EntityTransfer facets;
+    EntityTransfer edges;
     /// For each previous level, a child that is flat or inverted by rounding.
     std::vector<RoundingFailure> failures;
 };

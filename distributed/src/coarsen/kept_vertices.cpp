@@ -6,26 +6,26 @@
 
 #include <octetra/core/edge_order.hpp>
 
-#include "coarsen/level_shares.hpp"
+#include "coarsen/level_removals.hpp"
 #include "history/vertex_levels.hpp"
 
 namespace octetra::distributed {
 namespace {
 
 /// Stores the marks of cells in the notes of the Adjacency during its lifetime.
-class NotedMarks {
+class CellMarks {
 public:
-    NotedMarks(const MarkedCells& marked, Adjacency& adjacency)
+    CellMarks(const MarkedCells& marked, Adjacency& adjacency)
         : marked_(&marked), notes_(&adjacency.cell_to_note) {
         for (const CellIndex c : marked.cells) (*notes_)[c] = 0;
     }
-    ~NotedMarks() {
+    ~CellMarks() {
         for (const CellIndex c : marked_->cells) (*notes_)[c] = CellIndex::none_value;
     }
-    NotedMarks(const NotedMarks&) = delete;
-    NotedMarks& operator=(const NotedMarks&) = delete;
-    NotedMarks(NotedMarks&&) = delete;
-    NotedMarks& operator=(NotedMarks&&) = delete;
+    CellMarks(const CellMarks&) = delete;
+    CellMarks& operator=(const CellMarks&) = delete;
+    CellMarks(CellMarks&&) = delete;
+    CellMarks& operator=(CellMarks&&) = delete;
 
     [[nodiscard]] bool has(CellIndex c) const { return (*notes_)[c] != CellIndex::none_value; }
 
@@ -34,17 +34,17 @@ private:
     IndexVector<CellIndex, std::uint32_t>* notes_;
 };
 
-class Keeping {
+class KeptVertexSearch {
 public:
-    Keeping(const DistributedMesh& mesh, const MarkedCells& marked, Adjacency* adjacency)
+    KeptVertexSearch(const DistributedMesh& mesh, const MarkedCells& marked, Adjacency* adjacency)
         : mesh_(&mesh), levels_(mesh), marked_(&marked), was_divided_(levels_.count() + 1, false) {
         if (adjacency == nullptr) {
             kept_.assign(mesh.points.size(), 0);
             std::fill_n(kept_.begin(), mesh.input_vertices.size(), std::uint8_t{1});
-            keep_what_cells_need();
+            keep_required_vertices();
         } else {
             kept_.assign(mesh.points.size(), 1);
-            find_what_may_go(*adjacency);
+            find_removable_vertices(*adjacency);
         }
     }
 
@@ -68,9 +68,9 @@ private:
     /// are kept and some may be removed. Rule (b) affects only such levels.
     [[nodiscard]] bool is_another_level_divided() {
         bool found = false;
-        const LevelShares shares(levels_, kept_);
+        const LevelRemovals removals(levels_, kept_);
         for (std::uint32_t level = 1; level <= levels_.count(); ++level) {
-            if (was_divided_[level] || !shares.is_divided(level)) continue;
+            if (was_divided_[level] || !removals.is_divided(level)) continue;
             was_divided_[level] = true;
             found = true;
         }
@@ -97,9 +97,9 @@ private:
     }
 
     /// Applies rule (a) by testing all cells.
-    void keep_what_cells_need() {
+    void keep_required_vertices() {
         if (marked_->all) {
-            keep_older_ones();
+            keep_older_vertices();
             return;
         }
         auto next_marked = marked_->cells.begin();
@@ -114,7 +114,7 @@ private:
             keep_before(is_marked ? levels_.begin(level) : VertexIndex::none(), cell);
         }
     }
-    void keep_older_ones() {
+    void keep_older_vertices() {
         std::uint32_t level = levels_.count();
         for (const CellVertices& cell : mesh_->cells) {
             level = levels_.newest(cell, level);
@@ -128,8 +128,8 @@ private:
     }
 
     /// Applies rule (a) by testing the cells at the new vertices of marked cells.
-    void find_what_may_go(Adjacency& adjacency) {
-        const NotedMarks is_marked(*marked_, adjacency);
+    void find_removable_vertices(Adjacency& adjacency) {
+        const CellMarks is_marked(*marked_, adjacency);
         std::vector<bool> is_judged(mesh_->points.size(), false);
         for (const CellIndex c : marked_->cells) {
             const CellVertices& cell = mesh_->cells[c];
@@ -138,12 +138,12 @@ private:
             for (const VertexIndex v : cell) {
                 if (v < levels_.begin(level) || is_judged[v.value()]) continue;
                 is_judged[v.value()] = true;
-                bool may_go = true;
+                bool is_removable = true;
                 adjacency.cells.for_each_at(v, [&](CellIndex at) {
-                    may_go =
-                        may_go && is_marked.has(at) && levels_.newest(mesh_->cells[at]) == level;
+                    is_removable = is_removable && is_marked.has(at) &&
+                                   levels_.newest(mesh_->cells[at]) == level;
                 });
-                kept_[v] = may_go ? 0 : 1;
+                kept_[v] = is_removable ? 0 : 1;
             }
         }
     }
@@ -195,24 +195,24 @@ using Outboxes = std::vector<std::vector<std::uint32_t>>;
 
 /// The state of the exchange of shared vertices with neighbours, in terms of positions in lists
 /// that both ranks have.
-class Told {
+class KeptVertexExchange {
 public:
-    explicit Told(const Sharing<VertexIndex>& sharing) : sharing_(&sharing) {
+    explicit KeptVertexExchange(const Sharing<VertexIndex>& sharing) : sharing_(&sharing) {
         for (const auto& with : sharing.neighbours()) {
             ranks_.push_back(with.rank);
-            may_go_.emplace_back(with.entities.size(), false);
+            is_removable_.emplace_back(with.entities.size(), false);
         }
     }
     [[nodiscard]] const std::vector<int>& ranks() const { return ranks_; }
 
     /// Returns the vertices that may be removed as far as this process knows.
-    [[nodiscard]] Outboxes first(const Keeping& keeping) {
+    [[nodiscard]] Outboxes first(const KeptVertexSearch& search) {
         return outboxes([&](std::size_t i, std::size_t k, VertexIndex v) {
-            may_go_[i][k] = !keeping.has(v);
-            return may_go_[i][k];
+            is_removable_[i][k] = !search.has(v);
+            return is_removable_[i][k];
         });
     }
-    void hear_first(const Outboxes& inboxes, Keeping& keeping) {
+    void apply_initial(const Outboxes& inboxes, KeptVertexSearch& search) {
         for (std::size_t i = 0; i < inboxes.size(); ++i) {
             const auto& vertices = sharing_->neighbours()[i].entities;
             auto next = inboxes[i].begin();
@@ -221,35 +221,35 @@ public:
                     ++next;
                     continue;
                 }
-                keeping.keep(vertices[k]);
-                may_go_[i][k] = false;  // the other rank knows it
+                search.keep(vertices[k]);
+                is_removable_[i][k] = false;  // the other rank knows it
             }
         }
     }
     /// Returns the kept vertices that the other rank does not know to be kept.
-    [[nodiscard]] Outboxes news(const Keeping& keeping) {
+    [[nodiscard]] Outboxes pending(const KeptVertexSearch& search) {
         return outboxes([&](std::size_t i, std::size_t k, VertexIndex v) {
-            const bool is_news = may_go_[i][k] && keeping.has(v);
-            if (is_news) may_go_[i][k] = false;
-            return is_news;
+            const bool is_pending = is_removable_[i][k] && search.has(v);
+            if (is_pending) is_removable_[i][k] = false;
+            return is_pending;
         });
     }
-    void hear(const Outboxes& inboxes, Keeping& keeping) {
+    void apply(const Outboxes& inboxes, KeptVertexSearch& search) {
         for (std::size_t i = 0; i < inboxes.size(); ++i) {
             for (const std::uint32_t k : inboxes[i]) {
-                keeping.keep(sharing_->neighbours()[i].entities[k]);
-                may_go_[i][k] = false;
+                search.keep(sharing_->neighbours()[i].entities[k]);
+                is_removable_[i][k] = false;
             }
         }
     }
 
 private:
-    [[nodiscard]] Outboxes outboxes(auto&& is_told) {
+    [[nodiscard]] Outboxes outboxes(auto&& is_sent) {
         Outboxes all(ranks_.size());
         for (std::size_t i = 0; i < all.size(); ++i) {
             const auto& vertices = sharing_->neighbours()[i].entities;
             for (std::size_t k = 0; k < vertices.size(); ++k) {
-                if (is_told(i, k, vertices[k])) all[i].push_back(static_cast<std::uint32_t>(k));
+                if (is_sent(i, k, vertices[k])) all[i].push_back(static_cast<std::uint32_t>(k));
             }
         }
         return all;
@@ -257,7 +257,7 @@ private:
 
     const Sharing<VertexIndex>* sharing_;
     std::vector<int> ranks_;
-    std::vector<std::vector<bool>> may_go_;  ///< as this process has sent or received
+    std::vector<std::vector<bool>> is_removable_;  ///< as this process has sent or received
 };
 
 std::uint64_t count_of(const Outboxes& outboxes) {
@@ -272,28 +272,30 @@ KeptVertices find_kept_vertices(const DistributedMesh& mesh, const Sharing<Verte
                                 const MarkedCells& marked, Adjacency* adjacency,
                                 LocalFailure& failure) {
     const Communicator& processes = mesh.processes;
-    std::unique_ptr<Keeping> keeping;
-    std::unique_ptr<Told> told;
+    std::unique_ptr<KeptVertexSearch> search;
+    std::unique_ptr<KeptVertexExchange> kept_exchange;
     Outboxes outboxes;
     failure.attempt([&] {
-        keeping = std::make_unique<Keeping>(mesh, marked, adjacency);
-        told = std::make_unique<Told>(sharing);
-        outboxes = told->first(*keeping);
+        search = std::make_unique<KeptVertexSearch>(mesh, marked, adjacency);
+        kept_exchange = std::make_unique<KeptVertexExchange>(sharing);
+        outboxes = kept_exchange->first(*search);
     });
     if (failure.max_unless_failed(processes, 0) == LocalFailure::somewhere) return {};
     failure.attempt([&] {
-        told->hear_first(processes.exchange_with<std::uint32_t>(told->ranks(), outboxes), *keeping);
+        kept_exchange->apply_initial(
+            processes.exchange_with<std::uint32_t>(kept_exchange->ranks(), outboxes), *search);
     });
     while (true) {
         failure.attempt([&] {
-            keeping->close();
-            outboxes = told->news(*keeping);
+            search->close();
+            outboxes = kept_exchange->pending(*search);
         });
         const std::uint64_t most = failure.max_unless_failed(processes, count_of(outboxes));
         if (most == LocalFailure::somewhere) return {};
-        if (most == 0) return std::move(*keeping).result();
+        if (most == 0) return std::move(*search).result();
         failure.attempt([&] {
-            told->hear(processes.exchange_with<std::uint32_t>(told->ranks(), outboxes), *keeping);
+            kept_exchange->apply(
+                processes.exchange_with<std::uint32_t>(kept_exchange->ranks(), outboxes), *search);
         });
     }
 }

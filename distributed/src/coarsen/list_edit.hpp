@@ -10,7 +10,7 @@
 #include <vector>
 
 #include <octetra/core/huge_pages.hpp>
-#include <octetra/distributed/succession.hpp>
+#include <octetra/distributed/entity_transfer.hpp>
 
 #include "coarsen/coarser_list.hpp"
 #include "level/incremental/unordered_list.hpp"
@@ -32,10 +32,10 @@ public:
 
     /// Finds the descendants of roots that have one of the vertices. Returns false as soon as they
     /// are more than `most`: a pass over the whole list is then faster.
-    [[nodiscard]] bool find(std::span<const VertexIndex> gone, std::size_t most) {
+    [[nodiscard]] bool find(std::span<const VertexIndex> removed, std::size_t most) {
         std::vector<bool> is_found(ancestors_->roots.size(), false);
         std::size_t count = 0;
-        for (const VertexIndex v : gone) {
+        for (const VertexIndex v : removed) {
             unordered_->for_each_at(v, [&](I i) {
                 const std::uint32_t root = unordered_->root_of(i);
                 if (is_found[root]) return;
@@ -54,54 +54,55 @@ public:
     }
 
     /// For `divide` see ListCoarsening.
-    void plan(const VertexLevels& levels, const LevelShares& shares, const KeptVertices& kept,
+    void plan(const VertexLevels& levels, const LevelRemovals& removals, const KeptVertices& kept,
               auto&& divide) {
         List descendants;
         descendants.reserve(before_.size());
         for (const I i : before_) descendants.push_back((*list_)[i]);
-        made_ = ListCoarsening<I, N>(levels, shares, kept)
-                    .run(descendants, [&](std::uint32_t level, std::size_t root,
-                                          const Vertices& parent, const auto& midpoints) {
-                        return divide(level, roots_[root], parent, midpoints);
-                    });
-        place_wholes();
+        result_ = ListCoarsening<I, N>(levels, removals, kept)
+                      .run(descendants, [&](std::uint32_t level, std::size_t root,
+                                            const Vertices& parent, const auto& midpoints) {
+                          return divide(level, roots_[root], parent, midpoints);
+                      });
+        assign_numbers();
         plan_moves();
     }
 
-    [[nodiscard]] Succession succession() const {
-        std::vector<std::uint32_t> whole_of;
-        reserve_in_huge_pages(whole_of, list_->size());
-        whole_of.resize(list_->size());
+    [[nodiscard]] EntityTransfer entity_transfer() const {
+        std::vector<std::uint32_t> coarse_of;
+        reserve_in_huge_pages(coarse_of, list_->size());
+        coarse_of.resize(list_->size());
         std::vector<std::uint8_t> halvings;
         reserve_in_huge_pages(halvings, list_->size());
         halvings.resize(list_->size());
-        std::iota(whole_of.begin(), whole_of.end(), 0U);
+        std::iota(coarse_of.begin(), coarse_of.end(), 0U);
         const auto moved = [&](I i) {
             return i.value() < count_after_ ? i : moved_[i.value() - count_after_];
         };
-        for (std::size_t i = count_after_; i < whole_of.size(); ++i) {
-            whole_of[i] = moved(I{i}).value();  // removed entries, none() here, are set below
+        for (std::size_t i = count_after_; i < coarse_of.size(); ++i) {
+            coarse_of[i] = moved(I{i}).value();  // removed entries, none() here, are set below
         }
         for (std::size_t k = 0; k < before_.size(); ++k) {
-            whole_of[before_[k].value()] = moved(places_[made_.whole_of[k]]).value();
-            halvings[before_[k].value()] = made_.halvings[k];
+            coarse_of[before_[k].value()] = moved(numbers_[result_.coarse_of[k]]).value();
+            halvings[before_[k].value()] = result_.halvings[k];
         }
-        return Succession::of_merges(count_after_, std::move(whole_of), std::move(halvings));
+        return EntityTransfer::of_merges(count_after_, std::move(coarse_of), std::move(halvings));
     }
 
     /// The arguments must be those that the edit was planned for. Afterwards entities have their
     /// previous vertices, by the old numbers.
     void commit(List& list, Unordered& unordered, AncestorMap& ancestors) noexcept {
-        for (std::size_t k = 0; k < made_.list.size(); ++k) {
-            const I place = places_[k];
-            if (list[place] != made_.list[I{k}]) unordered.change(place, made_.list[I{k}], list);
+        for (std::size_t k = 0; k < result_.list.size(); ++k) {
+            const I assigned = numbers_[k];
+            if (list[assigned] != result_.list[I{k}])
+                unordered.change(assigned, result_.list[I{k}], list);
         }
         for (const I i : removed_) unordered.remove(i, list);
         for (std::size_t r = 0; r < roots_.size(); ++r) {
-            const std::span<const I> all = places_;
-            unordered.set_order(roots_[r],
-                                all.subspan(made_.first[r], made_.first[r + 1] - made_.first[r]),
-                                ancestors);
+            const std::span<const I> all = numbers_;
+            unordered.set_order(
+                roots_[r], all.subspan(result_.first[r], result_.first[r + 1] - result_.first[r]),
+                ancestors);
         }
         for (const auto& [from, to] : moves_) unordered.move(from, to, list, ancestors);
         unordered.truncate(count_after_, list);
@@ -110,8 +111,8 @@ public:
     /// Calls visit(i) for each number that denotes a different entity after the edit.
     void for_each_changed(auto&& visit) const {
         for (std::size_t k = 0; k < before_.size(); ++k) {
-            const I place = places_[made_.whole_of[k]];
-            if (made_.halvings[k] > 0 && place.value() < count_after_) visit(place);
+            const I assigned = numbers_[result_.coarse_of[k]];
+            if (result_.halvings[k] > 0 && assigned.value() < count_after_) visit(assigned);
         }
         for (const auto& [from, to] : moves_) visit(to);
     }
@@ -123,12 +124,12 @@ private:
 
     /// Assigns to a coarse entity the number of the first entity merged into it; the other numbers
     /// become free.
-    void place_wholes() {
-        places_.assign(made_.list.size(), I::none());
+    void assign_numbers() {
+        numbers_.assign(result_.list.size(), I::none());
         for (std::size_t k = 0; k < before_.size(); ++k) {
-            I& place = places_[made_.whole_of[k]];
-            if (place.is_none()) {
-                place = before_[k];
+            I& assigned = numbers_[result_.coarse_of[k]];
+            if (assigned.is_none()) {
+                assigned = before_[k];
             } else {
                 removed_.push_back(before_[k]);
             }
@@ -156,8 +157,8 @@ private:
     const AncestorMap* ancestors_;
     std::vector<std::uint32_t> roots_;  ///< that lose a vertex, ascending
     std::vector<I> before_;             ///< their descendants, in canonical order
-    CoarserList<I, N> made_;            ///< the new list for these descendants
-    std::vector<I> places_;             ///< of each in made_, the number before moves
+    CoarserList<I, N> result_;          ///< the new list for these descendants
+    std::vector<I> numbers_;            ///< of each in result_, the number before moves
     std::vector<I> removed_;
     std::size_t count_after_;
     std::vector<I> moved_;  ///< the new numbers of entities from count_after_ on, or none()

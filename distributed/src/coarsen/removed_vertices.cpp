@@ -10,7 +10,7 @@ std::vector<RemovedVertex> removed_vertices(const DistributedMesh& mesh, const K
                                             const CoarserPart& part, bool in_place) {
     std::vector<RemovedVertex> removed;
     const std::size_t input_count = mesh.input_vertices.size();
-    for (VertexIndex v = part.first_gone; v < mesh.points.end_index(); ++v) {
+    for (VertexIndex v = part.first_removed; v < mesh.points.end_index(); ++v) {
         if (kept[v] != 0) continue;
         // Both ends remain: a cell at an end that is removed as well would have been bisected
         // since.

@@ -19,8 +19,8 @@ namespace {
 
 /// Draws a file name that is unique and cannot be guessed.
 std::vector<std::uint32_t> draw_name() {
-    std::random_device lots;
-    return {lots(), lots(), lots(), lots()};
+    std::random_device rng;
+    return {rng(), rng(), rng(), rng()};
 }
 
 }  // namespace
@@ -41,7 +41,7 @@ int open_common_lock(const Communicator& processes) {
     return lock;
 }
 
-bool is_first_to_take(int lock) {
+bool try_claim(int lock) {
     if (lock < 0) return true;
     while (::flock(lock, LOCK_EX) != 0) {
         if (errno != EINTR) return true;

@@ -13,6 +13,6 @@ namespace octetra::distributed {
 
 /// Returns true to the first caller, and to every caller if there is no lock. The other callers
 /// block until that process has ended, and receive false.
-[[nodiscard]] bool is_first_to_take(int lock);
+[[nodiscard]] bool try_claim(int lock);
 
 }  // namespace octetra::distributed

@@ -97,12 +97,12 @@ void Communicator::gather_everywhere(std::uint64_t number, std::span<std::uint64
 }
 
 void Communicator::gather_everywhere(std::span<const std::byte> bytes, std::span<const int> counts,
-                                     std::span<const int> places,
+                                     std::span<const int> offsets,
                                      std::span<std::byte> gathered) const {
     const Communication communication(profile(), "gathering");
     communication.count_collective(bytes.size());
     MPI_Allgatherv(bytes.data(), static_cast<int>(bytes.size()), MPI_BYTE, gathered.data(),
-                   counts.data(), places.data(), MPI_BYTE, mpi_->comm);
+                   counts.data(), offsets.data(), MPI_BYTE, mpi_->comm);
 }
 
 Communicator communicator_of(MPI_Comm comm) {
@@ -122,7 +122,7 @@ Communicator communicator_of(MPI_Comm comm) {
         group = std::make_shared<Communicator::Mpi>(comm);
     } catch (const std::bad_alloc&) {  // thrown below, on all processes
     }
-    if (!Communicator::Mpi::give_duplicate(comm, group.get())) throw std::bad_alloc();
+    if (!Communicator::Mpi::assign_duplicate(comm, group.get())) throw std::bad_alloc();
     return Communicator(std::move(group));
 }
 
@@ -137,7 +137,7 @@ MpiSession::MpiSession(int* argc, char*** argv) {
     lock_ = open_common_lock(world_);
 }
 
-bool MpiSession::is_first_to_fail() const { return is_first_to_take(lock_); }
+bool MpiSession::is_first_to_fail() const { return try_claim(lock_); }
 
 void MpiSession::abort(int status) {
     MPI_Abort(MPI_COMM_WORLD, status);

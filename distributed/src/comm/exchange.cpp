@@ -14,7 +14,7 @@ constexpr Tags exchange_tags{.whole = 1, .size = 2, .piece = 3};
 /// `size` must live until the send completes.
 void send_all(Sending& sending, std::span<const std::byte> outbox, const std::uint64_t& size,
               int receiver) {
-    if (size <= most_bytes) {
+    if (size <= max_message_bytes) {
         return sending.send(outbox.data(), size, receiver, exchange_tags.whole);
     }
     sending.send(&size, sizeof size, receiver, exchange_tags.size);
@@ -41,7 +41,7 @@ void Communicator::send_and_receive_bytes(std::span<const int> receivers,
         requests.resize(count);
         for (const auto& outbox : outboxes) sizes.push_back(outbox.size());
     } catch (...) {
-        send_and_receive_nothing(receivers, senders);
+        exchange_empty_messages(receivers, senders);
         throw;
     }
     const Communication communication(mpi_ ? profile() : nullptr, "exchange");
@@ -74,8 +74,8 @@ void Communicator::send_and_receive_bytes(std::span<const int> receivers,
     if (failure) std::rethrow_exception(failure);
 }
 
-void Communicator::send_and_receive_nothing(std::span<const int> receivers,
-                                            std::span<const int> senders) const noexcept {
+void Communicator::exchange_empty_messages(std::span<const int> receivers,
+                                           std::span<const int> senders) const noexcept {
     if (!mpi_) return;
     const Communication communication(profile(), "exchange");
     Sending sending(mpi_->comm, communication, {mpi_->requests.get(), mpi_->every_rank.size()});

@@ -14,15 +14,15 @@ namespace octetra::distributed {
 
 /// Tags of the messages that together transfer one outbox.
 struct Tags {
-    int whole;  ///< the whole outbox, if it has at most most_bytes
+    int whole;  ///< the whole outbox, if it has at most max_message_bytes
     int size;   ///< otherwise first its size in bytes
-    int piece;  ///< and then its bytes in messages of most_bytes; the last one has the rest
+    int piece;  ///< and then its bytes in messages of max_message_bytes; the last one has the rest
 };
 
 /// Returns the number of messages that transfer an outbox.
 inline std::size_t message_count(std::span<const std::byte> outbox) {
-    if (outbox.size() <= most_bytes) return 1;
-    return 1 + (outbox.size() + most_bytes - 1) / most_bytes;
+    if (outbox.size() <= max_message_bytes) return 1;
+    return 1 + (outbox.size() + max_message_bytes - 1) / max_message_bytes;
 }
 
 /// The pending sends of this process; the caller provides memory for their requests.
@@ -59,8 +59,8 @@ private:
 
 inline void send_pieces(Sending& sending, std::span<const std::byte> outbox, int receiver,
                         int tag) {
-    for (std::size_t begin = 0; begin < outbox.size(); begin += most_bytes) {
-        const std::size_t size = std::min(outbox.size() - begin, most_bytes);
+    for (std::size_t begin = 0; begin < outbox.size(); begin += max_message_bytes) {
+        const std::size_t size = std::min(outbox.size() - begin, max_message_bytes);
         sending.send(outbox.data() + begin, size, receiver, tag);
     }
 }
@@ -91,13 +91,13 @@ inline Arrived wait_for_message(MPI_Comm comm, int sender, int tag) {
 inline void receive_from(const Communicator::Mpi& group, Arrived first, const Tags& tags,
                          auto&& allocate) {
     const auto place = [&](std::byte* inbox) {
-        return inbox == nullptr ? group.unwanted.get() : inbox;
+        return inbox == nullptr ? group.discard_buffer.get() : inbox;
     };
     if (first.status.MPI_TAG == tags.whole) return first.receive(place(allocate(first.size())));
     std::uint64_t size = 0;
     first.receive(&size);
     std::byte* const inbox = allocate(size);
-    for (std::size_t begin = 0; begin < size; begin += most_bytes) {
+    for (std::size_t begin = 0; begin < size; begin += max_message_bytes) {
         wait_for_message(group.comm, first.status.MPI_SOURCE, tags.piece)
             .receive(place(inbox == nullptr ? nullptr : inbox + begin));
     }

@@ -59,7 +59,7 @@ Communicator::Mpi::~Mpi() {
     duplicate_->is_used = false;
 }
 
-bool Communicator::Mpi::give_duplicate(MPI_Comm original, Mpi* group) {
+bool Communicator::Mpi::assign_duplicate(MPI_Comm original, Mpi* group) {
     Offer offer{};
     if (group != nullptr && group->rank == 0) offer = make_offer(original);
     MPI_Bcast(offer.data(), static_cast<int>(offer.size()), MPI_UINT64_T, 0, original);
@@ -74,10 +74,10 @@ bool Communicator::Mpi::give_duplicate(MPI_Comm original, Mpi* group) {
         for (Duplicate& duplicate : kept.all) {
             const auto found = std::find(offer.begin() + 1, offer.end(), duplicate.number);
             if (found == offer.end() || !is_idle(duplicate, original)) continue;
-            const auto place = static_cast<std::size_t>(found - offer.begin());
+            const auto index = static_cast<std::size_t>(found - offer.begin());
             duplicate.is_used = true;
-            taken[place] = &duplicate;
-            is_taken[place] = 1;
+            taken[index] = &duplicate;
+            is_taken[index] = 1;
         }
     }
     MPI_Allreduce(MPI_IN_PLACE, is_taken.data(), static_cast<int>(is_taken.size()), MPI_UINT64_T,

@@ -15,7 +15,7 @@ namespace octetra::distributed {
 
 /// The maximum size of one MPI message in bytes. A process that cannot allocate an inbox receives
 /// each message into a buffer of this size and discards it.
-constexpr std::size_t most_bytes = std::size_t{1} << 20U;
+constexpr std::size_t max_message_bytes = std::size_t{1} << 20U;
 
 /// A duplicate of a communicator of the application. It is kept until MPI_Finalize, because
 /// MPI_Comm_free is collective, and processes destroy their Communicators at different times: in
@@ -33,7 +33,7 @@ struct Communicator::Mpi {
     std::vector<int> every_rank;
     // For a process that is out of memory: a buffer for discarded data, and requests of empty
     // messages.
-    std::unique_ptr<std::byte[]> unwanted{new std::byte[most_bytes]};
+    std::unique_ptr<std::byte[]> discard_buffer{new std::byte[max_message_bytes]};
     std::unique_ptr<MPI_Request[]> requests;
     mutable bool is_in_transaction = false;  ///< on all processes
     mutable std::optional<int> failed_rank;  ///< the lowest rank that has ended the transaction
@@ -51,7 +51,7 @@ struct Communicator::Mpi {
     /// Collective in `original`. Assigns a duplicate of `original` to `group`: one that is in use
     /// on no process, if there is any. A process without memory passes null; the function then
     /// returns false on all processes.
-    [[nodiscard]] static bool give_duplicate(MPI_Comm original, Mpi* group);
+    [[nodiscard]] static bool assign_duplicate(MPI_Comm original, Mpi* group);
 
 private:
     std::list<Duplicate> fresh_;      ///< memory for one new duplicate

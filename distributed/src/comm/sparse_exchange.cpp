@@ -44,7 +44,7 @@ public:
     /// `size` must live until the send completes.
     void send(Sending& sending, std::span<const std::byte> outbox, const std::uint64_t& size,
               int receiver) const {
-        if (size <= most_bytes) {
+        if (size <= max_message_bytes) {
             return sending.send_synchronously(outbox.data(), size, receiver, tags_.whole);
         }
         sending.send_synchronously(&size, sizeof size, receiver, tags_.size);
@@ -65,10 +65,10 @@ private:
     }
     [[nodiscard]] std::optional<Arrived> arrived_with(int tag) const {
         Arrived arrived;
-        int has_come = 0;
-        MPI_Improbe(MPI_ANY_SOURCE, tag, group_->comm, &has_come, &arrived.message,
+        int has_message = 0;
+        MPI_Improbe(MPI_ANY_SOURCE, tag, group_->comm, &has_message, &arrived.message,
                     &arrived.status);
-        if (has_come == 0) return std::nullopt;
+        if (has_message == 0) return std::nullopt;
         return arrived;
     }
 

@@ -19,7 +19,7 @@ namespace octetra::distributed {
 namespace {
 
 /// The bits of the smallest positive double: the indicator of any marked cell is at least this.
-constexpr std::uint64_t least_threshold = 1;
+constexpr std::uint64_t min_threshold = 1;
 
 /// An argument between `least` and 1.
 struct Parameter {
@@ -70,11 +70,11 @@ void prepare(const Communicator& processes, std::span<const double> indicators,
 constexpr std::size_t trial_count = 15;
 using Trials = std::array<std::uint64_t, trial_count>;
 
-/// Returns the greatest threshold up to `high` that is low enough, or least_threshold if none is.
+/// Returns the greatest threshold up to `high` that is low enough, or min_threshold if none is.
 /// count_enough(trials) returns how many of the ascending trials are low enough: these are the
 /// first ones.
 std::uint64_t greatest_threshold(std::uint64_t high, auto&& count_enough) {
-    std::uint64_t low = least_threshold;
+    std::uint64_t low = min_threshold;
     while (low < high) {
         const std::uint64_t step = (high - low) / (trial_count + 1) + 1;
         Trials trials{};
@@ -153,7 +153,7 @@ std::vector<std::uint8_t> mark_maximum(const Communicator& processes,
     for (const double indicator : indicators) greatest = std::max(greatest, bits_of(indicator));
     greatest = processes.max(greatest);
     const double product = share * std::bit_cast<double>(greatest);
-    mark_from(std::max(bits_of(product), least_threshold), indicators, marks);
+    mark_from(std::max(bits_of(product), min_threshold), indicators, marks);
     return marks;
 }
 

@@ -10,28 +10,28 @@
 #include <octetra/core/files/sol_files.hpp>
 #include <octetra/core/sol_fields.hpp>
 
-#include "fields/wanted_values.hpp"
+#include "fields/requested_values.hpp"
 
 namespace octetra::distributed {
 namespace {
 
 /// Collective. Sends the headers of the lists that the first process has read to the others, whose
 /// shares of the values are empty.
-void tell_of_lists(const Communicator& processes, std::vector<FieldRows>& lists) {
-    std::vector<std::uint64_t> told;
+void broadcast_headers(const Communicator& processes, std::vector<FieldRows>& lists) {
+    std::vector<std::uint64_t> headers;
     for (const FieldRows& list : lists) {
-        told.push_back(static_cast<std::uint64_t>(list.on));
-        told.push_back(list.count);
-        told.push_back(list.components.size());
-        told.insert(told.end(), list.components.begin(), list.components.end());
+        headers.push_back(static_cast<std::uint64_t>(list.on));
+        headers.push_back(list.count);
+        headers.push_back(list.components.size());
+        headers.insert(headers.end(), list.components.begin(), list.components.end());
     }
-    processes.broadcast(told);
+    processes.broadcast(headers);
     if (processes.is_first()) return;
-    for (std::size_t at = 0; at < told.size();) {
-        FieldRows list{.on = static_cast<FieldOn>(told[at]), .count = told[at + 1]};
-        const std::uint64_t fields = told[at + 2];
+    for (std::size_t at = 0; at < headers.size();) {
+        FieldRows list{.on = static_cast<FieldOn>(headers[at]), .count = headers[at + 1]};
+        const std::uint64_t fields = headers[at + 2];
         at += 3;
-        for (std::uint64_t f = 0; f < fields; ++f) list.components.push_back(told[at++]);
+        for (std::uint64_t f = 0; f < fields; ++f) list.components.push_back(headers[at++]);
         // the share begins at the end, so the first process has all values
         list.first = list.count;
         lists.push_back(std::move(list));
@@ -44,14 +44,14 @@ SolFields read_lists(const Communicator& processes, const std::filesystem::path&
                      const EntityCounts& counts) {
     if (processes.size() > 1) {
         LocalFailure failure;
-        std::optional<SolFields> together;
-        failure.attempt([&] { together = read_sol_stretch(path, counts, processes); });
+        std::optional<SolFields> from_shares;
+        failure.attempt([&] { from_shares = read_sol_share(path, counts, processes); });
         failure.agree(processes);
-        if (together) return *std::move(together);
+        if (from_shares) return *std::move(from_shares);
     }
     SolFields alone;
     processes.on_first([&] { alone = read_sol(path, counts); });
-    tell_of_lists(processes, alone.lists);
+    broadcast_headers(processes, alone.lists);
     return alone;
 }
 
@@ -84,13 +84,13 @@ std::vector<Field> read_fields(const DistributedMesh& mesh, std::span<const Cell
     std::vector<Field> fields;
     for (const FieldRows& list : read.lists) {
         LocalFailure failure;
-        Homes homes = homes_of_stretches(processes, list.first, list.count, failure);
-        const WantedValues wanted = ask_for(
+        OwnerMap owners = owners_of_shares(processes, list.first, list.count, failure);
+        const RequestedValues requested = send_requests(
             processes,
-            list.on == FieldOn::vertices ? wanted_vertices(numbers)
-                                         : wanted_cells(runs, mesh.cell_ancestors, cells_before),
-            std::move(homes));
-        const auto rows = fetch_values(processes, wanted, list.values, list.width());
+            list.on == FieldOn::vertices ? requested_vertices(numbers)
+                                         : requested_cells(runs, mesh.cell_ancestors, cells_before),
+            std::move(owners));
+        const auto rows = fetch_values(processes, requested, list.values, list.width());
         std::size_t first_component = 0;
         failure.attempt([&] {
             for (std::size_t f = 0; f < list.components.size(); ++f) {

@@ -29,7 +29,7 @@ AncestorMap own_roots(const AncestorMap& ancestors, const CanonicalRuns& runs) {
 
 /// Collective. Returns the markers of this process's vertices, agreed on by all sharers: a shared
 /// midpoint is an end of a shared edge, so the interfaces reach it.
-std::vector<Marker> settled_markers(const DistributedMesh& mesh) {
+std::vector<Marker> agreed_markers(const DistributedMesh& mesh) {
     std::vector<MidpointMarker> known;
     const bool has_markers = !mesh.input_vertex_markers.empty() || !mesh.midpoint_markers.empty();
     if (has_markers) {
@@ -54,7 +54,7 @@ std::vector<Marker> settled_markers(const DistributedMesh& mesh) {
             for (const VertexIndex v : edge) {
                 if (told == inboxes[i].end()) break;
                 MidpointMarker& marker = known[v.value()];
-                if (tells_more(*told, marker)) marker = *told;
+                if (has_priority_over(*told, marker)) marker = *told;
                 ++told;
             }
         }
@@ -91,29 +91,29 @@ void CellsAsRoots::begin(DistributedMesh& mesh, const CanonicalNumbers* known) {
         const CanonicalRuns cells = canonical_runs(processes, mesh.cell_ancestors);
         const CanonicalRuns facets = canonical_runs(processes, mesh.facet_ancestors);
         const CanonicalRuns edges = canonical_runs(processes, mesh.edge_ancestors);
-        forgotten_.input_vertices.assign(numbers.of_vertex.begin(), numbers.of_vertex.end());
-        forgotten_.input_vertex_markers = settled_markers(mesh);
-        forgotten_.cell_ancestors = own_roots(mesh.cell_ancestors, cells);
-        forgotten_.facet_ancestors = own_roots(mesh.facet_ancestors, facets);
-        forgotten_.edge_ancestors = own_roots(mesh.edge_ancestors, edges);
-        forgotten_.input_vertex_count = numbers.vertex_count;
-        forgotten_.input_cell_count = cells.count;
-        forgotten_.features =
+        set_aside_.input_vertices.assign(numbers.of_vertex.begin(), numbers.of_vertex.end());
+        set_aside_.input_vertex_markers = agreed_markers(mesh);
+        set_aside_.cell_ancestors = own_roots(mesh.cell_ancestors, cells);
+        set_aside_.facet_ancestors = own_roots(mesh.facet_ancestors, facets);
+        set_aside_.edge_ancestors = own_roots(mesh.edge_ancestors, edges);
+        set_aside_.input_vertex_count = numbers.vertex_count;
+        set_aside_.input_cell_count = cells.count;
+        set_aside_.features =
             features_now(mesh, FeatureSlices(mesh, {{{&mesh.edge_ancestors, &edges},
                                                      {&mesh.facet_ancestors, &facets},
                                                      {&mesh.cell_ancestors, &cells}}}));
     });
-    forgotten_.swap_with(mesh);
+    set_aside_.swap_with(mesh);
     mesh_ = &mesh;
 }
 
 CellsAsRoots::~CellsAsRoots() {
-    if (mesh_ != nullptr) forgotten_.swap_with(*mesh_);
+    if (mesh_ != nullptr) set_aside_.swap_with(*mesh_);
 }
 
 History CellsAsRoots::keep() noexcept {
     mesh_ = nullptr;
-    return std::move(forgotten_);
+    return std::move(set_aside_);
 }
 
 }  // namespace octetra::distributed

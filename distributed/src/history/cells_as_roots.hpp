@@ -32,7 +32,7 @@ public:
 
 private:
     DistributedMesh* mesh_ = nullptr;
-    History forgotten_;
+    History set_aside_;
 };
 
 }  // namespace octetra::distributed

@@ -87,21 +87,21 @@ MarkedCells CutMarks::next(const DistributedMesh& mesh) {
     for (std::size_t k = 0; k < cuts_.roots.size(); ++k) {
         const auto bytes = take(k);
         if (bytes.empty()) continue;
-        Descendants cells(mesh, cuts_.roots[k].place);
+        Descendants cells(mesh, cuts_.roots[k].index);
         for (CutReader runs(bytes); !runs.at_end();) {
             CutRun run = runs.next();
             for (; run.count > 0; --run.count) {
-                if (cells.at_end()) refuse(mesh, cuts_.roots[k].place);
+                if (cells.at_end()) refuse(mesh, cuts_.roots[k].index);
                 const CellIndex cell = cells.next();
                 if (run.cut == 0) continue;
                 marked.cells.push_back(cell);
                 marked.edges.push_back(edges_of(run.cut));
             }
         }
-        if (!cells.at_end()) refuse(mesh, cuts_.roots[k].place);
+        if (!cells.at_end()) refuse(mesh, cuts_.roots[k].index);
     }
     marked.count = marked.cells.size();
-    marked.judged = marked.count;
+    marked.tested = marked.count;
     return marked;
 }
 
@@ -111,7 +111,7 @@ MarkedCells CutMarks::next_of_all(const DistributedMesh& mesh) {
             .cells = {},
             .edges = {},
             .count = mesh.cells.size(),
-            .judged = mesh.cells.size()};
+            .tested = mesh.cells.size()};
 }
 
 }  // namespace octetra::distributed

@@ -19,7 +19,7 @@ using RootBytes = std::span<const std::uint8_t>;
 /// The patterns of a process's roots, by local index of the root.
 struct CutRoots {
     struct Root {
-        std::uint32_t place = 0;
+        std::uint32_t index = 0;
         std::uint32_t bytes = 0;
     };
     std::vector<Root> roots;          ///< the roots that were cut in any step
@@ -28,9 +28,9 @@ struct CutRoots {
 
 /// Splits steps by root. `Runs` has at_end() and next(), as CutReader has.
 template <class Runs>
-class RootsApart {
+class RootSplitter {
 public:
-    explicit RootsApart(std::vector<Runs> steps) {
+    explicit RootSplitter(std::vector<Runs> steps) {
         for (Runs& step : steps) cursors_.push_back({std::move(step), {}});
     }
 
@@ -82,10 +82,10 @@ private:
     CutRuns root_;
 };
 
-/// Joins the bytes of roots to steps, the inverse of RootsApart.
-class RootsTogether {
+/// Joins the bytes of roots to steps, the inverse of RootSplitter.
+class RootJoiner {
 public:
-    explicit RootsTogether(std::size_t step_count) : steps_(step_count) {}
+    explicit RootJoiner(std::size_t step_count) : steps_(step_count) {}
 
     void append_whole(std::uint64_t roots) { whole_ += roots; }
     /// Appends a root that was cut; returns the number of its descendants after the last step.
@@ -134,7 +134,7 @@ private:
     std::vector<CutReader> readers;
     readers.reserve(steps.size());
     for (const CutRuns& step : steps) readers.emplace_back(step.bytes());
-    RootsApart<CutReader> apart(std::move(readers));
+    RootSplitter<CutReader> splitter(std::move(readers));
     CutRoots cuts;
     std::uint64_t whole = 0;
     for (std::size_t r = 0; r + 1 < first.size(); ++r) {
@@ -142,9 +142,9 @@ private:
             ++whole;
             continue;
         }
-        apart.skip_whole(std::exchange(whole, 0));
+        splitter.skip_whole(std::exchange(whole, 0));
         const std::size_t before = cuts.bytes.size();
-        (void)apart.append_next(cuts.bytes);
+        (void)splitter.append_next(cuts.bytes);
         cuts.roots.push_back({static_cast<std::uint32_t>(r),
                               static_cast<std::uint32_t>(cuts.bytes.size() - before)});
     }

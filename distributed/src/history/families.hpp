@@ -35,11 +35,11 @@ public:
     /// `levels` must outlive this object.
     explicit Families(const VertexLevels& levels) : levels_(&levels) {}
 
-    /// Processes the next entity of the list. Calls parent_met(level, parent, members) for each
+    /// Processes the next entity of the list. Calls on_parent(level, parent, members) for each
     /// family that it completes; the result is the parent's note, `level` is the level that divided
-    /// the parent, and the members are in canonical order. Calls root_met(root, note) when a root
+    /// the parent, and the members are in canonical order. Calls on_root(root, note) when a root
     /// is complete.
-    void add(const Vertices& vertices, Note note, auto&& parent_met, auto&& root_met) {
+    void add(const Vertices& vertices, Note note, auto&& on_parent, auto&& on_root) {
         Member next{vertices, note};
         for (std::uint32_t level = levels_->newest(next.vertices); level > 0;
              level = levels_->newest(next.vertices)) {
@@ -53,11 +53,11 @@ public:
             if (family.shares < whole) return;
             const std::span<const Member> members = std::span(members_).subspan(family.begin);
             next.vertices = parent_of(members, first_new);
-            next.note = parent_met(level, std::as_const(next.vertices), members);
+            next.note = on_parent(level, std::as_const(next.vertices), members);
             members_.resize(family.begin);
             open_.pop_back();
         }
-        root_met(std::as_const(next.vertices), next.note);
+        on_root(std::as_const(next.vertices), next.note);
     }
 
     /// The number of members of a family whose parent had all edges bisected.

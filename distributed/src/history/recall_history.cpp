@@ -1,41 +1,41 @@
-#include "comm/local_failure.hpp"
 #include "history/recall_history.hpp"
+#include "comm/local_failure.hpp"
 
 #include <algorithm>
 #include <stdexcept>
 
 #include "numbering/canonical_runs.hpp"
-#include "setup/homes.hpp"
+#include "setup/owners.hpp"
 
 namespace octetra::distributed {
 namespace {
 
-struct Stretch {
+struct NumberRange {
     std::uint64_t begin = 0;
     std::uint64_t end = 0;
 };
 
 /// Returns for each owner of a block of numbers the ranges of this process's numbers in that block.
-std::vector<std::vector<Stretch>> stretches_at_homes(const CanonicalRuns& runs,
-                                                     const AncestorMap& ancestors,
-                                                     const Homes& homes, int process_count) {
-    std::vector<std::vector<Stretch>> at_homes(static_cast<std::size_t>(process_count));
+std::vector<std::vector<NumberRange>> ranges_at_owners(const CanonicalRuns& runs,
+                                                       const AncestorMap& ancestors,
+                                                       const OwnerMap& owners, int process_count) {
+    std::vector<std::vector<NumberRange>> at_owners(static_cast<std::size_t>(process_count));
     for (std::size_t r = 0; r < runs.begin.size(); ++r) {
         std::uint64_t begin = runs.begin[r];
         const std::uint64_t end = begin + ancestors.first[r + 1] - ancestors.first[r];
         while (begin < end) {
-            const int rank = homes.rank_of(begin);
-            const std::uint64_t stop = std::min(end, homes.end_of(rank));
-            auto& stretches = at_homes[static_cast<std::size_t>(rank)];
-            if (!stretches.empty() && stretches.back().end == begin) {
-                stretches.back().end = stop;
+            const int rank = owners.rank_of(begin);
+            const std::uint64_t stop = std::min(end, owners.end_of(rank));
+            auto& ranges = at_owners[static_cast<std::size_t>(rank)];
+            if (!ranges.empty() && ranges.back().end == begin) {
+                ranges.back().end = stop;
             } else {
-                stretches.push_back({begin, stop});
+                ranges.push_back({begin, stop});
             }
             begin = stop;
         }
     }
-    return at_homes;
+    return at_owners;
 }
 
 template <class T>
@@ -63,19 +63,19 @@ std::vector<int> ranks_of_roots(const Communicator& processes, const AncestorMap
     std::vector<int> ranks;
     processes.transaction([&] {
         const CanonicalRuns runs = canonical_runs(processes, before);
-        const Homes homes = homes_of_blocks(runs.count, 1, processes.size());
-        const std::uint64_t first = homes.begin_of(processes.rank());
-        std::vector<int> rank_of(static_cast<std::size_t>(homes.end_of(processes.rank()) - first));
+        const OwnerMap owners = owners_of_blocks(runs.count, 1, processes.size());
+        const std::uint64_t first = owners.begin_of(processes.rank());
+        std::vector<int> rank_of(static_cast<std::size_t>(owners.end_of(processes.rank()) - first));
         const auto inboxes =
-            processes.all_to_all(stretches_at_homes(runs, before, homes, processes.size()));
+            processes.all_to_all(ranges_at_owners(runs, before, owners, processes.size()));
         for (std::size_t rank = 0; rank < inboxes.size(); ++rank) {
-            for (const Stretch& stretch : inboxes[rank]) {
-                std::fill(rank_of.data() + (stretch.begin - first),
-                          rank_of.data() + (stretch.end - first), static_cast<int>(rank));
+            for (const NumberRange& range : inboxes[rank]) {
+                std::fill(rank_of.data() + (range.begin - first),
+                          rank_of.data() + (range.end - first), static_cast<int>(rank));
             }
         }
         LocalFailure failure;
-        const auto requests = request(processes, homes, roots, failure);
+        const auto requests = request(processes, owners, roots, failure);
         ranks = fetch(processes, requests, rank_of, first, failure);
     });
     return ranks;

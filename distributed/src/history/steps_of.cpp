@@ -107,8 +107,8 @@ std::vector<CutRuns> steps_of(const DistributedMesh& mesh) {
     const VertexLevels levels(mesh);
     Steps steps(levels.count());
     CellFamilies families(levels);
-    const auto parent_met = [&](std::uint32_t level, const CellVertices& parent,
-                                std::span<const CellFamilies::Member> children) {
+    const auto on_parent = [&](std::uint32_t level, const CellVertices& parent,
+                               std::span<const CellFamilies::Member> children) {
         const EdgeMask edges = bisected(parent, children, levels.begin(level), levels);
         steps.cut(level, cut_into(edges, children.size()));
         steps.met(levels.newest(parent));
@@ -116,7 +116,7 @@ std::vector<CutRuns> steps_of(const DistributedMesh& mesh) {
     };
     for (const CellVertices& cell : mesh.cells) {
         steps.met(levels.newest(cell));
-        families.add(cell, {}, parent_met, [](auto&&...) {});
+        families.add(cell, {}, on_parent, [](auto&&...) {});
     }
     return std::move(steps).finish();
 }

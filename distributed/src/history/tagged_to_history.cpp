@@ -1,5 +1,5 @@
-#include "comm/local_failure.hpp"
 #include "history/tagged_to_history.hpp"
+#include "comm/local_failure.hpp"
 
 #include <algorithm>
 #include <array>
@@ -31,11 +31,11 @@ struct MovedVertex {
 };
 
 /// Adopts the received marker of a midpoint if it has priority over the known one.
-void learn_marker(DistributedMesh& mesh, VertexIndex v, const MidpointMarker& told) {
+void adopt_marker(DistributedMesh& mesh, VertexIndex v, const MidpointMarker& received) {
     const std::size_t input_count = mesh.input_vertices.size();
     if (v.value() < input_count) return;
     MidpointMarker& known = mesh.midpoint_markers[v.value() - input_count];
-    if (tells_more(told, known)) known = told;
+    if (has_priority_over(received, known)) known = received;
 }
 
 /// Moves the entities of one list of tagged facets or edges.
@@ -67,10 +67,10 @@ public:
             const auto to = static_cast<std::size_t>(rank_of_root[r]);
             put(r, roots[to], vertices[to]);
         }
-        const auto roots_come = processes.all_to_all(roots);
-        Vertices vertices_come = processes.all_to_all(vertices);
+        const auto received_roots = processes.all_to_all(roots);
+        Vertices received_vertices = processes.all_to_all(vertices);
         LocalFailure().agree(processes);  // otherwise messages may be missing
-        merge(rank_of_root, in_order(roots_come, std::move(vertices_come)));
+        merge(rank_of_root, in_order(received_roots, std::move(received_vertices)));
     }
 
 private:
@@ -94,12 +94,12 @@ private:
 
     /// Returns the received roots, sorted by global number.
     [[nodiscard]] std::vector<Arrival> in_order(
-        const std::vector<std::vector<MovedRoot>>& roots_come, Vertices vertices_come) {
-        vertices_come_ = std::move(vertices_come);
+        const std::vector<std::vector<MovedRoot>>& received_roots, Vertices received_vertices) {
+        received_vertices_ = std::move(received_vertices);
         std::vector<Arrival> arrivals;
-        for (std::size_t rank = 0; rank < roots_come.size(); ++rank) {
-            const MovedVertex* next = vertices_come_[rank].data();
-            for (const MovedRoot& root : roots_come[rank]) {
+        for (std::size_t rank = 0; rank < received_roots.size(); ++rank) {
+            const MovedVertex* next = received_vertices_[rank].data();
+            for (const MovedRoot& root : received_roots[rank]) {
                 arrivals.push_back({root, next});
                 next += std::size_t{root.descendants} * N;
             }
@@ -143,7 +143,7 @@ private:
         for (std::size_t k = 0; k < N; ++k) {
             const auto found = std::ranges::lower_bound(*numbers_, vertices[k].number);
             entity[k] = VertexIndex{static_cast<std::size_t>(found - numbers_->begin())};
-            if (has_vertex_markers_) learn_marker(*mesh_, entity[k], vertices[k].known);
+            if (has_vertex_markers_) adopt_marker(*mesh_, entity[k], vertices[k].known);
         }
         return entity;
     }
@@ -154,13 +154,13 @@ private:
     AncestorMap* ancestors_;
     bool has_markers_;
     bool has_vertex_markers_;
-    Vertices vertices_come_;
+    Vertices received_vertices_;
 };
 
 }  // namespace
 
-void bring_tagged_to_history(DistributedMesh& mesh, const NumbersOfVertices& numbers,
-                             const History& before) {
+void move_tagged_to_history(DistributedMesh& mesh, const NumbersOfVertices& numbers,
+                            const History& before) {
     const Communicator& processes = mesh.processes;
     const HasLists has(mesh);
     const auto facet_ranks =

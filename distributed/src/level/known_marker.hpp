@@ -15,7 +15,7 @@ namespace octetra::distributed {
 /// Returns whether marker a takes precedence over b. Sharers of an edge may know different facets
 /// around it: a tagged edge takes precedence over a facet, and a facet over no source; with equal
 /// sources the smallest marker wins.
-[[nodiscard]] inline bool tells_more(const MidpointMarker& a, const MidpointMarker& b) {
+[[nodiscard]] inline bool has_priority_over(const MidpointMarker& a, const MidpointMarker& b) {
     if (a.source != b.source) return a.source > b.source;
     return a.marker < b.marker;
 }

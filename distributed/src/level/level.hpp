@@ -4,8 +4,8 @@
 #include <cstddef>
 #include <vector>
 
+#include <octetra/distributed/entity_transfer.hpp>
 #include <octetra/distributed/refine.hpp>
-#include <octetra/distributed/succession.hpp>
 
 #include "level/closure.hpp"
 #include "level/rounding_failure.hpp"
@@ -16,9 +16,9 @@ namespace octetra::distributed {
 
 /// The changes of a process's lists by a level.
 struct ListChanges {
-    Succession cells;
-    Succession facets;
-    Succession edges;  ///< tagged ones
+    EntityTransfer cells;
+    EntityTransfer facets;
+    EntityTransfer edges;  ///< tagged ones
 };
 
 /// One level on one process, step by step; see PlannedLevel. There are two implementations, and
@@ -82,7 +82,7 @@ public:
 /// Returns the child of a cell with corners at the positions `places` of a pattern; `vertices` has
 /// the vertices of the cell at all positions: its corners, then the midpoints of its edges.
 [[nodiscard]] inline CellVertices child_of(const std::array<VertexIndex, 10>& vertices,
-                                           const std::array<Place, 4>& places) {
+                                           const std::array<PatternVertex, 4>& places) {
     CellVertices child;
     for (std::size_t i = 0; i < 4; ++i) child[i] = vertices[places[i]];
     return child;

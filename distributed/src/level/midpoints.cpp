@@ -37,7 +37,7 @@ void append_midpoint(DistributedMesh& mesh, VertexIndex low, VertexIndex high) {
     append_attributes(mesh, low, high);
 }
 
-void take_marker(MidpointMarker& known, MidpointMarker::Source source, Marker marker) {
+void merge_marker(MidpointMarker& known, MidpointMarker::Source source, Marker marker) {
     if (source < known.source) return;
     if (source > known.source || marker < known.marker) known = {source, marker};
 }

@@ -31,6 +31,6 @@ void append_midpoint(DistributedMesh& mesh, VertexIndex low, VertexIndex high);
 /// Updates the marker of a midpoint: its edge is tagged, or is an edge of a tagged facet, with this
 /// marker. An edge takes precedence over a facet, and a facet over no source; with equal sources
 /// the smallest marker wins.
-void take_marker(MidpointMarker& known, MidpointMarker::Source source, Marker marker);
+void merge_marker(MidpointMarker& known, MidpointMarker::Source source, Marker marker);
 
 }  // namespace octetra::distributed

@@ -74,13 +74,13 @@ ListChanges PlannedLevel::changes() {
 MarkedCells renumbered(MarkedCells marked, const std::vector<CellIndex>& before) {
     if (marked.all || before.empty()) return marked;
     constexpr std::uint32_t unmarked = CellIndex::none_value;
-    std::vector<std::uint32_t> place(before.size(), unmarked);  // in the list of marked cells
+    std::vector<std::uint32_t> position(before.size(), unmarked);  // in the list of marked cells
     for (std::size_t k = 0; k < marked.cells.size(); ++k) {
-        place[marked.cells[k].value()] = static_cast<std::uint32_t>(k);
+        position[marked.cells[k].value()] = static_cast<std::uint32_t>(k);
     }
-    MarkedCells after{.count = marked.count, .judged = marked.judged};
+    MarkedCells after{.count = marked.count, .tested = marked.tested};
     for (std::size_t c = 0; c < before.size(); ++c) {
-        const std::uint32_t k = place[before[c].value()];
+        const std::uint32_t k = position[before[c].value()];
         if (k == unmarked) continue;
         after.cells.push_back(CellIndex{c});
         if (!marked.edges.empty()) after.edges.push_back(marked.edges[k]);
@@ -117,7 +117,7 @@ PlannedLevel close_level(DistributedMesh& mesh, const std::function<MarkedCells(
     failure.attempt([&] {
         const Phase phase(processes, "select");
         marked = mark_cells();
-        plan.judged = marked.judged;
+        plan.tested = marked.tested;
     });
     const std::uint64_t most = failure.max_unless_failed(processes, marked.count);
     if (most == LocalFailure::somewhere) failure.agree(processes);
@@ -130,30 +130,30 @@ PlannedLevel close_level(DistributedMesh& mesh, const std::function<MarkedCells(
 
 void bisect_level(PlannedLevel& plan, const DistributedMesh& mesh, const RefineOptions& options,
                   int level) {
-    Level& way = *plan.level;
+    Level& planned = *plan.level;
     LocalFailure failure;
     failure.attempt([&] {
         const Phase phase(mesh.processes, "bisect edges");
-        check_countable(mesh.points.size() + way.closure().marked_count(), "vertices");
-        way.bisect_edges();
+        check_countable(mesh.points.size() + planned.closure().marked_count(), "vertices");
+        planned.bisect_edges();
     });
     RoundingFailure rounding;
     {
         const Phase phase(mesh.processes, "bisect tetrahedra");
         std::size_t cell_count = 0;
         failure.attempt([&] {
-            cell_count = way.cell_count_afterwards();
+            cell_count = planned.cell_count_afterwards();
             check_countable(cell_count, "cells");
         });
         check_allowed(mesh, cell_count, options, level, failure);
         failure.attempt([&] {
-            rounding = way.bisect_cells(cell_count);
-            if (!rounding.found()) way.bisect_tagged();
+            rounding = planned.bisect_cells(cell_count);
+            if (!rounding.found()) planned.bisect_tagged();
         });
     }
     const Phase phase(mesh.processes, "interfaces");
     failure.attempt([&] {
-        if (!rounding.found()) way.bisect_interfaces();
+        if (!rounding.found()) planned.bisect_interfaces();
     });
     failure.agree(mesh.processes);
     rounding.agree(mesh, level);

@@ -17,7 +17,7 @@ struct PlannedLevel {
     std::unique_ptr<CanonicalOrder> order;  ///< the order that the level requires, or null
     std::unique_ptr<Level> level;           ///< null: nothing is marked on any process
     SynchronisationCounts counts;
-    std::size_t judged = 0;  ///< cells of this process that the selection tested
+    std::size_t tested = 0;  ///< cells of this process that the selection tested
 
     [[nodiscard]] bool changes_anything() const { return level != nullptr; }
     /// Returns the changes of this process's lists, by the local numbers before the level.

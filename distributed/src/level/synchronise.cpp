@@ -43,16 +43,16 @@ class Gateway {
 public:
     [[nodiscard]] std::vector<std::vector<BorderSelection>> route(
         const std::vector<std::vector<BorderSelection>>& from_each) {
-        std::set<Key> said_by_both;
+        std::set<Key> marked_by_both;
         for (const auto& selections : from_each) {
             for (const BorderSelection& s : selections) {
-                if (!known_.insert(key_of(s)).second) said_by_both.insert(key_of(s));
+                if (!known_.insert(key_of(s)).second) marked_by_both.insert(key_of(s));
             }
         }
         std::vector<std::vector<BorderSelection>> to_each(from_each.size());
         for (const auto& selections : from_each) {
             for (const BorderSelection& s : selections) {
-                if (said_by_both.contains(key_of(s))) continue;
+                if (marked_by_both.contains(key_of(s))) continue;
                 to_each[static_cast<std::size_t>(s.to)].push_back(s);
             }
         }

@@ -16,7 +16,7 @@ struct MarkedCells {
     /// The edges that each listed cell marks; empty if the scheme determines them.
     std::vector<EdgeMask> edges;
     std::size_t count = 0;
-    std::size_t judged = 0;  ///< number of cells that were tested
+    std::size_t tested = 0;  ///< number of cells that were tested
 };
 
 /// Returns the cells of this process that a selection marks. `only_new`: the same selection was

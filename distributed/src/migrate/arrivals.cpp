@@ -17,7 +17,7 @@ namespace {
 struct Entry {
     std::uint64_t number = 0;
     std::uint32_t message = 0;
-    std::uint32_t place = 0;
+    std::uint32_t index = 0;
 
     friend auto operator<=>(const Entry&, const Entry&) = default;
 };
@@ -26,18 +26,17 @@ struct Entry {
 std::vector<Entry> entries(const std::vector<RootMessage>& messages, auto list, auto&& number_of) {
     std::vector<Entry> all;
     for (std::uint32_t m = 0; m < messages.size(); ++m) {
-        std::uint32_t place = 0;
-        for (const auto& entry : messages[m].*list) all.push_back({number_of(entry), m, place++});
+        std::uint32_t index = 0;
+        for (const auto& entry : messages[m].*list) all.push_back({number_of(entry), m, index++});
     }
     std::ranges::sort(all);
     return all;
 }
 
 /// Merges the roots of all messages into a part without levels.
-class ArrivalsTogether {
+class ArrivalMerger {
 public:
-    ArrivalsTogether(const std::vector<RootMessage>& messages, const HasLists& has,
-                     Arrivals& arrivals)
+    ArrivalMerger(const std::vector<RootMessage>& messages, const HasLists& has, Arrivals& arrivals)
         : messages_(&messages), arrivals_(&arrivals), part_(&arrivals.part) {
         take_vertices();
         take_roots(has.regions);
@@ -56,20 +55,20 @@ private:
         for (const Entry& entry : entries(*messages_, &RootMessage::vertices, number_of)) {
             const GlobalVertex number{entry.number};
             if (part_->input_vertices.empty() || part_->input_vertices.back() != number) {
-                take_vertex((*messages_)[entry.message], entry.place);
+                take_vertex((*messages_)[entry.message], entry.index);
             }
-            local_[entry.message][entry.place] = VertexIndex{part_->points.size() - 1};
+            local_[entry.message][entry.index] = VertexIndex{part_->points.size() - 1};
         }
     }
-    void take_vertex(const RootMessage& message, std::size_t place) {
-        part_->input_vertices.push_back(message.vertices[place]);
-        part_->points.push_back(message.points[place]);
+    void take_vertex(const RootMessage& message, std::size_t index) {
+        part_->input_vertices.push_back(message.vertices[index]);
+        part_->points.push_back(message.points[index]);
         if (!message.point_markers.empty()) {
-            part_->input_vertex_markers.push_back(message.point_markers[place]);
+            part_->input_vertex_markers.push_back(message.point_markers[index]);
         }
         const std::size_t count = part_->attributes_per_point;
         for (std::size_t k = 0; k < count; ++k) {
-            part_->point_attributes.push_back(message.point_attributes[place * count + k]);
+            part_->point_attributes.push_back(message.point_attributes[index * count + k]);
         }
     }
 
@@ -80,7 +79,7 @@ private:
         const auto number_of = [](const RootMessage::Root& root) { return root.number; };
         for (const Entry& entry : entries(*messages_, &RootMessage::roots, number_of)) {
             const RootMessage& message = (*messages_)[entry.message];
-            const RootMessage::Root& root = message.roots[entry.place];
+            const RootMessage::Root& root = message.roots[entry.index];
             if (root.cut_bytes > 0) {
                 cuts.roots.push_back({static_cast<std::uint32_t>(numbers.size()), root.cut_bytes});
                 const auto bytes =
@@ -103,7 +102,7 @@ private:
         std::vector<Marker> markers;
         const auto number_of = [](const auto& tagged) { return tagged.number; };
         for (const Entry& entry : entries(*messages_, list, number_of)) {
-            const auto& tagged = ((*messages_)[entry.message].*list)[entry.place];
+            const auto& tagged = ((*messages_)[entry.message].*list)[entry.index];
             entities.push_back(local(entry, tagged.vertices));
             numbers.push_back(tagged.number);
             if (has_markers) markers.push_back(tagged.marker);
@@ -113,9 +112,9 @@ private:
 
     template <std::size_t N>
     [[nodiscard]] std::array<VertexIndex, N> local(
-        const Entry& entry, const std::array<std::uint32_t, N>& places) const {
+        const Entry& entry, const std::array<std::uint32_t, N>& indices) const {
         std::array<VertexIndex, N> vertices;
-        for (std::size_t k = 0; k < N; ++k) vertices[k] = local_[entry.message][places[k]];
+        for (std::size_t k = 0; k < N; ++k) vertices[k] = local_[entry.message][indices[k]];
         return vertices;
     }
 
@@ -142,7 +141,7 @@ Arrivals arrivals_of(const std::vector<RootMessage>& messages, const HasLists& h
                      std::size_t attributes_per_point, std::size_t step_count) {
     Arrivals arrivals;
     arrivals.part.attributes_per_point = attributes_per_point;
-    CutRoots cuts = std::move(ArrivalsTogether(messages, has, arrivals).cuts);
+    CutRoots cuts = std::move(ArrivalMerger(messages, has, arrivals).cuts);
     replay_alone(arrivals.part, std::move(cuts), step_count);
     restore_canonical_order(arrivals.part);
     return arrivals;

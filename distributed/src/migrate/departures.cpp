@@ -40,14 +40,14 @@ std::vector<int> ranks_of_tagged(const IndexVector<I, std::array<VertexIndex, N>
 }
 
 /// For each rank, indices in a list of the input.
-using PlacesByRank = std::vector<std::vector<std::uint32_t>>;
+using IndicesByRank = std::vector<std::vector<std::uint32_t>>;
 
-PlacesByRank by_rank(const std::vector<int>& ranks, std::size_t process_count) {
-    PlacesByRank places(process_count);
+IndicesByRank by_rank(const std::vector<int>& ranks, std::size_t process_count) {
+    IndicesByRank indices(process_count);
     for (std::size_t i = 0; i < ranks.size(); ++i) {
-        places[static_cast<std::size_t>(ranks[i])].push_back(static_cast<std::uint32_t>(i));
+        indices[static_cast<std::size_t>(ranks[i])].push_back(static_cast<std::uint32_t>(i));
     }
-    return places;
+    return indices;
 }
 
 class MessageMaker {
@@ -56,10 +56,10 @@ public:
         : input_(&departures.input),
           cuts_(&departures.cuts.bytes),
           cut_begin_(input_->cells.size() + 1, 0),
-          place_(input_->points.size()),
+          index_(input_->points.size()),
           last_message_(input_->points.size(), -1) {
         for (const CutRoots::Root& root : departures.cuts.roots) {
-            cut_begin_[root.place + std::size_t{1}] = root.bytes;
+            cut_begin_[root.index + std::size_t{1}] = root.bytes;
         }
         for (std::size_t r = 1; r < cut_begin_.size(); ++r) cut_begin_[r] += cut_begin_[r - 1];
     }
@@ -86,7 +86,7 @@ private:
         std::ranges::sort(vertices);
         const std::size_t attributes = input_->attributes_per_point;
         for (const VertexIndex v : vertices) {
-            place_[v.value()] = static_cast<std::uint32_t>(message.vertices.size());
+            index_[v.value()] = static_cast<std::uint32_t>(message.vertices.size());
             message.vertices.push_back(input_->input_vertices[v.value()]);
             message.points.push_back(input_->points[v]);
             if (!input_->input_vertex_markers.empty()) {
@@ -107,7 +107,7 @@ private:
             message.cuts.insert(message.cuts.end(), cuts.begin(), cuts.end());
             message.roots.push_back(
                 {.number = ancestors.roots[r],
-                 .corners = places_of(input_->cells[CellIndex{r}]),
+                 .corners = indices_of(input_->cells[CellIndex{r}]),
                  .region = ancestors.markers.empty() ? Marker{0} : ancestors.markers[r],
                  .cut_bytes = static_cast<std::uint32_t>(cuts.size())});
         }
@@ -115,31 +115,31 @@ private:
 
     template <class I, std::size_t N>
     std::vector<RootMessage::Tagged<N>> tagged(
-        const std::vector<std::uint32_t>& places,
+        const std::vector<std::uint32_t>& indices,
         const IndexVector<I, std::array<VertexIndex, N>>& list,
         const AncestorMap& ancestors) const {
         std::vector<RootMessage::Tagged<N>> tagged;
-        for (const std::uint32_t i : places) {
+        for (const std::uint32_t i : indices) {
             tagged.push_back(
                 {.number = ancestors.roots[i],
-                 .vertices = places_of(list[I{i}]),
+                 .vertices = indices_of(list[I{i}]),
                  .marker = ancestors.markers.empty() ? Marker{0} : ancestors.markers[i]});
         }
         return tagged;
     }
 
     template <std::size_t N>
-    [[nodiscard]] std::array<std::uint32_t, N> places_of(
+    [[nodiscard]] std::array<std::uint32_t, N> indices_of(
         const std::array<VertexIndex, N>& vertices) const {
-        std::array<std::uint32_t, N> places;
-        for (std::size_t k = 0; k < N; ++k) places[k] = place_[vertices[k].value()];
-        return places;
+        std::array<std::uint32_t, N> indices;
+        for (std::size_t k = 0; k < N; ++k) indices[k] = index_[vertices[k].value()];
+        return indices;
     }
 
     const DistributedMesh* input_;
     const std::vector<std::uint8_t>* cuts_;
     std::vector<std::size_t> cut_begin_;  ///< offset for each root, and the end
-    std::vector<std::uint32_t> place_;    ///< index of each vertex in the current message
+    std::vector<std::uint32_t> index_;    ///< index of each vertex in the current message
     std::vector<int> last_message_;       ///< the last message that contains the vertex
 };
 
@@ -160,9 +160,9 @@ Departures departures_of(const DistributedMesh& mesh, std::span<const int> rank_
 std::vector<std::vector<std::byte>> packed_messages(const Departures& departures) {
     const Communicator& processes = departures.input.processes;
     const auto process_count = static_cast<std::size_t>(processes.size());
-    const PlacesByRank roots = by_rank(departures.rank_of_root, process_count);
-    const PlacesByRank facets = by_rank(departures.rank_of_facet, process_count);
-    const PlacesByRank edges = by_rank(departures.rank_of_edge, process_count);
+    const IndicesByRank roots = by_rank(departures.rank_of_root, process_count);
+    const IndicesByRank facets = by_rank(departures.rank_of_facet, process_count);
+    const IndicesByRank edges = by_rank(departures.rank_of_edge, process_count);
     MessageMaker maker(departures);
     std::vector<std::vector<std::byte>> packed(process_count);
     for (int rank = 0; rank < processes.size(); ++rank) {

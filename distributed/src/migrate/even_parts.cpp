@@ -27,20 +27,20 @@ std::vector<int> matched(std::vector<ShareOfPart> shares, std::size_t process_co
     });
     std::vector<int> rank_of_part(process_count, -1);
     std::vector<bool> has_part(process_count, false);
-    const auto give = [&](int part, int rank) {
+    const auto assign = [&](int part, int rank) {
         rank_of_part[static_cast<std::size_t>(part)] = rank;
         has_part[static_cast<std::size_t>(rank)] = true;
     };
     for (const ShareOfPart& share : shares) {
         const bool is_free = rank_of_part[static_cast<std::size_t>(share.part)] < 0;
         if (is_free && !has_part[static_cast<std::size_t>(share.rank)]) {
-            give(share.part, share.rank);
+            assign(share.part, share.rank);
         }
     }
     for (std::size_t part = 0; part < process_count; ++part) {
         if (rank_of_part[part] >= 0) continue;
         const auto idle = std::ranges::find(has_part, false) - has_part.begin();
-        give(static_cast<int>(part), static_cast<int>(idle));
+        assign(static_cast<int>(part), static_cast<int>(idle));
     }
     return rank_of_part;
 }
@@ -125,7 +125,7 @@ std::optional<EvenParts> even_parts(const DistributedMesh& mesh,
     for (int& rank : ranks) rank = rank_of_part[static_cast<std::size_t>(rank)];
     auto loads = loads_after(processes, ranks, weights, failure);
     if (loads.empty()) return std::nullopt;
-    if (!relieve_of_heavy_roots(processes, weights, ranks, loads, most_over_mean, failure)) {
+    if (!balance_heavy_roots(processes, weights, ranks, loads, most_over_mean, failure)) {
         return std::nullopt;
     }
     const std::uint64_t most = *std::ranges::max_element(loads);

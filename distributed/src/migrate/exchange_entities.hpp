@@ -38,8 +38,8 @@ void exchange_entities(const Communicator& processes, const std::vector<int>& pa
     failure.agree(processes);  // a process without memory has sent nothing
     failure.attempt([&] {
         outboxes.clear();
-        const auto place = std::ranges::lower_bound(others, processes.rank()) - others.begin();
-        inboxes.insert(inboxes.begin() + place, std::move(own));
+        const auto index = std::ranges::lower_bound(others, processes.rank()) - others.begin();
+        inboxes.insert(inboxes.begin() + index, std::move(own));
         take(inboxes);
     });
     failure.agree(processes);

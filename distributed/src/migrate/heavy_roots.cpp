@@ -7,12 +7,12 @@ namespace octetra::distributed {
 namespace {
 
 /// The maximum number of heavy roots on all processes.
-constexpr std::uint64_t most_heavy = 4096;
+constexpr std::uint64_t max_heavy_roots = 4096;
 /// A heavy root weighs more than the mean load divided by this.
-constexpr std::uint64_t parts_of_mean = 64;
+constexpr std::uint64_t mean_divisor = 64;
 
 /// The processes with the greatest and the smallest load, and the difference of their loads.
-struct Uneven {
+struct LoadGap {
     int fullest = 0;
     int emptiest = 0;
     std::uint64_t gap = 0;
@@ -21,51 +21,55 @@ struct Uneven {
     [[nodiscard]] std::uint64_t left(std::uint64_t weight) const {
         return weight > gap - weight ? 2 * weight - gap : gap - 2 * weight;
     }
-    [[nodiscard]] bool helps(std::uint64_t weight) const { return weight > 0 && weight < gap; }
+    [[nodiscard]] bool reduces_peak(std::uint64_t weight) const {
+        return weight > 0 && weight < gap;
+    }
 };
 
 /// A root that moves from the fullest to the emptiest process, and one that moves back, or null.
 struct Exchange {
-    PlacedRoot* goes = nullptr;
-    PlacedRoot* comes = nullptr;
+    AssignedRoot* outgoing = nullptr;
+    AssignedRoot* incoming = nullptr;
 
     [[nodiscard]] std::uint64_t weight() const {
-        return goes->weight - (comes == nullptr ? 0 : comes->weight);
+        return outgoing->weight - (incoming == nullptr ? 0 : incoming->weight);
     }
 };
 
-/// Returns the move of one root that minimises the remaining difference; its `goes` is null if no
-/// move reduces the greatest load.
-Exchange best_move(std::span<PlacedRoot> roots, const Uneven& uneven) {
+/// Returns the move of one root that minimises the remaining difference; its `outgoing` is null if
+/// no move reduces the greatest load.
+Exchange best_move(std::span<AssignedRoot> roots, const LoadGap& load_gap) {
     Exchange best;
-    for (PlacedRoot& root : roots) {
-        if (root.rank != uneven.fullest || !uneven.helps(root.weight)) continue;
-        if (best.goes == nullptr || uneven.left(root.weight) < uneven.left(best.weight())) {
-            best.goes = &root;
+    for (AssignedRoot& root : roots) {
+        if (root.rank != load_gap.fullest || !load_gap.reduces_peak(root.weight)) continue;
+        if (best.outgoing == nullptr || load_gap.left(root.weight) < load_gap.left(best.weight())) {
+            best.outgoing = &root;
         }
     }
     return best;
 }
 
 /// Same for swaps of two roots.
-Exchange best_swap(std::span<PlacedRoot> roots, const Uneven& uneven) {
-    std::vector<PlacedRoot*> of_emptiest;
-    for (PlacedRoot& root : roots) {
-        if (root.rank == uneven.emptiest) of_emptiest.push_back(&root);
+Exchange best_swap(std::span<AssignedRoot> roots, const LoadGap& load_gap) {
+    std::vector<AssignedRoot*> of_emptiest;
+    for (AssignedRoot& root : roots) {
+        if (root.rank == load_gap.emptiest) of_emptiest.push_back(&root);
     }
-    std::ranges::stable_sort(of_emptiest, {}, &PlacedRoot::weight);
+    std::ranges::stable_sort(of_emptiest, {}, &AssignedRoot::weight);
     Exchange best;
-    for (PlacedRoot& root : roots) {
-        if (root.rank != uneven.fullest) continue;
+    for (AssignedRoot& root : roots) {
+        if (root.rank != load_gap.fullest) continue;
         // Candidates are the neighbours of the weight that would equalise the loads.
-        const std::uint64_t wanted = root.weight - std::min(root.weight, uneven.gap / 2);
-        const auto next = std::ranges::lower_bound(of_emptiest, wanted, {}, &PlacedRoot::weight);
+        const std::uint64_t wanted = root.weight - std::min(root.weight, load_gap.gap / 2);
+        const auto next = std::ranges::lower_bound(of_emptiest, wanted, {}, &AssignedRoot::weight);
         const auto first = next == of_emptiest.begin() ? next : next - 1;
         const auto last = next == of_emptiest.end() ? next : next + 1;
-        for (auto comes = first; comes != last; ++comes) {
-            const Exchange swap{&root, *comes};
-            if ((*comes)->weight >= root.weight || !uneven.helps(swap.weight())) continue;
-            if (best.goes == nullptr || uneven.left(swap.weight()) < uneven.left(best.weight())) {
+        for (auto incoming = first; incoming != last; ++incoming) {
+            const Exchange swap{&root, *incoming};
+            if ((*incoming)->weight >= root.weight || !load_gap.reduces_peak(swap.weight()))
+                continue;
+            if (best.outgoing == nullptr ||
+                load_gap.left(swap.weight()) < load_gap.left(best.weight())) {
                 best = swap;
             }
         }
@@ -75,39 +79,41 @@ Exchange best_swap(std::span<PlacedRoot> roots, const Uneven& uneven) {
 
 }  // namespace
 
-void relieve(std::vector<std::uint64_t>& loads, std::span<PlacedRoot> roots, std::uint64_t goal) {
+void balance_loads(std::vector<std::uint64_t>& loads, std::span<AssignedRoot> roots,
+                   std::uint64_t goal) {
     // Each move reduces the difference, so the loop terminates; the limit bounds its time.
     for (std::size_t moves = 0; moves < 16 * roots.size(); ++moves) {
         const auto most = std::ranges::max_element(loads);
         const auto least = std::ranges::min_element(loads);
         if (most == loads.end() || *most <= goal) return;
-        const Uneven uneven{static_cast<int>(most - loads.begin()),
-                            static_cast<int>(least - loads.begin()), *most - *least};
-        Exchange best = best_move(roots, uneven);
-        if (best.goes == nullptr) best = best_swap(roots, uneven);
-        if (best.goes == nullptr) return;
+        const LoadGap load_gap{static_cast<int>(most - loads.begin()),
+                               static_cast<int>(least - loads.begin()), *most - *least};
+        Exchange best = best_move(roots, load_gap);
+        if (best.outgoing == nullptr) best = best_swap(roots, load_gap);
+        if (best.outgoing == nullptr) return;
         *most -= best.weight();
         *least += best.weight();
-        best.goes->rank = uneven.emptiest;
-        if (best.comes != nullptr) best.comes->rank = uneven.fullest;
+        best.outgoing->rank = load_gap.emptiest;
+        if (best.incoming != nullptr) best.incoming->rank = load_gap.fullest;
     }
 }
 
-bool relieve_of_heavy_roots(const Communicator& processes, std::span<const std::uint64_t> weights,
-                            std::span<int> ranks, std::vector<std::uint64_t>& loads,
-                            double most_over_mean, LocalFailure& failure) {
+bool balance_heavy_roots(const Communicator& processes, std::span<const std::uint64_t> weights,
+                         std::span<int> ranks, std::vector<std::uint64_t>& loads,
+                         double most_over_mean, LocalFailure& failure) {
     const std::uint64_t sum = std::reduce(loads.begin(), loads.end());
     const std::uint64_t mean = sum / loads.size();
     const auto goal = static_cast<std::uint64_t>(most_over_mean * static_cast<double>(mean));
     if (*std::ranges::max_element(loads) <= goal) return true;
 
     const std::uint64_t heavy =
-        std::max({sum / most_heavy, mean / parts_of_mean, std::uint64_t{1}});
-    std::vector<PlacedRoot> here;
+        std::max({sum / max_heavy_roots, mean / mean_divisor, std::uint64_t{1}});
+    std::vector<AssignedRoot> here;
     std::vector<std::size_t> which;
-    std::vector<int> placed;
+    std::vector<int> assigned;
     failure.attempt([&] {
-        placed.resize(most_heavy);  // upper bound, so every process has memory for the broadcast
+        assigned.resize(
+            max_heavy_roots);  // upper bound, so every process has memory for the broadcast
         for (std::size_t r = 0; r < weights.size(); ++r) {
             if (weights[r] <= heavy) continue;
             here.push_back({weights[r], ranks[r]});
@@ -119,15 +125,15 @@ bool relieve_of_heavy_roots(const Communicator& processes, std::span<const std::
     failure.attempt([&] {
         const auto gathered = processes.gather(here);
         if (!processes.is_first()) return;
-        std::vector<PlacedRoot> all;
+        std::vector<AssignedRoot> all;
         for (const auto& of_one : gathered) all.insert(all.end(), of_one.begin(), of_one.end());
-        relieve(loads, all, goal);
-        std::ranges::transform(all, placed.begin(), &PlacedRoot::rank);
+        balance_loads(loads, all, goal);
+        std::ranges::transform(all, assigned.begin(), &AssignedRoot::rank);
     });
     if (failure.max_unless_failed(processes, 0) == LocalFailure::somewhere) return false;
-    processes.broadcast(placed);
+    processes.broadcast(assigned);
     processes.broadcast(loads);
-    for (std::size_t k = 0; k < which.size(); ++k) ranks[which[k]] = placed[before + k];
+    for (std::size_t k = 0; k < which.size(); ++k) ranks[which[k]] = assigned[before + k];
     return true;
 }
 

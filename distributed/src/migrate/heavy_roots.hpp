@@ -11,7 +11,7 @@
 namespace octetra::distributed {
 
 /// A root and the process that it is assigned to.
-struct PlacedRoot {
+struct AssignedRoot {
     std::uint64_t weight = 0;
     int rank = 0;
 };
@@ -20,15 +20,16 @@ struct PlacedRoot {
 /// greatest load exceeds `goal` and decreases. Each time it selects the root that minimises the
 /// difference between the two; if there is none, it swaps two roots. `loads` are those of all
 /// processes, including roots that are not passed.
-void relieve(std::vector<std::uint64_t>& loads, std::span<PlacedRoot> roots, std::uint64_t goal);
+void balance_loads(std::vector<std::uint64_t>& loads, std::span<AssignedRoot> roots,
+                   std::uint64_t goal);
 
-/// Collective. Applies relieve() to the heavy roots of all processes, at most a few thousand.
+/// Collective. Applies balance_loads() to the heavy roots of all processes, at most a few thousand.
 /// Bisection separates roots by position, so heavy ones may cause an imbalance in each cut. Returns
 /// false on all processes if one has failed or fails; otherwise `loads` are the loads after the
 /// moves.
-[[nodiscard]] bool relieve_of_heavy_roots(const Communicator& processes,
-                                          std::span<const std::uint64_t> weights,
-                                          std::span<int> ranks, std::vector<std::uint64_t>& loads,
-                                          double most_over_mean, LocalFailure& failure);
+[[nodiscard]] bool balance_heavy_roots(const Communicator& processes,
+                                       std::span<const std::uint64_t> weights, std::span<int> ranks,
+                                       std::vector<std::uint64_t>& loads, double most_over_mean,
+                                       LocalFailure& failure);
 
 }  // namespace octetra::distributed

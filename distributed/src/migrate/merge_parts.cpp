@@ -50,7 +50,7 @@ struct Source {
 
     [[nodiscard]] bool next_stays() const { return stays == nullptr || (*stays)[next] != 0; }
     /// Skips midpoints that the merged part cannot have, because it lacks one of their ends.
-    void pass_impossible(VertexIndex end) {
+    void skip_impossible(VertexIndex end) {
         if (stays == nullptr || next < VertexIndex{mesh->input_vertices.size()}) return;
         const auto is_impossible = [&] {
             const auto [a, b] = ends();
@@ -98,7 +98,7 @@ private:
         const VertexIndex end_a = a_->level_end(level);
         const VertexIndex end_b = b_->level_end(level);
         while (true) {
-            a_->pass_impossible(end_a);
+            a_->skip_impossible(end_a);
             if (a_->next == end_a && b_->next == end_b) break;
             const bool has_a = a_->next < end_a;
             const bool has_b = b_->next < end_b;
@@ -140,7 +140,7 @@ private:
             MidpointMarker known = known_marker(*source.mesh, source.next);
             if (takes_a && takes_b) {
                 const MidpointMarker other = known_marker(*b_->mesh, b_->next);
-                if (tells_more(other, known)) known = other;
+                if (has_priority_over(other, known)) known = other;
             }
             result_->midpoint_markers.push_back(known);
         }
@@ -203,10 +203,11 @@ void merge_lists(const ListSource<I, N>& a, const std::vector<int>& rank_of_a, i
 
 /// Throws InputError if the number of entities may exceed the range of 32-bit indices; departing
 /// entities are counted, too.
-void check_countable(const DistributedMesh& before, const DistributedMesh& come) {
-    const std::size_t most = std::max(
-        {before.points.size() + come.points.size(), before.cells.size() + come.cells.size(),
-         before.facets.size() + come.facets.size(), before.edges.size() + come.edges.size()});
+void check_countable(const DistributedMesh& before, const DistributedMesh& received) {
+    const std::size_t most = std::max({before.points.size() + received.points.size(),
+                                       before.cells.size() + received.cells.size(),
+                                       before.facets.size() + received.facets.size(),
+                                       before.edges.size() + received.edges.size()});
     if (most < VertexIndex::limit) return;
     throw InputError(
         fmt::format("rank {}: the migration could result in {} entities of one kind, which are too "
@@ -237,25 +238,25 @@ MergedPart merge_parts(const DistributedMesh& before, const Departures& departur
     mesh.index_base = before.index_base;
     mesh.group_names = before.group_names;
     mesh.features = before.features;
-    const DistributedMesh& come = arrivals.part;
+    const DistributedMesh& received = arrivals.part;
     const auto stays = staying_vertices(before, departures);
     Source a(before, &stays);
-    Source b(come, nullptr);
+    Source b(received, nullptr);
     (void)VertexMerge(mesh, a, b);
 
     const int rank = before.processes.rank();
     const auto merge = [&](auto list, auto ancestors, const std::vector<int>& ranks,
                            bool has_markers, auto&& taken) {
         merge_lists(ListSource{&(before.*list), &(before.*ancestors), &a.numbers}, ranks, rank,
-                    ListSource{&(come.*list), &(come.*ancestors), &b.numbers}, has_markers,
+                    ListSource{&(received.*list), &(received.*ancestors), &b.numbers}, has_markers,
                     mesh.*list, mesh.*ancestors, taken);
     };
     using M = DistributedMesh;
-    mesh.cells.reserve(before.cells.size() + come.cells.size());
+    mesh.cells.reserve(before.cells.size() + received.cells.size());
     merge(&M::cells, &M::cell_ancestors, departures.rank_of_root, has.regions,
           [&](std::size_t arrival) {
-              const bool has_come = arrival < arrivals.rank_of_root.size();
-              merged.rank_of_root.push_back(has_come ? arrivals.rank_of_root[arrival] : rank);
+              const bool is_received = arrival < arrivals.rank_of_root.size();
+              merged.rank_of_root.push_back(is_received ? arrivals.rank_of_root[arrival] : rank);
           });
     merge(&M::facets, &M::facet_ancestors, departures.rank_of_facet, has.facet_markers,
           [](std::size_t) {});

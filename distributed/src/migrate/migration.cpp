@@ -51,7 +51,7 @@ void sum_up(std::vector<std::uint64_t>& lengths) {
 
 void Migration::check_values(const Entities& entities, std::size_t count,
                              const detail::ValueKind& kind) const {
-    if (!knows_counts_) return;
+    if (!has_counts_) return;
     LocalFailure failure;
     failure.attempt([&] { check(processes_, count, entities.count_before * kind.components); });
     agree_on_kind(processes_, failure, kind);
@@ -59,7 +59,7 @@ void Migration::check_values(const Entities& entities, std::size_t count,
 
 void Migration::check_lists(const Entities& entities, std::span<const std::uint64_t> begin,
                             std::size_t count, const detail::ValueKind& kind) const {
-    if (!knows_counts_) return;
+    if (!has_counts_) return;
     LocalFailure failure;
     failure.attempt([&] { check(processes_, begin, count, entities.count_before); });
     agree_on_kind(processes_, failure, kind);

@@ -37,8 +37,9 @@ public:
     [[nodiscard]] Numbers cells(std::size_t partner) const {
         Numbers cells;
         for_each_cell(partner, [&](CellIndex c) {
-            cells.push_back(side_->cells_outside.empty() ? c.value()
-                                                         : side_->cells_outside[c.value()].value());
+            cells.push_back(side_->unordered_cell_ids.empty()
+                                ? c.value()
+                                : side_->unordered_cell_ids[c.value()].value());
         });
         return cells;
     }
@@ -83,7 +84,7 @@ MovedEntities moved_entities(const SideOfMove& before, const SideOfMove& after,
     Migration::Entities vertices{before.mesh->points.size(), after.mesh->points.size(), {}};
     IndexVector<VertexIndex, std::uint8_t> is_here;
     is_here.assign(after.mesh->points.size(), 0);
-    IndexVector<VertexIndex, std::uint8_t> has_come = is_here;
+    IndexVector<VertexIndex, std::uint8_t> is_received = is_here;
     for (const std::uint32_t w : kept.received) is_here[VertexIndex{w}] = 1;
     for (std::size_t p = 0; p < partners.size(); ++p) {
         cells.messages.push_back({out.cells(p), in.cells(p)});
@@ -97,7 +98,7 @@ MovedEntities moved_entities(const SideOfMove& before, const SideOfMove& after,
         Numbers sent = out.vertices(p, has_not);
         Numbers received = in.vertices(p, [&](VertexIndex w) { return is_here[w] == 0; });
         for (std::uint32_t& w : received) {
-            if (std::exchange(has_come[VertexIndex{w}], 1) != 0) w = Migration::repeated;
+            if (std::exchange(is_received[VertexIndex{w}], 1) != 0) w = Migration::repeated;
         }
         vertices.messages.push_back({std::move(sent), std::move(received)});
     }

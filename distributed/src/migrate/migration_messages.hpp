@@ -16,7 +16,7 @@ struct SideOfMove {
     std::span<const int> rank_of_root;
     /// Maps canonical to actual indices of the cells if the mesh is not in canonical order; else
     /// empty.
-    std::span<const CellIndex> cells_outside{};
+    std::span<const CellIndex> unordered_cell_ids{};
 };
 
 /// The cells and vertices in the messages between partners, for a Migration.

@@ -41,18 +41,18 @@ std::vector<Destinations> by_owner(const Sharing<VertexIndex>& sharing,
 
 /// Returns for each process that receives a vertex the other processes that do.
 std::vector<Destinations> to_holders(const Destinations& all, std::size_t process_count) {
-    std::vector<Destinations> told(process_count);
+    std::vector<Destinations> sent(process_count);
     for (auto begin = all.begin(); begin != all.end();) {
         const auto end = std::find_if(begin, all.end(),
                                       [&](const auto& one) { return one.vertex != begin->vertex; });
         for (auto holder = begin; holder != end; ++holder) {
             for (auto other = begin; other != end; ++other) {
-                if (other != holder) told[static_cast<std::size_t>(holder->rank)].push_back(*other);
+                if (other != holder) sent[static_cast<std::size_t>(holder->rank)].push_back(*other);
             }
         }
         begin = end;
     }
-    return told;
+    return sent;
 }
 
 void share(const DistributedMesh& after, Destinations others,
@@ -75,20 +75,20 @@ void share(const DistributedMesh& after, Destinations others,
 Destinations vertex_destinations(const Departures& departures,
                                  const Sharing<VertexIndex>& sharing) {
     const DistributedMesh& input = departures.input;
-    std::vector<bool> is_told(input.points.size(), false);
+    std::vector<bool> is_sent(input.points.size(), false);
     for (const VertexIndex v : sharing.shared()) {
-        if (v < input.points.end_index()) is_told[v.value()] = true;
+        if (v < input.points.end_index()) is_sent[v.value()] = true;
     }
     for (CellIndex c{0}; c < input.cells.end_index(); ++c) {
         if (departures.rank_of_root[c.value()] == sharing.rank()) continue;
-        for (const VertexIndex v : input.cells[c]) is_told[v.value()] = true;
+        for (const VertexIndex v : input.cells[c]) is_sent[v.value()] = true;
     }
     Destinations destinations;
     std::vector<int> last_rank(input.points.size(), -1);  // most duplicates are consecutive
     for (CellIndex c{0}; c < input.cells.end_index(); ++c) {
         const int rank = departures.rank_of_root[c.value()];
         for (const VertexIndex v : input.cells[c]) {
-            if (!is_told[v.value()] || std::exchange(last_rank[v.value()], rank) == rank) continue;
+            if (!is_sent[v.value()] || std::exchange(last_rank[v.value()], rank) == rank) continue;
             destinations.push_back({input.input_vertices[v.value()], rank});
         }
     }
@@ -112,18 +112,18 @@ Sharing<VertexIndex> moved_sharing(const DistributedMesh& after, const Sharing<V
         to_owners = by_owner(before, vertices_before, destinations, ranks, all);
     });
     failure.agree(processes);
-    std::vector<Destinations> told;
+    std::vector<Destinations> sent;
     failure.attempt([&] {
         for (const Destinations& from_one : processes.exchange_with(ranks, to_owners)) {
             all.insert(all.end(), from_one.begin(), from_one.end());
         }
         sort_and_unite(all);
-        told = to_holders(all, static_cast<std::size_t>(processes.size()));
+        sent = to_holders(all, static_cast<std::size_t>(processes.size()));
     });
     failure.agree(processes);
     failure.attempt([&] {
         Destinations others;
-        for (const Destinations& from_one : processes.all_to_all(told)) {
+        for (const Destinations& from_one : processes.all_to_all(sent)) {
             others.insert(others.end(), from_one.begin(), from_one.end());
         }
         share(after, std::move(others), *builder);

@@ -21,7 +21,7 @@ struct Blocks {
 };
 
 /// A run of consecutive roots of one process in a block with equal numbers of descendants.
-struct Alike {
+struct EqualRootRun {
     std::uint32_t first;  ///< first root, relative to the start of the block
     std::uint32_t count;
     std::uint32_t descendants;  ///< of each root
@@ -30,23 +30,24 @@ struct Alike {
 };
 
 /// Returns this process's roots, grouped by block; the roots are ascending.
-std::vector<std::vector<Alike>> roots_of_blocks(const AncestorMap& ancestors, const Blocks& blocks,
-                                                std::size_t process_count) {
-    std::vector<std::vector<Alike>> of_blocks(process_count);
+std::vector<std::vector<EqualRootRun>> roots_of_blocks(const AncestorMap& ancestors,
+                                                       const Blocks& blocks,
+                                                       std::size_t process_count) {
+    std::vector<std::vector<EqualRootRun>> of_blocks(process_count);
     std::size_t r = 0;
     for (std::size_t rank = 0; rank < process_count; ++rank) {
         const std::uint64_t begin = blocks.begin_of(rank);
         const std::uint64_t end = begin + blocks.size;
         auto& of_block = of_blocks[rank];
         for (; r < ancestors.roots.size() && ancestors.roots[r] < end; ++r) {
-            const auto place = static_cast<std::uint32_t>(ancestors.roots[r] - begin);
+            const auto position = static_cast<std::uint32_t>(ancestors.roots[r] - begin);
             const auto descendants =
                 static_cast<std::uint32_t>(ancestors.first[r + 1] - ancestors.first[r]);
-            if (!of_block.empty() && of_block.back().first + of_block.back().count == place &&
+            if (!of_block.empty() && of_block.back().first + of_block.back().count == position &&
                 of_block.back().descendants == descendants) {
                 ++of_block.back().count;
             } else {
-                of_block.push_back({place, 1, descendants});
+                of_block.push_back({position, 1, descendants});
             }
         }
     }
@@ -56,32 +57,32 @@ std::vector<std::vector<Alike>> roots_of_blocks(const AncestorMap& ancestors, co
 /// Returns, for each run in a block, received from each process, the number of its first
 /// descendant. The numbers of the block start with `next`.
 std::vector<std::vector<std::uint64_t>> numbers_in_block(
-    const std::vector<std::vector<Alike>>& from_each, std::uint64_t next) {
+    const std::vector<std::vector<EqualRootRun>>& from_each, std::uint64_t next) {
     std::vector<std::vector<std::uint64_t>> numbers(from_each.size());
     // a heap of pairs (first root, rank)
-    std::vector<std::pair<std::uint32_t, std::size_t>> waiting;
-    const auto wait = [&](std::size_t rank) {
+    std::vector<std::pair<std::uint32_t, std::size_t>> queue;
+    const auto enqueue = [&](std::size_t rank) {
         const std::size_t k = numbers[rank].size();
         if (k == from_each[rank].size()) return;
-        waiting.emplace_back(from_each[rank][k].first, rank);
-        std::ranges::push_heap(waiting, std::greater{});
+        queue.emplace_back(from_each[rank][k].first, rank);
+        std::ranges::push_heap(queue, std::greater{});
     };
     for (std::size_t rank = 0; rank < from_each.size(); ++rank) {
         numbers[rank].reserve(from_each[rank].size());
-        wait(rank);
+        enqueue(rank);
     }
-    while (!waiting.empty()) {
-        const std::size_t rank = waiting.front().second;
-        std::ranges::pop_heap(waiting, std::greater{});
-        waiting.pop_back();
+    while (!queue.empty()) {
+        const std::size_t rank = queue.front().second;
+        std::ranges::pop_heap(queue, std::greater{});
+        queue.pop_back();
         const std::uint64_t end =
-            waiting.empty() ? std::numeric_limits<std::uint64_t>::max() : waiting.front().first;
-        for (const Alike& roots : std::span(from_each[rank]).subspan(numbers[rank].size())) {
+            queue.empty() ? std::numeric_limits<std::uint64_t>::max() : queue.front().first;
+        for (const EqualRootRun& roots : std::span(from_each[rank]).subspan(numbers[rank].size())) {
             if (roots.first >= end) break;
             numbers[rank].push_back(next);
             next += roots.entities();
         }
-        wait(rank);
+        enqueue(rank);
     }
     return numbers;
 }
@@ -95,7 +96,7 @@ CanonicalRuns canonical_runs(const Communicator& processes, const AncestorMap& a
     const auto from_each = processes.all_to_all(of_blocks);
     std::uint64_t own = 0;
     for (const auto& from_one : from_each) {
-        for (const Alike& roots : from_one) own += roots.entities();
+        for (const EqualRootRun& roots : from_one) own += roots.entities();
     }
     const auto numbers =
         processes.all_to_all(numbers_in_block(from_each, processes.sum_before(own)));
@@ -104,7 +105,7 @@ CanonicalRuns canonical_runs(const Communicator& processes, const AncestorMap& a
     runs.begin.reserve(ancestors.roots.size());
     for (std::size_t rank = 0; rank < process_count; ++rank) {
         for (std::size_t k = 0; k < numbers[rank].size(); ++k) {
-            const Alike& roots = of_blocks[rank][k];
+            const EqualRootRun& roots = of_blocks[rank][k];
             for (std::uint64_t i = 0; i < roots.count; ++i) {
                 runs.begin.push_back(numbers[rank][k] + i * roots.descendants);
             }

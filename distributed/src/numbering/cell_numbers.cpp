@@ -16,9 +16,9 @@ std::vector<std::uint64_t> cell_numbers(const DistributedMesh& mesh) {
         const CanonicalRuns runs = canonical_runs(mesh.processes, cells.ancestors());
         constexpr auto all = std::numeric_limits<std::uint64_t>::max();
         for_each_between(runs, cells.ancestors(), 0, all,
-                         [&](std::uint64_t number, std::size_t place, std::size_t) {
+                         [&](std::uint64_t number, std::size_t position, std::size_t) {
                              const auto before = cells.before();
-                             numbers[before.empty() ? place : before[place].value()] = number;
+                             numbers[before.empty() ? position : before[position].value()] = number;
                          });
     });
     return numbers;

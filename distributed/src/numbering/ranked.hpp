@@ -16,7 +16,7 @@
 #include <octetra/distributed/distributed_mesh.hpp>
 
 #include "comm/local_failure.hpp"
-#include "numbering/short_words.hpp"
+#include "numbering/compressed_words.hpp"
 
 namespace octetra::distributed {
 
@@ -51,11 +51,11 @@ std::vector<Question> questions_about(std::span<const VertexTuple<N>> tuples,
     for (std::size_t begin = 0, end = 0; begin < tuples.size(); begin = end) {
         const VertexIndex lowest = tuples[begin][0];
         while (end < tuples.size() && tuples[end][0] == lowest) ++end;
-        const bool tell = is_shared(lowest);
+        const bool is_included = is_shared(lowest);
         Question& words = questions[number_of(lowest) / block];
         words.push_back(number_of(lowest));
-        words.push_back((end - begin) << 1U | (tell ? 1U : 0U));
-        if (!tell) continue;
+        words.push_back((end - begin) << 1U | (is_included ? 1U : 0U));
+        if (!is_included) continue;
         for (const VertexTuple<N>& tuple : tuples.subspan(begin, end - begin)) {
             for (std::size_t k = 1; k < N; ++k) words.push_back(number_of(tuple[k]));
         }
@@ -94,8 +94,8 @@ class Answers {
 public:
     explicit Answers(const std::vector<Question>& questions) : to_(questions.size()) {
         for (const Question& question : questions) readers_.emplace_back(question);
-        for (std::size_t r = 0; r < readers_.size(); ++r) wait(r);
-        while (!waiting_.empty()) {
+        for (std::size_t r = 0; r < readers_.size(); ++r) enqueue(r);
+        while (!queue_.empty()) {
             take_all_with_lowest();
             if (ranks_.size() == 1) {
                 answer_one(ranks_.front());
@@ -104,7 +104,7 @@ public:
             answer_several();
             for (const std::size_t r : ranks_) {
                 readers_[r].next();
-                wait(r);
+                enqueue(r);
             }
         }
     }
@@ -116,32 +116,32 @@ public:
 private:
     using Rest = typename QuestionReader<N>::Rest;
 
-    void wait(std::size_t r) {
+    void enqueue(std::size_t r) {
         if (readers_[r].at_end()) return;
-        waiting_.emplace_back(readers_[r].lowest(), r);
-        std::ranges::push_heap(waiting_, std::greater{});
+        queue_.emplace_back(readers_[r].lowest(), r);
+        std::ranges::push_heap(queue_, std::greater{});
     }
     void take_all_with_lowest() {
         ranks_.clear();
-        const std::uint64_t lowest = waiting_.front().first;
-        while (!waiting_.empty() && waiting_.front().first == lowest) {
-            ranks_.push_back(waiting_.front().second);
-            std::ranges::pop_heap(waiting_, std::greater{});
-            waiting_.pop_back();
+        const std::uint64_t lowest = queue_.front().first;
+        while (!queue_.empty() && queue_.front().first == lowest) {
+            ranks_.push_back(queue_.front().second);
+            std::ranges::pop_heap(queue_, std::greater{});
+            queue_.pop_back();
         }
     }
     /// Answers all lowest vertices of process r that precede the next one of any other process.
     void answer_one(std::size_t r) {
         QuestionReader<N>& reader = readers_[r];
         const std::uint64_t end =
-            waiting_.empty() ? std::numeric_limits<std::uint64_t>::max() : waiting_.front().first;
+            queue_.empty() ? std::numeric_limits<std::uint64_t>::max() : queue_.front().first;
         for (; !reader.at_end() && reader.lowest() < end; reader.next()) {
             const std::uint64_t tuples = reader.count();
             const std::uint64_t answers = reader.is_shared() ? tuples : 1;
             for (std::uint64_t i = 0; i < answers; ++i) to_[r].push_back(count_ + i);
             count_ += tuples;
         }
-        wait(r);
+        enqueue(r);
     }
     void answer_several() {
         different_.clear();
@@ -149,8 +149,8 @@ private:
         std::sort(different_.begin(), different_.end());
         different_.erase(std::unique(different_.begin(), different_.end()), different_.end());
         for_each_rest([&](std::size_t r, const Rest& rest) {
-            const auto place = std::lower_bound(different_.begin(), different_.end(), rest);
-            to_[r].push_back(count_ + static_cast<std::uint64_t>(place - different_.begin()));
+            const auto position = std::lower_bound(different_.begin(), different_.end(), rest);
+            to_[r].push_back(count_ + static_cast<std::uint64_t>(position - different_.begin()));
         });
         count_ += different_.size();
     }
@@ -162,8 +162,8 @@ private:
 
     std::vector<std::vector<std::uint64_t>> to_;
     std::vector<QuestionReader<N>> readers_;
-    std::vector<std::pair<std::uint64_t, std::size_t>> waiting_;  ///< a heap: lowest, process
-    std::vector<std::size_t> ranks_;                              ///< that have the lowest vertex
+    std::vector<std::pair<std::uint64_t, std::size_t>> queue_;  ///< a heap: lowest, process
+    std::vector<std::size_t> ranks_;                            ///< that have the lowest vertex
     std::vector<Rest> different_;
     std::uint64_t count_ = 0;
 };
@@ -171,9 +171,9 @@ private:
 /// Appends the position of each of `count` tuples to `list`, from the answers to this process's
 /// questions. The answer of a failed process is empty; the appended values must not be used then.
 template <std::size_t N>
-void append_places(auto& list, std::size_t count, const std::vector<Question>& questions,
-                   const std::vector<std::vector<std::uint64_t>>& answers) {
-    using Place = typename std::remove_cvref_t<decltype(list)>::value_type;
+void append_positions(auto& list, std::size_t count, const std::vector<Question>& questions,
+                      const std::vector<std::vector<std::uint64_t>>& answers) {
+    using Position = typename std::remove_cvref_t<decltype(list)>::value_type;
     const std::size_t end = list.size() + count;
     make_room(list, end);
     for (std::size_t r = 0; r < questions.size(); ++r) {
@@ -181,10 +181,12 @@ void append_places(auto& list, std::size_t count, const std::vector<Question>& q
         auto answer = answers[r].begin();
         for (QuestionReader<N> reader(questions[r]); !reader.at_end(); reader.next()) {
             if (reader.is_shared()) {
-                for (std::uint64_t i = 0; i < reader.count(); ++i) list.push_back(Place{*answer++});
+                for (std::uint64_t i = 0; i < reader.count(); ++i)
+                    list.push_back(Position{*answer++});
             } else {
                 const std::uint64_t first = *answer++;
-                for (std::uint64_t i = 0; i < reader.count(); ++i) list.push_back(Place{first + i});
+                for (std::uint64_t i = 0; i < reader.count(); ++i)
+                    list.push_back(Position{first + i});
             }
         }
     }
@@ -214,32 +216,32 @@ template <std::size_t N>
     const std::uint64_t block = end_count / static_cast<std::uint64_t>(processes.size()) + 1;
     std::vector<Question> questions;
     // allocated before the exchange, because a process that cannot send would leave others waiting
-    std::vector<ShortWords> sent;
+    std::vector<CompressedWords> sent;
     failure.attempt([&] {
         questions = questions_about<N>(tuples, numbers, shared_vertices, block, processes.size());
-        sent = of_each(questions, shortened);
+        sent = of_each(questions, compressed);
     });
     if (somewhere_failed()) return false;
 
     std::vector<std::vector<std::uint64_t>> answers;
     std::uint64_t count = 0;
     failure.attempt([&] {
-        const auto come = processes.all_to_all(sent);
-        const std::vector<Question> asked = of_each(come, lengthened);
+        const auto received = processes.all_to_all(sent);
+        const std::vector<Question> asked = of_each(received, decompressed);
         Answers<N> found(asked);
         count = found.count();
         answers = std::move(found).take();
     });
     const std::uint64_t first = total + processes.sum_before(count);
     total += processes.sum(count);
-    for (auto& places : answers) {
-        for (std::uint64_t& place : places) place += first;
+    for (auto& positions : answers) {
+        for (std::uint64_t& position : positions) position += first;
     }
-    failure.attempt([&] { sent = of_each(answers, shortened); });
+    failure.attempt([&] { sent = of_each(answers, compressed); });
     if (somewhere_failed()) return false;
     failure.attempt([&] {
-        const auto come = processes.all_to_all(sent);
-        append_places<N>(list, tuples.size(), questions, of_each(come, lengthened));
+        const auto received = processes.all_to_all(sent);
+        append_positions<N>(list, tuples.size(), questions, of_each(received, decompressed));
     });
     return true;
 }

@@ -20,7 +20,7 @@ std::vector<std::vector<Marker>> replies_to(const std::vector<std::vector<Known>
     for (const auto& inbox : inboxes) {
         for (const auto& [number, marker] : inbox) {
             const std::uint64_t i = number - first;
-            if (!met[i] || tells_more(marker, merged[i])) merged[i] = marker;
+            if (!met[i] || has_priority_over(marker, merged[i])) merged[i] = marker;
             met[i] = true;
         }
     }

@@ -100,7 +100,7 @@ void CanonicalSlices::for_each_vertex(std::uint64_t begin, std::uint64_t end, au
 }
 
 std::span<const Point> CanonicalSlices::points(const Window& window) {
-    bring_to_slices<Point>(
+    send_to_slices<Point>(
         mesh_->processes, window,
         [&](std::uint64_t begin, std::uint64_t end, auto&& emit) {
             for_each_vertex(begin, end, [&](std::uint64_t number, VertexIndex v) {
@@ -113,9 +113,9 @@ std::span<const Point> CanonicalSlices::points(const Window& window) {
 
 std::span<const Marker> CanonicalSlices::point_markers(const Window& window) {
     const int rank = mesh_->processes.rank();
-    std::vector<MidpointMarker> told(window.end_of(rank) - window.begin_of(rank));
-    std::vector<bool> met(told.size(), false);
-    bring_to_slices<MidpointMarker>(
+    std::vector<MidpointMarker> merged(window.end_of(rank) - window.begin_of(rank));
+    std::vector<bool> met(merged.size(), false);
+    send_to_slices<MidpointMarker>(
         mesh_->processes, window,
         [&](std::uint64_t begin, std::uint64_t end, auto&& emit) {
             for_each_vertex(begin, end, [&](std::uint64_t number, VertexIndex v) {
@@ -123,11 +123,12 @@ std::span<const Marker> CanonicalSlices::point_markers(const Window& window) {
             });
         },
         [&](std::uint32_t position, const MidpointMarker& marker) {
-            if (!met[position] || tells_more(marker, told[position])) told[position] = marker;
+            if (!met[position] || has_priority_over(marker, merged[position]))
+                merged[position] = marker;
             met[position] = true;
         });
     point_markers_.clear();
-    for (const MidpointMarker& marker : told) point_markers_.push_back(marker.marker);
+    for (const MidpointMarker& marker : merged) point_markers_.push_back(marker.marker);
     return point_markers_;
 }
 
@@ -136,7 +137,7 @@ std::span<const double> CanonicalSlices::point_attributes(const Window& window) 
     const int rank = mesh_->processes.rank();
     point_attributes_.resize((window.end_of(rank) - window.begin_of(rank)) * count);
     for (std::size_t k = 0; k < count; ++k) {
-        bring_to_slices<double>(
+        send_to_slices<double>(
             mesh_->processes, window,
             [&](std::uint64_t begin, std::uint64_t end, auto&& emit) {
                 for_each_vertex(begin, end, [&](std::uint64_t number, VertexIndex v) {
@@ -153,7 +154,7 @@ std::span<const double> CanonicalSlices::point_attributes(const Window& window) 
 std::span<const VertexNumbers<2>> CanonicalSlices::midpoint_ends(const Window& window) {
     const std::uint64_t first = mesh_->input_vertex_count;
     const auto& of_vertex = numbers().of_vertex;
-    bring_to_slices<VertexNumbers<2>>(
+    send_to_slices<VertexNumbers<2>>(
         mesh_->processes, window,
         [&](std::uint64_t begin, std::uint64_t end, auto&& emit) {
             for_each_vertex(first + begin, first + end, [&](std::uint64_t number, VertexIndex v) {
@@ -167,14 +168,13 @@ std::span<const VertexNumbers<2>> CanonicalSlices::midpoint_ends(const Window& w
 }
 
 template <class Number, class I, std::size_t N>
-void CanonicalSlices::bring_as(const Window& window,
-                               const OrderedList<IndexVector<I, std::array<VertexIndex, N>>>& list,
-                               const CanonicalRuns& runs, const auto& of_vertex,
-                               std::vector<VertexNumbers<N>>& slice) const {
+void CanonicalSlices::entity_slice_as(
+    const Window& window, const OrderedList<IndexVector<I, std::array<VertexIndex, N>>>& list,
+    const CanonicalRuns& runs, const auto& of_vertex, std::vector<VertexNumbers<N>>& slice) const {
     using Row = std::array<Number, N>;
     slice.resize(window.end_of(mesh_->processes.rank()) - window.begin_of(mesh_->processes.rank()));
     const auto& entities = list.list();
-    bring_to_slices<Row>(
+    send_to_slices<Row>(
         mesh_->processes, window,
         [&](std::uint64_t begin, std::uint64_t end, auto&& emit) {
             for_each_between(runs, list.ancestors(), begin, end,
@@ -195,22 +195,22 @@ void CanonicalSlices::bring_as(const Window& window,
 }
 
 template <class I, std::size_t N>
-std::span<const VertexNumbers<N>> CanonicalSlices::bring(
+std::span<const VertexNumbers<N>> CanonicalSlices::entity_slice(
     const Window& window, const OrderedList<IndexVector<I, std::array<VertexIndex, N>>>& list,
     const CanonicalRuns& runs, std::vector<VertexNumbers<N>>& slice) const {
     if (sends_short_numbers()) {
-        bring_as<std::uint32_t>(window, list, runs, short_numbers_, slice);
+        entity_slice_as<std::uint32_t>(window, list, runs, short_numbers_, slice);
     } else {
-        bring_as<std::uint64_t>(window, list, runs, numbers().of_vertex, slice);
+        entity_slice_as<std::uint64_t>(window, list, runs, numbers().of_vertex, slice);
     }
     return slice;
 }
 
-std::span<const Marker> CanonicalSlices::bring_markers(const Window& window,
-                                                       const AncestorMap& ancestors,
-                                                       const CanonicalRuns& runs,
-                                                       std::vector<Marker>& slice) const {
-    bring_to_slices<Marker>(
+std::span<const Marker> CanonicalSlices::marker_slice(const Window& window,
+                                                      const AncestorMap& ancestors,
+                                                      const CanonicalRuns& runs,
+                                                      std::vector<Marker>& slice) const {
+    send_to_slices<Marker>(
         mesh_->processes, window,
         [&](std::uint64_t begin, std::uint64_t end, auto&& emit) {
             for_each_between(runs, ancestors, begin, end,
@@ -223,7 +223,7 @@ std::span<const Marker> CanonicalSlices::bring_markers(const Window& window,
 }
 
 std::span<const VertexNumbers<4>> CanonicalSlices::cells(const Window& window) {
-    return bring(window, lists_.cells, cell_runs_, cells_);
+    return entity_slice(window, lists_.cells, cell_runs_, cells_);
 }
 
 /// A process's vertices ascend by number, so the local index determines the number of digits.
@@ -268,11 +268,11 @@ std::uint64_t CanonicalSlices::edge_digits(const Window& window, std::uint64_t i
 }
 
 std::span<const Marker> CanonicalSlices::regions(const Window& window) {
-    return bring_markers(window, lists_.cells.ancestors(), cell_runs_, regions_);
+    return marker_slice(window, lists_.cells.ancestors(), cell_runs_, regions_);
 }
 
 std::span<const std::uint64_t> CanonicalSlices::parents(const Window& window) {
-    bring_to_slices<std::uint64_t>(
+    send_to_slices<std::uint64_t>(
         mesh_->processes, window,
         [&](std::uint64_t begin, std::uint64_t end, auto&& emit) {
             const AncestorMap& ancestors = lists_.cells.ancestors();
@@ -286,19 +286,19 @@ std::span<const std::uint64_t> CanonicalSlices::parents(const Window& window) {
 }
 
 std::span<const VertexNumbers<3>> CanonicalSlices::facets(const Window& window) {
-    return bring(window, lists_.facets, facet_runs_, facets_);
+    return entity_slice(window, lists_.facets, facet_runs_, facets_);
 }
 
 std::span<const Marker> CanonicalSlices::facet_markers(const Window& window) {
-    return bring_markers(window, lists_.facets.ancestors(), facet_runs_, facet_markers_);
+    return marker_slice(window, lists_.facets.ancestors(), facet_runs_, facet_markers_);
 }
 
 std::span<const VertexNumbers<2>> CanonicalSlices::edges(const Window& window) {
-    return bring(window, lists_.edges, edge_runs_, edges_);
+    return entity_slice(window, lists_.edges, edge_runs_, edges_);
 }
 
 std::span<const Marker> CanonicalSlices::edge_markers(const Window& window) {
-    return bring_markers(window, lists_.edges.ancestors(), edge_runs_, edge_markers_);
+    return marker_slice(window, lists_.edges.ancestors(), edge_runs_, edge_markers_);
 }
 
 std::span<const std::uint64_t> CanonicalSlices::features(Feature feature, const Window& window) {

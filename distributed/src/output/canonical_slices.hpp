@@ -58,12 +58,12 @@ private:
     [[nodiscard]] bool sends_short_numbers() const;
     void for_each_vertex(std::uint64_t begin, std::uint64_t end, auto&& emit) const;
     template <class Number, class I, std::size_t N>
-    void bring_as(const Window& window,
-                  const OrderedList<IndexVector<I, std::array<VertexIndex, N>>>& list,
-                  const CanonicalRuns& runs, const auto& of_vertex,
-                  std::vector<VertexNumbers<N>>& slice) const;
+    void entity_slice_as(const Window& window,
+                         const OrderedList<IndexVector<I, std::array<VertexIndex, N>>>& list,
+                         const CanonicalRuns& runs, const auto& of_vertex,
+                         std::vector<VertexNumbers<N>>& slice) const;
     template <class I, std::size_t N>
-    std::span<const VertexNumbers<N>> bring(
+    std::span<const VertexNumbers<N>> entity_slice(
         const Window& window, const OrderedList<IndexVector<I, std::array<VertexIndex, N>>>& list,
         const CanonicalRuns& runs, std::vector<VertexNumbers<N>>& slice) const;
     template <class I, std::size_t N>
@@ -71,9 +71,9 @@ private:
         const Window& window, std::uint64_t index_base,
         const OrderedList<IndexVector<I, std::array<VertexIndex, N>>>& list,
         const CanonicalRuns& runs) const;
-    std::span<const Marker> bring_markers(const Window& window, const AncestorMap& ancestors,
-                                          const CanonicalRuns& runs,
-                                          std::vector<Marker>& slice) const;
+    std::span<const Marker> marker_slice(const Window& window, const AncestorMap& ancestors,
+                                         const CanonicalRuns& runs,
+                                         std::vector<Marker>& slice) const;
 
     const DistributedMesh* mesh_;
     OrderedLists lists_;

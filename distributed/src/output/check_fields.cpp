@@ -15,7 +15,7 @@ namespace octetra::distributed {
 namespace {
 
 /// The maximum number of components in a checkpoint's table.
-constexpr std::size_t most_components = std::size_t{1} << 20U;
+constexpr std::size_t max_components = std::size_t{1} << 20U;
 
 std::size_t value_count(const Field& field) {
     return std::visit([](const auto& values) { return values.size(); }, field.values);
@@ -48,26 +48,26 @@ void check_sizes(const DistributedMesh& mesh, std::span<const Field> fields) {
         if (!names.insert({field.on, field.name}).second) {
             throw InputError(fmt::format("two fields are called '{}'", field.name));
         }
-        if (field.components > most_components) {
+        if (field.components > max_components) {
             throw InputError(
-                fmt::format("field '{}' has more than {} components", field.name, most_components));
+                fmt::format("field '{}' has more than {} components", field.name, max_components));
         }
     }
 }
 
 void check_same(const Communicator& processes, std::span<const Field> fields) {
-    std::vector<std::uint8_t> told;
+    std::vector<std::uint8_t> encoded;
     for (const Field& field : fields) {
         const FieldFacts facts = facts_of(field);
-        told.push_back(static_cast<std::uint8_t>(facts.on));
-        told.push_back(static_cast<std::uint8_t>(facts.type));
-        append_number(facts.components, told);
-        append_number(facts.name.size(), told);
-        told.insert(told.end(), facts.name.begin(), facts.name.end());
+        encoded.push_back(static_cast<std::uint8_t>(facts.on));
+        encoded.push_back(static_cast<std::uint8_t>(facts.type));
+        append_number(facts.components, encoded);
+        append_number(facts.name.size(), encoded);
+        encoded.insert(encoded.end(), facts.name.begin(), facts.name.end());
     }
-    std::vector<std::uint8_t> of_first = told;
+    std::vector<std::uint8_t> of_first = encoded;
     processes.broadcast(of_first);
-    if (processes.max(of_first == told ? 0 : 1) == 0) return;
+    if (processes.max(of_first == encoded ? 0 : 1) == 0) return;
     throw InputError("processes have different fields");
 }
 

@@ -29,24 +29,23 @@ struct NumberBlocks {
 };
 
 /// A root, and the range of its descendants in the canonical order.
-struct PiecesOfRoot {
+struct RootRange {
     std::uint64_t root;
     std::uint64_t begin;
     std::uint64_t count;
 };
 
 /// Collective. Returns the roots in this process's block, sorted by number.
-std::vector<PiecesOfRoot> pieces_in_block(const Communicator& processes,
-                                          const FeatureSlices::Kind& kind,
-                                          const NumberBlocks& blocks) {
+std::vector<RootRange> roots_in_block(const Communicator& processes,
+                                      const FeatureSlices::Kind& kind, const NumberBlocks& blocks) {
     const auto& [roots, first, markers] = *kind.ancestors;
-    std::vector<PiecesOfRoot> own;
+    std::vector<RootRange> own;
     own.reserve(roots.size());
     for (std::size_t r = 0; r < roots.size(); ++r) {
         own.push_back({roots[r], kind.runs->begin[r], std::uint64_t{first[r + 1] - first[r]}});
     }
-    const auto number_of = [](const PiecesOfRoot& pieces) { return pieces.root; };
-    std::vector<PiecesOfRoot> met;
+    const auto number_of = [](const RootRange& root_ranges) { return root_ranges.root; };
+    std::vector<RootRange> met;
     for (const auto& inbox : processes.all_to_all(blocks.outboxes(own, number_of))) {
         met.insert(met.end(), inbox.begin(), inbox.end());
     }
@@ -87,8 +86,8 @@ FeatureSlices::FeatureSlices(const DistributedMesh& mesh, const std::array<Kind,
         if (processes_.sum(listed) == 0) continue;
         const NumberBlocks blocks(
             processes_, input_count(mesh, dimension, kind == nullptr ? nullptr : kind->ancestors));
-        std::vector<PiecesOfRoot> pieces;
-        if (kind != nullptr) pieces = pieces_in_block(processes_, *kind, blocks);
+        std::vector<RootRange> root_ranges;
+        if (kind != nullptr) root_ranges = roots_in_block(processes_, *kind, blocks);
         for (const Feature f : all_features) {
             if (dimension_of(f) != dimension) continue;
             std::uint64_t own = 0;
@@ -97,7 +96,7 @@ FeatureSlices::FeatureSlices(const DistributedMesh& mesh, const std::array<Kind,
                 Run run{own, number, 1};  // vertices keep their numbers
                 if (kind != nullptr) {
                     const auto found =
-                        std::ranges::lower_bound(pieces, number, {}, &PiecesOfRoot::root);
+                        std::ranges::lower_bound(root_ranges, number, {}, &RootRange::root);
                     run.begin = found->begin;
                     run.count = found->count;
                 }
@@ -105,7 +104,7 @@ FeatureSlices::FeatureSlices(const DistributedMesh& mesh, const std::array<Kind,
                 runs_[f].push_back(run);
             }
             const std::uint64_t before = processes_.sum_before(own);
-            for (Run& run : runs_[f]) run.place += before;
+            for (Run& run : runs_[f]) run.first_entry += before;
             counts_[f] = processes_.sum(own);
         }
     }
@@ -113,16 +112,17 @@ FeatureSlices::FeatureSlices(const DistributedMesh& mesh, const std::array<Kind,
 
 std::span<const std::uint64_t> FeatureSlices::slice(Feature feature, const Window& window) {
     const std::vector<Run>& runs = runs_[feature];
-    bring_to_slices<std::uint64_t>(
+    send_to_slices<std::uint64_t>(
         processes_, window,
         [&](std::uint64_t begin, std::uint64_t end, auto&& emit) {
             // The first run that ends after `begin`.
             auto run = std::ranges::partition_point(
-                runs, [&](const Run& r) { return r.place + r.count <= begin; });
-            for (; run != runs.end() && run->place < end; ++run) {
-                const std::uint64_t from = std::max(begin, run->place);
-                const std::uint64_t to = std::min(end, run->place + run->count);
-                for (std::uint64_t p = from; p < to; ++p) emit(p, run->begin + (p - run->place));
+                runs, [&](const Run& r) { return r.first_entry + r.count <= begin; });
+            for (; run != runs.end() && run->first_entry < end; ++run) {
+                const std::uint64_t from = std::max(begin, run->first_entry);
+                const std::uint64_t to = std::min(end, run->first_entry + run->count);
+                for (std::uint64_t p = from; p < to; ++p)
+                    emit(p, run->begin + (p - run->first_entry));
             }
         },
         slice_);

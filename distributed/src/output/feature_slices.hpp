@@ -34,9 +34,9 @@ public:
     [[nodiscard]] std::span<const std::uint64_t> slice(Feature feature, const Window& window);
 
 private:
-    /// Entries from `place` on of a list: the numbers begin .. begin + count - 1.
+    /// Entries from `first_entry` on of a list: the numbers begin .. begin + count - 1.
     struct Run {
-        std::uint64_t place;
+        std::uint64_t first_entry;
         std::uint64_t begin;
         std::uint64_t count;
     };

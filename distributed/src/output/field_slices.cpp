@@ -12,7 +12,7 @@ namespace {
 
 /// Calls visit(number, local index) for the values of entities begin .. end - 1 that this process
 /// sends.
-void for_each_told(const FieldsOfPart& part, FieldOn on, std::uint64_t begin, std::uint64_t end,
+void for_each_sent(const FieldsOfPart& part, FieldOn on, std::uint64_t begin, std::uint64_t end,
                    auto&& visit) {
     if (on == FieldOn::cells) {
         for_each_between(
@@ -31,22 +31,22 @@ void for_each_told(const FieldsOfPart& part, FieldOn on, std::uint64_t begin, st
 }
 
 template <class T>
-void bring_values(const FieldsOfPart& part, const Field& field, const std::vector<T>& values,
-                  const Window& window, std::vector<std::byte>& slice) {
+void send_values(const FieldsOfPart& part, const Field& field, const std::vector<T>& values,
+                 const Window& window, std::vector<std::byte>& slice) {
     const int rank = part.processes->rank();
     const std::uint64_t length = window.end_of(rank) - window.begin_of(rank);
     slice.resize(length * field.components * sizeof(T));
     for (std::size_t k = 0; k < field.components; ++k) {
         const auto emit_values = [&](std::uint64_t begin, std::uint64_t end, auto&& emit) {
-            for_each_told(part, field.on, begin, end, [&](std::uint64_t entity, std::size_t local) {
+            for_each_sent(part, field.on, begin, end, [&](std::uint64_t entity, std::size_t local) {
                 emit(entity, values[local * field.components + k]);
             });
         };
-        bring_to_slices<T>(*part.processes, window, emit_values,
-                           [&](std::uint32_t position, const T& value) {
-                               const std::size_t i = position * field.components + k;
-                               std::memcpy(slice.data() + i * sizeof(T), &value, sizeof(T));
-                           });
+        send_to_slices<T>(*part.processes, window, emit_values,
+                          [&](std::uint32_t position, const T& value) {
+                              const std::size_t i = position * field.components + k;
+                              std::memcpy(slice.data() + i * sizeof(T), &value, sizeof(T));
+                          });
     }
 }
 
@@ -58,7 +58,7 @@ FieldSlices::FieldSlices(const FieldsOfPart& part) : part_(part) {
 
 std::span<const std::byte> FieldSlices::values(std::size_t field, const Window& window) {
     const Field& asked = part_.fields[field];
-    std::visit([&](const auto& values) { bring_values(part_, asked, values, window, slice_); },
+    std::visit([&](const auto& values) { send_values(part_, asked, values, window, slice_); },
                asked.values);
     return slice_;
 }

@@ -54,7 +54,7 @@ private:
 namespace detail {
 
 /// Encodings of positions in a message; the shortest one is used.
-enum class Told : std::uint64_t {
+enum class PositionEncoding : std::uint64_t {
     one_by_one,  ///< each position
     by_runs,     ///< runs of consecutive positions
     by_bits      ///< a bit for each position up to the last
@@ -63,7 +63,7 @@ enum class Told : std::uint64_t {
 /// The header of a message. It is followed by the values, and then by their positions.
 struct SliceHead {
     std::uint64_t values;
-    Told told;
+    PositionEncoding encoding;
     std::uint64_t count;  ///< number of positions, runs, or 64-bit words
 };
 struct SliceRun {
@@ -114,16 +114,17 @@ inline std::pair<SliceHead, std::size_t> head_of(std::span<const std::uint32_t> 
         runs += std::size_t{positions[i] != positions[i - 1] + 1};
     }
     const std::size_t words = positions.back() / 64 + 1;
-    SliceHead head{positions.size(), Told::one_by_one, positions.size()};
+    SliceHead head{positions.size(), PositionEncoding::one_by_one, positions.size()};
     std::size_t size = positions.size_bytes();
-    const auto is_less = [&](Told told, std::size_t count, std::size_t size_of_one) {
+    const auto is_less = [&](PositionEncoding encoding, std::size_t count,
+                             std::size_t size_of_one) {
         if (count * size_of_one >= size) return;
-        head.told = told;
+        head.encoding = encoding;
         head.count = count;
         size = count * size_of_one;
     };
-    is_less(Told::by_runs, runs, sizeof(SliceRun));
-    is_less(Told::by_bits, words, sizeof(std::uint64_t));
+    is_less(PositionEncoding::by_runs, runs, sizeof(SliceRun));
+    is_less(PositionEncoding::by_bits, words, sizeof(std::uint64_t));
     return {head, size};
 }
 
@@ -137,10 +138,12 @@ template <class T>
     std::vector<std::byte> bytes(sizeof head + all.values().size_bytes() + size);
     std::byte* place = detail::put_bytes(bytes.data(), &head, sizeof head);
     place = detail::put_bytes(place, all.values().data(), all.values().size_bytes());
-    switch (head.told) {
-        case detail::Told::one_by_one: detail::put_bytes(place, positions.data(), size); break;
-        case detail::Told::by_runs: detail::put_runs(place, positions); break;
-        case detail::Told::by_bits: detail::put_bits(place, positions); break;
+    switch (head.encoding) {
+        case detail::PositionEncoding::one_by_one:
+            detail::put_bytes(place, positions.data(), size);
+            break;
+        case detail::PositionEncoding::by_runs: detail::put_runs(place, positions); break;
+        case detail::PositionEncoding::by_bits: detail::put_bits(place, positions); break;
     }
     return bytes;
 }
@@ -159,14 +162,14 @@ void unpack(std::span<const std::byte> bytes, auto&& place) {
         place(position, detail::read_from<T>(std::exchange(value, value + sizeof(T))));
     };
     for (std::uint64_t i = 0; i < head.count; ++i) {
-        switch (head.told) {
-            case detail::Told::one_by_one: put(next(std::uint32_t{})); break;
-            case detail::Told::by_runs: {
+        switch (head.encoding) {
+            case detail::PositionEncoding::one_by_one: put(next(std::uint32_t{})); break;
+            case detail::PositionEncoding::by_runs: {
                 const auto run = next(detail::SliceRun{});
                 for (std::uint32_t k = 0; k < run.count; ++k) put(run.position + k);
                 break;
             }
-            case detail::Told::by_bits: {
+            case detail::PositionEncoding::by_bits: {
                 const auto first = static_cast<std::uint32_t>(64 * i);
                 for (auto bits = next(std::uint64_t{}); bits != 0; bits &= bits - 1) {
                     put(first + static_cast<std::uint32_t>(std::countr_zero(bits)));
@@ -183,8 +186,8 @@ void unpack(std::span<const std::byte> bytes, auto&& place) {
 /// of this process's slice, once for each process that has it; the position is relative to the
 /// slice.
 template <class T>
-void bring_to_slices(const Communicator& processes, const Window& window, auto&& between,
-                     auto&& place) {
+void send_to_slices(const Communicator& processes, const Window& window, auto&& between,
+                    auto&& place) {
     std::vector<std::vector<std::byte>> outboxes(static_cast<std::size_t>(processes.size()));
     ValuesOfSlice<T> some(std::clamp<std::uint64_t>(window.slice_length, 1, 1U << 15U));
     for (int rank = 0; rank < processes.size(); ++rank) {
@@ -208,11 +211,11 @@ void bring_to_slices(const Communicator& processes, const Window& window, auto&&
 
 /// Same as above, for values that are equal on all processes that have them.
 template <class T>
-void bring_to_slices(const Communicator& processes, const Window& window, auto&& between,
-                     std::vector<T>& slice) {
+void send_to_slices(const Communicator& processes, const Window& window, auto&& between,
+                    std::vector<T>& slice) {
     slice.resize(window.end_of(processes.rank()) - window.begin_of(processes.rank()));
-    bring_to_slices<T>(processes, window, between,
-                       [&](std::uint32_t position, const T& value) { slice[position] = value; });
+    send_to_slices<T>(processes, window, between,
+                      [&](std::uint32_t position, const T& value) { slice[position] = value; });
 }
 
 }  // namespace octetra::distributed

@@ -8,11 +8,11 @@ namespace octetra::distributed {
 namespace {
 
 /// Numbers reduced at once, 64 kB, while the boxes are at most a quarter as many.
-constexpr std::size_t most_sums = std::size_t{1} << 13U;
+constexpr std::size_t max_sums = std::size_t{1} << 13U;
 constexpr unsigned least_bits = 2;
 /// Each point is represented by this many numbers.
-constexpr std::size_t words_of_one = 4;
-constexpr std::size_t few = most_sums / words_of_one;
+constexpr std::size_t words_per_point = 4;
+constexpr std::size_t few = max_sums / words_per_point;
 
 /// Returns the share of a box's weight that its first half is to have.
 std::uint64_t share_of_first(const BisectionBox& box, std::span<const std::uint64_t> weights) {
@@ -27,11 +27,11 @@ std::uint64_t share_of_first(const BisectionBox& box, std::span<const std::uint6
 LimitSearch::LimitSearch(const Communicator& processes, const WeighedPoints& points, int parts)
     : processes_(&processes),
       points_(&points),
-      reduced_(std::max(2 * most_sums,
-                        (std::size_t{1} << least_bits) * static_cast<std::size_t>(parts)) +
-               1) {
+      reduced_(
+          std::max(2 * max_sums, (std::size_t{1} << least_bits) * static_cast<std::size_t>(parts)) +
+          1) {
     const auto boxes = static_cast<std::size_t>(parts);
-    few_.reserve(few);
+    gathered_.reserve(few);
     target_.reserve(boxes);
     limits_.coordinate.reserve(boxes);
     limits_.number.reserve(boxes);
@@ -41,46 +41,47 @@ unsigned LimitSearch::digit_bits() const {
     return std::max(least_bits, 14U - static_cast<unsigned>(std::bit_width(searches_->size())));
 }
 
-/// Calls look_at(i, box) for those of this process's points that may be at the limit of their box.
-void LimitSearch::for_each_left(By by, auto&& look_at) const {
-    const auto look = [&](std::size_t i) {
+/// Calls visit(i, box) for those of this process's points that may be at the limit of their box.
+void LimitSearch::for_each_remaining(By by, auto&& visit) const {
+    const auto visit_remaining = [&](std::size_t i) {
         const std::size_t b = box_of(i);
-        if (!places_.boxes[b].is_part() && (*searches_)[b].may_be(key(i, by))) look_at(i, b);
+        if (!point_boxes_.boxes[b].is_part() && (*searches_)[b].may_be(key(i, by))) visit(i, b);
     };
-    if (are_few_here_) {
-        for (const std::size_t i : left_) look(i);
+    if (is_filtered_) {
+        for (const std::size_t i : remaining_) visit_remaining(i);
     } else {
-        for (std::size_t i = 0; i < points_->count; ++i) look(i);
+        for (std::size_t i = 0; i < points_->count; ++i) visit_remaining(i);
     }
 }
 
-void LimitSearch::keep_left(By by, std::size_t count) {
-    std::vector<std::size_t> left;
-    left.reserve(count);
-    for_each_left(by, [&](std::size_t i, std::size_t) { left.push_back(i); });
-    left_ = std::move(left);
-    are_few_here_ = true;
+void LimitSearch::filter_remaining(By by, std::size_t count) {
+    std::vector<std::size_t> remaining;
+    remaining.reserve(count);
+    for_each_remaining(by, [&](std::size_t i, std::size_t) { remaining.push_back(i); });
+    remaining_ = std::move(remaining);
+    is_filtered_ = true;
 }
 
-bool LimitSearch::find(const Places& places, std::vector<Search>& searches, LocalFailure& failure) {
-    places_ = places;
+bool LimitSearch::find(const PointBoxes& point_boxes, std::vector<Search>& searches,
+                       LocalFailure& failure) {
+    point_boxes_ = point_boxes;
     searches_ = &searches;
-    are_few_here_ = false;
+    is_filtered_ = false;
     target_.clear();  // unknown until the weights are added up
     limits_.coordinate.clear();
     limits_.number.clear();
     // The first round adds up all weights.
-    const Found by_coordinate = find_by(By::coordinate, std::max(1U, rounds_to_go()), failure);
-    if (by_coordinate != Found::not_yet) return by_coordinate == Found::all;
+    const Found by_coordinate = find_by(By::coordinate, std::max(1U, remaining_rounds()), failure);
+    if (by_coordinate != Found::incomplete) return by_coordinate == Found::all;
     for (const Search& search : searches) limits_.coordinate.push_back(search.limit());
     if (!find_extents(By::coordinate, By::number, failure)) return false;
-    const Found by_number = find_by(By::number, rounds_to_go(), failure);
-    if (by_number != Found::not_yet) return by_number == Found::all;
+    const Found by_number = find_by(By::number, remaining_rounds(), failure);
+    if (by_number != Found::incomplete) return by_number == Found::all;
     for (const Search& search : searches) limits_.number.push_back(search.limit());
     return true;
 }
 
-unsigned LimitSearch::rounds_to_go() const {
+unsigned LimitSearch::remaining_rounds() const {
     const unsigned most = std::ranges::max(*searches_, {}, &Search::bits).bits;
     return (most + digit_bits() - 1) / digit_bits();
 }
@@ -88,17 +89,17 @@ unsigned LimitSearch::rounds_to_go() const {
 LimitSearch::Found LimitSearch::find_by(By by, unsigned rounds, LocalFailure& failure) {
     for (unsigned done = 1; rounds > 0; ++done) {
         const Found found = find_digit(by, failure);
-        if (found == Found::nowhere) return found;
+        if (found == Found::failed) return found;
         if (found == Found::all) {
-            return find_among_few(by, failure) ? Found::all : Found::nowhere;
+            return find_among_gathered(by, failure) ? Found::all : Found::failed;
         }
         // In a lattice, few different keys, or a single one, remain after few of their digits.
         if (--rounds > 2 && done % 2 == 0) {
-            if (!find_extents(by, by, failure)) return Found::nowhere;
-            rounds = rounds_to_go();
+            if (!find_extents(by, by, failure)) return Found::failed;
+            rounds = remaining_rounds();
         }
     }
-    return Found::not_yet;
+    return Found::incomplete;
 }
 
 /// Determines one more digit of the limit of each box. Returns `all` once so few points remain that
@@ -111,97 +112,98 @@ LimitSearch::Found LimitSearch::find_digit(By by, LocalFailure& failure) {
     std::vector<std::uint32_t> own;  // number of this process's points in each sum
     failure.attempt([&] {
         own.resize(sums.size());
-        for_each_left(by, [&](std::size_t i, std::size_t b) {
+        for_each_remaining(by, [&](std::size_t i, std::size_t b) {
             const std::size_t at = (b << digit) + (*searches_)[b].digit_of(key(i, by), digit);
             sums[at] += weight(i);
             ++own[at];
             ++count;
         });
     });
-    const std::size_t looked_at = count;
-    if (!reduced_.sum(*processes_, failure)) return Found::nowhere;
+    const std::size_t visited_count = count;
+    if (!reduced_.sum(*processes_, failure)) return Found::failed;
     const bool is_first = target_.empty();
     std::size_t found = 0;
     for (std::size_t b = 0; b < boxes; ++b) {
         const auto of_box = sums.subspan(b << digit, std::size_t{1} << digit);
-        if (is_first) target_.push_back(share_of_first(places_.boxes[b], of_box));
+        if (is_first) target_.push_back(share_of_first(point_boxes_.boxes[b], of_box));
         std::size_t d = 0;
         while (d + 1 < of_box.size() && of_box[d] <= target_[b]) target_[b] -= of_box[d++];
         found += own[(b << digit) + d];
-        (*searches_)[b].take(places_.boxes[b].is_part() ? 0 : d, digit);
+        (*searches_)[b].take(point_boxes_.boxes[b].is_part() ? 0 : d, digit);
     }
     failure.attempt([&] {
-        if (found <= looked_at / 4) keep_left(by, found);
+        if (found <= visited_count / 4) filter_remaining(by, found);
     });
-    return count <= few ? Found::all : Found::not_yet;
+    return count <= few ? Found::all : Found::incomplete;
 }
 
 /// Collective. Starts to search for keys of the given kind, between the extremes of the remaining
 /// points.
-bool LimitSearch::find_extents(By left, By kind, LocalFailure& failure) {
+bool LimitSearch::find_extents(By remaining, By kind, LocalFailure& failure) {
     const auto keys =
         reduced_.zeros(2 * searches_->size());  // of each box: maximum, and maximum complement
     failure.attempt([&] {
         std::size_t count = 0;
-        for_each_left(left, [&](std::size_t i, std::size_t b) {
+        for_each_remaining(remaining, [&](std::size_t i, std::size_t b) {
             keys[2 * b] = std::max(keys[2 * b], key(i, kind));
             keys[2 * b + 1] = std::max(keys[2 * b + 1], ~key(i, kind));
             ++count;
         });
-        keep_left(left, count);
+        filter_remaining(remaining, count);
     });
     if (!reduced_.max(*processes_, failure)) return false;
     for (std::size_t b = 0; b < searches_->size(); ++b) {
         const bool is_empty = keys[2 * b] == 0 && keys[2 * b + 1] == 0;
-        if (is_empty && left == kind) continue;  // its limit is known
+        if (is_empty && remaining == kind) continue;  // its limit is known
         (*searches_)[b] = between(~keys[2 * b + 1], keys[2 * b], is_empty);
     }
     return true;
 }
 
 /// Collective. Sends all remaining points to all processes, which find the limits among them.
-bool LimitSearch::find_among_few(By by, LocalFailure& failure) {
+bool LimitSearch::find_among_gathered(By by, LocalFailure& failure) {
     std::uint64_t count = 0;
-    failure.attempt([&] { for_each_left(by, [&](std::size_t, std::size_t) { ++count; }); });
+    failure.attempt([&] { for_each_remaining(by, [&](std::size_t, std::size_t) { ++count; }); });
     std::uint64_t next = processes_->sum_before(count);
-    const auto words = reduced_.zeros(words_of_one * few + 1);
+    const auto words = reduced_.zeros(words_per_point * few + 1);
     words.back() = count;
     failure.attempt([&] {
-        for_each_left(by, [&](std::size_t i, std::size_t b) {
-            const auto of_one = words.subspan(words_of_one * next++, words_of_one);
-            of_one[0] = b;
-            of_one[1] = places_.coordinate[i];
-            of_one[2] = points_->number(i);
-            of_one[3] = weight(i);
+        for_each_remaining(by, [&](std::size_t i, std::size_t b) {
+            const auto point_words = words.subspan(words_per_point * next++, words_per_point);
+            point_words[0] = b;
+            point_words[1] = point_boxes_.coordinate[i];
+            point_words[2] = points_->number(i);
+            point_words[3] = weight(i);
         });
     });
     if (!reduced_.sum(*processes_, failure)) return false;
-    few_.clear();
+    gathered_.clear();
     for (std::size_t k = 0; k < words.back(); ++k) {
-        const auto of_one = words.subspan(words_of_one * k, words_of_one);
-        few_.push_back({of_one[0], of_one[1], of_one[2], of_one[3]});
+        const auto point_words = words.subspan(words_per_point * k, words_per_point);
+        gathered_.push_back({point_words[0], point_words[1], point_words[2], point_words[3]});
     }
-    std::ranges::sort(few_);
+    std::ranges::sort(gathered_);
     for (const Search& search : *searches_) {
         if (by == By::coordinate) limits_.coordinate.push_back(search.limit());
         limits_.number.push_back(by == By::number ? search.limit() : 0);
     }
-    take_limits_among_few();
+    set_limits_from_gathered();
     return true;
 }
 
 /// The limit of each box is the first point that would exceed the share of its first half.
-void LimitSearch::take_limits_among_few() {
-    for (std::size_t k = 0; k < few_.size();) {
-        const std::size_t b = few_[k].box;
-        for (; k < few_.size() && few_[k].box == b && few_[k].weight <= target_[b]; ++k) {
-            target_[b] -= few_[k].weight;
+void LimitSearch::set_limits_from_gathered() {
+    for (std::size_t k = 0; k < gathered_.size();) {
+        const std::size_t b = gathered_[k].box;
+        for (; k < gathered_.size() && gathered_[k].box == b && gathered_[k].weight <= target_[b];
+             ++k) {
+            target_[b] -= gathered_[k].weight;
         }
-        if (k < few_.size() && few_[k].box == b) {
-            limits_.coordinate[b] = few_[k].coordinate;
-            limits_.number[b] = few_[k].number;
+        if (k < gathered_.size() && gathered_[k].box == b) {
+            limits_.coordinate[b] = gathered_[k].coordinate;
+            limits_.number[b] = gathered_[k].number;
         }
-        while (k < few_.size() && few_[k].box == b) ++k;
+        while (k < gathered_.size() && gathered_[k].box == b) ++k;
     }
 }
 

@@ -45,7 +45,7 @@ public:
     LimitSearch(const Communicator& processes, const WeighedPoints& points, int parts);
 
     /// The box of each point, and its coordinate along the box's axis.
-    struct Places {
+    struct PointBoxes {
         std::span<const BisectionBox> boxes;
         std::span<const int> box_of;
         std::span<const Key> coordinate;
@@ -53,50 +53,50 @@ public:
 
     /// Collective. `searches` has the range of the coordinates of each box's points. Returns false
     /// on all processes if one has failed.
-    [[nodiscard]] bool find(const Places& places, std::vector<Search>& searches,
+    [[nodiscard]] bool find(const PointBoxes& point_boxes, std::vector<Search>& searches,
                             LocalFailure& failure);
     [[nodiscard]] const BoxLimits& limits() const { return limits_; }
 
 private:
-    struct Left {
+    struct RemainingPoint {
         std::size_t box = 0;
         Key coordinate = 0;
         Key number = 0;
         std::uint64_t weight = 0;
 
-        friend auto operator<=>(const Left&, const Left&) = default;
+        friend auto operator<=>(const RemainingPoint&, const RemainingPoint&) = default;
     };
     enum class By { coordinate, number };
-    enum class Found { nowhere, not_yet, all };
+    enum class Found { failed, incomplete, all };
 
     [[nodiscard]] std::size_t box_of(std::size_t i) const {
-        return static_cast<std::size_t>(places_.box_of[i]);
+        return static_cast<std::size_t>(point_boxes_.box_of[i]);
     }
     [[nodiscard]] std::uint64_t weight(std::size_t i) const {
         return points_->weight ? points_->weight(i) : 1;
     }
     [[nodiscard]] Key key(std::size_t i, By by) const {
-        return by == By::coordinate ? places_.coordinate[i] : points_->number(i);
+        return by == By::coordinate ? point_boxes_.coordinate[i] : points_->number(i);
     }
     [[nodiscard]] unsigned digit_bits() const;
-    [[nodiscard]] unsigned rounds_to_go() const;
-    void for_each_left(By by, auto&& look_at) const;
-    void keep_left(By by, std::size_t count);
+    [[nodiscard]] unsigned remaining_rounds() const;
+    void for_each_remaining(By by, auto&& visit) const;
+    void filter_remaining(By by, std::size_t count);
     [[nodiscard]] Found find_by(By by, unsigned rounds, LocalFailure& failure);
     [[nodiscard]] Found find_digit(By by, LocalFailure& failure);
-    [[nodiscard]] bool find_extents(By left, By kind, LocalFailure& failure);
-    [[nodiscard]] bool find_among_few(By by, LocalFailure& failure);
-    void take_limits_among_few();
+    [[nodiscard]] bool find_extents(By remaining, By kind, LocalFailure& failure);
+    [[nodiscard]] bool find_among_gathered(By by, LocalFailure& failure);
+    void set_limits_from_gathered();
 
     const Communicator* processes_;
     const WeighedPoints* points_;
     ReducedNumbers reduced_;
-    std::vector<Left> few_;  // of all processes
-    Places places_;
+    std::vector<RemainingPoint> gathered_;  // of all processes
+    PointBoxes point_boxes_;
     std::vector<Search>* searches_ = nullptr;
-    std::vector<std::uint64_t> target_;  // of each box, the remaining weight before the limit
-    std::vector<std::size_t> left_;      // points that may be at the limit, once they are few
-    bool are_few_here_ = false;
+    std::vector<std::uint64_t> target_;   // of each box, the remaining weight before the limit
+    std::vector<std::size_t> remaining_;  // points that may be at the limit, once they are few
+    bool is_filtered_ = false;
     BoxLimits limits_;
 };
 

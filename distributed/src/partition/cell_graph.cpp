@@ -57,25 +57,25 @@ struct Link {
 /// Accumulates the links of one node.
 class Row {
 public:
-    explicit Row(std::size_t nodes) : place_of_node_(nodes, none) {}
+    explicit Row(std::size_t nodes) : link_of_node_(nodes, none) {}
 
     void add(const Link& link) {
-        std::uint32_t& place = place_of_node_[static_cast<std::size_t>(link.node)];
-        if (place == none) {
-            place = static_cast<std::uint32_t>(links_.size());
+        std::uint32_t& index = link_of_node_[static_cast<std::size_t>(link.node)];
+        if (index == none) {
+            index = static_cast<std::uint32_t>(links_.size());
             links_.push_back({link.node, 0});
         }
-        links_[place].weight += link.weight;
+        links_[index].weight += link.weight;
     }
     [[nodiscard]] const std::vector<Link>& links() const { return links_; }
     void clear() {
-        for (const Link& link : links_) place_of_node_[static_cast<std::size_t>(link.node)] = none;
+        for (const Link& link : links_) link_of_node_[static_cast<std::size_t>(link.node)] = none;
         links_.clear();
     }
 
 private:
     static constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
-    std::vector<std::uint32_t> place_of_node_;
+    std::vector<std::uint32_t> link_of_node_;
     std::vector<Link> links_;
 };
 
@@ -147,7 +147,7 @@ CellGraph lepp_graph(const Mesh& mesh, const CellWeights& weights, std::int64_t 
                        static_cast<unsigned>(has(face, edges.longest_of(b)));
             });
     }  // frees the edges before the graph is built
-    join_lone_cells(neighbours, weights, most, cell_to_node);
+    join_single_cells(neighbours, weights, most, cell_to_node);
     // The ratio was determined by measurement: see bench/README.md.
     return graph_of(neighbours, std::move(cell_to_node), weights, {.face = 1, .path = 1});
 }

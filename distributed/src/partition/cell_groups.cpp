@@ -52,9 +52,9 @@ std::vector<std::int32_t> groups_of_longest_edges(const LongestEdges& edges,
     return cell_to_group;
 }
 
-void join_lone_cells(const Neighbours& neighbours, const CellWeights& weights, std::int64_t most,
-                     std::vector<std::int32_t>& cell_to_group) {
-    constexpr std::uint32_t most_cells = 6;
+void join_single_cells(const Neighbours& neighbours, const CellWeights& weights, std::int64_t most,
+                       std::vector<std::int32_t>& cell_to_group) {
+    constexpr std::uint32_t max_group_cells = 6;
     auto sizes = sizes_of(cell_to_group, weights);
     for (CellIndex c{0}; c < neighbours.end_index(); ++c) {
         std::int32_t& group = cell_to_group[c.value()];
@@ -66,7 +66,8 @@ void join_lone_cells(const Neighbours& neighbours, const CellWeights& weights, s
             if (neighbour.cell == Neighbour::none) break;
             const std::int32_t other = cell_to_group[neighbour.cell];
             const Size& size = sizes[number(other)];
-            if (size.cells >= most_cells || std::int64_t{size.weight} + weight > most) continue;
+            if (size.cells >= max_group_cells || std::int64_t{size.weight} + weight > most)
+                continue;
             const bool is_better =
                 best == group || neighbour.paths > best_paths ||
                 (neighbour.paths == best_paths && size.cells < sizes[number(best)].cells);

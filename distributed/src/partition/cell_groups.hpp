@@ -21,7 +21,7 @@ namespace octetra::distributed {
 /// Joins each single cell to the group of a neighbour: preferably one through a face along which
 /// marks propagate, and among these the smallest. No group may exceed the weight `most` or six
 /// cells.
-void join_lone_cells(const Neighbours& neighbours, const CellWeights& weights, std::int64_t most,
-                     std::vector<std::int32_t>& cell_to_group);
+void join_single_cells(const Neighbours& neighbours, const CellWeights& weights, std::int64_t most,
+                       std::vector<std::int32_t>& cell_to_group);
 
 }  // namespace octetra::distributed

@@ -9,7 +9,7 @@ namespace octetra::distributed {
 namespace {
 
 /// Returns the weight of a part if no cell may weigh more than a part.
-double most_of_a_part(const std::vector<float>& weights, int parts) {
+double max_part_weight(const std::vector<float>& weights, int parts) {
     double most = std::accumulate(weights.begin(), weights.end(), 0.0) / parts;
     for (std::ptrdiff_t heavy_before = 0;;) {
         std::ptrdiff_t heavy = 0;
@@ -37,7 +37,7 @@ void check_weights(std::size_t cells, std::span<const float> weights) {
 }
 
 CellWeights::CellWeights(const std::vector<float>& weights, int parts) : of_cell_(weights.size()) {
-    const double most = most_of_a_part(weights, parts);
+    const double most = max_part_weight(weights, parts);
     const auto limited = [&](float weight) { return std::min(double{weight}, most); };
     double sum = 0;
     for (const float weight : weights) sum += limited(weight);

@@ -27,43 +27,43 @@ namespace {
 
 /// Returns whether there are enough cells for METIS, which rejects more parts than vertices; for
 /// few cells it has no benefit.
-bool is_worth_a_cut(const Mesh& mesh, int parts) {
+bool is_worth_partitioning(const Mesh& mesh, int parts) {
     constexpr std::size_t cells_per_part = 8;
     return mesh.cells.size() >= cells_per_part * static_cast<std::size_t>(parts);
 }
 
 /// Returns the maximum weight of the cells with the same longest edge as one node of the graph: so
 /// small that METIS can still balance the parts.
-std::int64_t most_of_a_node(std::int64_t all, int parts) {
+std::int64_t max_node_weight(std::int64_t all, int parts) {
     constexpr std::int64_t nodes_per_part = 20;
     return all / (nodes_per_part * parts);
 }
 
 /// Restores the handlers of SIGABRT and SIGTERM: METIS intercepts these signals while it works, and
 /// leaves handlers that work only once.
-class KeptSignalHandlers {
+class SignalHandlerGuard {
 public:
-    KeptSignalHandlers() {
-        for (Kept& kept : kept_) ::sigaction(kept.signal, nullptr, &kept.action);
+    SignalHandlerGuard() {
+        for (SavedHandler& saved : saved_) ::sigaction(saved.signal, nullptr, &saved.action);
     }
-    ~KeptSignalHandlers() {
-        for (const Kept& kept : kept_) ::sigaction(kept.signal, &kept.action, nullptr);
+    ~SignalHandlerGuard() {
+        for (const SavedHandler& saved : saved_) ::sigaction(saved.signal, &saved.action, nullptr);
     }
-    KeptSignalHandlers(const KeptSignalHandlers&) = delete;
-    KeptSignalHandlers& operator=(const KeptSignalHandlers&) = delete;
-    KeptSignalHandlers(KeptSignalHandlers&&) = delete;
-    KeptSignalHandlers& operator=(KeptSignalHandlers&&) = delete;
+    SignalHandlerGuard(const SignalHandlerGuard&) = delete;
+    SignalHandlerGuard& operator=(const SignalHandlerGuard&) = delete;
+    SignalHandlerGuard(SignalHandlerGuard&&) = delete;
+    SignalHandlerGuard& operator=(SignalHandlerGuard&&) = delete;
 
 private:
-    struct Kept {
+    struct SavedHandler {
         int signal;
         struct sigaction action {};
     };
-    std::array<Kept, 2> kept_{{{SIGABRT}, {SIGTERM}}};
+    std::array<SavedHandler, 2> saved_{{{SIGABRT}, {SIGTERM}}};
 };
 
 int run_metis(CellGraph& graph, idx_t parts, std::vector<int>& node_to_part) {
-    const KeptSignalHandlers kept;
+    const SignalHandlerGuard saved;
     auto node_count = static_cast<idx_t>(graph.node_weights.size());
     idx_t constraints = 1;
     idx_t cut = 0;
@@ -112,31 +112,31 @@ CellWeights weights_for_metis(std::size_t cells, const std::vector<float>& weigh
 std::vector<int> by_graph(const Mesh& mesh, int parts, PartitionMethod method,
                           const std::vector<float>& weights) {
     const std::size_t cells = mesh.cells.size();
-    if (parts == 1 || !is_worth_a_cut(mesh, parts)) return equal_blocks(cells, parts);
+    if (parts == 1 || !is_worth_partitioning(mesh, parts)) return equal_blocks(cells, parts);
     check_graph_size(cells);
     const CellWeights of_cells = weights_for_metis(cells, weights, parts);
     if (method == PartitionMethod::dual) {
         return partition_graph(face_dual_graph(mesh, of_cells), parts);
     }
-    const std::int64_t most = most_of_a_node(of_cells.sum(cells), parts);
+    const std::int64_t most = max_node_weight(of_cells.sum(cells), parts);
     return partition_graph(lepp_graph(mesh, of_cells, most), parts);
 }
 
 std::vector<int> by_coordinates(const Mesh& mesh, int parts, const std::vector<float>& weights) {
     if (!weights.empty()) check_weights(mesh.cells.size(), weights);
     const float least = weights.empty() ? 1 : std::ranges::min(weights);
-    const auto places = [&](std::size_t first, std::span<Point> points) {
+    const auto centroids = [&](std::size_t first, std::span<Point> points) {
         for (Point& point : points) {
             const auto& [a, b, c, d] = mesh.cells[CellIndex{first++}];
             point = place_of({mesh.points[a], mesh.points[b], mesh.points[c], mesh.points[d]});
         }
     };
     WeighedPoints points{.count = mesh.cells.size(),
-                         .points = places,
+                         .points = centroids,
                          .number = [](std::size_t i) { return i; },
                          .weight = {}};
     if (!weights.empty()) {
-        points.weight = [&](std::size_t i) { return whole_weight(weights[i], least); };
+        points.weight = [&](std::size_t i) { return integer_weight(weights[i], least); };
     }
     LocalFailure failure;
     std::vector<int> part = bisect_coordinates(Communicator(), points, parts, failure);

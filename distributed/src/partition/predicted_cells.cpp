@@ -15,7 +15,7 @@
 namespace octetra::distributed {
 namespace {
 
-double cells_of_one(Scheme scheme) {
+double children_per_level(Scheme scheme) {
     switch (scheme) {
         case Scheme::eight: return 8;
         case Scheme::four: return 4;
@@ -57,12 +57,12 @@ public:
         for (const Sphere& sphere : selection.spheres) each_.push_back({.spheres = {sphere}});
         for (const Box& box : selection.boxes) each_.push_back({.boxes = {box}});
     }
-    [[nodiscard]] bool may_have_some_of(const Corners& corners) const {
+    [[nodiscard]] bool may_intersect(const Corners& corners) const {
         return may_be_marked(all_, box_of(corners));
     }
     /// Returns whether one body contains the cell: bodies are convex, so it suffices to test the
     /// corners.
-    [[nodiscard]] bool have_all_of(const Corners& corners) const {
+    [[nodiscard]] bool contain(const Corners& corners) const {
         return std::ranges::any_of(each_, [&](const Selection& body) {
             return std::ranges::all_of(corners, [&](const Point& p) {
                 return marks(body, {p, p, p, p}, 0, GlobalCell{0});
@@ -76,10 +76,10 @@ public:
         return marks(all_, corners, 0, GlobalCell{0});
     }
     /// Returns the fraction of a cell that is inside any body, from 8^depth samples.
-    [[nodiscard]] double share_of(const Corners& corners, int depth) const {
+    [[nodiscard]] double fraction_inside(const Corners& corners, int depth) const {
         if (depth == 0) return have(corners) ? 1 : 0;
         double sum = 0;
-        for (const Corners& piece : eighths(corners)) sum += share_of(piece, depth - 1);
+        for (const Corners& piece : eighths(corners)) sum += fraction_inside(piece, depth - 1);
         return sum / 8;
     }
 
@@ -103,15 +103,15 @@ class Prediction {
 public:
     Prediction(const CellsToWeigh& cells, Scheme scheme, int levels)
         : cells_(&cells),
-          of_one_(cells_of_one(scheme)),
+          children_per_level_(children_per_level(scheme)),
           levels_(levels),
-          full_(std::min(std::pow(of_one_, levels), most_of_one)) {}
+          full_(std::min(std::pow(children_per_level_, levels), max_children)) {}
 
     /// Must be called first; allocates memory.
-    void expect_one_of_each() { expected_.assign(cells_->count(), 1); }
+    void initialise() { expected_.assign(cells_->count(), 1); }
 
     void add_at_random(double share) {
-        const double of_all = std::pow(1 + share * (of_one_ - 1), levels_);
+        const double of_all = std::pow(1 + share * (children_per_level_ - 1), levels_);
         std::ranges::fill(expected_, static_cast<float>(std::min(of_all, full_)));
     }
 
@@ -130,7 +130,7 @@ public:
         for (std::size_t i = 0; i < cells_->count(); ++i) {
             const double times = volume(cells_->corners(i)) / limit;
             double cells = 1;
-            while (cells < times && cells < full_) cells *= of_one_;
+            while (cells < times && cells < full_) cells *= children_per_level_;
             expect(i, cells);
         }
     }
@@ -150,8 +150,8 @@ public:
                 continue;
             }
             const Corners corners = cells_->corners(i);
-            if (!bodies.may_have_some_of(corners)) continue;
-            if (bodies.have_all_of(corners)) {
+            if (!bodies.may_intersect(corners)) continue;
+            if (bodies.contain(corners)) {
                 expect(i, full_);
             } else {
                 cut.push_back(i);
@@ -161,7 +161,7 @@ public:
     }
     void add_partly_inside(const Bodies& bodies, const std::vector<std::size_t>& cut, int depth) {
         for (const std::size_t i : cut) {
-            expect(i, full_ * bodies.share_of(cells_->corners(i), depth));
+            expect(i, full_ * bodies.fraction_inside(cells_->corners(i), depth));
         }
     }
 
@@ -180,7 +180,7 @@ public:
     [[nodiscard]] std::vector<float> expected() && { return std::move(expected_); }
 
 private:
-    static constexpr double most_of_one = 1e9;  // few meshes have more
+    static constexpr double max_children = 1e9;  // few meshes have more
     static constexpr std::uint64_t complement = 0xffff'ffff;
 
     void expect(std::size_t i, double cells) {
@@ -188,7 +188,7 @@ private:
     }
 
     const CellsToWeigh* cells_;
-    double of_one_;
+    double children_per_level_;
     int levels_;
     double full_;  ///< the number for a cell that is marked in all levels
     std::vector<float> expected_;
@@ -213,7 +213,7 @@ std::vector<float> predicted_cells(const CellsToWeigh& cells, const Selection& s
     Bodies bodies;
     std::vector<std::size_t> cut;
     failure.attempt([&] {
-        prediction.expect_one_of_each();
+        prediction.initialise();
         if (selection.random) prediction.add_at_random(selection.random->fraction);
         prediction.add_tagged(selection);
         if (selection.max_volume) prediction.add_larger_than(*selection.max_volume);

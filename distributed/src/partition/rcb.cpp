@@ -24,7 +24,7 @@ public:
           extremes_(6 * static_cast<std::size_t>(parts)),
           limits_(processes, points, parts),
           boxes_{{0, parts}},
-          some_(extremes_of_some()),
+          sample_(extremes_of_sample()),
           axis_{0} {
         reserve_in_huge_pages(coordinate_, points.count);
         coordinate_.resize(points.count);
@@ -35,7 +35,7 @@ public:
     }
 
     /// Guesses the longest axis from a few points of each process.
-    void tell_some(std::span<Key, 6> keys) const { some_.put(keys); }
+    void store_sample(std::span<Key, 6> keys) const { sample_.put(keys); }
     void guess_axis(std::span<const Key, 6> of_all) { axis_[0] = longest(extent_between(of_all)); }
 
     /// Collective. Divides every box that is to be more than one part. Returns false if there is
@@ -58,13 +58,13 @@ private:
         return static_cast<std::size_t>(box_of_[i]);
     }
 
-    /// Calls look_at(i, point) for all points of this process, which are requested in blocks.
-    void for_each_point(auto&& look_at) const {
+    /// Calls visit(i, point) for all points of this process, which are requested in blocks.
+    void for_each_point(auto&& visit) const {
         std::array<Point, 512> some;
         for (std::size_t begin = 0; begin < points_->count; begin += some.size()) {
             const std::size_t count = std::min(some.size(), points_->count - begin);
             points_->points(begin, std::span(some).first(count));
-            for (std::size_t k = 0; k < count; ++k) look_at(begin + k, some[k]);
+            for (std::size_t k = 0; k < count; ++k) visit(begin + k, some[k]);
         }
     }
 
@@ -74,10 +74,10 @@ private:
         std::array<double, 3> high{-most, -most, -most};
 
         void take(const Point& p) {
-            const std::array<double, 3> place{p.x, p.y, p.z};
+            const std::array<double, 3> position{p.x, p.y, p.z};
             for (std::size_t k = 0; k < 3; ++k) {
-                low[k] = std::min(low[k], place[k]);
-                high[k] = std::max(high[k], place[k]);
+                low[k] = std::min(low[k], position[k]);
+                high[k] = std::max(high[k], position[k]);
             }
         }
         /// Stores keys whose maxima over all processes belong to the extremes of all points: the
@@ -105,7 +105,7 @@ private:
     }
 
     /// Returns the extremes of a sample of points.
-    [[nodiscard]] Extremes extremes_of_some() const {
+    [[nodiscard]] Extremes extremes_of_sample() const {
         constexpr std::size_t wanted = 256;
         Extremes extremes;
         for (std::size_t k = 0; k < wanted && points_->count > 0; ++k) {
@@ -197,7 +197,7 @@ private:
     std::vector<Key> coordinate_;  // along the axis of the point's box
     std::vector<int> box_of_;
     std::vector<BisectionBox> boxes_;
-    Extremes some_;
+    Extremes sample_;
     std::vector<std::size_t> axis_;
     std::vector<std::array<double, 3>> extents_;
     std::vector<Search> searches_;
@@ -208,12 +208,12 @@ private:
 std::vector<int> bisect_coordinates(const Communicator& processes, const WeighedPoints& points,
                                     int parts, LocalFailure& failure) {
     std::vector<Bisection> bisection;
-    std::array<Key, 7> told{};  // sampled extremes, and whether a process has failed
-    const auto keys = std::span(told).first<6>();
-    failure.attempt([&] { bisection.emplace_back(processes, points, parts).tell_some(keys); });
-    if (failure.found()) told.back() = 1;
-    processes.max(std::span(told));
-    if (told.back() != 0) return {};
+    std::array<Key, 7> reduced_keys{};  // sampled extremes, and whether a process has failed
+    const auto keys = std::span(reduced_keys).first<6>();
+    failure.attempt([&] { bisection.emplace_back(processes, points, parts).store_sample(keys); });
+    if (failure.found()) reduced_keys.back() = 1;
+    processes.max(std::span(reduced_keys));
+    if (reduced_keys.back() != 0) return {};
     bisection.front().guess_axis(keys);
     while (bisection.front().cut_boxes(failure)) {
     }
@@ -225,16 +225,16 @@ std::vector<int> bisect_coordinates(const Communicator& processes, const Weighed
 std::vector<int> bisect_coordinates(const Communicator& processes,
                                     const std::vector<WeighedPoint>& points, int parts,
                                     LocalFailure& failure) {
-    WeighedPoints by_place;
+    WeighedPoints indexed_points;
     failure.attempt([&] {
-        by_place.count = points.size();
-        by_place.points = [&](std::size_t first, std::span<Point> places) {
-            for (Point& place : places) place = points[first++].point;
+        indexed_points.count = points.size();
+        indexed_points.points = [&](std::size_t first, std::span<Point> positions) {
+            for (Point& position : positions) position = points[first++].point;
         };
-        by_place.number = [&](std::size_t i) { return points[i].number; };
-        by_place.weight = [&](std::size_t i) { return points[i].weight; };
+        indexed_points.number = [&](std::size_t i) { return points[i].number; };
+        indexed_points.weight = [&](std::size_t i) { return points[i].weight; };
     });
-    return bisect_coordinates(processes, by_place, parts, failure);
+    return bisect_coordinates(processes, indexed_points, parts, failure);
 }
 
 }  // namespace octetra::distributed

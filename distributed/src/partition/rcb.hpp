@@ -45,7 +45,7 @@ struct WeighedPoints {
 
 /// Converts a weight to an integer, such that the smallest weight, `least`, becomes 1000. Both must
 /// be positive and finite; weights above about a million times the least are reduced to that.
-[[nodiscard]] inline std::uint64_t whole_weight(float weight, float least) {
+[[nodiscard]] inline std::uint64_t integer_weight(float weight, float least) {
     constexpr double most = 0x1p+30;  // so that the sum of 2^32 weights does not overflow
     return static_cast<std::uint64_t>(
         std::min(most, 1000.0 * static_cast<double>(weight) / static_cast<double>(least)));

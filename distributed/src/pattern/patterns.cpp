@@ -51,39 +51,39 @@ EdgeMask closure_of(std::size_t edge, const LongestFirst& longest_first) {
 }
 
 /// A list of at most 8 children without dynamic allocation: the table needs two thousand.
-class PiecesOfCell {
+class ChildList {
 public:
-    struct Piece {
-        std::array<Place, 4> places{};
+    struct Child {
+        std::array<PatternVertex, 4> places{};
         std::uint8_t halvings = 0;
     };
-    void push_back(const Piece& piece) { pieces_[count_++] = piece; }
-    [[nodiscard]] Piece& back() { return pieces_[count_ - 1]; }
+    void push_back(const Child& piece) { pieces_[count_++] = piece; }
+    [[nodiscard]] Child& back() { return pieces_[count_ - 1]; }
     [[nodiscard]] std::size_t size() const { return count_; }
-    [[nodiscard]] const Piece* begin() const { return pieces_.data(); }
-    [[nodiscard]] const Piece* end() const { return pieces_.data() + count_; }
+    [[nodiscard]] const Child* begin() const { return pieces_.data(); }
+    [[nodiscard]] const Child* end() const { return pieces_.data() + count_; }
 
 private:
-    std::array<Piece, 8> pieces_{};
+    std::array<Child, 8> pieces_{};
     std::size_t count_ = 0;
 };
 
-PiecesOfCell whole_cell() {
-    PiecesOfCell pieces;
+ChildList undivided_cell() {
+    ChildList pieces;
     pieces.push_back({.places = {0, 1, 2, 3}});
     return pieces;
 }
 
 /// Bisects each piece that has the edge. An original corner of a piece keeps its position until a
 /// midpoint replaces it.
-PiecesOfCell bisected(const PiecesOfCell& pieces, std::uint8_t edge) {
+ChildList bisected(const ChildList& pieces, std::uint8_t edge) {
     const auto& [low, high] = cell_edges[edge];
-    const auto midpoint = static_cast<Place>(4 + edge);
-    PiecesOfCell halves;
-    for (const PiecesOfCell::Piece& piece : pieces) {
+    const auto midpoint = static_cast<PatternVertex>(4 + edge);
+    ChildList halves;
+    for (const ChildList::Child& piece : pieces) {
         halves.push_back(piece);
         if (piece.places[low] != low || piece.places[high] != high) continue;
-        PiecesOfCell::Piece half{piece.places, static_cast<std::uint8_t>(piece.halvings + 1)};
+        ChildList::Child half{piece.places, static_cast<std::uint8_t>(piece.halvings + 1)};
         half.places[high] = midpoint;
         halves.back() = half;
         half.places = piece.places;
@@ -99,7 +99,8 @@ using Code = std::array<std::uint64_t, 2>;
 Code code_of(const Pattern& pattern) {
     Code code{};
     for (std::size_t k = 0; k < 8; ++k) {
-        for (const Place place : pattern.children[k]) code[k / 4] = code[k / 4] << 4U | place;
+        for (const PatternVertex place : pattern.children[k])
+            code[k / 4] = code[k / 4] << 4U | place;
     }
     return code;
 }
@@ -129,7 +130,7 @@ public:
 private:
     static constexpr Number none = 0xffff;
     struct Node {
-        PiecesOfCell pieces;
+        ChildList pieces;
         std::array<Number, 6> after{};  ///< by the next edge; 0: not yet computed
         Number pattern = none;
     };
@@ -142,11 +143,11 @@ private:
         return nodes_[node].after[edge];
     }
 
-    Number number_of(const PiecesOfCell& pieces, std::vector<Pattern>& patterns,
+    Number number_of(const ChildList& pieces, std::vector<Pattern>& patterns,
                      std::vector<Division>& divisions) {
         Pattern pattern;
         pattern.child_count = static_cast<std::uint8_t>(pieces.size());
-        std::ranges::transform(pieces, pattern.children.begin(), &PiecesOfCell::Piece::places);
+        std::ranges::transform(pieces, pattern.children.begin(), &ChildList::Child::places);
         const auto [place, fresh] =
             numbers_.try_emplace(code_of(pattern), static_cast<Number>(patterns.size()));
         if (fresh) {
@@ -156,17 +157,16 @@ private:
         return place->second;
     }
 
-    static DivisionNumber division_of(const PiecesOfCell& pieces,
-                                      std::vector<Division>& divisions) {
+    static DivisionNumber division_of(const ChildList& pieces, std::vector<Division>& divisions) {
         Division division{.piece_count = static_cast<std::uint8_t>(pieces.size())};
-        std::ranges::transform(pieces, division.halvings.begin(), &PiecesOfCell::Piece::halvings);
+        std::ranges::transform(pieces, division.halvings.begin(), &ChildList::Child::halvings);
         const auto found = std::ranges::find(divisions, division);
         const auto number = static_cast<DivisionNumber>(found - divisions.begin());
         if (found == divisions.end()) divisions.push_back(division);
         return number;
     }
 
-    std::vector<Node> nodes_ = {{whole_cell()}};
+    std::vector<Node> nodes_ = {{undivided_cell()}};
     std::map<Code, Number> numbers_;
 };
 

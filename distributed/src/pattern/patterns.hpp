@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include <octetra/distributed/succession.hpp>
+#include <octetra/distributed/entity_transfer.hpp>
 
 /// All bisections of a single cell, computed once from the rule.
 namespace octetra::distributed {
@@ -21,7 +21,7 @@ inline constexpr EdgeMask all_edges = 0b111111;  ///< of a cell
 }
 
 /// A position in a bisected cell: a corner (0..3) or the midpoint of edge k (4 + k).
-using Place = std::uint8_t;
+using PatternVertex = std::uint8_t;
 
 /// A number of a division in PatternTable::divisions(); 0 is that of an unbisected cell.
 using DivisionNumber = std::uint8_t;
@@ -30,7 +30,7 @@ using DivisionNumber = std::uint8_t;
 struct Pattern {
     std::uint8_t child_count = 0;
     DivisionNumber division = 0;
-    std::array<std::array<Place, 4>, 8> children{};
+    std::array<std::array<PatternVertex, 4>, 8> children{};
 };
 
 /// The order of a cell's six edges by length, as a number below `order_count`.

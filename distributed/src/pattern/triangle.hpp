@@ -5,7 +5,7 @@
 #include <cstdint>
 
 #include <octetra/core/mesh.hpp>
-#include <octetra/distributed/succession.hpp>
+#include <octetra/distributed/entity_transfer.hpp>
 
 namespace octetra::distributed {
 

@@ -41,7 +41,7 @@ ProfiledPhase& phase_of(GatheredProfile& all, const PhaseMessage& message, std::
         message.name.data(), static_cast<int>(message.level), std::vector<PhaseCounts>(ranks)});
 }
 
-void put_phases(const std::vector<std::vector<PhaseMessage>>& from_each, GatheredProfile& all) {
+void store_phases(const std::vector<std::vector<PhaseMessage>>& from_each, GatheredProfile& all) {
     all.seconds_of_rank.resize(from_each.size());
     for (std::size_t r = 0; r < from_each.size(); ++r) {
         for (const PhaseMessage& message : from_each[r]) {
@@ -52,20 +52,20 @@ void put_phases(const std::vector<std::vector<PhaseMessage>>& from_each, Gathere
     }
 }
 
-void put_levels(const std::vector<std::vector<Profile::LevelRecord>>& from_each,
-                GatheredProfile& all) {
+void store_levels(const std::vector<std::vector<Profile::LevelRecord>>& from_each,
+                  GatheredProfile& all) {
     const std::size_t ranks = from_each.size();
     for (std::size_t r = 0; r < ranks; ++r) {
         for (const Profile::LevelRecord& record : from_each[r]) {
-            auto place =
+            auto entry =
                 std::ranges::lower_bound(all.levels, record.level, {}, &ProfiledLevel::level);
-            if (place == all.levels.end() || place->level != record.level) {
+            if (entry == all.levels.end() || entry->level != record.level) {
                 const std::vector<std::uint64_t> zeros(ranks);
-                place = all.levels.insert(place, {record.level, zeros, zeros, zeros});
+                entry = all.levels.insert(entry, {record.level, zeros, zeros, zeros});
             }
-            place->cells_of_rank[r] = record.cells;
-            place->cells_touched_of_rank[r] = record.touched;
-            place->peak_memory_of_rank[r] = record.peak_memory;
+            entry->cells_of_rank[r] = record.cells;
+            entry->cells_touched_of_rank[r] = record.touched;
+            entry->peak_memory_of_rank[r] = record.peak_memory;
         }
     }
 }
@@ -96,8 +96,8 @@ GatheredProfile gather_profile(const Communicator& processes) {
     profile->finish();
     const Communicator unmeasured = processes.with_profile(nullptr);
     GatheredProfile all;
-    put_phases(unmeasured.gather(messages_of(*profile)), all);
-    put_levels(unmeasured.gather(profile->levels()), all);
+    store_phases(unmeasured.gather(messages_of(*profile)), all);
+    store_levels(unmeasured.gather(profile->levels()), all);
     for (const auto& peak : unmeasured.gather(std::vector{peak_memory()})) {
         all.peak_memory_of_rank.push_back(peak.front());
     }

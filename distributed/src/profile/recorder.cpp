@@ -28,10 +28,10 @@ std::size_t Profile::record_of(std::string_view name, int level) {
     return records_.size() - 1;
 }
 
-Profile::Nanoseconds Profile::book() {
+Profile::Nanoseconds Profile::add_elapsed() {
     const Nanoseconds passed = now() - start_;
-    (communicates_ ? current().communicating : current().computing) += passed - booked_;
-    booked_ = passed;
+    (communicates_ ? current().communicating : current().computing) += passed - attributed_;
+    attributed_ = passed;
     return passed;
 }
 
@@ -45,13 +45,13 @@ void Profile::begin_span(const char* name, Nanoseconds now, bool is_communicatio
 }
 
 void Profile::begin_phase(const char* name, int level) {
-    const Nanoseconds now = book();
+    const Nanoseconds now = add_elapsed();
     open_.push_back({.record = record_of(name, level), .span = spans_.size()});
     if (keeps_spans_) begin_span(name, now, false);
 }
 
 void Profile::end_phase() {
-    const Nanoseconds now = book();
+    const Nanoseconds now = add_elapsed();
     if (keeps_spans_) {
         Span& span = spans_[open_.back().span];
         span.nanoseconds = now - span.begin_nanoseconds;
@@ -60,7 +60,7 @@ void Profile::end_phase() {
 }
 
 void Profile::begin_communication(const char* name) {
-    const Nanoseconds now = book();
+    const Nanoseconds now = add_elapsed();
     communicates_ = true;
     if (!keeps_spans_) return;
     begin_span(name, now, true);
@@ -68,7 +68,7 @@ void Profile::begin_communication(const char* name) {
 }
 
 void Profile::end_communication() {
-    const Nanoseconds now = book();
+    const Nanoseconds now = add_elapsed();
     communicates_ = false;
     if (!keeps_spans_) return;
     Span& span = spans_.back();
@@ -84,7 +84,7 @@ void Profile::note_cells(int level, std::uint64_t cells, std::uint64_t touched) 
 
 void Profile::finish() {
     if (open_.size() != 1) throw std::logic_error("a profile is gathered while a phase is open");
-    (void)book();
+    (void)add_elapsed();
 }
 
 std::uint64_t peak_memory() {

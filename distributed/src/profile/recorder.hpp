@@ -59,7 +59,7 @@ private:
 
     [[nodiscard]] Record& current() { return records_[open_.back().record]; }
     [[nodiscard]] std::size_t record_of(std::string_view name, int level);
-    Nanoseconds book();
+    Nanoseconds add_elapsed();
     void begin_span(const char* name, Nanoseconds now, bool is_communication);
 
     [[nodiscard]] Nanoseconds now() const;
@@ -68,7 +68,7 @@ private:
     ProfileClock clock_;
     Nanoseconds start_ = now();
     bool communicates_ = false;
-    Nanoseconds booked_ = 0;  // the time until which all time is attributed
+    Nanoseconds attributed_ = 0;  // the time until which all time is attributed
     std::vector<Record> records_;
     std::vector<Open> open_;     // the innermost phase last; "rest" first
     PhaseCounts counts_before_;  // of the current phase, at the begin of the communication

@@ -37,8 +37,8 @@ Facts facts_of(const Mesh& mesh) {
 }
 
 /// Collective. Broadcasts the facts and group names of the first process's mesh in one message.
-std::pair<Facts, std::vector<GroupName>> shared_facts(const Communicator& processes,
-                                                      const Mesh& mesh) {
+std::pair<Facts, std::vector<GroupName>> broadcast_facts(const Communicator& processes,
+                                                         const Mesh& mesh) {
     std::vector<char> bytes;
     const auto put = [&](const void* data, std::size_t size) {
         const auto* first = static_cast<const char*>(data);
@@ -145,14 +145,14 @@ std::vector<int> ranks_of(const Mesh& mesh, const std::vector<int>& cell_to_rank
 
 /// Extracts one process's share of a mesh at a time. The first process's share must be extracted
 /// last: it also contains the vertices that no cell has.
-class Cutter {
+class ShareExtractor {
 public:
-    Cutter(const Mesh& mesh, const std::vector<int>& cell_to_rank, int rank_count)
+    ShareExtractor(const Mesh& mesh, const std::vector<int>& cell_to_rank, int rank_count)
         : mesh_(&mesh),
           cells_(cell_to_rank, rank_count),
           facets_(ranks_of(mesh, cell_to_rank, mesh.facets, cell_faces), rank_count),
           edges_(ranks_of(mesh, cell_to_rank, mesh.edges, cell_edges), rank_count),
-          seen_by_(mesh.points.size(), nobody),
+          received_by_(mesh.points.size(), no_rank),
           local_(mesh.points.size()) {}
 
     [[nodiscard]] Share share_of(int rank) {
@@ -179,20 +179,20 @@ public:
     }
 
 private:
-    static constexpr int nobody = -1;
+    static constexpr int no_rank = -1;
 
     std::vector<GlobalVertex> vertices_of(int rank) {
         std::vector<GlobalVertex> vertices;
         for (const std::uint32_t c : cells_.of(rank)) {
             for (const VertexIndex v : mesh_->cells[CellIndex{c}]) {
-                if (seen_by_[v] == rank) continue;
-                seen_by_[v] = rank;
+                if (received_by_[v] == rank) continue;
+                received_by_[v] = rank;
                 vertices.push_back(GlobalVertex{v.value()});
             }
         }
         if (rank == 0) {
             for (VertexIndex v{0}; v < mesh_->points.end_index(); ++v) {
-                if (seen_by_[v] == nobody) vertices.push_back(GlobalVertex{v.value()});
+                if (received_by_[v] == no_rank) vertices.push_back(GlobalVertex{v.value()});
             }
         }
         std::ranges::sort(vertices);
@@ -219,7 +219,7 @@ private:
     ByRank cells_;
     ByRank facets_;
     ByRank edges_;
-    IndexVector<VertexIndex, int> seen_by_;        ///< the last rank that received a vertex
+    IndexVector<VertexIndex, int> received_by_;    ///< the last rank that received a vertex
     IndexVector<VertexIndex, VertexIndex> local_;  ///< its local index there
 };
 
@@ -237,20 +237,20 @@ void check_ranks(const Mesh& mesh, const std::vector<int>& cell_to_rank, int ran
 
 /// Collective. The first process sends each share and keeps its own. It holds at most one share at
 /// a time in addition to the mesh.
-Share share_out(const Communicator& processes, const Mesh& mesh,
-                const std::vector<int>& cell_to_rank) {
+Share send_shares(const Communicator& processes, const Mesh& mesh,
+                  const std::vector<int>& cell_to_rank) {
     Share share;
     if (!processes.is_first()) {
         share.for_each_array(
             [&]<class T>(std::vector<T>& values) { values = processes.receive<T>(0); });
         return share;
     }
-    Cutter cutter(mesh, cell_to_rank, processes.size());
+    ShareExtractor extractor(mesh, cell_to_rank, processes.size());
     for (int rank = 1; rank < processes.size(); ++rank) {
-        share = cutter.share_of(rank);
+        share = extractor.share_of(rank);
         share.for_each_array([&](const auto& values) { processes.send(values, rank); });
     }
-    return cutter.share_of(0);
+    return extractor.share_of(0);
 }
 
 template <class I, std::size_t N>
@@ -271,7 +271,7 @@ void take_share(Share share, DistributedMesh& part) {
 }
 
 /// Moves the whole mesh to the part if there is only one process.
-void take_over(Mesh mesh, DistributedMesh& part) {
+void move_mesh(Mesh mesh, DistributedMesh& part) {
     const auto all = [](std::size_t count) {
         std::vector<std::uint64_t> numbers(count);
         std::iota(numbers.begin(), numbers.end(), std::uint64_t{0});
@@ -302,7 +302,7 @@ DistributedMesh distribute(const Communicator& processes, Mesh mesh,
     processes.on_first([&] {
         if (processes.size() > 1) check_ranks(mesh, cell_to_rank, processes.size());
     });
-    auto [facts, group_names] = shared_facts(processes, mesh);
+    auto [facts, group_names] = broadcast_facts(processes, mesh);
 
     DistributedMesh part;
     part.processes = processes;
@@ -315,10 +315,10 @@ DistributedMesh distribute(const Communicator& processes, Mesh mesh,
         part.features = std::make_shared<const FeatureLists>(std::move(mesh.features));
     }
     if (processes.size() == 1) {
-        take_over(std::move(mesh), part);
+        move_mesh(std::move(mesh), part);
         return part;
     }
-    take_share(share_out(processes, mesh, cell_to_rank), part);
+    take_share(send_shares(processes, mesh, cell_to_rank), part);
     mesh = {};  // releases the memory
     const Phase finding(processes, "interfaces");
     part.interfaces = find_interfaces(part, find_vertex_sharing(part));

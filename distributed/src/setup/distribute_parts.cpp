@@ -82,7 +82,7 @@ std::uint64_t hash_of(const std::vector<GroupName>& names) {
 
 /// Collective. Throws InputError if some processes have an optional list and others do not, or if a
 /// property of the whole mesh differs.
-void check_alike(const Communicator& processes, const MeshPart& part) {
+void check_consistent(const Communicator& processes, const MeshPart& part) {
     const auto check = [&](const char* what, std::size_t values, std::size_t entities) {
         const bool given = processes.max(values > 0 ? 1 : 0) == 1;
         const bool missing = processes.max(values == 0 && entities > 0 ? 1 : 0) == 1;
@@ -130,17 +130,17 @@ public:
 
     /// Returns the positions of an entity's vertices, which are given by global numbers.
     template <std::size_t N>
-    [[nodiscard]] std::array<VertexIndex, N> places_of(
+    [[nodiscard]] std::array<VertexIndex, N> positions_of(
         const Communicator& processes, const std::array<std::uint64_t, N>& numbers) const {
-        std::array<VertexIndex, N> places;
+        std::array<VertexIndex, N> positions;
         for (std::size_t k = 0; k < N; ++k) {
             const auto found = std::ranges::lower_bound(numbers_, numbers[k]);
             if (found == numbers_.end() || *found != numbers[k]) {
                 refuse(processes, "vertex {} is used, and not listed", numbers[k]);
             }
-            places[k] = VertexIndex{static_cast<std::size_t>(found - numbers_.begin())};
+            positions[k] = VertexIndex{static_cast<std::size_t>(found - numbers_.begin())};
         }
-        return places;
+        return positions;
     }
     void use(const CellVertices& cell) {
         for (const VertexIndex v : cell) used_[v.value()] = 1;
@@ -149,7 +149,7 @@ public:
     [[nodiscard]] const std::vector<std::uint64_t>& numbers() const { return numbers_; }
     [[nodiscard]] const std::vector<std::uint8_t>& used() const { return used_; }
     /// Returns the index in MeshPart of the vertex at a position.
-    [[nodiscard]] std::size_t at(std::size_t place) const { return order_[place]; }
+    [[nodiscard]] std::size_t at(std::size_t position) const { return order_[position]; }
 
 private:
     std::vector<std::uint32_t> order_;
@@ -158,15 +158,16 @@ private:
 };
 
 /// Returns the cells with vertices by position.
-IndexVector<CellIndex, CellVertices> cells_by_place(const Communicator& processes,
-                                                    const MeshPart& part, PartVertices& vertices) {
+IndexVector<CellIndex, CellVertices> cells_by_position(const Communicator& processes,
+                                                       const MeshPart& part,
+                                                       PartVertices& vertices) {
     IndexVector<CellIndex, CellVertices> cells;
     cells.reserve(part.cells.size());
     RepeatedCells repeated(part.cells.size());
     PositiveFilter filter;
     filter.add(part.points);
     for (std::size_t c = 0; c < part.cells.size(); ++c) {
-        const CellVertices cell = vertices.places_of(processes, part.cells[c]);
+        const CellVertices cell = vertices.positions_of(processes, part.cells[c]);
         const auto point = [&](std::size_t k) -> const Point& {
             return part.points[vertices.at(cell[k].value())];
         };
@@ -189,13 +190,13 @@ IndexVector<CellIndex, CellVertices> cells_by_place(const Communicator& processe
 /// Returns facets or edges with vertices by position. Each must be one of the cells' `sides`; an
 /// entity that is listed repeatedly must have the same marker each time.
 template <class I, std::size_t N, std::size_t Sides>
-IndexVector<I, std::array<VertexIndex, N>> tagged_by_place(
+IndexVector<I, std::array<VertexIndex, N>> tagged_by_position(
     const Communicator& processes, const PartVertices& vertices,
     const IndexVector<CellIndex, CellVertices>& cells,
     const std::vector<std::array<std::uint64_t, N>>& listed, const std::vector<Marker>& markers,
     const std::array<std::array<std::uint8_t, N>, Sides>& sides, const char* what) {
     IndexVector<I, std::array<VertexIndex, N>> list;
-    for (const auto& numbers : listed) list.push_back(vertices.places_of(processes, numbers));
+    for (const auto& numbers : listed) list.push_back(vertices.positions_of(processes, numbers));
     if (list.empty()) return list;
     const VertexBuckets<I, N> buckets(list, vertices.numbers().size());
     IndexVector<I, std::uint8_t> met(list.size(), 0);
@@ -309,11 +310,11 @@ void take_tagged(const Communicator& processes, const PartVertices& vertices,
 void take_vertices(const MeshPart& part, const PartVertices& vertices,
                    const std::vector<std::uint8_t>& keeps, DistributedMesh& mesh) {
     std::vector<VertexIndex> local(keeps.size());
-    for (std::size_t place = 0; place < keeps.size(); ++place) {
-        if (keeps[place] == 0) continue;
-        const std::size_t v = vertices.at(place);
-        local[place] = mesh.points.append(part.points[v]);
-        mesh.input_vertices.push_back(GlobalVertex{vertices.numbers()[place]});
+    for (std::size_t position = 0; position < keeps.size(); ++position) {
+        if (keeps[position] == 0) continue;
+        const std::size_t v = vertices.at(position);
+        local[position] = mesh.points.append(part.points[v]);
+        mesh.input_vertices.push_back(GlobalVertex{vertices.numbers()[position]});
         if (!part.point_markers.empty()) mesh.input_vertex_markers.push_back(part.point_markers[v]);
         for (std::size_t k = 0; k < part.attributes_per_point; ++k) {
             mesh.point_attributes.push_back(
@@ -338,7 +339,7 @@ DistributedMesh distribute_parts(const Communicator& processes, MeshPart part) {
     LocalFailure failure;
     failure.attempt([&] { check_sizes(processes, part); });
     failure.agree(processes);
-    check_alike(processes, part);
+    check_consistent(processes, part);
 
     std::optional<DistributedMesh> made;
     failure.attempt([&] {
@@ -355,23 +356,24 @@ DistributedMesh distribute_parts(const Communicator& processes, MeshPart part) {
     IndexVector<EdgeIndex, EdgeVertices> edges;
     failure.attempt([&] {
         vertices.emplace(processes, part);
-        mesh.cells = cells_by_place(processes, part, *vertices);
-        facets = tagged_by_place<FacetIndex>(processes, *vertices, mesh.cells, part.facets,
-                                             part.facet_markers, cell_faces, "facet");
-        edges = tagged_by_place<EdgeIndex>(processes, *vertices, mesh.cells, part.edges,
-                                           part.edge_markers, cell_edges, "edge");
+        mesh.cells = cells_by_position(processes, part, *vertices);
+        facets = tagged_by_position<FacetIndex>(processes, *vertices, mesh.cells, part.facets,
+                                                part.facet_markers, cell_faces, "facet");
+        edges = tagged_by_position<EdgeIndex>(processes, *vertices, mesh.cells, part.edges,
+                                              part.edge_markers, cell_edges, "edge");
     });
     failure.agree(processes);
 
     const CheckedVertices checked = check_vertices(
         processes, vertices->numbers(), vertices->used(),
-        [&](std::size_t place) { return part.points[vertices->at(place)]; },
-        [&](std::size_t place) {
-            return part.point_markers.empty() ? Marker{0} : part.point_markers[vertices->at(place)];
+        [&](std::size_t position) { return part.points[vertices->at(position)]; },
+        [&](std::size_t position) {
+            return part.point_markers.empty() ? Marker{0}
+                                              : part.point_markers[vertices->at(position)];
         },
-        [&](std::size_t place) {
+        [&](std::size_t position) {
             const std::size_t count = part.attributes_per_point;
-            return std::span(part.point_attributes).subspan(vertices->at(place) * count, count);
+            return std::span(part.point_attributes).subspan(vertices->at(position) * count, count);
         });
     mesh.input_vertex_count = checked.count;
     mesh.input_cell_count = processes.sum(part.cells.size());

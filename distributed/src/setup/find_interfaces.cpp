@@ -121,40 +121,40 @@ private:
     }
 };
 
-using Places = std::vector<std::uint32_t>;
+using Indices = std::vector<std::uint32_t>;
 
 /// Maps vertices to their indices in the list of vertices shared with another process, which is the
 /// same on both sides and ascending. The array is allocated once for all processes.
-class PlacesAmong {
+class SharedIndices {
 public:
-    explicit PlacesAmong(std::size_t vertex_count) { place_.resize(vertex_count); }
+    explicit SharedIndices(std::size_t vertex_count) { index_.resize(vertex_count); }
 
-    void look_at(const std::vector<VertexIndex>& shared) {
+    void set_list(const std::vector<VertexIndex>& shared) {
         for (std::size_t k = 0; k < shared.size(); ++k) {
-            place_[shared[k]] = static_cast<std::uint32_t>(k);
+            index_[shared[k]] = static_cast<std::uint32_t>(k);
         }
     }
     template <std::size_t N>
     [[nodiscard]] std::array<std::uint32_t, N> of(
         const std::array<VertexIndex, N>& vertices) const {
-        std::array<std::uint32_t, N> places;
-        for (std::size_t k = 0; k < N; ++k) places[k] = place_[vertices[k]];
-        return places;
+        std::array<std::uint32_t, N> indices;
+        for (std::size_t k = 0; k < N; ++k) indices[k] = index_[vertices[k]];
+        return indices;
     }
 
 private:
-    IndexVector<VertexIndex, std::uint32_t> place_;  ///< valid for the vertices of the last list
+    IndexVector<VertexIndex, std::uint32_t> index_;  ///< valid for the vertices of the last list
 };
 
 /// Returns the message: the number of edges, then edges and faces as indices of shared vertices.
-Places message_of(const Candidates& candidates, PlacesAmong& among) {
-    Places message{static_cast<std::uint32_t>(candidates.edges.size())};
+Indices message_of(const Candidates& candidates, SharedIndices& among) {
+    Indices message{static_cast<std::uint32_t>(candidates.edges.size())};
     message.reserve(1 + 2 * candidates.edges.size() + 3 * candidates.faces.size());
-    among.look_at(*candidates.shared);
+    among.set_list(*candidates.shared);
     const auto append = [&](const auto& list) {
         for (const auto& vertices : list) {
-            const auto places = among.of(vertices);
-            message.insert(message.end(), places.begin(), places.end());
+            const auto indices = among.of(vertices);
+            message.insert(message.end(), indices.begin(), indices.end());
         }
     };
     append(candidates.edges);
@@ -164,17 +164,17 @@ Places message_of(const Candidates& candidates, PlacesAmong& among) {
 
 /// Returns the entries of `own` that are also in the received list. Both lists ascend.
 template <std::size_t N>
-VertexLists<N> common(const VertexLists<N>& own, const PlacesAmong& among,
-                      std::span<const std::uint32_t> told) {
+VertexLists<N> common(const VertexLists<N>& own, const SharedIndices& among,
+                      std::span<const std::uint32_t> received) {
     VertexLists<N> common;
     for (const auto& vertices : own) {
-        const auto places = among.of(vertices);
+        const auto indices = among.of(vertices);
         const auto is_before = [&] {
-            return std::ranges::lexicographical_compare(told.first(N), places);
+            return std::ranges::lexicographical_compare(received.first(N), indices);
         };
-        while (!told.empty() && is_before()) told = told.subspan(N);
-        if (told.empty()) break;
-        if (std::ranges::equal(told.first(N), places)) common.push_back(vertices);
+        while (!received.empty() && is_before()) received = received.subspan(N);
+        if (received.empty()) break;
+        if (std::ranges::equal(received.first(N), indices)) common.push_back(vertices);
     }
     return common;
 }
@@ -186,8 +186,8 @@ std::vector<Interface> find_interfaces(const DistributedMesh& mesh,
     if (mesh.processes.size() == 1) return {};
     LocalFailure failure;
     std::optional<CandidatesOfAll> candidates;
-    std::optional<PlacesAmong> among;
-    std::vector<Places> outboxes;
+    std::optional<SharedIndices> among;
+    std::vector<Indices> outboxes;
     failure.attempt([&] {
         candidates.emplace(mesh, sharing);
         among.emplace(mesh.points.size());
@@ -201,13 +201,13 @@ std::vector<Interface> find_interfaces(const DistributedMesh& mesh,
         const auto inboxes = mesh.processes.exchange_with(candidates->ranks, outboxes);
         for (std::size_t i = 0; i < inboxes.size(); ++i) {
             const Candidates& own = candidates->of_rank[i];
-            const std::span<const std::uint32_t> told(inboxes[i]);
-            if (told.empty()) continue;  // the process has failed
-            among->look_at(*own.shared);
-            const std::size_t edges = std::size_t{2} * told.front();
+            const std::span<const std::uint32_t> received(inboxes[i]);
+            if (received.empty()) continue;  // the process has failed
+            among->set_list(*own.shared);
+            const std::size_t edges = std::size_t{2} * received.front();
             Interface interface {
-                candidates->ranks[i], common(own.edges, *among, told.subspan(1, edges)),
-                    common(own.faces, *among, told.subspan(1 + edges))
+                candidates->ranks[i], common(own.edges, *among, received.subspan(1, edges)),
+                    common(own.faces, *among, received.subspan(1 + edges))
             };
             if (interface.edges.empty() && interface.faces.empty()) continue;
             interfaces.push_back(std::move(interface));

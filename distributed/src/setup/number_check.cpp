@@ -58,17 +58,17 @@ struct Block {
 /// the order received, whether its sender keeps the vertex.
 std::vector<std::vector<std::uint8_t>> answers_to(const std::vector<std::vector<Listed>>& inboxes,
                                                   const Block& block) {
-    constexpr int nobody = -1;
+    constexpr int no_rank = -1;
     struct Known {
         Listed listed;
-        int first = nobody;
+        int first = no_rank;
         bool is_used = false;
     };
     std::vector<Known> known(block.end - block.begin);
     for (std::size_t rank = 0; rank < inboxes.size(); ++rank) {
         for (const Listed& listed : inboxes[rank]) {
             Known& of = known[listed.number - block.begin];
-            if (of.first == nobody) {
+            if (of.first == no_rank) {
                 of.listed = listed;
                 of.first = static_cast<int>(rank);
             } else if (!same(of.listed, listed)) {
@@ -83,7 +83,7 @@ std::vector<std::vector<std::uint8_t>> answers_to(const std::vector<std::vector<
         }
     }
     for (std::size_t i = 0; i < known.size(); ++i) {
-        if (known[i].first == nobody) refuse_missing(block.begin + i, "vertex");
+        if (known[i].first == no_rank) refuse_missing(block.begin + i, "vertex");
     }
     std::vector<std::vector<std::uint8_t>> answers(inboxes.size());
     for (std::size_t rank = 0; rank < inboxes.size(); ++rank) {

@@ -7,70 +7,71 @@ namespace {
 
 /// Counts the processes that request each vertex of this process's share: 0, 1, or 2 for several.
 /// This process then requests the vertices that no process has requested.
-std::vector<std::uint8_t> keep_unwanted(int rank, const MeshStretch& stretch,
-                                        StretchVertices& vertices) {
-    std::vector<std::uint8_t> wanted(stretch.lists.points.size(), 0);
+std::vector<std::uint8_t> request_unrequested(int rank, const MeshShare& share,
+                                              VerticesOfPart& vertices) {
+    std::vector<std::uint8_t> request_counts(share.lists.points.size(), 0);
     for (const auto& numbers : vertices.requests.received) {
         for (const std::uint32_t number : numbers) {
-            std::uint8_t& times = wanted[number - stretch.first_vertex];
+            std::uint8_t& times = request_counts[number - share.first_vertex];
             times = times == 0 ? 1 : 2;
         }
     }
-    std::vector<std::uint32_t> unwanted;
-    for (std::size_t i = 0; i < wanted.size(); ++i) {
-        if (wanted[i] > 0) continue;
-        unwanted.push_back(static_cast<std::uint32_t>(stretch.first_vertex + i));
+    std::vector<std::uint32_t> unrequested;
+    for (std::size_t i = 0; i < request_counts.size(); ++i) {
+        if (request_counts[i] > 0) continue;
+        unrequested.push_back(static_cast<std::uint32_t>(share.first_vertex + i));
     }
-    if (unwanted.empty()) return wanted;
-    vertices.set.add(unwanted);
+    if (unrequested.empty()) return request_counts;
+    vertices.set.add(unrequested);
     auto& own = vertices.requests.sent[static_cast<std::size_t>(rank)];
     const auto middle = static_cast<std::ptrdiff_t>(own.size());
-    own.insert(own.end(), unwanted.begin(), unwanted.end());
+    own.insert(own.end(), unrequested.begin(), unrequested.end());
     std::inplace_merge(own.begin(), own.begin() + middle, own.end());
     vertices.requests.received[static_cast<std::size_t>(rank)] = own;
-    return wanted;
+    return request_counts;
 }
 
 }  // namespace
 
-StretchVertices find_vertices(const Communicator& processes, const Homes& homes,
-                              const MeshStretch& stretch,
-                              const IndexVector<CellIndex, CellVertices>& cells,
-                              LocalFailure& failure) {
-    StretchVertices vertices;
+VerticesOfPart find_vertices(const Communicator& processes, const OwnerMap& owners,
+                             const MeshShare& share,
+                             const IndexVector<CellIndex, CellVertices>& cells,
+                             LocalFailure& failure) {
+    VerticesOfPart vertices;
     std::vector<std::uint32_t> numbers;
     failure.attempt([&] {
         vertices.set = VertexSet(cells);
         numbers = vertices.set.numbers();
     });
-    vertices.requests = request(processes, homes, numbers, failure);
-    std::vector<std::uint8_t> wanted;
+    vertices.requests = request(processes, owners, numbers, failure);
+    std::vector<std::uint8_t> request_counts;
     failure.attempt([&] {
-        wanted = keep_unwanted(processes.rank(), stretch, vertices);
-        for (std::uint8_t& times : wanted) times = times == 2 ? 1 : 0;
+        request_counts = request_unrequested(processes.rank(), share, vertices);
+        for (std::uint8_t& times : request_counts) times = times == 2 ? 1 : 0;
     });
-    vertices.is_shared = fetch(processes, vertices.requests, wanted, stretch.first_vertex, failure);
+    vertices.is_shared =
+        fetch(processes, vertices.requests, request_counts, share.first_vertex, failure);
     return vertices;
 }
 
-void bring_vertices(const Communicator& processes, const StretchVertices& vertices,
-                    const MeshStretch& stretch, DistributedMesh& mesh, LocalFailure& failure) {
-    const auto bring = [&](const auto& home, std::size_t components = 1) {
-        return fetch(processes, vertices.requests, home, stretch.first_vertex, failure, components);
+void fetch_vertices(const Communicator& processes, const VerticesOfPart& vertices,
+                    const MeshShare& share, DistributedMesh& mesh, LocalFailure& failure) {
+    const auto fetch_owned = [&](const auto& owned, std::size_t components = 1) {
+        return fetch(processes, vertices.requests, owned, share.first_vertex, failure, components);
     };
-    const Mesh& lists = stretch.lists;
+    const Mesh& lists = share.lists;
     {
         const std::vector<Point> points =
-            bring(static_cast<const std::vector<Point>&>(lists.points));
+            fetch_owned(static_cast<const std::vector<Point>&>(lists.points));
         failure.attempt([&] { mesh.points.assign(points.begin(), points.end()); });
     }
-    if (stretch.facts.has_point_markers) {
+    if (share.facts.has_point_markers) {
         mesh.input_vertex_markers =
-            bring(static_cast<const std::vector<Marker>&>(lists.point_markers));
+            fetch_owned(static_cast<const std::vector<Marker>&>(lists.point_markers));
     }
-    mesh.attributes_per_point = stretch.facts.attributes_per_point;
+    mesh.attributes_per_point = share.facts.attributes_per_point;
     if (mesh.attributes_per_point > 0) {
-        mesh.point_attributes = bring(lists.point_attributes, mesh.attributes_per_point);
+        mesh.point_attributes = fetch_owned(lists.point_attributes, mesh.attributes_per_point);
     }
     failure.attempt([&] {
         mesh.input_vertices.reserve(vertices.set.size());

@@ -3,32 +3,32 @@
 #include <cstdint>
 #include <vector>
 
-#include <octetra/core/mesh_stretch.hpp>
+#include <octetra/core/mesh_share.hpp>
 #include <octetra/distributed/communicator.hpp>
 #include <octetra/distributed/distributed_mesh.hpp>
 
 #include "comm/local_failure.hpp"
-#include "setup/homes.hpp"
+#include "setup/owners.hpp"
 #include "setup/vertex_set.hpp"
 
 namespace octetra::distributed {
 
 /// The vertices of a process's part: those of its cells, and those of its share of the file that no
 /// cell of any process has.
-struct StretchVertices {
+struct VerticesOfPart {
     VertexSet set;
     Requests<std::uint32_t> requests;     ///< requests of all processes, by owner of the vertices
     std::vector<std::uint8_t> is_shared;  ///< whether another process has each vertex of the set
 };
 
 /// Collective. Finds the vertices of these cells, which have global vertex numbers.
-[[nodiscard]] StretchVertices find_vertices(const Communicator& processes, const Homes& homes,
-                                            const MeshStretch& stretch,
-                                            const IndexVector<CellIndex, CellVertices>& cells,
-                                            LocalFailure& failure);
+[[nodiscard]] VerticesOfPart find_vertices(const Communicator& processes, const OwnerMap& owners,
+                                           const MeshShare& share,
+                                           const IndexVector<CellIndex, CellVertices>& cells,
+                                           LocalFailure& failure);
 
 /// Collective. Fetches points, markers and attributes into the mesh.
-void bring_vertices(const Communicator& processes, const StretchVertices& vertices,
-                    const MeshStretch& stretch, DistributedMesh& mesh, LocalFailure& failure);
+void fetch_vertices(const Communicator& processes, const VerticesOfPart& vertices,
+                    const MeshShare& share, DistributedMesh& mesh, LocalFailure& failure);
 
 }  // namespace octetra::distributed

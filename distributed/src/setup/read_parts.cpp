@@ -6,20 +6,20 @@
 #include <utility>
 
 #include <octetra/core/error.hpp>
-#include <octetra/core/mesh_stretch.hpp>
+#include <octetra/core/mesh_share.hpp>
 #include <octetra/core/standard_arithmetic.hpp>
 #include <octetra/distributed/profile.hpp>
 
 #include "comm/local_failure.hpp"
 #include "comm/same_arguments.hpp"
-#include "setup/distribute_stretch.hpp"
+#include "setup/distribute_share.hpp"
 
 namespace octetra::distributed {
 namespace {
 
 /// Collective. Returns whether the caller accepts a mesh with these facts. Its exception is not
 /// thrown here: read_on_first() calls on_facts() again once the file is known to be correct.
-bool are_welcome(const MeshFacts& facts, const ReadPartsOptions& options) {
+bool caller_accepts(const MeshFacts& facts, const ReadPartsOptions& options) {
     if (!options.on_facts) return true;
     try {
         options.on_facts(facts);
@@ -31,20 +31,20 @@ bool are_welcome(const MeshFacts& facts, const ReadPartsOptions& options) {
 
 /// Collective. Reads the file with all processes. Returns nothing on all processes if the first one
 /// must read it alone.
-std::optional<DistributedMesh> read_together(const Communicator& processes,
-                                             const std::filesystem::path& path,
-                                             PartitionMethod method,
-                                             const ReadPartsOptions& options) {
+std::optional<DistributedMesh> read_by_shares(const Communicator& processes,
+                                              const std::filesystem::path& path,
+                                              PartitionMethod method,
+                                              const ReadPartsOptions& options) {
     LocalFailure failure;
-    std::optional<MeshStretch> stretch;
+    std::optional<MeshShare> share;
     {
         const Phase phase(processes, "read");
-        failure.attempt([&] { stretch = read_stretch(path, processes); });
+        failure.attempt([&] { share = read_mesh_share(path, processes); });
         failure.agree(processes);
-        if (!stretch || !are_welcome(stretch->facts, options)) return std::nullopt;
+        if (!share || !caller_accepts(share->facts, options)) return std::nullopt;
     }
-    const std::vector<std::string> notes = std::move(stretch->notes);
-    auto mesh = distribute_stretch(processes, std::move(*stretch), method, options.weigh);
+    const std::vector<std::string> notes = std::move(share->notes);
+    auto mesh = distribute_share(processes, std::move(*share), method, options.weigh);
     if (!mesh) return std::nullopt;
     const Phase phase(processes, "read");
     failure.attempt([&] {
@@ -117,8 +117,8 @@ DistributedMesh read_parts(const Communicator& processes, const std::filesystem:
         LocalFailure none;
         agree_on_same(processes, none, "partition", [&] { return text_of(partition); });
     });
-    if (processes.size() > 1 && works_by_stretches(partition.method) && !options.read.only_syntax) {
-        auto mesh = read_together(processes, path, partition.method, options);
+    if (processes.size() > 1 && supports_shares(partition.method) && !options.read.only_syntax) {
+        auto mesh = read_by_shares(processes, path, partition.method, options);
         if (mesh) return std::move(*mesh);
     }
     return read_on_first(processes, path, partition, options);

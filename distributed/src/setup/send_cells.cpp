@@ -16,24 +16,24 @@ struct CellToSend {
 };
 
 /// Collective. Returns the number of cells that this process receives from each process.
-std::vector<std::uint64_t> counts_to_come(const Communicator& processes,
-                                          const std::vector<int>& parts, LocalFailure& failure) {
-    std::vector<std::vector<std::uint64_t>> to_go;
+std::vector<std::uint64_t> counts_to_receive(const Communicator& processes,
+                                             const std::vector<int>& parts, LocalFailure& failure) {
+    std::vector<std::vector<std::uint64_t>> sent_counts;
     failure.attempt([&] {
-        to_go.resize(static_cast<std::size_t>(processes.size()));
+        sent_counts.resize(static_cast<std::size_t>(processes.size()));
         for (const int part : parts) {
-            auto& count = to_go[static_cast<std::size_t>(part)];
+            auto& count = sent_counts[static_cast<std::size_t>(part)];
             if (count.empty()) count.push_back(0);
             ++count.front();
         }
     });
     failure.agree(processes);
-    std::vector<std::vector<std::uint64_t>> to_come;
-    failure.attempt([&] { to_come = processes.all_to_all(to_go); });
+    std::vector<std::vector<std::uint64_t>> received_counts;
+    failure.attempt([&] { received_counts = processes.all_to_all(sent_counts); });
     failure.agree(processes);  // otherwise a process without memory may have sent nothing
     std::vector<std::uint64_t> counts;
     failure.attempt([&] {
-        for (const auto& from_one : to_come) {
+        for (const auto& from_one : received_counts) {
             counts.push_back(from_one.empty() ? 0 : from_one.front());
         }
     });
@@ -43,12 +43,12 @@ std::vector<std::uint64_t> counts_to_come(const Communicator& processes,
 
 /// The cells of a part during the exchange. Cells that stay are kept at the front of the lists that
 /// were read; received cells are kept in separate lists until there is room between them.
-class Gathering {
+class CellExchange {
 public:
-    Gathering(const Communicator& processes, MeshStretch& stretch, const StretchCorners& corners,
-              const std::vector<int>& parts)
+    CellExchange(const Communicator& processes, MeshShare& share, const ShareCorners& corners,
+                 const std::vector<int>& parts)
         : own_(static_cast<std::size_t>(processes.rank())),
-          stretch_(&stretch),
+          share_(&share),
           corners_(&corners),
           parts_(&parts) {}
 
@@ -61,9 +61,9 @@ public:
         if (has_regions()) reserve_in_huge_pages(regions(), count);
         reserve_in_huge_pages(numbers_, count);
         numbers_.resize(count);
-        come_.resize(counts.size());
+        received_.resize(counts.size());
         for (std::size_t rank = 0; rank < counts.size(); ++rank) {
-            if (rank != own_) come_[rank].reserve(counts[rank]);
+            if (rank != own_) received_[rank].reserve(counts[rank]);
         }
         boxes_.resize(counts.size());
     }
@@ -74,7 +74,7 @@ public:
         for (auto& box : boxes_) box.clear();
         for (std::size_t in_boxes = 0; next_ < parts_->size() && in_boxes < at_once; ++next_) {
             const CellVertices vertices = corners_->numbers_of(next_);
-            const std::uint64_t number = stretch_->first_cell + next_;
+            const std::uint64_t number = share_->first_cell + next_;
             const Marker region = has_regions() ? regions()[CellIndex{next_}] : Marker{0};
             const auto to = static_cast<std::size_t>((*parts_)[next_]);
             if (to == own_) {
@@ -87,18 +87,19 @@ public:
     }
     void take(const std::vector<std::vector<CellToSend>>& inboxes) {
         for (std::size_t rank = 0; rank < inboxes.size(); ++rank) {
-            come_[rank].insert(come_[rank].end(), inboxes[rank].begin(), inboxes[rank].end());
+            received_[rank].insert(received_[rank].end(), inboxes[rank].begin(),
+                                   inboxes[rank].end());
         }
     }
 
     /// Joins the shares in the order of ranks, which is the order of cell numbers.
-    [[nodiscard]] CellsOfPart put_together() && {
+    [[nodiscard]] CellsOfPart join() && {
         make_room_before(cells());
         if (has_regions()) make_room_before(regions());
         std::size_t i = 0;
-        for (std::size_t rank = 0; rank < come_.size(); ++rank) {
-            if (rank == own_) i += stayed_;
-            for (const CellToSend& cell : come_[rank]) {
+        for (std::size_t rank = 0; rank < received_.size(); ++rank) {
+            if (rank == own_) i += kept_count_;
+            for (const CellToSend& cell : received_[rank]) {
                 cells()[CellIndex{i}] = cell.vertices;
                 if (has_regions()) regions()[CellIndex{i}] = cell.region;
                 numbers_[i++] = cell.number;
@@ -109,60 +110,57 @@ public:
 
 private:
     [[nodiscard]] IndexVector<CellIndex, CellVertices>& cells() const {
-        return stretch_->lists.cells;
+        return share_->lists.cells;
     }
-    [[nodiscard]] IndexVector<CellIndex, Marker>& regions() const {
-        return stretch_->lists.regions;
-    }
-    [[nodiscard]] bool has_regions() const { return stretch_->facts.has_regions; }
+    [[nodiscard]] IndexVector<CellIndex, Marker>& regions() const { return share_->lists.regions; }
+    [[nodiscard]] bool has_regions() const { return share_->facts.has_regions; }
 
     /// Moves a staying cell forward; the target was already read, or is the cell itself.
     void stay(const CellVertices& vertices, std::uint64_t number, Marker region) {
-        cells()[CellIndex{stayed_}] = vertices;
-        if (has_regions()) regions()[CellIndex{stayed_}] = region;
-        numbers_[before_ + stayed_++] = number;
+        cells()[CellIndex{kept_count_}] = vertices;
+        if (has_regions()) regions()[CellIndex{kept_count_}] = region;
+        numbers_[before_ + kept_count_++] = number;
     }
     void make_room_before(auto& list) {
         list.resize(std::max(list.size(), numbers_.size()));
         const auto begin = list.begin();
-        std::move_backward(begin, begin + static_cast<std::ptrdiff_t>(stayed_),
-                           begin + static_cast<std::ptrdiff_t>(before_ + stayed_));
+        std::move_backward(begin, begin + static_cast<std::ptrdiff_t>(kept_count_),
+                           begin + static_cast<std::ptrdiff_t>(before_ + kept_count_));
         list.resize(numbers_.size());
     }
 
     std::size_t own_;
-    MeshStretch* stretch_;
-    const StretchCorners* corners_;
+    MeshShare* share_;
+    const ShareCorners* corners_;
     const std::vector<int>* parts_;
     std::uint64_t before_ = 0;  // number of cells received from lower ranks
-    std::size_t stayed_ = 0;
+    std::size_t kept_count_ = 0;
     std::size_t next_ = 0;
     std::vector<std::uint64_t> numbers_;
     std::vector<std::vector<CellToSend>> boxes_;
-    std::vector<std::vector<CellToSend>> come_;
+    std::vector<std::vector<CellToSend>> received_;
 };
 
 }  // namespace
 
-CellsOfPart send_cells(const Communicator& processes, MeshStretch& stretch,
-                       const StretchCorners& corners, const std::vector<int>& parts,
-                       LocalFailure& failure) {
+CellsOfPart send_cells(const Communicator& processes, MeshShare& share, const ShareCorners& corners,
+                       const std::vector<int>& parts, LocalFailure& failure) {
     constexpr std::size_t at_once = std::size_t{1} << 15U;
-    const std::vector<std::uint64_t> counts = counts_to_come(processes, parts, failure);
-    Gathering gathering(processes, stretch, corners, parts);
-    failure.attempt([&] { gathering.make_room(counts); });
+    const std::vector<std::uint64_t> counts = counts_to_receive(processes, parts, failure);
+    CellExchange exchange(processes, share, corners, parts);
+    failure.attempt([&] { exchange.make_room(counts); });
     const auto leaving = static_cast<std::uint64_t>(
         std::ranges::count_if(parts, [&](int part) { return part != processes.rank(); }));
     const std::uint64_t rounds = processes.max((leaving + at_once - 1) / at_once);
     for (std::uint64_t round = 0; round < rounds; ++round) {
-        failure.attempt([&] { gathering.fill_boxes(at_once); });
+        failure.attempt([&] { exchange.fill_boxes(at_once); });
         failure.agree(processes);
-        failure.attempt([&] { gathering.take(processes.all_to_all(gathering.boxes())); });
+        failure.attempt([&] { exchange.take(processes.all_to_all(exchange.boxes())); });
     }
     CellsOfPart part;
     failure.attempt([&] {
-        gathering.fill_boxes(at_once);
-        part = std::move(gathering).put_together();
+        exchange.fill_boxes(at_once);
+        part = std::move(exchange).join();
     });
     failure.agree(processes);
     return part;

@@ -3,11 +3,11 @@
 #include <cstdint>
 #include <vector>
 
-#include <octetra/core/mesh_stretch.hpp>
+#include <octetra/core/mesh_share.hpp>
 #include <octetra/distributed/communicator.hpp>
 
 #include "comm/local_failure.hpp"
-#include "setup/stretch_corners.hpp"
+#include "setup/share_corners.hpp"
 
 namespace octetra::distributed {
 
@@ -20,9 +20,9 @@ struct CellsOfPart {
 
 /// Collective. Sends each cell of this process's share to the rank that `parts` states; `corners`
 /// provides their vertices. Cells that stay are kept in the memory that they were read into: the
-/// cells and regions of `stretch` and the cells of `corners` must not be used afterwards.
-[[nodiscard]] CellsOfPart send_cells(const Communicator& processes, MeshStretch& stretch,
-                                     const StretchCorners& corners, const std::vector<int>& parts,
+/// cells and regions of `share` and the cells of `corners` must not be used afterwards.
+[[nodiscard]] CellsOfPart send_cells(const Communicator& processes, MeshShare& share,
+                                     const ShareCorners& corners, const std::vector<int>& parts,
                                      LocalFailure& failure);
 
 }  // namespace octetra::distributed

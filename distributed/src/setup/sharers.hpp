@@ -25,29 +25,29 @@ struct Sharer {
 /// processes, ascending, and the index of the key in the list of each. Each process's keys ascend.
 template <class Key>
 void for_each_common(const std::vector<std::vector<Key>>& from_each, auto&& meet) {
-    std::vector<std::pair<Key, std::size_t>> waiting;  // a heap of pairs (next key, process)
+    std::vector<std::pair<Key, std::size_t>> queue;  // a heap of pairs (next key, process)
     std::vector<std::size_t> next(from_each.size(), 0);
-    const auto wait = [&](std::size_t r) {
+    const auto enqueue = [&](std::size_t r) {
         if (next[r] == from_each[r].size()) return;
-        waiting.emplace_back(from_each[r][next[r]], r);
-        std::ranges::push_heap(waiting, std::greater{});
+        queue.emplace_back(from_each[r][next[r]], r);
+        std::ranges::push_heap(queue, std::greater{});
     };
-    for (std::size_t r = 0; r < from_each.size(); ++r) wait(r);
+    for (std::size_t r = 0; r < from_each.size(); ++r) enqueue(r);
     std::vector<std::int32_t> ranks;
     std::vector<std::uint32_t> positions;
-    while (waiting.size() > 1) {
-        const Key key = waiting.front().first;
+    while (queue.size() > 1) {
+        const Key key = queue.front().first;
         ranks.clear();
         positions.clear();
-        while (!waiting.empty() && waiting.front().first == key) {
-            const std::size_t r = waiting.front().second;
-            std::ranges::pop_heap(waiting, std::greater{});
-            waiting.pop_back();
+        while (!queue.empty() && queue.front().first == key) {
+            const std::size_t r = queue.front().second;
+            std::ranges::pop_heap(queue, std::greater{});
+            queue.pop_back();
             ranks.push_back(static_cast<std::int32_t>(r));
             positions.push_back(static_cast<std::uint32_t>(next[r]++));
         }
         if (ranks.size() > 1) meet(ranks, positions);
-        for (const std::int32_t r : ranks) wait(static_cast<std::size_t>(r));
+        for (const std::int32_t r : ranks) enqueue(static_cast<std::size_t>(r));
     }
 }
 
@@ -76,9 +76,9 @@ template <std::size_t N>
         outboxes.resize(process_count);
         numbers.resize(process_count);
         for (std::size_t i = 0; i < keys.size(); ++i) {
-            const std::size_t place = rendezvous_of(keys[i]);
-            outboxes[place].push_back(keys[i]);
-            numbers[place].push_back(static_cast<std::uint32_t>(i));
+            const std::size_t rendezvous = rendezvous_of(keys[i]);
+            outboxes[rendezvous].push_back(keys[i]);
+            numbers[rendezvous].push_back(static_cast<std::uint32_t>(i));
         }
     });
     if (failure.max_unless_failed(processes, 0) == LocalFailure::somewhere) return {};

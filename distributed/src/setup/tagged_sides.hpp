@@ -13,7 +13,7 @@
 
 #include "comm/local_failure.hpp"
 #include "setup/ancestors_of_roots.hpp"
-#include "setup/homes.hpp"
+#include "setup/owners.hpp"
 #include "setup/part_vertices.hpp"
 
 namespace octetra::distributed {
@@ -60,43 +60,43 @@ public:
     using Side = TaggedSide<N>;
     using List = IndexVector<I, std::array<VertexIndex, N>>;
 
-    TaggedSides(const Communicator& processes, const StretchVertices& vertices,
+    TaggedSides(const Communicator& processes, const VerticesOfPart& vertices,
                 LocalFailure& failure)
         : processes_(&processes), vertices_(&vertices), failure_(&failure) {}
 
     /// Collective. Sends this process's share, whose first entity has number `first`, to the owners
     /// of the lowest vertices. Returns false if an entity is listed repeatedly with different
     /// markers.
-    [[nodiscard]] bool collect(const Homes& homes, const List& list,
+    [[nodiscard]] bool collect(const OwnerMap& owners, const List& list,
                                const IndexVector<I, Marker>& markers, std::uint64_t first) {
-        std::vector<std::vector<Side>> to_homes;
+        std::vector<std::vector<Side>> to_owners;
         failure_->attempt([&] {
-            to_homes.resize(process_count());
+            to_owners.resize(process_count());
             for (I i{0}; i < list.end_index(); ++i) {
                 const Side one{list[i], static_cast<std::uint32_t>(first + i.value()),
                                markers.empty() ? Marker{0} : markers[i]};
-                const int home = homes.rank_of(one.lowest().value());
-                to_homes[static_cast<std::size_t>(home)].push_back(one);
+                const int owner = owners.rank_of(one.lowest().value());
+                to_owners[static_cast<std::size_t>(owner)].push_back(one);
             }
         });
         failure_->agree(*processes_);
         bool agree = true;
         failure_->attempt([&] {
-            for (const auto& box : processes_->all_to_all(to_homes)) {
-                at_home_.insert(at_home_.end(), box.begin(), box.end());
+            for (const auto& box : processes_->all_to_all(to_owners)) {
+                owned_.insert(owned_.end(), box.begin(), box.end());
             }
             std::vector<std::pair<std::array<VertexIndex, N>, std::size_t>> order;
-            order.reserve(at_home_.size());
-            for (const Side& one : at_home_) order.emplace_back(one.sorted(), order.size());
+            order.reserve(owned_.size());
+            for (const Side& one : owned_) order.emplace_back(one.sorted(), order.size());
             std::ranges::sort(order);
             std::vector<Side> sorted;
-            sorted.reserve(at_home_.size());
+            sorted.reserve(owned_.size());
             for (std::size_t i = 0; i < order.size(); ++i) {
-                sorted.push_back(at_home_[order[i].second]);
+                sorted.push_back(owned_[order[i].second]);
                 agree = agree && (i == 0 || order[i].first != order[i - 1].first ||
                                   sorted[i].marker == sorted[i - 1].marker);
             }
-            at_home_ = std::move(sorted);
+            owned_ = std::move(sorted);
         });
         return agree;
     }
@@ -112,28 +112,28 @@ public:
         failure_->agree(*processes_);
         std::vector<std::vector<std::uint8_t>> replies;
         failure_->attempt([&] {
-            come_ = processes_->all_to_all(to_parts);
+            received_ = processes_->all_to_all(to_parts);
             to_parts.clear();
-            replies = look_at(cells, sides);
+            replies = find_cells_at(cells, sides);
         });
         failure_->agree(*processes_);
         std::vector<std::vector<std::uint8_t>> kept_by;
         failure_->attempt([&] { kept_by = processes_->all_to_all(replies); });
         failure_->agree(*processes_);  // all replies have been received
-        bool well = true;
-        failure_->attempt([&] { well = give_to_the_lowest(kept_by); });
+        bool is_valid = true;
+        failure_->attempt([&] { is_valid = assign_to_lowest_rank(kept_by); });
         failure_->agree(*processes_);
         failure_->attempt([&] { keeps_ = processes_->all_to_all(kept_by); });
         failure_->agree(*processes_);
-        return well;
+        return is_valid;
     }
 
     /// Appends the entities that this process keeps, in the order of their numbers.
     void take(bool has_markers, List& list, AncestorMap& ancestors) {
         std::vector<Side> kept;
-        for (std::size_t rank = 0; rank < come_.size(); ++rank) {
-            for (std::size_t i = 0; i < come_[rank].size(); ++i) {
-                if (keeps_[rank][i] != 0) kept.push_back(come_[rank][i]);
+        for (std::size_t rank = 0; rank < received_.size(); ++rank) {
+            for (std::size_t i = 0; i < received_[rank].size(); ++i) {
+                if (keeps_[rank][i] != 0) kept.push_back(received_[rank][i]);
             }
         }
         std::ranges::sort(kept, {}, &Side::number);
@@ -142,7 +142,7 @@ public:
         list.reserve(kept.size());
         numbers.reserve(kept.size());
         for (const Side& one : kept) {
-            list.push_back(places_of(one));
+            list.push_back(local_vertices(one));
             numbers.push_back(one.number);
             if (has_markers) markers.push_back(one.marker);
         }
@@ -155,14 +155,13 @@ private:
     }
 
     /// Calls send(rank, index) for each process that has the lowest vertex of an entity in
-    /// at_home_; the order is the same in each call.
+    /// owned_; the order is the same in each call.
     void for_each_sent(auto&& send) const {
         for (std::size_t rank = 0; rank < process_count(); ++rank) {
             std::size_t next = 0;
             for (const std::uint32_t number : vertices_->requests.received[rank]) {  // ascending
-                while (next < at_home_.size() && at_home_[next].lowest().value() < number) ++next;
-                for (; next < at_home_.size() && at_home_[next].lowest().value() == number;
-                     ++next) {
+                while (next < owned_.size() && owned_[next].lowest().value() < number) ++next;
+                for (; next < owned_.size() && owned_[next].lowest().value() == number; ++next) {
                     send(rank, next);
                 }
             }
@@ -172,7 +171,7 @@ private:
     [[nodiscard]] std::vector<std::vector<Side>> boxes_to_parts() const {
         std::vector<std::vector<Side>> boxes(process_count());
         for_each_sent(
-            [&](std::size_t rank, std::size_t place) { boxes[rank].push_back(at_home_[place]); });
+            [&](std::size_t rank, std::size_t place) { boxes[rank].push_back(owned_[place]); });
         return boxes;
     }
 
@@ -180,26 +179,26 @@ private:
         return std::ranges::all_of(one.vertices,
                                    [&](VertexIndex v) { return vertices_->set.has(v.value()); });
     }
-    [[nodiscard]] std::array<VertexIndex, N> places_of(const Side& one) const {
-        auto places = one.vertices;
-        for (VertexIndex& v : places) v = vertices_->set.place_of(v);
-        return places;
+    [[nodiscard]] std::array<VertexIndex, N> local_vertices(const Side& one) const {
+        auto vertices = one.vertices;
+        for (VertexIndex& v : vertices) v = vertices_->set.place_of(v);
+        return vertices;
     }
 
     /// Returns the bits of the cells at each received entity.
     template <std::size_t Sides>
-    [[nodiscard]] std::vector<std::vector<std::uint8_t>> look_at(
+    [[nodiscard]] std::vector<std::vector<std::uint8_t>> find_cells_at(
         const IndexVector<CellIndex, CellVertices>& cells,
         const std::array<std::array<std::uint8_t, N>, Sides>& sides) const {
         std::vector<std::vector<std::uint8_t>> found;
         List list;
         std::vector<std::uint8_t*> found_at;
         std::vector<bool> is_corner(vertices_->set.size(), false);
-        for (const auto& box : come_) found.emplace_back(box.size(), std::uint8_t{0});
-        for (std::size_t rank = 0; rank < come_.size(); ++rank) {
-            for (std::size_t i = 0; i < come_[rank].size(); ++i) {
-                if (!has_all(come_[rank][i])) continue;
-                list.push_back(places_of(come_[rank][i]));
+        for (const auto& box : received_) found.emplace_back(box.size(), std::uint8_t{0});
+        for (std::size_t rank = 0; rank < received_.size(); ++rank) {
+            for (std::size_t i = 0; i < received_[rank].size(); ++i) {
+                if (!has_all(received_[rank][i])) continue;
+                list.push_back(local_vertices(received_[rank][i]));
                 for (const VertexIndex v : list.back()) is_corner[v.value()] = true;
                 found_at.push_back(&found[rank][i]);
             }
@@ -228,25 +227,26 @@ private:
 
     /// Replaces the found bits by 1 for the lowest rank that has a cell at the entity, which keeps
     /// it, and by 0 for others. Returns false if there is no cell, or two on the same side.
-    [[nodiscard]] bool give_to_the_lowest(std::vector<std::vector<std::uint8_t>>& found) const {
-        std::vector<std::uint8_t> all(at_home_.size(), 0);
+    [[nodiscard]] bool assign_to_lowest_rank(std::vector<std::vector<std::uint8_t>>& found) const {
+        std::vector<std::uint8_t> all(owned_.size(), 0);
         std::vector<std::size_t> next(process_count(), 0);
-        bool well = true;
+        bool is_valid = true;
         for_each_sent([&](std::size_t rank, std::size_t place) {
             std::uint8_t& here = found[rank][next[rank]++];
-            well = well && (here & side::overlap) == 0 && (N == 2 || (here & all[place]) == 0);
+            is_valid =
+                is_valid && (here & side::overlap) == 0 && (N == 2 || (here & all[place]) == 0);
             const bool keeps = here != 0 && all[place] == 0;
             all[place] |= here;
             here = keeps ? 1 : 0;
         });
-        return well && std::ranges::find(all, std::uint8_t{0}) == all.end();
+        return is_valid && std::ranges::find(all, std::uint8_t{0}) == all.end();
     }
 
     const Communicator* processes_;
-    const StretchVertices* vertices_;
+    const VerticesOfPart* vertices_;
     LocalFailure* failure_;
-    std::vector<Side> at_home_;            // sorted by vertices
-    std::vector<std::vector<Side>> come_;  // from each owner
+    std::vector<Side> owned_;                  // sorted by vertices
+    std::vector<std::vector<Side>> received_;  // from each owner
     // for each of these: whether this process keeps it
     std::vector<std::vector<std::uint8_t>> keeps_;
 };

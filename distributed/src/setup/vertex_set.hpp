@@ -65,7 +65,7 @@ public:
 
     /// Returns the number of vertices in the set with lower numbers. `v` must be in the set.
     [[nodiscard]] VertexIndex place_of(VertexIndex v) const {
-        if (!places_.empty()) return places_[v.value() - first_];
+        if (!indices_.empty()) return indices_[v.value() - first_];
         const std::size_t word = word_of(v.value());
         const std::uint64_t lower = bits_[word] & (bit_of(v.value()) - 1);
         return VertexIndex{before_[word] + ones_of(lower)};
@@ -113,23 +113,23 @@ private:
             before_[word] = static_cast<std::uint32_t>(size_);
             size_ += ones_of(bits_[word]);
         }
-        list_places();
+        list_indices();
     }
-    void list_places() {
-        places_.clear();
+    void list_indices() {
+        indices_.clear();
         if (size_ < 16 * bits_.size()) return;
-        reserve_in_huge_pages(places_, 64 * bits_.size());
-        places_.resize(64 * bits_.size());
-        std::uint32_t place = 0;
+        reserve_in_huge_pages(indices_, 64 * bits_.size());
+        indices_.resize(64 * bits_.size());
+        std::uint32_t index = 0;
         for (const std::uint32_t number : numbers()) {
-            places_[number - first_] = VertexIndex{place++};
+            indices_[number - first_] = VertexIndex{index++};
         }
     }
 
     std::uint32_t first_ = 0;  // a multiple of 64
     std::vector<std::uint64_t> bits_;
     std::vector<std::uint32_t> before_;  // number of vertices before each word
-    std::vector<VertexIndex> places_;    // index of each number, or empty
+    std::vector<VertexIndex> indices_;   // index of each number, or empty
     std::size_t size_ = 0;
 };
 

@@ -31,8 +31,8 @@ void add_once(std::vector<CellIndex>& sent, CellIndex c) {
 }
 
 /// Returns the cells that are ghosts on each neighbour, ascending.
-std::vector<GhostLayer::Exchange> seen_by_vertex(const DistributedMesh& mesh,
-                                                 const Sharing<VertexIndex>& sharing) {
+std::vector<GhostLayer::Exchange> ghosts_by_vertex(const DistributedMesh& mesh,
+                                                   const Sharing<VertexIndex>& sharing) {
     const std::vector<SharedWith<VertexIndex>>& neighbours = sharing.neighbours();
     // The neighbours that have vertex v are at[begin[v]] .. at[begin[v + 1] - 1].
     std::vector<std::uint32_t> begin(mesh.points.size() + 1);
@@ -57,7 +57,7 @@ std::vector<GhostLayer::Exchange> seen_by_vertex(const DistributedMesh& mesh,
 }
 
 /// The same for cells with a common face. Searches only for the shared faces of the part.
-std::vector<GhostLayer::Exchange> seen_by_face(const DistributedMesh& mesh) {
+std::vector<GhostLayer::Exchange> ghosts_by_face(const DistributedMesh& mesh) {
     std::vector<GhostLayer::Exchange> exchanges;
     IndexVector<FacetIndex, FacetVertices> faces;
     std::vector<std::size_t> exchange_of_face;
@@ -141,7 +141,8 @@ GhostLayer find_ghosts(const DistributedMesh& mesh, const CanonicalNumbers& numb
     LocalFailure failure;
     failure.attempt([&] {
         const std::vector<Marker> tags = regions();
-        layer.exchanges = by == GhostsBy::face ? seen_by_face(mesh) : seen_by_vertex(mesh, sharing);
+        layer.exchanges =
+            by == GhostsBy::face ? ghosts_by_face(mesh) : ghosts_by_vertex(mesh, sharing);
         for (const GhostLayer::Exchange& exchange : layer.exchanges) {
             ranks.push_back(exchange.rank);
             auto& outbox = outboxes.emplace_back();

@@ -232,7 +232,7 @@ private:
         const Adaptation step = coarsen(last.made, nullptr, turn);
         Marked marked{Marks(step.cells.count(), 0), last.scheme, {}, {}};
         for (std::size_t c = 0; c < last.parents.size(); ++c) {
-            const std::size_t whole = step.changed ? step.cells.whole_of()[c] : c;
+            const std::size_t whole = step.changed ? step.cells.coarse_of()[c] : c;
             if (last.cells[last.parents[c]] != 0) marked.cells[whole] = 1;
         }
         taken_back_ = std::move(marked);

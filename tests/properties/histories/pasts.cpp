@@ -73,7 +73,7 @@ Pasts coarsened(const Pasts& pasts, const Adaptation& step, std::span<const std:
     Pasts after(step.cells.count());
     std::vector<double> filled(after.size(), 0);
     for (std::size_t c = 0; c < pasts.size(); ++c) {
-        const std::uint32_t whole = step.cells.whole_of()[c];
+        const std::uint32_t whole = step.cells.coarse_of()[c];
         const int halvings = step.cells.halvings()[c];
         if (may_go[c] == 0 && halvings != 0) note(fault, "a cell that was not marked is gone");
         const Past past = back_by(pasts[c], halvings, fault);

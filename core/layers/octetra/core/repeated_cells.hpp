@@ -23,8 +23,8 @@ public:
 
     /// Adds the next cell.
     void add(const CellVertices& cell) {
-        if (waiting_count_ == ahead) look_up();
-        Waiting& place = waiting_[waiting_count_++];
+        if (pending_count_ == ahead) look_up();
+        PendingLookup& place = pending_[pending_count_++];
         place = of(cell);
         __builtin_prefetch(&seen_[place.word]);
     }
@@ -40,12 +40,12 @@ private:
 
     /// Three bits of a word, which represent a cell. They are looked up some cells later, when the
     /// prefetched word has arrived.
-    struct Waiting {
+    struct PendingLookup {
         std::uint64_t word = 0;
         std::uint64_t bits = 0;
     };
 
-    [[nodiscard]] Waiting of(const CellVertices& cell) const {
+    [[nodiscard]] PendingLookup of(const CellVertices& cell) const {
         // The product does not depend on the order of the factors; all are odd, so none loses
         // information.
         constexpr std::uint64_t odd = 0x9e3779b97f4a7c15;
@@ -58,8 +58,8 @@ private:
     void look_up();
 
     std::uint32_t count_ = 0;  ///< number of cells that were looked up
-    std::uint32_t waiting_count_ = 0;
-    std::array<Waiting, ahead> waiting_;
+    std::uint32_t pending_count_ = 0;
+    std::array<PendingLookup, ahead> pending_;
     std::uint64_t word_count_;
     std::vector<std::uint64_t> seen_;
     std::vector<CellIndex> suspects_;

@@ -48,8 +48,8 @@ struct SolFields {
 /// nothing on all processes if read_sol() would reject the file, or if its format is not suitable;
 /// text files require one row on each line. If a process is out of memory, it throws std::bad_alloc
 /// and the others return nothing: the caller must inform them.
-[[nodiscard]] std::optional<SolFields> read_sol_stretch(const std::filesystem::path& path,
-                                                        const EntityCounts& expected,
-                                                        const ProcessGroup& group);
+[[nodiscard]] std::optional<SolFields> read_sol_share(const std::filesystem::path& path,
+                                                      const EntityCounts& expected,
+                                                      const ProcessGroup& group);
 
 }  // namespace octetra

@@ -7,7 +7,7 @@
 
 namespace octetra {
 
-void CellCheck::know_all_points() {
+void CellCheck::add_new_points() {
     filter_.add(std::span(mesh_->points).subspan(filter_.point_count()));
 }
 
@@ -26,17 +26,17 @@ std::size_t CellCheck::find_doubtful(std::span<const CellVertices> cells, std::s
     return cells.size();
 }
 
-CellCheck::WrongCell CellCheck::judge(std::span<CellVertices> cells) {
+CellCheck::WrongCell CellCheck::check_entities(std::span<CellVertices> cells) {
     if (takes_all_) return {};
-    if (filter_.point_count() < mesh_->points.size()) know_all_points();
+    if (filter_.point_count() < mesh_->points.size()) add_new_points();
     for (std::size_t i = find_doubtful(cells, 0); i < cells.size();
          i = find_doubtful(cells, i + 1)) {
-        if (const std::string_view what = judge_slowly(cells[i]); !what.empty()) return {i, what};
+        if (const std::string_view what = check_exactly(cells[i]); !what.empty()) return {i, what};
     }
     return {};
 }
 
-std::string_view CellCheck::judge_slowly(CellVertices& cell) {
+std::string_view CellCheck::check_exactly(CellVertices& cell) {
     for (const auto& [i, j] : cell_edges) {
         if (cell[i] == cell[j]) return "the cell has the same vertex twice";
     }

@@ -21,13 +21,13 @@ public:
     /// Returns a message on what is wrong with the cell, or an empty string. Reverses an inverted
     /// cell if the options say so. Vertex numbers must be in range. Accepts every cell if only
     /// syntax is checked.
-    [[nodiscard]] std::string_view judge(CellVertices& cell) {
+    [[nodiscard]] std::string_view check_entities(CellVertices& cell) {
         if (takes_all_) return {};
         const auto& points = mesh_->points;
-        if (filter_.point_count() < points.size()) know_all_points();
+        if (filter_.point_count() < points.size()) add_new_points();
         const auto& [a, b, c, d] = cell;
         if (filter_.is_surely_positive(points[a], points[b], points[c], points[d])) return {};
-        return judge_slowly(cell);
+        return check_exactly(cell);
     }
 
     /// Same for several cells: returns the first wrong one and the message.
@@ -35,15 +35,15 @@ public:
         std::size_t cell = 0;
         std::string_view what;  ///< empty: there is none
     };
-    [[nodiscard]] WrongCell judge(std::span<CellVertices> cells);
+    [[nodiscard]] WrongCell check_entities(std::span<CellVertices> cells);
 
     [[nodiscard]] std::size_t fixed_count() const { return fixed_count_; }
 
 private:
-    void know_all_points();
+    void add_new_points();
     [[nodiscard]] std::size_t find_doubtful(std::span<const CellVertices> cells,
                                             std::size_t from) const;
-    [[nodiscard]] std::string_view judge_slowly(CellVertices& cell);
+    [[nodiscard]] std::string_view check_exactly(CellVertices& cell);
 
     const Mesh* mesh_;
     PositiveFilter filter_;  ///< for the points known at the last cell

@@ -79,7 +79,7 @@ public:
     [[nodiscard]] const std::byte* at_hand(std::size_t size) {
         constexpr std::size_t longest_row = 1U << 12U;
         if (size > longest_row || size > reader_->remaining()) return nullptr;
-        return reader_->look_at_bytes(size, {});
+        return reader_->peek_bytes(size, {});
     }
     void pass(std::size_t size) { (void)reader_->take_bytes(size, {}); }
     [[nodiscard]] bool swaps_bytes() const { return reader_->swaps_bytes(); }
@@ -105,7 +105,7 @@ private:
     /// The next line that holds something; empty at the end of the file.
     std::string next_line();
     [[nodiscard]] double coordinate(std::string_view what) {
-        const std::byte* const bytes = reader_->look_at_bytes(sizeof(double), what);
+        const std::byte* const bytes = reader_->peek_bytes(sizeof(double), what);
         const auto value = number_at<double>(bytes, reader_->swaps_bytes());
         if (!(std::abs(value) < coordinate_limit)) refuse_coordinate(what);  // nor if it is NaN
         pass(sizeof value);

@@ -48,7 +48,7 @@ public:
             Input::has_lines, in_->end_place(),
             [this](const std::string& what, std::uint64_t place) { in_->fail_at(what, place); });
         tell_of_entities(groups_.in_several(), path.native(), options_->note);
-        intake_.tell_notes(path.native());
+        intake_.add_notes(path.native());
         return intake_.counts();
     }
 

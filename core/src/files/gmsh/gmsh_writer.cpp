@@ -196,11 +196,11 @@ private:
             return numbers_.is_text() ? bytes_of_row_numbers(stretches, group_.rank(), 1)
                                       : stretches.length_of(group_.rank()) * sizeof count;
         };
-        put_list_in_stretches(*out_, count, group_, bytes_of_tags,
-                              [&](const Window& window, std::uint64_t first) {
-                                  const std::uint64_t end = window.end_of(group_.rank());
-                                  for (std::uint64_t v = first; v < end; ++v) put_row(v + 1);
-                              });
+        put_list_in_ranges(*out_, count, group_, bytes_of_tags,
+                           [&](const Window& window, std::uint64_t first) {
+                               const std::uint64_t end = window.end_of(group_.rank());
+                               for (std::uint64_t v = first; v < end; ++v) put_row(v + 1);
+                           });
         put_nodes(sizeof(Point), [&](const Point& p, std::uint64_t) {
             numbers_.put_row(std::array{p.x, p.y, p.z});
         });
@@ -231,7 +231,7 @@ private:
                 numbers_.put_row(row);
             }
         };
-        put_list_in_stretches(*out_, list.count, group_, bytes_of, put_slice);
+        put_list_in_ranges(*out_, list.count, group_, bytes_of, put_slice);
     }
 
     /// Of what stands before the elements of a run.
@@ -308,7 +308,7 @@ private:
                 numbers_.end_row();
             }
         };
-        put_list_in_stretches(*out_, list.count, group_, bytes_of, put_slice);
+        put_list_in_ranges(*out_, list.count, group_, bytes_of, put_slice);
     }
 
     NumberOutput numbers_;

@@ -116,7 +116,7 @@ MarkerRuns find_marker_runs(std::uint64_t count, const ProcessGroup& group,
         return one;
     }
     std::vector<MarkerRun> runs;
-    for_each_piece(stretches_of(count, group), lines_of_a_turn(count, group),
+    for_each_piece(share_window(count, group), lines_of_a_turn(count, group),
                    [&](const Window& window) {
                        add_runs(runs, markers(window), window.begin_of(group.rank()));
                    });

@@ -24,7 +24,7 @@ struct MarkerRuns {
     std::vector<Marker> markers;  ///< all there are, ascending, each once
 };
 
-/// Collective. A process's stretch is that of stretches_of(). Without `markers` all are 0.
+/// Collective. A process's stretch is that of share_window(). Without `markers` all are 0.
 [[nodiscard]] MarkerRuns find_marker_runs(
     std::uint64_t count, const ProcessGroup& group,
     const std::function<std::span<const Marker>(const Window&)>& markers);

@@ -58,7 +58,7 @@ WrongRow MeshIntake::take(const EntityKind<I, N>& kind,
     Taken& of_kind = taken(kind);
     if (!options_->only_syntax) {
         if constexpr (N > 2) {
-            if (const WrongRow wrong = judge(found); !wrong.what.empty()) return wrong;
+            if (const WrongRow wrong = check_entities(found); !wrong.what.empty()) return wrong;
         }
         of_kind.places.add(place, step, found.size());
     }
@@ -91,14 +91,14 @@ WrongRow MeshIntake::find_nodes(std::span<const std::array<std::uint64_t, N>> ro
     return {};
 }
 
-WrongRow MeshIntake::judge(std::span<CellVertices> cells) {
-    const auto [cell, what] = cell_check_.judge(cells);
+WrongRow MeshIntake::check_entities(std::span<CellVertices> cells) {
+    const auto [cell, what] = cell_check_.check_entities(cells);
     if (!what.empty()) return {cell, what};
     for (const CellVertices& vertices : cells) repeated_cells_->add(vertices);
     return {};
 }
 
-WrongRow MeshIntake::judge(std::span<const FacetVertices> facets) {
+WrongRow MeshIntake::check_entities(std::span<const FacetVertices> facets) {
     for (std::size_t i = 0; i < facets.size(); ++i) {
         const auto& [a, b, c] = facets[i];
         if (a == b || b == c || c == a) return {i, "the triangle has the same vertex twice"};
@@ -159,7 +159,7 @@ void MeshIntake::check(bool has_lines, std::uint64_t end_place, const Fail& fail
     refuse(find_wrong_edge(mesh), "line", mesh.edge_markers, edges_);
 }
 
-void MeshIntake::tell_notes(const std::string& path) const {
+void MeshIntake::add_notes(const std::string& path) const {
     if (const std::uint64_t fixed = cell_check_.fixed_count(); fixed > 0) {
         options_->note(fmt::format("{}: {} inverted cells were turned round", path, fixed));
     }

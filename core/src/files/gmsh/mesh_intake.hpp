@@ -90,7 +90,7 @@ public:
     using Fail = std::function<void(const std::string& what, std::uint64_t place)>;
     void check(bool has_lines, std::uint64_t end_place, const Fail& fail);
     /// Tells of what was not kept, or was changed, of the file of this name.
-    void tell_notes(const std::string& path) const;
+    void add_notes(const std::string& path) const;
 
     [[nodiscard]] ElementCounts counts() const;
 
@@ -108,8 +108,8 @@ private:
     template <std::size_t N>
     [[nodiscard]] WrongRow find_nodes(std::span<const std::array<std::uint64_t, N>> rows,
                                       std::span<std::array<VertexIndex, N>> found);
-    [[nodiscard]] WrongRow judge(std::span<CellVertices> cells);
-    [[nodiscard]] static WrongRow judge(std::span<const FacetVertices> facets);
+    [[nodiscard]] WrongRow check_entities(std::span<CellVertices> cells);
+    [[nodiscard]] static WrongRow check_entities(std::span<const FacetVertices> facets);
     template <class I, std::size_t N>
     void append(const EntityKind<I, N>& kind, std::span<const std::array<VertexIndex, N>> vertices,
                 Marker marker);

@@ -45,7 +45,7 @@ public:
         const std::string end = fmt::format("$End{}", name);
         while (reader_->next()) {
             if (reader_->line() != end) continue;
-            tokens_.leave_line();
+            tokens_.skip_line();
             return;
         }
         reader_->fail(fmt::format("the file ends within the section {}", shown(name)));
@@ -72,7 +72,7 @@ public:
         if (!reader_->next()) {
             reader_->fail(fmt::format("the file ends where {} should be", what));
         }
-        tokens_.leave_line();
+        tokens_.skip_line();
         return reader_->full_line();
     }
     [[nodiscard]] std::int32_t integer(std::string_view what) { return tokens_.marker(what); }
@@ -117,7 +117,7 @@ protected:
     /// Is nothing left on the line of what was read last?
     [[nodiscard]] bool at_line_end() const { return tokens_.at_line_end(); }
     /// Goes on behind the line on which the reader is.
-    void leave_line() { tokens_.leave_line(); }
+    void skip_line() { tokens_.skip_line(); }
 
 private:
     LineReader* reader_;

@@ -55,7 +55,7 @@ void ByteReader::fill(std::uint64_t wanted) {
     end_ += more;
 }
 
-void ByteReader::have_at_hand(std::size_t size, std::string_view what) {
+void ByteReader::ensure_buffered(std::size_t size, std::string_view what) {
     require(size, what);
     fill(size);
 }
@@ -75,11 +75,11 @@ void ByteReader::take_raw(void* place, std::uint64_t size, std::string_view what
     if (size == 0) return;
     require(size, what);
     auto* to = static_cast<std::byte*>(place);
-    const std::size_t at_hand = std::min<std::uint64_t>(size, end_ - begin_);
-    std::memcpy(to, buffer_.data() + begin_, at_hand);
-    begin_ += at_hand;
-    to += at_hand;
-    size -= at_hand;
+    const std::size_t buffered = std::min<std::uint64_t>(size, end_ - begin_);
+    std::memcpy(to, buffer_.data() + begin_, buffered);
+    begin_ += buffered;
+    to += buffered;
+    size -= buffered;
     if (size >= buffer_.size()) {  // large reads bypass the buffer
         const std::uint64_t from = position();
         file_.read(from, to, size);

@@ -84,13 +84,13 @@ public:
 
     /// Returns the next bytes, at most buffer_size of them; valid until the next call.
     [[nodiscard]] const std::byte* take_bytes(std::size_t size, std::string_view what) {
-        const std::byte* const bytes = look_at_bytes(size, what);
+        const std::byte* const bytes = peek_bytes(size, what);
         begin_ += size;
         return bytes;
     }
     /// Same, without advancing.
-    [[nodiscard]] const std::byte* look_at_bytes(std::size_t size, std::string_view what) {
-        if (end_ - begin_ < size) have_at_hand(size, what);
+    [[nodiscard]] const std::byte* peek_bytes(std::size_t size, std::string_view what) {
+        if (end_ - begin_ < size) ensure_buffered(size, what);
         return buffer_.data() + begin_;
     }
     /// Returns between one and `rows` rows of `row_size` bytes, as many as are buffered; the caller
@@ -114,7 +114,7 @@ public:
 private:
     void require(std::uint64_t bytes, std::string_view what) const;
     void fill(std::uint64_t wanted);
-    void have_at_hand(std::size_t size, std::string_view what);
+    void ensure_buffered(std::size_t size, std::string_view what);
     void take_raw(void* place, std::uint64_t size, std::string_view what);
 
     InputFile file_;

@@ -6,7 +6,7 @@
 
 namespace octetra {
 
-bool GrowingMesh::means_something(const std::vector<Marker>& markers) const {
+bool GrowingMesh::is_significant(const std::vector<Marker>& markers) const {
     if (!zeros_are_none_) return !markers.empty();
     return std::ranges::any_of(markers, [](Marker m) { return m != 0; });
 }
@@ -15,17 +15,17 @@ void GrowingMesh::expect_points(std::uint64_t count, std::size_t attributes, boo
     mesh.attributes_per_point = attributes;
     facts_.vertices = count;
     facts_.attributes_per_point = attributes;
-    if (is_streaming()) points_stretch_ = MeshSink::longest_stretch / (1 + attributes);
-    const std::size_t at_once = std::min<std::size_t>(count, points_stretch_);
+    if (is_streaming()) points_per_block_ = MeshSink::longest_stretch / (1 + attributes);
+    const std::size_t at_once = std::min<std::size_t>(count, points_per_block_);
     reserve_in_huge_pages(mesh.points, at_once);
     reserve_in_huge_pages(mesh.point_attributes, at_once * attributes);
     reserve_in_huge_pages(mesh.point_markers, has_markers ? at_once : 0);
     if (is_streaming() && streams_points()) sink_->expect_points(count, attributes, has_markers);
 }
 
-void GrowingMesh::tell_points() {
+void GrowingMesh::flush_points() {
     if (!is_streaming() || mesh.points.empty()) return;
-    facts_.has_point_markers |= means_something(mesh.point_markers);
+    facts_.has_point_markers |= is_significant(mesh.point_markers);
     if (streams_points())
         sink_->take_points(mesh.points, mesh.point_attributes, mesh.point_markers);
     mesh.points.clear();
@@ -36,19 +36,19 @@ void GrowingMesh::tell_points() {
 template <class I, std::size_t N>
 void GrowingMesh::expect(const EntityKind<I, N>& kind, std::uint64_t count, bool has_markers) {
     facts_.*kind.count = count;
-    if (is_streaming()) entity_stretch_ = MeshSink::longest_stretch;
-    const std::size_t at_once = std::min<std::size_t>(count, entity_stretch_);
+    if (is_streaming()) entities_per_block_ = MeshSink::longest_stretch;
+    const std::size_t at_once = std::min<std::size_t>(count, entities_per_block_);
     reserve_in_huge_pages(mesh.*kind.list, at_once);
     reserve_in_huge_pages(mesh.*kind.markers, has_markers ? at_once : 0);
     if (is_streaming() && streams_others()) (sink_->*kind.expect)(count, has_markers);
 }
 
 template <class I, std::size_t N>
-void GrowingMesh::tell(const EntityKind<I, N>& kind) {
+void GrowingMesh::flush(const EntityKind<I, N>& kind) {
     auto& list = mesh.*kind.list;
     auto& markers = mesh.*kind.markers;
     if (!is_streaming() || list.empty()) return;
-    facts_.*kind.has_markers |= means_something(markers);
+    facts_.*kind.has_markers |= is_significant(markers);
     if (streams_others()) (sink_->*kind.take)(list, markers);
     list.clear();
     markers.clear();
@@ -64,17 +64,17 @@ void GrowingMesh::finish() {
         if (streams_others()) sink_->finish(facts_);
         return;
     }
-    if (!means_something(mesh.point_markers)) mesh.point_markers = {};
-    if (!means_something(mesh.regions)) mesh.regions = {};
-    if (!means_something(mesh.facet_markers)) mesh.facet_markers = {};
-    if (!means_something(mesh.edge_markers)) mesh.edge_markers = {};
+    if (!is_significant(mesh.point_markers)) mesh.point_markers = {};
+    if (!is_significant(mesh.regions)) mesh.regions = {};
+    if (!is_significant(mesh.facet_markers)) mesh.facet_markers = {};
+    if (!is_significant(mesh.edge_markers)) mesh.edge_markers = {};
 }
 
 template void GrowingMesh::expect(const EntityKind<CellIndex, 4>&, std::uint64_t, bool);
 template void GrowingMesh::expect(const EntityKind<FacetIndex, 3>&, std::uint64_t, bool);
 template void GrowingMesh::expect(const EntityKind<EdgeIndex, 2>&, std::uint64_t, bool);
-template void GrowingMesh::tell(const EntityKind<CellIndex, 4>&);
-template void GrowingMesh::tell(const EntityKind<FacetIndex, 3>&);
-template void GrowingMesh::tell(const EntityKind<EdgeIndex, 2>&);
+template void GrowingMesh::flush(const EntityKind<CellIndex, 4>&);
+template void GrowingMesh::flush(const EntityKind<FacetIndex, 3>&);
+template void GrowingMesh::flush(const EntityKind<EdgeIndex, 2>&);
 
 }  // namespace octetra

@@ -57,29 +57,29 @@ public:
 
     void expect_points(std::uint64_t count, std::size_t attributes, bool has_markers);
     void point_complete() {
-        if (mesh.points.size() == points_stretch_) tell_points();
+        if (mesh.points.size() == points_per_block_) flush_points();
     }
     /// Returns how many points may be appended before point_complete() must be called.
     [[nodiscard]] std::size_t room_for_points() const {
-        return points_stretch_ - mesh.points.size();
+        return points_per_block_ - mesh.points.size();
     }
     /// To be called after the last point.
-    void points_complete() { tell_points(); }
+    void points_complete() { flush_points(); }
 
     template <class I, std::size_t N>
     void expect(const EntityKind<I, N>& kind, std::uint64_t count, bool has_markers);
     template <class I, std::size_t N>
     void entity_complete(const EntityKind<I, N>& kind) {
-        if ((mesh.*kind.list).size() == entity_stretch_) tell(kind);
+        if ((mesh.*kind.list).size() == entities_per_block_) flush(kind);
     }
     template <class I, std::size_t N>
     [[nodiscard]] std::size_t room_for(const EntityKind<I, N>& kind) const {
-        return entity_stretch_ - (mesh.*kind.list).size();
+        return entities_per_block_ - (mesh.*kind.list).size();
     }
     /// To be called after the last entity of this kind.
     template <class I, std::size_t N>
     void all_complete(const EntityKind<I, N>& kind) {
-        tell(kind);
+        flush(kind);
     }
 
     /// Sets the entities that are passed to the sink from now on.
@@ -105,16 +105,16 @@ private:
         return streamed_ == Streamed::everything || streamed_ == Streamed::all_but_points;
     }
     /// Returns whether the file has markers, given all of them so far.
-    [[nodiscard]] bool means_something(const std::vector<Marker>& markers) const;
-    void tell_points();
+    [[nodiscard]] bool is_significant(const std::vector<Marker>& markers) const;
+    void flush_points();
     template <class I, std::size_t N>
-    void tell(const EntityKind<I, N>& kind);
+    void flush(const EntityKind<I, N>& kind);
 
     MeshSink* sink_;
     bool zeros_are_none_;
     Streamed streamed_;
-    std::size_t points_stretch_ = no_end;
-    std::size_t entity_stretch_ = no_end;
+    std::size_t points_per_block_ = no_end;
+    std::size_t entities_per_block_ = no_end;
     MeshFacts facts_;
 };
 

@@ -41,7 +41,7 @@ public:
     /// Returns whether the last token was the last one on its line.
     [[nodiscard]] bool at_line_end() const { return fields_.at_end(); }
     /// Skips the rest of the reader's current line, which was not read through this object.
-    void leave_line() { fields_ = Fields(*reader_, {}); }
+    void skip_line() { fields_ = Fields(*reader_, {}); }
 
 private:
     bool advance() {

@@ -74,7 +74,7 @@ private:
     void check_cells() {
         CellCheck check(*mesh_, *options_);
         RepeatedCells repeated(options_->only_syntax ? 0 : mesh_->cells.size());
-        const auto [cell, wrong] = check.judge(std::span(mesh_->cells));
+        const auto [cell, wrong] = check.check_entities(std::span(mesh_->cells));
         if (!wrong.empty()) places_->fail_entry(Listed::cells, cell, wrong);
         if (!options_->only_syntax) {
             for (const CellVertices& vertices : mesh_->cells) repeated.add(vertices);

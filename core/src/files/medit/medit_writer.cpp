@@ -37,19 +37,17 @@ void write_section(OutputFile& out, MeshSource& mesh, std::string_view keyword,
         return bytes + bytes_of_markers(mesh, list, stretches,
                                         [](Marker marker) { return text_length(marker) + 1; });
     };
-    put_list_in_stretches(out, list.count, group, bytes_of,
-                          [&](const Window& window, std::uint64_t) {
-                              const auto entities = (mesh.*list.vertices)(window);
-                              std::span<const Marker> markers;
-                              if (list.has_markers) markers = (mesh.*list.markers)(window);
-                              for (std::size_t i = 0; i < entities.size(); ++i) {
-                                  TextRow row(out);
-                                  for (const std::uint64_t vertex : entities[i])
-                                      row.put(vertex + 1);
-                                  row.put(markers.empty() ? 0 : markers[i]);
-                                  row.end();
-                              }
-                          });
+    put_list_in_ranges(out, list.count, group, bytes_of, [&](const Window& window, std::uint64_t) {
+        const auto entities = (mesh.*list.vertices)(window);
+        std::span<const Marker> markers;
+        if (list.has_markers) markers = (mesh.*list.markers)(window);
+        for (std::size_t i = 0; i < entities.size(); ++i) {
+            TextRow row(out);
+            for (const std::uint64_t vertex : entities[i]) row.put(vertex + 1);
+            row.put(markers.empty() ? 0 : markers[i]);
+            row.end();
+        }
+    });
 }
 
 void write_vertices(OutputFile& out, MeshSource& mesh) {

@@ -25,7 +25,7 @@ constexpr std::size_t buffer_size = std::size_t{1} << 20U;
 
 /// Copies owner, group and permissions as far as the system allows. If the group cannot be copied,
 /// the new group gets no more permissions than others had.
-void pass_on_permissions(const struct stat& old, int file) {
+void copy_permissions(const struct stat& old, int file) {
     mode_t mode = old.st_mode & 0777U;
     constexpr auto same_owner = static_cast<uid_t>(-1);
     if (::fchown(file, old.st_uid, old.st_gid) != 0 &&
@@ -50,11 +50,11 @@ void sync_folder(const std::filesystem::path& folder) {
 OutputFile::OutputFile(std::filesystem::path path, const ProcessGroup& group)
     : group_(&group),
       path_(std::move(path)),
-      place_(place_of(path_)),
+      final_path_(place_of(path_)),
       buffer_(buffer_size),
       room_(buffer_size) {
     try {
-        if (const std::string what = in_the_way(path_); !what.empty()) {
+        if (const std::string what = write_obstacle(path_); !what.empty()) {
             failure_ = fmt::format("{}: {}", path_.native(), what);
         }
         agree();
@@ -97,42 +97,42 @@ void OutputFile::overwrite(std::uint64_t position, const void* data, std::size_t
 }
 
 void OutputFile::end_turn() {
-    write_at(place_of_turn(), buffer_.data(), used_);
+    write_at(position_of_turn(), buffer_.data(), used_);
     used_ = 0;
 }
 
 /// Most file systems let one process at a time write to a file. Therefore even ranks write when the
 /// next turn begins, odd ranks in the middle of it: one half writes while the other prepares.
 void OutputFile::end_turn_later() {
-    kept_position_ = place_of_turn();
+    kept_position_ = position_of_turn();
     kept_.swap(buffer_);
     kept_size_ = std::exchange(used_, 0);
     room_ = group_->rank() % 2 == 0 ? 0 : std::min(kept_size_ / 2, buffer_.size());
 }
 
-std::uint64_t OutputFile::place_of_turn() {
+std::uint64_t OutputFile::position_of_turn() {
     write_kept();
-    if (stretch_) return std::exchange(stretch_->begin, stretch_->begin + used_);
-    return place_in_group(used_);
+    if (range_) return std::exchange(range_->begin, range_->begin + used_);
+    return position_in_group(used_);
 }
 
 /// Collective. Returns the position of this process's bytes, of which each process has `size`.
-std::uint64_t OutputFile::place_in_group(std::uint64_t size) {
+std::uint64_t OutputFile::position_in_group(std::uint64_t size) {
     const std::uint64_t place = flushed_ + group_->sum_before(size);
     flushed_ += group_->sum(size);
     return place;
 }
 
-void OutputFile::begin_stretches(std::uint64_t size) {
+void OutputFile::begin_ranges(std::uint64_t size) {
     end_turn();
-    const std::uint64_t begin = place_in_group(size);
-    stretch_ = {begin, begin + size};
+    const std::uint64_t begin = position_in_group(size);
+    range_ = {begin, begin + size};
 }
 
-void OutputFile::end_stretches() {
+void OutputFile::end_ranges() {
     write_kept();
-    const bool is_full = stretch_->begin == stretch_->end;
-    stretch_.reset();
+    const bool is_full = range_->begin == range_->end;
+    range_.reset();
     if (!is_full && failure_.empty()) {
         failure_ =
             fmt::format("{}: writing failed: rows have an unexpected length", path_.native());
@@ -153,8 +153,8 @@ void OutputFile::sync() {
 
 void OutputFile::close() {
     end_turn();
-    if (struct stat old{}; group_->is_first() && ::stat(place_.c_str(), &old) == 0) {
-        pass_on_permissions(old, file_);
+    if (struct stat old{}; group_->is_first() && ::stat(final_path_.c_str(), &old) == 0) {
+        copy_permissions(old, file_);
     }
     const int file = std::exchange(file_, -1);
     if (::close(file) != 0) fail("writing failed");
@@ -174,7 +174,7 @@ void OutputFile::commit_all(const std::vector<std::unique_ptr<OutputFile>>& file
     // If a signal ends a process, its handler removes the temporary files. No file may be renamed
     // until all processes defer such signals. The first process defers last, so that it can still
     // be ended if another process does not arrive.
-    std::optional<DeferredEnd> deferred;
+    std::optional<DeferredTermination> deferred;
     if (!group.is_first()) deferred.emplace();
     group.agree({});
     if (group.is_first()) deferred.emplace();
@@ -191,8 +191,9 @@ void OutputFile::commit_all(const std::vector<std::unique_ptr<OutputFile>>& file
 
 void OutputFile::rename() {
     // No operation may fail after the rename.
-    const std::filesystem::path folder = place_.has_parent_path() ? place_.parent_path() : ".";
-    if (::rename(temporary_.c_str(), place_.c_str()) != 0)
+    const std::filesystem::path folder =
+        final_path_.has_parent_path() ? final_path_.parent_path() : ".";
+    if (::rename(temporary_.c_str(), final_path_.c_str()) != 0)
         return fail("renaming the temporary file failed");
     if (is_synced_) sync_folder(folder);
 }
@@ -208,7 +209,7 @@ void OutputFile::make_room(std::size_t size) {
 }
 
 void OutputFile::name_temporary(std::uint64_t number) {
-    temporary_ = fmt::format("{}.{:012x}.tmp", place_.native(), number);
+    temporary_ = fmt::format("{}.{:012x}.tmp", final_path_.native(), number);
     unfinished_.reset();
     unfinished_ = std::make_unique<UnfinishedFile>(temporary_);
 }
@@ -218,11 +219,11 @@ void OutputFile::name_temporary(std::uint64_t number) {
 /// container.
 std::uint64_t OutputFile::create() {
     // Users without access to the replaced file must not get access to the incomplete one.
-    const bool replaces = ::access(place_.c_str(), F_OK) == 0;
+    const bool replaces = ::access(final_path_.c_str(), F_OK) == 0;
     const mode_t mode = replaces ? 0600 : 0666;  // subject to the umask
     std::uint64_t number = 0;
-    constexpr int most_attempts = 100;
-    for (int attempt = 0; attempt < most_attempts; ++attempt) {
+    constexpr int max_attempts = 100;
+    for (int attempt = 0; attempt < max_attempts; ++attempt) {
         if (::getentropy(&number, sizeof number) != 0) break;
         number >>= 16U;
         name_temporary(number);

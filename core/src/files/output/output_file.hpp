@@ -68,11 +68,11 @@ public:
     /// that has ended.
     void end_turn_later();
 
-    /// Until end_stretches(), each process writes to a byte range of the given size of its own, in
+    /// Until end_ranges(), each process writes to a byte range of the given size of its own, in
     /// the order of ranks. end_turn_later() is not collective meanwhile.
-    void begin_stretches(std::uint64_t size);
+    void begin_ranges(std::uint64_t size);
     /// Fails if a process has not put as many bytes as it announced.
-    void end_stretches();
+    void end_ranges();
 
     /// The number of bytes put so far, which is the position of the next one. In a group it is
     /// valid at the end of a turn, and equal on all processes.
@@ -97,8 +97,8 @@ private:
     void put_as_text(auto number) { put_up_to(put_number(room_for(longest_number), number)); }
     [[nodiscard]] bool is_alone() const { return group_->size() == 1; }
     void make_room(std::size_t size);
-    [[nodiscard]] std::uint64_t place_of_turn();
-    [[nodiscard]] std::uint64_t place_in_group(std::uint64_t size);
+    [[nodiscard]] std::uint64_t position_of_turn();
+    [[nodiscard]] std::uint64_t position_in_group(std::uint64_t size);
     void write_kept();
     void name_temporary(std::uint64_t number);
     std::uint64_t create();
@@ -109,9 +109,9 @@ private:
     void agree();
 
     const ProcessGroup* group_;
-    std::filesystem::path path_;       ///< as passed by the caller
-    std::filesystem::path place_;      ///< after following links
-    std::filesystem::path temporary_;  ///< place_, a random number and ".tmp"
+    std::filesystem::path path_;        ///< as passed by the caller
+    std::filesystem::path final_path_;  ///< after following links
+    std::filesystem::path temporary_;   ///< final_path_, a random number and ".tmp"
     std::unique_ptr<UnfinishedFile> unfinished_;
     int file_ = -1;
     std::vector<char> buffer_;
@@ -122,11 +122,11 @@ private:
     std::size_t kept_size_ = 0;  ///< until they are written: then 0
     std::uint64_t kept_position_ = 0;
     /// The rest of this process's byte range, while there is one.
-    struct Stretch {
+    struct ByteRange {
         std::uint64_t begin;
         std::uint64_t end;
     };
-    std::optional<Stretch> stretch_;
+    std::optional<ByteRange> range_;
     bool committed_ = false;
     bool is_synced_ = false;
     std::string failure_;  ///< the first one, until it is thrown

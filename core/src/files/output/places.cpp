@@ -19,8 +19,8 @@ namespace fs = std::filesystem;
 
 /// Returns the target of the chain of links at `path`; nothing if it is circular.
 std::optional<fs::path> end_of_links(fs::path path) {
-    constexpr int most_links = 40;  // as many as the system follows
-    for (int followed = 0; followed <= most_links; ++followed) {
+    constexpr int max_links = 40;  // as many as the system follows
+    for (int followed = 0; followed <= max_links; ++followed) {
         std::error_code not_a_link;
         const fs::path next = fs::read_symlink(path, not_a_link);
         if (not_a_link) return path;
@@ -71,7 +71,7 @@ fs::path place_of(const fs::path& path) {
 
 bool are_one_place(const fs::path& a, const fs::path& b) { return place_of(a) == place_of(b); }
 
-std::string in_the_way(const fs::path& path) {
+std::string write_obstacle(const fs::path& path) {
     if (!end_of_links(path)) return "is a link that refers to itself through other links";
     std::error_code ignored;
     const fs::file_status there = fs::status(path, ignored);
@@ -87,7 +87,7 @@ std::string in_the_way(const fs::path& path) {
 }
 
 void check_place(const fs::path& path) {
-    if (const std::string what = in_the_way(path); !what.empty()) {
+    if (const std::string what = write_obstacle(path); !what.empty()) {
         throw InputError(fmt::format("{}: {}", path.native(), what));
     }
     const fs::path folder = folder_of(*end_of_links(path));

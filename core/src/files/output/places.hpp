@@ -9,7 +9,7 @@
 namespace octetra {
 
 /// Returns the reason why no file can be written at `path` or its link target, or an empty string.
-[[nodiscard]] std::string in_the_way(const std::filesystem::path& path);
+[[nodiscard]] std::string write_obstacle(const std::filesystem::path& path);
 
 /// Throws InputError unless every file of a mesh written at `path` can be written, and all are
 /// different.

@@ -8,19 +8,19 @@
 namespace octetra {
 
 /// A line of numbers separated by spaces. Space in the file is requested for eight numbers at a
-/// time: the caller must call go_on() before the ninth, and so on.
+/// time: the caller must call reserve_more() before the ninth, and so on.
 class TextRow {
 public:
-    explicit TextRow(OutputFile& out) : out_(&out), place_(out.room_for(most_bytes)) {}
+    explicit TextRow(OutputFile& out) : out_(&out), place_(out.room_for(max_bytes)) {}
 
     void put(auto number) {
         if (!is_empty_) *place_++ = ' ';
         is_empty_ = false;
         place_ = put_number(place_, number);
     }
-    void go_on() {
+    void reserve_more() {
         out_->put_up_to(place_);
-        place_ = out_->room_for(most_bytes);
+        place_ = out_->room_for(max_bytes);
     }
     /// To be called once, after the last number.
     void end() {
@@ -29,7 +29,7 @@ public:
     }
 
 private:
-    static constexpr std::size_t most_bytes = 8 * (1 + longest_number) + 1;
+    static constexpr std::size_t max_bytes = 8 * (1 + longest_number) + 1;
 
     OutputFile* out_;
     char* place_;

@@ -29,7 +29,7 @@ void put_list(OutputFile& out, std::uint64_t count, const ProcessGroup& group, a
 }
 
 /// Returns a window that is the whole list, with one slice for each process.
-[[nodiscard]] inline Window stretches_of(std::uint64_t count, const ProcessGroup& group) {
+[[nodiscard]] inline Window share_window(std::uint64_t count, const ProcessGroup& group) {
     const auto processes = static_cast<std::uint64_t>(group.size());
     return {0, (count + processes - 1) / processes, count};
 }
@@ -47,18 +47,18 @@ void for_each_piece(const Window& slices, std::uint64_t length, auto&& take) {
 }
 
 /// Collective. Same as put_list(), if each process can compute the size in bytes of its slice of
-/// stretches_of(): then no process waits for the output of lower ranks. In most meshes a block of
+/// share_window(): then no process waits for the output of lower ranks. In most meshes a block of
 /// the canonical order lies in few parts, so that turns would keep most processes idle.
-void put_list_in_stretches(OutputFile& out, std::uint64_t count, const ProcessGroup& group,
-                           auto&& bytes_of, auto&& put_slice) {
+void put_list_in_ranges(OutputFile& out, std::uint64_t count, const ProcessGroup& group,
+                        auto&& bytes_of, auto&& put_slice) {
     if (group.size() == 1) return put_list(out, count, group, put_slice);
-    const Window stretches = stretches_of(count, group);
-    out.begin_stretches(bytes_of(stretches));
+    const Window stretches = share_window(count, group);
+    out.begin_ranges(bytes_of(stretches));
     for_each_piece(stretches, lines_of_a_turn(count, group), [&](const Window& window) {
         put_slice(window, window.begin_of(group.rank()));
         out.end_turn_later();
     });
-    out.end_stretches();
+    out.end_ranges();
 }
 
 /// Same for rows of `row_size` bytes.
@@ -67,7 +67,7 @@ void put_list_of_rows(OutputFile& out, std::uint64_t count, const ProcessGroup& 
     const auto bytes_of = [&](const Window& stretches) {
         return stretches.length_of(group.rank()) * row_size;
     };
-    put_list_in_stretches(out, count, group, bytes_of, put_slice);
+    put_list_in_ranges(out, count, group, bytes_of, put_slice);
 }
 
 /// Returns the total length of the numbers begin .. end - 1 as text.

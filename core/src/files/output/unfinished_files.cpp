@@ -26,10 +26,10 @@ static_assert(std::atomic<bool>::is_always_lock_free);
 
 /// Committing a set of files and removing temporary files exclude each other. The handler may run
 /// in another thread than the writer, for example in one of MPI.
-enum class Doing { neither, putting_in_place, removing };
-std::atomic<Doing> doing = Doing::neither;
+enum class Activity { neither, putting_in_place, removing };
+std::atomic<Activity> activity = Activity::neither;
 std::atomic<int> deferred_signal = 0;
-static_assert(std::atomic<Doing>::is_always_lock_free && std::atomic<int>::is_always_lock_free);
+static_assert(std::atomic<Activity>::is_always_lock_free && std::atomic<int>::is_always_lock_free);
 
 }  // namespace
 
@@ -53,21 +53,22 @@ UnfinishedFile::~UnfinishedFile() {
     slots[slot_].taken = false;
 }
 
-DeferredEnd::DeferredEnd() {
-    Doing now = Doing::neither;
-    if (doing.compare_exchange_strong(now, Doing::putting_in_place)) return;
+DeferredTermination::DeferredTermination() {
+    Activity now = Activity::neither;
+    if (activity.compare_exchange_strong(now, Activity::putting_in_place)) return;
     while (true) ::pause();  // the handler, in another thread, is about to end the program
 }
 
-DeferredEnd::~DeferredEnd() {
-    doing = Doing::neither;
+DeferredTermination::~DeferredTermination() {
+    activity = Activity::neither;
     if (const int signal = deferred_signal.exchange(0); signal != 0) std::raise(signal);
 }
 
 bool remove_unfinished_files(int signal) noexcept {
-    deferred_signal = signal;  // before `doing` is read, so that the signal is not missed
-    Doing now = Doing::neither;
-    if (!doing.compare_exchange_strong(now, Doing::removing) && now == Doing::putting_in_place) {
+    deferred_signal = signal;  // before `activity` is read, so that the signal is not missed
+    Activity now = Activity::neither;
+    if (!activity.compare_exchange_strong(now, Activity::removing) &&
+        now == Activity::putting_in_place) {
         return false;
     }
     for (const Slot& slot : slots) {

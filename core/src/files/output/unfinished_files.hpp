@@ -21,14 +21,14 @@ private:
 
 /// Defers signals that would end the program, if their handler calls remove_unfinished_files().
 /// There may be one object at a time.
-class DeferredEnd {
+class DeferredTermination {
 public:
-    DeferredEnd();
-    ~DeferredEnd();
-    DeferredEnd(const DeferredEnd&) = delete;
-    DeferredEnd& operator=(const DeferredEnd&) = delete;
-    DeferredEnd(DeferredEnd&&) = delete;
-    DeferredEnd& operator=(DeferredEnd&&) = delete;
+    DeferredTermination();
+    ~DeferredTermination();
+    DeferredTermination(const DeferredTermination&) = delete;
+    DeferredTermination& operator=(const DeferredTermination&) = delete;
+    DeferredTermination(DeferredTermination&&) = delete;
+    DeferredTermination& operator=(DeferredTermination&&) = delete;
 };
 
 }  // namespace octetra

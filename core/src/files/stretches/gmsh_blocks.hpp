@@ -7,8 +7,8 @@
 #include <stdexcept>
 #include <vector>
 
-#include "files/stretches/progress.hpp"
 #include "files/stretches/shares.hpp"
+#include "files/stretches/status.hpp"
 
 /// Sections that consist of blocks, each with a header that has the number of its rows: the
 /// position of a block follows from the one before. The first process reads the headers and
@@ -18,7 +18,7 @@ namespace octetra::gmsh {
 
 /// A position between two blocks.
 struct BlockStart {
-    std::uint64_t place = 0;        ///< a line or byte: of the header that follows
+    std::uint64_t position = 0;     ///< a line or byte: of the header that follows
     std::uint64_t first_row = 0;    ///< number of the row that follows
     std::uint64_t blocks_left = 0;  ///< maximum number of blocks that follow; 0: none
 };
@@ -40,14 +40,14 @@ struct BlockShare {
 /// Collective. Distributes a section of `row_count` rows. `read_head(at)` returns a ReadBlock; the
 /// first process reads each header once, and sends the other processes their positions. `begin`
 /// must be equal on all processes. Returns nothing on all processes if one has failed.
-[[nodiscard]] inline std::optional<BlockShare> share_blocks(Progress& progress,
+[[nodiscard]] inline std::optional<BlockShare> share_blocks(CollectiveStatus& status,
                                                             std::uint64_t row_count,
                                                             BlockStart begin, auto&& read_head) {
-    const int size = progress.group().size();
+    const int size = status.group().size();
     std::vector<BlockStart> starts;  // of each process, and of the end of the section
-    progress.attempt([&] {
+    status.attempt([&] {
         starts.resize(static_cast<std::size_t>(size) + 1);
-        if (!progress.group().is_first()) return;
+        if (!status.group().is_first()) return;
         std::optional<BlockStart> next;
         for (int rank = 0; rank <= size; ++rank) {
             const std::uint64_t row = share_of_rows(row_count, rank, size).first;
@@ -60,8 +60,8 @@ struct BlockShare {
             starts[static_cast<std::size_t>(rank)] = begin;
         }
     });
-    if (!take_from_first(progress, std::span(starts))) return std::nullopt;
-    const auto own = static_cast<std::size_t>(progress.group().rank());
+    if (!broadcast_from_first(status, std::span(starts))) return std::nullopt;
+    const auto own = static_cast<std::size_t>(status.group().rank());
     return BlockShare{starts[own], starts.back()};
 }
 

@@ -35,7 +35,7 @@ public:
         while (current_line() + 1 < line_to_come && reader().next()) {
         }
         if (current_line() + 1 != line_to_come) refuse();
-        leave_line();
+        skip_line();
         expected_ = line_to_come;
     }
     [[nodiscard]] std::uint64_t begin_row(std::string_view what) {

@@ -18,7 +18,7 @@ namespace octetra::gmsh {
 template <std::size_t N>
 [[nodiscard]] std::optional<std::uint64_t> count_listed_again(std::span<const ListedRun<N>> runs,
                                                               std::size_t rank) {
-    std::uint64_t to_go = 0;
+    std::uint64_t removed_count = 0;
     ListedElement<N> last;  // the last element kept so far
     for (std::size_t r = 0; r < runs.size(); ++r) {
         const ListedRun<N>& run = runs[r];
@@ -34,10 +34,10 @@ template <std::size_t N>
         if (known < run.others || std::ranges::find(groups, last.physical) != groups.end()) {
             return std::nullopt;
         }
-        if (r == rank) to_go = run.alike;
+        if (r == rank) removed_count = run.alike;
         if (run.alike < run.kept) last = run.last;
     }
-    return to_go;
+    return removed_count;
 }
 
 }  // namespace octetra::gmsh

@@ -18,7 +18,7 @@ struct TagsFound {
     std::uint64_t are_consecutive = 1;
 };
 
-TagsFound look_at(const std::vector<std::uint64_t>& tags) {
+TagsFound facts_of_tags(const std::vector<std::uint64_t>& tags) {
     TagsFound found;
     found.count = tags.size();
     for (std::size_t k = 0; k < tags.size(); ++k) {
@@ -30,7 +30,7 @@ TagsFound look_at(const std::vector<std::uint64_t>& tags) {
 }
 
 /// Returns the facts about the tags of all processes.
-TagsFound together(const std::vector<TagsFound>& found) {
+TagsFound merged(const std::vector<TagsFound>& found) {
     TagsFound all;
     for (const TagsFound& one : found) {
         if (one.count == 0) continue;
@@ -72,40 +72,41 @@ struct Outboxes {
 
 }  // namespace
 
-std::optional<NodeTags> NodeTags::make(Progress& progress, const std::vector<std::uint64_t>& tags,
+std::optional<NodeTags> NodeTags::make(CollectiveStatus& status,
+                                       const std::vector<std::uint64_t>& tags,
                                        std::uint64_t first) {
-    const auto found = of_each(progress, look_at(tags));
-    if (!progress.all_well()) return std::nullopt;
-    const TagsFound all = together(found);
+    const auto found = of_each(status, facts_of_tags(tags));
+    if (!status.all_succeeded()) return std::nullopt;
+    const TagsFound all = merged(found);
     if (all.count == 0) return NodeTags(0, 0);
     if (all.most - all.least >= VertexIndex::limit) return std::nullopt;
     NodeTags result(all.least, all.most - all.least + 1);
     result.are_consecutive_ = all.are_consecutive == 1;
     if (result.are_consecutive_) return result;
-    result.processes_ = static_cast<std::uint32_t>(progress.group().size());
+    result.processes_ = static_cast<std::uint32_t>(status.group().size());
     constexpr std::uint64_t gaps = 4;  // the same limit as for tables of NodeNumbers
     result.is_dense_ = result.tag_span_ < gaps * all.count;
     result.block_ = static_cast<Offset>((result.tag_span_ - 1) / result.processes_ + 1);
-    if (!result.find_homes(progress, tags, first)) return std::nullopt;
+    if (!result.send_to_owners(status, tags, first)) return std::nullopt;
     return result;
 }
 
-bool NodeTags::find_homes(Progress& progress, const std::vector<std::uint64_t>& tags,
-                          std::uint64_t first) {
+bool NodeTags::send_to_owners(CollectiveStatus& status, const std::vector<std::uint64_t>& tags,
+                              std::uint64_t first) {
     Outboxes out(processes_);
-    progress.attempt([&] {
+    status.attempt([&] {
         const auto offset_of = [&](std::size_t k) { return static_cast<Offset>(tags[k] - least_); };
-        for (std::size_t k = 0; k < tags.size(); ++k) out.counts[home_of(offset_of(k))] += 2;
+        for (std::size_t k = 0; k < tags.size(); ++k) out.counts[owner_of(offset_of(k))] += 2;
         out.make_room();
         for (std::size_t k = 0; k < tags.size(); ++k) {
-            const std::size_t home = home_of(offset_of(k));
-            out.put(home, offset_of(k));
-            out.put(home, static_cast<Word>(first + k));
+            const std::size_t owner = owner_of(offset_of(k));
+            out.put(owner, offset_of(k));
+            out.put(owner, static_cast<Word>(first + k));
         }
     });
-    if (!progress.all_well()) return false;
-    progress.attempt([&] {
-        for (const ProcessGroup::Bytes& pairs : progress.group().exchange(std::move(out.bytes))) {
+    if (!status.all_succeeded()) return false;
+    status.attempt([&] {
+        for (const ProcessGroup::Bytes& pairs : status.group().exchange(std::move(out.bytes))) {
             for (std::size_t k = 0; k < pairs.size() / sizeof(Word); k += 2) {
                 tags_here_.add(word_at(pairs, k));
                 numbers_.push_back(word_at(pairs, k + 1));
@@ -113,7 +114,7 @@ bool NodeTags::find_homes(Progress& progress, const std::vector<std::uint64_t>& 
         }
         if (tags_here_.complete()) throw std::runtime_error("a tag is listed twice");
     });
-    return progress.all_well();
+    return status.all_succeeded();
 }
 
 /// Replaces offsets by vertex numbers.
@@ -126,49 +127,50 @@ void NodeTags::answer(ProcessGroup::Bytes& offsets) const {
 }
 
 template <class I, std::size_t N>
-bool NodeTags::number(Progress& progress, IndexVector<I, std::array<VertexIndex, N>>& list) const {
+bool NodeTags::number(CollectiveStatus& status,
+                      IndexVector<I, std::array<VertexIndex, N>>& list) const {
     if (are_consecutive_) return true;
     constexpr std::size_t at_once = std::size_t{1} << 18U;  // limits the size of messages
-    const auto counts = of_each(progress, std::uint64_t{list.size()});
-    if (!progress.all_well()) return false;
+    const auto counts = of_each(status, std::uint64_t{list.size()});
+    if (!status.all_succeeded()) return false;
     const std::uint64_t most = *std::ranges::max_element(counts);
     for (std::uint64_t done = 0; done < most; done += at_once) {
         const auto left = std::span(list).subspan(std::min<std::size_t>(done, list.size()));
         const auto rows = left.first(std::min(at_once, left.size()));
         Outboxes out(processes_);
-        std::vector<ProcessGroup::Bytes> come;
-        progress.attempt([&] {
+        std::vector<ProcessGroup::Bytes> received;
+        status.attempt([&] {
             for (const auto& row : rows) {
-                for (const VertexIndex v : row) ++out.counts[home_of(v.value())];
+                for (const VertexIndex v : row) ++out.counts[owner_of(v.value())];
             }
             out.make_room();
             for (const auto& row : rows) {
-                for (const VertexIndex v : row) out.put(home_of(v.value()), v.value());
+                for (const VertexIndex v : row) out.put(owner_of(v.value()), v.value());
             }
         });
-        if (!progress.all_well()) return false;
-        progress.attempt([&] {
-            come = progress.group().exchange(std::move(out.bytes));
-            for (ProcessGroup::Bytes& offsets : come) answer(offsets);
+        if (!status.all_succeeded()) return false;
+        status.attempt([&] {
+            received = status.group().exchange(std::move(out.bytes));
+            for (ProcessGroup::Bytes& offsets : received) answer(offsets);
         });
-        if (!progress.all_well()) return false;
-        progress.attempt([&] {
-            come = progress.group().exchange(std::move(come));
+        if (!status.all_succeeded()) return false;
+        status.attempt([&] {
+            received = status.group().exchange(std::move(received));
             std::vector<std::size_t> taken(processes_, 0);
             for (auto& row : rows) {
                 for (VertexIndex& v : row) {
-                    const std::size_t home = home_of(v.value());
-                    v = VertexIndex{word_at(come[home], taken[home]++)};
+                    const std::size_t owner = owner_of(v.value());
+                    v = VertexIndex{word_at(received[owner], taken[owner]++)};
                 }
             }
         });
-        if (!progress.all_well()) return false;
+        if (!status.all_succeeded()) return false;
     }
     return true;
 }
 
-template bool NodeTags::number(Progress&, IndexVector<CellIndex, CellVertices>&) const;
-template bool NodeTags::number(Progress&, IndexVector<FacetIndex, FacetVertices>&) const;
-template bool NodeTags::number(Progress&, IndexVector<EdgeIndex, EdgeVertices>&) const;
+template bool NodeTags::number(CollectiveStatus&, IndexVector<CellIndex, CellVertices>&) const;
+template bool NodeTags::number(CollectiveStatus&, IndexVector<FacetIndex, FacetVertices>&) const;
+template bool NodeTags::number(CollectiveStatus&, IndexVector<EdgeIndex, EdgeVertices>&) const;
 
 }  // namespace octetra::gmsh

@@ -8,7 +8,7 @@
 #include <octetra/core/mesh.hpp>
 
 #include "files/gmsh/node_numbers.hpp"
-#include "files/stretches/progress.hpp"
+#include "files/stretches/status.hpp"
 
 namespace octetra::gmsh {
 
@@ -20,13 +20,13 @@ public:
     /// Collective. `tags` are those of this process's nodes, the first of which has the number
     /// `first`. Returns nothing on all processes if a tag occurs twice, or if the range of tags is
     /// too large.
-    [[nodiscard]] static std::optional<NodeTags> make(Progress& progress,
+    [[nodiscard]] static std::optional<NodeTags> make(CollectiveStatus& status,
                                                       const std::vector<std::uint64_t>& tags,
                                                       std::uint64_t first);
 
     /// Returns a provisional index for a tag until its number is known, or none() if there is
     /// certainly no such node.
-    [[nodiscard]] VertexIndex stand_in(std::uint64_t tag) const {
+    [[nodiscard]] VertexIndex provisional_index(std::uint64_t tag) const {
         // a lower tag wraps around
         return tag - least_ < tag_span_ ? VertexIndex{tag - least_} : VertexIndex::none();
     }
@@ -34,7 +34,7 @@ public:
     /// Collective. Replaces provisional indices by vertex numbers. Returns false on all processes
     /// if one of them has no node.
     template <class I, std::size_t N>
-    [[nodiscard]] bool number(Progress& progress,
+    [[nodiscard]] bool number(CollectiveStatus& status,
                               IndexVector<I, std::array<VertexIndex, N>>& list) const;
 
 private:
@@ -42,15 +42,15 @@ private:
 
     NodeTags(std::uint64_t least, std::uint64_t tag_span) : least_(least), tag_span_(tag_span) {}
 
-    [[nodiscard]] std::size_t home_of(Offset offset) const {
+    [[nodiscard]] std::size_t owner_of(Offset offset) const {
         if (!is_dense_) {  // tags may have a common divisor, or be concentrated
             constexpr std::uint64_t golden = 0x9e37'79b9'7f4a'7c15;
             return (offset * golden >> 32U) % processes_;
         }
         return offset / block_;
     }
-    [[nodiscard]] bool find_homes(Progress& progress, const std::vector<std::uint64_t>& tags,
-                                  std::uint64_t first);
+    [[nodiscard]] bool send_to_owners(CollectiveStatus& status,
+                                      const std::vector<std::uint64_t>& tags, std::uint64_t first);
     void answer(ProcessGroup::Bytes& offsets) const;
 
     std::uint64_t least_ = 0;

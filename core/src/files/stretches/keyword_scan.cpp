@@ -13,7 +13,7 @@
 namespace octetra {
 namespace {
 
-constexpr std::size_t most_keywords = 1000;
+constexpr std::size_t max_keywords = 1000;
 
 bool is_letter(char c) { return (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z'); }
 
@@ -23,7 +23,7 @@ public:
     /// `position`: of the first byte in the file, which begins a line.
     explicit KeywordScan(std::uint64_t position) : position_(position), line_(position) {}
 
-    void look_through(const char* bytes, std::size_t size) {
+    void scan_bytes(const char* bytes, std::size_t size) {
         const char* const end = bytes + size;
         const bool has_mark =
             position_ == 0 && std::string_view(bytes, size).starts_with(byte_order_mark);
@@ -51,7 +51,7 @@ public:
 
 private:
     void take_line() {
-        if (found_.size() == most_keywords) throw std::length_error("too many keywords");
+        if (found_.size() == max_keywords) throw std::length_error("too many keywords");
         found_.push_back({line_, lines_});
     }
 
@@ -63,14 +63,14 @@ private:
 };
 
 /// Returns the keywords of a share; the last element has the number of lines of the share.
-std::vector<NumberedLine> keywords_in(const std::filesystem::path& path, const FileStretch& share) {
+std::vector<NumberedLine> keywords_in(const std::filesystem::path& path, const FileRange& share) {
     const InputFile file(path);
     KeywordScan scan(share.begin);
     std::vector<char> bytes(std::min<std::uint64_t>(std::uint64_t{1} << 18U, share.size()));
     for (std::uint64_t at = share.begin; at < share.end; at += bytes.size()) {
         const auto size = std::min<std::uint64_t>(bytes.size(), share.end - at);
         file.read(at, bytes.data(), size);
-        scan.look_through(bytes.data(), size);
+        scan.scan_bytes(bytes.data(), size);
     }
     std::vector<NumberedLine> found = scan.found();
     found.push_back({share.end, scan.lines()});
@@ -79,20 +79,20 @@ std::vector<NumberedLine> keywords_in(const std::filesystem::path& path, const F
 
 }  // namespace
 
-std::optional<std::vector<NumberedLine>> scan_for_keywords(Progress& progress,
+std::optional<std::vector<NumberedLine>> scan_for_keywords(CollectiveStatus& status,
                                                            const std::filesystem::path& path,
                                                            std::uint64_t file_size) {
-    const ProcessGroup& group = progress.group();
+    const ProcessGroup& group = status.group();
     ProcessGroup::Bytes own;
-    progress.attempt([&] {
-        const FileStretch share = share_of_lines(path, {0, file_size}, group.rank(), group.size());
+    status.attempt([&] {
+        const FileRange share = share_of_lines(path, {0, file_size}, group.rank(), group.size());
         const std::vector<NumberedLine> found = keywords_in(path, share);
         own.resize(found.size() * sizeof(NumberedLine));
         std::memcpy(own.data(), found.data(), own.size());
     });
-    if (!progress.all_well()) return std::nullopt;
+    if (!status.all_succeeded()) return std::nullopt;
     std::vector<NumberedLine> keywords;
-    progress.attempt([&] {
+    status.attempt([&] {
         std::uint64_t lines_before = 0;
         for (const ProcessGroup::Bytes& bytes : group.of_all(std::move(own))) {
             std::vector<NumberedLine> of_share(bytes.size() / sizeof(NumberedLine));
@@ -103,9 +103,9 @@ std::optional<std::vector<NumberedLine>> scan_for_keywords(Progress& progress,
             }
             lines_before += of_share.back().number;
         }
-        if (keywords.size() > most_keywords) throw std::length_error("too many keywords");
+        if (keywords.size() > max_keywords) throw std::length_error("too many keywords");
     });
-    if (!progress.all_well()) return std::nullopt;
+    if (!status.all_succeeded()) return std::nullopt;
     return keywords;
 }
 

@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "files/stretches/progress.hpp"
+#include "files/stretches/status.hpp"
 
 namespace octetra {
 
@@ -19,6 +19,6 @@ struct NumberedLine {
 /// process scans its share, and all exchange the results. Returns nothing on all processes if one
 /// has failed, or if there are more than any mesh has.
 [[nodiscard]] std::optional<std::vector<NumberedLine>> scan_for_keywords(
-    Progress& progress, const std::filesystem::path& path, std::uint64_t file_size);
+    CollectiveStatus& status, const std::filesystem::path& path, std::uint64_t file_size);
 
 }  // namespace octetra

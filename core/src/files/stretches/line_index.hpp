@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "files/stretches/progress.hpp"
+#include "files/stretches/status.hpp"
 
 namespace octetra {
 
@@ -16,7 +16,7 @@ class LineIndex {
 public:
     /// Collective. Each process counts line ends in its share. Returns nothing on all processes if
     /// one has failed.
-    [[nodiscard]] static std::optional<LineIndex> make(Progress& progress,
+    [[nodiscard]] static std::optional<LineIndex> make(CollectiveStatus& status,
                                                        const std::filesystem::path& path,
                                                        std::uint64_t file_size);
 
@@ -32,11 +32,11 @@ private:
     LineIndex(std::filesystem::path path, std::uint64_t file_size);
 
     /// Returns the block that contains the end of the preceding line.
-    [[nodiscard]] std::uint64_t stretch_before(std::uint64_t line) const;
+    [[nodiscard]] std::uint64_t block_before(std::uint64_t line) const;
 
     std::filesystem::path path_;
     std::uint64_t file_size_ = 0;
-    std::uint64_t stretch_ = 0;               // in bytes
+    std::uint64_t block_size_ = 0;            // in bytes
     std::vector<std::uint64_t> ends_before_;  // number of line ends before each block; and in all
 };
 

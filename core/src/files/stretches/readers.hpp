@@ -6,25 +6,25 @@
 #include <filesystem>
 #include <optional>
 
-#include <octetra/core/mesh_stretch.hpp>
+#include <octetra/core/mesh_share.hpp>
 #include <octetra/core/process_group.hpp>
 
 namespace octetra {
 
-/// Collective, as read_stretch().
-[[nodiscard]] std::optional<MeshStretch> read_tetgen_stretch(const std::filesystem::path& path,
-                                                             const ProcessGroup& group);
-[[nodiscard]] std::optional<MeshStretch> read_medit_stretch(const std::filesystem::path& path,
-                                                            const ProcessGroup& group);
-[[nodiscard]] std::optional<MeshStretch> read_meshb_stretch(const std::filesystem::path& path,
-                                                            const ProcessGroup& group);
+/// Collective, as read_mesh_share().
+[[nodiscard]] std::optional<MeshShare> read_tetgen_share(const std::filesystem::path& path,
+                                                         const ProcessGroup& group);
+[[nodiscard]] std::optional<MeshShare> read_medit_share(const std::filesystem::path& path,
+                                                        const ProcessGroup& group);
+[[nodiscard]] std::optional<MeshShare> read_meshb_share(const std::filesystem::path& path,
+                                                        const ProcessGroup& group);
 
-[[nodiscard]] std::optional<MeshStretch> read_gmsh_stretch(const std::filesystem::path& path,
-                                                           const ProcessGroup& group);
+[[nodiscard]] std::optional<MeshShare> read_gmsh_share(const std::filesystem::path& path,
+                                                       const ProcessGroup& group);
 
 /// Collective. Sets the facts of a Medit or Gmsh mesh after all processes have read their shares;
 /// `counts` has the numbers of entities. Drops markers that are 0 on all processes.
-void settle_facts(const MeshFacts& counts, const ProcessGroup& group, MeshStretch& stretch);
+void set_common_facts(const MeshFacts& counts, const ProcessGroup& group, MeshShare& mesh_share);
 
 /// Returns the capacity to reserve for a process's share of a list of `count` entities:
 /// proportional to its bytes, plus a quarter, because some lines are shorter. Unused capacity
@@ -38,10 +38,11 @@ void settle_facts(const MeshFacts& counts, const ProcessGroup& group, MeshStretc
 }
 
 /// Collective. Returns the number of this process's first entity, the sum of `read` over lower
-/// ranks. Sets `well` to false on all processes if the total differs from the announced number.
-[[nodiscard]] inline std::uint64_t number_stretch(const ProcessGroup& group, std::uint64_t read,
-                                                  std::uint64_t announced, bool& well) {
-    well = group.sum(read) == announced && well;
+/// ranks. Sets `are_consistent` to false on all processes if the total differs from the announced
+/// number.
+[[nodiscard]] inline std::uint64_t number_share(const ProcessGroup& group, std::uint64_t read,
+                                                std::uint64_t announced, bool& are_consistent) {
+    are_consistent = group.sum(read) == announced && are_consistent;
     return group.sum_before(read);
 }
 

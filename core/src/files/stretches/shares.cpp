@@ -10,7 +10,7 @@ namespace octetra {
 namespace {
 
 /// Returns the position of the first line that begins at `position` or later.
-std::uint64_t next_line(const InputFile& file, std::uint64_t position, const FileStretch& whole) {
+std::uint64_t next_line(const InputFile& file, std::uint64_t position, const FileRange& whole) {
     if (position <= whole.begin) return whole.begin;
     std::array<char, 4096> bytes;
     for (--position; position < whole.end;) {  // the preceding line end may be the last byte
@@ -27,8 +27,8 @@ std::uint64_t next_line(const InputFile& file, std::uint64_t position, const Fil
 
 }  // namespace
 
-FileStretch share_of_lines(const std::filesystem::path& path, const FileStretch& whole, int rank,
-                           int processes) {
+FileRange share_of_lines(const std::filesystem::path& path, const FileRange& whole, int rank,
+                         int processes) {
     const InputFile file(path);
     const auto count = static_cast<std::uint64_t>(processes);
     const auto boundary = [&](int r) {

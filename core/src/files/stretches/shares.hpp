@@ -8,7 +8,7 @@
 namespace octetra {
 
 /// Bytes begin .. end - 1 of a file.
-struct FileStretch {
+struct FileRange {
     std::uint64_t begin = 0;
     std::uint64_t end = 0;
 
@@ -17,8 +17,8 @@ struct FileStretch {
 
 /// Returns the lines that a process is to read of a byte range, which must begin with a line: those
 /// that begin in its even share of the bytes. Reads the file to find line ends. Not collective.
-[[nodiscard]] FileStretch share_of_lines(const std::filesystem::path& path,
-                                         const FileStretch& whole, int rank, int processes);
+[[nodiscard]] FileRange share_of_lines(const std::filesystem::path& path, const FileRange& whole,
+                                       int rank, int processes);
 
 /// A process's even share of the rows of a list whose row positions follow from their numbers.
 struct RowShare {

@@ -91,19 +91,19 @@ public:
 
     /// A cell has come.
     void go_on() {
-        if (mesh_->cells.size() - judged_ == at_once) judge();
+        if (mesh_->cells.size() - judged_ == at_once) check_entities();
     }
     /// Throws InputError if something is wrong with one that has come.
-    void judge() {
+    void check_entities() {
         const auto cells = std::span(mesh_->cells).subspan(judged_);
-        const auto [cell, wrong] = check_.judge(cells);
+        const auto [cell, wrong] = check_.check_entities(cells);
         if (!wrong.empty()) fail_entry(*path_, judged_ + cell, wrong);
         for (const CellVertices& vertices : cells) repeated_.add(vertices);
         judged_ = mesh_->cells.size();
     }
     /// All have come.
     void finish(const ReadOptions& options) {
-        judge();
+        check_entities();
         if (check_.fixed_count() > 0) {
             options.note(fmt::format("{}: {} inverted cells were turned round", path_->native(),
                                      check_.fixed_count()));
@@ -142,7 +142,7 @@ void read_ele(const fs::path& path, const ReadOptions& options, GrowingMesh& gro
     try {
         read_entries(reader, head.count, head.field_count(), mesh.index_base, read_cell, complete);
     } catch (const InputError&) {
-        if (cells) cells->judge();  // what is wrong with an earlier line comes first
+        if (cells) cells->check_entities();  // what is wrong with an earlier line comes first
         throw;
     }
     growing.all_complete(cell_kind);

@@ -37,7 +37,7 @@ void write_node(OutputFile& out, MeshSource& mesh) {
             row.put(facts.index_base + number);
             for (const double coordinate : {p.x, p.y, p.z}) row.put(coordinate);
             for (std::size_t k = 0; k < attributes; ++k) {
-                row.go_on();
+                row.reserve_more();
                 row.put(values[v * attributes + k]);
             }
             if (!markers.empty()) row.put(markers[v]);
@@ -60,20 +60,20 @@ void write_list(OutputFile& out, MeshSource& mesh, const EntityList<N>& list) {
         }
         return bytes;
     };
-    put_list_in_stretches(out, list.count, group, bytes_of,
-                          [&](const Window& window, std::uint64_t number) {
-                              const auto entities = (mesh.*list.vertices)(window);
-                              std::span<const Marker> markers;
-                              if (list.has_markers) markers = (mesh.*list.markers)(window);
-                              for (std::size_t i = 0; i < entities.size(); ++i, ++number) {
-                                  TextRow row(out);
-                                  row.put(index_base + number);
-                                  for (const std::uint64_t vertex : entities[i])
-                                      row.put(index_base + vertex);
-                                  if (!markers.empty()) row.put(markers[i]);
-                                  row.end();
-                              }
-                          });
+    put_list_in_ranges(out, list.count, group, bytes_of,
+                       [&](const Window& window, std::uint64_t number) {
+                           const auto entities = (mesh.*list.vertices)(window);
+                           std::span<const Marker> markers;
+                           if (list.has_markers) markers = (mesh.*list.markers)(window);
+                           for (std::size_t i = 0; i < entities.size(); ++i, ++number) {
+                               TextRow row(out);
+                               row.put(index_base + number);
+                               for (const std::uint64_t vertex : entities[i])
+                                   row.put(index_base + vertex);
+                               if (!markers.empty()) row.put(markers[i]);
+                               row.end();
+                           }
+                       });
 }
 
 /// Removes what is left from another mesh and would be read as lists of this one. Of a link goes

@@ -37,7 +37,7 @@ void for_each_slice(const VtuArray& array, const ProcessGroup& group, auto&& tak
     const std::uint64_t length =
         std::max<std::uint64_t>(most_bytes / array.entity_size(), std::uint64_t{1});
     std::vector<char> bytes;
-    for_each_piece(stretches_of(array.entities, group), length, [&](const Window& window) {
+    for_each_piece(share_window(array.entities, group), length, [&](const Window& window) {
         array.bytes_of_slice(window, bytes);
         take(window, static_cast<const std::vector<char>&>(bytes));
     });

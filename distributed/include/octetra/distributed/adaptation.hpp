@@ -8,9 +8,9 @@
 #include <vector>
 
 #include <octetra/core/mesh.hpp>
+#include <octetra/distributed/entity_transfer.hpp>
 #include <octetra/distributed/merged_values.hpp>
 #include <octetra/distributed/refine.hpp>
-#include <octetra/distributed/succession.hpp>
 
 namespace octetra::distributed {
 
@@ -32,9 +32,9 @@ struct RemovedVertex {
 struct Adaptation {
     /// Whether anything changed on any process; the same on all.
     bool changed = false;
-    Succession cells;   ///< the map of cells
-    Succession facets;  ///< tagged ones
-    Succession edges;   ///< tagged ones
+    EntityTransfer cells;   ///< the map of cells
+    EntityTransfer facets;  ///< tagged ones
+    EntityTransfer edges;   ///< tagged ones
     std::size_t vertex_count_before = 0;
     /// The ends of the edge of which each new vertex is the midpoint, lower first. The first new
     /// vertex has the number vertex_count_before.

@@ -71,7 +71,7 @@ struct ArraysInUse {
 };
 
 /// The previous arrays of a process's part; those that were not in use are empty.
-struct ArraysLeft {
+struct DetachedArrays {
     std::vector<Point> points;
     std::vector<CellVertices> cells;
     std::vector<FacetVertices> facets;
@@ -137,7 +137,7 @@ public:
     Adaptation refine(std::span<const std::uint8_t> marks, const StepOptions& options = {});
     /// The same for programs that compute marks from other data: every process calls `request`, and
     /// an exception that it throws on one process is thrown on all, without additional
-    /// communication. `request` must not call collective functions; it may call leave_arrays().
+    /// communication. `request` must not call collective functions; it may call detach_arrays().
     Adaptation refine(const std::function<StepRequest()>& request);
     /// The same for a list of cells, in any order, as local numbers.
     Adaptation refine(std::span<const CellIndex> marked, const StepOptions& options = {});
@@ -156,16 +156,16 @@ public:
     EvenStep refine_evenly(const Selection& selection, const BalanceOptions& balance = {},
                            const StepOptions& options = {});
 
-    /// Collective. Reverses refinement where it is no longer needed. `may_go` has a byte for each
-    /// cell of this process, nonzero if the cell may be merged into its parent. A vertex is removed
-    /// if all cells with it are marked, none of them has been bisected since, and the mesh without
-    /// it is conforming. So each unmarked cell is kept, and no cell is coarsened by more than one
-    /// step. The result is the mesh that the steps, without the removed vertices, produce from the
-    /// input. Repeated coarsening of all cells restores the input.
-    Adaptation coarsen(std::span<const std::uint8_t> may_go);
+    /// Collective. Reverses refinement where it is no longer needed. `may_coarsen` has a byte for
+    /// each cell of this process, nonzero if the cell may be merged into its parent. A vertex is
+    /// removed if all cells with it are marked, none of them has been bisected since, and the mesh
+    /// without it is conforming. So each unmarked cell is kept, and no cell is coarsened by more
+    /// than one step. The result is the mesh that the steps, without the removed vertices, produce
+    /// from the input. Repeated coarsening of all cells restores the input.
+    Adaptation coarsen(std::span<const std::uint8_t> may_coarsen);
     /// The same for a list of cells, in any order, or for cells that the criteria mark.
-    Adaptation coarsen(std::span<const CellIndex> may_go);
-    Adaptation coarsen(const Selection& may_go);
+    Adaptation coarsen(std::span<const CellIndex> may_coarsen);
+    Adaptation coarsen(const Selection& may_coarsen);
 
     /// Collective. Migrates cells from processes with many to processes with few, if the numbers
     /// are too different and migration improves them. A cell of the input migrates with all its
@@ -230,9 +230,9 @@ public:
     /// Preserves views of the part across a step: the mesh continues with copies of these arrays,
     /// and the original arrays, to which earlier spans refer, are returned; the spans stay valid as
     /// long as the result lives. Takes time proportional to the arrays. Not collective: if it
-    /// throws std::bad_alloc, nothing has changed, and Communicator::transaction() notifies the other
-    /// processes.
-    [[nodiscard]] ArraysLeft leave_arrays(const ArraysInUse& in_use);
+    /// throws std::bad_alloc, nothing has changed, and Communicator::transaction() notifies the
+    /// other processes.
+    [[nodiscard]] DetachedArrays detach_arrays(const ArraysInUse& in_use);
 
     /// The number of vertices of the whole mesh.
     [[nodiscard]] std::uint64_t vertex_count() const;

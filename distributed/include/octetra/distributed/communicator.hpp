@@ -197,7 +197,7 @@ private:
             }
             inboxes.resize(senders.size());
         } catch (...) {
-            send_and_receive_nothing(receivers, senders);
+            exchange_empty_messages(receivers, senders);
             throw;
         }
         send_and_receive_bytes(receivers, bytes, senders, &allocate_inbox<T>, &inboxes);
@@ -213,13 +213,13 @@ private:
     void exchange_sparsely(std::span<const std::span<const std::byte>> outboxes, Allocate allocate,
                            void* context) const;
     /// Gather the number, or the bytes, of every process on all processes, by rank: counts[r] bytes
-    /// of rank r at offset places[r]. Allocate nothing.
+    /// of rank r at offset offsets[r]. Allocate nothing.
     void gather_everywhere(std::uint64_t number, std::span<std::uint64_t> numbers) const;
     void gather_everywhere(std::span<const std::byte> bytes, std::span<const int> counts,
-                           std::span<const int> places, std::span<std::byte> gathered) const;
+                           std::span<const int> offsets, std::span<std::byte> gathered) const;
     /// Completes send_and_receive_bytes() with empty messages after a failure. Allocates nothing.
-    void send_and_receive_nothing(std::span<const int> receivers,
-                                  std::span<const int> senders) const noexcept;
+    void exchange_empty_messages(std::span<const int> receivers,
+                                 std::span<const int> senders) const noexcept;
 
     std::shared_ptr<const Mpi> mpi_;  // none: this process alone
     std::shared_ptr<Profile> profile_;

@@ -34,13 +34,13 @@ struct ValueExchange {
 /// Collective. Throws the same on all processes, before any message is unpacked.
 void exchange_values(const Communicator& processes, const ValueExchange& exchange);
 
-/// Exchanges values: `sent` and `received` select lists of SharedWith, and take(value, come)
+/// Exchanges values: `sent` and `received` select lists of SharedWith, and combine(value, incoming)
 /// combines a local value with a received one.
 template <class I, class T>
 void exchange_shared(const Communicator& processes, const Sharing<I>& sharing,
                      std::vector<I> SharedWith<I>::*sent, std::vector<I> SharedWith<I>::*received,
                      std::size_t entity_count, std::span<T> values, const ValueKind& kind,
-                     auto take) {
+                     auto combine) {
     static_assert(std::is_trivially_copyable_v<T>);
     // The functions capture a single reference, so that std::function does not allocate: a process
     // that failed to would throw and leave the others waiting.
@@ -50,8 +50,8 @@ void exchange_shared(const Communicator& processes, const Sharing<I>& sharing,
         std::vector<I> SharedWith<I>::*received;
         std::span<T> values;
         std::size_t components;
-        decltype(take) take_value;
-    } all{sharing.neighbours(), sent, received, values, kind.components, take};
+        decltype(combine) combine_value;
+    } all{sharing.neighbours(), sent, received, values, kind.components, combine};
     exchange_values(
         processes,
         {.neighbour_count = all.neighbours.size(),
@@ -72,9 +72,9 @@ void exchange_shared(const Communicator& processes, const Sharing<I>& sharing,
              [&all](std::size_t n, const std::byte* message) {
                  for (const I i : all.neighbours[n].*all.received) {
                      for (std::size_t k = 0; k < all.components; ++k, message += sizeof(T)) {
-                         T come;
-                         std::memcpy(&come, message, sizeof come);
-                         all.take_value(all.values[i.value() * all.components + k], come);
+                         T incoming;
+                         std::memcpy(&incoming, message, sizeof incoming);
+                         all.combine_value(all.values[i.value() * all.components + k], incoming);
                      }
                  }
              },
@@ -95,7 +95,7 @@ void update_copies(const Communicator& processes, const Sharing<I>& sharing,
                    std::size_t entity_count, std::span<T> values, std::size_t components = 1) {
     detail::exchange_shared(processes, sharing, &SharedWith<I>::owned, &SharedWith<I>::received,
                             entity_count, values, detail::kind_of<T, I>(components),
-                            [](T& value, const T& come) { value = come; });
+                            [](T& value, const T& incoming) { value = incoming; });
 }
 
 /// Collective. Replaces the owner's value of each entity by operation(value, copy) for the value of
@@ -108,9 +108,9 @@ void combine_at_owner(const Communicator& processes, const Sharing<I>& sharing,
                       std::size_t components = 1) {
     detail::ValueKind kind = detail::kind_of<T, I>(components);
     kind.operation = &typeid(Operation);
-    detail::exchange_shared(processes, sharing, &SharedWith<I>::received, &SharedWith<I>::owned,
-                            entity_count, values, kind,
-                            [&](T& value, const T& come) { value = operation(value, come); });
+    detail::exchange_shared(
+        processes, sharing, &SharedWith<I>::received, &SharedWith<I>::owned, entity_count, values,
+        kind, [&](T& value, const T& incoming) { value = operation(value, incoming); });
 }
 
 /// Collective. Combines the values of all copies of each entity and assigns the result to all

@@ -10,7 +10,7 @@
 #include <type_traits>
 #include <vector>
 
-#include <octetra/distributed/succession.hpp>
+#include <octetra/distributed/entity_transfer.hpp>
 
 namespace octetra::distributed {
 
@@ -59,7 +59,7 @@ template <class T>
 
 /// The value of a fine cell, and the number of bisections that separate it from the coarse cell.
 template <class T>
-struct PieceValue {
+struct FineValue {
     T value;
     unsigned halvings;
 };
@@ -68,18 +68,18 @@ struct PieceValue {
 /// number of processes; values of types without an order are left as they are. Returns whether all
 /// values are equal.
 template <class T>
-[[nodiscard]] bool sort_and_compare(std::span<PieceValue<T>> pieces) {
+[[nodiscard]] bool sort_and_compare(std::span<FineValue<T>> pieces) {
     if constexpr (std::is_arithmetic_v<T> || is_complex<T>) {
-        const auto order = [](const PieceValue<T>& a, const PieceValue<T>& b) {
+        const auto order = [](const FineValue<T>& a, const FineValue<T>& b) {
             return order_of(a.value, b.value);
         };
-        std::ranges::sort(pieces, [&](const PieceValue<T>& a, const PieceValue<T>& b) {
+        std::ranges::sort(pieces, [&](const FineValue<T>& a, const FineValue<T>& b) {
             return order(a, b) != 0 ? order(a, b) < 0 : a.halvings < b.halvings;
         });
         return order(pieces.front(), pieces.back()) == 0;
     } else if constexpr (std::equality_comparable<T>) {
         return std::ranges::all_of(
-            pieces, [&](const PieceValue<T>& piece) { return piece.value == pieces[0].value; });
+            pieces, [&](const FineValue<T>& piece) { return piece.value == pieces[0].value; });
     } else {
         return false;
     }
@@ -87,7 +87,7 @@ template <class T>
 
 /// Returns the most frequent of sorted values; the smallest if several are equally frequent.
 template <class T>
-[[nodiscard]] T most_frequent(std::span<const PieceValue<T>> pieces) {
+[[nodiscard]] T most_frequent(std::span<const FineValue<T>> pieces) {
     T found = pieces[0].value;
     for (std::size_t begin = 0, most = 0, end = 0; begin < pieces.size(); begin = end) {
         while (end < pieces.size() && pieces[end].value == pieces[begin].value) ++end;
@@ -101,15 +101,14 @@ template <class T>
 /// Returns the value of a coarse cell that one or more fine cells are merged into. Reorders
 /// `pieces`.
 template <class T>
-[[nodiscard]] T merged_value(std::span<PieceValue<T>> pieces, CellValues how) {
+[[nodiscard]] T merged_value(std::span<FineValue<T>> pieces, CellValues how) {
     const bool are_same = sort_and_compare(pieces);
     if (pieces.size() == 1 || (are_same && how != CellValues::divided)) return pieces[0].value;
     if constexpr (std::is_integral_v<T>) {
-        if (how != CellValues::divided)
-            return most_frequent(std::span<const PieceValue<T>>(pieces));
+        if (how != CellValues::divided) return most_frequent(std::span<const FineValue<T>>(pieces));
     }
     T sum{};
-    for (const PieceValue<T>& piece : pieces) {
+    for (const FineValue<T>& piece : pieces) {
         if (how == CellValues::divided) {
             sum += piece.value;
         } else {
@@ -122,11 +121,11 @@ template <class T>
 /// Returns the values after coarsening, `components` for each cell, from the values before it.
 template <class T>
 [[nodiscard]] std::vector<T> merged_values(const std::vector<T>& values, std::size_t components,
-                                           const Succession& cells, CellValues how) {
-    const PiecesOfWholes all = pieces_of_wholes(cells);
+                                           const EntityTransfer& cells, CellValues how) {
+    const FineOfCoarse all = fine_of_coarse(cells);
     std::vector<T> wholes;
     wholes.reserve(cells.count() * components);
-    std::vector<PieceValue<T>> pieces;
+    std::vector<FineValue<T>> pieces;
     for (std::size_t whole = 0; whole < cells.count(); ++whole) {
         for (std::size_t k = 0; k < components; ++k) {
             pieces.clear();

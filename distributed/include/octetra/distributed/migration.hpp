@@ -80,14 +80,14 @@ public:
     /// A migration in which nothing moves, of a part with these numbers of cells and vertices:
     /// values that fit it are returned unchanged.
     Migration(Communicator processes, std::size_t cell_count, std::size_t vertex_count)
-        : knows_counts_(true),
+        : has_counts_(true),
           processes_(std::move(processes)),
           cells_{cell_count, cell_count, {}},
           vertices_{vertex_count, vertex_count, {}} {}
     /// Partners are ascending by rank and symmetric; each process is among its own partners.
     Migration(Communicator processes, std::vector<int> partners, Entities cells, Entities vertices)
         : changed_(true),
-          knows_counts_(true),
+          has_counts_(true),
           processes_(std::move(processes)),
           partners_(std::move(partners)),
           cells_(std::move(cells)),
@@ -152,7 +152,7 @@ private:
     }
 
     bool changed_ = false;
-    bool knows_counts_ = false;  ///< whether values must fit the counts below
+    bool has_counts_ = false;  ///< whether values must fit the counts below
     Communicator processes_;
     std::vector<int> partners_;
     Entities cells_;

@@ -34,13 +34,13 @@ class Sharing {
 public:
     /// Returns the other ranks that have the entity, ascending; empty if only this process has it.
     [[nodiscard]] std::span<const int> sharers(I i) const {
-        const std::size_t k = place_of(i);
+        const std::size_t k = shared_index_of(i);
         if (k == shared_.size()) return {};
         return std::span(ranks_).subspan(begin_[k], begin_[k + 1] - begin_[k]);
     }
     /// Returns the rank that owns the entity.
     [[nodiscard]] int owner(I i) const {
-        const std::size_t k = place_of(i);
+        const std::size_t k = shared_index_of(i);
         return k == shared_.size() ? rank_ : owners_[k];
     }
     /// Returns whether this process owns the entity.
@@ -59,7 +59,7 @@ private:
     template <class Entity>
     friend class SharingBuilder;
 
-    [[nodiscard]] std::size_t place_of(I i) const {
+    [[nodiscard]] std::size_t shared_index_of(I i) const {
         const auto found = std::ranges::lower_bound(shared_, i);
         if (found == shared_.end() || *found != i) return shared_.size();
         return static_cast<std::size_t>(found - shared_.begin());

@@ -57,11 +57,11 @@ using MeshFaces = Sides<FaceIndex, 3, 4>;
 
 /// The cell on the other side of a face of a cell.
 struct FaceNeighbour {
-    static constexpr int nobody = -1;
-    int rank = nobody;  ///< the rank that has the cell, or nobody if the face is on the boundary
-    CellIndex cell;     ///< its local number on that rank
+    static constexpr int no_rank = -1;
+    int rank = no_rank;  ///< the rank that has the cell, or no_rank if the face is on the boundary
+    CellIndex cell;      ///< its local number on that rank
 
-    [[nodiscard]] bool is_boundary() const { return rank == nobody; }
+    [[nodiscard]] bool is_boundary() const { return rank == no_rank; }
     friend bool operator==(const FaceNeighbour&, const FaceNeighbour&) = default;
 };
 

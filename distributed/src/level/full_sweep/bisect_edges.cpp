@@ -18,16 +18,16 @@ IndexVector<EdgeIndex, MidpointMarker> edge_markers(const DistributedMesh& mesh,
     for (std::size_t r = 0; r < facets.markers.size(); ++r) {
         for (FacetIndex f{facets.first[r]}; f < FacetIndex{facets.first[r + 1]}; ++f) {
             for (const auto& [i, j] : triangle_edges) {
-                take_marker(markers[numbering.find(mesh.facets[f][i], mesh.facets[f][j])],
-                            MidpointMarker::Source::facet, facets.markers[r]);
+                merge_marker(markers[numbering.find(mesh.facets[f][i], mesh.facets[f][j])],
+                             MidpointMarker::Source::facet, facets.markers[r]);
             }
         }
     }
     const AncestorMap& edges = mesh.edge_ancestors;
     for (std::size_t r = 0; r < edges.markers.size(); ++r) {
         for (EdgeIndex e{edges.first[r]}; e < EdgeIndex{edges.first[r + 1]}; ++e) {
-            take_marker(markers[numbering.find(mesh.edges[e][0], mesh.edges[e][1])],
-                        MidpointMarker::Source::edge, edges.markers[r]);
+            merge_marker(markers[numbering.find(mesh.edges[e][0], mesh.edges[e][1])],
+                         MidpointMarker::Source::edge, edges.markers[r]);
         }
     }
     return markers;

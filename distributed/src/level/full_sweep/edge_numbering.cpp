@@ -62,8 +62,8 @@ EdgeNumbering::EdgeNumbering(std::size_t vertex_count,
 /// Numbers the edges of the cells cell_at(0) .. cell_at(cell_count - 1).
 void EdgeNumbering::number(std::size_t vertex_count, std::size_t cell_count, const auto& cell_at) {
     Buckets buckets(vertex_count);
-    find_places(cell_count, cell_at, buckets);
-    move_together(buckets);
+    find_positions(cell_count, cell_at, buckets);
+    compact(buckets);
     for (std::size_t k = 0; k < cell_count; ++k) {
         const CellVertices& cell = cell_at(k);
         for (std::size_t e = 0; e < 6; ++e) {
@@ -76,7 +76,7 @@ void EdgeNumbering::number(std::size_t vertex_count, std::size_t cell_count, con
 }
 
 /// Determines for each edge of each cell its position in the star of its lower end.
-void EdgeNumbering::find_places(std::size_t cell_count, const auto& cell_at, Buckets& buckets) {
+void EdgeNumbering::find_positions(std::size_t cell_count, const auto& cell_at, Buckets& buckets) {
     constexpr std::size_t ahead = 8;
     reserve_in_huge_pages(rows_, cell_count + 1);
     for (std::size_t k = 0; k < cell_count; ++k) {
@@ -101,7 +101,7 @@ void EdgeNumbering::find_places(std::size_t cell_count, const auto& cell_at, Buc
                 if (place < in_bucket) {
                     bucket[place] = high;
                 } else {
-                    place = find_further_place(low, high, buckets);
+                    place = find_overflow_position(low, high, buckets);
                 }
             }
             places[e] = EdgeIndex{place};
@@ -110,8 +110,8 @@ void EdgeNumbering::find_places(std::size_t cell_count, const auto& cell_at, Buc
 }
 
 /// The same for an edge that is not in the first bucket, which is full.
-std::uint32_t EdgeNumbering::find_further_place(VertexIndex low, VertexIndex high,
-                                                Buckets& buckets) {
+std::uint32_t EdgeNumbering::find_overflow_position(VertexIndex low, VertexIndex high,
+                                                    Buckets& buckets) {
     std::uint32_t bucket = low.value();
     for (std::uint32_t before = in_bucket; before < searched; before += in_bucket) {
         const std::uint32_t next = buckets.after(bucket);
@@ -132,7 +132,7 @@ std::uint32_t EdgeNumbering::find_further_place(VertexIndex low, VertexIndex hig
 }
 
 /// Numbers the edges star by star.
-void EdgeNumbering::move_together(const Buckets& buckets) {
+void EdgeNumbering::compact(const Buckets& buckets) {
     begin_.reserve(buckets.vertex_count + 1);
     std::size_t count = 0;
     for (std::uint32_t v = 0; v < buckets.vertex_count; ++v) {

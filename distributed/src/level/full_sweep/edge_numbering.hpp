@@ -92,10 +92,10 @@ private:
         return has_all() ? EdgeIndex::none() : EdgeIndex{begin_.back()};
     }
     void number(std::size_t vertex_count, std::size_t cell_count, const auto& cell_at);
-    void find_places(std::size_t cell_count, const auto& cell_at, Buckets& buckets);
-    [[nodiscard]] std::uint32_t find_further_place(VertexIndex low, VertexIndex high,
-                                                   Buckets& buckets);
-    void move_together(const Buckets& buckets);
+    void find_positions(std::size_t cell_count, const auto& cell_at, Buckets& buckets);
+    [[nodiscard]] std::uint32_t find_overflow_position(VertexIndex low, VertexIndex high,
+                                                       Buckets& buckets);
+    void compact(const Buckets& buckets);
 
     std::vector<std::uint32_t> begin_;
     std::vector<VertexIndex> high_end_;  ///< followed by `read_beyond` more elements

@@ -40,7 +40,7 @@ void FullSweepClosure::mark_all() {
 void FullSweepClosure::mark(EdgeIndex edge) {
     if (marked_[edge] != 0) return;
     set_mark(edge);
-    tell_sharers(edge);
+    notify_sharers(edge);
 }
 
 // The sender notifies every sharer of the edge.
@@ -56,7 +56,7 @@ void FullSweepClosure::set_mark(EdgeIndex edge) {
     if (sweep_count_ > 0) queue_.push_back(edge);
 }
 
-void FullSweepClosure::tell_sharers(EdgeIndex edge) {
+void FullSweepClosure::notify_sharers(EdgeIndex edge) {
     if (shared_.empty() || shared_[edge] == 0) return;
     auto shared = std::ranges::lower_bound(shared_edges_, edge, {}, &SharedEdge::edge);
     for (; shared != shared_edges_.end() && shared->edge == edge; ++shared) {
@@ -79,13 +79,13 @@ void FullSweepClosure::close(CellIndex cell) {
     for (std::size_t e = 0; missing >> e != 0; ++e) {
         if ((missing >> e & 1U) == 0) continue;
         mark(numbering_->edges_of(cell)[e]);
-        leads_beyond_ = leads_beyond_ || !edges_->is_surrounded(cell, e);
+        leaves_local_set_ = leaves_local_set_ || !edges_->is_surrounded(cell, e);
     }
 }
 
 void FullSweepClosure::drain() {
     drain_near();
-    while (leads_beyond_) {
+    while (leaves_local_set_) {
         widen();
         drain_near();
     }
@@ -102,7 +102,7 @@ void FullSweepClosure::widen() {
     queue_.clear();
     edges_->widen();
     make_marks();
-    leads_beyond_ = false;
+    leaves_local_set_ = false;
     sweep_count_ = 0;
     for (const auto& [a, b] : marked) set_mark(numbering_->find(a, b));
 }
@@ -121,12 +121,12 @@ std::vector<EdgeVertices> FullSweepClosure::ends_of_marked() const {
 // To compute the cells at each edge takes as long as several sweeps. Usually a few sweeps suffice,
 // since their direction alternates; but a path may change its direction arbitrarily often.
 void FullSweepClosure::drain_near() {
-    constexpr int most_sweeps = 8;
+    constexpr int max_sweeps = 8;
     if (sweep_count_ == 0 && marked_count_ < marked_.size()) sweep();
-    while (!queue_.empty() && sweep_count_ < most_sweeps && !leads_beyond_) sweep();
-    if (queue_.empty() || leads_beyond_) return;
+    while (!queue_.empty() && sweep_count_ < max_sweeps && !leaves_local_set_) sweep();
+    if (queue_.empty() || leaves_local_set_) return;
     if (cells_begin_.empty()) index_cells_at_edges();
-    while (!queue_.empty() && !leads_beyond_) {
+    while (!queue_.empty() && !leaves_local_set_) {
         const EdgeIndex edge = queue_.back();
         queue_.pop_back();
         for (auto k = cells_begin_[edge.value()]; k < cells_begin_[edge.value() + 1]; ++k) {

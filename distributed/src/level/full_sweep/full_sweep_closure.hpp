@@ -45,7 +45,7 @@ private:
 
     void make_marks();
     void set_mark(EdgeIndex edge);
-    void tell_sharers(EdgeIndex edge);
+    void notify_sharers(EdgeIndex edge);
     void close(CellIndex cell);
     void drain_near();
     void widen();
@@ -66,7 +66,7 @@ private:
     std::vector<EdgeIndex> queue_;
     std::size_t marked_count_ = 0;
     int sweep_count_ = 0;
-    bool leads_beyond_ = false;  ///< a marked edge may be in cells without edge numbers
+    bool leaves_local_set_ = false;  ///< a marked edge may be in cells without edge numbers
     // The cells with edge e are cells_[cells_begin_[e]] .. cells_[cells_begin_[e + 1] - 1].
     std::vector<std::uint32_t> cells_begin_;
     std::vector<CellIndex> cells_;

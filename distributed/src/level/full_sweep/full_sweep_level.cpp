@@ -16,7 +16,7 @@
 namespace octetra::distributed {
 namespace {
 
-constexpr std::size_t most_children = 8;
+constexpr std::size_t max_children = 8;
 
 class CellBisection {
 public:
@@ -66,13 +66,13 @@ private:
         }
         const auto all_touched = std::span(touched).first(touched_count);
         for (const CellIndex c : all_touched) {
-            patterns_[place_of(c)] = &table_->pattern(orders_->of(c), (*marked_)[c]);
+            patterns_[index_in_block(c)] = &table_->pattern(orders_->of(c), (*marked_)[c]);
         }
         for (const CellIndex c : all_touched) {
-            is_safe_[place_of(c)] = has_rounding_margin(mesh_->points, mesh_->cells[c]);
+            is_safe_[index_in_block(c)] = has_rounding_margin(mesh_->points, mesh_->cells[c]);
         }
     }
-    static std::size_t place_of(CellIndex cell) { return cell.value() % block_size; }
+    static std::size_t index_in_block(CellIndex cell) { return cell.value() % block_size; }
 
     void append_written() {
         children_.insert(children_.end(), block_.begin(),
@@ -86,7 +86,7 @@ private:
             block_[written_++] = cell;
             return;
         }
-        const Pattern& pattern = *patterns_[place_of(c)];
+        const Pattern& pattern = *patterns_[index_in_block(c)];
         std::array<VertexIndex, 10> vertices;  // corners, then midpoints of edges
         std::ranges::copy(cell, vertices.begin());
         const auto& edges = numbering_->edges_of(c);
@@ -94,11 +94,11 @@ private:
         // Always eight, since writing superfluous children takes less time than a mispredicted
         // branch on their number.
         CellVertices* const children = block_.data() + written_;
-        for (std::size_t k = 0; k < most_children; ++k) {
+        for (std::size_t k = 0; k < max_children; ++k) {
             children[k] = child_of(vertices, pattern.children[k]);
         }
         const std::size_t count = pattern.child_count;
-        if (!is_safe_[place_of(c)]) check({children, count}, root);
+        if (!is_safe_[index_in_block(c)]) check({children, count}, root);
         written_ += count;
     }
 
@@ -123,25 +123,25 @@ private:
     std::array<const Pattern*, block_size> patterns_{};
     std::array<bool, block_size> is_safe_{};
     /// Children to be appended: an immediate copy of data just written takes longer.
-    std::array<CellVertices, block_size * most_children> block_;
+    std::array<CellVertices, block_size * max_children> block_;
     std::size_t written_ = 0;
 };
 
 }  // namespace
 
-/// Returns a list in which all entities are replaced by their children: append_pieces(entity,
+/// Returns a list in which all entities are replaced by their children: append_children(entity,
 /// pieces) is called for each in order, and returns its division.
 template <class List>
-FullSweepLevel::NewList<List> FullSweepLevel::in_pieces(const List& list,
-                                                        const AncestorMap& ancestors,
-                                                        auto&& append_pieces) {
+FullSweepLevel::NewList<List> FullSweepLevel::replaced_by_children(const List& list,
+                                                                   const AncestorMap& ancestors,
+                                                                   auto&& append_children) {
     NewList<List> pieces;
     pieces.first.reserve(ancestors.first.size());
     pieces.divisions.reserve(list.size());
     auto entity = list.begin();
     for (const std::uint32_t begin : ancestors.first) {
         for (; entity < list.begin() + begin; ++entity) {
-            pieces.divisions.push_back(append_pieces(*entity, pieces.entities));
+            pieces.divisions.push_back(append_children(*entity, pieces.entities));
         }
         pieces.first.push_back(pieces.entities.end_index().value());
     }
@@ -186,7 +186,7 @@ std::size_t FullSweepLevel::cell_count_afterwards() {
     const std::size_t cell_count = mesh_->cells.size();
     if (closure_.all_marked()) {
         marked_.assign(cell_count, all_edges);
-        return most_children * cell_count;
+        return max_children * cell_count;
     }
     marked_.assign(cell_count, 0);
     // Cells outside the set have no marked edges.
@@ -199,7 +199,7 @@ std::size_t FullSweepLevel::cell_count_afterwards() {
         if (marked == 0) {
             ++count;
         } else if (marked == all_edges) {
-            count += most_children;
+            count += max_children;
         } else {
             count += PatternTable::get().pattern(orders_.of(c), marked).child_count;
         }
@@ -226,15 +226,15 @@ RoundingFailure FullSweepLevel::bisect_cells(std::size_t cell_count) {
 
 void FullSweepLevel::bisect_tagged() {
     const DistributedMesh& mesh = *mesh_;
-    facets_ =
-        in_pieces(mesh.facets, mesh.facet_ancestors, [&](const FacetVertices& facet, auto& all) {
+    facets_ = replaced_by_children(
+        mesh.facets, mesh.facet_ancestors, [&](const FacetVertices& facet, auto& all) {
             const BisectedTriangle bisected =
                 bisect_triangle(facet, midpoints_of(facet, *numbering_, midpoints_), mesh.points);
             std::copy_n(bisected.pieces.begin(), bisected.piece_count, std::back_inserter(all));
             return division_of(bisected);
         });
-    tagged_edges_ =
-        in_pieces(mesh.edges, mesh.edge_ancestors, [&](const EdgeVertices& edge, auto& all) {
+    tagged_edges_ = replaced_by_children(
+        mesh.edges, mesh.edge_ancestors, [&](const EdgeVertices& edge, auto& all) {
             // The order of the halves depends on the order of the ends in the list.
             const VertexIndex midpoint = midpoints_[numbering_->find(edge[0], edge[1])];
             const bool is_whole = midpoint.is_none();
@@ -262,7 +262,7 @@ std::vector<std::vector<VertexIndex>> FullSweepLevel::shared_midpoints() const {
     return midpoints;
 }
 
-Succession FullSweepLevel::changes_of_cells() {
+EntityTransfer FullSweepLevel::changes_of_cells() {
     const PatternTable& table = PatternTable::get();
     std::vector<std::uint8_t> divisions(marked_.size(), 0);
     for (CellIndex c{0}; c < marked_.end_index(); ++c) {
@@ -271,13 +271,13 @@ Succession FullSweepLevel::changes_of_cells() {
         const LengthOrder order = marked_[c] == all_edges ? LengthOrder{0} : orders_.of(c);
         divisions[c.value()] = table.pattern(order, marked_[c]).division;
     }
-    return Succession::of_all(std::move(divisions), table.divisions());
+    return EntityTransfer::of_all(std::move(divisions), table.divisions());
 }
 
 ListChanges FullSweepLevel::changes() {
     return {changes_of_cells(),
-            Succession::of_all(std::move(facets_.divisions), triangle_divisions),
-            Succession::of_all(std::move(tagged_edges_.divisions), edge_divisions)};
+            EntityTransfer::of_all(std::move(facets_.divisions), triangle_divisions),
+            EntityTransfer::of_all(std::move(tagged_edges_.divisions), edge_divisions)};
 }
 
 void FullSweepLevel::commit() noexcept {

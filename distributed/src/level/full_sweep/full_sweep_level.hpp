@@ -51,9 +51,9 @@ private:
         }
     };
     template <class List>
-    static NewList<List> in_pieces(const List& list, const AncestorMap& ancestors,
-                                   auto&& append_pieces);
-    [[nodiscard]] Succession changes_of_cells();
+    static NewList<List> replaced_by_children(const List& list, const AncestorMap& ancestors,
+                                              auto&& append_children);
+    [[nodiscard]] EntityTransfer changes_of_cells();
 
     void mark(CellIndex cell, EdgeMask mask);
 

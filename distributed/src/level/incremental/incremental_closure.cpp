@@ -22,7 +22,7 @@ void IncrementalClosure::mark(CellIndex cell, EdgeMask edges) {
         const auto [i, j] = cell_edges[e];
         const EdgeVertices edge{mesh_->cells[cell][i], mesh_->cells[cell][j]};
         set_mark(edge);
-        tell_sharers(edge);
+        notify_sharers(edge);
     }
 }
 
@@ -74,7 +74,7 @@ void IncrementalClosure::set_mark(const EdgeVertices& edge) {
     });
 }
 
-void IncrementalClosure::tell_sharers(const EdgeVertices& edge) {
+void IncrementalClosure::notify_sharers(const EdgeVertices& edge) {
     adjacency_->shared_edges.for_each_with(edge, mesh_->interfaces, [&](const auto& found) {
         outboxes_[found.place.interface].push_back(found.place.position);
     });

@@ -50,7 +50,7 @@ private:
     std::uint32_t note_of(CellIndex cell);
     [[nodiscard]] bool is_marked(const EdgeVertices& edge) const;
     void set_mark(const EdgeVertices& edge);
-    void tell_sharers(const EdgeVertices& edge);
+    void notify_sharers(const EdgeVertices& edge);
 
     const DistributedMesh* mesh_;
     Adjacency* adjacency_;

@@ -16,7 +16,7 @@ namespace {
 /// Converts triangles with one bisected edge each, by its position in triangle_edges, to triangles
 /// with all of their bisected edges, ascending by key.
 template <class CutTriangle, class OneCut>
-std::vector<CutTriangle> gathered(std::vector<OneCut> cuts) {
+std::vector<CutTriangle> merged_cuts(std::vector<OneCut> cuts) {
     std::ranges::sort(cuts, {}, &OneCut::key);
     std::vector<CutTriangle> triangles;
     for (const auto& [key, edge, midpoint] : cuts) {
@@ -39,7 +39,7 @@ struct NumberedEdge {
 };
 
 /// Sorts edges by (lower, higher) end.
-std::vector<NumberedEdge> in_order(const IndexVector<EdgeIndex, EdgeVertices>& edges) {
+std::vector<NumberedEdge> sorted_by_ends(const IndexVector<EdgeIndex, EdgeVertices>& edges) {
     std::vector<NumberedEdge> sorted;
     sorted.reserve(edges.size());
     for (EdgeIndex e{0}; e < edges.end_index(); ++e) {
@@ -81,7 +81,7 @@ void IncrementalLevel::bisect_edges() {
     appended_.emplace(*mesh_);
     midpoints_.resize(edges.size());
     const bool has_markers = !mesh_->input_vertex_markers.empty();
-    for (const auto& [ends, e] : in_order(edges)) {
+    for (const auto& [ends, e] : sorted_by_ends(edges)) {
         const auto [low, high] = edges[e];
         midpoints_[e] = mesh_->points.end_index();
         append_midpoint(*mesh_, low, high);
@@ -92,15 +92,17 @@ void IncrementalLevel::bisect_edges() {
 
 MidpointMarker IncrementalLevel::marker_of(const EdgeVertices& edge) const {
     MidpointMarker known;
-    const auto learn = [&](const auto& unordered, const auto& list, const AncestorMap& ancestors,
-                           MidpointMarker::Source source) {
+    const auto merge_markers = [&](const auto& unordered, const auto& list,
+                                   const AncestorMap& ancestors, MidpointMarker::Source source) {
         if (ancestors.markers.empty()) return;
         unordered.for_each_with(edge, list, [&](auto i, std::size_t) {
-            take_marker(known, source, ancestors.markers[unordered.root_of(i)]);
+            merge_marker(known, source, ancestors.markers[unordered.root_of(i)]);
         });
     };
-    learn(adjacency_->facets, mesh_->facets, mesh_->facet_ancestors, MidpointMarker::Source::facet);
-    learn(adjacency_->edges, mesh_->edges, mesh_->edge_ancestors, MidpointMarker::Source::edge);
+    merge_markers(adjacency_->facets, mesh_->facets, mesh_->facet_ancestors,
+                  MidpointMarker::Source::facet);
+    merge_markers(adjacency_->edges, mesh_->edges, mesh_->edge_ancestors,
+                  MidpointMarker::Source::edge);
     return known;
 }
 
@@ -201,7 +203,7 @@ void IncrementalLevel::bisect_tagged() {
     }
     adjacency_->facets.make_room(facet_cuts.size(), mesh_->facets);
     adjacency_->edges.make_room(cut_tagged_edges_.size(), mesh_->edges);
-    cut_facets_ = gathered<CutTriangle<FacetIndex>>(std::move(facet_cuts));
+    cut_facets_ = merged_cuts<CutTriangle<FacetIndex>>(std::move(facet_cuts));
 }
 
 // The other rank may use a full sweep: the order is that of bisect_interfaces.hpp.
@@ -223,7 +225,7 @@ void IncrementalLevel::find_shared_cuts() {
         });
     }
     std::ranges::sort(cut_shared_edges_, {}, &CutSharedEdge::place);
-    cut_shared_faces_ = gathered<CutTriangle<SharedFace>>(std::move(face_cuts));
+    cut_shared_faces_ = merged_cuts<CutTriangle<SharedFace>>(std::move(face_cuts));
 }
 
 void IncrementalLevel::make_room_in_interfaces() {
@@ -247,7 +249,7 @@ std::vector<std::vector<VertexIndex>> IncrementalLevel::shared_midpoints() const
 }
 
 ListChanges IncrementalLevel::changes() {
-    using Cuts = std::vector<Succession::Cut>;
+    using Cuts = std::vector<EntityTransfer::Cut>;
     Cuts cells;
     for (const auto& note : closure_.notes()) {
         cells.push_back({note.cell.value(), pattern_of(note).division});
@@ -259,10 +261,10 @@ ListChanges IncrementalLevel::changes() {
     }
     Cuts edges;
     for (const CutEdge& cut : cut_tagged_edges_) edges.push_back({cut.edge.value(), 1});
-    return {
-        Succession::of_cuts(mesh_->cells.size(), std::move(cells), PatternTable::get().divisions()),
-        Succession::of_cuts(mesh_->facets.size(), std::move(facets), triangle_divisions),
-        Succession::of_cuts(mesh_->edges.size(), std::move(edges), edge_divisions)};
+    return {EntityTransfer::of_cuts(mesh_->cells.size(), std::move(cells),
+                                    PatternTable::get().divisions()),
+            EntityTransfer::of_cuts(mesh_->facets.size(), std::move(facets), triangle_divisions),
+            EntityTransfer::of_cuts(mesh_->edges.size(), std::move(edges), edge_divisions)};
 }
 
 void IncrementalLevel::commit() noexcept {

@@ -58,13 +58,13 @@ private:
         VertexIndex midpoint;
     };
     struct SharedFace {
-        SharedPlace place;
+        SharedPosition place;
         SharedIndex index;
 
         friend auto operator<=>(const SharedFace&, const SharedFace&) = default;
     };
     struct CutSharedEdge {
-        SharedPlace place;
+        SharedPosition place;
         SharedIndex index;
         VertexIndex midpoint;
     };

@@ -11,11 +11,11 @@
 namespace octetra::distributed {
 
 /// The position of a shared edge or face in the list of an interface.
-struct SharedPlace {
+struct SharedPosition {
     std::uint32_t interface = 0;
     std::uint32_t position = 0;
 
-    friend auto operator<=>(const SharedPlace&, const SharedPlace&) = default;
+    friend auto operator<=>(const SharedPosition&, const SharedPosition&) = default;
 };
 
 /// The number of an entry among the edges, or faces, of all interfaces, in unspecified order.
@@ -48,7 +48,7 @@ public:
 
     struct Found {
         SharedIndex index;
-        SharedPlace place;
+        SharedPosition place;
         std::size_t edge = 0;  ///< position of the edge in the entity
     };
 
@@ -106,7 +106,7 @@ private:
     }
 
     Incidence<SharedIndex, N> incidence_;
-    IndexVector<SharedIndex, SharedPlace> places_;
+    IndexVector<SharedIndex, SharedPosition> places_;
 };
 
 }  // namespace octetra::distributed

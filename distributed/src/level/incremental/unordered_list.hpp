@@ -101,7 +101,7 @@ public:
     void move(I from, I to, List& list, AncestorMap& ancestors) {
         incidence_.move(from, to, list[from]);
         list[to] = list[from];
-        const Place place = places_[from];
+        const OrderLink place = places_[from];
         places_[to] = place;
         if (place.previous.is_none()) {
             ancestors.first[place.root] = to.value();
@@ -150,14 +150,14 @@ public:
     }
 
 private:
-    struct Place {
+    struct OrderLink {
         std::uint32_t root = 0;
         I previous;  ///< among the root's descendants, or none()
         I next;
     };
 
     Incidence<I, N> incidence_;
-    IndexVector<I, Place> places_;
+    IndexVector<I, OrderLink> places_;
     bool is_ordered_ = true;
 };
 

@@ -16,12 +16,12 @@ bool keep_if_any(const ProcessGroup& group, std::vector<Marker>& markers) {
 
 }  // namespace
 
-void settle_facts(const MeshFacts& counts, const ProcessGroup& group, MeshStretch& stretch) {
-    MeshFacts& facts = stretch.facts;
+void set_common_facts(const MeshFacts& counts, const ProcessGroup& group, MeshShare& mesh_share) {
+    MeshFacts& facts = mesh_share.facts;
     facts = counts;
     facts.index_base = facts.vertices == 0 ? 0 : 1;
     facts.first_midpoint = facts.vertices;
-    Mesh& lists = stretch.lists;
+    Mesh& lists = mesh_share.lists;
     lists.index_base = facts.index_base;
     facts.has_point_markers = keep_if_any(group, lists.point_markers);
     facts.has_regions = keep_if_any(group, lists.regions);

@@ -4,7 +4,7 @@
 #include <optional>
 #include <vector>
 
-#include <octetra/core/mesh_stretch.hpp>
+#include <octetra/core/mesh_share.hpp>
 #include <octetra/distributed/communicator.hpp>
 #include <octetra/distributed/distributed_mesh.hpp>
 #include <octetra/distributed/partition.hpp>
@@ -13,7 +13,7 @@
 namespace octetra::distributed {
 
 /// Returns whether the method can partition cells that no process has entirely.
-[[nodiscard]] inline bool works_by_stretches(PartitionMethod method) {
+[[nodiscard]] inline bool supports_shares(PartitionMethod method) {
     return method == PartitionMethod::rcb || method == PartitionMethod::block;
 }
 
@@ -23,8 +23,8 @@ namespace octetra::distributed {
 /// have the same vertices; every tagged facet and edge belongs to a cell, a facet to at most one on
 /// each side, and has one marker. Returns nothing on all processes if one of them does not hold.
 /// Throws OutOfMemory, and exceptions of `weigh`; see ReadPartsOptions.
-[[nodiscard]] std::optional<DistributedMesh> distribute_stretch(
-    const Communicator& processes, MeshStretch stretch, PartitionMethod method,
+[[nodiscard]] std::optional<DistributedMesh> distribute_share(
+    const Communicator& processes, MeshShare share, PartitionMethod method,
     const std::function<std::vector<float>(const CellsToWeigh&)>& weigh);
 
 }  // namespace octetra::distributed

@@ -12,21 +12,21 @@
 namespace octetra::distributed {
 
 /// Records for each level whether all vertices are kept, all are removed, or neither.
-class LevelShares {
+class LevelRemovals {
 public:
-    LevelShares(const VertexLevels& levels, const KeptVertices& kept)
-        : has_kept_(levels.count() + 1, 1), has_gone_(levels.count() + 1, 0) {
+    LevelRemovals(const VertexLevels& levels, const KeptVertices& kept)
+        : has_kept_(levels.count() + 1, 1), has_removed_(levels.count() + 1, 0) {
         for (std::uint32_t level = 1; level <= levels.count(); ++level) {
             const std::size_t begin = levels.begin(level).value();
             const std::size_t end = std::min<std::size_t>(levels.end(level).value(), kept.size());
             has_kept_[level] = has(1, kept, begin, end);
-            has_gone_[level] = has(0, kept, begin, end);
+            has_removed_[level] = has(0, kept, begin, end);
         }
     }
-    [[nodiscard]] bool all_stay(std::uint32_t level) const { return has_gone_[level] == 0; }
-    [[nodiscard]] bool all_go(std::uint32_t level) const { return has_kept_[level] == 0; }
+    [[nodiscard]] bool all_kept(std::uint32_t level) const { return has_removed_[level] == 0; }
+    [[nodiscard]] bool all_removed(std::uint32_t level) const { return has_kept_[level] == 0; }
     [[nodiscard]] bool is_divided(std::uint32_t level) const {
-        return has_kept_[level] != 0 && has_gone_[level] != 0;
+        return has_kept_[level] != 0 && has_removed_[level] != 0;
     }
 
 private:
@@ -37,7 +37,7 @@ private:
     }
 
     std::vector<std::uint8_t> has_kept_;
-    std::vector<std::uint8_t> has_gone_;
+    std::vector<std::uint8_t> has_removed_;
 };
 
 }  // namespace octetra::distributed

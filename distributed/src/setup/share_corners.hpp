@@ -2,12 +2,12 @@
 
 #include <span>
 
-#include <octetra/core/mesh_stretch.hpp>
+#include <octetra/core/mesh_share.hpp>
 #include <octetra/core/selection.hpp>
 #include <octetra/distributed/communicator.hpp>
 
 #include "comm/local_failure.hpp"
-#include "setup/homes.hpp"
+#include "setup/owners.hpp"
 #include "setup/vertex_set.hpp"
 
 namespace octetra::distributed {
@@ -15,20 +15,20 @@ namespace octetra::distributed {
 /// Provides the corners of the cells of a process's share. During the lifetime of this object,
 /// these cells refer to their vertices by index in the sorted list of their vertices, because
 /// looking up the index of a global number is slow.
-class StretchCorners {
+class ShareCorners {
 public:
     /// Collective. Fetches the points that other processes have read.
-    StretchCorners(const Communicator& processes, const Homes& homes, MeshStretch& stretch,
-                   LocalFailure& failure)
-        : cells_(&stretch.lists.cells) {
+    ShareCorners(const Communicator& processes, const OwnerMap& owners, MeshShare& share,
+                 LocalFailure& failure)
+        : cells_(&share.lists.cells) {
         VertexSet vertices;
         failure.attempt([&] {
             vertices = VertexSet(*cells_);
             numbers_ = vertices.numbers();
         });
-        const auto requests = request(processes, homes, numbers_, failure);
-        const std::vector<Point>& home = stretch.lists.points;
-        points_ = fetch(processes, requests, home, stretch.first_vertex, failure);
+        const auto requests = request(processes, owners, numbers_, failure);
+        const std::vector<Point>& owned = share.lists.points;
+        points_ = fetch(processes, requests, owned, share.first_vertex, failure);
         failure.attempt([&] {
             for (CellVertices& cell : *cells_) {
                 for (VertexIndex& v : cell) v = vertices.place_of(v);
@@ -50,7 +50,7 @@ public:
 
     /// Prefetches the points of cell i, if there is one. In an unordered mesh they are scattered,
     /// and access to them would be bound by memory latency.
-    void ask_for(std::size_t i) const {
+    void prefetch(std::size_t i) const {
         if (i >= cells_->size()) return;
         for (const VertexIndex v : (*cells_)[CellIndex{i}]) __builtin_prefetch(&points_[v.value()]);
     }

@@ -9,9 +9,9 @@
 #include "files/medit/entry_places.hpp"
 #include "files/medit/meshb_layout.hpp"
 #include "files/medit/meshb_rows.hpp"
-#include "files/stretches/progress.hpp"
 #include "files/stretches/readers.hpp"
 #include "files/stretches/shares.hpp"
+#include "files/stretches/status.hpp"
 
 namespace octetra {
 namespace {
@@ -29,12 +29,12 @@ void refuse_repeated_vertices(const IndexVector<I, std::array<VertexIndex, N>>& 
 
 /// Reads this process's shares of all lists.
 void read_shares(const std::filesystem::path& path, const MeshbLists& sections,
-                 const ProcessGroup& group, MeshStretch& stretch) {
+                 const ProcessGroup& group, MeshShare& mesh_share) {
     ByteReader reader(path);
     MeshbRows rows(reader, sections);
-    Mesh& lists = stretch.lists;
+    Mesh& lists = mesh_share.lists;
     const RowShare points = share_of_rows(sections.vertices.count, group);
-    stretch.first_vertex = points.first;
+    mesh_share.first_vertex = points.first;
     reserve_in_huge_pages(lists.points, points.count);
     reserve_in_huge_pages(lists.point_markers, points.count);
     rows.append_points(points.first, points.count, lists);
@@ -46,9 +46,9 @@ void read_shares(const std::filesystem::path& path, const MeshbLists& sections,
         refuse_repeated_vertices(lists.*kind.list);
         return share.first;
     };
-    stretch.first_cell = read(cell_kind, sections.tetrahedra);
-    stretch.first_facet = read(facet_kind, sections.triangles);
-    stretch.first_edge = read(edge_kind, sections.edges);
+    mesh_share.first_cell = read(cell_kind, sections.tetrahedra);
+    mesh_share.first_facet = read(facet_kind, sections.triangles);
+    mesh_share.first_edge = read(edge_kind, sections.edges);
     for (const Feature feature : all_features) {
         const RowShare share = share_of_rows(sections.features[feature].count, group);
         reserve_in_huge_pages(lists.features[feature], share.count);
@@ -57,45 +57,45 @@ void read_shares(const std::filesystem::path& path, const MeshbLists& sections,
 }
 
 /// Collective. Sends the notes of the first process, each terminated by a zero, to all.
-bool take_notes(Progress& progress, std::vector<std::string>& notes) {
+bool take_notes(CollectiveStatus& status, std::vector<std::string>& notes) {
     ProcessGroup::Bytes bytes;
-    progress.attempt([&] {
+    status.attempt([&] {
         for (const std::string& note : notes) {
             for (const char c : note + '\0') bytes.push_back(static_cast<std::byte>(c));
         }
     });
-    if (!progress.all_well()) return false;
-    bytes = progress.group().of_first(std::move(bytes));
-    progress.attempt([&] {
+    if (!status.all_succeeded()) return false;
+    bytes = status.group().of_first(std::move(bytes));
+    status.attempt([&] {
         notes.clear();
         const auto* const text = reinterpret_cast<const char*>(bytes.data());
         for (std::size_t at = 0; at < bytes.size(); at += notes.back().size() + 1) {
             notes.emplace_back(text + at);
         }
     });
-    return progress.all_well();
+    return status.all_succeeded();
 }
 
 }  // namespace
 
-std::optional<MeshStretch> read_meshb_stretch(const std::filesystem::path& path,
-                                              const ProcessGroup& group) {
-    Progress progress(group);
-    MeshStretch stretch;
+std::optional<MeshShare> read_meshb_share(const std::filesystem::path& path,
+                                          const ProcessGroup& group) {
+    CollectiveStatus status(group);
+    MeshShare mesh_share;
     MeshbLists sections;
-    progress.attempt([&] {
+    status.attempt([&] {
         if (!group.is_first()) return;
         ByteReader reader(path);
         const MeshbLayout layout = read_meshb_layout(reader);
         sections = layout.lists;
-        stretch.notes = notes_on(path, layout.lists.has_end, layout.skipped);
+        mesh_share.notes = notes_on(path, layout.lists.has_end, layout.skipped);
     });
-    if (!take_from_first(progress, sections)) return std::nullopt;
-    if (!take_notes(progress, stretch.notes)) return std::nullopt;
-    progress.attempt([&] { read_shares(path, sections, group, stretch); });
-    if (!progress.all_well()) return std::nullopt;
-    settle_facts(counts_of(sections), group, stretch);
-    return stretch;
+    if (!broadcast_from_first(status, sections)) return std::nullopt;
+    if (!take_notes(status, mesh_share.notes)) return std::nullopt;
+    status.attempt([&] { read_shares(path, sections, group, mesh_share); });
+    if (!status.all_succeeded()) return std::nullopt;
+    set_common_facts(counts_of(sections), group, mesh_share);
+    return mesh_share;
 }
 
 }  // namespace octetra

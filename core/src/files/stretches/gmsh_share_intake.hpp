@@ -22,9 +22,9 @@ namespace octetra::gmsh {
 /// Receives the share of a file that one process reads. Has the functions of MeshIntake that the
 /// readers of sections call, and performs those of its checks that need only a row. Vertices are
 /// provisional indices of tags.
-class StretchIntake {
+class ShareIntake {
 public:
-    explicit StretchIntake(Mesh& lists) : lists_(&lists) {}
+    explicit ShareIntake(Mesh& lists) : lists_(&lists) {}
 
     void expect_nodes(std::uint64_t count) {
         reserve_in_huge_pages(tags_, count);
@@ -37,7 +37,7 @@ public:
 
     /// To be called after the last node.
     [[nodiscard]] std::vector<std::uint64_t> release_tags() { return std::exchange(tags_, {}); }
-    void know_tags(const NodeTags& tags) { node_tags_ = &tags; }
+    void set_node_tags(const NodeTags& tags) { node_tags_ = &tags; }
 
     template <class I, std::size_t N>
     void make_room(const EntityKind<I, N>& kind, std::uint64_t count) {
@@ -57,7 +57,7 @@ public:
         for (std::size_t i = 0; i < rows.size(); ++i) {
             std::array<VertexIndex, N> vertices;
             for (std::size_t k = 0; k < N; ++k) {
-                vertices[k] = node_tags_->stand_in(rows[i][k]);
+                vertices[k] = node_tags_->provisional_index(rows[i][k]);
                 if (vertices[k].is_none()) return {i, "there is no such node"};
                 for (std::size_t j = 0; j < k; ++j) {
                     if (vertices[j] == vertices[k]) return {i, "the same vertex twice"};

@@ -14,9 +14,9 @@
 #include "files/medit/keywords.hpp"
 #include "files/medit/medit.hpp"
 #include "files/stretches/keyword_scan.hpp"
-#include "files/stretches/progress.hpp"
 #include "files/stretches/readers.hpp"
 #include "files/stretches/shares.hpp"
+#include "files/stretches/status.hpp"
 
 namespace octetra {
 namespace {
@@ -27,7 +27,7 @@ namespace fs = std::filesystem;
 struct SectionPlan {
     std::uint64_t count = 0;
     std::uint64_t is_there = 0;
-    FileStretch bytes;
+    FileRange bytes;
 };
 
 /// A section that is skipped, skipped_sections[kind].
@@ -49,26 +49,26 @@ struct MeditPlan {
     std::uint64_t has_end = 0;
 };
 
-[[noreturn]] void leave_it_to_one_process() { throw std::runtime_error("not one entity a line"); }
+[[noreturn]] void throw_unsuitable() { throw std::runtime_error("not one entity a line"); }
 
 /// A keyword and the number after it, which may be on the next line.
 class SectionHead {
 public:
     SectionHead(const fs::path& path, std::uint64_t begin, std::uint64_t end)
         : reader_(path, begin, end), end_(end) {
-        if (!reader_.next()) leave_it_to_one_process();
+        if (!reader_.next()) throw_unsuitable();
         Fields fields(reader_);
         keyword_ = fields.text();
         if (keyword_ == "End") {
-            if (!fields.at_end()) leave_it_to_one_process();
+            if (!fields.at_end()) throw_unsuitable();
             return;
         }
         if (fields.at_end()) {
-            if (!reader_.next()) leave_it_to_one_process();
+            if (!reader_.next()) throw_unsuitable();
             fields = Fields(reader_);
         }
         number_ = fields.unsigned_integer("a number");
-        if (!fields.at_end()) leave_it_to_one_process();
+        if (!fields.at_end()) throw_unsuitable();
     }
 
     [[nodiscard]] const std::string& keyword() const { return keyword_; }
@@ -76,10 +76,10 @@ public:
 
     /// To be called if the keyword has no entries: throws if any follow.
     void expect_nothing() {
-        if (reader_.next()) leave_it_to_one_process();
+        if (reader_.next()) throw_unsuitable();
     }
     void take_entries(SectionPlan& section, std::size_t field_count) const {
-        if (section.is_there == 1) leave_it_to_one_process();
+        if (section.is_there == 1) throw_unsuitable();
         reader_.check_count(number_, field_count, "entries");
         section = {number_, 1, {reader_.next_position(), end_}};
     }
@@ -95,7 +95,7 @@ private:
 void plan_other(SectionHead& head, std::uint64_t keyword_line, MeditPlan& plan) {
     if (std::ranges::find(other_cell_shapes, head.keyword(), &MeditKeyword::keyword) !=
         other_cell_shapes.end()) {
-        if (head.number() != 0) leave_it_to_one_process();
+        if (head.number() != 0) throw_unsuitable();
         return head.expect_nothing();
     }
     const std::size_t feature = feature_with(&MeditKeyword::keyword, head.keyword());
@@ -105,7 +105,7 @@ void plan_other(SectionHead& head, std::uint64_t keyword_line, MeditPlan& plan) 
     const auto skipped =
         std::ranges::find(skipped_sections, head.keyword(), &SkippedSection::keyword);
     if (skipped == skipped_sections.end() || plan.skipped_count == plan.skipped.size()) {
-        leave_it_to_one_process();
+        throw_unsuitable();
     }
     SkippedPlan& one = plan.skipped[plan.skipped_count++];
     one.kind = static_cast<std::uint64_t>(skipped - skipped_sections.begin());
@@ -117,10 +117,10 @@ void plan_section(SectionHead& head, std::uint64_t keyword_line, bool is_last, M
     if (head.keyword() == "End") {
         plan.has_end = 1;
         head.expect_nothing();
-        if (!is_last) leave_it_to_one_process();
+        if (!is_last) throw_unsuitable();
     } else if (head.keyword() == "Dimension") {
         head.expect_nothing();
-        if (head.number() != 3) leave_it_to_one_process();
+        if (head.number() != 3) throw_unsuitable();
     } else if (head.keyword() == "Vertices") {
         head.take_entries(plan.vertices, 4);
     } else if (head.keyword() == "Tetrahedra") {
@@ -138,7 +138,7 @@ MeditPlan medit_plan(const fs::path& path, const std::vector<NumberedLine>& keyw
                      std::uint64_t file_size) {
     MeditPlan plan;
     if (keywords.empty() || LineReader(path, 0, keywords.front().position).next())
-        leave_it_to_one_process();
+        throw_unsuitable();
     for (std::size_t k = 0; k < keywords.size(); ++k) {
         const bool is_last = k + 1 == keywords.size();
         SectionHead head(path, keywords[k].position,
@@ -149,11 +149,11 @@ MeditPlan medit_plan(const fs::path& path, const std::vector<NumberedLine>& keyw
         }
         head.expect_nothing();
         if (head.keyword() != "MeshVersionFormatted" || head.number() < 1 || head.number() > 4) {
-            leave_it_to_one_process();
+            throw_unsuitable();
         }
     }
     const bool ends_too_early = plan.has_end == 0 && plan.tetrahedra.is_there == 0;
-    if (plan.vertices.is_there == 0 || ends_too_early) leave_it_to_one_process();
+    if (plan.vertices.is_there == 0 || ends_too_early) throw_unsuitable();
     return plan;
 }
 
@@ -186,30 +186,30 @@ public:
 
     /// Collective. Returns false on all processes if the number of entries differs from the
     /// announced one.
-    [[nodiscard]] bool number(MeshStretch& stretch) const {
-        bool well = true;
+    [[nodiscard]] bool number(MeshShare& mesh_share) const {
+        bool are_consistent = true;
         const auto number = [&](std::size_t read, const SectionPlan& section) {
-            return number_stretch(*group_, read, section.count, well);
+            return number_share(*group_, read, section.count, are_consistent);
         };
-        const Mesh& lists = stretch.lists;
-        stretch.first_vertex = number(lists.points.size(), plan_->vertices);
-        stretch.first_cell = number(lists.cells.size(), plan_->tetrahedra);
-        stretch.first_facet = number(lists.facets.size(), plan_->triangles);
-        stretch.first_edge = number(lists.edges.size(), plan_->edges);
+        const Mesh& lists = mesh_share.lists;
+        mesh_share.first_vertex = number(lists.points.size(), plan_->vertices);
+        mesh_share.first_cell = number(lists.cells.size(), plan_->tetrahedra);
+        mesh_share.first_facet = number(lists.facets.size(), plan_->triangles);
+        mesh_share.first_edge = number(lists.edges.size(), plan_->edges);
         for (const Feature feature : all_features) {
             (void)number(lists.features[feature].size(), plan_->features[feature]);
         }
         for (std::size_t k = 0; k < plan_->skipped_count; ++k) {
             (void)number(read_over_[k], plan_->skipped[k].section);
         }
-        return well;
+        return are_consistent;
     }
 
 private:
     void read_share(const SectionPlan& section, std::size_t field_count, auto&& make_room,
                     auto&& read_entry) {
         if (section.is_there == 0) return;
-        const FileStretch share =
+        const FileRange share =
             share_of_lines(*path_, section.bytes, group_->rank(), group_->size());
         make_room(room_for(section.count, share.size(), section.bytes.size()));
         LineReader reader(*path_, share.begin, share.end);
@@ -282,35 +282,35 @@ private:
 
 }  // namespace
 
-std::optional<MeshStretch> read_medit_stretch(const fs::path& path, const ProcessGroup& group) {
-    Progress progress(group);
+std::optional<MeshShare> read_medit_share(const fs::path& path, const ProcessGroup& group) {
+    CollectiveStatus status(group);
     std::uint64_t file_size = 0;
-    progress.attempt([&] {
+    status.attempt([&] {
         if (group.is_first()) file_size = InputFile(path).size();
     });
-    if (!take_from_first(progress, file_size)) return std::nullopt;
-    const auto keywords = scan_for_keywords(progress, path, file_size);
+    if (!broadcast_from_first(status, file_size)) return std::nullopt;
+    const auto keywords = scan_for_keywords(status, path, file_size);
     if (!keywords) return std::nullopt;
     MeditPlan plan;
-    progress.attempt([&] {
+    status.attempt([&] {
         if (group.is_first()) plan = medit_plan(path, *keywords, file_size);
     });
-    if (!take_from_first(progress, plan)) return std::nullopt;
+    if (!broadcast_from_first(status, plan)) return std::nullopt;
 
-    MeshStretch stretch;
+    MeshShare mesh_share;
     MeditShares shares(path, plan, group);
-    progress.attempt([&] {
-        shares.read(stretch.lists);
+    status.attempt([&] {
+        shares.read(mesh_share.lists);
         for (const SkippedPlan& one : std::span(plan.skipped).first(plan.skipped_count)) {
             if (one.section.count == 0) continue;
-            stretch.notes.push_back(note_on_skipped(path, one.keyword_line, one.section.count,
-                                                    skipped_sections.at(one.kind).keyword));
+            mesh_share.notes.push_back(note_on_skipped(path, one.keyword_line, one.section.count,
+                                                       skipped_sections.at(one.kind).keyword));
         }
-        if (plan.has_end == 0) stretch.notes.push_back(note_on_missing_end(path));
+        if (plan.has_end == 0) mesh_share.notes.push_back(note_on_missing_end(path));
     });
-    if (!progress.all_well() || !shares.number(stretch)) return std::nullopt;
-    settle_facts(counts_of(plan), group, stretch);
-    return stretch;
+    if (!status.all_succeeded() || !shares.number(mesh_share)) return std::nullopt;
+    set_common_facts(counts_of(plan), group, mesh_share);
+    return mesh_share;
 }
 
 }  // namespace octetra

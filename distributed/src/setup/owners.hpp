@@ -15,13 +15,13 @@ namespace octetra::distributed {
 
 /// Maps the entities of a list in a file to the processes that have read them, their owners. Each
 /// process has read one block.
-class Homes {
+class OwnerMap {
 public:
-    Homes() = default;
+    OwnerMap() = default;
 
     /// `begins`: the number of the first entity of each process, followed by the number of all
     /// entities.
-    explicit Homes(std::vector<std::uint64_t> begins) : begins_(std::move(begins)) {}
+    explicit OwnerMap(std::vector<std::uint64_t> begins) : begins_(std::move(begins)) {}
 
     [[nodiscard]] std::uint64_t begin_of(int rank) const {
         return begins_[static_cast<std::size_t>(rank)];
@@ -43,19 +43,19 @@ private:
 }
 
 /// Returns the owners of a list whose blocks are distributed evenly.
-[[nodiscard]] inline Homes homes_of_blocks(std::uint64_t count, std::uint64_t block_length,
-                                           int processes) {
+[[nodiscard]] inline OwnerMap owners_of_blocks(std::uint64_t count, std::uint64_t block_length,
+                                               int processes) {
     const std::uint64_t blocks = count / block_length + (count % block_length != 0 ? 1 : 0);
     std::vector<std::uint64_t> begins;
     for (int rank = 0; rank <= processes; ++rank) {
         begins.push_back(std::min(count, first_block_of(rank, blocks, processes) * block_length));
     }
-    return Homes(std::move(begins));
+    return OwnerMap(std::move(begins));
 }
 
 /// Collective. Returns the owners of blocks of which each process passes the first number.
-[[nodiscard]] inline Homes homes_of_stretches(const Communicator& processes, std::uint64_t first,
-                                              std::uint64_t count, LocalFailure& failure) {
+[[nodiscard]] inline OwnerMap owners_of_shares(const Communicator& processes, std::uint64_t first,
+                                               std::uint64_t count, LocalFailure& failure) {
     std::vector<std::uint64_t> begins;
     failure.attempt([&] {
         begins.resize(static_cast<std::size_t>(processes.size()) + 1, 0);
@@ -64,7 +64,7 @@ private:
     });
     failure.agree(processes);
     processes.sum(std::span(begins));
-    return Homes(std::move(begins));
+    return OwnerMap(std::move(begins));
 }
 
 // The functions below are collective and throw as LocalFailure::agree() does if a process fails, so
@@ -81,7 +81,7 @@ struct Requests {
 
 /// Collective. Sends the requests for `numbers`, which ascend.
 template <class Number>
-[[nodiscard]] Requests<Number> request(const Communicator& processes, const Homes& homes,
+[[nodiscard]] Requests<Number> request(const Communicator& processes, const OwnerMap& owners,
                                        const std::vector<Number>& numbers, LocalFailure& failure) {
     Requests<Number> requests;
     failure.attempt([&] {
@@ -89,7 +89,7 @@ template <class Number>
         auto begin = numbers.begin();
         for (int rank = 0; rank < processes.size(); ++rank) {
             const auto end = std::partition_point(
-                begin, numbers.end(), [&](Number number) { return number < homes.end_of(rank); });
+                begin, numbers.end(), [&](Number number) { return number < owners.end_of(rank); });
             requests.sent[static_cast<std::size_t>(rank)].assign(begin, end);
             begin = end;
         }
@@ -101,10 +101,10 @@ template <class Number>
 }
 
 /// Collective. Returns the requested values in the order of the numbers, `components` for each.
-/// `home` are the values of the entities from number `first` on, which this process owns.
+/// `owned` are the values of the entities from number `first` on, which this process owns.
 template <class T, class Number>
 [[nodiscard]] std::vector<T> fetch(const Communicator& processes, const Requests<Number>& requests,
-                                   const std::vector<T>& home, std::uint64_t first,
+                                   const std::vector<T>& owned, std::uint64_t first,
                                    LocalFailure& failure, std::size_t components = 1) {
     std::vector<std::vector<T>> answers;
     failure.attempt([&] {
@@ -113,7 +113,7 @@ template <class T, class Number>
             answers[rank].reserve(requests.received[rank].size() * components);
             for (const Number number : requests.received[rank]) {
                 const T* const values =
-                    home.data() + static_cast<std::size_t>(number - first) * components;
+                    owned.data() + static_cast<std::size_t>(number - first) * components;
                 answers[rank].insert(answers[rank].end(), values, values + components);
             }
         }
@@ -121,12 +121,12 @@ template <class T, class Number>
     failure.agree(processes);
     std::vector<T> values;
     failure.attempt([&] {
-        std::vector<std::vector<T>> come = processes.all_to_all(answers);
+        std::vector<std::vector<T>> received = processes.all_to_all(answers);
         answers.clear();
         std::size_t count = 0;
-        for (const auto& answer : come) count += answer.size();
+        for (const auto& answer : received) count += answer.size();
         reserve_in_huge_pages(values, count);
-        for (auto& answer : come) {
+        for (auto& answer : received) {
             values.insert(values.end(), answer.begin(), answer.end());
             std::vector<T>().swap(answer);
         }

@@ -9,13 +9,13 @@
 
 namespace octetra::distributed {
 
-using ShortWords = std::vector<std::uint8_t>;
+using CompressedWords = std::vector<std::uint8_t>;
 
 /// Compresses words for a message: each is encoded as its difference to the word before the
 /// previous one, as a variable-length signed number. Every other word, or every word, ascends in
 /// small steps.
-[[nodiscard]] inline ShortWords shortened(std::span<const std::uint64_t> words) {
-    ShortWords bytes;
+[[nodiscard]] inline CompressedWords compressed(std::span<const std::uint64_t> words) {
+    CompressedWords bytes;
     bytes.reserve(2 * words.size());
     std::array<std::uint64_t, 2> last{};
     for (const std::uint64_t word : words) {
@@ -27,7 +27,7 @@ using ShortWords = std::vector<std::uint8_t>;
     return bytes;
 }
 
-[[nodiscard]] inline std::vector<std::uint64_t> lengthened(std::span<const std::uint8_t> bytes) {
+[[nodiscard]] inline std::vector<std::uint64_t> decompressed(std::span<const std::uint8_t> bytes) {
     std::vector<std::uint64_t> words;
     words.reserve(bytes.size());
     std::array<std::uint64_t, 2> last{};

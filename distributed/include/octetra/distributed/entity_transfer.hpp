@@ -28,10 +28,10 @@ struct Division {
 ///
 /// Coarsening, for which merges() is true: fine entities are merged into coarse ones, and any
 /// entity may get a new number.
-class Succession {
+class EntityTransfer {
 public:
     /// A step that changes nothing.
-    explicit Succession(std::size_t count = 0) : count_before_(count), count_(count) {}
+    explicit EntityTransfer(std::size_t count = 0) : count_before_(count), count_(count) {}
 
     /// The number of entities before the step.
     [[nodiscard]] std::size_t count_before() const { return count_before_; }
@@ -41,10 +41,10 @@ public:
     /// Returns whether all entities that were not bisected keep their numbers.
     [[nodiscard]] bool keeps_numbers() const { return keeps_numbers_; }
 
-    /// Returns whether the step was coarsening. Only then whole_of() and halvings() are defined.
+    /// Returns whether the step was coarsening. Only then coarse_of() and halvings() are defined.
     [[nodiscard]] bool merges() const { return merges_; }
     /// For each entity before the step, the entity after it that it became or was merged into.
-    [[nodiscard]] std::span<const std::uint32_t> whole_of() const { return whole_of_; }
+    [[nodiscard]] std::span<const std::uint32_t> coarse_of() const { return coarse_of_; }
     /// For each cell before coarsening, the number of bisections that separate it from the coarse
     /// cell: its volume is the fraction 2^-halvings, up to the rounding of midpoints.
     [[nodiscard]] std::span<const std::uint8_t> halvings() const { return halvings_; }
@@ -82,18 +82,18 @@ public:
     };
     /// The map for a list in which `cuts` were bisected, in this order, and all other entities kept
     /// their numbers. The divisions must outlive the result.
-    [[nodiscard]] static Succession of_cuts(std::size_t count, std::vector<Cut> cuts,
-                                            std::span<const Division> divisions);
+    [[nodiscard]] static EntityTransfer of_cuts(std::size_t count, std::vector<Cut> cuts,
+                                                std::span<const Division> divisions);
     /// The map for a list whose entities were all replaced, in order, by their children by
     /// `division_of`. The divisions must outlive the result.
-    [[nodiscard]] static Succession of_all(std::vector<std::uint8_t> division_of,
-                                           std::span<const Division> divisions);
+    [[nodiscard]] static EntityTransfer of_all(std::vector<std::uint8_t> division_of,
+                                               std::span<const Division> divisions);
 
     /// The map for a list whose entities were merged into `count` coarse ones. `halvings` is empty
     /// for facets and edges.
-    [[nodiscard]] static Succession of_merges(std::size_t count,
-                                              std::vector<std::uint32_t> whole_of,
-                                              std::vector<std::uint8_t> halvings);
+    [[nodiscard]] static EntityTransfer of_merges(std::size_t count,
+                                                  std::vector<std::uint32_t> coarse_of,
+                                                  std::vector<std::uint8_t> halvings);
 
     /// Composes the map with a preceding permutation: `before` has the number before it of each
     /// entity, or is empty.
@@ -108,17 +108,17 @@ private:
     std::vector<std::uint32_t> before_;
     std::vector<std::uint8_t> division_of_;
     bool merges_ = false;
-    std::vector<std::uint32_t> whole_of_;
+    std::vector<std::uint32_t> coarse_of_;
     std::vector<std::uint8_t> halvings_;
 };
 
 /// The fine entities of each coarse one: those of coarse entity w are pieces[first[w]] ..
 /// pieces[first[w + 1] - 1].
-struct PiecesOfWholes {
+struct FineOfCoarse {
     std::vector<std::uint32_t> first;
     std::vector<std::uint32_t> pieces;
 };
-/// Inverts whole_of() of a coarsening.
-[[nodiscard]] PiecesOfWholes pieces_of_wholes(const Succession& merges);
+/// Inverts coarse_of() of a coarsening.
+[[nodiscard]] FineOfCoarse fine_of_coarse(const EntityTransfer& merges);
 
 }  // namespace octetra::distributed

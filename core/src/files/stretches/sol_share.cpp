@@ -13,8 +13,8 @@
 #include "files/medit/medit_head.hpp"
 #include "files/medit/sol_sections.hpp"
 #include "files/stretches/keyword_scan.hpp"
-#include "files/stretches/progress.hpp"
 #include "files/stretches/shares.hpp"
+#include "files/stretches/status.hpp"
 
 namespace octetra {
 namespace {
@@ -22,12 +22,12 @@ namespace {
 namespace fs = std::filesystem;
 
 /// Throws for files that read_sol() rejects, or that one process must read.
-[[noreturn]] void leave_values_to_one_process() { throw std::runtime_error("not a row a line"); }
+[[noreturn]] void throw_unsuitable_sol() { throw std::runtime_error("not a row a line"); }
 
 /// A section of a text file, and the position of its rows.
 struct TextSection {
     SolSection head;
-    FileStretch rows;
+    FileRange rows;
 };
 
 /// Reads the sections at the keywords; not collective.
@@ -36,7 +36,7 @@ std::vector<TextSection> sections_of_text(const fs::path& path,
                                           std::uint64_t file_size, const EntityCounts& expected) {
     std::vector<TextSection> sections;
     if (keywords.empty() || LineReader(path, 0, keywords.front().position).next()) {
-        leave_values_to_one_process();
+        throw_unsuitable_sol();
     }
     bool has_end = false;
     for (std::size_t k = 0; k < keywords.size(); ++k) {
@@ -46,15 +46,15 @@ std::vector<TextSection> sections_of_text(const fs::path& path,
         Tokens tokens(reader);
         if (k == 0) {
             take_medit_head(tokens, reader);
-            if (!tokens.text().empty()) leave_values_to_one_process();
+            if (!tokens.text().empty()) throw_unsuitable_sol();
             continue;
         }
         const std::string keyword{tokens.text()};
         if (const std::size_t found = sol_keyword(keyword); found < kept_sol_keywords) {
             const auto is_it = [&](const TextSection& one) { return one.head.keyword == found; };
-            if (std::ranges::any_of(sections, is_it)) leave_values_to_one_process();
+            if (std::ranges::any_of(sections, is_it)) throw_unsuitable_sol();
             const SolSection head = take_sol_head(tokens, reader, found, expected);
-            if (!tokens.at_line_end()) leave_values_to_one_process();
+            if (!tokens.at_line_end()) throw_unsuitable_sol();
             sections.push_back({head, {reader.next_position(), end}});
             continue;
         }
@@ -63,16 +63,16 @@ std::vector<TextSection> sections_of_text(const fs::path& path,
         } else if (keyword == "End" && is_last) {
             has_end = true;
         } else {
-            leave_values_to_one_process();
+            throw_unsuitable_sol();
         }
-        if (!tokens.text().empty()) leave_values_to_one_process();
+        if (!tokens.text().empty()) throw_unsuitable_sol();
     }
-    if (!has_end) leave_values_to_one_process();  // read_sol() has a note on this
+    if (!has_end) throw_unsuitable_sol();  // read_sol() has a note on this
     return sections;
 }
 
 /// Returns the values in this process's lines of a section.
-std::vector<double> values_of_share(const fs::path& path, const FileStretch& share) {
+std::vector<double> values_of_share(const fs::path& path, const FileRange& share) {
     LineReader reader(path, share.begin, share.end);
     std::vector<double> values;
     while (reader.next()) {
@@ -90,40 +90,41 @@ bool number_rows(FieldRows& list, const ProcessGroup& group) {
     const bool are_whole = list.values.size() % width == 0;
     const std::uint64_t rows = list.values.size() / width;
     list.first = group.sum_before(rows);
-    const bool well = group.sum(rows) == list.count;
-    return group.sum(are_whole ? 0 : 1) == 0 && well;
+    const bool are_consistent = group.sum(rows) == list.count;
+    return group.sum(are_whole ? 0 : 1) == 0 && are_consistent;
 }
 
 /// Collective. Reads a text file.
-std::optional<SolFields> read_text_stretch(const fs::path& path, const EntityCounts& expected,
-                                           const ProcessGroup& group) {
-    Progress progress(group);
+std::optional<SolFields> read_text_share(const fs::path& path, const EntityCounts& expected,
+                                         const ProcessGroup& group) {
+    CollectiveStatus status(group);
     std::uint64_t file_size = 0;
-    progress.attempt([&] { file_size = InputFile(path).size(); });
-    if (!progress.all_well()) return std::nullopt;
-    const auto keywords = scan_for_keywords(progress, path, file_size);
+    status.attempt([&] { file_size = InputFile(path).size(); });
+    if (!status.all_succeeded()) return std::nullopt;
+    const auto keywords = scan_for_keywords(status, path, file_size);
     if (!keywords) return std::nullopt;
     SolFields fields;
-    progress.attempt([&] {
+    status.attempt([&] {
         for (const auto& [head, rows] : sections_of_text(path, *keywords, file_size, expected)) {
             FieldRows& list = fields.lists.emplace_back(head.without_rows());
             list.values =
                 values_of_share(path, share_of_lines(path, rows, group.rank(), group.size()));
         }
     });
-    if (!progress.all_well()) return std::nullopt;
-    bool well = true;
-    for (FieldRows& list : fields.lists) well = number_rows(list, group) && well;
-    if (!well) return std::nullopt;
+    if (!status.all_succeeded()) return std::nullopt;
+    bool are_consistent = true;
+    for (FieldRows& list : fields.lists)
+        are_consistent = number_rows(list, group) && are_consistent;
+    if (!are_consistent) return std::nullopt;
     return fields;
 }
 
 /// Collective. Reads a binary file.
-std::optional<SolFields> read_binary_stretch(const fs::path& path, const EntityCounts& expected,
-                                             const ProcessGroup& group) {
-    Progress progress(group);
+std::optional<SolFields> read_binary_share(const fs::path& path, const EntityCounts& expected,
+                                           const ProcessGroup& group) {
+    CollectiveStatus status(group);
     SolFields fields;
-    progress.attempt([&] {
+    status.attempt([&] {
         ByteReader reader(path);
         SolbLayout layout = read_solb_layout(reader, expected);
         fields.notes = std::move(layout.notes);
@@ -134,17 +135,17 @@ std::optional<SolFields> read_binary_stretch(const fs::path& path, const EntityC
             list.values = read_solb_rows(reader, layout.format, section, share.first, share.count);
         }
     });
-    if (!progress.all_well()) return std::nullopt;
+    if (!status.all_succeeded()) return std::nullopt;
     return fields;
 }
 
 }  // namespace
 
-std::optional<SolFields> read_sol_stretch(const fs::path& path, const EntityCounts& expected,
-                                          const ProcessGroup& group) {
+std::optional<SolFields> read_sol_share(const fs::path& path, const EntityCounts& expected,
+                                        const ProcessGroup& group) {
     const StandardArithmetic standard;
-    if (path.extension() == ".solb") return read_binary_stretch(path, expected, group);
-    return read_text_stretch(path, expected, group);
+    if (path.extension() == ".solb") return read_binary_share(path, expected, group);
+    return read_text_share(path, expected, group);
 }
 
 }  // namespace octetra

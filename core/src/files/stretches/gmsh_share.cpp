@@ -20,11 +20,11 @@
 #include "files/stretches/gmsh_line_input.hpp"
 #include "files/stretches/gmsh_listed_again.hpp"
 #include "files/stretches/gmsh_node_tags.hpp"
-#include "files/stretches/gmsh_stretch_intake.hpp"
+#include "files/stretches/gmsh_share_intake.hpp"
 #include "files/stretches/line_index.hpp"
-#include "files/stretches/progress.hpp"
 #include "files/stretches/readers.hpp"
 #include "files/stretches/shares.hpp"
+#include "files/stretches/status.hpp"
 
 namespace octetra {
 namespace {
@@ -35,31 +35,32 @@ using namespace gmsh;
 /// Reads the sections after $MeshFormat. All processes read all sections, each with an input of its
 /// own; of nodes and elements, each process reads its share of the rows.
 template <class Input>
-class GmshStretch {
+class GmshShareReader {
 public:
-    GmshStretch(Input& in, const FormatLine& format, const fs::path& path, Progress& progress)
+    GmshShareReader(Input& in, const FormatLine& format, const fs::path& path,
+                    CollectiveStatus& status)
         : in_(&in),
           is_4_(format.is_4),
           path_(&path),
-          progress_(&progress),
+          status_(&status),
           order_(format.is_4),
-          intake_(stretch_.lists) {}
+          intake_(share_.lists) {}
 
     /// Collective. Reads the whole file.
-    [[nodiscard]] std::optional<MeshStretch> read() {
+    [[nodiscard]] std::optional<MeshShare> read() {
         while (true) {
             std::string name;
-            progress_->attempt([&] { name = in_->section(); });
-            if (!progress_->all_well()) return std::nullopt;
+            status_->attempt([&] { name = in_->section(); });
+            if (!status_->all_succeeded()) return std::nullopt;
             if (name.empty()) break;
             if (!read_section(name)) return std::nullopt;
         }
         if (!complete()) return std::nullopt;
-        return std::move(stretch_);
+        return std::move(share_);
     }
 
 private:
-    const ProcessGroup& group() const { return progress_->group(); }
+    const ProcessGroup& group() const { return status_->group(); }
     static void refuse(const std::string& what) { throw std::runtime_error(what); }
 
     // All functions that return bool are collective, and return false on all processes if one has
@@ -67,21 +68,21 @@ private:
 
     bool read_section(const std::string& name) {
         auto section = SectionKind::other;
-        progress_->attempt([&] { section = order_.begin(name, refuse); });
-        if (!progress_->all_well()) return false;
+        status_->attempt([&] { section = order_.begin(name, refuse); });
+        if (!status_->all_succeeded()) return false;
         switch (section) {
             case SectionKind::names: {
-                progress_->attempt([&] {
+                status_->attempt([&] {
                     intake_.left_out.names = read_group_names(*in_, names_, intake_.untagged);
                 });
                 break;
             }
             case SectionKind::entities: {
-                progress_->attempt([&] { read_entities_4(*in_, entities_); });
+                status_->attempt([&] { read_entities_4(*in_, entities_); });
                 break;
             }
             case SectionKind::partitioned_entities: {
-                progress_->attempt([&] { read_partitioned_entities_4(*in_, entities_); });
+                status_->attempt([&] { read_partitioned_entities_4(*in_, entities_); });
                 break;
             }
             case SectionKind::nodes: {
@@ -94,32 +95,32 @@ private:
             }
             case SectionKind::other: return skip_section(name);
         }
-        progress_->attempt([&] { in_->end_section(name); });
-        return progress_->all_well();
+        status_->attempt([&] { in_->end_section(name); });
+        return status_->all_succeeded();
     }
 
     /// Skips a section of unknown content, whose end the first process finds.
     bool skip_section(const std::string& name) {
         std::uint64_t behind = 0;
-        progress_->attempt([&] {
+        status_->attempt([&] {
             if (order_.is_noted()) {
-                stretch_.notes.push_back(
+                share_.notes.push_back(
                     fmt::format("{}: the section {} is not kept", in_->place(), shown(name)));
             }
             if (!group().is_first()) return;
             in_->skip_section(name);
             behind = in_->here();
         });
-        if (!take_from_first(*progress_, behind)) return false;
-        progress_->attempt([&] { in_->go_to(behind); });
-        return progress_->all_well();
+        if (!broadcast_from_first(*status_, behind)) return false;
+        status_->attempt([&] { in_->go_to(behind); });
+        return status_->all_succeeded();
     }
 
     // Nodes
 
     bool read_nodes_by_rows() {
         std::uint64_t rows = 0;
-        progress_->attempt([&] {
+        status_->attempt([&] {
             node_count_ = read_node_count_2(*in_);
             rows = in_->here();
             constexpr std::uint64_t step = Input::row_step(node_bytes_2);
@@ -134,7 +135,7 @@ private:
 
     bool read_nodes_by_blocks() {
         BlockStart begin;
-        progress_->attempt([&] {
+        status_->attempt([&] {
             const SectionTotals totals = read_node_totals_4(*in_);
             begin = {in_->here(), 0, totals.blocks};
             node_count_ = totals.entries;
@@ -166,16 +167,16 @@ private:
 
     RowShare take_node_share() {
         const RowShare mine = share_of_rows(node_count_, group());
-        stretch_.first_vertex = mine.first;
+        share_.first_vertex = mine.first;
         intake_.expect_nodes(mine.count);
         return mine;
     }
 
     bool nodes_complete() {
-        if (!progress_->all_well()) return false;
-        node_tags_ = NodeTags::make(*progress_, intake_.release_tags(), stretch_.first_vertex);
+        if (!status_->all_succeeded()) return false;
+        node_tags_ = NodeTags::make(*status_, intake_.release_tags(), share_.first_vertex);
         if (!node_tags_) return false;
-        intake_.know_tags(*node_tags_);
+        intake_.set_node_tags(*node_tags_);
         return true;
     }
 
@@ -196,7 +197,7 @@ private:
     bool read_elements_4() {
         BlockStart begin;
         std::uint64_t count = 0;
-        progress_->attempt([&] {
+        status_->attempt([&] {
             const SectionTotals totals = read_element_totals_4(*in_);
             begin = {in_->here(), 0, totals.blocks};
             count = totals.entries;
@@ -224,7 +225,7 @@ private:
 
     /// For text files of version 2.
     bool read_element_lines(auto& elements) {
-        progress_->attempt([&] {
+        status_->attempt([&] {
             const std::uint64_t count = read_element_count_2(*in_);
             const std::uint64_t rows = in_->here();
             const RowShare mine = share_of_rows(count, group());
@@ -233,14 +234,14 @@ private:
             in_->end_rows();
             in_->go_to(rows + count);
         });
-        return progress_->all_well();
+        return status_->all_succeeded();
     }
 
     /// For binary files of version 2, which have the number of elements, but not that of blocks.
     bool read_element_blocks(auto& elements) {
         BlockStart begin;
         std::uint64_t count = 0;
-        progress_->attempt([&] {
+        status_->attempt([&] {
             count = read_element_count_2(*in_);
             begin = {in_->here(), 0, count};
         });
@@ -272,85 +273,85 @@ private:
 
     template <class I, std::size_t N>
     bool drop_listed_again(const auto& elements, const EntityKind<I, N>& kind) {
-        const std::vector<ListedRun<N>> runs = of_each(*progress_, elements.listed(kind));
-        if (!progress_->all_well()) return false;
-        const auto to_go = count_listed_again(std::span<const ListedRun<N>>(runs),
-                                              static_cast<std::size_t>(group().rank()));
-        if (!to_go) return false;
-        auto& list = stretch_.lists.*kind.list;
-        auto& markers = stretch_.lists.*kind.markers;
-        list.erase(list.begin(), list.begin() + static_cast<std::ptrdiff_t>(*to_go));
-        markers.erase(markers.begin(), markers.begin() + static_cast<std::ptrdiff_t>(*to_go));
-        intake_.left_out.in_another_group += *to_go;
+        const std::vector<ListedRun<N>> runs = of_each(*status_, elements.listed(kind));
+        if (!status_->all_succeeded()) return false;
+        const auto removed_count = count_listed_again(std::span<const ListedRun<N>>(runs),
+                                                      static_cast<std::size_t>(group().rank()));
+        if (!removed_count) return false;
+        auto& list = share_.lists.*kind.list;
+        auto& markers = share_.lists.*kind.markers;
+        list.erase(list.begin(), list.begin() + static_cast<std::ptrdiff_t>(*removed_count));
+        markers.erase(markers.begin(),
+                      markers.begin() + static_cast<std::ptrdiff_t>(*removed_count));
+        intake_.left_out.in_another_group += *removed_count;
         return true;
     }
 
     /// Reads this process's share of a section of blocks with `row_count` rows.
     bool read_shared_blocks(const BlockStart& begin, std::uint64_t row_count, auto&& read_head,
                             auto&& read_rows) {
-        if (!progress_->all_well()) return false;
-        const auto share = share_blocks(*progress_, row_count, begin, read_head);
+        if (!status_->all_succeeded()) return false;
+        const auto share = share_blocks(*status_, row_count, begin, read_head);
         if (!share) return false;
-        progress_->attempt([&] {
+        status_->attempt([&] {
             read_blocks(share_of_rows(row_count, group()), share->own, read_head, read_rows);
             in_->go_to(share->end.place);
         });
-        return progress_->all_well();
+        return status_->all_succeeded();
     }
 
     // Completion
 
     /// To be called after the last section.
     bool complete() {
-        progress_->attempt([&] { order_.end(refuse); });
-        if (!progress_->all_well()) return false;
+        status_->attempt([&] { order_.end(refuse); });
+        if (!status_->all_succeeded()) return false;
         MeshFacts counts;
         counts.vertices = node_count_;
-        return number(cell_kind, counts, stretch_.first_cell) &&
-               number(facet_kind, counts, stretch_.first_facet) &&
-               number(edge_kind, counts, stretch_.first_edge) && tell_notes() && settle(counts);
+        return number(cell_kind, counts, share_.first_cell) &&
+               number(facet_kind, counts, share_.first_facet) &&
+               number(edge_kind, counts, share_.first_edge) && add_notes() && settle(counts);
     }
 
     template <class I, std::size_t N>
     bool number(const EntityKind<I, N>& kind, MeshFacts& counts, std::uint64_t& first) {
-        auto& list = stretch_.lists.*kind.list;
+        auto& list = share_.lists.*kind.list;
         counts.*kind.count = group().sum(list.size());
         first = group().sum_before(list.size());
-        return node_tags_->number(*progress_, list);
+        return node_tags_->number(*status_, list);
     }
 
-    bool tell_notes() {
+    bool add_notes() {
         LeftOut& all = intake_.left_out;  // names are equal on all processes
         for (std::uint64_t& count : all.of_shape) count = group().sum(count);
         all.interfaces = group().sum(all.interfaces);
         all.degenerate_lines = group().sum(all.degenerate_lines);
         all.in_another_group = group().sum(all.in_another_group);
         all.of_missing_entities = group().sum(all.of_missing_entities);
-        progress_->attempt([&] {
-            const auto note = [&](const std::string& text) { stretch_.notes.push_back(text); };
+        status_->attempt([&] {
+            const auto note = [&](const std::string& text) { share_.notes.push_back(text); };
             tell_of_entities(entities_.in_several(), path_->native(), note);
             tell(all, path_->native(), note);
         });
-        return progress_->all_well();
+        return status_->all_succeeded();
     }
 
     bool settle(const MeshFacts& counts) {
         if (!wrong_without_cells(counts.cells, counts.facets, intake_.left_out).empty()) {
             return false;  // the first process reports the position
         }
-        settle_facts(counts, group(), stretch_);
-        progress_->attempt(
-            [&] { stretch_.facts.group_names = SharedGroupNames(std::move(names_)); });
-        return progress_->all_well();
+        set_common_facts(counts, group(), share_);
+        status_->attempt([&] { share_.facts.group_names = SharedGroupNames(std::move(names_)); });
+        return status_->all_succeeded();
     }
 
     Input* in_;
     bool is_4_;
     const fs::path* path_;
-    Progress* progress_;
+    CollectiveStatus* status_;
     SectionOrder order_;
-    MeshStretch stretch_;
-    StretchIntake intake_;
+    MeshShare share_;
+    ShareIntake intake_;
     EntityGroups entities_;
     std::vector<GroupName> names_;
     std::uint64_t node_count_ = 0;
@@ -359,31 +360,31 @@ private:
 
 }  // namespace
 
-std::optional<MeshStretch> read_gmsh_stretch(const fs::path& path, const ProcessGroup& group) {
-    Progress progress(group);
+std::optional<MeshShare> read_gmsh_share(const fs::path& path, const ProcessGroup& group) {
+    CollectiveStatus status(group);
     std::optional<LineReader> lines;
     FormatLine format;
-    progress.attempt([&] { format = read_format_line(lines.emplace(path)); });
-    if (!progress.all_well()) return std::nullopt;
+    status.attempt([&] { format = read_format_line(lines.emplace(path)); });
+    if (!status.all_succeeded()) return std::nullopt;
     if (format.is_binary) {
         std::optional<ByteReader> bytes;
         std::optional<BinaryInput> in;
-        progress.attempt([&] {
+        status.attempt([&] {
             bytes.emplace(path).seek(lines->next_position());
             find_byte_order(*bytes);
             in.emplace(*bytes).end_section("MeshFormat");
         });
-        if (!progress.all_well()) return std::nullopt;
-        return GmshStretch(*in, format, path, progress).read();
+        if (!status.all_succeeded()) return std::nullopt;
+        return GmshShareReader(*in, format, path, status).read();
     }
     std::uint64_t file_size = lines->file_size();
-    if (!take_from_first(progress, file_size)) return std::nullopt;
-    const auto index = LineIndex::make(progress, path, file_size);
+    if (!broadcast_from_first(status, file_size)) return std::nullopt;
+    const auto index = LineIndex::make(status, path, file_size);
     if (!index) return std::nullopt;
     std::optional<LineInput> in;
-    progress.attempt([&] { in.emplace(*lines, *index).end_section("MeshFormat"); });
-    if (!progress.all_well()) return std::nullopt;
-    return GmshStretch(*in, format, path, progress).read();
+    status.attempt([&] { in.emplace(*lines, *index).end_section("MeshFormat"); });
+    if (!status.all_succeeded()) return std::nullopt;
+    return GmshShareReader(*in, format, path, status).read();
 }
 
 }  // namespace octetra

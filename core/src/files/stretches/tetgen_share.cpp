@@ -6,9 +6,9 @@
 #include "files/input/fields.hpp"
 #include "files/input/growing_mesh.hpp"
 #include "files/input/line_reader.hpp"
-#include "files/stretches/progress.hpp"
 #include "files/stretches/readers.hpp"
 #include "files/stretches/shares.hpp"
+#include "files/stretches/status.hpp"
 #include "files/tetgen/lines.hpp"
 
 namespace octetra {
@@ -19,7 +19,7 @@ using namespace tetgen;
 
 /// The entries of a file, after its header.
 struct Body {
-    FileStretch bytes;
+    FileRange bytes;
     std::uint32_t is_there = 0;
     std::uint32_t has_adjacent_cells = 0;  ///< for facets and edges
 };
@@ -73,7 +73,7 @@ TetgenPlan tetgen_plan(const fs::path& path) {
 
 /// Reads this process's share of a file's entries by read_entry(fields, reader); each entry has
 /// `field_count` fields. Entry numbers must be consecutive. Returns the first one, if there is any.
-std::optional<std::uint64_t> read_share(const fs::path& path, const FileStretch& share,
+std::optional<std::uint64_t> read_share(const fs::path& path, const FileRange& share,
                                         std::size_t field_count, auto&& read_entry) {
     LineReader reader(path, share.begin, share.end);
     std::optional<std::uint64_t> first;
@@ -103,26 +103,26 @@ public:
 
     /// Collective. Returns false on all processes if the number of entries differs from the
     /// announced one, or if they are not in order.
-    [[nodiscard]] bool number(MeshStretch& stretch) const {
-        bool well = true;
+    [[nodiscard]] bool number(MeshShare& mesh_share) const {
+        bool are_consistent = true;
         const auto number = [&](std::size_t read, std::uint64_t announced,
                                 std::optional<std::uint64_t> found) {
-            const std::uint64_t first = number_stretch(*group_, read, announced, well);
-            if (found && *found != first + plan_->index_base) well = false;
+            const std::uint64_t first = number_share(*group_, read, announced, are_consistent);
+            if (found && *found != first + plan_->index_base) are_consistent = false;
             return first;
         };
-        const Mesh& lists = stretch.lists;
-        stretch.first_vertex = number(lists.points.size(), plan_->node.count, points_);
-        stretch.first_cell = number(lists.cells.size(), plan_->ele.count, cells_);
-        stretch.first_facet = number(lists.facets.size(), plan_->face.count, facets_);
-        stretch.first_edge = number(lists.edges.size(), plan_->edge.count, edges_);
-        return group_->sum(well ? 0 : 1) == 0;
+        const Mesh& lists = mesh_share.lists;
+        mesh_share.first_vertex = number(lists.points.size(), plan_->node.count, points_);
+        mesh_share.first_cell = number(lists.cells.size(), plan_->ele.count, cells_);
+        mesh_share.first_facet = number(lists.facets.size(), plan_->face.count, facets_);
+        mesh_share.first_edge = number(lists.edges.size(), plan_->edge.count, edges_);
+        return group_->sum(are_consistent ? 0 : 1) == 0;
     }
 
 private:
     using FirstNumber = std::optional<std::uint64_t>;
 
-    [[nodiscard]] FileStretch share_of(const fs::path& file, const Body& body) const {
+    [[nodiscard]] FileRange share_of(const fs::path& file, const Body& body) const {
         return share_of_lines(file, body.bytes, group_->rank(), group_->size());
     }
     [[nodiscard]] NumberedVertices numbers() const {
@@ -132,7 +132,7 @@ private:
     void read_points(Mesh& lists) {
         const fs::path file = companion(*path_, ".node");
         const NodeHead& head = plan_->node;
-        const FileStretch share = share_of(file, plan_->points);
+        const FileRange share = share_of(file, plan_->points);
         const std::size_t room = room_for(head.count, share.size(), plan_->points.bytes.size());
         lists.attributes_per_point = head.attributes;
         reserve_in_huge_pages(lists.points, room);
@@ -145,7 +145,7 @@ private:
     void read_cells(Mesh& lists) {
         const fs::path file = companion(*path_, ".ele");
         const EleHead& head = plan_->ele;
-        const FileStretch share = share_of(file, plan_->cells);
+        const FileRange share = share_of(file, plan_->cells);
         const std::size_t room = room_for(head.count, share.size(), plan_->cells.bytes.size());
         reserve_in_huge_pages(lists.cells, room);
         reserve_in_huge_pages(lists.regions, room * head.attributes);
@@ -165,15 +165,15 @@ private:
                    const ListHead& head, const Body& body, Mesh& lists, FirstNumber& first) {
         if (body.is_there == 0) return;
         const fs::path file = companion(*path_, extension);
-        const FileStretch share = share_of(file, body);
+        const FileRange share = share_of(file, body);
         const std::size_t room = room_for(head.count, share.size(), body.bytes.size());
         reserve_in_huge_pages(lists.*kind.list, room);
         reserve_in_huge_pages(lists.*kind.markers, room * head.markers);
-        const bool goes_on = body.has_adjacent_cells == 1;
+        const bool has_adjacent_cells = body.has_adjacent_cells == 1;
         first = read_share(
             file, share, 1 + N + head.markers, [&](Fields& fields, const LineReader& reader) {
                 read_tagged(fields, reader, name, kind, head, numbers(), false, lists);
-                if (goes_on) skip_adjacent_cells<N>(fields);
+                if (has_adjacent_cells) skip_adjacent_cells<N>(fields);
             });
     }
 
@@ -204,30 +204,30 @@ MeshFacts facts_of(const TetgenPlan& plan) {
 
 }  // namespace
 
-std::optional<MeshStretch> read_tetgen_stretch(const fs::path& path, const ProcessGroup& group) {
-    Progress progress(group);
+std::optional<MeshShare> read_tetgen_share(const fs::path& path, const ProcessGroup& group) {
+    CollectiveStatus status(group);
     TetgenPlan plan;
-    progress.attempt([&] {
+    status.attempt([&] {
         if (group.is_first()) plan = tetgen_plan(path);
     });
-    if (!take_from_first(progress, plan)) return std::nullopt;
+    if (!broadcast_from_first(status, plan)) return std::nullopt;
 
-    MeshStretch stretch;
-    stretch.facts = facts_of(plan);
-    stretch.lists.index_base = stretch.facts.index_base;
+    MeshShare mesh_share;
+    mesh_share.facts = facts_of(plan);
+    mesh_share.lists.index_base = mesh_share.facts.index_base;
     TetgenShares shares(path, plan, group);
-    progress.attempt([&] {
-        shares.read(stretch.lists);
+    status.attempt([&] {
+        shares.read(mesh_share.lists);
         const auto note_on = [&](std::string_view name, const Body& body) {
             if (body.has_adjacent_cells == 0) return;
             const fs::path file = companion(path, fmt::format(".{}", name));
-            stretch.notes.push_back(note_on_adjacent_cells(file, name));
+            mesh_share.notes.push_back(note_on_adjacent_cells(file, name));
         };
         note_on("face", plan.facets);
         note_on("edge", plan.edges);
     });
-    if (!progress.all_well() || !shares.number(stretch)) return std::nullopt;
-    return stretch;
+    if (!status.all_succeeded() || !shares.number(mesh_share)) return std::nullopt;
+    return mesh_share;
 }
 
 }  // namespace octetra

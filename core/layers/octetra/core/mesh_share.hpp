@@ -14,7 +14,7 @@
 namespace octetra {
 
 /// The share of a mesh that one process has read: of each list one block, in the order of ranks.
-struct MeshStretch {
+struct MeshShare {
     MeshFacts facts;  ///< of the whole mesh
     /// The entities of this process's blocks, with global vertex numbers. Markers that `facts` does
     /// not have are empty on all processes. Features are as read: numbers in range in any order;
@@ -37,7 +37,7 @@ struct MeshStretch {
 /// suitable; text formats require one entity on each line. read_mesh() then reports the error. If a
 /// process is out of memory, it throws std::bad_alloc and the others return nothing: the caller
 /// must inform them.
-[[nodiscard]] std::optional<MeshStretch> read_stretch(const std::filesystem::path& path,
-                                                      const ProcessGroup& group);
+[[nodiscard]] std::optional<MeshShare> read_mesh_share(const std::filesystem::path& path,
+                                                       const ProcessGroup& group);
 
 }  // namespace octetra

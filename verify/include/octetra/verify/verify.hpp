@@ -52,7 +52,7 @@ struct VerifyOptions {
 /// Judges a mesh by itself. Nothing is asked of it: indices may be out of range.
 ///
 /// A valid verdict (not `fast`) proves: the cells' interiors are disjoint, and any two cells meet
-/// in a common face, edge or vertex, or not at all. ARCHITECTURE.md has the reasoning.
+/// in a common face, edge or vertex, or not at all. docs/verify-proof.md has the proof.
 [[nodiscard]] Verdict verify_mesh(const Mesh& mesh, const VerifyOptions& options = {});
 
 /// Collective in the group. The same of a mesh that no process need have all of: each judges what

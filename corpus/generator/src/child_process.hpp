@@ -5,6 +5,9 @@
 #include <span>
 #include <vector>
 
+/// TetGen runs in a child process, because it prints, and may crash on a surface that it cannot
+/// fill. The child has no output and sends the mesh through a pipe. Its exit status or signal
+/// determines the error message.
 namespace octetra::generator {
 
 /// The child's end of the pipe to its parent.

@@ -29,5 +29,5 @@ def section():
     rows = [row(cell(escape(name), "words"), *map(cell, moments)) for name, *moments in fault_rows()]
     return ("<h2>Under attack</h2><p>Not measured with this report, but by <code>./dev campaign fuzz</code> and "
             f"<code>./dev campaign faults</code>.</p><p>{paragraph(HISTORIES, 'The laws of histories were held')}</p>"
-            f"<p>{paragraph(FAULTS, '`./dev campaign faults` tests this')}</p>"
+            f"<p>{paragraph(FAULTS, '`./dev campaign faults` tests how failures end')}</p>"
             + table(heads("command", "killed", "a file fails", "no memory"), rows, "Moments of faults"))

@@ -9,6 +9,14 @@
 #include <octetra/core/mesh_share.hpp>
 #include <octetra/core/process_group.hpp>
 
+/// How processes find their shares of a mesh file. In a text file, a line belongs to the process in
+/// whose share of the bytes it begins, and the number of lines of lower ranks is the number of the
+/// first entity. In a Medit text file all processes search for the lines with keywords first. In a
+/// binary Medit file the first process follows the keywords, and the counts of rows determine the
+/// shares. In a Gmsh file nodes and elements are in blocks whose places are known only from the
+/// blocks before, so the first process reads the heads of all blocks (gmsh_blocks.hpp); rows of
+/// text are located by counts of lines (line_index.hpp). Node tags that are not consecutive are
+/// resolved by a rendezvous (gmsh_node_tags.hpp).
 namespace octetra {
 
 /// Collective, as read_mesh_share().

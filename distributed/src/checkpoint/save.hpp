@@ -28,6 +28,8 @@ struct SavedMesh {
 };
 
 /// Collective. Writes a checkpoint; see AdaptiveMesh::save().
+/// Each block is written by one process: the input as slices of its canonical order; the steps root
+/// by root, sent by the processes that have the roots to the process that writes the block.
 void save(const SavedMesh& saved, std::span<const Field> fields, const std::filesystem::path& path);
 
 }  // namespace octetra::distributed

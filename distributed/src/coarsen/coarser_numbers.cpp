@@ -10,7 +10,7 @@ namespace {
 
 /// Encoded numbers of vertices, ascending: of removed vertices, and of vertices whose new numbers
 /// are requested.
-using Requests = std::vector<std::uint64_t>;
+using EncodedNumbers = std::vector<std::uint64_t>;
 
 std::uint64_t request(GlobalVertex number, bool is_removed) {
     return static_cast<std::uint64_t>(number) << 1U | (is_removed ? 1U : 0U);
@@ -33,12 +33,12 @@ VertexIndex first_changed(const Communicator& processes, const CanonicalNumbers&
 
 /// Returns the messages to each rank, for the numbers of its block. A removed vertex is reported by
 /// its owner only.
-std::vector<Requests> requests_of(const CanonicalNumbers& numbers,
+std::vector<EncodedNumbers> requests_of(const CanonicalNumbers& numbers,
                                   const Sharing<VertexIndex>& sharing, const KeptVertices& kept,
                                   VertexIndex first, int process_count) {
     const std::uint64_t block =
         numbers.vertex_count / static_cast<std::uint64_t>(process_count) + 1;
-    std::vector<Requests> requests(static_cast<std::size_t>(process_count));
+    std::vector<EncodedNumbers> requests(static_cast<std::size_t>(process_count));
     for (VertexIndex v = first; v < kept.end_index(); ++v) {
         const bool is_removed = kept[v] == 0;
         if (is_removed && !sharing.is_owned(v)) continue;
@@ -49,9 +49,9 @@ std::vector<Requests> requests_of(const CanonicalNumbers& numbers,
 }
 
 /// Returns the removed vertices of one block as reported by all processes, ascending.
-std::vector<std::uint64_t> removed_in_block(const std::vector<Requests>& received_requests) {
+std::vector<std::uint64_t> removed_in_block(const std::vector<EncodedNumbers>& received_requests) {
     std::vector<std::uint64_t> removed;
-    for (const Requests& requests : received_requests) {
+    for (const EncodedNumbers& requests : received_requests) {
         std::ranges::copy_if(requests, std::back_inserter(removed), is_removal);
     }
     std::ranges::sort(removed);
@@ -60,7 +60,7 @@ std::vector<std::uint64_t> removed_in_block(const std::vector<Requests>& receive
 
 /// Returns the number of removed vertices before each requested vertex, including those before the
 /// block.
-std::vector<std::vector<std::uint64_t>> answers_to(const std::vector<Requests>& received_requests,
+std::vector<std::vector<std::uint64_t>> answers_to(const std::vector<EncodedNumbers>& received_requests,
                                                    const std::vector<std::uint64_t>& removed,
                                                    std::uint64_t removed_before) {
     std::vector<std::vector<std::uint64_t>> answers(received_requests.size());
@@ -79,7 +79,7 @@ std::vector<std::vector<std::uint64_t>> answers_to(const std::vector<Requests>& 
 /// Returns the requested numbers after subtraction of the answers. A process that has failed sends
 /// no answers.
 std::vector<GlobalVertex> renumbered_after_removal(
-    const std::vector<Requests>& requests, const std::vector<std::vector<std::uint64_t>>& answers) {
+    const std::vector<EncodedNumbers>& requests, const std::vector<std::vector<std::uint64_t>>& answers) {
     std::vector<GlobalVertex> after;
     for (std::size_t r = 0; r < requests.size(); ++r) {
         if (answers[r].empty()) continue;
@@ -110,11 +110,11 @@ CoarserNumbers coarser_numbers(const Communicator& processes, const CanonicalNum
     const auto somewhere_failed = [&] {
         return failure.max_unless_failed(processes, 0) == LocalFailure::somewhere;
     };
-    std::vector<Requests> requests;
+    std::vector<EncodedNumbers> requests;
     failure.attempt(
         [&] { requests = requests_of(numbers, sharing, kept, after.first, processes.size()); });
     if (somewhere_failed()) return after;
-    std::vector<Requests> received_requests;
+    std::vector<EncodedNumbers> received_requests;
     std::vector<std::uint64_t> removed;
     failure.attempt([&] {
         received_requests = processes.all_to_all(requests);

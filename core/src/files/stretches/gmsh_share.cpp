@@ -146,7 +146,7 @@ private:
             return Input::row_step(block.point_bytes());
         };
         const auto read_head = [&](const BlockStart& at) {
-            in_->go_to(at.place);
+            in_->go_to(at.position);
             const NodeBlock block = read_node_block_4(*in_, node_count_ - at.first_row);
             const std::uint64_t rows = in_->here();
             const std::uint64_t length = block.count * (tag_step + point_step(block));
@@ -206,7 +206,7 @@ private:
             return Input::row_step(block.row_bytes());
         };
         const auto read_head = [&](const BlockStart& at) {
-            in_->go_to(at.place);
+            in_->go_to(at.position);
             const ElementBlock block = read_element_block_4(*in_, count - at.first_row, entities_);
             const std::uint64_t rows = in_->here();
             return ReadBlock<ElementBlock>{
@@ -253,7 +253,7 @@ private:
             return numbers * sizeof(std::int32_t);
         };
         const auto read_head = [&](const BlockStart& at) {
-            in_->go_to(at.place);
+            in_->go_to(at.position);
             const ElementBlock2 block = read_element_block_2(*in_, at.blocks_left);
             const std::uint64_t rows = in_->here();
             in_->check_count(block.count, 1, row_bytes(block), "elements");
@@ -295,7 +295,7 @@ private:
         if (!share) return false;
         status_->attempt([&] {
             read_blocks(share_of_rows(row_count, group()), share->own, read_head, read_rows);
-            in_->go_to(share->end.place);
+            in_->go_to(share->end.position);
         });
         return status_->all_succeeded();
     }

@@ -44,8 +44,8 @@ TEST(GmshNames, AreReadFromTextAndBinaryFiles) {
                                     test::gmsh_binary_4().insert(binary_head, names)}) {
         const test::GmshRead found = test::read_gmsh(file);
         EXPECT_EQ(found.mesh, expected);
-        EXPECT_THAT(found.notes, ElementsAre(EndsWith("m.msh: 3 names of groups are empty, or no "
-                                                      "UTF-8 text, and are not kept")));
+        EXPECT_THAT(found.notes, ElementsAre(EndsWith("m.msh: 3 names of groups are empty or not "
+                                                      "valid UTF-8, and are not kept")));
     }
 }
 

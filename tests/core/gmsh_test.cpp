@@ -199,7 +199,7 @@ TEST(GmshReader, SaysWhichElementsAreOfEntitiesThatAreNotListed) {
     EXPECT_THAT(found.mesh.regions, ElementsAre(7, 0));
     EXPECT_THAT(found.notes,
                 ElementsAre(EndsWith("m.msh: 1 elements are of entities that $Entities does not "
-                                     "list, and in no group")));
+                                     "list, and have no group")));
     // Some programs write no entities at all.
     EXPECT_THAT(test::read_gmsh(gmsh_head_4 + nodes_of_two + elements).notes, IsEmpty());
 }
@@ -339,7 +339,7 @@ TEST(GmshReader, TurnsInvertedCellsRoundIfAsked) {
     const Mesh mesh = read_mesh(
         file, {.fix_orientation = true, .note = [&](const auto& n) { notes.push_back(n); }});
     EXPECT_EQ(mesh.cells.size(), 1U);
-    EXPECT_THAT(notes, ElementsAre(EndsWith("m.msh: 1 inverted cells were turned round")));
+    EXPECT_THAT(notes, ElementsAre(EndsWith("m.msh: 1 inverted cells were reversed")));
 }
 
 }  // namespace

@@ -188,9 +188,9 @@ std::vector<BadBytes> bad_bytes() {
     add(
         "FarCode", cell, [](F f) { f.section(70000, 3); }, 12, "a keyword expected, 70000");
     add(
-        "BehindEnd", cell, [](F f) { f.end().put('x'); }, 1, "bytes behind the keyword End");
+        "BehindEnd", cell, [](F f) { f.end().put('x'); }, 1, "extra bytes after the keyword End");
     add(
-        "KeywordBehindEnd", cell, [](F f) { f.end().set_next(8); }, 4, "behind End is said to be");
+        "KeywordBehindEnd", cell, [](F f) { f.end().set_next(8); }, 4, "after End is said to be");
     add(
         "SecondOrder", cell, [](F f) { f.section(30, 0); }, 12, "elements (TetrahedraP2)");
     add(

@@ -139,7 +139,7 @@ TEST(SolReader, NamesTheLineOfTheFirstFault) {
     EXPECT_THAT(refused("SolAtVertices\n2\n99999999999999 1\n"),
                 testing::StartsWith("5: the number of fields should be from 1 to 1000"));
     EXPECT_THAT(refused("SolAtVertices\n2\n2 1\n5\n1 1\n"),
-                testing::StartsWith("6: the type of a field should be 1, a scalar"));
+                testing::StartsWith("6: the type of a field should be 1 (scalar)"));
     EXPECT_THAT(refused("SolAtVertices\n2\n1 1\n1\nnan\nEnd\n"),
                 testing::StartsWith("7: a value is not finite: 'nan'"));
     EXPECT_THAT(refused("SolAtVertices\n2\n1 1\n1\n-9e307\nEnd\n"),
@@ -208,7 +208,7 @@ TEST(SolbReader, NamesTheByteOfTheFirstFault) {
     EXPECT_THAT(refused(file), HasSubstr("at byte 32: the number of fields should be from 1 to"));
     file = start();
     file.section(62, 2).put<std::int32_t>(2).put<std::int32_t>(1).put<std::int32_t>(0).end();
-    EXPECT_THAT(refused(file), HasSubstr("at byte 40: the type of a field should be 1, a scalar"));
+    EXPECT_THAT(refused(file), HasSubstr("at byte 40: the type of a field should be 1 (scalar)"));
     file = start();
     file.section(62, 1 << 30).put<std::int32_t>(1).put<std::int32_t>(1).real(1).end();
     EXPECT_THAT(refused(file, {1 << 30, 1}),

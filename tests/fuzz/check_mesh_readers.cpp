@@ -107,7 +107,7 @@ void check_mesh(const fs::path& path) {
     const std::optional<Mesh> turned_round = read(path, {.fix_orientation = true});
     if (mesh) {
         expect_same(as_it_stands, *mesh, "when only syntax is asked for");
-        expect_same(turned_round, *mesh, "when inverted cells are turned round");
+        expect_same(turned_round, *mesh, "when inverted cells are reversed");
     }
     if (!as_it_stands) return;
     check_written(*as_it_stands, path.parent_path(), !mesh);

@@ -3,11 +3,11 @@
 #include <stdexcept>
 #include <string>
 
-/// What can go wrong, by whose fault. The program turns them into exit statuses.
+/// The exceptions of the libraries. The program turns them into exit statuses.
 namespace octetra {
 
-/// The user's input is unusable (exit status 2). what() is "FILE:LINE: what is wrong" where a file
-/// is at fault, else a sentence.
+/// The user's input is unusable (exit status 2). what() is "FILE:LINE: what is wrong" for an error
+/// in a file, otherwise a sentence.
 struct InputError : std::runtime_error {
     using std::runtime_error::runtime_error;
 };

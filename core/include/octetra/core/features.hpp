@@ -9,8 +9,8 @@
 #include <utility>
 #include <vector>
 
-/// What files of Medit's single out for programs that make a mesh anew, as Mmg: where the geometry
-/// has a corner or a ridge, and which entities must stay.
+/// Features of entities that Medit files record for remeshers such as Mmg: corners and ridges of
+/// the geometry, and entities that remeshing must keep.
 namespace octetra {
 
 enum class Feature : std::uint8_t {
@@ -26,13 +26,14 @@ inline constexpr std::array<Feature, feature_count> all_features{
     Feature::corners,        Feature::required_vertices, Feature::ridges,
     Feature::required_edges, Feature::required_facets,   Feature::required_cells};
 
-/// Of which entities: 0 vertices, 1 tagged edges, 2 tagged facets, 3 cells.
+/// Dimension of the entities that can have the feature: 0 vertices, 1 tagged edges, 2 tagged
+/// facets, 3 cells.
 [[nodiscard]] constexpr std::size_t dimension_of(Feature feature) {
     constexpr std::array<std::size_t, feature_count> dimensions{0, 0, 1, 1, 2, 3};
     return dimensions.at(static_cast<std::size_t>(feature));
 }
 
-/// "corners", "required vertices" ...
+/// Returns "corners", "required vertices" ...
 [[nodiscard]] constexpr std::string_view name_of(Feature feature) {
     constexpr std::array<std::string_view, feature_count> names{
         "corners",        "required vertices", "ridges",
@@ -40,7 +41,7 @@ inline constexpr std::array<Feature, feature_count> all_features{
     return names.at(static_cast<std::size_t>(feature));
 }
 
-/// Something for each feature.
+/// An array with one element for each feature.
 template <class T>
 class PerFeature {
 public:
@@ -59,7 +60,7 @@ private:
 
 /// The numbers, from 0, of the entities that have each feature.
 using FeatureLists = PerFeature<std::vector<std::uint64_t>>;
-/// How many have it.
+/// The number of entities that have each feature.
 using FeatureCounts = PerFeature<std::uint64_t>;
 
 [[nodiscard]] inline bool has_any(const FeatureLists& lists) {
@@ -69,14 +70,14 @@ using FeatureCounts = PerFeature<std::uint64_t>;
     return std::ranges::any_of(counts, [](std::uint64_t count) { return count > 0; });
 }
 
-/// Ascending, and each once.
+/// Sorts the numbers and removes duplicates.
 inline void put_in_order(std::vector<std::uint64_t>& numbers) {
     std::ranges::sort(numbers);
     numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
 }
 
-/// Lists that several meshes have in common. Copies take no memory, so that no process can fail in
-/// the midst of a step of all.
+/// Feature lists shared by several meshes. Copying allocates no memory, so no process can fail in
+/// the middle of a collective step.
 using SharedFeatures = std::shared_ptr<const FeatureLists>;
 
 }  // namespace octetra

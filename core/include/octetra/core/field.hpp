@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <string>
 
-/// Named values on vertices or cells of a mesh, which files have beside it.
+/// Named values on the vertices or cells of a mesh, stored with the mesh in files.
 namespace octetra {
 
 enum class FieldOn : std::uint32_t { vertices, cells };
@@ -14,7 +14,7 @@ enum class FieldType : std::uint32_t { float64, float32, int32, int64 };
     return type == FieldType::float64 || type == FieldType::int64 ? 8 : 4;
 }
 
-/// Named values of the mesh as it is, `components` for each vertex or cell.
+/// Description of a field on the current mesh: `components` values for each vertex or cell.
 struct FieldFacts {
     std::string name;
     FieldOn on = FieldOn::vertices;

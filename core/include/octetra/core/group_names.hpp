@@ -8,7 +8,8 @@
 
 namespace octetra {
 
-/// What a mesh file calls the entities of a dimension that have this tag: a physical group of Gmsh.
+/// The name that a mesh file assigns to the entities of a dimension with a tag: a physical group in
+/// Gmsh.
 struct GroupName {
     std::int32_t dimension = 0;  ///< 0 vertices, 1 edges, 2 facets, 3 cells
     std::int32_t tag = 0;        ///< a region tag or marker
@@ -18,8 +19,8 @@ struct GroupName {
     friend bool operator==(const GroupName&, const GroupName&) = default;
 };
 
-/// Names that several meshes have in common. Copies take no memory, so that no process can fail in
-/// the midst of a step of all.
+/// Group names shared by several meshes. Copying allocates no memory, so no process can fail in the
+/// middle of a collective step.
 class SharedGroupNames {
 public:
     SharedGroupNames() = default;

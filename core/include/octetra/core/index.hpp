@@ -8,19 +8,19 @@
 #include <utility>
 #include <vector>
 
-/// Numbers typed by role. A vertex number does not convert to a cell number, nor to or from a
-/// plain integer unless asked: `VertexIndex{7}` and `index.value()`.
+/// Indices typed by role. A vertex index converts neither to a cell index nor implicitly to or from
+/// an integer; use `VertexIndex{7}` and `index.value()`.
 namespace octetra {
 
-/// A local (this process's) number, counted from 0, of an entity whose role is `Role`.
+/// A local (this process's) index, counted from 0, of an entity with the role `Role`.
 template <class Role>
 class Index {
 public:
     using Value = std::uint32_t;
 
-    /// The number that stands for "no entity".
+    /// The value that means "no entity".
     static constexpr Value none_value = std::numeric_limits<Value>::max();
-    /// How many entities can be numbered at most: 0 .. limit-1.
+    /// The maximum number of entities: indices are 0 .. limit-1.
     static constexpr Value limit = none_value;
 
     constexpr Index() = default;
@@ -43,14 +43,14 @@ private:
 };
 
 using VertexIndex = Index<struct VertexRole>;
-using EdgeIndex = Index<struct EdgeRole>;    ///< of an edge in whatever list of edges is meant
+using EdgeIndex = Index<struct EdgeRole>;    ///< of an edge in the list of edges in question
 using FacetIndex = Index<struct FacetRole>;  ///< of a tagged (boundary or interface) triangle
 using CellIndex = Index<struct CellRole>;
 
-/// A number that holds across all processes, counted from 0 in the order of the input file.
+/// A global cell number, the same on all processes, counted from 0 in the order of the input file.
 enum class GlobalCell : std::uint64_t {};
 
-/// A std::vector that is subscripted by an index of the right role only.
+/// A std::vector subscripted only by an index of the given role.
 template <class I, class T>
 class IndexVector : public std::vector<T> {
     using Base = std::vector<T>;
@@ -61,10 +61,10 @@ public:
     [[nodiscard]] T& operator[](I i) { return Base::operator[](i.value()); }
     [[nodiscard]] const T& operator[](I i) const { return Base::operator[](i.value()); }
 
-    /// The index after the last one: the loop is `for (I i{0}; i < v.end_index(); ++i)`.
+    /// The past-the-end index: the loop is `for (I i{0}; i < v.end_index(); ++i)`.
     [[nodiscard]] I end_index() const { return I{this->size()}; }
 
-    /// Appends, and returns the number that the new element got.
+    /// Appends an element and returns its index.
     I append(T element) {
         this->push_back(std::move(element));
         return I{this->size() - 1};

@@ -14,17 +14,17 @@
 #include <octetra/core/mesh.hpp>
 #include <octetra/core/process_group.hpp>
 
-/// Where the writers of files get a mesh from: slice by slice, so that it need not be in any one
-/// memory as a whole, and nothing here need know how processes talk to each other.
+/// The interface through which writers obtain a mesh slice by slice, so that it need not be in the
+/// memory of a single process, and writers are independent of the communication between processes.
 namespace octetra {
 
-/// Slices of equal length of the canonical order of a kind of entity, one for each process of a
-/// group, by rank. At the end of the order slices are shorter, or empty.
+/// One slice for each process of a group, by rank, of the canonical order of a kind of entity. All
+/// slices have the same length, except that they are shorter or empty at the end of the order.
 struct Window {
     std::uint64_t begin = 0;         ///< number of the first entity
-    std::uint64_t slice_length = 0;  ///< entities of a slice
-    std::uint64_t count = 0;         ///< entities of the kind in all
-    /// From where a slice begins to where the next one does; 0: slices follow each other.
+    std::uint64_t slice_length = 0;  ///< entities in a slice
+    std::uint64_t count = 0;         ///< total number of entities of the kind
+    /// Distance between the starts of consecutive slices; 0 means that slices are contiguous.
     std::uint64_t distance = 0;
 
     [[nodiscard]] std::uint64_t begin_of(int rank) const {
@@ -37,8 +37,8 @@ struct Window {
     [[nodiscard]] std::uint64_t length_of(int rank) const { return end_of(rank) - begin_of(rank); }
 };
 
-/// The slice of one process alone out of a list that it has all of, `per_entity` elements for each
-/// entity.
+/// Returns the slice of the only process of a group from a complete list with `per_entity` elements
+/// for each entity.
 template <class T>
 [[nodiscard]] std::span<const T> slice(const std::vector<T>& list, const Window& window,
                                        std::size_t per_entity = 1) {
@@ -46,15 +46,16 @@ template <class T>
     return std::span(list).subspan(begin * per_entity, (window.end_of(0) - begin) * per_entity);
 }
 
-/// Everything in the first process's slice.
+/// Returns a window whose first slice contains everything.
 [[nodiscard]] inline Window whole_window(std::uint64_t count) { return {0, count, count}; }
 
-/// The vertices of an entity by their numbers in the whole mesh, which may be more than 32 bits
-/// number: that limits what one process holds only.
+/// Global vertex numbers of an entity. They may exceed 32 bits, which limit only the entities of
+/// one process.
 template <std::size_t N>
 using VertexNumbers = std::array<std::uint64_t, N>;
 
-/// The same for a whole mesh in one memory, of fewer than VertexIndex::limit vertices.
+/// Converts to local indices, for a whole mesh in one process with fewer than VertexIndex::limit
+/// vertices.
 template <std::size_t N>
 [[nodiscard]] std::array<VertexIndex, N> indices_of(const VertexNumbers<N>& numbers) {
     std::array<VertexIndex, N> indices;
@@ -62,7 +63,7 @@ template <std::size_t N>
     return indices;
 }
 
-/// What is the same on all processes.
+/// Properties of a mesh that are identical on all processes.
 struct MeshFacts {
     std::uint64_t vertices = 0;
     std::uint64_t cells = 0;
@@ -70,7 +71,7 @@ struct MeshFacts {
     std::uint64_t edges = 0;  ///< tagged ones
     std::size_t attributes_per_point = 0;
     std::uint32_t index_base = 0;
-    /// Vertices from here on are midpoints; the number of vertices where that is not known.
+    /// Index of the first midpoint; equal to the number of vertices if not known.
     std::uint64_t first_midpoint = 0;
     bool has_point_markers = false;
     bool has_regions = false;
@@ -78,14 +79,14 @@ struct MeshFacts {
     bool has_edge_markers = false;
     bool has_parents = false;
     bool has_vertex_numbers = false;
-    FeatureCounts features;  ///< of the entities that have each
+    FeatureCounts features;  ///< number of entities with each feature
     SharedGroupNames group_names;
 };
 
-/// A mesh in its canonical order, in slices. All functions but facts(), group() and fields() are
-/// collective and return this process's slice of a window; it is valid until the same function is
-/// called again. Vertices are numbered as in the whole mesh. What facts() does not tell of is not
-/// asked for, and need not be overridden.
+/// A mesh in its canonical order, read in slices. All functions except facts(), group() and
+/// fields() are collective and return this process's slice of a window, valid until the next call
+/// of the same function. Vertices have global numbers. Data that facts() does not announce is never
+/// requested, and the functions for it need not be overridden.
 class MeshSource {
 public:
     MeshSource() = default;
@@ -102,20 +103,20 @@ public:
     [[nodiscard]] virtual std::span<const VertexNumbers<4>> cells(const Window& window) = 0;
 
     [[nodiscard]] virtual std::span<const Marker> point_markers(const Window&) { return {}; }
-    /// attributes_per_point for each vertex of the slice.
+    /// Returns attributes_per_point values for each vertex of the slice.
     [[nodiscard]] virtual std::span<const double> point_attributes(const Window&) { return {}; }
-    /// For vertices that have a number elsewhere: this is it.
+    /// Returns the numbers of the vertices in another numbering, if MeshFacts::has_vertex_numbers.
     [[nodiscard]] virtual std::span<const std::uint64_t> vertex_numbers(const Window&) {
         return {};
     }
-    /// Of a window of midpoints, number 0 being vertex first_midpoint: the ends of the edges that
-    /// they halve, smaller first.
+    /// For a window of midpoints, in which number 0 is vertex first_midpoint: returns the ends of
+    /// the edges that they bisect, smaller end first.
     [[nodiscard]] virtual std::span<const VertexNumbers<2>> midpoint_ends(const Window&) {
         return {};
     }
 
     [[nodiscard]] virtual std::span<const Marker> regions(const Window&) { return {}; }
-    /// The cells of the input that the cells lie in.
+    /// Returns, for each cell, the cell of the input that contains it.
     [[nodiscard]] virtual std::span<const std::uint64_t> parents(const Window&) { return {}; }
 
     [[nodiscard]] virtual std::span<const VertexNumbers<3>> facets(const Window&) { return {}; }
@@ -123,21 +124,21 @@ public:
     [[nodiscard]] virtual std::span<const VertexNumbers<2>> edges(const Window&) { return {}; }
     [[nodiscard]] virtual std::span<const Marker> edge_markers(const Window&) { return {}; }
 
-    /// How many decimal digits the vertices of this process's slice have in all, numbered from
-    /// `index_base` on.
+    /// Returns the total number of decimal digits of the vertex numbers in this process's slice,
+    /// numbered from `index_base`.
     [[nodiscard]] virtual std::uint64_t cell_digits(const Window& window, std::uint64_t index_base);
     [[nodiscard]] virtual std::uint64_t facet_digits(const Window& window,
                                                      std::uint64_t index_base);
     [[nodiscard]] virtual std::uint64_t edge_digits(const Window& window, std::uint64_t index_base);
 
-    /// Of a window of the entities that have the feature, MeshFacts::features of them: their
-    /// numbers, ascending.
+    /// For a window of the entities that have the feature (MeshFacts::features gives their number):
+    /// returns their numbers, ascending.
     [[nodiscard]] virtual std::span<const std::uint64_t> features(Feature, const Window&) {
         return {};
     }
 
-    /// The fields that go with the mesh, and their values on a window of vertices or cells: as many
-    /// bytes for each as FieldFacts tell.
+    /// The fields of the mesh, and their values on a window of vertices or cells, of the type and
+    /// number of components that FieldFacts states.
     [[nodiscard]] virtual std::span<const FieldFacts> fields() const { return {}; }
     [[nodiscard]] virtual std::span<const std::byte> field_values(std::size_t /*field*/,
                                                                   const Window& /*window*/) {
@@ -145,7 +146,7 @@ public:
     }
 };
 
-/// A mesh that this process has all of. Refers to the mesh, and to the maps if there are any.
+/// A mesh held entirely by this process. Refers to the mesh and to the maps, if given.
 class WholeMesh final : public MeshSource {
 public:
     explicit WholeMesh(const Mesh& mesh, const RefinementMaps* maps = nullptr);
@@ -170,7 +171,7 @@ private:
     const RefinementMaps* maps_;
     MeshFacts facts_;
 
-    // What was asked for last.
+    // Buffers of the slices requested last.
     std::vector<VertexNumbers<2>> midpoint_ends_;
     std::vector<VertexNumbers<4>> cells_;
     std::vector<std::uint64_t> parents_;

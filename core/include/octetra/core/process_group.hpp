@@ -13,12 +13,14 @@
 
 namespace octetra {
 
-/// The processes that work on something together: this class is one process alone, a derived one
-/// speaks for more. How they talk to each other is nothing that core or the verifier need know.
+/// A group of processes that work together. This class is a group of one process; derived classes
+/// represent larger groups. Core and the verifier are thus independent of the communication
+/// library.
 ///
-/// All functions but rank(), size() and is_first() are collective: every process of the group calls
-/// them, in the same order. A derived class has to say who there is and to exchange(); the sums,
-/// of_all() and of_first() are made of that, and are there to be overridden by who does it better.
+/// All functions except rank(), size() and is_first() are collective: every process of the group
+/// calls them, in the same order. A derived class must override rank(), size() and exchange();
+/// sums, of_all() and of_first() are implemented by means of exchange() and can be overridden by
+/// faster versions.
 class ProcessGroup {
 public:
     using Bytes = std::vector<std::byte>;
@@ -30,22 +32,24 @@ public:
     [[nodiscard]] virtual int size() const { return 1; }
     [[nodiscard]] bool is_first() const { return rank() == 0; }
 
-    /// to_each[r], of which there are size(), goes to process r; the result's [r] came from there.
+    /// Sends to_each[r] to process r, for each of the size() processes; element [r] of the result
+    /// was received from process r.
     [[nodiscard]] virtual std::vector<Bytes> exchange(std::vector<Bytes> to_each) const {
         return to_each;
     }
 
-    /// What each process has, by rank: few bytes, as every process gets those of all.
+    /// Returns the contributions of all processes, by rank. Intended for few bytes, since every
+    /// process receives those of all.
     [[nodiscard]] virtual std::vector<Bytes> of_all(Bytes bytes) const;
 
-    /// The sum over all processes, and over those of lower rank. Of whole numbers alone: others
-    /// would be cut off without a word.
+    /// The sum over all processes, and over those of lower rank. Floating-point arguments are
+    /// deleted because they would be truncated silently.
     [[nodiscard]] virtual std::uint64_t sum(std::uint64_t number) const;
     [[nodiscard]] virtual std::uint64_t sum_before(std::uint64_t number) const;
     void sum(std::floating_point auto number) const = delete;
     void sum_before(std::floating_point auto number) const = delete;
 
-    /// What the first process has.
+    /// Returns the argument of the first process.
     [[nodiscard]] virtual Bytes of_first(Bytes bytes) const;
     [[nodiscard]] std::uint64_t of_first(std::uint64_t number) const;
     void of_first(std::floating_point auto number) const = delete;
@@ -69,29 +73,29 @@ public:
         }
     }
 
-    /// Runs `work` on the first process, while the others wait. What it throws there is thrown on
-    /// all: an InputError as such, all else as SystemError.
+    /// Runs `work` on the first process while the others wait. An exception there is thrown on all
+    /// processes: an InputError as such, any other as a SystemError.
     void on_first(const std::function<void()>& work) const;
 
-    /// Throws a SystemError on all processes if one of them has met a failure, "" being none: that
-    /// of the lowest rank which has.
+    /// Throws a SystemError on all processes if any of them passes a failure ("" means none); the
+    /// message is that of the lowest rank with a failure.
     void agree(const std::string& failure) const;
 
-    /// Throws InputError on all processes, in the same words, unless all pass the same `value` of
-    /// the argument called `name`.
+    /// Throws InputError on all processes, with the same message, unless all pass the same `value`
+    /// for the argument called `name`.
     virtual void check_same(std::string_view name, const std::string& value) const;
-    /// For those who implement it. Not collective: throws InputError unless `value`, which process
-    /// `rank` passes, is that of the first process.
+    /// Implements overrides of check_same(). Not collective: throws InputError unless `value`,
+    /// passed by process `rank`, equals that of the first process.
     static void check_same_as_first(int rank, std::string_view name, std::string_view value,
                                     std::string_view of_first);
 
-    /// For what one process does on its own.
+    /// The group of this process alone.
     [[nodiscard]] static const ProcessGroup& alone();
 
 private:
     virtual void run_transaction(const std::function<void()>& work) const { work(); }
 
-protected:  // copies are made by derived classes, for those that are values
+protected:  // copied only by derived classes that are value types
     ProcessGroup(const ProcessGroup&) = default;
     ProcessGroup& operator=(const ProcessGroup&) = default;
     ProcessGroup(ProcessGroup&&) = default;

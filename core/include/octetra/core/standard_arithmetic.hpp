@@ -4,15 +4,16 @@
 
 namespace octetra {
 
-/// While an object of this class lives, its thread computes in the default floating-point
-/// environment: results are rounded to nearest, subnormal numbers are kept, and no exception traps.
-/// Afterwards the environment is that of before, with its exception flags. A program has another
-/// one after fesetround() or feenableexcept(), or where it, or a library that it loads, was linked
-/// with -ffast-math, which has the processor take subnormal numbers for 0.
+/// During the lifetime of an object of this class, its thread computes in the default
+/// floating-point environment: results are rounded to nearest, subnormal numbers are kept, and no
+/// exception traps. The destructor restores the previous environment, including its exception
+/// flags. The environment differs from the default after fesetround() or feenableexcept(), or if
+/// the program or a library that it loads was linked with -ffast-math, which makes the processor
+/// flush subnormal numbers to zero.
 ///
-/// All functions of the libraries that read, make, change, judge, measure or write meshes have one.
-/// Those that look at a single cell (orientation(), volume(), marks(), mean_ratio() ...) are called
-/// too often for it, and compute in the environment of the caller, as do transfers of its values.
+/// All functions of the libraries that read, create, modify, verify, measure or write meshes create
+/// one. Functions of a single cell (orientation(), volume(), marks(), mean_ratio() ...) are called
+/// too often for this and compute in the environment of the caller, as do value transfers.
 class StandardArithmetic {
 public:
     StandardArithmetic();

@@ -11,15 +11,15 @@
 
 namespace octetra {
 
-/// The entities of a list (facets, edges), findable by their vertices in whatever order: put into
-/// buckets by smallest vertex, and sorted within a bucket, because thousands may meet at the hub of
-/// a fan. Keeps a pointer to the list. Memory: 4 bytes per vertex and entity.
+/// An index of a list of entities (facets, edges) by their vertices in any order: entities are
+/// placed in buckets by smallest vertex and sorted within a bucket, because thousands may meet at
+/// the hub of a fan. Keeps a pointer to the list. Memory: 4 bytes per vertex and entity.
 template <class I, std::size_t N>
 class VertexBuckets {
 public:
     using Vertices = std::array<VertexIndex, N>;
 
-    /// Vertex numbers must be less than `vertex_count`.
+    /// Precondition: vertex numbers are less than `vertex_count`.
     VertexBuckets(const IndexVector<I, Vertices>& list, std::size_t vertex_count)
         : list_(&list), bucket_begin_(vertex_count + 1, 0), members_(list.size()) {
         for (const Vertices& vertices : list) ++bucket_begin_[smallest(vertices)];
@@ -33,20 +33,20 @@ public:
         }
     }
 
-    /// Calls found(i) for each entity i of the list that has these vertices.
+    /// Calls found(i) for each entity i of the list with these vertices.
     void find(const Vertices& vertices, auto&& found) const {
         const std::uint32_t bucket = smallest(vertices);
         const auto begin = members_.begin() + bucket_begin_[bucket];
         const auto end = members_.begin() + bucket_begin_[bucket + 1];
-        if (begin == end) return;  // as at most vertices that are not on the boundary
+        if (begin == end) return;  // true for most vertices in the interior
         const Vertices wanted = sorted(vertices);
         auto member = std::ranges::lower_bound(begin, end, wanted, {},
                                                [&](I i) { return sorted((*list_)[i]); });
         for (; member != end && sorted((*list_)[*member]) == wanted; ++member) found(*member);
     }
 
-    /// Calls repeated(first, i) for each entity i of the list that has the vertices of an earlier
-    /// one, of which `first` is the first.
+    /// Calls repeated(first, i) for each entity i of the list with the same vertices as an earlier
+    /// one; `first` is the first of these.
     void for_each_repeated(auto&& repeated) const {
         for (std::size_t begin = 0, k = 1; k < members_.size(); ++k) {
             const I first = members_[begin];

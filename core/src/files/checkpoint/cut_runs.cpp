@@ -32,7 +32,7 @@ bool take_number(std::span<const std::uint8_t>& bytes, std::uint64_t& number) {
 }
 
 void CutRuns::append(Cut cut, std::uint64_t count) {
-    if (count == 0) return;  // and let those around it be one run
+    if (count == 0) return;  // lets the runs around it be merged
     if (cut != cut_) {
         write_run();
         cut_ = cut;
@@ -53,7 +53,7 @@ CutRun CutReader::next() {
     const std::uint8_t first = rest_.front();
     rest_ = rest_.subspan(1);
     const auto cut = static_cast<Cut>(first & 127U);
-    if (cut == one_child_more) return {};  // of no edges
+    if (cut == one_child_more) return {};  // no cell: no edges, an invalid cut
     if (first < 128) return {cut, 1};
     std::uint64_t more = 0;
     if (!take_number(rest_, more) || more > (std::uint64_t{1} << 62U)) return {};

@@ -15,13 +15,13 @@ namespace {
 CheckpointTrailer read_trailer(const InputFile& file) {
     CheckpointHeader header;
     CheckpointTrailer trailer;
-    if (file.size() < sizeof header) file.fail("is no checkpoint: it is too short");
+    if (file.size() < sizeof header) file.fail("is not a checkpoint: the file is too short");
     file.read(0, &header, sizeof header);
     if (header.magic != checkpoint_magic) {
-        file.fail("is no checkpoint: it does not begin as one");
+        file.fail("is not a checkpoint: it does not begin with the signature");
     }
     if (header.byte_order != CheckpointHeader{}.byte_order) {
-        file.fail("its numbers have another byte order than this machine's");
+        file.fail("the byte order differs from that of this machine");
     }
     if (header.version != CheckpointHeader{}.version) {
         file.fail(fmt::format("is a checkpoint of version {}; this program reads version {}",
@@ -34,12 +34,12 @@ CheckpointTrailer read_trailer(const InputFile& file) {
     file.read(table_end, &trailer, sizeof trailer);
     if (trailer.magic != checkpoint_magic) {
         file.fail(
-            "the checkpoint does not end as one: it is cut off, or was changed; make or copy it "
-            "again");
+            "the checkpoint has no valid end: it was cut off or modified; write or copy it again");
     }
     if (trailer.table_begin < sizeof header || trailer.table_begin > table_end ||
         trailer.table_size != table_end - trailer.table_begin) {
-        file.fail("the checkpoint's last bytes are wrong: the table is not where they say");
+        file.fail(
+            "the checkpoint's trailer is invalid: it states a wrong position or size of the table");
     }
     return trailer;
 }
@@ -51,15 +51,15 @@ struct CheckpointReader::Parts {
     CheckpointFacts facts;
     std::uint64_t table_begin = 0;
     std::vector<BlockEntry> blocks;
-    std::vector<std::uint64_t> begin;              ///< of each block
-    std::vector<std::size_t> first_of_section{0};  ///< among the blocks
+    std::vector<std::uint64_t> begin;              ///< position of each block
+    std::vector<std::size_t> first_of_section{0};  ///< index of its first block
 
     explicit Parts(const std::filesystem::path& path) : file(path) {
         const CheckpointTrailer trailer = read_trailer(file);
         table_begin = trailer.table_begin;
         const auto table = file.read(trailer.table_begin, trailer.table_size);
         if (hash_of(table) != trailer.table_hash) {
-            file.fail("the checkpoint is damaged: its table has not the hash that it should have");
+            file.fail("the checkpoint is damaged: the hash of its table does not match");
         }
         read_table(path, table, trailer.table_begin, facts, blocks);
         std::uint64_t position = sizeof(CheckpointHeader);
@@ -134,7 +134,7 @@ std::vector<std::uint64_t> CheckpointReader::read_numbers(Section section, std::
         const auto place = static_cast<std::uint64_t>(wrong - numbers.begin()) / per_entity;
         fail(
             section, (begin + place) / block_length,
-            fmt::format("number {} has vertex {}, and there are {}", begin + place, *wrong, count));
+            fmt::format("entity {} has vertex {}, but there are {}", begin + place, *wrong, count));
     }
     return numbers;
 }
@@ -147,8 +147,7 @@ std::vector<std::uint64_t> CheckpointReader::read_features(Feature feature, std:
     for (std::size_t i = 0; i < numbers.size(); ++i) {
         if (numbers[i] < count && (i == 0 || numbers[i - 1] < numbers[i])) continue;
         fail(section, (begin + i) / block_length,
-             fmt::format("{} stands there, and numbers should ascend and be less than {}",
-                         numbers[i], count));
+             fmt::format("found {}; numbers must ascend and be less than {}", numbers[i], count));
     }
     return numbers;
 }
@@ -170,7 +169,7 @@ std::vector<std::vector<CutRun>> CheckpointReader::read_cuts(std::uint64_t block
     std::span<const std::uint8_t> rest(reinterpret_cast<const std::uint8_t*>(raw.data()),
                                        raw.size());
     const auto refuse = [&](std::size_t step) {
-        fail(Section::cuts, block, fmt::format("what it says of step {} makes no sense", step + 1));
+        fail(Section::cuts, block, fmt::format("the data of step {} are invalid", step + 1));
     };
     std::vector<std::vector<CutRun>> steps(facts().steps.size());
     std::uint64_t cells = shape_of(facts(), Section::cuts).length_of(block);
@@ -198,7 +197,7 @@ std::vector<std::vector<CutRun>> CheckpointReader::read_cuts(std::uint64_t block
         rest = rest.subspan(size);
         cells = made;
     }
-    if (!rest.empty()) fail(Section::cuts, block, "it is longer than what it says of the steps");
+    if (!rest.empty()) fail(Section::cuts, block, "extra bytes after the data of the last step");
     return steps;
 }
 

@@ -84,7 +84,8 @@ std::string wrong_in(const SavedState& state) {
     std::string text = state.text;
     std::ranges::replace_if(
         text, [](char c) { return c == '\n' || c == '\r' || c == '\t'; }, ' ');
-    if (!is_name(text)) return "the text of a checkpoint is no UTF-8, or has a control character";
+    if (!is_name(text))
+        return "the text of a checkpoint is not valid UTF-8 or has a control character";
     return {};
 }
 

@@ -43,7 +43,7 @@ void put(std::vector<std::byte>& bytes, std::uint64_t number) {
     put(bytes, &number, sizeof number);
 }
 
-/// The rest of a table, as it is read.
+/// The part of a table that has not been parsed yet.
 class Table {
 public:
     Table(const std::filesystem::path& path, std::span<const std::byte> bytes)
@@ -56,10 +56,10 @@ public:
     }
     std::uint64_t number_to(std::uint64_t most, std::string_view what) {
         const std::uint64_t value = number();
-        if (value > most) fail(fmt::format("{} {}, of at most {}", value, what, most));
+        if (value > most) fail(fmt::format("{} {}; at most {} allowed", value, what, most));
         return value;
     }
-    /// How many things come that take this many bytes each.
+    /// Reads the number of items that follow, each of which takes at least this many bytes.
     std::size_t count(std::size_t bytes_each, std::string_view what) {
         return static_cast<std::size_t>(number_to(rest_.size() / bytes_each, what));
     }
@@ -88,11 +88,11 @@ private:
     std::span<const std::byte> rest_;
 };
 
-/// What no file can hold, so that nothing overflows that is made of it.
+/// More than any file can hold; prevents overflow in computations with counts.
 constexpr std::uint64_t most_entities = std::uint64_t{1} << 56U;
 
 void put_group_names(std::vector<std::byte>& bytes, const std::vector<GroupName>& names) {
-    if (names.empty()) return;  // as files were before there were any
+    if (names.empty()) return;  // compatible with files of earlier versions
     put(bytes, names.size());
     for (const GroupName& group : names) {
         put(bytes, static_cast<std::uint64_t>(group.dimension));
@@ -154,7 +154,7 @@ void read_facts(Table& table, CheckpointFacts& facts) {
         field.type = static_cast<FieldType>(table.number_to(3, "as the type of a field"));
         field.components = table.number_to(1U << 20U, "components of a field");
         field.name = table.text();
-        if (!is_name(field.name)) table.fail("the name of a field cannot be shown");
+        if (!is_name(field.name)) table.fail("the name of a field is not printable text");
     }
     if ((flags & group_names) != 0) read_group_names(table, facts.group_names);
     if ((flags & features) != 0) {
@@ -210,7 +210,7 @@ std::vector<std::byte> table_of(const CheckpointFacts& facts,
         put(bytes, field.name.data(), field.name.size());
     }
     put_group_names(bytes, facts.group_names);
-    if (has_any(facts.features)) {  // else as files were before there were any
+    if (has_any(facts.features)) {  // otherwise compatible with earlier versions
         for (const std::uint64_t count : facts.features) put(bytes, count);
     }
     if (facts.state) put_state(bytes, *facts.state);
@@ -228,7 +228,7 @@ void read_table(const std::filesystem::path& path, std::span<const std::byte> ta
         expected += shape_of(facts, static_cast<Section>(s)).blocks();
     }
     if (table.size() % sizeof(BlockEntry) != 0 || table.size() / sizeof(BlockEntry) != expected) {
-        table.fail(fmt::format("{} blocks make up what it tells of, and it lists {} bytes of them",
+        table.fail(fmt::format("its contents need {} blocks, but it lists {} bytes of them",
                                expected, table.size()));
     }
     blocks.resize(expected);
@@ -247,7 +247,7 @@ void read_table(const std::filesystem::path& path, std::span<const std::byte> ta
             end += size;
         }
     }
-    if (end != table_begin) table.fail("its blocks are not all that is in the file");
+    if (end != table_begin) table.fail("its blocks do not fill the file");
 }
 
 }  // namespace octetra

@@ -9,13 +9,13 @@
 
 #include <octetra/core/checkpoint_blocks.hpp>
 
-/// What stands around the blocks of a checkpoint. See docs/formats.md.
+/// The header, table and trailer of a checkpoint. See docs/formats.md.
 namespace octetra {
 
 static_assert(std::endian::native == std::endian::little,
-              "checkpoints are written as this machine has its numbers");
+              "checkpoints are written in native byte order, which must be little-endian");
 
-/// Not text, and damaged by whoever takes it for text.
+/// Contains bytes that are damaged by a transfer in text mode.
 inline constexpr std::array<char, 8> checkpoint_magic{'\x89', 'O',  'C',    'T',
                                                       '\r',   '\n', '\x1a', '\n'};
 
@@ -40,23 +40,23 @@ struct BlockEntry {
     std::uint64_t hash = 0;
 };
 
-/// XXH3, 64 bits.
+/// Computes the XXH3 hash, 64 bits.
 [[nodiscard]] std::uint64_t hash_of(std::span<const std::byte> bytes);
 
-/// How many entities of the input can have the feature.
+/// Returns the number of entities of the input that can have the feature.
 [[nodiscard]] std::uint64_t entities_with(Feature feature, const CheckpointFacts& facts);
 
 [[nodiscard]] std::size_t section_count(const CheckpointFacts& facts);
 
-/// Where the figures of a step are in the table.
+/// Returns the offset in the table of the entry of a step.
 [[nodiscard]] std::size_t byte_of_step(std::size_t step);
 
-/// The table: the facts, and the blocks in the order of the file.
+/// Returns the serialised table: the facts, and the blocks in file order.
 [[nodiscard]] std::vector<std::byte> table_of(const CheckpointFacts& facts,
                                               const std::vector<BlockEntry>& blocks);
 
-/// Reads it. Throws InputError, with the file's name, where it is none, or blocks of these sizes
-/// do not end where the table begins.
+/// Parses the table. Throws InputError, which names the file, if it is invalid, or if blocks of
+/// these sizes do not end where the table begins.
 void read_table(const std::filesystem::path& path, std::span<const std::byte> table,
                 std::uint64_t table_begin, CheckpointFacts& facts, std::vector<BlockEntry>& blocks);
 

@@ -15,7 +15,7 @@ std::span<const std::byte> bytes_of(std::span<const T> values) {
     return std::as_bytes(values);
 }
 
-/// Vertex numbers in as many bytes as the file gives them.
+/// Returns vertex numbers serialised with the width used in the file.
 template <std::size_t N>
 std::vector<std::byte> numbers_in(std::span<const VertexNumbers<N>> lists, std::size_t size) {
     if (size == sizeof(std::uint64_t)) {
@@ -40,7 +40,7 @@ struct CheckpointWriter::Parts {
     const ProcessGroup* group;
     CheckpointFacts facts;
     OutputFile file;
-    std::vector<BlockEntry> own;  ///< the blocks that this process has written
+    std::vector<BlockEntry> own;  ///< the blocks written by this process
 
     Parts(const std::filesystem::path& path, const ProcessGroup& processes, CheckpointFacts told)
         : group(&processes), facts(std::move(told)), file(path, processes) {
@@ -49,7 +49,7 @@ struct CheckpointWriter::Parts {
         file.end_turn();
     }
 
-    /// All blocks in the order of the file, on the first process.
+    /// Collective. Returns all blocks in file order on the first process, an empty list on others.
     [[nodiscard]] std::vector<BlockEntry> gathered() const {
         std::vector<Bytes> outboxes(static_cast<std::size_t>(group->size()));
         const auto bytes = std::as_bytes(std::span(own));

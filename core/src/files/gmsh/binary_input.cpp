@@ -26,7 +26,7 @@ std::uint64_t BinaryInput::count_line(std::string_view what) {
     fail_at(fmt::format("{} should be a whole number from 0, not {}", what, shown(line)), begin);
 }
 
-/// The next number is one that a coordinate cannot be.
+/// Throws: the next number is not a valid coordinate.
 void BinaryInput::refuse_coordinate(std::string_view what) {
     const std::uint64_t begin = reader_->position();
     const auto value = reader_->take<double>(what);
@@ -37,8 +37,8 @@ void BinaryInput::refuse_coordinate(std::string_view what) {
             begin);
 }
 
-/// Looks for the end of the section, which may follow its bytes without a line end: the content of
-/// the section is not known.
+/// Searches for the end line of the section, which may directly follow its bytes without a line
+/// end, since the content of the section is unknown.
 void BinaryInput::skip_section(std::string_view name) {
     const std::string end = fmt::format("$End{}", name);
     constexpr std::uint64_t at_once = std::uint64_t{1} << 16U;

@@ -16,8 +16,8 @@
 
 namespace octetra::gmsh {
 
-/// The numbers of a binary file, in which sections begin and end with a line of text; places are
-/// bytes. Has the functions of TextInput.
+/// The numbers of a binary file, in which sections begin and end with a line of text; positions are
+/// byte offsets. Has the same interface as TextInput.
 class BinaryInput {
 public:
     static constexpr std::uint64_t row_step(std::uint64_t bytes) { return bytes; }
@@ -65,7 +65,7 @@ public:
         return {x, y, coordinate("z")};
     }
     void skip_real(std::string_view what) { reader_->skip(sizeof(double), what); }
-    /// A row of an element's number, which nobody asks for, and its nodes.
+    /// Reads a row: the number of an element, which is ignored, and its nodes.
     template <std::size_t N>
     void row(std::array<std::uint64_t, N>& nodes, std::string_view what) {
         constexpr std::size_t size = sizeof(std::uint64_t);
@@ -75,7 +75,8 @@ public:
         }
     }
 
-    /// The next bytes, if there are so many and no more than a row can have; pass() goes on.
+    /// Returns the next bytes without consuming them, or null if fewer remain or `size` exceeds the
+    /// length of any row; pass() consumes them.
     [[nodiscard]] const std::byte* at_hand(std::size_t size) {
         constexpr std::size_t longest_row = 1U << 12U;
         if (size > longest_row || size > reader_->remaining()) return nullptr;
@@ -96,18 +97,18 @@ public:
     [[nodiscard]] std::uint64_t end_place() const { return reader_->position(); }
     static constexpr bool has_lines = false;
 
-    /// For who reads rows anywhere: where what follows stands, and how to get to another place.
+    /// For random access to rows: the position of the next byte, and a seek.
     [[nodiscard]] std::uint64_t here() const { return reader_->position(); }
     void go_to(std::uint64_t byte) { reader_->seek(byte); }
     void end_rows() const {}
 
 private:
-    /// The next line that holds something; empty at the end of the file.
+    /// Returns the next nonempty line, or an empty string at the end of the file.
     std::string next_line();
     [[nodiscard]] double coordinate(std::string_view what) {
         const std::byte* const bytes = reader_->peek_bytes(sizeof(double), what);
         const auto value = number_at<double>(bytes, reader_->swaps_bytes());
-        if (!(std::abs(value) < coordinate_limit)) refuse_coordinate(what);  // nor if it is NaN
+        if (!(std::abs(value) < coordinate_limit)) refuse_coordinate(what);  // also if it is NaN
         pass(sizeof value);
         return value;
     }

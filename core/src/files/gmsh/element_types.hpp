@@ -6,7 +6,7 @@
 #include <string>
 #include <string_view>
 
-/// The kinds of elements that Gmsh numbers.
+/// Element types by the numbers that Gmsh assigns to them.
 namespace octetra::gmsh {
 
 inline constexpr std::uint64_t line_type = 1;
@@ -30,22 +30,24 @@ struct ElementType {
     std::uint32_t nodes;
 };
 
-/// What is known of a type; nothing of one whose number of nodes is not known.
+/// Returns the shape and the number of nodes of a type, or nothing for a type whose number of nodes
+/// is unknown.
 [[nodiscard]] std::optional<ElementType> element_type(std::uint64_t number);
 
-/// Why a file cannot be read if it has elements of this type; else nothing.
+/// Returns the reason why a file with elements of this type cannot be read, or an empty string.
 [[nodiscard]] std::string refusal_of_type(std::uint64_t number);
 
-/// Has a line the same node twice? Gmsh makes such lines where a curve is a single point.
+/// Returns whether both nodes of a line are the same. Gmsh writes such lines for a curve that is a
+/// single point.
 template <std::size_t N>
 [[nodiscard]] bool is_degenerate_line(const std::array<std::uint64_t, N>& nodes) {
     return N == 2 && nodes.front() == nodes.back();
 }
 
-/// "tetrahedra"
+/// Returns "tetrahedra" etc.
 [[nodiscard]] std::string_view plural(Shape shape);
 
-/// Does a cell have this shape, a tetrahedron or any other?
+/// Returns whether the shape is three-dimensional.
 [[nodiscard]] inline bool is_solid(Shape shape) { return shape >= Shape::tetrahedron; }
 
 }  // namespace octetra::gmsh

@@ -7,11 +7,11 @@
 
 namespace octetra::gmsh {
 
-/// An entity of the geometry, as `$Entities` or `$PartitionedEntities` has it.
+/// An entity of the geometry, from `$Entities` or `$PartitionedEntities`.
 struct Entity {
-    Marker marker = 0;          ///< the tag of its first physical group; 0: it is in none
-    bool is_interface = false;  ///< lies between partitions: no part of the geometry
-    bool is_missing = false;    ///< is not there, though others are
+    Marker marker = 0;          ///< the tag of its first physical group; 0: none
+    bool is_interface = false;  ///< lies between partitions; not part of the geometry
+    bool is_missing = false;    ///< not listed, although other entities are
 };
 
 /// The entities of a file of version 4.1, by dimension and tag.
@@ -21,12 +21,12 @@ public:
         entities_[key(dimension, tag)] = entity;
         if (groups > 1) ++in_several_;
     }
-    /// One that is not there is in no group.
+    /// Returns the entity; an unlisted one has no group.
     [[nodiscard]] Entity find(std::int32_t dimension, std::int32_t tag) const {
         const auto found = entities_.find(key(dimension, tag));
         return found == entities_.end() ? Entity{.is_missing = !entities_.empty()} : found->second;
     }
-    /// How many entities are in more than one group.
+    /// Returns the number of entities in more than one group.
     [[nodiscard]] std::uint64_t in_several() const { return in_several_; }
 
 private:

@@ -19,7 +19,7 @@ namespace {
     reader.fail(fmt::format("versions 2.2 and 4.1 are supported, not {}", shown(version)));
 }
 
-/// Goes to the first line behind sections of comments.
+/// Advances to the first line after any sections of comments.
 void pass_over_comments(LineReader& reader) {
     while (reader.next() && reader.line() == "$Comments") {
         do {

@@ -5,16 +5,17 @@
 
 namespace octetra::gmsh {
 
-/// What `$MeshFormat` says: "4.1 1 8" is a binary file of version 4.1.
+/// The content of `$MeshFormat`: "4.1 1 8" is a binary file of version 4.1.
 struct FormatLine {
     bool is_4 = false;  ///< version 4.1, or else 2 to 2.2
     bool is_binary = false;
 };
 
-/// Reads the first two lines of a file, of which the second says this.
+/// Reads the first two lines of a file, the second of which contains the format.
 [[nodiscard]] FormatLine read_format_line(LineReader& reader);
 
-/// Of a binary file: the number 1 follows, and a line end, and shows in which order bytes come.
+/// For a binary file: reads the number 1 and the line end, which follow the format line, and sets
+/// the byte order accordingly.
 void find_byte_order(ByteReader& reader);
 
 }  // namespace octetra::gmsh

@@ -10,18 +10,20 @@
 
 /// Gmsh's format `.msh`, versions 2 to 2.2 and 4.1, text and binary: sections `$Name` ...
 /// `$EndName`. Nodes have tags, which need not be consecutive; elements belong to entities of the
-/// geometry, and these to physical groups, whose tags are our markers and region tags.
+/// geometry, and these to physical groups, whose tags become markers and region tags.
 namespace octetra {
 
 [[nodiscard]] Mesh read_gmsh(const std::filesystem::path& path, const ReadOptions& options);
 
-/// Takes everything as it stands; `options` must have only_syntax. Reads the file twice: elements
-/// of all kinds are counted together, and a sink is to know how many of each will come.
+/// Performs no semantic checks; `options` must have only_syntax. Reads the file twice, because
+/// elements of all kinds are counted together, but a sink must know the number of each kind in
+/// advance.
 void stream_gmsh(const std::filesystem::path& path, MeshSink& sink, const ReadOptions& options);
 
-/// Collective. An element has the tag of its place in the file; there is an entity for each marker
-/// of a kind, and a block for each run of elements of one, so that all keep their order. Returns
-/// what of the mesh the format cannot hold, in a sentence, or nothing.
+/// Collective. The tag of an element is its position in the file. There is an entity for each
+/// marker of a kind, and a block for each run of elements with the same entity, so the order of the
+/// elements is preserved. Returns a sentence naming the data that the format cannot hold, or an
+/// empty string.
 [[nodiscard]] std::string write_gmsh(MeshSource& mesh, const std::filesystem::path& path,
                                      const MshFormat& format);
 

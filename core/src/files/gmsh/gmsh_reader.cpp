@@ -24,7 +24,7 @@ namespace {
 namespace fs = std::filesystem;
 using namespace gmsh;
 
-/// Reads the sections of a file behind $MeshFormat.
+/// Reads the sections of a file after $MeshFormat.
 template <class Input>
 class GmshSections {
 public:
@@ -36,7 +36,7 @@ public:
           intake_(growing, options, counts),
           order_(format.is_4) {}
 
-    /// Returns how many elements of each kind there are. `path` is for notes.
+    /// Returns the number of elements of each kind. `path` is used in notes.
     ElementCounts read(const fs::path& path) {
         while (true) {
             const std::string name = in_->section();
@@ -91,7 +91,7 @@ private:
     SectionOrder order_;
 };
 
-/// Reads the file into `growing`, and returns how many elements of each kind it has.
+/// Reads the file into `growing`, and returns the number of elements of each kind.
 ElementCounts read_file(const fs::path& path, const ReadOptions& options, GrowingMesh& growing,
                         const std::optional<ElementCounts>& counts) {
     LineReader lines(path);

@@ -32,17 +32,17 @@ namespace {
 
 using namespace gmsh;
 
-/// The elements of a kind: lines, triangles or tetrahedra.
+/// The elements of one kind: lines, triangles or tetrahedra.
 template <std::size_t N>
 struct ElementList : EntityList<N> {
     std::uint64_t type;
     MarkerRuns runs{};
     std::uint64_t first_tag = 1;
-    Marker untagged = 0;  ///< the group of elements without a marker; 0: none
+    Marker untagged = 0;  ///< the physical group of elements without a marker; 0: none
 
     [[nodiscard]] Marker group_of(Marker marker) const { return marker == 0 ? untagged : marker; }
     [[nodiscard]] std::int32_t dimension() const { return static_cast<std::int32_t>(N) - 1; }
-    /// Entities are numbered from 1, by their markers.
+    /// Returns the entity of a marker. Entities are numbered from 1, in the order of their markers.
     [[nodiscard]] std::int32_t entity_of(Marker marker) const {
         const auto place = std::ranges::lower_bound(runs.markers, marker) - runs.markers.begin();
         return static_cast<std::int32_t>(place) + 1;
@@ -64,7 +64,7 @@ public:
         triangles_.first_tag = 1 + lines_.count;
         tetrahedra_.first_tag = triangles_.first_tag + triangles_.count;
         find_untagged_groups();
-        // Every node lies on an entity.
+        // Nodes need an entity even if there are no cells.
         if (tetrahedra_.runs.markers.empty()) tetrahedra_.runs.markers.push_back(0);
     }
 
@@ -76,7 +76,7 @@ public:
         is_2_ ? write_2() : write_4();
     }
 
-    /// Has an element a marker that is negative?
+    /// Returns whether any element has a negative marker.
     [[nodiscard]] bool has_negative_markers() const {
         const auto has = [](const auto& list) {
             return !list.runs.markers.empty() && list.runs.markers.front() < 0;
@@ -85,7 +85,7 @@ public:
     }
 
 private:
-    /// What is said once is the first process's to say.
+    /// Writes on the first process only: data that occurs once in the file.
     void on_first(auto&& put) {
         if (group_.is_first()) put();
     }
@@ -109,7 +109,8 @@ private:
         list.runs = find_marker_runs(list.count, group_, markers);
     }
 
-    /// Gmsh saves only elements of groups, if there are any: then all elements need one.
+    /// Gmsh saves only elements of physical groups if there are any; then every element needs a
+    /// group.
     void find_untagged_groups() {
         names_ = facts_.group_names.list();
         const auto has_tagged = [](const auto& list) {
@@ -121,8 +122,8 @@ private:
         find_untagged_group(triangles_);
         find_untagged_group(tetrahedra_);
     }
-    /// The group of elements without a marker gets the lowest positive number that no group of the
-    /// dimension has.
+    /// Assigns to elements without a marker the lowest positive tag that is not in use in this
+    /// dimension.
     template <std::size_t N>
     void find_untagged_group(ElementList<N>& list) {
         if (!std::ranges::binary_search(list.runs.markers, 0)) return;
@@ -171,7 +172,7 @@ private:
         on_first([&] { numbers_.end_section("Elements"); });
     }
 
-    /// One for each marker; all have the box of the whole mesh.
+    /// Writes one entity for each marker, all with the bounding box of the whole mesh.
     template <std::size_t N>
     void put_entities(const ElementList<N>& list, const PointsBox& box) {
         for (const Marker marker : list.runs.markers) {
@@ -234,7 +235,7 @@ private:
         put_list_in_ranges(*out_, list.count, group_, bytes_of, put_slice);
     }
 
-    /// Of what stands before the elements of a run.
+    /// Returns the size of the block header that precedes the elements of a run.
     template <std::size_t N>
     [[nodiscard]] std::uint64_t bytes_of_head(const ElementList<N>& list,
                                               const MarkerRun& run) const {
@@ -242,8 +243,8 @@ private:
         return 4 + text_length(list.dimension()) + text_length(list.entity_of(run.marker)) +
                text_length(list.type) + text_length(run.length);
     }
-    /// Calls put(point, its number) for this process's, which take `row_size` bytes in a binary
-    /// file.
+    /// Calls put(point, number) for the points of this process, each of which takes `row_size`
+    /// bytes in a binary file.
     void put_nodes(std::size_t row_size, auto&& put) {
         const auto put_slice = [&](const Window& window, std::uint64_t number) {
             for (const Point& p : mesh_->points(window)) put(p, number++);
@@ -270,7 +271,7 @@ private:
         on_first([&] { numbers_.end_section("Elements"); });
     }
 
-    /// Numbers of version 2 are of 32 bits in binary files.
+    /// Writes a number, which has 32 bits in binary files of version 2.
     void put_number_2(std::uint64_t number) {
         numbers_.is_text() ? numbers_.put(number) : numbers_.put(static_cast<std::int32_t>(number));
     }
@@ -323,7 +324,7 @@ private:
     ElementList<4> tetrahedra_{list_of_cells(facts_), tetrahedron_type};
 };
 
-/// Binary files of version 2 have numbers of 32 bits.
+/// Throws InputError if a number does not fit into the 32 bits of binary files of version 2.
 void refuse_what_is_too_large(const MeshFacts& facts, const std::filesystem::path& path) {
     constexpr std::uint64_t most = std::numeric_limits<std::int32_t>::max();
     if (facts.vertices <= most && facts.cells + facts.facets + facts.edges <= most) return;
@@ -340,12 +341,12 @@ std::string what_is_lost(const MeshFacts& facts, bool has_negative_markers) {
         lost += what;
     };
     if (facts.attributes_per_point > 0) {
-        add(fmt::format("Gmsh's format has no place for the {} attribute(s) of each vertex",
+        add(fmt::format("the Gmsh format cannot hold the {} attribute(s) of each vertex",
                         facts.attributes_per_point));
     }
     if (facts.has_point_markers) add("the markers of vertices are not written to .msh files");
     if (has_negative_markers) {
-        add("Gmsh takes a negative marker for the group of its absolute value, turned round");
+        add("Gmsh reads a negative marker as the group of its absolute value, reversed");
     }
     return lost;
 }

@@ -8,7 +8,7 @@
 namespace octetra::gmsh {
 namespace {
 
-/// Takes a number from the front of a line.
+/// Removes a number from the front of a line and returns it.
 std::optional<std::int32_t> take_integer(std::string_view& line) {
     while (line.starts_with(' ') || line.starts_with('\t')) line.remove_prefix(1);
     std::int32_t number = 0;

@@ -16,18 +16,18 @@
 
 #include "files/gmsh/number_output.hpp"
 
-/// The section $PhysicalNames: text in binary files, too.
+/// The section $PhysicalNames, which is text also in binary files.
 namespace octetra::gmsh {
 
-/// A line of it: `2 5 "outer wall"`. Nothing if it is of another form. The name is all between the
-/// first and the last quotation mark.
+/// Parses a line such as `2 5 "outer wall"`. The name extends from the first to the last quotation
+/// mark. Returns nothing for a line of another form.
 [[nodiscard]] std::optional<GroupName> parse_group_name(std::string_view line);
 
-/// The groups named untagged_group_name, whose elements have no marker.
+/// The physical groups named untagged_group_name, whose elements have no marker.
 class UntaggedGroups {
 public:
     void add(std::int32_t dimension, Marker tag) { groups_.emplace_back(dimension, tag); }
-    /// The marker of an element of this group. A negative tag is that of a reversed entity.
+    /// Returns the marker of an element of this group. A negative tag denotes a reversed entity.
     [[nodiscard]] Marker marker_of(std::int32_t dimension, Marker tag) const {
         const auto is_untagged = [&](const std::pair<std::int32_t, Marker>& group) {
             const std::int64_t wide = group.second;
@@ -40,8 +40,8 @@ private:
     std::vector<std::pair<std::int32_t, Marker>> groups_;
 };
 
-/// Reads the names, each of a group of its own. Those that cannot be shown, or are empty, are left
-/// out; returns how many these are.
+/// Reads the group names; each group may have only one. Empty and invalid names are skipped;
+/// returns their number.
 template <class Input>
 std::uint64_t read_group_names(Input& in, std::vector<GroupName>& names, UntaggedGroups& untagged) {
     const std::uint64_t count = in.count_line("the number of names");

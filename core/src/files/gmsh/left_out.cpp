@@ -15,8 +15,8 @@ std::string wrong_without_cells(std::uint64_t cells, std::uint64_t facets,
     if (*left > 0) shape = static_cast<Shape>(left - left_out.of_shape.begin());
     if (facets > 0) shape = Shape::triangle;
     return fmt::format(
-        "there are {} and no tetrahedra: mesh with gmsh -3; where anything is in a physical "
-        "group, the volumes must be in one, too",
+        "there are {} and no tetrahedra: mesh the volumes with gmsh -3; if there are physical "
+        "groups, the volumes must be in one, too",
         plural(shape));
 }
 
@@ -31,11 +31,11 @@ void tell(const LeftOut& left_out, const std::string& path,
     }
     tell_of(left_out.interfaces, "elements between partitions are not kept");
     tell_of(left_out.degenerate_lines, "lines have the same node twice and are not kept");
-    tell_of(left_out.names, "names of groups are empty, or no UTF-8 text, and are not kept");
+    tell_of(left_out.names, "names of groups are empty or not valid UTF-8, and are not kept");
     tell_of(left_out.in_another_group,
             "elements are in more physical groups than one: the first is kept");
     tell_of(left_out.of_missing_entities,
-            "elements are of entities that $Entities does not list, and in no group");
+            "elements are of entities that $Entities does not list, and have no group");
 }
 
 void tell_of_entities(std::uint64_t in_several, const std::string& path,

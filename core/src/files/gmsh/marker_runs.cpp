@@ -10,7 +10,7 @@
 namespace octetra::gmsh {
 namespace {
 
-/// What others need to know of a slice: its first and its last run, which may go on elsewhere.
+/// The ends of a slice: its first and last run, which may continue in other slices.
 struct SliceEnds {
     std::uint64_t runs = 0;
     MarkerRun first;
@@ -29,7 +29,7 @@ std::vector<std::vector<T>> lists_of_all(const ProcessGroup& group, const std::v
     return lists;
 }
 
-/// The next markers of this process, from number `first` on.
+/// Appends the next markers of this process, from entity `first` on.
 void add_runs(std::vector<MarkerRun>& runs, std::span<const Marker> markers, std::uint64_t first) {
     for (std::size_t i = 0; i < markers.size(); ++i) {
         if (runs.empty() || runs.back().marker != markers[i]) {
@@ -39,12 +39,12 @@ void add_runs(std::vector<MarkerRun>& runs, std::span<const Marker> markers, std
     }
 }
 
-/// Joins the runs of slices, in the order of the list.
+/// Merges the runs of consecutive slices, in the order of the list.
 class JoinedRuns {
 public:
     explicit JoinedRuns(const ProcessGroup& group) : group_(&group) {}
 
-    /// Collective. The next slices, one of each process.
+    /// Collective. Appends the next slices, one from each process.
     void add(const std::vector<MarkerRun>& runs) {
         std::vector<SliceEnds> ends;
         if (!runs.empty()) ends.push_back({runs.size(), runs.front(), runs.back()});
@@ -75,7 +75,7 @@ private:
         is_open_here_ = is_own;
     }
 
-    /// Its length is known: no other slice goes on with it.
+    /// Sets the length of the last run, which no further slice continues.
     void close() {
         if (is_open_here_) found_.here.back().length = open_.length;
         is_open_here_ = false;
@@ -83,11 +83,11 @@ private:
 
     const ProcessGroup* group_;
     MarkerRuns found_;
-    MarkerRun open_;             // the last one up to now
-    bool is_open_here_ = false;  // it began in this process's slice
+    MarkerRun open_;             // the last run so far
+    bool is_open_here_ = false;  // it begins in a slice of this process
 };
 
-/// Collective.
+/// Collective. Returns the distinct markers of all processes, ascending.
 std::vector<Marker> markers_of_all(const ProcessGroup& group, const std::vector<MarkerRun>& runs) {
     const auto make_set = [](std::vector<Marker>& markers) {
         std::ranges::sort(markers);
@@ -110,7 +110,7 @@ MarkerRuns find_marker_runs(std::uint64_t count, const ProcessGroup& group,
                             const std::function<std::span<const Marker>(const Window&)>& markers) {
     if (count == 0) return {};
     if (!markers) {
-        // The one run belongs to who has the first entity.
+        // The single run belongs to the process with the first entity.
         MarkerRuns one{1, {}, {0}};
         if (group.is_first()) one.here.push_back({0, count, 0});
         return one;

@@ -73,7 +73,7 @@ WrongRow MeshIntake::take(const EntityKind<I, N>& kind,
     return {};
 }
 
-/// The vertices of rows, up to the first that has a node which is not there.
+/// Finds the vertices of the rows, up to the first row that refers to a missing node.
 template <std::size_t N>
 WrongRow MeshIntake::find_nodes(std::span<const std::array<std::uint64_t, N>> rows,
                                 std::span<std::array<VertexIndex, N>> found) {
@@ -161,7 +161,7 @@ void MeshIntake::check(bool has_lines, std::uint64_t end_place, const Fail& fail
 
 void MeshIntake::add_notes(const std::string& path) const {
     if (const std::uint64_t fixed = cell_check_.fixed_count(); fixed > 0) {
-        options_->note(fmt::format("{}: {} inverted cells were turned round", path, fixed));
+        options_->note(fmt::format("{}: {} inverted cells were reversed", path, fixed));
     }
     tell(left_out_, path, options_->note);
 }

@@ -23,7 +23,7 @@
 
 namespace octetra::gmsh {
 
-/// How many elements of each kind there are.
+/// The number of elements of each kind.
 struct ElementCounts {
     std::uint64_t cells = 0;
     std::uint64_t facets = 0;
@@ -32,23 +32,24 @@ struct ElementCounts {
     friend bool operator==(const ElementCounts&, const ElementCounts&) = default;
 };
 
-/// Makes a mesh of the nodes and elements of a file, whichever version it is: gives tags numbers,
-/// keeps what a mesh is made of, counts what is not kept, and checks. What is wrong with an entry
-/// is returned in words, nothing being right: the caller knows where it stands.
+/// Builds a mesh from the nodes and elements of a file of any version: maps node tags to vertices,
+/// keeps the supported kinds of elements, counts the rest, and checks. Errors in an entry are
+/// returned as text (empty for none), because only the caller knows its position.
 class MeshIntake {
 public:
-    /// `counts`, of a mesh that is streamed: what will come.
+    /// `counts` is the number of elements of each kind, required if the mesh is streamed.
     MeshIntake(GrowingMesh& growing, const ReadOptions& options,
                const std::optional<ElementCounts>& counts);
 
-    /// The names of groups.
+    /// Reads the names of physical groups.
     template <class Input>
     void take_names(Input& in) {
         left_out_.names = read_group_names(in, growing_->mesh.group_names, untagged_);
     }
 
     void expect_nodes(std::uint64_t count) { growing_->expect_points(count, 0, false); }
-    /// Tags and points come in the same order, but not always in turn. `place`: of the tag.
+    /// Tags and points arrive in the same order, but not always alternately. `place` is the
+    /// position of the tag.
     void take_tag(std::uint64_t tag, std::uint64_t place, std::uint64_t step) {
         nodes_.add(tag);
         node_places_.add(place, step);
@@ -57,7 +58,7 @@ public:
         growing_->mesh.points.push_back(point);
         growing_->point_complete();
     }
-    /// Calls fail(what, place) if a tag is there twice.
+    /// Calls fail(what, place) if a tag occurs twice.
     void nodes_complete(auto&& fail) {
         growing_->points_complete();
         if (const auto repeated = nodes_.complete()) {
@@ -66,17 +67,18 @@ public:
     }
 
     void expect_elements(std::uint64_t count);
-    /// Makes room for so many more elements of a kind.
+    /// Reserves memory for `count` more elements of a kind.
     template <class I, std::size_t N>
     void make_room(const EntityKind<I, N>& kind, std::uint64_t count);
     static constexpr std::size_t most_at_once = 128;
-    /// Elements of one of the kinds of a mesh, at most `most_at_once`, by their nodes' tags.
-    /// `place`: of the first one's row, `step` bytes or lines long as are those behind it.
+    /// Takes at most `most_at_once` elements of a supported kind, given by the tags of their nodes.
+    /// `place` is the position of the first row; rows are `step` bytes or lines long.
     template <class I, std::size_t N>
     [[nodiscard]] WrongRow take(const EntityKind<I, N>& kind,
                                 std::span<const std::array<std::uint64_t, N>> rows, Marker marker,
                                 std::uint64_t place, std::uint64_t step);
-    /// Count elements that are not kept: of another kind, between partitions, listed again.
+    /// Count elements that are ignored: of other shapes, between partitions, or repeated for
+    /// another group.
     void skip(Shape shape, std::uint64_t count) { left_out_.add(shape, count); }
     void skip_degenerate_line() { ++left_out_.degenerate_lines; }
     void skip_interface(std::uint64_t count) { left_out_.interfaces += count; }
@@ -84,18 +86,18 @@ public:
     void note_missing_entity(std::uint64_t count) { left_out_.of_missing_entities += count; }
     void elements_complete();
 
-    /// Checks what must be seen as a whole. Calls fail(what, place) for what is wrong; `has_lines`:
-    /// places are lines of text, which a message may name beside the one where it stands.
-    /// `end_place`: the end of the file.
+    /// Checks properties of the whole mesh. Calls fail(what, place) for an error. `has_lines`:
+    /// positions are line numbers, so messages may name further ones. `end_place` is the end of the
+    /// file.
     using Fail = std::function<void(const std::string& what, std::uint64_t place)>;
     void check(bool has_lines, std::uint64_t end_place, const Fail& fail);
-    /// Tells of what was not kept, or was changed, of the file of this name.
+    /// Passes notes on ignored and modified entities to the options, for the file of this name.
     void add_notes(const std::string& path) const;
 
     [[nodiscard]] ElementCounts counts() const;
 
 private:
-    /// What is known of the elements of a kind.
+    /// The elements of a kind read so far.
     struct Taken {
         std::uint64_t count = 0;
         PlaceRuns places;
@@ -126,7 +128,7 @@ private:
     std::optional<RepeatedCells> repeated_cells_;
     LeftOut left_out_;
     UntaggedGroups untagged_;
-    std::string missing_;  // what take() said of a node
+    std::string missing_;  // message about a missing node, referred to by the result of take()
 };
 
 }  // namespace octetra::gmsh

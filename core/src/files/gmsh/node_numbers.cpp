@@ -16,7 +16,7 @@ std::optional<NodeNumbers::Repeated> NodeNumbers::complete() {
     if (is_consecutive_) return std::nullopt;
     const auto [least, last] = std::ranges::minmax(others_, {}, &TaggedVertex::first);
     first_ = least.first;
-    constexpr std::uint64_t gaps = 4;  // a table of so many places a node is no larger than a list
+    constexpr std::uint64_t gaps = 4;  // so many table entries per node are no larger than a list
     if (last.first - first_ < gaps * count_) return make_table(last.first);
     std::ranges::sort(others_);
     const auto twice = std::ranges::adjacent_find(others_, {}, &TaggedVertex::first);

@@ -10,11 +10,11 @@
 
 namespace octetra::gmsh {
 
-/// Which vertex a node's tag means: vertices are numbered as nodes stand in the file. Consecutive
-/// tags take no memory, others 16 bytes a node, and while they come up to twice that.
+/// Maps node tags to vertices, which are numbered in file order. Consecutive tags take no memory;
+/// other tags take 16 bytes per node, and up to twice that while they are added.
 class NodeNumbers {
 public:
-    /// The next node.
+    /// Adds the next node.
     void add(std::uint64_t tag) {
         if (others_.empty() && (count_ == 0 || tag == first_ + count_)) {
             if (count_ == 0) first_ = tag;
@@ -24,18 +24,18 @@ public:
         ++count_;
     }
 
-    /// All nodes have come. Returns one whose tag an earlier one has, if there is such a one: its
-    /// number, and the tag.
+    /// Completes the map after all nodes have been added. Returns a node whose tag an earlier node
+    /// has, if any: its number and the tag.
     struct Repeated {
         std::uint64_t node;
         std::uint64_t tag;
     };
     [[nodiscard]] std::optional<Repeated> complete();
 
-    /// None if there is no such node.
+    /// Returns none() if there is no node with this tag.
     [[nodiscard]] VertexIndex find(std::uint64_t tag) const {
         if (is_consecutive_) {
-            // A lower tag wraps round.
+            // A tag below first_ wraps around.
             return tag - first_ < count_ ? VertexIndex{tag - first_} : VertexIndex::none();
         }
         if (!table_.empty()) {
@@ -53,10 +53,10 @@ private:
     [[nodiscard]] std::optional<Repeated> make_table(std::uint64_t last);
     [[nodiscard]] VertexIndex search(std::uint64_t tag) const;
 
-    std::uint64_t first_ = 0;  // the least tag, in the end
+    std::uint64_t first_ = 0;  // the least tag, once complete
     std::uint64_t count_ = 0;
     bool is_consecutive_ = true;
-    std::vector<TaggedVertex> others_;  // all, unless they are consecutive
+    std::vector<TaggedVertex> others_;  // all nodes, unless tags are consecutive
     std::vector<VertexIndex> table_;    // by tag - first_
 };
 

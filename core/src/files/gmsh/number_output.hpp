@@ -11,14 +11,15 @@
 
 namespace octetra::gmsh {
 
-/// Numbers of a file, as text or binary. A row is a line of text, and nothing in a binary file.
+/// Writes numbers as text or binary. A row is a line in text, and has no representation in a binary
+/// file.
 class NumberOutput {
 public:
     NumberOutput(OutputFile& out, bool is_text) : out_(&out), is_text_(is_text) {}
 
     [[nodiscard]] bool is_text() const { return is_text_; }
 
-    /// In a binary file a number has the size of its type.
+    /// Writes a number; in a binary file it has the size of its type.
     template <class T>
     requires std::same_as<T, std::int32_t> || std::same_as<T, std::uint64_t> ||
         std::same_as<T, double>
@@ -28,7 +29,7 @@ public:
         is_row_start_ = false;
         out_->put(number);
     }
-    /// A row of numbers of one type.
+    /// Writes a row of numbers of one type.
     template <class T, std::size_t N>
     requires(N <= 8) void put_row(const std::array<T, N>& row) {
         if (!is_text_) return out_->put_bytes(row.data(), sizeof row);
@@ -41,7 +42,7 @@ public:
         is_row_start_ = true;
     }
     void put_text(std::string_view text) { out_->put(text); }
-    /// "$EndNodes", behind numbers.
+    /// Writes "$EndNodes" etc. after numbers.
     void end_section(std::string_view name) {
         if (!is_text_) out_->put('\n');
         out_->put(std::string_view{"$End"});

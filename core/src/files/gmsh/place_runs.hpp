@@ -6,13 +6,13 @@
 
 namespace octetra::gmsh {
 
-/// Where the entries of a list stand in a file: lines of text, or bytes. Entries at equal distances
-/// take no memory.
+/// The positions of the entries of a list in a file, as line numbers or byte offsets. Memory is
+/// proportional to the number of changes of distance between entries.
 class PlaceRuns {
 public:
-    /// The next entry; the one behind it will stand `step` further, probably.
+    /// Adds the next entry; the one after it is expected `step` further on.
     void add(std::uint64_t place, std::uint64_t step) { add(place, step, 1); }
-    /// The next entries, `step` apart.
+    /// Adds the next `count` entries, `step` apart.
     void add(std::uint64_t place, std::uint64_t step, std::uint64_t count) {
         if (count == 0) return;
         const bool goes_on =

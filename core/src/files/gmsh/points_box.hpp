@@ -10,8 +10,9 @@ struct PointsBox {
     Point high;
 };
 
-/// Collective. The least box that has all points of a mesh; that of no points is a point. Zeros are
-/// positive: else the signs in a file would depend on who had which points.
+/// Collective. Returns the bounding box of all points of a mesh; a mesh without points has a single
+/// point as its box. Zeros are positive, otherwise signs in a file would depend on the distribution
+/// of the points.
 [[nodiscard]] PointsBox box_of_points(MeshSource& mesh);
 
 }  // namespace octetra::gmsh

@@ -13,15 +13,15 @@
 
 namespace octetra::gmsh {
 
-/// Elements of the kinds of a mesh on their way from an Input to an Intake, which takes several at
-/// once: of one kind, with one marker, at equal distances in the file.
+/// A buffer of elements between an Input and an Intake, which takes several elements at once:
+/// elements of one kind, with one marker, at equal distances in the file.
 template <class Input, class Intake>
 class RowBatch {
 public:
     RowBatch(Input& in, Intake& intake) : in_(&in), intake_(&intake) {}
 
-    /// Calls read(), which adds rows, and passes them on. What is wrong with a row comes before
-    /// what then stopped the reading.
+    /// Calls read(), which adds rows, and passes them on. An error in a buffered row is reported
+    /// before an error that ended the reading.
     void fill(auto&& read) {
         try {
             read();
@@ -32,21 +32,22 @@ public:
         pass_on();
     }
 
-    /// Are the rows of this kind? If not, the next one of it is put where its first ones were.
+    /// Returns whether the buffered rows are of this kind. If not, the next row of this kind
+    /// overwrites them after they have been passed on.
     template <class I, std::size_t N>
     [[nodiscard]] bool is_of(const EntityKind<I, N>& /*kind*/) const {
         return N == nodes_;
     }
-    /// Where the next row's nodes are put, by their tags, before it is added, or left out.
+    /// Returns the slot for the node tags of the next row, which is then either added or discarded.
     template <class I, std::size_t N>
     std::array<std::uint64_t, N>& next_row(const EntityKind<I, N>& /*kind*/) {
         if (N != nodes_ || count_ == Intake::most_at_once) pass_on();
         if (N != nodes_) begin(N, 0, 0, 0);
         return rows_of<N>()[count_];
     }
-    /// The row that was put there. `place`, `step`: see Intake::take(). Returns its nodes, which
-    /// stay there until the next but one of its kind is put somewhere, while the kind stays the
-    /// same.
+    /// Adds the row in that slot. `place`, `step`: see Intake::take(). Returns its nodes; the
+    /// reference stays valid until the next row but one of this kind is written, while the kind
+    /// stays the same.
     template <class I, std::size_t N>
     const std::array<std::uint64_t, N>& add(const EntityKind<I, N>& /*kind*/, Marker marker,
                                             std::uint64_t place, std::uint64_t step) {
@@ -61,8 +62,8 @@ public:
         return rows_of<N>()[count_++];
     }
 
-    /// Where further rows can be put that go on with the last one: at `place`, with its marker and
-    /// step. There is room for one at least, or none where they do not go on.
+    /// Returns slots for further rows that continue the last one: at `place`, with the same marker
+    /// and step. Returns at least one slot, or none if the rows do not continue the last one.
     template <class I, std::size_t N>
     [[nodiscard]] std::span<std::array<std::uint64_t, N>> next_rows(
         const EntityKind<I, N>& /*kind*/, Marker marker, std::uint64_t place, std::uint64_t step) {
@@ -72,7 +73,7 @@ public:
         if (count_ == Intake::most_at_once) pass_on();
         return std::span(rows_of<N>()).subspan(count_);
     }
-    /// So many rows, one at least, that were put there. Returns the last one's nodes; see add().
+    /// Adds `count` >= 1 rows written to these slots. Returns the nodes of the last one; see add().
     template <class I, std::size_t N>
     const std::array<std::uint64_t, N>& add_rows(const EntityKind<I, N>& /*kind*/,
                                                  std::size_t count) {
@@ -115,12 +116,12 @@ private:
 
     Input* in_;
     Intake* intake_;
-    std::size_t nodes_ = 0;  ///< of each row; 0: there was none yet
+    std::size_t nodes_ = 0;  ///< nodes per row; 0: no row yet
     Marker marker_ = 0;
     std::uint64_t first_place_ = 0;
     std::uint64_t step_ = 0;
-    // What changes with each row stands apart: it would be waited for where it is read together
-    // with what stands beside it.
+    // These change with each row and are kept apart from the members above: a wide load that covers
+    // both would stall on the recent store.
     std::size_t count_ = 0;
     Rows<4> cells_;
     Rows<3> facets_;

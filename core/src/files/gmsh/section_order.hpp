@@ -13,13 +13,13 @@ namespace octetra::gmsh {
 
 enum class SectionKind { names, entities, partitioned_entities, nodes, elements, other };
 
-/// Which sections a file has, behind $MeshFormat, and in what order they may come. `fail(what)` is
-/// called for what is wrong, and does not return.
+/// Checks which sections a file has after $MeshFormat, and their order. `fail(what)` is called for
+/// an error and does not return.
 class SectionOrder {
 public:
     explicit SectionOrder(bool is_4) : is_4_(is_4) {}
 
-    /// A section of this name begins.
+    /// Registers the beginning of a section of this name.
     [[nodiscard]] SectionKind begin(const std::string& name, auto&& fail) {
         const SectionKind section = section_of(name);
         const bool is_known = section != SectionKind::other;
@@ -36,16 +36,17 @@ public:
         const bool has_entities =
             section == SectionKind::entities || section == SectionKind::partitioned_entities;
         if (has_entities && (!is_4_ || is_read("Elements"))) {
-            fail(fmt::format("the section ${} must not stand here", name));
+            fail(fmt::format("the section ${} is not allowed here", name));
         }
         if (is_first_) read_.push_back(name);
         return section;
     }
 
-    /// Of the last section that began, one of the others: is it to be noted that it is not kept?
+    /// Returns whether a note should report that the last section, of an unsupported kind, is
+    /// ignored.
     [[nodiscard]] bool is_noted() const { return is_first_ && read_.back() != "Comments"; }
 
-    /// The file ends.
+    /// Checks at the end of the file that the required sections are present.
     void end(auto&& fail) const {
         for (const std::string_view needed : {"Nodes", "Elements"}) {
             if (!is_read(needed)) fail(fmt::format("there is no section ${}", needed));
@@ -66,7 +67,7 @@ private:
 
     bool is_4_;
     bool is_first_ = false;
-    std::vector<std::string> read_;  // each once
+    std::vector<std::string> read_;  // without duplicates
 };
 
 }  // namespace octetra::gmsh

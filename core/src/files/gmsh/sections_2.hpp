@@ -16,8 +16,8 @@
 #include "files/input/growing_mesh.hpp"
 #include "files/input/in_order.hpp"
 
-/// The sections of versions 2 to 2.2, text and binary. An Input is a TextInput or has its
-/// functions; an Intake is a MeshIntake, or has.
+/// The sections of versions 2 to 2.2, text and binary. Input is TextInput or a type with the same
+/// interface; Intake is MeshIntake or a type with the same interface.
 namespace octetra::gmsh {
 
 inline constexpr std::size_t node_bytes_2 = sizeof(std::int32_t) + 3 * sizeof(double);
@@ -45,14 +45,14 @@ void read_nodes_2(Input& in, Intake& intake) {
     read_node_rows_2(in, count, intake);
 }
 
-/// Of a binary file: elements of one type, with one number of tags.
+/// A block of a binary file: elements of one type with the same number of tags.
 struct ElementBlock2 {
     std::uint64_t type = 0;
     std::uint64_t count = 0;
     std::uint64_t tags = 0;
 };
 
-/// `left`: elements of which no block has come.
+/// `left` is the number of elements in further blocks.
 template <class Input>
 ElementBlock2 read_element_block_2(Input& in, std::uint64_t left) {
     const std::uint64_t begin = in.begin_row("elements");
@@ -61,7 +61,8 @@ ElementBlock2 read_element_block_2(Input& in, std::uint64_t left) {
     block.count = in.number32("the number of elements");
     block.tags = in.number32("the number of tags");
     if (block.count == 0 || block.count > left) {
-        in.fail_at(fmt::format("{} elements, where {} are left of all", block.count, left), begin);
+        in.fail_at(fmt::format("a block of {} elements, where {} remain", block.count, left),
+                   begin);
     }
     return block;
 }
@@ -73,7 +74,7 @@ std::uint64_t read_element_count_2(Input& in) {
     return count;
 }
 
-/// Of elements of a kind that are kept, what is needed to know one that is listed again.
+/// The part of a kept element needed to recognise a repetition of it.
 template <std::size_t N>
 struct ListedElement {
     std::array<std::uint64_t, N> nodes{};
@@ -82,8 +83,8 @@ struct ListedElement {
     bool is_there = false;
 };
 
-/// Do both mean the same element of the same entity? Its vertices are turned round where a group
-/// has the entity reversed.
+/// Returns whether both are the same element of the same entity. The order of the vertices is
+/// reversed if a group contains the entity reversed.
 template <std::size_t N>
 bool is_same_element(const ListedElement<N>& a, const ListedElement<N>& b) {
     if (!a.is_there || !b.is_there || a.elementary != b.elementary) return false;
@@ -94,17 +95,18 @@ bool is_same_element(const ListedElement<N>& a, const ListedElement<N>& b) {
     return nodes == other_nodes;
 }
 
-/// What of the elements of a kind tells whether those before or behind are listed again.
+/// Summary of consecutive elements of a kind, from which repetitions before or after them can be
+/// recognised.
 template <std::size_t N>
 struct ListedRun {
-    ListedElement<N> first;    ///< that is kept
-    ListedElement<N> last;     ///< that is kept
-    std::uint64_t kept = 0;    ///< of all
-    std::uint64_t alike = 0;   ///< kept ones at the beginning that are the same element
-    std::uint64_t others = 0;  ///< of these, listed in other groups and not kept
-    std::array<std::int32_t, 6> groups_of_others{};  ///< as many as there is room for
+    ListedElement<N> first;    ///< first element kept
+    ListedElement<N> last;     ///< last element kept
+    std::uint64_t kept = 0;    ///< number of elements kept
+    std::uint64_t alike = 0;   ///< kept elements at the beginning that equal the first
+    std::uint64_t others = 0;  ///< repetitions of it in other groups, which are ignored
+    std::array<std::int32_t, 6> groups_of_others{};  ///< the first of these groups
 
-    /// The nodes of `last` are for the caller to set before anybody asks for them.
+    /// The caller must set the nodes of `last` before they are read.
     void keep(const std::array<std::uint64_t, N>& nodes, std::int32_t physical,
               std::int32_t elementary) {
         last.physical = physical;
@@ -124,8 +126,8 @@ struct ListedRun {
     }
 };
 
-/// Reads the elements of version 2: each has its physical group first among its tags, then its
-/// entity. An element of an entity that is in several groups is listed for each of them.
+/// Reads the elements of version 2. The first tag of an element is its physical group, the second
+/// its entity. An element of an entity in several groups is listed once for each of them.
 template <class Input, class Intake>
 class Elements2 {
 public:
@@ -138,7 +140,7 @@ public:
         if constexpr (!Input::has_lines) fill([&] { read_blocks(count); });
     }
 
-    /// So many elements of a text file.
+    /// Reads `count` elements of a text file.
     void read_lines(std::uint64_t count) {
         fill([&] {
             for (std::uint64_t i = 0; i < count; ++i) {
@@ -149,7 +151,7 @@ public:
             }
         });
     }
-    /// So many of a block of a binary file.
+    /// Reads `count` elements of a block of a binary file.
     void read_rows(const ElementBlock2& block, std::uint64_t count) requires(!Input::has_lines) {
         fill([&] { add_rows(block, count); });
     }
@@ -168,8 +170,8 @@ private:
     template <std::size_t N>
     struct OfKind {
         ListedRun<N> run;
-        /// Of the last one that is kept, as they stand in the batch: to copy them each time would
-        /// be to wait until they are there.
+        /// The nodes of the last kept element, in the batch. Copying them for each element would
+        /// stall on the recent store.
         const std::array<std::uint64_t, N>* last_nodes = nullptr;
 
         void know_last_nodes() {
@@ -193,7 +195,7 @@ private:
     void add_rows(const ElementBlock2& block, std::uint64_t count) requires(!Input::has_lines) {
         const auto add_rows_of = [&](const auto& kind, auto& of) {
             intake_->make_room(kind, count);
-            std::uint64_t one_by_one = 0;  // so many more, after some that were not alike
+            std::uint64_t one_by_one = 0;  // elements to read singly after a failed read_alike()
             for (std::uint64_t left = count; left > 0;) {
                 if (one_by_one == 0) {
                     const std::uint64_t read = read_alike(kind, of, block.tags, left);
@@ -217,8 +219,8 @@ private:
             read_element(block.type, block.tags);
         }
     }
-    /// The next rows of a binary file, as many as have the groups of the last one and fill the
-    /// batch, at most `left`. Returns how many; none where one of them is not like that.
+    /// Reads the next rows of a binary file, at most `left`, as many as fit into the batch, if all
+    /// have the groups of the last row. Returns their number, or 0 if any row differs.
     template <class I, std::size_t N>
     std::uint64_t read_alike(const EntityKind<I, N>& kind, OfKind<N>& of, std::size_t tags,
                              std::uint64_t left) {
@@ -227,7 +229,7 @@ private:
         const std::size_t size = (1 + tags + N) * sizeof(std::int32_t);
         auto rows = batch_.next_rows(kind, run.last.physical, in_->begin_row("an element"), size);
         if (rows.empty()) return 0;
-        of.know_last_nodes();  // they stand where rows are put now
+        of.know_last_nodes();  // they are in slots that are overwritten below
         rows = rows.first(std::min<std::uint64_t>(rows.size(), left));
         const std::byte* row = in_->at_hand(rows.size() * size);
         if (row == nullptr) return 0;
@@ -252,8 +254,8 @@ private:
         of.last_nodes = &batch_.add_rows(kind, rows.size());
         return rows.size();
     }
-    /// The whole row of a binary file. False, and nothing is read, where number by number something
-    /// wrong would be found.
+    /// Reads a whole row of a binary file at once. Returns false and consumes nothing if the row is
+    /// incomplete or has an error, which reading it number by number then reports.
     template <class I, std::size_t N>
     bool read_at_once(const EntityKind<I, N>& kind, OfKind<N>& of, std::size_t tags) {
         const std::size_t size = (1 + tags + N) * sizeof(std::int32_t);
@@ -306,7 +308,7 @@ private:
         if (!batch_.is_of(kind)) of.know_last_nodes();
         return batch_.next_row(kind);
     }
-    /// The next row of the batch, unless it is listed again.
+    /// Adds the next row of the batch unless it repeats the last element for another group.
     template <class I, std::size_t N>
     void keep(const EntityKind<I, N>& kind, const std::array<std::uint64_t, N>& nodes,
               std::uint64_t step, OfKind<N>& of) {
@@ -326,7 +328,7 @@ private:
     Input* in_;
     Intake* intake_;
     RowBatch<Input, Intake> batch_;
-    // Of the element that is read:
+    // The element being read:
     std::uint64_t place_ = 0;
     std::uint64_t tags_ = 0;
     std::int32_t physical_ = 0;

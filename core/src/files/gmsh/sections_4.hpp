@@ -17,11 +17,13 @@
 #include "files/gmsh/row_batch.hpp"
 #include "files/input/growing_mesh.hpp"
 
-/// The sections of version 4.1, text and binary: the same numbers in the same order. An Input is a
-/// TextInput or has its functions; an Intake is a MeshIntake, or has.
+/// The sections of version 4.1, text and binary, which have the same numbers in the same order.
+/// Input is TextInput or a type with the same interface; Intake is MeshIntake or a type with the
+/// same interface.
 namespace octetra::gmsh {
 
-/// Reads a list of tags behind its length. Returns the length, and the first of them, or 0.
+/// Reads the length of a list of tags and the tags. Returns the length and the first tag, or 0 if
+/// there is none.
 template <class Input>
 std::pair<std::uint64_t, std::int32_t> read_tags(Input& in, std::string_view what) {
     const std::uint64_t count = in.number64("the number of tags");
@@ -34,7 +36,7 @@ std::pair<std::uint64_t, std::int32_t> read_tags(Input& in, std::string_view wha
     return {count, first};
 }
 
-/// The rest of an entity, from its coordinates on.
+/// Reads the rest of an entity, from its coordinates on.
 template <class Input>
 void read_entity_4(Input& in, std::int32_t dimension, std::int32_t tag, bool is_interface,
                    EntityGroups& groups) {
@@ -93,16 +95,15 @@ std::int32_t read_dimension(Input& in) {
     in.fail(fmt::format("entities have dimension 0 to 3, not {}", dimension));
 }
 
-/// The length of a block of a section of which so many entries are left.
+/// Reads the length of a block of a section in which `left` entries remain.
 template <class Input>
 std::uint64_t read_block_length(Input& in, std::uint64_t left, std::string_view what) {
     const std::uint64_t count = in.number64("the length of a block");
     if (count <= left) return count;
-    in.fail(fmt::format("a block of {} {}, where {} are left of all that were announced", count,
-                        what, left));
+    in.fail(fmt::format("a block of {} {}, where {} of those announced remain", count, what, left));
 }
 
-/// What a section of blocks begins with.
+/// The beginning of a section of blocks.
 struct SectionTotals {
     std::uint64_t blocks = 0;
     std::uint64_t entries = 0;
@@ -128,16 +129,16 @@ SectionTotals read_element_totals_4(Input& in) {
     return read_totals_4(in, "elements", 2, 2 * sizeof(std::uint64_t));
 }
 
-/// Nodes of an entity: behind this come the tags of all of them, then the points.
+/// A block of nodes of an entity: this is followed by the tags of all nodes, then by their points.
 struct NodeBlock {
-    std::size_t parameters = 0;  ///< behind each point
+    std::size_t parameters = 0;  ///< after each point
     std::uint64_t count = 0;
 
     static constexpr std::size_t tag_bytes = sizeof(std::uint64_t);
     [[nodiscard]] std::size_t point_bytes() const { return (3 + parameters) * sizeof(double); }
 };
 
-/// `left`: nodes of which no block has come.
+/// `left` is the number of nodes in further blocks.
 template <class Input>
 NodeBlock read_node_block_4(Input& in, std::uint64_t left) {
     NodeBlock block;
@@ -182,7 +183,7 @@ void read_nodes_4(Input& in, Intake& intake) {
     }
 }
 
-/// Elements of an entity, all of one type.
+/// A block of elements of an entity, all of one type.
 struct ElementBlock {
     Entity entity;
     std::uint64_t type = 0;
@@ -194,7 +195,7 @@ struct ElementBlock {
     }
 };
 
-/// `left`: elements of which no block has come. A block of none may have any type.
+/// `left` is the number of elements in further blocks. An empty block may have any type.
 template <class Input>
 ElementBlock read_element_block_4(Input& in, std::uint64_t left, const EntityGroups& groups) {
     ElementBlock block;
@@ -231,7 +232,7 @@ void keep_rows_4(Input& in, const EntityKind<I, N>& kind, Marker marker, std::ui
     });
 }
 
-/// Reads so many rows of a block.
+/// Reads `count` rows of a block.
 template <class Input, class Intake>
 void read_element_rows_4(Input& in, const ElementBlock& block, std::uint64_t count,
                          Intake& intake) {

@@ -16,16 +16,17 @@
 
 namespace octetra::gmsh {
 
-/// The numbers of a text file, which stand where they will; places are lines. BinaryInput has the
-/// same functions: the readers of sections are made for both.
+/// The numbers of a text file, in free format; positions are line numbers. BinaryInput has the same
+/// interface: the section readers are templates for both.
 class TextInput {
 public:
     static constexpr std::uint64_t row_step(std::uint64_t /*bytes*/) { return 1; }
 
-    /// The reader stands on the line behind which the numbers begin.
+    /// The reader must be on the line before the first number.
     explicit TextInput(LineReader& reader) : reader_(&reader), tokens_(reader) {}
 
-    /// The name of the next section, without '$'; empty at the end of the file.
+    /// Returns the name of the next section, without '$', or an empty string at the end of the
+    /// file.
     [[nodiscard]] std::string section() {
         const std::string_view token = tokens_.text();
         if (token.empty()) return {};
@@ -51,7 +52,7 @@ public:
         reader_->fail(fmt::format("the file ends within the section {}", shown(name)));
     }
 
-    /// Where the row is whose first number comes next.
+    /// Returns the position of the row that begins with the next number.
     [[nodiscard]] std::uint64_t begin_row(std::string_view what) {
         tokens_.require(what);
         return reader_->line_number();
@@ -59,15 +60,15 @@ public:
     [[nodiscard]] std::uint64_t number64(std::string_view what) {
         return tokens_.unsigned_integer(what);
     }
-    /// What is a signed number of 32 bits in binary files, but never negative.
+    /// Reads a number that is a signed 32-bit integer in binary files, but never negative.
     [[nodiscard]] std::uint64_t number32(std::string_view what) {
         return tokens_.unsigned_integer(what);
     }
-    /// A count that version 2 writes as text in binary files, too.
+    /// Reads a count that version 2 writes as text also in binary files.
     [[nodiscard]] std::uint64_t count_line(std::string_view what) {
         return tokens_.unsigned_integer(what);
     }
-    /// The next line, and all of it: '#' begins no comment there.
+    /// Returns the whole next line; '#' starts no comment in it.
     [[nodiscard]] std::string_view line(std::string_view what) {
         if (!reader_->next()) {
             reader_->fail(fmt::format("the file ends where {} should be", what));
@@ -81,19 +82,19 @@ public:
         const double y = tokens_.coordinate("y");
         return {x, y, tokens_.coordinate("z")};
     }
-    /// A number that nobody asks for.
+    /// Skips a number.
     void skip_real(std::string_view what) {
         tokens_.require(what);
         (void)tokens_.text();
     }
-    /// A row of an element's number, which nobody asks for, and its nodes.
+    /// Reads a row: the number of an element, which is ignored, and its nodes.
     template <std::size_t N>
     void row(std::array<std::uint64_t, N>& nodes, std::string_view what) {
         (void)tokens_.unsigned_integer(what);
         for (std::uint64_t& node : nodes) node = tokens_.unsigned_integer(what);
     }
 
-    /// Refuses a count, just read, of entries that the file cannot hold: each has at least so many
+    /// Throws if the rest of the file is too short for `count` entries of at least this many
     /// numbers, or bytes in a binary file.
     void check_count(std::uint64_t count, std::size_t numbers, std::size_t /*bytes*/,
                      std::string_view what) const {
@@ -103,20 +104,20 @@ public:
     [[noreturn]] void fail_at(std::string_view what, std::uint64_t place) const {
         reader_->fail(what, place);
     }
-    /// "FILE:LINE", of what was read last.
+    /// Returns "FILE:LINE" of the last token read.
     [[nodiscard]] std::string place() const {
         return fmt::format("{}:{}", reader_->path().native(), reader_->line_number());
     }
-    /// The place where the file ends, once it is read.
+    /// Returns the position of the end of the file, once it has been read.
     [[nodiscard]] std::uint64_t end_place() const { return reader_->line_number(); }
-    /// Can a message call a place a line?
+    /// Whether messages can refer to positions as lines.
     static constexpr bool has_lines = true;
 
 protected:
     [[nodiscard]] LineReader& reader() const { return *reader_; }
-    /// Is nothing left on the line of what was read last?
+    /// Returns whether the line of the last token has no further tokens.
     [[nodiscard]] bool at_line_end() const { return tokens_.at_line_end(); }
-    /// Goes on behind the line on which the reader is.
+    /// Continues after the current line of the reader.
     void skip_line() { tokens_.skip_line(); }
 
 private:

@@ -5,10 +5,10 @@
 
 namespace octetra::gmsh {
 
-/// The first of some rows that something is wrong with.
+/// The first erroneous row of a batch.
 struct WrongRow {
     std::size_t row = 0;
-    std::string_view what;  ///< empty: nothing is wrong with any
+    std::string_view what;  ///< empty if no row is erroneous
 };
 
 }  // namespace octetra::gmsh

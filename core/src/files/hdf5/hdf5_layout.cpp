@@ -21,7 +21,8 @@
 namespace octetra {
 namespace {
 
-/// What went wrong deepest down, in the words of the system if it has said something.
+/// Error walk callback: stores the innermost error, as the message of the operating system if there
+/// is one.
 herr_t note_reason(unsigned, const H5E_error2_t* error, void* reason) {
     constexpr std::string_view in_the_systems_words = "error message = '";
     const std::string_view text = error->desc == nullptr ? "" : error->desc;
@@ -33,10 +34,10 @@ herr_t note_reason(unsigned, const H5E_error2_t* error, void* reason) {
     }
     const std::string_view words = text.substr(begin + in_the_systems_words.size());
     found = words.substr(0, words.find('\''));
-    return 1;  // enough
+    return 1;  // stop
 }
 
-/// HDF5 prints what goes wrong, unless it is asked not to; a program may have asked otherwise.
+/// Suppresses the printing of errors by HDF5, and restores the program's setting.
 class Unprinted {
 public:
     Unprinted() {
@@ -54,7 +55,7 @@ private:
     void* data_ = nullptr;
 };
 
-/// What HDF5 numbers, until it is closed.
+/// An HDF5 identifier, closed by the destructor.
 class Handle {
 public:
     using Closer = herr_t (*)(hid_t);
@@ -88,7 +89,7 @@ std::uint64_t size_of(const Hdf5Dataset& dataset) {
                            std::uint64_t{H5Tget_size(type_of(dataset.type))}, std::multiplies{});
 }
 
-/// A file that nobody else sees. What was never written takes no memory.
+/// An anonymous file in memory. Ranges that were never written take no memory.
 class MemoryFile {
 public:
     MemoryFile() : file_(::memfd_create("octetra", MFD_CLOEXEC)) {
@@ -110,7 +111,8 @@ public:
         Hdf5Bytes read{begin, std::vector<char>(end - begin)};
         const ssize_t got =
             ::pread(file_, read.bytes.data(), read.bytes.size(), static_cast<off_t>(begin));
-        if (got != static_cast<ssize_t>(read.bytes.size())) throw SystemError("memory is lost");
+        if (got != static_cast<ssize_t>(read.bytes.size()))
+            throw SystemError("reading a file in memory failed");
         return read;
     }
 
@@ -123,7 +125,7 @@ public:
     explicit FileMaker(std::string path)
         : path_(std::move(path)), file_(create()), creation_(dataset_creation()) {}
 
-    /// The times of its making would make each file another one.
+    /// Creates a group without timestamps, which would make the bytes of each file different.
     void make_group(const std::string& path) {
         const Handle creation = handle(H5Pcreate(H5P_GROUP_CREATE), H5Pclose);
         check(H5Pset_obj_track_times(creation.id(), false));
@@ -147,7 +149,7 @@ public:
         write_attribute(group, name, H5T_STD_I64LE, H5T_NATIVE_INT64, space, numbers.data());
     }
 
-    /// Returns where its values belong.
+    /// Returns the position of its values in the file.
     std::uint64_t make_dataset(const Hdf5Dataset& dataset) {
         const std::vector<hsize_t> extents(dataset.extents.begin(), dataset.extents.end());
         const Handle space = handle(
@@ -160,13 +162,13 @@ public:
         return offset == HADDR_UNDEF ? 0 : offset;
     }
 
-    /// Only now all of the skeleton is written.
+    /// Completes the skeleton; only now have all its bytes been written.
     void close() { check(file_.close()); }
 
 private:
     Handle create() const {
         const Handle access = handle(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
-        // The default driver asks where the link leads that the path is, which is nowhere.
+        // The default driver would resolve the link that this path is, which leads to no file.
         check(H5Pset_fapl_stdio(access.id()));
         return handle(H5Fcreate(path_.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access.id()), H5Fclose);
     }
@@ -175,7 +177,7 @@ private:
         Handle creation = handle(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
         check(H5Pset_obj_track_times(creation.id(), false));
         check(H5Pset_layout(creation.id(), H5D_CONTIGUOUS));
-        // A place for the values at once, and nothing in it yet.
+        // Allocate the space of the values immediately, but do not write to it.
         check(H5Pset_alloc_time(creation.id(), H5D_ALLOC_TIME_EARLY));
         check(H5Pset_fill_time(creation.id(), H5D_FILL_TIME_NEVER));
         return creation;
@@ -208,7 +210,8 @@ private:
     Handle creation_;
 };
 
-/// HDF5 does not take it well if it cannot make a file as long as it wants.
+/// Throws SystemError if the file would exceed the limit of the process, since HDF5 does not
+/// recover from this error.
 void refuse_beyond_limit(const std::vector<Hdf5Dataset>& datasets) {
     constexpr std::uint64_t most_of_the_rest = std::uint64_t{1} << 16U;
     std::uint64_t size = most_of_the_rest;
@@ -219,7 +222,7 @@ void refuse_beyond_limit(const std::vector<Hdf5Dataset>& datasets) {
     }
 }
 
-/// Everything between the values.
+/// Returns the bytes of the file outside the values.
 std::vector<Hdf5Bytes> all_but_values(const MemoryFile& file,
                                       const std::vector<std::uint64_t>& values_at,
                                       const std::vector<Hdf5Dataset>& datasets) {

@@ -5,10 +5,10 @@
 #include <variant>
 #include <vector>
 
-/// The skeleton of an HDF5 file: everything but the values.
+/// The skeleton of an HDF5 file: all its bytes except the values of datasets.
 namespace octetra {
 
-/// A dataset that is stored as one stretch of bytes.
+/// A dataset stored contiguously.
 struct Hdf5Dataset {
     std::string path;  ///< "/GROUP/.../NAME"
     const char* type =
@@ -16,35 +16,35 @@ struct Hdf5Dataset {
     std::vector<std::uint64_t> extents;
 };
 
-/// An attribute: text, or whole numbers, of which one alone is no list.
+/// An attribute: text or integers. A single integer is stored as a scalar.
 struct Hdf5Attribute {
     std::string name;
     std::variant<std::string, std::vector<std::int64_t>> value;
 };
 
-/// A group; those that it is in stand before it.
+/// A group. Groups that contain it must precede it.
 struct Hdf5Group {
     std::string path;
     std::vector<Hdf5Attribute> attributes = {};
 };
 
-/// Bytes of a file, and where they stand.
+/// Bytes of a file and their position.
 struct Hdf5Bytes {
     std::uint64_t position = 0;
     std::vector<char> bytes;
 };
 
 struct Hdf5Skeleton {
-    /// Where the values of each dataset belong; 0 for one that has none.
+    /// The position of the values of each dataset; 0 for an empty dataset.
     std::vector<std::uint64_t> values_at;
-    /// All of the file but the values.
+    /// All bytes of the file except the values.
     std::vector<Hdf5Bytes> rest;
 };
 
-/// What HDF5 makes of these groups and datasets. The library writes into
-/// memory: so all files are written by one way, and what fails there leaves no file open here. The
-/// same arguments give the same bytes, at any time. Memory: some thousand bytes, whatever the
-/// extents. Throws SystemError, without a file's name.
+/// Creates the skeleton of a file with these groups and datasets. HDF5 writes it to a file in
+/// memory, so that all output files are written by the same code and an error in HDF5 leaves no
+/// open file. The result depends only on the arguments, not on the time. Memory: a few kilobytes,
+/// independent of the extents. Throws SystemError without a file name.
 [[nodiscard]] Hdf5Skeleton make_hdf5_skeleton(const std::vector<Hdf5Group>& groups,
                                               const std::vector<Hdf5Dataset>& datasets);
 

@@ -14,7 +14,7 @@ namespace {
 
 static_assert(std::endian::native == std::endian::little);
 
-/// Collective.
+/// Collective. Writes the values of a dataset.
 void put_values(OutputFile& out, const FilledDataset& filled, std::uint64_t offset,
                 const ProcessGroup& group) {
     const std::size_t head = filled.values.size() * sizeof(std::int64_t);
@@ -27,8 +27,8 @@ void put_values(OutputFile& out, const FilledDataset& filled, std::uint64_t offs
     });
 }
 
-/// Collective. The first process writes the file without the values, and tells all where each
-/// dataset's belong.
+/// Collective. The first process writes the skeleton; returns the position of each dataset's values
+/// on all processes.
 std::vector<std::uint64_t> put_skeleton(OutputFile& out, const std::filesystem::path& path,
                                         const std::vector<Hdf5Group>& groups,
                                         const std::vector<FilledDataset>& all,

@@ -12,15 +12,15 @@
 
 namespace octetra {
 
-/// A dataset, and what is written into it: values that come slice by slice, or are there.
+/// A dataset and its values: an array that is read slice by slice, or a list.
 struct FilledDataset {
     Hdf5Dataset dataset;
     VtuArray array;
-    std::vector<std::int64_t> values;  ///< these come first
+    std::vector<std::int64_t> values;  ///< written before those of the array
 };
 
-/// Collective. Writes an HDF5 file of these groups and datasets, every process its slices of the
-/// values. `path` is the file's name in what is thrown, a SystemError.
+/// Collective. Writes an HDF5 file with these groups and datasets; every process writes its slices
+/// of the values. `path` is used in the message of a SystemError.
 void put_hdf5(OutputFile& out, const std::filesystem::path& path,
               const std::vector<Hdf5Group>& groups, const std::vector<FilledDataset>& all,
               const ProcessGroup& group);

@@ -9,7 +9,7 @@
 namespace octetra {
 namespace {
 
-/// "WORD COUNT"; each entry takes `fields_per_entry` numbers. Returns the count.
+/// Reads "WORD COUNT", followed by entries of `fields_per_entry` numbers. Returns the count.
 std::uint64_t read_heading(LineReader& reader, std::string_view word,
                            std::size_t fields_per_entry) {
     if (!reader.next()) reader.fail(fmt::format("the file ends where '{}' should be", word));
@@ -23,11 +23,11 @@ std::uint64_t read_heading(LineReader& reader, std::string_view word,
     return count;
 }
 
-/// Reads an index that the file counts from `index_base`.
+/// Reads an index counted from `index_base`.
 template <class I>
 I read_index(Fields& fields, LineReader& reader, std::uint32_t index_base) {
     const std::uint64_t number = fields.unsigned_integer("a number");
-    const std::uint64_t index = number - index_base;  // wraps round below index_base
+    const std::uint64_t index = number - index_base;  // wraps around below index_base
     if (index >= I::limit) {
         reader.fail(fmt::format("a number from {} expected, {} found", index_base, number));
     }

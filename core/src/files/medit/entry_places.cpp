@@ -12,8 +12,8 @@
 namespace octetra {
 namespace {
 
-/// Whether an entity's vertices are some of `vertices`, and different. Nearly all are, so that it
-/// is quicker to find out without a branch for each vertex.
+/// Returns whether the vertices of an entity are less than `vertices` and distinct. Evaluated
+/// without a branch for each vertex, because nearly all entities are valid.
 template <std::size_t N>
 bool is_sound(const std::array<VertexIndex, N>& entity, VertexIndex vertices) {
     bool sound = true;
@@ -80,7 +80,7 @@ private:
             for (const CellVertices& vertices : mesh_->cells) repeated.add(vertices);
         }
         if (check.fixed_count() > 0) {
-            options_->note(fmt::format("{}: {} inverted cells were turned round", path_->native(),
+            options_->note(fmt::format("{}: {} inverted cells were reversed", path_->native(),
                                        check.fixed_count()));
         }
         if (const CellPair pair = repeated.find(mesh_->cells, mesh_->points.size());

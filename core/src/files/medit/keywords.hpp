@@ -8,19 +8,19 @@
 
 #include <octetra/core/features.hpp>
 
-/// Keywords of the Medit format that begin sections of other kinds than lists of a mesh.
+/// Keywords of the Medit format for sections other than the lists of a mesh.
 namespace octetra {
 
-/// Of a keyword that only text files have.
+/// Code of a keyword that exists only in text files.
 inline constexpr std::int32_t no_code = -1;
 
-/// A keyword as text files have it, and its code in binary ones.
+/// A keyword of text files, and its code in binary files.
 struct MeditKeyword {
     std::string_view keyword;
     std::int32_t code;
 };
 
-/// Of the features, in the order of all_features. Each entry is the number of an entity.
+/// Sections of the features, in the order of all_features. Each entry is the number of an entity.
 inline constexpr std::array<MeditKeyword, feature_count> feature_sections{
     {{"Corners", 13},
      {"RequiredVertices", 15},
@@ -32,13 +32,14 @@ inline constexpr std::array<MeditKeyword, feature_count> feature_sections{
 [[nodiscard]] inline const MeditKeyword& keyword_of(Feature feature) {
     return feature_sections.at(static_cast<std::size_t>(feature));
 }
-/// Which of the features' sections has this keyword or code; feature_count if none has.
+/// Returns the position of the feature section with this keyword or code, or feature_count if there
+/// is none.
 [[nodiscard]] std::size_t feature_with(auto MeditKeyword::*member, const auto& value) {
     const auto found = std::ranges::find(feature_sections, value, member);
     return static_cast<std::size_t>(found - feature_sections.begin());
 }
 
-/// Keywords whose entries are read over, and how many numbers each entry has in text.
+/// Keywords of sections that are skipped, and the number of numbers per entry in text.
 struct SkippedSection {
     std::string_view keyword;
     std::size_t numbers_per_entry;
@@ -60,11 +61,11 @@ inline constexpr std::array<SkippedSection, 14> skipped_sections{
      {"ParallelTriangleCommunicators", 2, no_code},
      {"ParallelVertexCommunicators", 2, no_code}}};
 
-/// Keywords of ParMmg without a number of entries: numbers follow up to the next keyword.
+/// Keywords of ParMmg without a count: numbers follow up to the next keyword.
 inline constexpr std::array<std::string_view, 3> sections_without_count{
     {"NumberOfPartitions", "ParallelCommunicatorTriangles", "ParallelCommunicatorVertices"}};
 
-/// Of some there are two spellings.
+/// Cells of other shapes. Some keywords have two spellings.
 inline constexpr std::array<MeditKeyword, 6> other_cell_shapes{{{"Quadrilaterals", 7},
                                                                 {"Hexahedra", 10},
                                                                 {"Hexaedra", 10},
@@ -74,9 +75,9 @@ inline constexpr std::array<MeditKeyword, 6> other_cell_shapes{{{"Quadrilaterals
 
 inline constexpr std::array<MeditKeyword, 3> second_order_sections{
     {{"TetrahedraP2", 30}, {"TrianglesP2", 24}, {"EdgesP2", 25}}};
-/// What is said of one of them.
+/// Message for a section of second-order elements.
 inline constexpr std::string_view no_second_order =
-    "second-order elements ({}) are not supported: have the mesh made with elements of first "
-    "order, in Gmsh by -order 1";
+    "second-order elements ({}) are not supported: generate the mesh with first-order elements, "
+    "in Gmsh with -order 1";
 
 }  // namespace octetra

@@ -9,10 +9,10 @@
 #include "files/input/line_reader.hpp"
 #include "files/input/tokens.hpp"
 
-/// What all text files of Medit's begin with.
+/// The beginning of all Medit text files.
 namespace octetra {
 
-/// Throws InputError unless the file begins as one of Medit's.
+/// Throws InputError unless the file begins as a Medit text file.
 inline void take_medit_head(Tokens& tokens, const LineReader& reader) {
     if (const std::string_view token = tokens.text(); token != "MeshVersionFormatted") {
         if (token == "MFEM") {
@@ -29,7 +29,7 @@ inline void take_medit_head(Tokens& tokens, const LineReader& reader) {
     }
 }
 
-/// What follows the keyword Dimension.
+/// Reads the value that follows the keyword Dimension.
 inline void take_medit_dimension(Tokens& tokens, const LineReader& reader) {
     const std::uint64_t dimension = tokens.unsigned_integer("the dimension");
     if (dimension != 3) reader.fail(fmt::format("dimension 3 expected, {} found", dimension));

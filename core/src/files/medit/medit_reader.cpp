@@ -22,38 +22,38 @@
 namespace octetra {
 namespace {
 
-/// The first entry of a section with a vertex that there is not.
+/// The first entry of a section that refers to a missing vertex.
 struct OutOfRange {
     std::uint64_t entry = 0;
     VertexIndex vertex;
 };
 
-/// Where the entries of a section were found.
+/// A section of a text file.
 struct SectionOfText {
-    std::uint64_t keyword_line = 0;          ///< 0: there was no such section
-    std::uint64_t first_line = 0;            ///< of the first entry
+    std::uint64_t keyword_line = 0;          ///< 0: no such section
+    std::uint64_t first_line = 0;            ///< line of the first entry
     bool consecutive = true;                 ///< entry i begins on line first_line + i
-    std::uint64_t largest = 0;               ///< of the numbers of vertices
-    std::optional<OutOfRange> out_of_range;  ///< looked for while streaming
+    std::uint64_t largest = 0;               ///< largest vertex number
+    std::optional<OutOfRange> out_of_range;  ///< determined only while streaming
 };
 
-/// What is known of a feature's section.
+/// A section of a feature.
 struct FeatureSection {
-    std::uint64_t keyword_line = 0;  ///< 0: there was no such section
-    std::uint64_t largest = 0;       ///< of its numbers, counted from 1
-    std::uint64_t largest_line = 0;  ///< where that stands first
+    std::uint64_t keyword_line = 0;  ///< 0: no such section
+    std::uint64_t largest = 0;       ///< its largest number, counted from 1
+    std::uint64_t largest_line = 0;  ///< line of its first occurrence
 };
 
 class MeditReader final : private EntryPlaces {
 public:
-    /// Without a sink, reads the mesh into memory.
+    /// If `sink` is null, reads the mesh into memory.
     MeditReader(const std::filesystem::path& path, const ReadOptions& options, MeshSink* sink,
                 Streamed streamed = Streamed::everything)
         : reader_(path), tokens_(reader_), options_(&options), growing_(sink, true, streamed) {
         mesh_.index_base = 1;
     }
 
-    /// Returns the mesh, if it is not streamed.
+    /// Returns the mesh unless it is streamed.
     Mesh read() {
         take_medit_head(tokens_, reader_);
         while (read_section()) {
@@ -71,8 +71,7 @@ public:
         return std::move(mesh_);
     }
 
-    /// Reads all of the file and tells the sink of points, and of nothing else. Returns their
-    /// number.
+    /// Reads the whole file, passes only points to the sink, and returns their number.
     std::uint64_t read_points() {
         take_medit_head(tokens_, reader_);
         while (read_section()) {
@@ -81,7 +80,7 @@ public:
     }
 
 private:
-    /// Reads one section; false at the end.
+    /// Reads one section. Returns false at the end of the file.
     bool read_section() {
         const std::string keyword = next_keyword();
         if (keyword.empty()) {
@@ -149,7 +148,7 @@ private:
         reader_.fail(fmt::format("a keyword expected, {} found", shown(keyword)));
     }
 
-    /// Up to the next keyword.
+    /// Skips numbers up to the next keyword.
     void skip_numbers(std::string_view section) {
         options_->note(note_on_skipped(reader_.path(), reader_.line_number(), section));
         const auto is_number = [](std::string_view token) {
@@ -185,7 +184,7 @@ private:
         }
     }
 
-    /// What the numbers are of may stand behind them.
+    /// Checks the numbers of a feature at the end, since the section that they refer to may follow.
     void finish_feature(Feature feature) {
         const Numbered numbered = numbered_by(feature, growing_.facts());
         const auto& [keyword_line, largest, line] = features_[feature];
@@ -195,7 +194,7 @@ private:
         put_in_order(mesh_.features[feature]);
     }
 
-    /// Reads a section's count and its entries, each by read_entry().
+    /// Reads the count of a section and its entries, calling read_entry() for each.
     SectionOfText read_entries(const SectionOfText& earlier, std::size_t field_count,
                                std::string_view name, auto&& expect, auto&& read_entry) {
         SectionOfText section{.keyword_line = reader_.line_number()};
@@ -271,7 +270,7 @@ private:
         growing_.all_complete(kind);
     }
 
-    /// From the first entry on that has a vertex that there is not, the sink hears nothing.
+    /// Records the first entry that refers to a missing vertex, and stops streaming from there on.
     void look_for_out_of_range(std::span<const VertexIndex> vertices, std::uint64_t entry,
                                std::optional<OutOfRange>& first) {
         for (const VertexIndex vertex : vertices) {
@@ -281,8 +280,8 @@ private:
         }
     }
 
-    /// A sink hears of points before what refers to them: where they stand behind it, the file is
-    /// read to its end for them first.
+    /// Streams the points before other entities. If the Vertices section follows entities that
+    /// refer to it, the file is first read to its end for the points alone.
     void stream_points_first() {
         if (vertices_.keyword_line != 0 || growing_.streamed() != Streamed::everything) return;
         const ReadOptions quiet{.only_syntax = true};
@@ -292,9 +291,9 @@ private:
         growing_.stream_only(Streamed::all_but_points);
     }
 
-    // The checks come last because the format lets Vertices stand behind what refers to them. What
-    // is streamed is looked at as it comes, but an error of syntax further down is reported first,
-    // as it is for a mesh in memory.
+    // Checks are made last because in this format Vertices may follow the entities that refer to
+    // them. Streamed entities are examined as they are read, but a syntax error further on takes
+    // precedence, as for a mesh in memory.
 
     void check_streamed(Listed list) const {
         const SectionOfText& section = section_of(list);
@@ -321,7 +320,7 @@ private:
                      section.keyword_line);
     }
 
-    /// Lines are known where each entry has its own.
+    /// Lines are known only if every entry begins on its own line.
     [[nodiscard]] LineOf lines_of(Listed list) const override {
         return [section = section_of(list)](std::uint64_t entry) {
             return section.consecutive ? std::optional(section.first_line + entry) : std::nullopt;
@@ -330,13 +329,14 @@ private:
 
     LineReader reader_;
     Tokens tokens_;
-    std::string keyword_ahead_;  ///< read, but not begun; empty: none
+    std::string keyword_ahead_;  ///< keyword of the next section, if already read
     const ReadOptions* options_;
     GrowingMesh growing_;
     Mesh& mesh_ = growing_.mesh;
-    /// While streaming, once it is known: the number of vertices. Else no number reaches it.
+    /// The number of vertices, while streaming, once known; otherwise greater than any vertex
+    /// number.
     VertexIndex streamed_vertices_ = VertexIndex::none();
-    std::optional<std::uint64_t> vertices_ahead_;  ///< as read before the rest
+    std::optional<std::uint64_t> vertices_ahead_;  ///< number of vertices, if they were read first
     SectionOfText vertices_;
     SectionOfText tetrahedra_;
     SectionOfText triangles_;

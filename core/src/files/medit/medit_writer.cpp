@@ -25,7 +25,7 @@ void put_section_heading(OutputFile& out, const ProcessGroup& group, std::string
     put_line(out, count);
 }
 
-/// Reference numbers are 0 where the mesh has no markers.
+/// Reference numbers are 0 if the mesh has no markers.
 template <std::size_t N>
 void write_section(OutputFile& out, MeshSource& mesh, std::string_view keyword,
                    const EntityList<N>& list) {
@@ -96,7 +96,7 @@ std::string write_medit(MeshSource& mesh, const std::filesystem::path& path) {
 
 std::string attributes_left_out(const MeshFacts& facts) {
     if (facts.attributes_per_point == 0) return {};
-    return fmt::format("Medit's format has no place for the {} attribute(s) of each vertex",
+    return fmt::format("the Medit format cannot hold the {} attribute(s) of each vertex",
                        facts.attributes_per_point);
 }
 

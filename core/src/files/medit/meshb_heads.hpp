@@ -12,17 +12,17 @@
 namespace octetra {
 
 static_assert(std::endian::native == std::endian::little,
-              "what is written is little-endian; another machine has to swap bytes");
+              "output is little-endian; a big-endian machine has to swap bytes");
 
-/// The lowest version from 2 on, which has reals of 64 bits, of a file with lists of at most `most`
-/// entries and positions up to `size`.
+/// Returns the lowest version from 2 on (which have 64-bit reals) for a file with lists of at most
+/// `most` entries and positions up to `size`.
 [[nodiscard]] inline std::int32_t lowest_meshb_version(std::uint64_t most, std::uint64_t size) {
     constexpr std::uint64_t most_in_32_bits = std::numeric_limits<std::int32_t>::max();
     if (most > most_in_32_bits) return 4;
     return size > most_in_32_bits ? 3 : 2;
 }
 
-/// Writes what stands between the rows of a binary file of Medit's: the first process does.
+/// Writes the headers of a binary Medit file on the first process.
 class MeshbHeads {
 public:
     MeshbHeads(const MeshSource& mesh, OutputFile& out, std::int32_t version)
@@ -30,11 +30,11 @@ public:
 
     [[nodiscard]] const MeshbFormat& format() const { return format_; }
 
-    /// A number as it is.
+    /// Writes a number as its bytes.
     void put_first(auto number) {
         if (is_first_) out_->put_bytes(&number, sizeof number);
     }
-    /// The byte order, the version, and the section Dimension.
+    /// Writes the byte order, the version, and the section Dimension.
     void put_start() {
         put_first(std::int32_t{1});
         put_first(format_.version);
@@ -43,7 +43,7 @@ public:
         put_first(std::int32_t{3});
         written_ = start_size(format_);
     }
-    /// Keyword, position and count of a section in which `content` bytes follow.
+    /// Writes the keyword, position and count of a section with `content` bytes after its header.
     void put_section(std::int32_t code, std::uint64_t count, std::uint64_t content) {
         written_ += format_.head_size() + content;
         put_first(code);
@@ -69,7 +69,7 @@ private:
     bool is_first_;
     OutputFile* out_;
     MeshbFormat format_;
-    std::uint64_t written_ = 0;  ///< where the next section begins
+    std::uint64_t written_ = 0;  ///< position of the next section
 };
 
 }  // namespace octetra

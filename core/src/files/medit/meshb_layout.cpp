@@ -13,7 +13,8 @@
 namespace octetra {
 namespace {
 
-/// Cells that the text reader does not know by name: of higher order, polygons and polyhedra.
+/// Returns whether the keyword denotes cells for which the text format has no name: of higher
+/// order, polygons and polyhedra.
 bool is_of_other_cells(std::int32_t code) {
     return code == 27 || code == 33 || code == 46 || code == 47 || (code >= 86 && code <= 93) ||
            (code >= 96 && code <= 103);
@@ -63,7 +64,7 @@ private:
         sections_.check_rows(section.count, row_size, name, count_at, record);
     }
 
-    /// Of what is no list of the mesh.
+    /// Reads a section that is not one of the lists of vertices and elements.
     void take_other(const MeshbRecord& record) {
         const std::size_t feature = feature_with(&MeditKeyword::code, record.code);
         if (feature < feature_count) {

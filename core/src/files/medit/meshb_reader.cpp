@@ -14,11 +14,11 @@
 namespace octetra {
 namespace {
 
-/// Reads the sections in the order of the file, but vertices first: what refers to them is judged
-/// as it comes.
+/// Reads the sections in file order, except that vertices are read first, because entities that
+/// refer to them are checked as they are read.
 class MeshbReader final : private EntryPlaces {
 public:
-    /// Without a sink, reads the mesh into memory.
+    /// If `sink` is null, reads the mesh into memory.
     MeshbReader(const std::filesystem::path& path, const ReadOptions& options, MeshSink* sink)
         : reader_(path),
           layout_(read_meshb_layout(reader_)),
@@ -28,7 +28,7 @@ public:
         growing_.mesh.index_base = 1;
     }
 
-    /// Returns the mesh, if it is not streamed.
+    /// Returns the mesh unless it is streamed.
     Mesh read() {
         for (const std::string& note :
              notes_on(reader_.path(), layout_.lists.has_end, layout_.skipped)) {

@@ -14,7 +14,7 @@
 namespace octetra {
 namespace {
 
-/// The numbers of a version, and whether their bytes are in the other order.
+/// The number types and the byte order of a version.
 template <class IntegerType, class RealType, bool is_swapped>
 struct MeshbNumbers {
     using Integer = IntegerType;
@@ -35,7 +35,7 @@ struct MeshbNumbers {
     }
 };
 
-/// Calls work(MeshbNumbers<...>{}) with those of this format.
+/// Calls work(MeshbNumbers<...>{}) with the types of this format.
 template <bool swapped>
 void with_numbers(std::int32_t version, auto&& work) {
     switch (version) {
@@ -57,10 +57,10 @@ bool is_reference(Integer reference) {
            reference <= std::numeric_limits<Marker>::max();
 }
 
-/// Are all rows good? Whatever they hold, points and markers are set.
+/// Sets points and markers, whatever the rows contain, and returns whether all rows are valid.
 template <class Numbers>
 bool take_points(const std::byte* row, std::span<Point> points, Marker* marker) {
-    unsigned good = 1;  // no branch for each row
+    unsigned good = 1;  // avoids a branch for each row
     for (Point& point : points) {
         point = {Numbers::real(row, 0), Numbers::real(row, 1), Numbers::real(row, 2)};
         const auto reference = Numbers::point_reference(row);
@@ -72,14 +72,14 @@ bool take_points(const std::byte* row, std::span<Point> points, Marker* marker) 
     return good != 0;
 }
 
-/// Likewise, of a file that has so many vertices.
+/// As above, for entities of a file with this many vertices.
 template <class Numbers, std::size_t N>
 bool take_entities(const std::byte* row, std::uint64_t vertex_count,
                    std::span<std::array<VertexIndex, N>> entities, Marker* marker) {
     bool good = true;
     for (auto& vertices : entities) {
         for (std::size_t k = 0; k < N; ++k) {
-            // 0 wraps round, and what is negative too.
+            // Zero and negative numbers wrap around.
             const auto index = static_cast<std::uint64_t>(Numbers::integer(row, k)) - 1;
             good &= index < vertex_count;
             vertices[k] = VertexIndex{index};
@@ -147,7 +147,7 @@ void MeshbRows::append_points_of(std::uint64_t first, std::uint64_t count, Mesh&
     }
 }
 
-/// The first row that is not good, of some that begin with number `first` and of which one is not.
+/// Throws for the first invalid row, at least one of which exists; the first row is number `first`.
 template <class Numbers>
 void MeshbRows::refuse_point(const std::byte* row, std::uint64_t first) const {
     const auto fail = [&](const std::string& what) {

@@ -13,12 +13,12 @@
 
 namespace octetra {
 
-/// Reads rows of `.meshb` sections, and checks of each number what needs no more than the row:
-/// coordinates can be, vertices are there, references have 32 bits. Throws InputError that names
-/// the row by the byte where it begins.
+/// Reads rows of `.meshb` sections, and performs the checks that need only the row: coordinates are
+/// within limits, vertices exist, references fit into 32 bits. Throws InputError that names the
+/// byte offset of the row.
 class MeshbRows {
 public:
-    /// Both must live as long.
+    /// Both arguments must outlive the object.
     MeshbRows(ByteReader& reader, const MeshbLists& lists) : reader_(&reader), lists_(&lists) {
         reader.swap_bytes(lists.format.swapped);
     }
@@ -28,7 +28,7 @@ public:
     template <class I, std::size_t N>
     void append(const EntityKind<I, N>& kind, std::uint64_t first, std::uint64_t count, Mesh& mesh);
 
-    /// Appends rows of a feature's section, as numbers from 0.
+    /// Appends rows of a feature's section, as numbers counted from 0.
     void append_numbers(Feature feature, std::uint64_t first, std::uint64_t count,
                         std::vector<std::uint64_t>& numbers);
 

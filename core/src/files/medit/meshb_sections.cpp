@@ -47,7 +47,7 @@ std::uint64_t MeshbSections::take_count() {
     return static_cast<std::uint64_t>(count);
 }
 
-/// Reads one section's head; false at the end.
+/// Reads the header of the next section. Returns false at the end.
 bool MeshbSections::next(MeshbRecord& record) {
     if (is_last_ || reader_->remaining() == 0) return false;
     if (++sections_ > most) {
@@ -63,7 +63,7 @@ bool MeshbSections::next(MeshbRecord& record) {
     const std::int64_t next = take_position();
     is_last_ = next == 0;
     record.end = is_last_ ? reader_->size() : static_cast<std::uint64_t>(next);
-    // Positions ascend, so that a file has an end.
+    // Positions must ascend, which guarantees termination.
     if (next != 0 && (next < 0 || record.end < reader_->position())) {
         reader_->fail(
             fmt::format("the next keyword is said to be at byte {}, before this one's end", next),
@@ -78,16 +78,16 @@ bool MeshbSections::next(MeshbRecord& record) {
     return true;
 }
 
-/// Some programs write a position behind the last keyword, others do not.
+/// Reads the position after the last keyword, which some programs write and others do not.
 void MeshbSections::read_end() {
     has_end_ = true;
     if (reader_->remaining() == 0) return;
     const std::uint64_t at = reader_->position();
     const std::int64_t next = take_position();
     if (next != 0 && static_cast<std::uint64_t>(next) != reader_->size()) {
-        reader_->fail(fmt::format("a keyword behind End is said to be at byte {}", next), at);
+        reader_->fail(fmt::format("a keyword after End is said to be at byte {}", next), at);
     }
-    if (reader_->remaining() > 0) reader_->fail("bytes behind the keyword End");
+    if (reader_->remaining() > 0) reader_->fail("extra bytes after the keyword End");
 }
 
 void MeshbSections::take_dimension() {

@@ -9,26 +9,27 @@
 
 namespace octetra {
 
-/// What stands between a keyword's code and the next keyword.
+/// A section: its keyword's code, position and end.
 struct MeshbRecord {
     std::int32_t code = 0;
     std::uint64_t keyword_at = 0;
     std::uint64_t end = 0;  ///< of the section
 };
 
-/// Goes through the sections of a binary file of Medit's, whatever they hold. All throws
+/// Iterates over the sections of a binary Medit file, whatever their content. All functions throw
 /// InputError "FILE: at byte N: what is wrong".
 class MeshbSections {
 public:
-    /// More than any file has: who makes up a file must not make us remember it.
+    /// Upper limit of the number of sections, more than any valid file has: bounds the memory used
+    /// for a malicious file.
     static constexpr std::size_t most = 1000;
 
-    /// Reads what stands before the first keyword. The reader must live as long.
+    /// Reads the bytes before the first keyword. The reader must outlive the object.
     explicit MeshbSections(ByteReader& reader);
 
     [[nodiscard]] const MeshbFormat& format() const { return format_; }
-    /// Calls take(record) for each section, with the reader where its content begins. Returns
-    /// whether the file ends with the last keyword.
+    /// Calls take(record) for each section, with the reader at the beginning of its content.
+    /// Returns whether the file ends with the keyword End.
     bool for_each(auto&& take) {
         MeshbRecord record;
         while (next(record)) {
@@ -38,13 +39,12 @@ public:
         return has_end_;
     }
 
-    // Of the section that is being taken:
+    // Functions for the section passed to take():
 
     [[nodiscard]] std::uint64_t take_count();
-    /// Refuses any but 3.
+    /// Reads the dimension; throws unless it is 3.
     void take_dimension();
-    /// Refuses rows, `count` of which are announced at byte `count_at`, that do not end with the
-    /// section.
+    /// Throws unless `count` rows, announced at byte `count_at`, end where the section ends.
     void check_rows(std::uint64_t count, std::size_t row_size, std::string_view name,
                     std::uint64_t count_at, const MeshbRecord& record) const;
 

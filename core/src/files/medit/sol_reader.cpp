@@ -29,7 +29,7 @@ public:
     }
 
 private:
-    /// False at the end.
+    /// Reads a section; returns false at the end.
     bool read_section() {
         const std::string keyword{tokens_.text()};
         if (keyword.empty()) {

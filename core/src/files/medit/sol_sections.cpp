@@ -49,8 +49,8 @@ std::string wrong_field_count(std::int64_t fields) {
 std::string wrong_sol_type(std::int64_t type) {
     if (type >= 1 && type <= static_cast<std::int64_t>(sol_components.size())) return {};
     return fmt::format(
-        "the type of a field should be 1, a scalar, 2, a vector, 3, a symmetric tensor, or 4, a "
-        "full one, not {}",
+        "the type of a field should be 1 (scalar), 2 (vector), 3 (symmetric tensor) or 4 (full "
+        "tensor), not {}",
         type);
 }
 

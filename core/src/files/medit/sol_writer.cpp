@@ -17,14 +17,14 @@
 namespace octetra {
 namespace {
 
-/// A field of a list, and from where on its values stand in a row.
+/// A field of a section, and the position of its values in a row.
 struct Column {
-    std::size_t field = 0;  ///< place in MeshSource::fields()
+    std::size_t field = 0;  ///< position in MeshSource::fields()
     FieldFacts facts;
     std::size_t at = 0;
 };
 
-/// What becomes a section.
+/// A section to be written.
 struct SectionToWrite {
     std::size_t keyword = 0;
     std::uint64_t count = 0;
@@ -62,7 +62,7 @@ void put_column(std::span<const std::byte> bytes, const Column& column, std::siz
     }
 }
 
-/// Collective. This process's rows of a window.
+/// Collective. Returns this process's rows of a window.
 std::vector<double> rows_of(MeshSource& mesh, const SectionToWrite& section, const Window& window) {
     const int rank = mesh.group().rank();
     std::vector<double> rows((window.end_of(rank) - window.begin_of(rank)) * section.width);
@@ -74,7 +74,7 @@ std::vector<double> rows_of(MeshSource& mesh, const SectionToWrite& section, con
             case FieldType::int32:
                 put_column<std::int32_t>(bytes, column, section.width, rows);
                 break;
-            case FieldType::int64: break;  // cannot be held
+            case FieldType::int64: break;  // not supported by the format
         }
     }
     return rows;

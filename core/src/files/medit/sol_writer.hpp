@@ -9,12 +9,12 @@
 
 namespace octetra {
 
-/// Collective. Writes the fields that such a file can hold: those of vertices, then those of cells,
-/// each in their order.
+/// Collective. Writes the fields that a solution file can hold: those of vertices, then those of
+/// cells, each in order.
 void put_sol(OutputFile& out, MeshSource& mesh, bool is_binary);
 
-/// Collective. Puts a Medit mesh in its place and, where it has fields that a file of values can
-/// hold, that file beside it: both, or none.
+/// Collective. Writes a Medit mesh to its final path and, if it has fields that a solution file can
+/// hold, also that file next to it: both files, or neither.
 void commit_with_fields(std::unique_ptr<OutputFile> file, MeshSource& mesh,
                         const std::filesystem::path& path);
 

@@ -7,7 +7,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The numbers of a header line; those that the line leaves out have TetGen's defaults.
+/// Reads the numbers of a header line; omitted ones have TetGen's defaults.
 template <std::size_t N>
 std::array<std::uint64_t, N> read_header(LineReader& reader,
                                          const std::array<std::string_view, N>& names,

@@ -15,39 +15,39 @@
 #include "files/input/in_order.hpp"
 #include "files/input/line_reader.hpp"
 
-/// The lines of TetGen's files: what the first one announces, and what each of the others holds.
+/// The lines of TetGen files: the header line, and the fields of each further line.
 namespace octetra::tetgen {
 
-/// The first line of a `.node` file.
+/// The header line of a `.node` file.
 struct NodeHead {
     std::uint64_t count = 0;
     std::uint64_t attributes = 0;
-    std::uint64_t markers = 0;  ///< 1: each vertex has one
+    std::uint64_t markers = 0;  ///< 1: each vertex has a marker
 
     [[nodiscard]] std::size_t field_count() const { return 4 + attributes + markers; }
 };
 
-/// The first line of an `.ele` file.
+/// The header line of an `.ele` file.
 struct EleHead {
     std::uint64_t count = 0;
-    std::uint64_t attributes = 0;  ///< 1: each cell has its region tag
+    std::uint64_t attributes = 0;  ///< 1: each cell has a region tag
 
     [[nodiscard]] std::size_t field_count() const { return 5 + attributes; }
 };
 
-/// The first line of a `.face` or `.edge` file.
+/// The header line of a `.face` or `.edge` file.
 struct ListHead {
     std::uint64_t count = 0;
-    std::uint64_t markers = 0;  ///< 1: each entry has one
+    std::uint64_t markers = 0;  ///< 1: each entry has a marker
 };
 
-/// Each reads the line, and refuses counts that the file cannot hold and what is not supported.
+/// Read a header line; throw for counts that the file cannot hold and for unsupported contents.
 [[nodiscard]] NodeHead read_node_head(LineReader& reader);
 [[nodiscard]] EleHead read_ele_head(LineReader& reader);
-/// Of entries of so many vertices.
+/// For a file whose entries have `vertices` vertices.
 [[nodiscard]] ListHead read_list_head(LineReader& reader, std::size_t vertices);
 
-/// What files call the vertices of a mesh: `count` numbers from `first`.
+/// The numbers of the vertices in files: `count` numbers from `first`.
 struct NumberedVertices {
     std::uint64_t first;
     std::uint64_t count;
@@ -59,7 +59,7 @@ struct NumberedVertices {
 [[nodiscard]] inline VertexIndex read_vertex(Fields& fields, const LineReader& reader,
                                              NumberedVertices numbers) {
     const std::uint64_t number = fields.unsigned_integer("a vertex number");
-    const std::uint64_t index = number - numbers.first;  // wraps round below the first
+    const std::uint64_t index = number - numbers.first;  // wraps around below the first
     if (index >= numbers.count) refuse_vertex(number, reader, numbers);
     return VertexIndex{index};
 }
@@ -85,11 +85,12 @@ inline void read_region(Fields& fields, const EleHead& head, Mesh& mesh) {
     if (head.attributes == 1) mesh.regions.push_back(fields.marker("the region tag"));
 }
 
-/// With -nn TetGen adds the cells at each face (two) or edge (one), and tells nobody.
+/// The number of adjacent cells that TetGen appends to each face (two) or edge (one) with -nn,
+/// without announcing them in the header.
 template <std::size_t N>
 inline constexpr std::size_t adjacent_cells = N == 3 ? 2 : 1;
 
-/// Reads the vertices and the marker of a facet or edge, which messages call `name`.
+/// Reads the vertices and the marker of a facet or edge, named `name` in messages.
 template <class I, std::size_t N>
 void read_tagged(Fields& fields, const LineReader& reader, std::string_view name,
                  const EntityKind<I, N>& kind, const ListHead& head, NumberedVertices numbers,
@@ -104,8 +105,8 @@ void read_tagged(Fields& fields, const LineReader& reader, std::string_view name
     if (head.markers == 1) (mesh.*kind.markers).push_back(fields.marker("the marker"));
 }
 
-/// Does this line, of which a facet or edge and its marker have been read, go on with as many
-/// fields as there are adjacent cells? So do all, if the first one does.
+/// Returns whether this line, from which a facet or edge and its marker have been read, ends with
+/// as many fields as there are adjacent cells. If the first line does, all lines do.
 template <std::size_t N>
 [[nodiscard]] bool goes_on_with_cells(const Fields& fields, const ListHead& head) {
     return head.markers == 1 && fields.count_left() == adjacent_cells<N>;
@@ -120,11 +121,12 @@ void skip_adjacent_cells(Fields& fields) {
     return fmt::format("{}: the adjacent cells of each {} are not kept", path.native(), name);
 }
 
-/// `path` with another extension.
+/// Returns `path` with another extension.
 [[nodiscard]] std::filesystem::path companion(std::filesystem::path path,
                                               std::string_view extension);
 
-/// Is there anything of this name? What is there but cannot be read must be opened, to be reported.
+/// Returns whether the path exists. An existing but unreadable file must be opened, so that it is
+/// reported.
 [[nodiscard]] bool is_there(const std::filesystem::path& path);
 
 }  // namespace octetra::tetgen

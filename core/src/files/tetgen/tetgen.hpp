@@ -13,7 +13,7 @@ namespace octetra {
 
 [[nodiscard]] Mesh read_tetgen(const std::filesystem::path& path, const ReadOptions& options);
 
-/// Takes everything as it stands; `options` must have only_syntax.
+/// Performs no semantic checks; `options` must have only_syntax.
 void stream_tetgen(const std::filesystem::path& path, MeshSink& sink, const ReadOptions& options);
 
 /// Collective.

@@ -23,9 +23,9 @@ namespace {
 namespace fs = std::filesystem;
 using namespace tetgen;
 
-/// Reads the rest of the file: `count` lines, each with its number and what read_entry(fields)
-/// takes, `field_count` fields in all; complete() follows each. Returns the first entry's number: 0
-/// or 1.
+/// Reads the rest of the file: `count` lines, each with its number and the fields read by
+/// read_entry(fields), `field_count` fields in total; calls complete() after each. Returns the
+/// number of the first entry: 0 or 1.
 std::uint32_t read_entries(LineReader& reader, std::uint64_t count, std::size_t field_count,
                            std::optional<std::uint32_t> index_base, auto&& read_entry,
                            auto&& complete) {
@@ -49,9 +49,10 @@ std::uint32_t read_entries(LineReader& reader, std::uint64_t count, std::size_t 
     return first;
 }
 
-/// Goes to the line on which an entry stands, from the file's beginning. (Only errors ask.)
+/// Advances the reader from the beginning of the file to the line of an entry. Used only for
+/// errors.
 void go_to_entry(LineReader& reader, std::uint64_t entry) {
-    for (std::uint64_t line = 0; line < entry + 2; ++line) (void)reader.next();  // the header, too
+    for (std::uint64_t line = 0; line < entry + 2; ++line) (void)reader.next();  // and the header
 }
 
 [[noreturn]] void fail_entry(const fs::path& path, std::uint64_t entry, std::string_view what) {
@@ -83,17 +84,17 @@ void read_node(const fs::path& path, GrowingMesh& growing) {
     growing.points_complete();
 }
 
-/// Judges the cells of an `.ele` file, many at once, while they are read.
+/// Checks the cells of an `.ele` file, in batches, while they are read.
 class CellsOfFile {
 public:
     CellsOfFile(Mesh& mesh, const fs::path& path, std::uint64_t count, const ReadOptions& options)
         : mesh_(&mesh), path_(&path), check_(mesh, options), repeated_(count) {}
 
-    /// A cell has come.
+    /// Called after a cell has been read.
     void go_on() {
         if (mesh_->cells.size() - judged_ == at_once) check_entities();
     }
-    /// Throws InputError if something is wrong with one that has come.
+    /// Throws InputError if one of the cells read since the last call is invalid.
     void check_entities() {
         const auto cells = std::span(mesh_->cells).subspan(judged_);
         const auto [cell, wrong] = check_.check_entities(cells);
@@ -101,11 +102,11 @@ public:
         for (const CellVertices& vertices : cells) repeated_.add(vertices);
         judged_ = mesh_->cells.size();
     }
-    /// All have come.
+    /// Called after all cells have been read.
     void finish(const ReadOptions& options) {
         check_entities();
         if (check_.fixed_count() > 0) {
-            options.note(fmt::format("{}: {} inverted cells were turned round", path_->native(),
+            options.note(fmt::format("{}: {} inverted cells were reversed", path_->native(),
                                      check_.fixed_count()));
         }
         const CellPair pair = repeated_.find(mesh_->cells, mesh_->points.size());
@@ -142,14 +143,14 @@ void read_ele(const fs::path& path, const ReadOptions& options, GrowingMesh& gro
     try {
         read_entries(reader, head.count, head.field_count(), mesh.index_base, read_cell, complete);
     } catch (const InputError&) {
-        if (cells) cells->check_entities();  // what is wrong with an earlier line comes first
+        if (cells) cells->check_entities();  // an error in an earlier line takes precedence
         throw;
     }
     growing.all_complete(cell_kind);
     if (cells) cells->finish(options);
 }
 
-/// Reads a `.face` or `.edge` file: entities of N vertices each.
+/// Reads a `.face` or `.edge` file: entities of N vertices.
 template <class I, std::size_t N>
 void read_entities(const fs::path& path, std::string_view name, const EntityKind<I, N>& kind,
                    const ReadOptions& options, GrowingMesh& growing) {
@@ -158,7 +159,7 @@ void read_entities(const fs::path& path, std::string_view name, const EntityKind
     growing.expect(kind, head.count, head.markers == 1);
     const NumberedVertices numbers = vertex_numbers(growing);
     Mesh& mesh = growing.mesh;
-    std::optional<bool> has_adjacent_cells;  // as the first entry has them
+    std::optional<bool> has_adjacent_cells;  // determined by the first entry
     const auto read_entity = [&](Fields& fields) {
         read_tagged(fields, reader, name, kind, head, numbers, options.only_syntax, mesh);
         if (!has_adjacent_cells) has_adjacent_cells = goes_on_with_cells<N>(fields, head);
@@ -189,8 +190,8 @@ void check_facets(const Mesh& mesh, const fs::path& face, const fs::path& ele) {
 
 void require_companion(const fs::path& path, const fs::path& other) {
     if (!is_there(other) && is_there(path)) {
-        throw InputError(fmt::format("{}: the file {} is missing, which belongs to it",
-                                     path.native(), other.native()));
+        throw InputError(
+            fmt::format("{}: the accompanying file {} is missing", path.native(), other.native()));
     }
 }
 
@@ -198,7 +199,7 @@ void require_companion(const fs::path& path, const fs::path& other) {
 void read_files(const fs::path& path, const ReadOptions& options, GrowingMesh& growing) {
     const fs::path node = companion(path, ".node");
     const fs::path ele = companion(path, ".ele");
-    if (!is_there(ele) && !is_there(node)) LineReader missing(path);  // says so by its name
+    if (!is_there(ele) && !is_there(node)) LineReader missing(path);  // throws, naming the path
     require_companion(ele, node);
     require_companion(node, ele);
 

@@ -16,7 +16,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Collective. The first process's part of a turn of its own.
+/// Collective. Writes a header line on the first process.
 void put_header(OutputFile& out, const ProcessGroup& group, auto... numbers) {
     if (group.is_first()) put_line(out, numbers...);
 }
@@ -46,7 +46,7 @@ void write_node(OutputFile& out, MeshSource& mesh) {
     });
 }
 
-/// Writes the entities of a list, their vertices and, where there are any, their markers.
+/// Writes the vertices and, if present, the markers of the entities of a list.
 template <std::size_t N>
 void write_list(OutputFile& out, MeshSource& mesh, const EntityList<N>& list) {
     const std::uint32_t index_base = mesh.facts().index_base;
@@ -76,8 +76,8 @@ void write_list(OutputFile& out, MeshSource& mesh, const EntityList<N>& list) {
                        });
 }
 
-/// Removes what is left from another mesh and would be read as lists of this one. Of a link goes
-/// the link alone: what it leads to is a file of something else, or removed under its own name.
+/// Removes lists of a previous mesh that would be read as lists of this one. Of a symbolic link,
+/// only the link is removed: its target is another file's, or is removed under its own name.
 void remove_stale_lists(const fs::path& path, const char* extension, bool was_written) {
     const fs::path written = fs::path(path).replace_extension(extension);
     for (const fs::path& list : lists_read_with(path, extension)) {

@@ -43,15 +43,15 @@ void write_index(const fs::path& path, MeshSource& piece, const VtuData& data, i
     out.commit();
 }
 
-/// Pieces that an older `.pvtu` of this name had beyond those of the new one: they would look like
-/// part of it.
+/// Removes pieces of a previous `.pvtu` of this name beyond those of the new one, which would
+/// appear to be part of it.
 void remove_stale_pieces(const fs::path& path, int pieces) {
     for (int rank = pieces; fs::is_regular_file(piece_path(path, rank)); ++rank) {
         fs::remove(piece_path(path, rank));
     }
 }
 
-/// Collective. What fails for this process is told to all.
+/// Collective. Runs `work` on all processes; a SystemError on any of them is thrown on all.
 void together(const ProcessGroup& group, auto&& work) {
     std::string failure;
     try {

@@ -7,7 +7,8 @@
 namespace octetra {
 namespace {
 
-/// HDF5 would take a slash for the end of a group's name, and "." for the group.
+/// Returns a valid name for HDF5, which would interpret a slash as the end of a group name, and "."
+/// as the group itself.
 std::string name_in_group(const VtuArray& array) {
     std::string name = array.name;
     std::ranges::replace(name, '/', '|');

@@ -9,18 +9,18 @@
 
 namespace octetra {
 
-/// The group that all is in.
+/// The group that contains all data.
 inline const std::string vtkhdf_root = "/VTKHDF";
 
-/// An array of a mesh, and the name of its dataset in the group: with `PointData/` or `CellData/`
-/// before it, if it is of these.
+/// An array of a mesh and the name of its dataset in the group, prefixed with `PointData/` or
+/// `CellData/` for data of points and cells.
 struct VtkhdfArray {
     std::string name;
     VtuArray array;
-    bool begins_with_0 = false;  ///< a 0 stands before the values
+    bool begins_with_0 = false;  ///< a 0 precedes the values
 };
 
-/// Points, Connectivity, Offsets, Types; then data of points and cells.
+/// Returns Points, Connectivity, Offsets, Types, followed by data of points and cells.
 [[nodiscard]] std::vector<VtkhdfArray> vtkhdf_arrays(MeshSource& mesh);
 
 }  // namespace octetra

@@ -25,10 +25,10 @@
 
 namespace octetra {
 
-/// An array of a step, as it stands in the file beside.
+/// An array of a step in the temporary file.
 struct KeptArray {
     std::string name;
-    const char* type = "";  ///< as VTK calls it
+    const char* type = "";  ///< VTK's name of the type
     std::size_t value_size = 0;
     std::size_t components = 1;
     std::uint64_t position = 0;
@@ -54,7 +54,7 @@ struct KeptStep {
     }
 };
 
-/// The rows of one array of all steps, one step after the other.
+/// The concatenated rows of an array over all steps.
 class RowsOfSteps {
 public:
     RowsOfSteps(const KeptArray& array, const std::vector<KeptStep>& steps)
@@ -101,14 +101,14 @@ FilledDataset numbers(const std::string& name, std::vector<std::int64_t> values,
             std::move(values)};
 }
 
-/// Of each step, a number.
+/// Returns number(step) for each step.
 std::vector<std::int64_t> of_steps(const std::vector<KeptStep>& steps, auto&& number) {
     std::vector<std::int64_t> all;
     for (const KeptStep& step : steps) all.push_back(static_cast<std::int64_t>(number(step)));
     return all;
 }
 
-/// Of each step, the sum of those before.
+/// Returns the exclusive prefix sums of the counts.
 std::vector<std::int64_t> begins(const std::vector<std::int64_t>& counts) {
     std::vector<std::int64_t> all;
     std::int64_t sum = 0;
@@ -119,7 +119,7 @@ std::vector<std::int64_t> begins(const std::vector<std::int64_t>& counts) {
     return all;
 }
 
-/// Numbers that are reals, where whole ones are asked for, as the same bits.
+/// Returns the times as integers with the same bits.
 std::vector<std::int64_t> bits_of_times(const std::vector<KeptStep>& steps) {
     std::vector<std::int64_t> all;
     for (const KeptStep& step : steps) {
@@ -129,7 +129,7 @@ std::vector<std::int64_t> bits_of_times(const std::vector<KeptStep>& steps) {
     return all;
 }
 
-/// What tells VTK where each step is: one part each.
+/// Returns the datasets that locate each step for VTK; a step has one part.
 std::vector<FilledDataset> datasets_of_steps(const std::vector<KeptStep>& steps,
                                              const std::vector<KeptArray>& arrays) {
     const std::uint64_t n = steps.size();
@@ -165,8 +165,8 @@ struct MeshSeries::Parts {
     fs::path path;
     const ProcessGroup* group;
     OutputFile out;
-    std::optional<OutputFile> beside;  ///< the steps, until they are put together
-    std::uint64_t end = 0;             ///< of what is written beside
+    std::optional<OutputFile> beside;  ///< temporary file with the steps, until commit()
+    std::uint64_t end = 0;             ///< size of the temporary file
     std::vector<KeptStep> steps;
     std::uint64_t facets = 0;
     std::uint64_t edges = 0;
@@ -198,7 +198,7 @@ struct MeshSeries::Parts {
         return kept;
     }
 
-    /// Those of the first step that all have.
+    /// Returns the arrays of the first step that all steps have.
     [[nodiscard]] std::vector<KeptArray> arrays_of_all() const {
         std::vector<KeptArray> arrays = steps.front().arrays;
         std::erase_if(arrays, [&](const KeptArray& array) {
@@ -208,7 +208,8 @@ struct MeshSeries::Parts {
         return arrays;
     }
 
-    /// A dataset of all steps. What fails while it is read is kept until all hear of it.
+    /// Returns the dataset of an array over all steps. An error in reading is stored in `failure`,
+    /// for a collective agreement later.
     [[nodiscard]] FilledDataset joined(const KeptArray& array, const InputFile* file,
                                        std::string& failure) const {
         const RowsOfSteps rows(array, steps);

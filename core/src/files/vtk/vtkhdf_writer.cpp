@@ -30,7 +30,7 @@ FilledDataset number(const std::string& name, std::uint64_t value) {
             {static_cast<std::int64_t>(value)}};
 }
 
-/// One piece, as version 1.0 of the format has it.
+/// Returns the datasets of a single piece, in version 1.0 of the format.
 std::vector<FilledDataset> all_datasets(MeshSource& mesh) {
     const MeshFacts& facts = mesh.facts();
     std::vector<FilledDataset> all{number("NumberOfPoints", facts.vertices),

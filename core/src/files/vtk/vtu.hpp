@@ -8,32 +8,33 @@
 #include "files/output/output_file.hpp"
 #include "files/vtk/vtu_arrays.hpp"
 
-/// VTK's formats for unstructured grids: XML and HDF5.
+/// VTK formats for unstructured grids: XML and HDF5.
 namespace octetra {
 
-/// Collective. Writes one file `.vtu`: one piece of tetrahedra, arrays appended in binary and
-/// compressed by zlib; region tags as cell data `region`, parents as `parent`, vertex markers as
-/// point data `marker`, vertex attributes as `attributes`.
-/// Returns what of the mesh the file does not hold, in a sentence, or nothing.
+/// Collective. Writes a single `.vtu` file: one piece of tetrahedra, with arrays appended in binary
+/// and compressed by zlib; region tags as cell data `region`, parents as `parent`, vertex markers
+/// as point data `marker`, vertex attributes as `attributes`.
+/// Returns a sentence naming the data that the file does not hold, or an empty string.
 [[nodiscard]] std::string write_vtu(MeshSource& mesh, const std::filesystem::path& path);
 
-/// Collective. Writes one file `.vtkhdf`, an HDF5 file of VTK's: the same arrays under the same
-/// names, not compressed, so that each process knows where its own values belong.
-/// Returns what of the mesh the file does not hold, in a sentence, or nothing.
+/// Collective. Writes a single `.vtkhdf` file, in VTK's HDF5 format: the same arrays with the same
+/// names, uncompressed, so that each process knows the position of its own values.
+/// Returns a sentence naming the data that the file does not hold, or an empty string.
 [[nodiscard]] std::string write_vtkhdf(MeshSource& mesh, const std::filesystem::path& path);
 
-/// Collective in the group; the piece is this process's own. Writes its piece as a file of its own,
-/// `NAME_RANK.vtu` beside `NAME.pvtu`, which names them all; cells carry the `rank` of their piece
-/// too, and points their number in the whole mesh, `vertex`.
-/// Returns what of the mesh the files do not hold, in a sentence, or nothing.
+/// Collective in the group; `piece` is held by this process alone. Writes the piece to
+/// `NAME_RANK.vtu` and, on the first process, `NAME.pvtu`, which refers to all pieces. Cells also
+/// have the `rank` of their piece, points their global number `vertex`.
+/// Returns a sentence naming the data that the files do not hold, or an empty string.
 [[nodiscard]] std::string write_pvtu(MeshSource& piece, const ProcessGroup& group,
                                      const std::filesystem::path& path);
 
-/// What a file that holds cells only does not hold of these lists, in a sentence, or nothing.
+/// Returns a sentence naming the lists that a file of cells alone does not hold, or an empty
+/// string.
 [[nodiscard]] std::string lists_left_out(const std::filesystem::path& path, std::uint64_t facets,
                                          std::uint64_t edges);
 
-/// Collective in the mesh's group. Everything of a .vtu file, not yet committed.
+/// Collective in the mesh's group. Writes the contents of a .vtu file without committing it.
 void put_vtu(OutputFile& out, MeshSource& mesh, const VtuData& data);
 
 }  // namespace octetra

@@ -34,7 +34,7 @@ VtuArray described(std::string name, std::size_t components, std::uint64_t entit
             .bytes_of_slice = std::move(bytes_of_slice)};
 }
 
-/// An array whose values, for a slice of entities, are value(entities, i) for each i.
+/// Returns an array whose values, for a slice of entities, are value(slice, i) for each i.
 template <class T>
 VtuArray array(std::string name, std::size_t components, std::uint64_t entities, auto get_slice,
                auto value) {
@@ -50,7 +50,7 @@ VtuArray array(std::string name, std::size_t components, std::uint64_t entities,
                         });
 }
 
-/// The values just as the mesh has them.
+/// Returns an array of values in the format in which the mesh stores them.
 template <class T>
 VtuArray plain_array(std::string name, std::size_t components, std::uint64_t entities,
                      auto get_slice) {
@@ -64,7 +64,7 @@ VtuArray plain_array(std::string name, std::size_t components, std::uint64_t ent
                         });
 }
 
-/// The numbers of the entities of a slice, for what follows from the number.
+/// The numbers of the entities of a slice, for values computed from the number.
 struct Numbers {
     std::uint64_t first = 0;
     std::uint64_t end = 0;
@@ -103,7 +103,7 @@ VtuArray array_of_field(MeshSource& mesh, std::size_t number) {
             }};
 }
 
-/// Behind those that are there.
+/// Appends the array under a name that is not in use.
 void add_field(VtuArray array, std::vector<VtuArray>& arrays) {
     while (std::ranges::find(arrays, array.name, &VtuArray::name) != arrays.end()) {
         array.name += "_field";
@@ -165,7 +165,7 @@ VtuArray vtu_connectivity(MeshSource& mesh, std::uint64_t count,
             }
         }
     };
-    // A flat list: N values of one component for each.
+    // A flat list: N values of one component for each entity.
     VtuArray connectivity = described<std::int64_t>("connectivity", 1, count, vertices);
     connectivity.values_per_entity = N;
     return connectivity;
@@ -203,7 +203,7 @@ std::vector<VtuArray> vtu_cells(MeshSource& mesh) {
 
 namespace {
 
-/// What the mesh itself has.
+/// Returns the data of the mesh itself, without fields.
 VtuData data_of_mesh(MeshSource& mesh) {
     const MeshFacts& facts = mesh.facts();
     VtuData data;

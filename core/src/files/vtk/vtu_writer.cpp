@@ -24,8 +24,8 @@ struct PackedLengths {
     std::vector<std::uint64_t> bytes;
 };
 
-/// Slices that begin at whole blocks, so that each block is one process's; large enough for few
-/// turns, small enough for a buffer, and of a small array about an equal share.
+/// Returns the length of slices, in entities: a multiple of whole blocks, so that each block
+/// belongs to one process; at most a buffer's length; for a small array about an equal share.
 std::uint64_t slice_length(const VtuArray& array, const ProcessGroup& group) {
     constexpr std::uint64_t most_bytes = 8 * vtu_block_size;
     const std::uint64_t unit = vtu_block_size / std::gcd(vtu_block_size, array.entity_size());
@@ -67,10 +67,10 @@ public:
 private:
     struct Declared {
         VtuArray array;
-        std::uint64_t offset_position;  // of the first process
+        std::uint64_t offset_position;  // on the first process
     };
 
-    /// What is said once is the first process's to say.
+    /// Writes on the first process only: text that occurs once in the file.
     void put(std::string_view text) {
         if (group_->is_first()) out_->put(text);
     }
@@ -81,7 +81,8 @@ private:
         for (const VtuArray& array : arrays) {
             put(fmt::format("        <DataArray {} format=\"appended\" offset=\"",
                             vtu_attributes(array)));
-            // The offset is known only when the arrays before it are compressed: leave room.
+            // The offset is known only after the preceding arrays have been compressed: reserve
+            // space for it.
             constexpr std::string_view room = "                     ";
             declared_.push_back({array, out_->position()});
             put(room);
@@ -90,7 +91,8 @@ private:
         put(fmt::format("      </{}>\n", element));
     }
 
-    /// The compressed blocks, and before them their number, size, last one's size and lengths.
+    /// Writes the compressed blocks after a header: their number, size, size of the last one, and
+    /// compressed lengths.
     void append(const VtuArray& array) {
         const std::uint64_t size = array.entities * array.entity_size();
         std::vector<std::uint64_t> header{(size + vtu_block_size - 1) / vtu_block_size,
@@ -129,7 +131,7 @@ private:
         uLongf packed_size = packed_.size();
         const int status = compress2(packed_.data(), &packed_size,
                                      reinterpret_cast<const Bytef*>(bytes), count, Z_BEST_SPEED);
-        if (status != Z_OK) throw std::bad_alloc();  // there is room for the worst case
+        if (status != Z_OK) throw std::bad_alloc();  // the buffer suffices for the worst case
         out_->put_bytes(packed_.data(), packed_size);
         return packed_size;
     }

@@ -21,8 +21,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A symmetric tensor, xx, yy, zz, xy, yz, xz as in VTK, as xx, xy, xz, yy, yz, zz; all else as it
-/// is.
+/// Reorders a symmetric tensor from xx, yy, zz, xy, yz, xz, as in VTK, to xx, xy, xz, yy, yz, zz;
+/// returns other arrays unchanged.
 VtuArray in_order_of_xdmf(VtuArray array) {
     static constexpr std::array<std::size_t, 6> component_at{0, 3, 5, 1, 4, 2};
     if (array.components != component_at.size()) return array;
@@ -42,8 +42,8 @@ VtuArray in_order_of_xdmf(VtuArray array) {
     return array;
 }
 
-/// Both files as they grow: the groups and datasets of one, and the text of the other that names
-/// them. DOLFINx asks for grids by name, and of a grid of tags for its only attribute.
+/// The contents of both files: the groups and datasets of the HDF5 file, and the text that refers
+/// to them. DOLFINx finds grids by name, and expects a grid of tags to have a single attribute.
 class XdmfFiles {
 public:
     XdmfFiles(MeshSource& mesh, const fs::path& path)
@@ -79,7 +79,7 @@ public:
     [[nodiscard]] const std::vector<FilledDataset>& datasets() const { return datasets_; }
 
 private:
-    /// A dataset as XML names it.
+    /// A dataset as referred to in XML.
     struct Item {
         std::uint64_t rows = 0;
         std::size_t columns = 1;
@@ -105,7 +105,7 @@ private:
         end_grid();
     }
 
-    /// Names are in the text alone: in HDF5 some characters mean something.
+    /// Names are used only in the text, since some characters have a meaning in HDF5.
     void add_attributes(const std::string& group, std::string_view center,
                         const std::vector<VtuArray>& arrays) {
         for (std::size_t k = 0; k < arrays.size(); ++k) {

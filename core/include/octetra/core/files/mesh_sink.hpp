@@ -7,21 +7,23 @@
 #include <octetra/core/mesh.hpp>
 #include <octetra/core/mesh_source.hpp>
 
-/// Where the readers of files put a mesh: stretch by stretch, so that it need not be in memory as a
-/// whole.
+/// The receiving end of the mesh readers: takes a mesh in batches, so that the whole mesh need not
+/// be in memory.
 namespace octetra {
 
-/// Hears a mesh file from stream_mesh(). Of each kind that the file has it is told once how many
-/// are to come and with what, and then they come: exactly as many, in the order of the file, in
-/// stretches of 1 to longest_stretch. Points come before all else, whatever the file's order;
-/// cells, facets and edges follow as the file has them, one kind after the other or, in `.msh`
-/// files, by turns. Vertices are numbered from 0, and in range; coordinates are finite. Nothing
-/// else is checked (ReadOptions::only_syntax). Of features a sink hears nothing. Spans are valid
-/// during the call. Where the file turns out bad, nothing further comes and stream_mesh() throws,
-/// as it does what a sink throws: what was heard then is not a mesh.
+/// Receives a mesh file from stream_mesh(). For each kind of entity in the file, expect_...() is
+/// called once with the number of entities and the data that they have; then take_...() is called
+/// with exactly that many entities, in file order, in batches of 1 to longest_stretch. Points
+/// precede everything else, whatever the file's order; cells, facets and edges follow in file
+/// order, one kind after the other or, for `.msh` files, interleaved. Vertices are numbered from 0
+/// and in range; coordinates are finite. Nothing else is checked (ReadOptions::only_syntax).
+/// Features are not passed. Spans are valid during the call. If the file is invalid, no further
+/// calls are made and stream_mesh() throws; exceptions of a sink propagate as well. The entities
+/// received up to then are not a valid mesh.
 class MeshSink {
 public:
-    /// Of points, fewer come at once the more attributes they have.
+    /// The maximum number of entities in a batch. Batches of points are smaller if these have
+    /// attributes.
     static constexpr std::size_t longest_stretch = 16384;
 
     MeshSink() = default;
@@ -33,7 +35,8 @@ public:
 
     virtual void expect_points(std::uint64_t count, std::size_t attributes_per_point,
                                bool has_markers) = 0;
-    /// attributes_per_point attributes and, if there are markers, one of these for each point.
+    /// `attributes` has attributes_per_point values for each point; `markers` has one for each
+    /// point, or is empty.
     virtual void take_points(std::span<const Point> points, std::span<const double> attributes,
                              std::span<const Marker> markers) = 0;
 
@@ -49,9 +52,9 @@ public:
     virtual void take_edges(std::span<const EdgeVertices> edges,
                             std::span<const Marker> markers) = 0;
 
-    /// The file is read to its end and is good. Only now it is known what the file calls the first
-    /// entity, and whether markers mean something: where has_... is false, those that came are all
-    /// 0 and read_mesh() would drop them.
+    /// Called after the whole file has been read without errors. Only now are the index base and
+    /// the presence of markers known: where has_... is false, all markers passed were 0, and
+    /// read_mesh() would drop them.
     virtual void finish(const MeshFacts& facts) = 0;
 };
 

@@ -3,32 +3,33 @@
 #include <filesystem>
 #include <vector>
 
-/// Which files a mesh is, where a file stands in the end, and whether it can be put there.
+/// Paths of a mesh: its files, the targets of links, and whether they can be written.
 namespace octetra {
 
-/// The files that a mesh of this name is, whether they exist or not: `.node`, `.ele`, `.face` and
-/// `.edge` for TetGen, `.xdmf` and `.h5` for XDMF, else `path` itself.
+/// Returns the files that form a mesh of this name, whether they exist or not: `.node`, `.ele`,
+/// `.face` and `.edge` for TetGen, `.xdmf` and `.h5` for XDMF, otherwise `path` itself.
 [[nodiscard]] std::vector<std::filesystem::path> files_of_mesh(const std::filesystem::path& path);
 
-/// The files that writing a mesh at `path` replaces or removes: its own; for a `.pvtu` its pieces,
-/// those of an older mesh included; for TetGen also lists beside what links to `.node` and `.ele`
-/// lead to.
+/// Returns the files that writing a mesh to `path` replaces or removes: the files of the mesh; for
+/// a `.pvtu`, its pieces, including those of a previous mesh; for TetGen, also the `.face` and
+/// `.edge` files next to the targets of links at `.node` and `.ele`.
 [[nodiscard]] std::vector<std::filesystem::path> files_to_write(const std::filesystem::path& path,
                                                                 int pieces = 1);
 
-/// Where a file written at `path` stands in the end: links are followed, to where there need not
-/// be a file yet.
+/// Returns the final path of a file written to `path`: symbolic links are followed, also to files
+/// that do not exist yet.
 [[nodiscard]] std::filesystem::path place_of(const std::filesystem::path& path);
 
-/// Would files written at `a` and `b` be one?
+/// Returns whether files written to `a` and `b` would be the same file.
 [[nodiscard]] bool are_one_place(const std::filesystem::path& a, const std::filesystem::path& b);
 
-/// Throws InputError unless `path` has an extension that can be written and its files stand where
-/// check_place lets them, each in a place of its own. (To refuse before the work, not after it.)
+/// Throws InputError unless `path` has an extension that can be written, check_place() accepts all
+/// its files, and their final paths are distinct. Allows an error to be reported before the
+/// computation.
 void check_writable(const std::filesystem::path& path, int pieces = 1);
 
-/// Throws InputError unless a file can be put at `path`, or where the link there leads: in a folder
-/// that is writable, and in place of nothing but a file that is writable, too.
+/// Throws InputError unless a file can be written to `path`, or to the target of a link there: the
+/// folder must be writable, and an existing entry must be a writable regular file.
 void check_place(const std::filesystem::path& path);
 
 }  // namespace octetra

@@ -9,17 +9,18 @@
 
 namespace octetra {
 
-/// A `.vtkhdf` file, of version 2.0, with meshes one after the other, each at a time. They may have
-/// other cells each. All functions are collective in the group, whose meshes they are, and throw
-/// SystemError on all processes where writing fails.
+/// A `.vtkhdf` file, version 2.0, with a sequence of meshes, each at a time value. The meshes may
+/// have different cells. All functions are collective in the group to which the meshes belong, and
+/// throw SystemError on all processes if writing fails.
 ///
-/// What is appended is written beside the file's place at once, and put together by commit(): for
-/// that time it takes the space on the disk twice. Memory: a few slices, whatever is appended. The
-/// bytes do not depend on the number of processes. Destroyed before commit(), it leaves no trace.
+/// Appended data is written immediately to temporary files next to the final path and assembled by
+/// commit(), which temporarily needs twice the disk space. Memory: a few slices, independent of the
+/// amount of data. The bytes do not depend on the number of processes. Destruction before commit()
+/// removes all temporary files.
 class MeshSeries {
 public:
-    /// Throws InputError where the extension is another, or no file can be put there. The group
-    /// must live as long.
+    /// Throws InputError if the extension is not `.vtkhdf` or the file cannot be written there. The
+    /// group must outlive the object.
     MeshSeries(const std::filesystem::path& path, const ProcessGroup& group);
     ~MeshSeries();
     MeshSeries(const MeshSeries&) = delete;
@@ -27,13 +28,13 @@ public:
     MeshSeries(MeshSeries&&) = delete;
     MeshSeries& operator=(MeshSeries&&) = delete;
 
-    /// Appends the mesh, its data and its fields, as a single file has them. `time` is finite and
-    /// greater than those before, or InputError.
+    /// Appends the mesh, its data and its fields as in a single file. Throws InputError unless
+    /// `time` is finite and greater than all earlier times.
     void append(MeshSource& mesh, double time);
 
-    /// Puts the file in its place. At least one mesh must have been appended; nothing may be any
-    /// more. Returns what is left out, in a sentence, or nothing: facets and edges with their
-    /// markers, names of groups, and data that not all meshes have.
+    /// Writes the file to its final path. Requires at least one appended mesh; nothing may be
+    /// appended afterwards. Returns a sentence naming the data that was left out, or an empty
+    /// string: facets and edges with their markers, group names, and data that not all meshes have.
     [[nodiscard]] std::string commit();
 
 private:

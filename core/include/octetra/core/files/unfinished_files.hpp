@@ -1,13 +1,14 @@
 #pragma once
 
-/// What a program that is ended has to clean up.
+/// Removal of temporary files when the program is terminated.
 namespace octetra {
 
-/// Removes the temporary files of everything that is being written at the moment. For the handler
-/// of a signal that ends the program: it calls nothing but unlink().
+/// Removes the temporary files of all output in progress. Async-signal-safe: intended for the
+/// handler of a signal that terminates the program; calls only unlink().
 ///
-/// False while a set of files is being put in place, which must not stop halfway: the handler then
-/// returns, and `signal` is raised again when all of them are there.
+/// Returns false while a set of files is being renamed to their final names, which must not be
+/// interrupted: the handler then returns, and `signal` is raised again after all files have been
+/// renamed.
 [[nodiscard]] bool remove_unfinished_files(int signal) noexcept;
 
 }  // namespace octetra

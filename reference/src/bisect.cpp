@@ -15,8 +15,8 @@ void check_countable(std::size_t count, std::string_view what) {
     }
 }
 
-/// The marker that the midpoint of each edge of the table gets: the edge's own, where the
-/// edge is tagged; else the smallest among the tagged facets that have the edge; else 0.
+/// Returns the marker of the midpoint of each edge of the table: the marker of the edge, if tagged;
+/// otherwise the smallest marker of the tagged facets that contain the edge; otherwise 0.
 IndexVector<EdgeIndex, Marker> midpoint_markers(const Mesh& mesh, const EdgeTable& table) {
     IndexVector<EdgeIndex, Marker> markers(table.edges.size(), 0);
     EdgeSet met(table.edges.size(), false);
@@ -29,7 +29,8 @@ IndexVector<EdgeIndex, Marker> midpoint_markers(const Mesh& mesh, const EdgeTabl
             take(find_edge(table, mesh.facets[f][i], mesh.facets[f][j]), mesh.facet_markers[f]);
         }
     }
-    // A tagged edge overrules the facets; listed twice, it has the smaller of its markers.
+    // A tagged edge takes precedence over facets; if it is listed twice, the smaller marker is
+    // used.
     met.assign(met.size(), false);
     for (EdgeIndex tagged{0}; tagged < mesh.edge_markers.end_index(); ++tagged) {
         take(find_edge(table, mesh.edges[tagged][0], mesh.edges[tagged][1]),
@@ -38,7 +39,7 @@ IndexVector<EdgeIndex, Marker> midpoint_markers(const Mesh& mesh, const EdgeTabl
     return markers;
 }
 
-/// The vertices of `mesh` and the midpoints of the edges.
+/// Sets the vertices of `fine`: those of `mesh`, then the midpoints of the edges.
 void bisect_edges(const Mesh& mesh, const EdgeTable& table, const std::vector<EdgeVertices>& edges,
                   Refinement& fine) {
     const auto markers = midpoint_markers(mesh, table);
@@ -63,7 +64,8 @@ void bisect_edges(const Mesh& mesh, const EdgeTable& table, const std::vector<Ed
     }
 }
 
-/// Rounded midpoints may leave the edge that they bisect, and a thin enough child then turns over.
+/// Throws InputError if the child is flat or inverted: a rounded midpoint need not lie on the edge
+/// that it bisects, which can invert a thin child.
 void check_child(const CellVertices& child, const Mesh& fine, CellIndex parent, int level,
                  std::uint32_t index_base) {
     const auto& p = fine.points;
@@ -77,7 +79,8 @@ void check_child(const CellVertices& child, const Mesh& fine, CellIndex parent, 
         parent.value() + index_base, level, sign < 0 ? "inverted" : "flat"));
 }
 
-/// Before anything is made of it.
+/// Throws InputError if the level would make more than `max_cells` cells. Called before the mesh is
+/// built.
 void check_allowed(const Mesh& mesh, const EdgeTable& table, const EdgeToMidpoint& midpoints,
                    std::size_t max_cells, int level) {
     if (max_cells == any_number) return;
@@ -90,7 +93,7 @@ void check_allowed(const Mesh& mesh, const EdgeTable& table, const EdgeToMidpoin
                     level, count, max_cells));
 }
 
-/// The number of the first piece of each entity, and of all pieces.
+/// The number of the first piece of each entity, followed by the total number of pieces.
 using FirstPieces = std::vector<std::uint64_t>;
 
 FirstPieces bisect_cells(const Mesh& mesh, const EdgeTable& table, const EdgeToMidpoint& midpoints,
@@ -114,7 +117,7 @@ FirstPieces bisect_cells(const Mesh& mesh, const EdgeTable& table, const EdgeToM
     return first;
 }
 
-/// Facets and tagged edges go the way of the cells that they belong to.
+/// Bisects tagged facets or edges in the same way as the cells that contain them.
 template <class I, std::size_t N>
 FirstPieces bisect_tagged(const IndexVector<I, std::array<VertexIndex, N>>& list,
                           const IndexVector<I, Marker>& markers, const Mesh& mesh,

@@ -10,7 +10,8 @@
 
 namespace octetra::reference {
 
-/// For each edge of the table its midpoint's vertex number, or none() if it is not bisected.
+/// For each edge of the table, the vertex number of its midpoint, or none() if the edge is not
+/// bisected.
 using EdgeToMidpoint = IndexVector<EdgeIndex, VertexIndex>;
 
 /// A marked edge and its midpoint.
@@ -19,14 +20,15 @@ struct BisectedEdge {
     VertexIndex midpoint;
 };
 
-/// The marked ones among the edges of a cell, facet or edge with these vertices, longest first.
+/// Returns the marked edges of a cell, facet or edge with these vertices, longest first.
 [[nodiscard]] std::vector<BisectedEdge> bisected_edges(const Mesh& mesh, const EdgeTable& table,
                                                        const EdgeToMidpoint& midpoints,
                                                        const std::vector<VertexIndex>& vertices);
 
-/// Bisects a cell (N = 4), a facet (3) or an edge (2) by the first of the edges that it has, then
-/// each half likewise, until no piece has any of them left; appends the pieces to `children`.
-/// `longest_first` must come from bisected_edges() of the entity that the piece is of.
+/// Bisects a cell (N = 4), a facet (3) or an edge (2) by the first listed edge that it contains,
+/// then each half recursively, until no piece contains any of these edges; appends the pieces to
+/// `children`. `longest_first` must be the result of bisected_edges() for the entity of which
+/// `piece` is a part.
 template <std::size_t N>
 void bisect(const std::array<VertexIndex, N>& piece, const std::vector<BisectedEdge>& longest_first,
             std::vector<std::array<VertexIndex, N>>& children) {
@@ -37,9 +39,9 @@ void bisect(const std::array<VertexIndex, N>& piece, const std::vector<BisectedE
 
         const auto lower = static_cast<std::size_t>(std::min(a, b) - piece.begin());
         const auto higher = static_cast<std::size_t>(std::max(a, b) - piece.begin());
-        std::array<VertexIndex, N> first = piece;  // keeps the end at the lower position
+        std::array<VertexIndex, N> first = piece;  // retains the end at the lower position
         first[higher] = edge.midpoint;
-        std::array<VertexIndex, N> second = piece;  // keeps the other
+        std::array<VertexIndex, N> second = piece;  // retains the other end
         second[lower] = edge.midpoint;
         bisect(first, longest_first, children);
         bisect(second, longest_first, children);
@@ -48,7 +50,7 @@ void bisect(const std::array<VertexIndex, N>& piece, const std::vector<BisectedE
     children.push_back(piece);
 }
 
-/// All of that for an entity of the mesh: the pieces that it is bisected into, in order.
+/// Returns the pieces into which an entity of the mesh is bisected, in order.
 template <std::size_t N>
 [[nodiscard]] std::vector<std::array<VertexIndex, N>> pieces_of(
     const std::array<VertexIndex, N>& entity, const Mesh& mesh, const EdgeTable& table,
@@ -58,17 +60,18 @@ template <std::size_t N>
     return pieces;
 }
 
-/// The numbers of the midpoints of some of the mesh's edges, which ascend.
+/// Assigns consecutive vertex numbers to the midpoints of the given edges of the mesh, which are in
+/// ascending order.
 [[nodiscard]] EdgeToMidpoint midpoints_of(const std::vector<EdgeVertices>& edges,
                                           const EdgeTable& table, const Mesh& mesh);
 
-/// The mesh with these edges bisected, a closed set that ascends, and by them its cells, facets and
-/// tagged edges. Throws as refine() does; `level` is for the message.
+/// Bisects these edges, a closed set in ascending order, and accordingly the cells, facets and
+/// tagged edges of the mesh. Throws as refine() does; `level` is used in the message.
 [[nodiscard]] Refinement bisect_mesh(const Refinement& coarse,
                                      const std::vector<EdgeVertices>& edges, int level,
                                      std::size_t max_cells = any_number);
 
-/// The mesh as it is.
+/// Returns the mesh with the identity maps.
 [[nodiscard]] Refinement unrefined(const Mesh& mesh);
 
 }  // namespace octetra::reference

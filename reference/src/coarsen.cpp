@@ -24,7 +24,7 @@ struct Step {
     }
 };
 
-/// Rule (a) of coarsened().
+/// Implements rule (a) of coarsened().
 VertexSet vertices_that_must_stay(const Mesh& input, const Mesh& present, const CellMarks& may_go,
                                   const std::vector<Step>& steps) {
     VertexSet kept(present.points.size(), false);
@@ -43,7 +43,7 @@ VertexSet vertices_that_must_stay(const Mesh& input, const Mesh& present, const 
     return kept;
 }
 
-/// Rule (b): the rule of closure, within each step.
+/// Implements rule (b) of coarsened(), the rule of closure, within each step.
 void keep_closed(const Step& step, VertexSet& kept) {
     EdgeSet stays(step.table.edges.size(), false);
     for (EdgeIndex e{0}; e < stays.end_index(); ++e) {
@@ -55,8 +55,9 @@ void keep_closed(const Step& step, VertexSet& kept) {
     }
 }
 
-/// The history without the midpoints that go. Those that stay close ranks, and get the numbers that
-/// replay will give them: as their order stays, edges that ascend still do.
+/// Returns the history without the midpoints that are not kept. The remaining ones are renumbered
+/// consecutively, as replay will number them; their order does not change, so edges remain
+/// ascending.
 History without(const History& history, const VertexSet& kept) {
     History rest{history.input, {}};
     IndexVector<VertexIndex, VertexIndex> new_number(kept.size(), VertexIndex::none());

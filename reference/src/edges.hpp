@@ -9,8 +9,8 @@
 
 namespace octetra::reference {
 
-/// The edges of a mesh's cells, numbered in ascending order of (smaller, larger) vertex number:
-/// the order in which their midpoints will be numbered.
+/// The edges of a mesh's cells, numbered in ascending order of (smaller, larger) vertex number,
+/// which is also the order of their midpoints.
 struct EdgeTable {
     IndexVector<EdgeIndex, EdgeVertices> edges;
     /// For each cell, its six edges in the order of cell_edges.
@@ -19,14 +19,14 @@ struct EdgeTable {
 
 [[nodiscard]] EdgeTable number_edges(const Mesh& mesh);
 
-/// The number of the edge between two vertices, which must be an edge of some cell.
+/// Returns the number of the edge between two vertices, which must be an edge of some cell.
 [[nodiscard]] EdgeIndex find_edge(const EdgeTable& table, VertexIndex a, VertexIndex b);
 
 [[nodiscard]] inline Segment segment(const Mesh& mesh, const EdgeVertices& edge) {
     return {mesh.points[edge[0]], mesh.points[edge[1]]};
 }
 
-/// The longest of some edges, in the strict order of core/edge_order.hpp.
+/// Returns the longest of the given edges in the strict order of core/edge_order.hpp.
 [[nodiscard]] inline EdgeIndex longest(const Mesh& mesh, const EdgeTable& table,
                                        std::span<const EdgeIndex> edges) {
     return *std::ranges::min_element(edges, [&](EdgeIndex e, EdgeIndex f) {
@@ -34,7 +34,7 @@ struct EdgeTable {
     });
 }
 
-/// The three edges of face i of a cell (the one opposite corner i), from the cell's six.
+/// Returns the three edges of face i of a cell (opposite corner i), given the cell's six edges.
 [[nodiscard]] inline std::array<EdgeIndex, 3> face_edges(const std::array<EdgeIndex, 6>& of_cell,
                                                          std::size_t i) {
     // Edge k of a cell joins the corners cell_edges[k]: 01 02 03 12 13 23.

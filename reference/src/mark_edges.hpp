@@ -6,11 +6,11 @@
 
 namespace octetra::reference {
 
-/// The edges that the marked cells mark, before closure.
+/// Returns the edges that the marked cells mark, before closure.
 [[nodiscard]] EdgeSet mark_edges(const Mesh& mesh, const EdgeTable& table, const CellMarks& marks,
                                  Scheme scheme);
 
-/// These and what closure adds, ascending.
+/// Returns these edges and those added by closure, in ascending order.
 [[nodiscard]] std::vector<EdgeVertices> edges_to_bisect(const Mesh& mesh, const CellMarks& marks,
                                                         Scheme scheme);
 

@@ -102,7 +102,7 @@ TEST(CoarseningFaults, WithoutClosureIsRefused) {
         EXPECT_EQ(verdict.count(Code::vertex_went), dropped) << codes_of(verdict);
         for (const Violation& violation : verdict.violations) {
             if (violation.code != Code::vertex_went) continue;
-            EXPECT_THAT(violation.expected, HasSubstr("it halves the longest edge of a face"));
+            EXPECT_THAT(violation.expected, HasSubstr("it bisects the longest edge of a face"));
         }
         ++tried;
     }
@@ -245,9 +245,10 @@ TEST(CoarseningFaults, AreExplainedByTheRule) {
         EXPECT_EQ(violation.entities.front().number, 4U);
         return violation.expected;
     };
-    EXPECT_EQ(expected({}), "there: this cell has it, and may not go");
-    EXPECT_EQ(expected({{.all = true}}), "there: this cell has it, and a vertex of a later step");
-    EXPECT_EQ(expected({{}, true, 0}), "there: it could go at no level");
+    EXPECT_EQ(expected({}), "kept: it belongs to this cell, which may not go");
+    EXPECT_EQ(expected({{.all = true}}),
+              "kept: this cell contains it and a vertex of a later step");
+    EXPECT_EQ(expected({{}, true, 0}), "kept: no level could remove it");
 }
 
 }  // namespace

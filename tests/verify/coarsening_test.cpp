@@ -211,7 +211,7 @@ TEST(CoarseningOfStepsThatFitNoMesh, IsNotJudged) {
     StepCuts cuts = right;
     cuts[0].pop_back();
     EXPECT_EQ(refusal(cuts),
-              "step 1 does not fit the mesh before it: it is one of 5 cells, and there are 6");
+              "step 1 does not fit the mesh before it: it has data of 5 cells, but there are 6");
     cuts = right;
     cuts.push_back(std::vector<std::uint8_t>(after.cells.size(), 0));
     cuts[1][7] = 0x3f;
@@ -229,12 +229,12 @@ TEST(CoarseningOfStepsThatFitNoMesh, IsNotJudged) {
         }
     }
     EXPECT_EQ(refusal(cuts),
-              "step 1 does not fit the mesh before it: of a face of cell 0, from 0, it bisects an "
-              "edge and not the longest");
+              "step 1 does not fit the mesh before it: on a face of cell 0, from 0, it bisects an "
+              "edge but not the longest");
     EXPECT_EQ(refusal(right, {{.cells = {GlobalCell{48}}}}),
-              "cell 48 is listed, from 0, and the mesh before has 48");
+              "cell 48 is listed, from 0, but the mesh before has 48");
     EXPECT_EQ(refusal(right, {{.cells = {GlobalCell{4}}}, false, 2}),
-              "cells are listed, of one mesh, and there is more than one level");
+              "a list of cells allows only one level");
 }
 
 }  // namespace

@@ -197,7 +197,7 @@ TEST(Fast, LeavesOutWhatTakesASearchInSpace) {
 TEST(Notes, SayThatThereAreNoCells) {
     const Check check = test::judged_by_all(Mesh{}).checks[1];
     EXPECT_EQ(check.name, "well-formed");
-    EXPECT_EQ(check.note, "there are no cells: nothing can be wrong with them");
+    EXPECT_EQ(check.note, "there are no cells to check");
     EXPECT_EQ(test::judged_by_all(test::kuhn(1, 1, 1)).checks[1].note, "");
 }
 
@@ -210,11 +210,11 @@ TEST(Notes, OfSkippedChecksNameWhatHasFailed) {
     };
     Mesh inverted = test::kuhn(2, 1, 1);
     std::swap(inverted.cells[CellIndex{0}][0], inverted.cells[CellIndex{0}][1]);
-    EXPECT_EQ(why_not_crossings(inverted), "cells are wrong in themselves");
+    EXPECT_EQ(why_not_crossings(inverted), "there are invalid cells");
     Mesh coincident = test::kuhn(2, 1, 1);
     coincident.cells[CellIndex{0}][0] =
         coincident.points.append(coincident.points[coincident.cells[CellIndex{0}][0]]);
-    EXPECT_EQ(why_not_crossings(coincident), "vertices lie where they must not");
+    EXPECT_EQ(why_not_crossings(coincident), "there are coincident or hanging vertices");
 }
 
 TEST(Notes, OfSkippedSumsAndDescentNameTheChecksThatFailed) {

@@ -16,7 +16,7 @@
 namespace octetra::verify {
 namespace {
 
-/// What a vertex is known by in both meshes, whatever its number.
+/// An identification of a vertex that does not depend on its number.
 using Colour = std::uint64_t;
 using Colours = IndexVector<VertexIndex, Colour>;
 
@@ -44,7 +44,7 @@ bool has_coincident_vertices(const Mesh& mesh) {
     return std::adjacent_find(points.begin(), points.end()) != points.end();
 }
 
-/// Mixes into each vertex's colour those of the cells around it, in no order.
+/// Adds to each vertex's colour the colours of the cells around it, independent of their order.
 Colours spread(const Colours& colours, const Mesh& mesh) {
     Colours next = colours;
     for (const CellVertices& cell : mesh.cells) {
@@ -66,21 +66,21 @@ Colours colours_of(const Mesh& mesh, bool tell_coincident_apart) {
     return colours;
 }
 
-/// An entity of N vertices in a form that no numbering changes.
+/// An entity of N vertices in a form that does not depend on the numbering.
 template <std::size_t N>
 struct Item {
-    std::array<Colour, N> colours{};  ///< ascending
-    std::array<Point, N> corners;     ///< in that order
-    bool turned = false;              ///< of a cell: an odd permutation of that order
+    std::array<Colour, N> colours{};  ///< in the order of corners
+    std::array<Point, N> corners;     ///< ascending
+    bool turned = false;              ///< for a cell: an odd permutation of that order
     Marker marker = 0;
     std::vector<double> attributes;
-    unsigned features = 0;  ///< a bit for each that it has
+    unsigned features = 0;  ///< bit set of features
 
     [[nodiscard]] auto place() const { return std::tie(corners, colours); }
     [[nodiscard]] auto tags() const { return std::tie(turned, marker, features); }
 };
 
-/// By value: -0 equals 0, and what is not a number equals itself and follows all numbers.
+/// Comparison by value: -0 equals 0, and NaN equals itself and follows all numbers.
 bool is_less(double a, double b) { return a < b || (!std::isnan(a) && std::isnan(b)); }
 bool is_equal(double a, double b) { return a == b || (std::isnan(a) && std::isnan(b)); }
 
@@ -109,7 +109,7 @@ Item<N> item_of(const std::array<VertexIndex, N>& vertices, const Mesh& mesh,
         corners[k] = {mesh.points[vertices[k]], colours[vertices[k]]};
     }
     Item<N> item;
-    for (std::size_t i = 1; i < N; ++i) {  // by insertion, counting exchanges
+    for (std::size_t i = 1; i < N; ++i) {  // insertion sort, counting exchanges
         for (std::size_t k = i; k > 0 && corners[k] < corners[k - 1]; --k) {
             std::swap(corners[k], corners[k - 1]);
             item.turned = !item.turned;
@@ -141,7 +141,7 @@ std::vector<Item<N>> items_of(const IndexVector<I, std::array<VertexIndex, N>>& 
     items.reserve(list.size());
     for (I i{0}; i < list.end_index(); ++i) {
         items.push_back(item_of(list[i], mesh, colours));
-        if (N != 4) items.back().turned = false;  // facets and edges have no sides
+        if (N != 4) items.back().turned = false;  // facets and edges have no orientation
         if (!markers.empty()) items.back().marker = markers[i];
     }
     mark_features(mesh, items);
@@ -182,7 +182,7 @@ class Comparer {
 public:
     Comparer(Comparison& result, std::size_t kept) : result_(result), kept_(kept) {}
 
-    /// Walks through both lists, sorted, and reports what is not in both.
+    /// Merges the sorted lists and reports items that are not in both.
     template <std::size_t N>
     void compare(std::vector<Item<N>> a, std::vector<Item<N>> b, std::string_view kind,
                  std::string_view tag) {
@@ -227,7 +227,7 @@ private:
     std::size_t kept_of_kind_ = 0;
 };
 
-/// All of a mesh but coordinates, attributes, what files call its groups, and its first vertex.
+/// All data of a mesh except coordinates, attributes, group names and the index base.
 auto whole_numbers_of(const Mesh& mesh) {
     const auto& [points, point_markers, attributes_per_point, point_attributes, cells, regions,
                  facets, facet_markers, edges, edge_markers, features, group_names, index_base] =
@@ -240,7 +240,7 @@ bool are_reals_equal(const Mesh& a, const Mesh& b) {
     return a.points == b.points && are_equal(a.point_attributes, b.point_attributes);
 }
 
-/// Whether all zeros have equal signs in two meshes whose numbers compare equal.
+/// Returns whether all zeros have equal signs in two meshes whose numbers compare equal.
 bool have_zeros_same_signs(const Mesh& a, const Mesh& b) {
     const auto same = [](double x, double y) {
         return std::isnan(x) || std::signbit(x) == std::signbit(y);

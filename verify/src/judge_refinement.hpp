@@ -7,8 +7,8 @@
 
 namespace octetra::verify {
 
-/// The checks of verify_refinement(), of whole meshes. False if numbers are out of range, or the
-/// coarse mesh is not as it must be: then nothing else can be said.
+/// Runs the checks of verify_refinement() on whole meshes. Returns false if numbers are out of
+/// range or the coarse mesh is invalid, so that no further checks are possible.
 bool judge_refinement(const Mesh& coarse, const Mesh& fine, const VerifyOptions& options,
                       Findings& findings);
 

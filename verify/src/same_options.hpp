@@ -9,8 +9,8 @@
 
 namespace octetra::verify {
 
-/// Collective in the group. Throws InputError on all processes where two pass different options:
-/// the checks are collective, and processes that run other checks wait for each other.
+/// Collective in the group. Throws InputError on all processes if two pass different options:
+/// checks are collective, so processes that run different checks would wait for each other.
 inline void check_same_options(const ProcessGroup& group, const VerifyOptions& options) {
     group.check_same("option fast", options.fast ? "true" : "false");
     group.check_same("option min_dihedral", options.min_dihedral

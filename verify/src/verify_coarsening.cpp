@@ -14,7 +14,8 @@
 namespace octetra::verify {
 namespace {
 
-/// The checks that ask for the mesh before, each only where what it leans on has passed.
+/// Runs the checks that need the mesh before, each only if the checks that it depends on have
+/// passed.
 void judge_remainder(const Mesh& input, const StepCuts& steps, const CoarseningRequest& request,
                      const Mesh& after, Findings& findings) {
     std::optional<Lineage> lineage;

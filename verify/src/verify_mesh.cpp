@@ -12,7 +12,7 @@
 namespace octetra::verify {
 namespace {
 
-/// A mesh, or a part of one, that is in range.
+/// Runs the checks of a mesh, or a part of one, whose numbers are in range.
 void judge(JudgedMesh& judged, const VerifyOptions& options, Findings& findings) {
     judged.keeps_cells = false;
     findings.run("well-formed", [&] { return check_well_formed(judged, findings); });
@@ -28,20 +28,21 @@ void judge(JudgedMesh& judged, const VerifyOptions& options, Findings& findings)
         findings.skip("boundary crossings", not_fast);
         return;
     }
-    // Cells that are wrong in themselves are in others' way, too; one report of them is enough.
+    // Invalid cells would cause further violations; one report of them is sufficient.
     bool none_hangs = false;
     if (oriented && faced) {
         none_hangs =
             findings.run("hanging vertices", [&] { return check_hanging(judged, findings); });
     } else {
-        findings.skip("hanging vertices", "cells are wrong in themselves");
+        findings.skip("hanging vertices", "there are invalid cells");
     }
     if (no_coincidence && none_hangs) {
         findings.run("boundary crossings",
                      [&] { return check_boundary_crossings(judged, findings); });
     } else {
-        findings.skip("boundary crossings", oriented && faced ? "vertices lie where they must not"
-                                                              : "cells are wrong in themselves");
+        findings.skip("boundary crossings", oriented && faced
+                                                ? "there are coincident or hanging vertices"
+                                                : "there are invalid cells");
     }
     findings.verdict().angles = measure_angles(judged);
     measure_sums(judged, findings);

@@ -18,8 +18,8 @@
 namespace octetra::verify {
 namespace {
 
-/// Vertices of the fine mesh at one place, of which each halves an edge of its own, and these edges
-/// lie in one place, too: as at a crack, of which the coarse mesh has both sides.
+/// Tolerates coincident vertices of the fine mesh that are midpoints of different edges which also
+/// coincide, as at a crack of which the coarse mesh has both sides.
 void tolerate_sides_of_cracks(const Mesh& fine, const Descent& descent,
                               std::vector<char>& tolerated) {
     std::vector<VertexIndex> by_place;
@@ -49,9 +49,9 @@ void tolerate_sides_of_cracks(const Mesh& fine, const Descent& descent,
     }
 }
 
-/// Of each vertex: may it be unused, or at the place of another? That is inherited: by vertices of
-/// no coarse cell, and by coincident vertices of the coarse mesh (at a crack, say) and midpoints
-/// between such, as far as they halve edges of their own.
+/// Returns, for each vertex, whether it may be unused or coincide with another. This is inherited:
+/// by vertices of no coarse cell, by coincident vertices of the coarse mesh (at a crack, for
+/// example), and by midpoints between these, if they are midpoints of different edges.
 std::vector<char> inherited_freedom(const Mesh& coarse, const Mesh& fine, const Descent& descent) {
     const std::vector<char> used = used_vertices(coarse);
     std::vector<VertexIndex> by_place;
@@ -75,7 +75,7 @@ std::vector<char> inherited_freedom(const Mesh& coarse, const Mesh& fine, const 
     }
     if (!any_coincident) return tolerated;
     tolerate_sides_of_cracks(fine, descent, tolerated);
-    // A midpoint has been given its halves after its ends had theirs, so this ends.
+    // Terminates, because `halves` of a midpoint were set after those of its ends.
     for (bool changed = true; changed;) {
         changed = false;
         for (VertexIndex v{0}; v < fine.points.end_index(); ++v) {
@@ -89,7 +89,7 @@ std::vector<char> inherited_freedom(const Mesh& coarse, const Mesh& fine, const 
     return tolerated;
 }
 
-/// Among the vertices of cells.
+/// Returns whether any vertices of cells coincide.
 bool has_coincident_vertices(const JudgedMesh& judged) {
     const std::vector<char> used = used_vertices(judged.mesh);
     std::vector<Point> points;
@@ -104,8 +104,8 @@ std::string_view name_of_range_check(Which which) {
     return which == Which::fine ? "numbers in range" : "coarse mesh in range";
 }
 
-/// The checks one after the other, of two meshes in range, each only where what it leans on has
-/// passed.
+/// Runs the checks of two meshes whose numbers are in range, in sequence, each only if the checks
+/// that it depends on have passed.
 class RefinementCheck {
 public:
     RefinementCheck(JudgedMesh coarse, JudgedMesh fine, const VerifyOptions& options,
@@ -115,7 +115,7 @@ public:
           coarse_(std::move(coarse)),
           fine_(std::move(fine)) {}
 
-    /// False if the coarse mesh is not as it must be.
+    /// Returns false if the coarse mesh is invalid.
     bool judge() {
         if (!judge_coarse()) return false;
         const bool well_formed =
@@ -135,7 +135,7 @@ public:
     }
 
 private:
-    /// What the certificate takes for granted.
+    /// Checks the assumptions of the proof about the coarse mesh.
     bool judge_coarse() {
         return findings_.run("coarse mesh", [&] {
             (void)check_well_formed(coarse_, findings_);
@@ -143,7 +143,7 @@ private:
             (void)check_orientation(coarse_, findings_);
             (void)check_faces(coarse_, findings_);
             const Facts none;
-            findings_.facts() = none;  // those of the fine mesh are to come
+            findings_.facts() = none;  // set for the fine mesh later
             if (!options_.fast) findings_.verdict().coarse_angles = measure_angles(coarse_);
             return std::string("well-formed, oriented, at most two cells at a face");
         });
@@ -161,10 +161,10 @@ private:
         if (options_.fast) {
             findings_.skip("hanging vertices", not_fast);
         } else if (!conforms) {
-            findings_.skip("hanging vertices", "cells are wrong in themselves");
+            findings_.skip("hanging vertices", "there are invalid cells");
         } else if (coincidences) {
             findings_.skip("hanging vertices",
-                           "the coarse mesh has vertices at one place, a crack perhaps");
+                           "the coarse mesh has coincident vertices, possibly a crack");
         } else {
             none_hangs =
                 findings_.run("hanging vertices", [&] { return check_hanging(fine_, findings_); });

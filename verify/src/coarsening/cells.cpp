@@ -13,7 +13,7 @@
 namespace octetra::verify {
 namespace {
 
-/// By the vertices of the lineage; nothing if one of them is not there.
+/// Returns the cell with vertices of the lineage; nothing if one of them has no match.
 std::optional<CellVertices> as_before(const CellVertices& cell, const VertexMatch& match) {
     CellVertices before;
     for (std::size_t k = 0; k < 4; ++k) {
@@ -23,8 +23,8 @@ std::optional<CellVertices> as_before(const CellVertices& cell, const VertexMatc
     return before;
 }
 
-/// Are the vertices of a cell corners of a cut cell, or half way between two of them? Then it lies
-/// in the cut one.
+/// Returns whether each vertex of a cell is a corner of a cut cell, or the midpoint of two of its
+/// corners. Then the cell is contained in the cut one.
 bool is_made_of(const CellVertices& cell, const CutCell& cut, const Lineage& lineage) {
     const auto is_corner = [&](VertexIndex v) {
         return std::find(cut.vertices.begin(), cut.vertices.end(), v) != cut.vertices.end();
@@ -38,8 +38,8 @@ bool is_made_of(const CellVertices& cell, const CutCell& cut, const Lineage& lin
 
 constexpr int beyond_input = std::numeric_limits<int>::max();
 
-/// How many steps back a cell of the mesh before is part of the other cell, which it lies in: 1, if
-/// that lies in the one that the last step here cut, and so on.
+/// Returns the number of steps by which the containing cell is coarser than a cell of the mesh
+/// before: 1 if it contains the cell that the last step cut here, and so on.
 int generations_back(const CellVertices& cell, CellIndex before, const Lineage& lineage) {
     int steps = 1;
     for (std::uint32_t at = lineage.cells.present[before.value()].parent; at != no_parent;
@@ -50,7 +50,7 @@ int generations_back(const CellVertices& cell, CellIndex before, const Lineage& 
     return beyond_input;
 }
 
-/// The mesh before, to divide cells into its own.
+/// The mesh before, used as the fine mesh when dividing cells.
 struct BeforeMesh {
     explicit BeforeMesh(const Lineage& lineage) : mesh(mesh_of(lineage)), places(mesh.points) {
         Findings not_looked_at(0);
@@ -80,7 +80,7 @@ std::string check_unions(const Lineage& lineage, int levels, const Mesh& after,
     for (CellIndex c{0}; c < after.cells.end_index(); ++c) {
         step();
         const auto cell = as_before(after.cells[c], match);
-        if (!cell) continue;  // it has a vertex that was reported
+        if (!cell) continue;  // has a vertex that was already reported
         if (before.judged.cells.contains(*cell)) continue;
         if (!divider.divide_cell(*cell)) {
             findings.add(Code::cell_not_before, [&]() -> Findings::Description {
@@ -103,12 +103,12 @@ std::string check_unions(const Lineage& lineage, int levels, const Mesh& after,
         if (most <= levels) continue;
         findings.add(Code::too_many_generations, [&]() -> Findings::Description {
             return {{entity(c), entity(farthest, Which::before)},
-                    most == beyond_input ? "no part of any cell that the second comes from"
+                    most == beyond_input ? "not contained in any ancestor of the second"
                                          : fmt::format("{} steps back from the second", most),
                     fmt::format("at most {}", levels)};
         });
     }
-    return fmt::format("{} cells of the mesh before, {} unions of such, at most {} step{} back",
+    return fmt::format("{} cells of the mesh before, {} unions of these, at most {} step{} back",
                        after.cells.size() - unions, unions, levels, levels == 1 ? "" : "s");
 }
 
@@ -124,11 +124,11 @@ std::string check_pieces(const Remainder& rest, const Mesh& after, const VertexM
         if (cell && cells.contains(*cell)) continue;
         findings.add(Code::wrong_pattern, [&]() -> Findings::Description {
             return {{entity(c)},
-                    "a cell that bisection by the longest edges does not make",
-                    "one that it makes, of the edges whose midpoints stay"};
+                    "a cell that longest-edge bisection does not create",
+                    "one created from the edges whose midpoints are kept"};
         });
     }
-    return "those that bisection by the longest edges makes of the edges whose midpoints stay";
+    return "those that longest-edge bisection creates from the edges whose midpoints are kept";
 }
 
 }  // namespace octetra::verify

@@ -8,25 +8,26 @@
 #include "coarsening/staying.hpp"
 #include "findings/findings.hpp"
 
-/// The checks of what coarsening has left. Each adds its violations to the findings and returns its
-/// note. Of the mesh after they ask only that its numbers are in range.
+/// Checks of a coarsened mesh. Each adds its violations to the findings and returns its note. They
+/// require of the mesh after only that its numbers are in range.
 namespace octetra::verify {
 
-/// Of each vertex of the mesh after, that of the lineage; none() if there is none.
+/// For each vertex of the mesh after, its vertex in the lineage; none() if there is none.
 using VertexMatch = IndexVector<VertexIndex, VertexIndex>;
 
-/// The vertices of the mesh after are those that stay. Fills `match`: by number, if they are those
-/// that stay, in order; else by place, those that stay first.
+/// Checks that the vertices of the mesh after are those that are kept. Fills `match`: by number, if
+/// the vertices are exactly those kept, in order; otherwise by coordinates, with preference for
+/// kept vertices.
 std::string check_staying(const Lineage& lineage, const Remainder& rest, const Mesh& after,
                           VertexMatch& match, Findings& findings);
 
-/// Each cell of the mesh after is one of the mesh before, or is cut into such by bisections at
-/// vertices of the mesh before, or into eight; and each of them has it among its ancestors' pieces,
-/// not more than so many steps back.
+/// Checks that each cell of the mesh after is a cell of the mesh before, or can be divided into
+/// such cells by bisections at vertices of the mesh before, or into eight; and that it is at most
+/// `levels` steps coarser than any of them.
 std::string check_unions(const Lineage& lineage, int levels, const Mesh& after,
                          const VertexMatch& match, Findings& findings);
 
-/// Each cell of the mesh after is one of those that the steps make of the vertices that stay.
+/// Checks that each cell of the mesh after is one that the steps create from the kept vertices.
 std::string check_pieces(const Remainder& rest, const Mesh& after, const VertexMatch& match,
                          Findings& findings);
 

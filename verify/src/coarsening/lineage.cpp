@@ -33,8 +33,8 @@ EdgeVertices edge_at(const CellVertices& cell, std::size_t k) {
     return {cell[i], cell[j]};
 }
 
-/// The longest edge that both ends are still there of is bisected; then so is each half. The first
-/// half keeps the end that stands before the other.
+/// Bisects the piece at its longest listed edge, then each half recursively. The first half keeps
+/// the end with the lower position.
 void bisect(const CellVertices& piece, const std::vector<Bisected>& longest_first,
             std::vector<CellVertices>& pieces) {
     const auto position = [&](VertexIndex v) {
@@ -53,7 +53,8 @@ void bisect(const CellVertices& piece, const std::vector<Bisected>& longest_firs
     pieces.push_back(piece);
 }
 
-/// The edges of a cell that the step bisects and whose midpoints are in the set, longest first.
+/// Collects the edges of a cell that the step bisects and whose midpoints are in the set, longest
+/// first.
 void find_bisected(const Lineage& lineage, const CellVertices& cell, int step,
                    const VertexSet& vertices, std::vector<Bisected>& found) {
     found.clear();
@@ -97,10 +98,10 @@ void take_step(const Lineage& lineage, int step, const VertexSet& vertices, Gene
     cells.present = std::move(next);
 }
 
-/// Does the step bisect this edge of a cell that it cuts so?
+/// Returns whether the step bisects edge k of a cell with this cut.
 bool has(std::uint8_t cut, std::size_t k) { return (unsigned{cut} >> k & 1U) != 0; }
 
-/// Gives the midpoints of a step their numbers.
+/// Assigns numbers to the midpoints of a step.
 void add_midpoints(Lineage& lineage, const std::vector<std::uint8_t>& cuts, int step) {
     std::vector<EdgeVertices> edges;
     for (std::size_t c = 0; c < cuts.size(); ++c) {
@@ -124,7 +125,7 @@ void add_midpoints(Lineage& lineage, const std::vector<std::uint8_t>& cuts, int 
     }
 }
 
-/// Do the cells agree on the edges that they share, and is the set closed?
+/// Throws InputError unless cells agree on the edges that they share, and the set is closed.
 void check_cuts(const Lineage& lineage, const std::vector<std::uint8_t>& cuts, int step) {
     for (std::size_t c = 0; c < cuts.size(); ++c) {
         const CellVertices& cell = lineage.cells.present[c].vertices;
@@ -148,7 +149,7 @@ void check_cuts(const Lineage& lineage, const std::vector<std::uint8_t>& cuts, i
                 refuse(
                     step,
                     fmt::format(
-                        "of a face of cell {}, from 0, it bisects an edge and not the longest", c));
+                        "on a face of cell {}, from 0, it bisects an edge but not the longest", c));
             }
         }
     }
@@ -165,7 +166,7 @@ Lineage lineage_of(const Mesh& input, const StepCuts& steps) {
     for (const std::vector<std::uint8_t>& cuts : steps) {
         const int step = ++lineage.steps;
         if (cuts.size() != lineage.cells.present.size()) {
-            refuse(step, fmt::format("it is one of {} cells, and there are {}", cuts.size(),
+            refuse(step, fmt::format("it has data of {} cells, but there are {}", cuts.size(),
                                      lineage.cells.present.size()));
         }
         add_midpoints(lineage, cuts, step);

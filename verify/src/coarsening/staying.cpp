@@ -13,7 +13,7 @@ namespace {
 
 using Why = Reason::Why;
 
-/// Rule (a).
+/// Applies rule (a).
 void keep_by_cells(const Lineage& lineage, const std::vector<PresentCell>& present,
                    const std::vector<char>& may_go, Reasons& reasons) {
     for (std::size_t c = 0; c < present.size(); ++c) {
@@ -31,7 +31,7 @@ void keep_by_cells(const Lineage& lineage, const std::vector<PresentCell>& prese
     }
 }
 
-/// If `shorter` stays, so does `longer`.
+/// If `shorter` is kept, so is `longer`.
 struct Pull {
     VertexIndex shorter;
     VertexIndex longer;
@@ -42,7 +42,7 @@ bool share_a_corner(const EdgeVertices& e, const EdgeVertices& f) {
     return e[0] == f[0] || e[0] == f[1] || e[1] == f[0] || e[1] == f[1];
 }
 
-/// Of all midpoints of one step that are joined, on edges of one face.
+/// Returns the pulls between all joined midpoints of one step on edges of one face.
 std::vector<Pull> pulls_between(const Lineage& lineage, const std::vector<PresentCell>& present) {
     std::vector<Pull> pulls;
     for (const PresentCell& cell : present) {
@@ -63,7 +63,7 @@ std::vector<Pull> pulls_between(const Lineage& lineage, const std::vector<Presen
     return pulls;
 }
 
-/// Rule (b): from midpoint to midpoint on longer and longer edges.
+/// Applies rule (b): propagates from midpoints to midpoints of longer edges.
 void keep_by_closure(const std::vector<Pull>& pulls, Reasons& reasons) {
     std::vector<VertexIndex> left;
     for (VertexIndex v{0}; v < reasons.end_index(); ++v) {
@@ -89,7 +89,7 @@ std::vector<char> marked_cells(const Lineage& lineage, const Mesh& input,
     std::vector<char> marked(present.size(), 0);
     for (const GlobalCell c : listed) {
         if (static_cast<std::uint64_t>(c) >= present.size()) {
-            throw InputError(fmt::format("cell {} is listed, from 0, and the mesh before has {}",
+            throw InputError(fmt::format("cell {} is listed, from 0, but the mesh before has {}",
                                          static_cast<std::uint64_t>(c), present.size()));
         }
         marked[static_cast<std::size_t>(c)] = 1;
@@ -127,7 +127,7 @@ Reasons reasons_to_stay(const Lineage& lineage, const std::vector<PresentCell>& 
 Remainder remainder_of(const Lineage& lineage, const Mesh& input,
                        const CoarseningRequest& request) {
     if (request.levels > 1 && !request.may_go.cells.empty()) {
-        throw InputError("cells are listed, of one mesh, and there is more than one level");
+        throw InputError("a list of cells allows only one level");
     }
     Remainder rest{Reasons(lineage.points.size(), {Why::input, {}, {}}), lineage.cells};
     for (int level = 0; level < request.levels; ++level) {

@@ -9,15 +9,15 @@
 
 namespace octetra::verify {
 
-/// Why a vertex stays.
+/// The reason why a vertex is kept.
 struct Reason {
     enum class Why : std::uint8_t {
-        none,     ///< it goes, or is not there
-        input,    ///< it is one of the input, or there is no level at which it could go
-        cell,     ///< `cell` has it, and may not go
-        cut,      ///< `cell` has it and a vertex of a later step, which cut a cell that has it
-        closure,  ///< the same step put `vertex`, which stays, on another edge of a face of which
-                  ///< this one is on the longest
+        none,     ///< it is removed, or not present
+        input,    ///< it is in the input, or no level could remove it
+        cell,     ///< it belongs to `cell`, which may not be coarsened
+        cut,      ///< it and a vertex of a later step belong to `cell`
+        closure,  ///< the same step created `vertex`, which is kept, on another edge of a face, and
+                  ///< this vertex is the midpoint of the face's longest edge
     };
     Why why = Why::none;
     CellVertices cell{};
@@ -25,27 +25,28 @@ struct Reason {
 };
 using Reasons = IndexVector<VertexIndex, Reason>;
 
-/// Which vertices stay of a mesh, if these of its cells may go, one step each. `present` are the
-/// cells that some of the vertices of the lineage make.
+/// Returns which vertices of a mesh are kept if the cells marked in `may_go` may be coarsened by
+/// one step each. `present` are the cells created from some of the vertices of the lineage.
 ///
-/// The rules are about the meshes before each step; here they are read off the cells that there
-/// are. Every cell that a step makes has a vertex of this step.
-///  - A cell with vertex v was cut by a later step than made v exactly if a cell that there is has
-///    v and a vertex of a later step. For some piece of it has v, and so on, down to a cell that
-///    there is; and a cell's vertices that the step which made it did not make are those of the
-///    cell that it cut.
-///  - A face of a cell that a step cut, with its longest edge e and another one, f, bisected, is
-///    bisected at e first; so their midpoints are joined, and if they are no more, a later step has
-///    cut a cell that has both, and both stay anyway. And two midpoints of one step that are joined
-///    were put on edges of one cell; if these share a corner, they lie in one of its faces, and
-///    one of them is the longest there: no other edges of a face have their midpoints joined.
+/// The rules refer to the meshes before each step; this function derives them from the present
+/// cells alone. Every cell created by a step has a vertex of this step.
+///  - A cell with vertex v was cut by a step later than that of v if and only if a present cell
+///    contains v and a vertex of a later step. For some piece of the cell contains v, and so on,
+///    down to a present cell; and those vertices of a cell that do not belong to the step which
+///    created it are vertices of the cell that this step cut.
+///  - A face of a cell that a step cut, with its longest edge e and another edge f bisected, was
+///    bisected at e first, so their midpoints were joined; if they are no longer joined, a later
+///    step has cut a cell that contains both, and both are kept by rule (a). Conversely, two joined
+///    midpoints of one step were created on edges of one cell. If these edges share a corner, they
+///    lie in one of its faces, and one of them is the longest edge there: midpoints of other edges
+///    of a face are not joined.
 [[nodiscard]] Reasons reasons_to_stay(const Lineage& lineage,
                                       const std::vector<PresentCell>& present,
                                       const std::vector<char>& may_go);
 
-/// What is left when all levels of the request are done.
+/// The result after all levels of the request.
 struct Remainder {
-    Reasons reasons;  ///< of the last level that was looked at; none: gone at some level
+    Reasons reasons;  ///< of the last level processed; none: removed at some level
     Generations cells;
 };
 

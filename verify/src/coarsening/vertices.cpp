@@ -10,7 +10,7 @@ using Why = Reason::Why;
 
 bool stays(const Remainder& rest, VertexIndex v) { return rest.reasons[v].why != Why::none; }
 
-/// False if the vertices of the mesh after are not those that stay, in their order.
+/// Returns false unless the vertices of the mesh after are exactly the kept ones, in order.
 bool match_by_number(const Lineage& lineage, const Remainder& rest, const Mesh& after,
                      VertexMatch& match) {
     VertexIndex w{0};
@@ -44,19 +44,19 @@ void report_gone(VertexIndex v, const Reason& reason, Findings& findings) {
         switch (reason.why) {
             case Why::cell:
                 description.entities.push_back(entity(reason.cell, Which::before));
-                expected = "there: this cell has it, and may not go";
+                expected = "kept: it belongs to this cell, which may not go";
                 break;
             case Why::cut:
                 description.entities.push_back(entity(reason.cell, Which::before));
-                expected = "there: this cell has it, and a vertex of a later step";
+                expected = "kept: this cell contains it and a vertex of a later step";
                 break;
             case Why::closure:
                 description.entities.push_back(entity(reason.vertex, Which::before));
                 expected =
-                    "there: it halves the longest edge of a face, and the second vertex, "
-                    "which stays, another one";
+                    "kept: it bisects the longest edge of a face, and the second vertex, "
+                    "which is kept, another edge";
                 break;
-            default: expected = "there: it could go at no level"; break;
+            default: expected = "kept: no level could remove it"; break;
         }
         return description;
     });
@@ -65,14 +65,14 @@ void report_gone(VertexIndex v, const Reason& reason, Findings& findings) {
 void report_found(VertexIndex w, VertexIndex v, const Lineage& lineage, Findings& findings) {
     if (v.is_none()) {
         findings.add(Code::vertex_not_before, [&]() -> Findings::Description {
-            return {{entity(w)}, "a vertex that the mesh before has not", "one of its vertices"};
+            return {{entity(w)}, "a vertex that is not in the mesh before", "one of its vertices"};
         });
         return;
     }
     findings.add(Code::vertex_stayed, [&]() -> Findings::Description {
         return {{entity(w), entity(v, Which::before)},
-                fmt::format("still there, of step {}", lineage.step[v]),
-                "gone: all cells at it may go, and nothing else keeps it"};
+                fmt::format("still present, of step {}", lineage.step[v]),
+                "gone: all cells at it may go, and no other rule keeps it"};
     });
 }
 
@@ -96,7 +96,7 @@ std::string check_staying(const Lineage& lineage, const Remainder& rest, const M
     for (VertexIndex v{0}; v < found.end_index(); ++v) {
         if (!stays(rest, v)) {
             ++went;
-        } else if (found[v] == 0 && lineage.step[v] > 0) {  // of the input: lost_vertex
+        } else if (found[v] == 0 && lineage.step[v] > 0) {  // for the input: lost_vertex
             report_gone(v, rest.reasons[v], findings);
         }
     }

@@ -51,7 +51,7 @@ Cosine<T> dihedral_cosine(const Point& a, const Point& b, const Point& c, const 
     return cosine_between(cross(edge, between<T>(a, c)), cross(edge, between<T>(a, d)));
 }
 
-/// Signs, and what is known of them.
+/// The sign of a number; nothing if it is not known.
 std::optional<int> sign_of(const Interval& x) {
     if (x.inf() > 0) return 1;
     if (x.sup() < 0) return -1;
@@ -60,7 +60,8 @@ std::optional<int> sign_of(const Interval& x) {
 }
 std::optional<int> sign_of(const mpq_class& x) { return sgn(x); }
 
-/// Is numerator / sqrt(square) > c, given the sign of c and c squared? Nothing if undecided.
+/// Returns whether numerator / sqrt(square) > c, given the sign of c and c squared; nothing if
+/// undecided.
 template <class T>
 std::optional<bool> is_greater(const Cosine<T>& cosine, int sign_of_c, const T& c_squared) {
     const auto sign = sign_of(cosine.numerator);
@@ -73,9 +74,9 @@ std::optional<bool> is_greater(const Cosine<T>& cosine, int sign_of_c, const T& 
     return sign_of_c >= 0 ? *excess > 0 : *excess < 0;
 }
 
-/// Is the angle more than 60 degrees, and so not the smallest of its triangle? Nothing if
-/// undecided; a right angle, whose cosine has a sign that no interval tells, is decided by the
-/// square.
+/// Returns whether the angle is more than 60 degrees, and so not the smallest of its triangle;
+/// nothing if undecided. The square decides right angles, for which an interval cannot determine
+/// the sign of the cosine.
 template <class T>
 std::optional<bool> is_over_60_degrees(const Cosine<T>& angle) {
     const auto sign = sign_of(angle.numerator);
@@ -85,7 +86,8 @@ std::optional<bool> is_over_60_degrees(const Cosine<T>& angle) {
     return *excess > 0;
 }
 
-/// Is it 30 degrees or more, and so half of any triangle's smallest angle or more?
+/// Returns whether the angle is at least 30 degrees, and so at least half of the smallest angle of
+/// any triangle; nothing if undecided.
 template <class T>
 std::optional<bool> is_30_degrees_or_more(const Cosine<T>& angle) {
     const auto sign = sign_of(angle.numerator);
@@ -95,15 +97,16 @@ std::optional<bool> is_30_degrees_or_more(const Cosine<T>& angle) {
     return *excess >= 0;
 }
 
-/// cos(piece's angle) > cos(whole's angle / 2), for less than 30 and at most 60 degrees: with
-/// r = cos^2 of the first, that is 2 r - 1 > cos(whole's angle), where both are positive.
+/// Returns whether cos(piece's angle) > cos(whole's angle / 2), for less than 30 and at most 60
+/// degrees, respectively: with r the square of the former cosine, this is 2 r - 1 > cos(whole's
+/// angle), where both sides are positive.
 template <class T>
 std::optional<bool> is_less_than_half(const Cosine<T>& piece, const Cosine<T>& whole) {
     // With r = n^2 / s: (2 n^2 - s) / s > m / sqrt(t).
     const T twice_less_one = T(2) * piece.numerator * piece.numerator - piece.square;
     if (sign_of(piece.numerator) != 1 || sign_of(twice_less_one) != 1 ||
         sign_of(whole.numerator) != 1) {
-        return std::nullopt;  // the angles are too near to those bounds for T
+        return std::nullopt;  // the angles are too close to these bounds for T
     }
     const T left = twice_less_one * twice_less_one * whole.square;
     const T right = whole.numerator * whole.numerator * piece.square * piece.square;
@@ -118,8 +121,8 @@ Cosine<T> cosine_at(const std::array<Point, 3>& triangle, std::size_t k) {
                           between<T>(triangle[k], triangle[(k + 2) % 3]));
 }
 
-/// Every angle of the piece against every one of the whole that may be the smallest: of that, half
-/// is kept if half of any other is.
+/// Compares every angle of the piece with every angle of the whole that may be the smallest: if
+/// half of any angle is kept, half of the smallest is.
 template <class T>
 std::optional<bool> has_angle_less_than_half_of_all(const std::array<Point, 3>& piece,
                                                     const std::array<Point, 3>& whole) {
@@ -159,8 +162,8 @@ mpq_class rational(const mpfr_t x) {
     return result;
 }
 
-/// The cosine of so many degrees, times pi / 180, rounded down or up throughout; the angle itself
-/// the other way, as the cosine falls.
+/// The cosine of the given angle (times pi / 180), rounded down or up throughout; the angle itself
+/// is rounded in the opposite direction, since the cosine decreases.
 mpq_class cosine_of_degrees(double degrees, mpfr_rnd_t cosine_rounding) {
     constexpr mpfr_prec_t bits = 400;
     const mpfr_rnd_t angle_rounding = cosine_rounding == MPFR_RNDD ? MPFR_RNDU : MPFR_RNDD;
@@ -172,14 +175,14 @@ mpq_class cosine_of_degrees(double degrees, mpfr_rnd_t cosine_rounding) {
     mpfr_cos(x, x, cosine_rounding);
     mpq_class result = rational(x);
     mpfr_clear(x);
-    mpfr_free_cache();  // of constants, which each thread has of its own
+    mpfr_free_cache();  // the thread's cache of constants
     return result;
 }
 
 }  // namespace
 
 struct AngleLimit::State {
-    int sign = 0;  ///< of the cosine
+    int sign = 0;  ///< sign of the cosine
     mpq_class low_square;
     mpq_class high_square;
     Interval interval{0};
@@ -225,8 +228,8 @@ bool AngleLimit::exceeds_dihedral(const Point& p, const Point& q, const Point& r
         }
     }
     ++arithmetic.exact;
-    // Between the two enclosing values no cosine of rational corners lies but by a chance of
-    // 2^-390; there the angle counts as large enough.
+    // The cosine for rational corners lies between the two enclosing values only with a probability
+    // of about 2^-390; the angle then counts as large enough.
     const auto cosine = dihedral_cosine<mpq_class>(a, b, c, d);
     return *is_greater(cosine, state_->sign,
                        state_->sign >= 0 ? state_->high_square : state_->low_square);

@@ -9,8 +9,8 @@
 namespace octetra::verify::exact {
 namespace {
 
-/// An integer of any length times a power of two: GMP's own, because a million volumes a second
-/// take numbers whose memory is used again.
+/// An arbitrary-precision integer times a power of two. Uses GMP directly to reuse memory, because
+/// a million volumes are computed per second.
 class Dyadic {
 public:
     Dyadic() { mpz_init(mantissa_); }
@@ -20,7 +20,7 @@ public:
     Dyadic(Dyadic&&) = delete;
     Dyadic& operator=(Dyadic&&) = delete;
 
-    /// Of a long double's digits, those that a double has.
+    /// Sets the value, rounded to the precision of a double.
     template <class Float>
     void set(Float value) {
         constexpr int bits = 53;
@@ -43,7 +43,7 @@ public:
         mpz_set_ui(mantissa_, 0);
         exponent_ = 0;
     }
-    /// "MANTISSA*2^EXPONENT", the mantissa in hexadecimal digits.
+    /// Returns "MANTISSA*2^EXPONENT", with the mantissa in hexadecimal.
     [[nodiscard]] std::string text() const {
         std::string digits(mpz_sizeinbase(mantissa_, base) + 2, '\0');
         mpz_get_str(digits.data(), base, mantissa_);
@@ -100,7 +100,7 @@ void set(Vector& v, const Point& p) {
     v[2].set(p.z);
 }
 
-/// |sum| <= bound
+/// Returns whether |sum| <= bound.
 bool within(const Dyadic& sum, long double bound, Dyadic& scratch, Dyadic& difference) {
     if (sum.sign() == 0) return true;
     if (bound == 0) return false;
@@ -110,7 +110,7 @@ bool within(const Dyadic& sum, long double bound, Dyadic& scratch, Dyadic& diffe
     return difference.sign() * sum.sign() <= 0;
 }
 
-/// Cross product of two edges of a triangle.
+/// The cross product of two edges of a triangle.
 struct CrossProduct {
     Vector a, b, c, u, v, result;
     Dyadic left, right, scratch;

@@ -6,10 +6,10 @@
 
 #include <octetra/core/point.hpp>
 
-/// Volumes and areas without rounding.
+/// Exact volumes and areas.
 namespace octetra::verify::exact {
 
-/// A sum of volumes of tetrahedra, taken six times. Exact; it holds a number of any length.
+/// A sum of volumes of tetrahedra, times six, in exact arithmetic of arbitrary precision.
 class VolumeSum {
 public:
     VolumeSum();
@@ -23,11 +23,11 @@ public:
     /// Adds the signed volume.
     void add(const std::array<Point, 4>& corners);
     void subtract(const std::array<Point, 4>& corners);
-    /// Is it between -bound and bound? (Zero, for a bound of zero.) Of the bound, the 53 leading
-    /// bits count.
+    /// Returns whether the sum is between -bound and bound (zero, for a bound of zero). The 53
+    /// leading bits of the bound are used.
     [[nodiscard]] bool is_within(long double bound) const;
     [[nodiscard]] double rounded() const;
-    /// As text that NumberSum takes.
+    /// Returns the sum as text that NumberSum accepts.
     [[nodiscard]] std::string exactly() const;
 
 private:
@@ -35,7 +35,7 @@ private:
     std::unique_ptr<State> state_;
 };
 
-/// A sum of floating-point numbers. Exact; of each, the 53 leading bits count.
+/// An exact sum of floating-point numbers, of each of which the 53 leading bits are used.
 class NumberSum {
 public:
     NumberSum();
@@ -47,10 +47,11 @@ public:
 
     void clear();
     void add(long double number);
-    /// Adds or subtracts a sum as exactly() has told it, here or in another process.
+    /// Adds or subtracts a sum in the format of exactly(), from this or another process.
     void add_exactly(const std::string& sum);
     void subtract_exactly(const std::string& sum);
-    /// The sum, to within a unit of 2^-52 of it; also where that is no number for a double.
+    /// Returns the sum to within a relative error of 2^-52, also if it exceeds the range of a
+    /// double.
     [[nodiscard]] long double magnitude() const;
     [[nodiscard]] std::string exactly() const;
     [[nodiscard]] bool is_within(long double bound) const;
@@ -61,7 +62,7 @@ private:
     std::unique_ptr<State> state_;
 };
 
-/// A sum of vector areas of triangles, (b - a) x (c - a), taken so. Exact.
+/// An exact sum of vector areas of triangles, as cross products (b - a) x (c - a).
 class AreaSum {
 public:
     AreaSum();
@@ -74,10 +75,10 @@ public:
     void clear();
     void add(const std::array<Point, 3>& corners);
     void subtract(const std::array<Point, 3>& corners);
-    /// Is every component between -bound and bound? (As of volumes.)
+    /// Returns whether every component is between -bound and bound; see VolumeSum.
     [[nodiscard]] bool is_within(long double bound) const;
     [[nodiscard]] Point rounded() const;
-    /// The length of the sum as a vector, to within some units of 2^-52 of it.
+    /// Returns the length of the sum as a vector, to within a relative error of some 2^-52.
     [[nodiscard]] long double magnitude() const;
 
 private:

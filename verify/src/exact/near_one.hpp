@@ -8,18 +8,18 @@
 
 #include <octetra/core/point.hpp>
 
-/// Multiplying by a power of two changes no sign of a volume and no angle. So predicates are
-/// decided on numbers near 1, where products neither under- nor overflow: intervals would tell
-/// nothing of them, and rational numbers would carry a thousand bits for each factor.
+/// Scaling by powers of two, which changes neither the sign of a volume nor an angle. Predicates
+/// are evaluated on numbers near 1, for which products neither under- nor overflow: otherwise
+/// intervals would not decide, and rational numbers would need a thousand bits for each factor.
 namespace octetra::verify::exact {
 
-/// The bits of |x|, which have the order of the numbers.
+/// The bits of |x|, which are ordered as the numbers.
 [[nodiscard]] constexpr std::uint64_t magnitude(double x) {
     return std::bit_cast<std::uint64_t>(x) & 0x7fff'ffff'ffff'ffffU;
 }
 
-/// x * 2^k, for -1000 <= k <= 1000. The processor takes a hundred times as long to multiply a
-/// subnormal number, so these are taken as the integers that they are.
+/// Returns x * 2^k, for -1000 <= k <= 1000. Subnormal numbers are converted as integers, since the
+/// processor takes a hundred times as long to multiply them.
 [[nodiscard]] inline double times_power_of_two(double x, int k) {
     constexpr int bias = 1023;
     constexpr int mantissa_bits = 52;
@@ -34,20 +34,20 @@ namespace octetra::verify::exact {
     return std::bit_cast<std::uint64_t>(x) >> 63U == 0 ? size : -size;
 }
 
-/// Is it 0, or between 2^-reach and 2^reach?
+/// Returns whether the size is 0, or between 2^-reach and 2^reach.
 template <int reach>
 [[nodiscard]] constexpr bool is_near_one(double size) {
     constexpr double power = std::bit_cast<double>(static_cast<std::uint64_t>(1023 + reach) << 52U);
     return (size < power && size >= 1 / power) || size == 0;
 }
 
-/// By which power of two a number is to be multiplied to come near 1.
+/// Returns the exponent of the power of two that scales a number to a value near 1.
 [[nodiscard]] inline int exponent_to_one(double size) {
     const auto exponent = static_cast<int>(magnitude(size) >> 52U) - 1023;
     return std::clamp(-exponent, -1000, 1000);
 }
 
-/// Is times_power_of_two(x, k) x * 2^k exactly? (Making a number larger always is, up to 1.)
+/// Returns whether times_power_of_two(x, k) is exact. (Enlarging a number up to 1 always is.)
 [[nodiscard]] inline bool scales_exactly(double x, int k) {
     return k >= 0 || times_power_of_two(times_power_of_two(x, k), -k) == x;
 }
@@ -55,7 +55,7 @@ template <int reach>
 constexpr int reach_of_volumes = 200;  ///< for products of three
 constexpr int reach_of_angles = 30;    ///< for products of twelve
 
-/// Are the points such that near_one_by_axis() leaves them as they are?
+/// Returns whether near_one_by_axis() leaves the points unchanged.
 template <class... Points>
 [[nodiscard]] bool are_near_one_by_axis(const Points&... points) {
     double x = 0;
@@ -68,9 +68,9 @@ template <class... Points>
            is_near_one<reach_of_volumes>(z);
 }
 
-/// The points with each coordinate multiplied by a power of two of its own, so that the largest is
-/// near 1; those of an axis along which that would not be exact as they are. For what no affine map
-/// changes.
+/// Returns the points with each coordinate scaled by its own power of two, so that the largest is
+/// near 1; an axis along which this would not be exact is left unchanged. For quantities invariant
+/// under affine maps.
 template <std::size_t N>
 [[nodiscard]] std::array<Point, N> near_one_by_axis(const std::array<Point, N>& points) {
     std::array<Point, N> scaled = points;
@@ -86,7 +86,7 @@ template <std::size_t N>
     return scaled;
 }
 
-/// The points multiplied by one power of two, if that is exact. For angles.
+/// Returns the points scaled by one power of two, if that is exact. For angles.
 template <std::size_t N>
 [[nodiscard]] std::array<Point, N> near_one(const std::array<Point, N>& points) {
     double largest = 0;

@@ -24,7 +24,8 @@ typename K::Point_3 point(const Point& p) {
     return {Number(p.x), Number(p.y), Number(p.z)};
 }
 
-/// Nothing, and nothing counted, where intervals do not decide. Rounding must be upward.
+/// Returns nothing, and counts nothing, if intervals do not decide. Precondition: rounding is
+/// upward.
 std::optional<int> clear_orientation(const Point& a, const Point& b, const Point& c, const Point& d,
                                      Arithmetic& arithmetic) {
     const auto sign = Intervals::Orientation_3()(point<Intervals>(a), point<Intervals>(b),
@@ -41,7 +42,7 @@ int rational_orientation(const Point& a, const Point& b, const Point& c, const P
                                                        point<Rationals>(c), point<Rationals>(d)));
 }
 
-/// Of points near 1.
+/// Precondition: the points are near 1.
 int orientation_near_one(const Point& a, const Point& b, const Point& c, const Point& d,
                          Arithmetic& arithmetic) {
     {
@@ -51,8 +52,8 @@ int orientation_near_one(const Point& a, const Point& b, const Point& c, const P
     return rational_orientation(a, b, c, d, arithmetic);
 }
 
-/// Does the line of the segment pass two sides of the triangle on different sides? Where an end of
-/// the segment lies in the plane, that tells more than the end does. Rounding must be upward.
+/// Returns whether the line of the segment passes two sides of the triangle on different sides.
+/// This also decides if an end of the segment lies in the plane. Precondition: rounding is upward.
 bool line_clearly_misses(const std::array<Point, 2>& segment,
                          const std::array<Point, 3>& triangle) {
     Arithmetic counted_as_one;
@@ -67,7 +68,7 @@ bool line_clearly_misses(const std::array<Point, 2>& segment,
     return passes_left && passes_right;
 }
 
-/// Along which axis a triangle is seen best, more or less.
+/// Returns an axis along which the projection of the triangle has nearly the largest area.
 std::size_t best_axis(const std::array<Point, 3>& t) {
     const Point u{t[1].x - t[0].x, t[1].y - t[0].y, t[1].z - t[0].z};
     const Point v{t[2].x - t[0].x, t[2].y - t[0].y, t[2].z - t[0].z};
@@ -77,8 +78,9 @@ std::size_t best_axis(const std::array<Point, 3>& t) {
     return static_cast<std::size_t>(std::max_element(areas.begin(), areas.end()) - areas.begin());
 }
 
-/// Seen along an axis, are the two on different sides of a line through a side of either? So are
-/// most pairs that lie in one plane, of which volumes say nothing. Rounding must be upward.
+/// Returns whether, in the projection along an axis, a line through a side of one separates the
+/// two. This decides most coplanar pairs, for which volumes do not. Precondition: rounding is
+/// upward.
 bool are_clearly_apart_as_seen(const std::array<Point, 2>& segment,
                                const std::array<Point, 3>& triangle) {
     const std::size_t axis = best_axis(triangle);
@@ -107,7 +109,7 @@ bool are_clearly_apart_as_seen(const std::array<Point, 2>& segment,
 }
 
 int faces_touched_near_one(std::array<Point, 4> corners, const Point& p, Arithmetic& arithmetic) {
-    // Puts the point in the place of each corner in turn.
+    // Replaces each corner in turn by the point.
     const auto with_p_as_corner = [&](std::size_t k, auto&& judge) {
         const Point corner = corners[k];
         corners[k] = p;
@@ -156,8 +158,8 @@ bool meet_near_one(const std::array<Point, 2>& segment, const std::array<Point, 
     const int side_q = clear_side_q ? *clear_side_q : rational_orientation(a, b, c, q, arithmetic);
     if (side_p * side_q > 0) return false;
     if (side_p != 0 || side_q != 0) {
-        // The segment reaches the plane in one point. It is in the triangle unless the line of the
-        // segment passes two of its sides on different sides.
+        // The segment meets the plane in one point, which is in the triangle unless the line of the
+        // segment passes two sides of the triangle on different sides.
         const int ab = orientation_near_one(p, q, a, b, arithmetic);
         const int bc = orientation_near_one(p, q, b, c, arithmetic);
         const int ca = orientation_near_one(p, q, c, a, arithmetic);

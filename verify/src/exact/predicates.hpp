@@ -5,22 +5,23 @@
 #include <octetra/core/point.hpp>
 #include <octetra/verify/verdict.hpp>
 
-/// Decisions by exact arithmetic: in intervals first, in rational numbers where those do not
-/// decide. Each is counted as the one or the other. (CGAL stands behind them, and nowhere else.)
+/// Exact predicates: evaluated with intervals first, and with rational numbers if these do not
+/// decide. Each decision is counted as one or the other. CGAL is used only here and in angles.cpp.
 namespace octetra::verify::exact {
 
-/// Sign of the volume of the tetrahedron abcd, as in octetra/core/orientation.hpp, but none of its
-/// code.
+/// Sign of the volume of the tetrahedron abcd; defined as in octetra/core/orientation.hpp, but
+/// implemented independently.
 [[nodiscard]] int orientation(const Point& a, const Point& b, const Point& c, const Point& d,
                               Arithmetic& arithmetic);
 
-/// On how many faces of a positive cell a point lies that is not outside; -1 if it is outside. In a
-/// lattice most points near a cell are in the plane of some face, which takes rational numbers to
-/// tell, but clearly beyond another; so that is asked first.
+/// Returns the number of faces of a positive cell that contain a point of the closed cell, or -1
+/// for a point outside. In a lattice, most points near a cell are in the plane of some face, which
+/// only rational numbers can decide, but clearly beyond another face, which is therefore tested
+/// first.
 [[nodiscard]] int faces_touched(const std::array<Point, 4>& corners, const Point& p,
                                 Arithmetic& arithmetic);
 
-/// Have the closed segment and the closed triangle, which is not degenerate, a point in common?
+/// Returns whether the closed segment and the closed nondegenerate triangle have a common point.
 [[nodiscard]] bool meet(const std::array<Point, 2>& segment, const std::array<Point, 3>& triangle,
                         Arithmetic& arithmetic);
 

@@ -17,7 +17,7 @@ bool entity_is_before(const Entity& a, const Entity& b) {
            std::tie(b.kind, b.mesh, b.number, b.vertices);
 }
 
-/// An order that does not depend on who has found what when.
+/// An order that does not depend on the distribution or the order of the checks.
 bool is_before(const Violation& a, const Violation& b) {
     if (a.entities != b.entities) {
         return std::lexicographical_compare(a.entities.begin(), a.entities.end(),
@@ -74,7 +74,7 @@ void join(std::vector<DepthFigures>& a, const std::vector<DepthFigures>& b) {
     }
 }
 
-/// All but the checks and the sums, which are the same on all processes.
+/// Merges all data except the checks and sums, which are the same on all processes.
 void join(Verdict& a, Verdict b) {
     for (std::size_t code = 0; code < code_count; ++code) a.counts[code] += b.counts[code];
     join(a.facts, b.facts);
@@ -152,14 +152,14 @@ void Findings::call_as_in_whole(Entity& entity) const {
         case Entity::Kind::cell: entity.number = called.cells.of(entity.number); break;
         case Entity::Kind::facet: entity.number = called.facets.of(entity.number); break;
         case Entity::Kind::tagged_edge: entity.number = called.edges.of(entity.number); break;
-        default: break;  // named by their vertices
+        default: break;  // identified by their vertices
     }
 }
 
 void Findings::keep(Violation violation) {
     auto& violations = kept_[static_cast<std::size_t>(violation.code)];
     violations.push_back(std::move(violation));
-    // Now and then, so that each costs little.
+    // Dropping only when the list has doubled makes the amortised cost small.
     if (violations.size() / 2 > kept_per_code_) drop_surplus(violations);
 }
 

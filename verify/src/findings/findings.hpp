@@ -17,16 +17,17 @@
 
 namespace octetra::verify {
 
-/// Collects what the checks find, on all processes of a group, into one verdict. Each violation is
-/// added by the process in whose domain it lies, and by no other.
+/// Collects the results of the checks on all processes of a group into one verdict. Each violation
+/// is added only by the process in whose domain it lies.
 class Findings {
 public:
     explicit Findings(std::size_t kept_per_code, const ProcessGroup& group = ProcessGroup::alone(),
                       Progress progress = {})
         : kept_per_code_(kept_per_code), group_(&group), progress_(std::move(progress)) {}
 
-    /// From here on entities of this mesh are those of a part, called so in the whole one; or, with
-    /// null, of the whole one. Keeps the pointer.
+    /// From this call on, entities of this mesh have local numbers, which `numbers` maps to those
+    /// of the whole mesh; null means that they already have numbers of the whole mesh. Keeps the
+    /// pointer.
     void translate(Which mesh, const Numbers* numbers) {
         numbers_[static_cast<std::size_t>(mesh)] = numbers;
     }
@@ -36,8 +37,8 @@ public:
         return numbers == nullptr ? the_same : *numbers;
     }
 
-    /// Counts and describes a violation: describe() returns {entities, found, expected}. Of each
-    /// code the first ones are kept, in the order of is_before().
+    /// Counts and describes a violation: describe() returns {entities, found, expected}. For each
+    /// code, the first ones in the order of is_before() are kept.
     void add(Code code, auto&& describe) {
         ++count_;
         ++verdict_.counts[static_cast<std::size_t>(code)];
@@ -47,8 +48,8 @@ public:
               std::move(description.expected)});
     }
 
-    /// Collective. Runs a check: it has failed if any process adds violations. What it returns is
-    /// its note, of what has been shown if it has passed. Returns whether it has.
+    /// Collective. Runs a check, which fails if any process adds violations. The check returns a
+    /// note on what it has proved if it passes. Returns whether it passed.
     bool run(std::string_view name, auto&& check) {
         const std::uint64_t before = count_;
         const auto start = std::chrono::steady_clock::now();
@@ -63,21 +64,22 @@ public:
         return clean;
     }
 
-    /// Whoever listens hears what share of the running check is done.
+    /// Reports the completed fraction of the running check.
     void tell_progress(double share) const {
         if (progress_) progress_(running_, share);
     }
 
-    /// On all processes.
+    /// Collective. Records that a check was skipped.
     void skip(std::string_view name, std::string_view why) {
         verdict_.checks.push_back({std::string(name), Status::skipped, std::string(why), 0});
     }
 
-    /// Which checks have failed until now, as the reason to skip another: "cover failed". Empty
-    /// if none has; the same on all processes.
+    /// Returns the checks that have failed so far, as the reason to skip another: "cover failed".
+    /// Empty if there are none; the same on all processes.
     [[nodiscard]] std::string what_failed() const;
 
-    /// Collective. The verdict, whole on the first process; the others have all but the violations.
+    /// Collective. Returns the verdict, complete on the first process; without the violations on
+    /// others.
     [[nodiscard]] Verdict finish();
 
     struct Description {
@@ -88,7 +90,7 @@ public:
 
     [[nodiscard]] const ProcessGroup& group() const { return *group_; }
     [[nodiscard]] Verdict& verdict() { return verdict_; }
-    [[nodiscard]] Facts& facts() { return verdict_.facts; }  ///< until finish(), of this process
+    [[nodiscard]] Facts& facts() { return verdict_.facts; }  ///< of this process until finish()
     [[nodiscard]] Arithmetic& arithmetic() { return verdict_.arithmetic; }
 
 private:
@@ -100,13 +102,13 @@ private:
     const ProcessGroup* group_;
     Progress progress_;
     std::string_view running_;
-    std::array<const Numbers*, 3> numbers_{};  ///< by Which
+    std::array<const Numbers*, 3> numbers_{};  ///< indexed by Which
     std::uint64_t count_ = 0;
     std::array<std::vector<Violation>, code_count> kept_;
     Verdict verdict_;
 };
 
-/// Steps of the running check, about `total`; tells of some.
+/// Counts the steps of the running check, about `total`, and reports progress from time to time.
 class Steps {
 public:
     Steps(const Findings& findings, std::uint64_t total) : findings_(&findings), total_(total) {}

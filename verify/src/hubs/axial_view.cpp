@@ -5,14 +5,14 @@
 #include <limits>
 #include <numbers>
 
-// Why no pair is missed. Call the distance of a unit vector from the axis its radius. An entity
-// with a bounded interval has directions of radius `entity_cap` / 2 or more only: its rays have at
-// least `entity_cap`, and their angles differ by 2 at most. Let d be a convex combination of the
-// unit vectors of wanted rays in the direction of a point that the entity has, too; d is no shorter
-// than `least_tightness`, so its distance from the axis is at least 2^-17. Rays with a radius below
-// `touching` contribute less than 2^-31 to its components across the axis; what the other rays
-// contribute lies within the interval of their angles. So the angle of d differs from that interval
-// by less than `slack`.
+// Proof that no pair is missed. Call the distance of a unit vector from the axis its radius. An
+// entity with a bounded interval only has directions of radius at least `entity_cap` / 2: its rays
+// have at least `entity_cap`, and their angles differ by at most 2. Let d be a convex combination
+// of the unit vectors of the wanted rays, in the direction of a point that the entity also
+// contains; the length of d is at least `least_tightness`, so its distance from the axis is at
+// least 2^-17. Rays with a radius below `touching` contribute less than 2^-31 to the components of
+// d across the axis; the contribution of the other rays lies within the interval of their angles.
+// Therefore the angle of d differs from that interval by less than `slack`.
 
 namespace octetra::verify {
 namespace {
@@ -24,7 +24,8 @@ constexpr double least_tightness = 0x1p-4;
 constexpr double widest = 2;  // radians
 constexpr double turn = 2 * std::numbers::pi;
 
-/// Angles distinguish what surrounds an axis better than cosines do: they are cut first.
+/// Scales cosines down, because angles separate the entities around an axis better and should be
+/// cut first.
 constexpr double scale_of_cosines = 0x1p-6;
 
 Vector unit_across(const Vector& u, const Vector& v) {
@@ -44,7 +45,7 @@ Vector least_aligned_with(const Vector& u) {
 Bounds unbounded() { return {{-std::numbers::pi, -1, 0}, {std::numbers::pi, 1, 0}}; }
 
 /// Angles relative to that of the first ray, so that an interval of less than half a turn is found
-/// wherever it lies.
+/// for any position.
 class AngleInterval {
 public:
     void take(double angle) {
@@ -55,7 +56,7 @@ public:
         high_ = std::max(high_, difference);
     }
     [[nodiscard]] bool is_bounded() const { return !is_empty_ && high_ - low_ <= widest; }
-    /// From -pi to pi.
+    /// In the range from -pi to pi.
     [[nodiscard]] double low(double error) const {
         return std::remainder(first_ + low_ - error, turn);
     }
@@ -108,7 +109,7 @@ Bounds AxialView::bounds_of(std::span<const Direction> rays, double least_radius
         }
     }
     if (!angles.is_bounded()) return unbounded();
-    // Cosines of convex combinations, which may be shorter than 1.
+    // Cosines of convex combinations, whose length may be less than 1.
     const double most = 8 * few_roundings + 2 * rays.front().error;
     low = std::max(-1.0, (low < 0 ? low / tightness : low) - most);
     high = std::min(1.0, (high > 0 ? high / tightness : high) + most);

@@ -6,22 +6,22 @@
 
 namespace octetra::verify {
 
-/// Directions in cylindrical coordinates about an axis. Bounds hold an interval of angles (radians,
-/// component 0, which may exceed pi by part of a turn) and one of cosines with the axis (component
-/// 1, scaled so that a BoxTree prefers to cut angles). Where edges or faces surround an axis, these
-/// boxes are small, unlike those in x, y and z, and their comparison is much cheaper than
-/// Cone::misses().
+/// Directions in cylindrical coordinates about an axis. Bounds hold an interval of angles
+/// (component 0, in radians, which may exceed pi by part of a turn) and one of cosines with the
+/// axis (component 1, scaled so that a BoxTree prefers to cut angles). If edges or faces surround
+/// an axis, these boxes are small, unlike those in x, y and z, and comparing them is much cheaper
+/// than Cone::misses().
 class AxialView {
 public:
-    /// The axis is a unit vector; how exact it is affects the cost alone.
+    /// The axis is a unit vector; its accuracy affects only the cost.
     explicit AxialView(const Vector& axis);
 
-    /// Bounds of what a tree is made of: entities near the axis get an unbounded interval, so that
-    /// all others have a distance from it (see the source).
+    /// Returns the bounds of an entity for the tree. Entities near the axis get an unbounded
+    /// interval, so that all others have a distance from it (see the source).
     [[nodiscard]] Bounds bounds_of_entity(std::span<const Direction> rays) const;
 
-    /// Bounds to search for. meets() is true for the bounds of every entity that has a direction in
-    /// common with the convex cone of the rays.
+    /// Bounds to search for. meets() is true for the bounds of every entity that has a common
+    /// direction with the convex cone of the rays.
     struct Wanted {
         Bounds bounds;
         [[nodiscard]] bool meets(const Bounds& entity) const;
@@ -33,8 +33,8 @@ private:
                                    bool may_touch_axis) const;
 
     Vector axis_;
-    Vector first_;   ///< at right angles to the axis: angle 0
-    Vector second_;  ///< at right angles to both
+    Vector first_;   ///< perpendicular to the axis: angle 0
+    Vector second_;  ///< perpendicular to both
 };
 
 }  // namespace octetra::verify

@@ -6,7 +6,7 @@ namespace octetra::verify {
 namespace {
 
 Vector plus(const Vector& u, const Vector& v) { return {u[0] + v[0], u[1] + v[1], u[2] + v[2]}; }
-/// u without its part along v, of length 1.
+/// Returns u without its component along v, which has length 1.
 Vector part_across(const Vector& u, const Vector& v) {
     const double along = dot(u, v);
     return {u[0] - along * v[0], u[1] - along * v[1], u[2] - along * v[2]};
@@ -14,8 +14,8 @@ Vector part_across(const Vector& u, const Vector& v) {
 
 constexpr Direction unknown{{}, 1};
 
-/// A difference is off by one rounding, relatively, however large or small it is; so is what is
-/// made of it here. Nothing is known of 0, and of what is too large.
+/// A difference has a relative error of one rounding, whatever its size, and so does the result.
+/// The direction is unknown for a difference that is 0 or too large.
 Direction direction_between(const Point& from, const Point& to) {
     Vector v{to.x - from.x, to.y - from.y, to.z - from.z};
     const double largest = std::max({std::abs(v[0]), std::abs(v[1]), std::abs(v[2])});
@@ -34,7 +34,7 @@ Direction Viewpoint::towards(const Point& p) const {
     if (!axis_->is_known()) return unknown;
     const Vector across = part_across(direction.unit, axis_->unit);
     const double length = std::sqrt(dot(across, across));
-    // Both units are off by so much, and then what is left grows, with its error.
+    // Both unit vectors have this error, which is amplified by the normalisation of the remainder.
     const double error = 8 * few_roundings;
     if (length < 16 * error) return unknown;
     return {times(across, 1 / length), 2 * error / length};
@@ -99,9 +99,10 @@ void Cone::add_planes() {
     }
 }
 
-/// Is the box on the one side of the plane through 0, and the cone on the other or in it? The cone
-/// may be over by its error; then the plane is tilted about 0 until it is not, which takes from the
-/// distance of a unit vector in the box no more than what the cone was over, by its tightness.
+/// Returns whether a plane through 0 has the box on one side, and the cone on the other or within
+/// it. The cone may exceed the plane by its error; the plane is then tilted about 0 until it does
+/// not, which reduces the distance of a unit vector in the box by at most that excess divided by
+/// the tightness.
 bool Cone::is_cut_off_by(const Vector& normal, const Bounds& box) const {
     const double size = std::abs(normal[0]) + std::abs(normal[1]) + std::abs(normal[2]);
     double nearest = 0;
@@ -114,8 +115,8 @@ bool Cone::is_cut_off_by(const Vector& normal, const Bounds& box) const {
     return nearest > 2 * over / tightness_;
 }
 
-/// Tried are the planes of the cone's sides, and those through each ray along each side of the box:
-/// what misses a ray's line is cut off by one of these.
+/// Tests the planes of the cone's sides, and those through each ray along each side of the box: a
+/// box that misses the line of a ray is separated by one of these.
 bool Cone::misses(const Bounds& box) const {
     if (tightness_ == 0) return false;
     Vector centre;

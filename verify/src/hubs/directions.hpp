@@ -8,10 +8,9 @@
 
 #include "lookup/box_tree.hpp"
 
-/// What lies round a vertex, or round an edge, seen from there: entities that have this apex in
-/// common are cones of directions, and two that meet elsewhere have a direction in common. All of
-/// it is floating point that knows its error: it says for certain that things are apart, or it
-/// leaves the question open.
+/// The surroundings of a vertex or edge as seen from there: entities that contain this apex are
+/// cones of directions, and two that meet elsewhere have a common direction. Computed in floating
+/// point with error bounds: either proves that two are disjoint, or leaves the question open.
 namespace octetra::verify {
 
 using Vector = std::array<double, 3>;
@@ -26,10 +25,10 @@ using Vector = std::array<double, 3>;
     return {u[0] * factor, u[1] * factor, u[2] * factor};
 }
 
-/// More than the rounding errors of a few operations on numbers up to 1.
+/// An upper bound of the rounding errors of a few operations on numbers up to 1.
 inline constexpr double few_roundings = 0x1p-48;
 
-/// A unit vector, to within `error` in each coordinate.
+/// A unit vector with an error of at most `error` in each coordinate.
 struct Direction {
     Vector unit{};
     double error = 0;
@@ -37,8 +36,8 @@ struct Direction {
     [[nodiscard]] bool is_known() const { return error < 0.125; }
 };
 
-/// Looks at points from a vertex: where they lie on the sphere round it. From an edge: where they
-/// lie on the circle round its line.
+/// Computes directions of points from a vertex, on the sphere around it, or from an edge, on the
+/// circle around its line.
 class Viewpoint {
 public:
     explicit Viewpoint(const Point& vertex) : origin_(vertex) {}
@@ -51,20 +50,21 @@ private:
     std::optional<Direction> axis_;
 };
 
-/// A box around unit vectors, and so around what lies between them on straight lines. All of space
-/// where one is not known.
+/// Returns a box around unit vectors, and so around their convex hull; all of space if one is
+/// unknown.
 [[nodiscard]] Bounds bounds_of_directions(std::span<const Direction> directions);
 
-/// A lower bound of the cosine between each ray and some middle of all; 0 if a direction is unknown
-/// or there is no such middle. A convex combination of the unit vectors is no shorter than that.
+/// Returns a lower bound of the cosine between each ray and some common middle; 0 if a direction is
+/// unknown or there is no such middle. A convex combination of the unit vectors is no shorter than
+/// this.
 [[nodiscard]] double least_cosine(std::span<const Direction> rays);
 
-/// All that lies in the directions of up to three points, and between these.
+/// The cone spanned by the directions of up to three points.
 class Cone {
 public:
     explicit Cone(std::span<const Direction> rays);
 
-    /// For certain: no direction is one that leads to a point of the box other than 0.
+    /// Returns true only if no direction of the cone leads to a point of the box other than 0.
     [[nodiscard]] bool misses(const Bounds& box) const;
 
 private:
@@ -74,11 +74,11 @@ private:
     std::array<Vector, 3> rays_{};
     std::size_t count_ = 0;
     double error_ = 0;
-    /// Least cosine of the angle between a ray and a middle of them, which makes up for errors:
-    /// planes are tilted by no more than these to have the whole cone on one side. 0: it is too
-    /// wide.
+    /// The smallest cosine of the angle between a ray and their middle. It bounds the angle by
+    /// which a plane must be tilted to have the whole cone on one side despite errors. 0 if the
+    /// cone is too wide.
     double tightness_ = 0;
-    std::array<Vector, 3> planes_{};  ///< normals: of two rays, one plane that has both
+    std::array<Vector, 3> planes_{};  ///< normals; for two rays, one plane that contains both
     std::size_t plane_count_ = 0;
 };
 

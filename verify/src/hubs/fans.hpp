@@ -14,20 +14,22 @@
 
 namespace octetra::verify {
 
-/// Edges, faces or cells at hubs or near them, findable by what they may meet elsewhere. Their
-/// boxes would tell little; their directions from there do, as what does not cross lies side by
-/// side. So for each hub there is a tree of boxes around directions: in cylindrical coordinates
-/// where the hub has an axis, else in x, y and z. Keeps a pointer to the points.
+/// Edges, faces or cells at or near hubs, searchable by the entities that they may meet elsewhere.
+/// Their boxes overlap too much to be useful, but their directions from the hub do not, because
+/// entities that do not cross lie side by side. Each hub therefore has a tree of boxes around
+/// directions: in cylindrical coordinates if the hub has an axis, otherwise in x, y and z. Keeps a
+/// pointer to the points.
 template <std::size_t N>
 class Fans {
 public:
     using Vertices = std::array<VertexIndex, N>;
     struct Entity {
-        Apex apex;  ///< from where it is looked at
+        Apex apex;  ///< the viewpoint
         Vertices vertices;
-        std::uint32_t number = 0;  ///< whatever the caller calls it
+        std::uint32_t number = 0;  ///< assigned by the caller
 
-        /// Has it all of the apex? (What is seen from nearby has none of it, or one end.)
+        /// Returns whether it contains the whole apex. (Entities near an apex contain none of it,
+        /// or one end.)
         [[nodiscard]] bool is_at_apex() const {
             return std::count_if(vertices.begin(), vertices.end(), [this](VertexIndex v) {
                        return apex.has(v);
@@ -41,8 +43,9 @@ public:
 
     [[nodiscard]] bool empty() const { return fans_.empty(); }
 
-    /// Calls visit(entity) for each that may have a point in common with a vertex, edge or face,
-    /// but for those at a hub that this has itself. Adds to `looked_at` how many boxes it has seen.
+    /// Calls visit(entity) for each entity that may have a point in common with a vertex, edge or
+    /// face, except for entities at a hub that this contains. Adds the number of boxes tested to
+    /// `looked_at`.
     template <std::size_t M>
     void for_each_near(const std::array<VertexIndex, M>& vertices, std::uint64_t& looked_at,
                        auto&& visit) const {
@@ -89,9 +92,9 @@ private:
 
     struct Fan {
         Apex apex;
-        bool at_apex = false;  ///< all entities, or none
+        bool at_apex = false;  ///< whether all entities contain the apex, or none
         Viewpoint viewpoint;
-        std::optional<AxialView> axial;  ///< if the directions are seen about an axis
+        std::optional<AxialView> axial;  ///< set if directions are relative to an axis
         std::vector<Entity> entities;
         BoxTree directions;
     };
@@ -103,8 +106,8 @@ private:
         return bounds;
     }
 
-    /// Of an entity's vertices but those of the apex: what lies between these and the others has
-    /// directions between those of the others.
+    /// Returns the box of the directions of an entity's vertices other than those of the apex. The
+    /// directions of all its points are convex combinations of these.
     [[nodiscard]] Bounds directions_box(const Entity& entity, const Viewpoint& from,
                                         const std::optional<AxialView>& axial) const {
         std::array<Direction, N> directions;
@@ -116,7 +119,7 @@ private:
         return axial ? axial->bounds_of_entity(rays) : bounds_of_directions(rays);
     }
 
-    /// The same of other vertices; returns how many there are.
+    /// As above, for other vertices; returns their number.
     template <std::size_t M>
     std::size_t directions_of(const Fan& fan, const std::array<VertexIndex, M>& vertices,
                               std::array<Direction, M>& directions) const {

@@ -9,10 +9,10 @@
 namespace octetra::verify {
 namespace {
 
-/// An entity as it is seen from an apex, by what it has besides.
+/// An entity as seen from an apex, through its vertices other than those of the apex.
 struct View {
-    double room = 0;   ///< about which share of all directions its box of directions takes
-    double width = 0;  ///< about how wide it is, across the line of sight
+    double room = 0;   ///< approximate fraction of all directions in its box, times 4 pi
+    double width = 0;  ///< approximate width across the line of sight
 };
 
 double longest_side(const Bounds& box) {
@@ -40,15 +40,15 @@ View view_from(const Apex& apex, std::span<const VertexIndex> entity,
     std::array<double, 3> sides{};
     for (std::size_t k = 0; k < 3; ++k) sides[k] = box.high[k] - box.low[k];
     std::sort(sides.begin(), sides.end());
-    // Of the circumference 2 pi, or of the sphere's area 4 pi.
+    // Relative to the circumference 2 pi, or to the area 4 pi of the sphere.
     return {apex.is_edge() ? 2 * sides[2] : sides[1] * sides[2], sides[2] * distance};
 }
 
-/// How much longer than wide what has no hub must be to be looked at from one.
+/// The minimum ratio of length to width for an entity without a hub to be assigned to a nearby one.
 constexpr double slender = 8;
 
-/// How far from a hub, in edges, what is slender is looked for: such cells come to be where cells
-/// at a hub are refined, and every level doubles the distance.
+/// The distance from a hub, in edges, up to which slender entities are searched: these result from
+/// refinement of cells at a hub, and every level doubles the distance.
 constexpr int reach = 8;
 
 }  // namespace
@@ -89,7 +89,7 @@ void Hubs::find_axes(const JudgedMesh& judged) {
     });
 }
 
-/// From neighbour to neighbour, so that the nearer ones come first.
+/// Propagates from neighbour to neighbour, so that nearer hubs are found first.
 void Hubs::find_near_hubs(const JudgedMesh& judged) {
     NearHubs nothing;
     nothing.fill(VertexIndex::none());
@@ -125,7 +125,7 @@ std::vector<Hubs::Axis>::const_iterator Hubs::first_axis_at(VertexIndex hub) con
                             [](const Axis& s, VertexIndex v) { return s.hub < v; });
 }
 
-/// Calls visit(apex) for a hub, and for the edges there that are hubs.
+/// Calls visit(apex) for a hub, and for the edges at it that are hubs.
 void Hubs::for_each_view(VertexIndex hub, bool from_edges, auto&& visit) const {
     visit(Apex{hub, VertexIndex::none()});
     if (!from_edges) return;
@@ -151,8 +151,9 @@ Apex Hubs::apex_of(std::span<const VertexIndex> entity) const {
     return apex.is_none() ? apex_near(entity) : apex;
 }
 
-/// Of the hubs that it has, and of the edges there, the one from which it takes least room. Of an
-/// edge, which is a point from both of its ends, the one with the most edges.
+/// Returns the apex, among the hubs that the entity contains and the edges at them, from which it
+/// occupies the least room. For an edge, which is a point as seen from both ends, returns the end
+/// with the most edges.
 Apex Hubs::apex_at(std::span<const VertexIndex> entity) const {
     Apex best;
     double least = std::numeric_limits<double>::infinity();
@@ -173,15 +174,15 @@ Apex Hubs::apex_at(std::span<const VertexIndex> entity) const {
     return best;
 }
 
-/// Of the hubs nearby, and of the edges there, the one from which it takes least room, if it is
-/// slender from there.
+/// Returns the apex, among the hubs nearby and the edges at them, from which the entity occupies
+/// the least room, if it is slender from there.
 Apex Hubs::apex_near(std::span<const VertexIndex> entity) const {
     Apex best;
     double least = std::numeric_limits<double>::infinity();
     Bounds box;
     for (const VertexIndex v : entity) box.take((*points_)[v]);
     const double length = longest_side(box);
-    std::array<VertexIndex, 4 * NearHubs{}.size()> met;  // neighbours mostly know the same hubs
+    std::array<VertexIndex, 4 * NearHubs{}.size()> met;  // neighbours mostly share nearby hubs
     std::size_t met_count = 0;
     for (const VertexIndex v : entity) {
         for (const VertexIndex hub : near_[v.value()]) {

@@ -10,10 +10,10 @@
 
 namespace octetra::verify {
 
-/// From where a fan of entities is seen: a vertex, or an edge.
+/// The viewpoint of a fan of entities: a vertex or an edge.
 struct Apex {
     VertexIndex a = VertexIndex::none();
-    VertexIndex b = VertexIndex::none();  ///< none() of a vertex
+    VertexIndex b = VertexIndex::none();  ///< none() for a vertex
 
     [[nodiscard]] bool is_none() const { return a.is_none(); }
     [[nodiscard]] bool is_edge() const { return !b.is_none(); }
@@ -24,29 +24,30 @@ struct Apex {
 [[nodiscard]] Viewpoint viewpoint_of(const Apex& apex,
                                      const IndexVector<VertexIndex, Point>& points);
 
-/// Vertices and edges with so many cells that not all pairs of these can be looked at. What is at a
-/// hub, or near one and much longer than wide as seen from there, has a box that tells little, and
-/// a direction that tells much.
+/// Hubs: vertices and edges with so many cells that testing all pairs of these is too expensive. An
+/// entity at a hub, or near one and much longer than wide as seen from there, has a box that
+/// overlaps many others, but a direction that does not.
 class Hubs {
 public:
     explicit Hubs(const JudgedMesh& judged);
 
     [[nodiscard]] bool none() const { return hubs_ == 0; }
 
-    /// From where an edge, face or cell is looked at by its directions; none: it is found by its
-    /// box. Edges are looked at from vertices only.
+    /// Returns the apex from which an edge, face or cell is searched by its direction, or none if
+    /// it is searched by its box. For edges, apexes are vertices only.
     [[nodiscard]] Apex apex_of(std::span<const VertexIndex> entity) const;
 
-    /// Where the axis of an apex leads that many cells surround: the apex itself if it is an edge,
-    /// or the first edge at a vertex that is a hub. Nothing if there is none, or it is unknown.
+    /// Returns the direction of the axis of an apex that many cells surround: the apex itself if it
+    /// is an edge, or the first edge that is a hub at a vertex. Returns nothing if there is none or
+    /// it is unknown.
     [[nodiscard]] std::optional<Vector> axis_at(const Apex& apex) const;
 
 private:
-    /// Some of the hubs that are nearest to a vertex, counted in edges.
+    /// Some of the hubs closest to a vertex, by number of edges.
     using NearHubs = std::array<VertexIndex, 4>;
     struct Axis {
         VertexIndex hub;
-        Apex edge;  ///< which has the hub, and is one itself
+        Apex edge;  ///< contains the hub vertex, and is itself a hub
     };
 
     void find_axes(const JudgedMesh& judged);
@@ -60,10 +61,10 @@ private:
 
     const IndexVector<VertexIndex, Point>* points_;
     std::uint32_t many_;
-    std::vector<std::uint32_t> degree_;  ///< of each vertex: how many edges it has
+    std::vector<std::uint32_t> degree_;  ///< number of edges at each vertex
     std::size_t hubs_ = 0;
     std::vector<Axis> axes_;      ///< ascending by hub
-    std::vector<NearHubs> near_;  ///< of each vertex; empty where there is no hub
+    std::vector<NearHubs> near_;  ///< for each vertex; empty if there are no hubs
 };
 
 }  // namespace octetra::verify

@@ -11,7 +11,7 @@
 
 namespace octetra::verify {
 
-/// A box with sides along the axes, closed; empty until it takes a point in.
+/// A closed axis-aligned box; empty until it is extended by a point.
 struct Bounds {
     std::array<double, 3> low{infinity, infinity, infinity};
     std::array<double, 3> high{-infinity, -infinity, -infinity};
@@ -45,11 +45,12 @@ template <std::size_t N>
     return b;
 }
 
-/// Boxes, findable by what they meet: a binary tree, cut at the median.
+/// A set of boxes searchable by intersection: a binary tree, split at the median.
 class BoxTree {
 public:
-    /// Along which axis a node is cut: its longest side; or the one along which most of its boxes
-    /// find room side by side, which takes longer, and pays where boxes are long and thin.
+    /// The axis along which a node is split: its longest side, or the axis along which its boxes
+    /// overlap least relative to their widths, which is slower to build, but pays off if boxes are
+    /// long and thin.
     enum class Cut : std::uint8_t { longest_side, most_room };
 
     explicit BoxTree(std::vector<Bounds> boxes, Cut cut = Cut::longest_side)
@@ -58,8 +59,8 @@ public:
         if (!boxes_.empty()) build(0, boxes_.size());
     }
 
-    /// Calls visit(i) for each box i that meets `wanted`: another box, or what tells by meets(box)
-    /// and does so of a box if it does of one within.
+    /// Calls visit(i) for each box i that meets `wanted`: another box, or an object with a function
+    /// meets(box) that is true for every box containing one for which it is true.
     void for_each_meeting(const auto& wanted, auto&& visit) const {
         for (std::size_t n = 0; n < nodes_.size();) {
             const Node& node = nodes_[n];
@@ -77,11 +78,11 @@ public:
 private:
     static constexpr std::size_t leaf_size = 8;
 
-    /// Nodes stand in the order of a walk: a node, its first half, its second half.
+    /// Nodes in depth-first order: a node, its first half, its second half.
     struct Node {
         Bounds bounds;
-        std::uint32_t after = 0;  ///< the node behind it and its halves
-        std::uint32_t first = 0;  ///< into order_, of a node that has no halves
+        std::uint32_t after = 0;  ///< the node after it and its halves
+        std::uint32_t first = 0;  ///< range in order_, for a leaf
         std::uint32_t last = 0;
     };
 
@@ -98,7 +99,7 @@ private:
                 return order_.begin() + static_cast<std::ptrdiff_t>(i);
             };
             std::nth_element(at(first), at(middle), at(last), [&](auto i, auto j) {
-                const auto centre = [&](auto b) {  // halved first: the sum could overflow
+                const auto centre = [&](auto b) {  // halved first, since the sum could overflow
                     return boxes_[b].low[axis] / 2 + boxes_[b].high[axis] / 2;
                 };
                 return centre(i) < centre(j);
@@ -114,7 +115,7 @@ private:
 
     [[nodiscard]] std::size_t axis_to_cut(std::size_t first, std::size_t last,
                                           const Bounds& bounds) const {
-        std::array<double, 3> widths{};  // of the boxes, in sum
+        std::array<double, 3> widths{};  // sums over the boxes
         if (cut_ == Cut::most_room) {
             for (std::size_t i = first; i < last; ++i) {
                 const Bounds& box = boxes_[order_[i]];

@@ -10,9 +10,9 @@
 
 namespace octetra::verify {
 
-/// Sets of N vertices, findable by their vertices in whatever order: by smallest vertex, and
-/// sorted within a bucket. Each carries a tag of 64 bits. Flat; 8 bytes a vertex and 4 N + 4
-/// (rounded up to 8) a set.
+/// A multimap from sets of N vertices, in any order, to 64-bit tags: buckets by smallest vertex,
+/// sorted within a bucket. Memory: 8 bytes per vertex and 4 N + 4 (rounded up to a multiple of 8)
+/// per set.
 template <std::size_t N>
 class Buckets {
 public:
@@ -25,8 +25,8 @@ public:
 
     Buckets() = default;
 
-    /// `for_each(visit)` calls visit(vertices, tag) for each set; it is called twice. The vertices
-    /// must be less than `vertex_count`.
+    /// `for_each(visit)` calls visit(vertices, tag) for each set, and is itself called twice.
+    /// Precondition: vertices are less than `vertex_count`.
     Buckets(std::size_t vertex_count, auto&& for_each) : begin_(vertex_count + 1, 0) {
         for_each([&](const Vertices& v, std::uint64_t) { ++begin_[smallest(v) + 1]; });
         for (std::size_t i = 0; i < vertex_count; ++i) begin_[i + 1] += begin_[i];
@@ -41,7 +41,7 @@ public:
         }
     }
 
-    /// All with these vertices, by ascending tag.
+    /// Returns all entries with these vertices, by ascending tag.
     [[nodiscard]] std::span<const Entry> find(const Vertices& v) const {
         const auto sorted = ascending(v);
         const Entry wanted = entry_of(sorted, 0);
@@ -55,7 +55,8 @@ public:
 
     [[nodiscard]] bool contains(const Vertices& v) const { return !find(v).empty(); }
 
-    /// Calls visit(vertices ascending, entries) for each different set, in ascending order.
+    /// Calls visit(vertices, entries) for each distinct set, in ascending order, with vertices
+    /// ascending.
     void for_each_group(auto&& visit) const {
         for (std::size_t i = 0; i + 1 < begin_.size(); ++i) {
             std::size_t first = begin_[i];
@@ -76,7 +77,7 @@ private:
 
     static Numbers ascending(const Vertices& v) {
         Numbers n;
-        for (std::size_t i = 0; i < N; ++i) {  // by insertion: N is at most 4
+        for (std::size_t i = 0; i < N; ++i) {  // insertion sort: N is at most 4
             const std::uint32_t value = v[i].value();
             std::size_t k = i;
             for (; k > 0 && n[k - 1] > value; --k) n[k] = n[k - 1];

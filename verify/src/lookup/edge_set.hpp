@@ -8,18 +8,18 @@
 
 namespace octetra::verify {
 
-/// The different edges of cells, findable by their ends, in ascending order of (lower, higher) end.
-/// Flat: 8 bytes a vertex and 4 an edge. It is made in turns, the edges of some vertices after
-/// those of others, as every edge comes from each of its cells, which would take five times the
-/// memory.
+/// The distinct edges of cells, searchable by their ends, in ascending order of (lower, higher)
+/// end. Memory: 8 bytes per vertex and 4 per edge. Built in passes over ranges of lower ends,
+/// because every edge is visited once for each of its cells; a single pass would take five times
+/// the memory.
 class EdgeSet {
 public:
     EdgeSet() = default;
 
-    /// `for_each(visit)` calls visit(edge) for each edge, as often as it likes to come; it is
-    /// called once and then for every turn. The vertices must be less than `vertex_count`.
+    /// `for_each(visit)` calls visit(edge) for each edge, possibly repeatedly; it is called once,
+    /// and then once per pass. Precondition: vertices are less than `vertex_count`.
     EdgeSet(std::size_t vertex_count, auto&& for_each) : begin_(vertex_count + 1, 0) {
-        // How often an edge comes, of each lower end.
+        // The number of visited edges, with repetitions, for each lower end.
         std::vector<std::uint32_t> room(vertex_count, 0);
         std::uint64_t total = 0;
         for_each([&](const EdgeVertices& edge) {
@@ -47,7 +47,7 @@ public:
 
     [[nodiscard]] std::size_t size() const { return highs_.size(); }
 
-    /// Calls visit(edge) for each, in ascending order, the lower end first.
+    /// Calls visit(edge) for each edge, in ascending order, lower end first.
     void for_each(auto&& visit) const {
         for (std::size_t low = 0; low + 1 < begin_.size(); ++low) {
             for (std::uint64_t i = begin_[low]; i < begin_[low + 1]; ++i) {
@@ -65,11 +65,11 @@ private:
         return std::min(edge[0], edge[1]).value();
     }
 
-    /// The edges with lower ends first .. last-1, of which `count` come.
+    /// Appends the distinct edges with lower ends first .. last-1, which are visited `count` times.
     void append(std::size_t first, std::size_t last, const std::vector<std::uint32_t>& room,
                 std::uint64_t count, auto&& for_each) {
         std::vector<VertexIndex> highs(count);
-        std::vector<std::uint64_t> end(last - first, 0);  // of each lower end's part
+        std::vector<std::uint64_t> end(last - first, 0);  // end of the range of each lower end
         for (std::size_t v = first + 1; v < last; ++v) {
             end[v - first] = end[v - first - 1] + room[v - 1];
         }

@@ -7,7 +7,7 @@
 
 namespace octetra::verify {
 
-/// A hash table from pairs of vertices, in either order, to 32 bits. Open addressing, at most half
+/// A hash table from unordered pairs of vertices to 32-bit values. Open addressing, at most half
 /// full.
 class EdgeTable {
 public:
@@ -19,7 +19,7 @@ public:
         slots_.resize(size);
     }
 
-    /// The value at an edge, to be written to; `absent` if it is new.
+    /// Returns a reference to the value of an edge; `absent` if it is new.
     [[nodiscard]] std::uint32_t& at(VertexIndex a, VertexIndex b) {
         if (2 * (count_ + 1) > slots_.size()) grow();
         Slot& slot = slots_[place(slots_, key(a, b))];
@@ -30,7 +30,7 @@ public:
         return slot.value;
     }
 
-    /// The value at an edge, or `absent`.
+    /// Returns the value of an edge, or `absent`.
     [[nodiscard]] std::uint32_t find(VertexIndex a, VertexIndex b) const {
         const Slot& slot = slots_[place(slots_, key(a, b))];
         return slot.key == empty ? absent : slot.value;

@@ -8,7 +8,7 @@
 
 namespace octetra::verify {
 
-/// The vertices of a mesh, findable by where they are. Keeps a pointer to the points.
+/// A hash table of the vertices of a mesh by coordinates. Keeps a pointer to the points.
 class Places {
 public:
     explicit Places(const IndexVector<VertexIndex, Point>& points) : points_(&points) {
@@ -22,8 +22,8 @@ public:
         }
     }
 
-    /// The first vertex, by number, at this place of which wanted(v) holds; none() if there is
-    /// none.
+    /// Returns the first vertex, by number, with these coordinates for which wanted(v) holds, or
+    /// none().
     [[nodiscard]] VertexIndex find(const Point& p, auto&& wanted) const {
         for (std::size_t i = first_slot(p); !slots_[i].is_none(); i = next(i)) {
             if ((*points_)[slots_[i]] == p && wanted(slots_[i])) return slots_[i];
@@ -35,7 +35,7 @@ private:
     [[nodiscard]] std::size_t first_slot(const Point& p) const {
         std::uint64_t h = 0;
         for (const double c : {p.x, p.y, p.z}) {
-            // Adding +0.0 turns -0.0, which is the same place, into +0.0.
+            // Adding +0.0 converts -0.0, which compares equal, to +0.0.
             h = (h ^ std::bit_cast<std::uint64_t>(c + 0.0)) * 0x9e3779b97f4a7c15U;
             h ^= h >> 29U;
         }

@@ -31,10 +31,11 @@ struct CellAngles {
 template <std::size_t N>
 struct Normalised {
     std::array<Point, N> corners;
-    double scale = 1;  ///< by which lengths were multiplied
+    double scale = 1;  ///< factor by which lengths were multiplied
 };
 
-/// The same shape about as large as 1, at the origin, so that no product over- or underflows.
+/// Translates to the origin and scales to a size of about 1, so that no product over- or
+/// underflows.
 template <std::size_t N>
 Normalised<N> normalised(std::array<Point, N> p) {
     const auto multiply_by = [&p](double factor) {
@@ -46,7 +47,7 @@ Normalised<N> normalised(std::array<Point, N> p) {
             size = std::max({size, std::abs(q.x), std::abs(q.y), std::abs(q.z)});
         return size;
     };
-    // A difference of the largest numbers is none.
+    // Differences of the largest numbers would overflow.
     const double beforehand = largest() > 0x1p1000 ? 0x1p-4 : 1;
     if (beforehand != 1) multiply_by(beforehand);
     const Point origin = p[0];
@@ -59,7 +60,7 @@ Normalised<N> normalised(std::array<Point, N> p) {
 
 CellAngles angles_of(const std::array<Point, 4>& corners) {
     const std::array<Point, 4> p = normalised(corners).corners;
-    std::array<Point, 4> normal;  // of the face opposite to each corner, outward
+    std::array<Point, 4> normal;  // outward normal of the face opposite each corner
     for (std::size_t k = 0; k < 4; ++k) {
         constexpr std::array<std::array<std::size_t, 3>, 4> outward{
             {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}}};
@@ -67,11 +68,11 @@ CellAngles angles_of(const std::array<Point, 4>& corners) {
         normal[k] = cross(difference(p[b], p[a]), difference(p[c], p[a]));
     }
     CellAngles result{.min_dihedral = std::numbers::pi, .max_dihedral = 0};
-    std::array<double, 4> around{};  // sums of the dihedral angles at the edges of each corner
+    std::array<double, 4> around{};  // sum of the dihedral angles at the edges of each corner
     double squares = 0;
     for (std::size_t k = 0; k < 6; ++k) {
         const auto [i, j] = cell_edges[k];
-        const auto [c, d] = cell_edges[5 - k];  // edge ij lies in the faces opposite to c and d
+        const auto [c, d] = cell_edges[5 - k];  // edge ij lies in the faces opposite c and d
         const double dihedral = std::numbers::pi - angle(normal[c], normal[d]);
         result.min_dihedral = std::min(result.min_dihedral, dihedral);
         result.max_dihedral = std::max(result.max_dihedral, dihedral);
@@ -107,9 +108,10 @@ double smallest_angle(const std::array<Point, 3>& triangle) {
     return smallest;
 }
 
-/// By how much rounding may make an angle of the piece less: each of its edges turns by at most
-/// asin(2 eta / its length) <= pi eta / its length. Rounded lengths may also let the second longest
-/// edge of a face be halved; they are off by some 2^-52, and this lets the angles be by more.
+/// The amount by which rounding may reduce an angle of the piece: each of its edges turns by at
+/// most asin(2 eta / its length) <= pi eta / its length. Rounded lengths, with a relative error of
+/// some 2^-52, may also cause the second longest edge of a face to be bisected; a larger constant
+/// covers this.
 double angle_slack(const std::array<Point, 3>& piece, double rounding) {
     const auto [p, scale] = normalised(piece);
     const double eta = std::sqrt(3.0) * rounding * scale;
@@ -178,7 +180,7 @@ std::string check_dihedral_angles(const JudgedMesh& judged, double degrees, Find
             const bool shows = found <= degrees * (1 - 1e-5);
             return {{entity(c, judged.which)},
                     shows ? fmt::format("{:.6g} degrees", found)
-                          : fmt::format("less, by not so much as {:.1g} degrees", degrees * 1e-5),
+                          : fmt::format("less, by under {:.1g} degrees", degrees * 1e-5),
                     fmt::format("at least {} degrees", degrees)};
         });
     }
@@ -188,7 +190,7 @@ std::string check_dihedral_angles(const JudgedMesh& judged, double degrees, Find
 std::string check_face_angles(const JudgedMesh& coarse, const JudgedMesh& fine,
                               const Descent& descent, Findings& findings) {
     std::uint64_t by_slack = 0;
-    Steps step(findings, 2 * fine.mesh.cells.size());  // a face has mostly two cells
+    Steps step(findings, 2 * fine.mesh.cells.size());  // most faces have two cells
     fine.faces.for_each_group([&](const FacetVertices& face, auto entries) {
         step();
         const CellFace f = cell_face(entries.front().tag);

@@ -7,27 +7,27 @@
 
 #include "refinement/descent.hpp"
 
-/// Rounded vertices. Had no midpoint been rounded, the pieces of a cell would have its volume and
-/// those of a face its vector area, exactly. A vertex is off by at most `rounding` in each
-/// coordinate, so by eta = sqrt(3) rounding, and an edge, as a vector, by 2 eta. With L the longest
-/// edge, and a determinant at most the product of its rows' lengths, six volumes are off by at most
-/// 3 * 2 eta (L + 2 eta)^2, and each component of a vector area (as a cross product) by
-/// 2 * 2 eta (L + 2 eta). These are summed over the pieces, and rounded up.
+/// Bounds for rounded vertices. If no midpoint had been rounded, the pieces of a cell would have
+/// its volume and those of a face its vector area, exactly. A vertex deviates by at most `rounding`
+/// in each coordinate, so by eta = sqrt(3) rounding, and an edge, as a vector, by 2 eta. Let L be
+/// the length of the longest edge. Since a determinant is at most the product of the lengths of its
+/// rows, six times a volume deviates by at most 3 * 2 eta (L + 2 eta)^2, and each component of a
+/// vector area (as a cross product) by 2 * 2 eta (L + 2 eta). These bounds are summed over the
+/// pieces and rounded up.
 namespace octetra::verify {
 
-/// Bounds are products of three lengths, and have to be told from nothing and from infinity
-/// wherever lengths are.
+/// A type for bounds, which are products of three lengths and must neither under- nor overflow.
 using Bound = long double;
 static_assert(std::numeric_limits<Bound>::max_exponent >
                   4 * std::numeric_limits<double>::max_exponent &&
               std::numeric_limits<Bound>::min_exponent <
                   4 * std::numeric_limits<double>::min_exponent);
-inline constexpr Bound up = 1 + 1e-9L;  // more than all roundings of the bounds together
+inline constexpr Bound up = 1 + 1e-9L;  // exceeds all rounding errors of the bounds together
 
 template <std::size_t N>
 struct Shape {
     std::array<Point, N> corners;
-    double rounding = 0;  ///< of the worst corner
+    double rounding = 0;  ///< maximum over the corners
 
     [[nodiscard]] Bound longest_edge() const {
         Bound longest_squared = 0;

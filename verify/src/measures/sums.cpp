@@ -10,16 +10,16 @@
 #include "measures/rounding_bounds.hpp"
 #include "parts/packing.hpp"
 
-/// All sums, those of bounds too, are exact, so they are the same in whatever order, and those that
-/// several processes have of their parts of a mesh can be added up.
+/// All sums, including those of bounds, are exact, so they do not depend on the order of summation,
+/// and the sums of several processes can be added.
 namespace octetra::verify {
 namespace {
 
-/// Something to be summed up, for one tag.
+/// A term of the sum for a tag.
 struct Term {
     Marker tag = 0;
     Which which = Which::fine;
-    std::uint64_t number = 0;  ///< of a facet, or a CellFace
+    std::uint64_t number = 0;  ///< number of a facet, or tag of a CellFace
 
     friend bool operator<(const Term& a, const Term& b) {
         return std::tie(a.tag, a.which, a.number) < std::tie(b.tag, b.which, b.number);
@@ -35,8 +35,8 @@ std::array<Point, 3> corners_of(const FacetVertices& v, const Mesh& mesh) {
     return {mesh.points[v[0]], mesh.points[v[1]], mesh.points[v[2]]};
 }
 
-/// Six times the volume of a cell is the sum of det(a, b, c) over its outward faces abc. That of a
-/// face between two cells of one region comes twice, with both signs, and is left out.
+/// Six times the volume of a cell is the sum of det(a, b, c) over its outward faces abc. A face
+/// between two cells of one region would occur with both signs and is left out.
 void append_borders_of_regions(const JudgedMesh& judged, bool by_tag, std::vector<Term>& terms) {
     const auto tag_of_cell = [&](CellIndex c) {
         return by_tag ? tag_at(judged.mesh.regions, c) : 0;
@@ -65,7 +65,7 @@ void append_facets(const JudgedMesh& judged, std::vector<Term>& terms) {
     }
 }
 
-/// What is summed up for one tag, as texts of exact::NumberSum.
+/// The sums for one tag, as texts of exact::NumberSum.
 struct TagTotal {
     Marker tag = 0;
     std::string fine, coarse, bound;
@@ -80,7 +80,7 @@ struct Volume {
             corners_of(outward_face(judged.mesh.cells[f.cell], f.face), judged.mesh);
         sum.add({Point{}, a, b, c});
     }
-    static constexpr double multiple = 6;  ///< how many times the volume is what is summed up
+    static constexpr double multiple = 6;  ///< ratio of the summed quantity to the volume
 };
 
 struct Area {
@@ -97,7 +97,7 @@ struct Area {
 
 using TagBounds = std::map<Marker, exact::NumberSum>;
 
-/// By tag, ascending. `coarse` is asked for the places of coarse terms alone.
+/// Returns totals by tag, ascending. `coarse` is used only for the points of coarse terms.
 template <class Measure>
 std::vector<TagTotal> totals_of(std::vector<Term> terms, const TagBounds& bounds,
                                 const JudgedMesh& fine, const JudgedMesh& coarse) {
@@ -147,7 +147,7 @@ std::vector<TagTotal> unpacked(const ProcessGroup::Bytes& bytes) {
     return totals;
 }
 
-/// Collective. The totals of all processes, those of one tag next to each other.
+/// Collective. Returns the totals of all processes, sorted by tag.
 std::vector<TagTotal> totals_of_all(std::vector<TagTotal> totals, const ProcessGroup& group) {
     if (group.size() == 1) return totals;
     ProcessGroup::Bytes own = packed(totals);
@@ -160,7 +160,7 @@ std::vector<TagTotal> totals_of_all(std::vector<TagTotal> totals, const ProcessG
     return totals;
 }
 
-/// Collective. The figures of each tag; calls judge(figures, exact difference, bound).
+/// Collective. Returns the figures of each tag; calls judge(figures, exact difference, bound).
 std::vector<TagSum> sum_up(std::vector<TagTotal> own_totals, double multiple, bool of_refinement,
                            const ProcessGroup& group, auto&& judge) {
     const std::vector<TagTotal> totals = totals_of_all(std::move(own_totals), group);
@@ -186,7 +186,7 @@ std::vector<TagSum> sum_up(std::vector<TagTotal> own_totals, double multiple, bo
     return sums;
 }
 
-/// Collective; the first process reports.
+/// Collective; violations are reported by the first process.
 class SumCheck {
 public:
     SumCheck(const JudgedMesh& coarse, const JudgedMesh& fine, const Descent& descent,
@@ -227,7 +227,8 @@ private:
             });
     }
 
-    /// What roots lose: less than 2^-50 of each facet's area, in either mesh.
+    /// Adds the rounding errors of square roots: less than 2^-50 of each facet's area, in either
+    /// mesh.
     static void add_roots(const JudgedMesh& judged, TagBounds& bounds) {
         constexpr Bound of_roots = 0x1p-50L;
         exact::AreaSum facet;

@@ -6,14 +6,13 @@
 
 namespace octetra::verify {
 
-/// Collective. Measures the volume of each region and the area of each facet marker of a mesh by
-/// itself.
+/// Collective. Computes the volume of each region and the area of each facet marker of a mesh.
 void measure_sums(const JudgedMesh& judged, Findings& findings);
 
-/// Collective. Regions have the volumes, and facets with a marker the area, that they have in the
-/// coarse mesh: volumes exactly where no midpoint was rounded, else to within a bound that follows
-/// from Descent::rounding; areas, whose roots are rounded, to within that of these, too. Also
-/// measures both. Tags must be those that are inherited.
+/// Collective. Checks that regions have the same volume, and markers of facets the same area, as in
+/// the coarse mesh: volumes exactly if no midpoint was rounded, otherwise up to a bound that
+/// follows from Descent::rounding; areas also up to the rounding of square roots. Stores the
+/// figures of both. Precondition: tags are the inherited ones.
 std::string check_sums(const JudgedMesh& coarse, const JudgedMesh& fine, const Descent& descent,
                        Findings& findings);
 

@@ -10,10 +10,10 @@
 namespace octetra::verify {
 namespace {
 
-/// The fine cells, or other things, in the order of the coarse one that each belongs to.
+/// Fine entities grouped by the coarse entity to which each belongs.
 struct Grouped {
-    std::vector<std::uint32_t> begin;    ///< of each coarse one
-    std::vector<std::uint32_t> members;  ///< of all, one group behind the other
+    std::vector<std::uint32_t> begin;    ///< begin of each group
+    std::vector<std::uint32_t> members;  ///< concatenated groups
 };
 
 Grouped group(std::size_t groups, const std::vector<std::uint32_t>& group_of) {
@@ -26,10 +26,10 @@ Grouped group(std::size_t groups, const std::vector<std::uint32_t>& group_of) {
     return grouped;
 }
 
-/// Returns the largest bound that was used.
+/// Returns the largest bound used.
 Bound check_cell_volumes(const JudgedMesh& coarse, const JudgedMesh& fine, const Descent& descent,
                          Findings& findings) {
-    // Cells of no parent that is seen here stand behind the others.
+    // Cells without a parent in this process's view form the last group.
     const auto coarse_cells = static_cast<std::uint32_t>(coarse.mesh.cells.size());
     std::vector<std::uint32_t> parents(fine.mesh.cells.size());
     for (CellIndex c{0}; c < fine.mesh.cells.end_index(); ++c) {
@@ -79,7 +79,7 @@ Bound check_boundary_areas(const JudgedMesh& coarse, const JudgedMesh& fine, con
     std::vector<std::uint32_t> coarse_of;
     for (const CellFace f : boundary_faces(fine)) {
         const auto whole = descent.coarse_face(f);
-        if (!whole) continue;  // an open face, which check_cover has reported
+        if (!whole) continue;  // an open face, already reported by check_cover
         const std::uint32_t number = number_of[tag_of(*whole)];
         if (number == not_on_boundary) continue;
         fine_faces.push_back(f);

@@ -9,49 +9,52 @@
 #include "findings/findings.hpp"
 #include "mesh/judged_mesh.hpp"
 
-/// The checks of a mesh by itself. Each adds its violations to the findings and returns its note.
-/// They look at all that a process sees of the mesh, and report what lies in its domain.
+/// Checks of a single mesh. Each adds its violations to the findings and returns its note. They
+/// inspect everything that a process sees of the mesh, and report violations in its domain.
 namespace octetra::verify {
 
-/// Collective. check_ranges() of a slice.
+/// Collective. As check_ranges(), for a slice.
 std::string check_slice_ranges(const MeshSlice& slice, Which which, Findings& findings);
 
-/// Numbers less than `vertex_count`, lists as long as they must be, coordinates finite. Nothing
-/// else may look at a mesh that fails this. Of slices, too: reports all that it is given.
+/// Checks that vertex numbers are less than `vertex_count`, that lists have the right length, and
+/// that coordinates are finite. Further checks require this one to pass. Reports everything in
+/// `mesh`, which may be a slice.
 std::string check_ranges(const Mesh& mesh, std::uint64_t vertex_count, Which which,
                          Findings& findings);
 
-/// Repeated vertices and cells; tagged facets and edges of no cell. Fills all but `sign`.
+/// Checks for repeated vertices and cells, and tagged facets and edges of no cell. Sets all members
+/// of `judged` except `sign`.
 std::string check_well_formed(JudgedMesh& judged, Findings& findings);
 
-/// No facet or edge listed twice with different markers.
+/// Checks that no facet or edge is listed twice with different markers.
 std::string check_tagged_markers(const JudgedMesh& judged, Findings& findings);
 
-/// Whether a vertex that no cell has is a violation, or counted and mentioned in the note.
+/// Whether a vertex of no cell is a violation, or only counted in the note.
 enum class Unused : std::uint8_t { noted, violation };
 
-/// Unused and coincident vertices, except those of which tolerated(v) holds. Counts the unused ones
-/// that are no violation.
+/// Checks for unused and coincident vertices, except those for which `tolerated` is nonzero. Counts
+/// the unused ones that are not violations.
 std::string check_vertices(const JudgedMesh& judged, const std::vector<char>& tolerated,
                            Unused unused, Findings& findings);
 
-/// Every cell positive, exactly. Fills `sign`.
+/// Checks exactly that every cell is positive. Sets `sign`.
 std::string check_orientation(JudgedMesh& judged, Findings& findings);
 
-/// Every face in one or two cells, that lie on different sides of it. Counts faces and edges.
+/// Checks that every face has one or two cells, on different sides of it. Counts faces and edges.
 std::string check_faces(const JudgedMesh& judged, Findings& findings);
 
-/// No vertex on or in a cell that does not have it, exactly.
+/// Checks exactly that no vertex lies on or in a cell of which it is not a corner.
 std::string check_hanging(const JudgedMesh& judged, Findings& findings);
 
-/// No edge meets a face of the boundary, and no edge of the boundary a face, but in a vertex of
-/// both or as a side. Every cell must be positive, and check_hanging must have passed.
+/// Checks that no edge meets a face of the boundary, and no edge of the boundary a face, except in
+/// a common vertex or as a side of it. Preconditions: every cell is positive, and check_hanging has
+/// passed.
 std::string check_boundary_crossings(const JudgedMesh& judged, Findings& findings);
 
-/// Faces of one cell, by their tags.
+/// Returns the faces of one cell.
 [[nodiscard]] std::vector<CellFace> boundary_faces(const JudgedMesh& judged);
 
-/// Counts edges and vertices where the mesh is no manifold with boundary.
+/// Counts edges and vertices at which the mesh is not a manifold with boundary.
 void count_singular(const JudgedMesh& judged, Facts& facts);
 
 }  // namespace octetra::verify

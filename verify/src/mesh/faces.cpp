@@ -5,8 +5,8 @@
 namespace octetra::verify {
 namespace {
 
-/// Does the cell, which is positive, lie on the side of the face that the ascending order of its
-/// vertices turns to?
+/// Returns whether the cell, which is positive, lies on the side of the face towards which the
+/// ascending order of its vertices is oriented.
 bool is_on_even_side(const JudgedMesh& judged, CellFace f) {
     return is_even(outward_face(judged.mesh.cells[f.cell], f.face));
 }
@@ -49,7 +49,7 @@ std::string check_faces(const JudgedMesh& judged, Findings& findings) {
         const CellFace second = cell_face(entries[1].tag);
         const bool positive =
             judged.sign[first.cell.value()] > 0 && judged.sign[second.cell.value()] > 0;
-        // (Others are reported as what they are.)
+        // (Cells that are not positive are reported elsewhere.)
         if (positive && is_on_even_side(judged, first) == is_on_even_side(judged, second)) {
             findings.add(Code::cells_on_one_side, [&] {
                 return describe("both cells on one side", "one cell on each side");

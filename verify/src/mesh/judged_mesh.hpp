@@ -18,7 +18,7 @@ namespace octetra::verify {
 /// A face of a cell, packed into a tag of Buckets.
 struct CellFace {
     CellIndex cell;
-    std::size_t face = 0;  ///< opposite which corner
+    std::size_t face = 0;  ///< number of the opposite corner
 };
 [[nodiscard]] inline std::uint64_t tag_of(CellFace f) {
     return std::uint64_t{f.cell.value()} * 4 + f.face;
@@ -27,16 +27,16 @@ struct CellFace {
     return {CellIndex{static_cast<std::size_t>(tag / 4)}, static_cast<std::size_t>(tag % 4)};
 }
 
-/// What a process sees of a mesh under judgement, with what several checks ask of it.
+/// The view that a process has of a mesh to be verified, with data that several checks use.
 struct JudgedMesh {
     const Mesh& mesh;
     Which which = Which::fine;
-    Domain domain{};  ///< what this process answers for: all of the mesh, or its part
-    Totals totals{};  ///< of the whole mesh
-    /// Of each process a box around the cells that it sees; of a coarse mesh only.
+    Domain domain{};  ///< the process's domain: the whole mesh, or a part
+    Totals totals{};  ///< counts of the whole mesh
+    /// For each process, a box around the cells in its view; only for a coarse mesh.
     std::vector<Bounds> views{};
-    /// A vertex of more edges, or an edge of more cells, is a hub: not all pairs of what is there
-    /// are looked at. With fewer that costs less than being clever.
+    /// The minimum degree of a hub: a vertex with more edges, or an edge with more cells, is a hub,
+    /// at which not all pairs are tested. Below this number, testing all pairs is cheaper.
     std::uint32_t many = 128;
 
     [[nodiscard]] bool owns(VertexIndex v) const { return domain.owns(mesh.points[v]); }
@@ -45,15 +45,15 @@ struct JudgedMesh {
         return domain.owns(vertices, mesh.points);
     }
 
-    /// Cells that the later checks look at: those with four different vertices, and of several with
-    /// the same ones the first. (The others are reported as what they are, and as nothing else.)
+    /// The cells that later checks inspect: those with four distinct vertices, and only the first
+    /// of those with the same vertices. (The others are reported as such, and as nothing else.)
     std::vector<char> sound{};
-    /// +1, 0, -1 of each cell; 0 also where it is not sound.
+    /// The orientation +1, 0 or -1 of each cell; also 0 if it is not sound.
     std::vector<std::int8_t> sign{};
-    bool keeps_cells = true;  ///< else `cells` stays empty: only refinements are asked for them
-    Buckets<4> cells{};       ///< of all with four different vertices; tag: the cell's number
-    Buckets<3> faces{};       ///< of sound cells; tag: tag_of(CellFace)
-    EdgeSet edges{};          ///< of sound cells
+    bool keeps_cells = true;  ///< otherwise `cells` stays empty; needed for refinements only
+    Buckets<4> cells{};       ///< all cells with four distinct vertices; tag: number
+    Buckets<3> faces{};       ///< faces of sound cells; tag: tag_of(CellFace)
+    EdgeSet edges{};          ///< edges of sound cells
 
     [[nodiscard]] bool is_sound(CellIndex c) const { return sound[c.value()] != 0; }
     [[nodiscard]] std::array<Point, 4> corners(CellIndex c) const {
@@ -62,7 +62,7 @@ struct JudgedMesh {
     }
 };
 
-/// The vertices of a face of a cell, anticlockwise as seen from outside a positive cell.
+/// The vertices of a face of a cell, counterclockwise as seen from outside a positive cell.
 [[nodiscard]] inline FacetVertices outward_face(const CellVertices& v, std::size_t face) {
     constexpr std::array<std::array<std::size_t, 3>, 4> outward{
         {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}}};
@@ -70,7 +70,7 @@ struct JudgedMesh {
     return {v[i], v[j], v[k]};
 }
 
-/// Are these three an even permutation of their ascending order?
+/// Returns whether these three are an even permutation of their ascending order.
 [[nodiscard]] inline bool is_even(const FacetVertices& v) {
     const int inversions = (v[0] > v[1] ? 1 : 0) + (v[0] > v[2] ? 1 : 0) + (v[1] > v[2] ? 1 : 0);
     return inversions % 2 == 0;
@@ -85,7 +85,7 @@ struct JudgedMesh {
     return used;
 }
 
-/// A mesh that this process has all of.
+/// The view of a process that holds the whole mesh.
 [[nodiscard]] inline JudgedMesh judged_whole(const Mesh& mesh, Which which) {
     return {
         .mesh = mesh,

@@ -2,9 +2,10 @@
 
 namespace octetra::verify {
 
-/// The link of a vertex is what its cells have opposite to it: its edges, faces and cells give the
-/// link's vertices, edges and triangles. A ball's is a sphere, with Euler characteristic 2; on the
-/// boundary it is a disc, with 1.
+/// Counts singular edges and vertices. The link of a vertex consists of the faces of its cells
+/// opposite it: the vertex's edges, faces and cells correspond to the link's vertices, edges and
+/// triangles. The link of an interior vertex of a manifold is a sphere, with Euler characteristic
+/// 2; on the boundary it is a disc, with characteristic 1.
 void count_singular(const JudgedMesh& judged, Facts& facts) {
     const std::size_t vertex_count = judged.mesh.points.size();
     std::vector<std::int64_t> characteristic(vertex_count, 0);

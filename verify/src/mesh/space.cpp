@@ -11,8 +11,9 @@
 namespace octetra::verify {
 namespace {
 
-/// Vertices against cells. Cells look for the vertices in their boxes; but vertices look for the
-/// cells at hubs and near them, as boxes of these may have each a share of all vertices.
+/// Tests vertices against cells. Cells search for the vertices in their boxes; at and near hubs,
+/// vertices search for cells instead, because boxes of such cells may each contain a large fraction
+/// of all vertices.
 class HangingCheck {
 public:
     HangingCheck(const JudgedMesh& judged, Findings& findings)
@@ -31,7 +32,7 @@ public:
         Steps step(findings_, mesh_.cells.size() + (hubs_.none() ? 0 : vertices_.size()));
         for (CellIndex c{0}; c < mesh_.cells.end_index(); ++c) {
             step();
-            if (judged_.sign[c.value()] <= 0) continue;  // no inside to speak of
+            if (judged_.sign[c.value()] <= 0) continue;  // no interior
             const Apex apex = hubs_.apex_of(mesh_.cells[c]);
             if (!apex.is_none()) {
                 at_hubs.push_back({apex, mesh_.cells[c], c.value()});
@@ -57,7 +58,7 @@ private:
         if (std::find(cell.begin(), cell.end(), v) != cell.end()) return;
         const int touched =
             exact::faces_touched(judged_.corners(c), mesh_.points[v], findings_.arithmetic());
-        // On three faces it is at a corner: two vertices at one place, which is reported as such.
+        // A point on three faces is a corner: two vertices coincide, which is reported elsewhere.
         if (touched >= 0 && touched < 3) report(v, c, touched);
     }
 
@@ -78,17 +79,17 @@ private:
     const Mesh& mesh_;
     Findings& findings_;
     Hubs hubs_;
-    std::vector<VertexIndex> vertices_;  ///< to be judged
+    std::vector<VertexIndex> vertices_;  ///< vertices to be tested
 };
 
-/// Edges against faces, one of the two on the boundary: if they have no vertex in common, they must
-/// not meet. (With one in common they could cross in their plane, the edge leaving the face through
-/// the opposite side. Then another face at that edge, or at that side, of the same cell meets what
-/// it has no vertex in common with: else that cell would be flat. An edge cannot end within a face:
-/// check_hanging would have found that.)
+/// Tests edges against faces, one of the two on the boundary: if they have no common vertex, they
+/// must not meet. (With a common vertex they could cross in their plane, the edge leaving the face
+/// through the opposite side. Then another face of the same cell, at that edge or at that side,
+/// meets an entity with which it has no common vertex, since otherwise that cell would be flat. An
+/// edge cannot end within a face: check_hanging would have found this.)
 ///
-/// Edges at hubs are looked for by all faces, and other edges look for the faces at hubs; so no
-/// pair is looked at twice, nor any that has the hub in common.
+/// Edges at hubs are searched by all faces, and other edges search for the faces at hubs; so no
+/// pair is tested twice, nor any pair with a common hub.
 class CrossingCheck {
 public:
     CrossingCheck(const JudgedMesh& judged, Findings& findings)
@@ -116,8 +117,8 @@ public:
     }
 
 private:
-    /// Edges and faces that look for others, once away from hubs and once at hubs. (A face has
-    /// mostly two cells.)
+    /// The number of edges and faces that search for others, once away from hubs and once at hubs.
+    /// (Most faces have two cells.)
     static std::uint64_t steps_of(const JudgedMesh& judged, const Hubs& hubs) {
         const std::uint64_t once = judged.edges.size() + 2 * judged.mesh.cells.size();
         return hubs.none() ? once : 2 * once;
@@ -149,7 +150,7 @@ private:
         });
         const auto edges = away_from_hubs(edges_);
         const BoxTree boundary_edges = tree_of(edges);
-        for_each_inner_face([&](const FacetVertices& face) {  // the others with all edges, above
+        for_each_inner_face([&](const FacetVertices& face) {  // boundary faces are done above
             step_();
             if (is_at_hub(face)) return;
             boundary_edges.for_each_meeting(
@@ -237,7 +238,8 @@ private:
         });
     }
 
-    /// A pair belongs to the lowest corner of what their boxes have in common.
+    /// A pair belongs to the process that owns the lowest corner of the intersection of their
+    /// boxes.
     [[nodiscard]] bool owns_meeting_of(const Bounds& a, const Bounds& b) const {
         return judged_.domain.owns({std::max(a.low[0], b.low[0]), std::max(a.low[1], b.low[1]),
                                     std::max(a.low[2], b.low[2])});
@@ -248,8 +250,8 @@ private:
     Findings& findings_;
     Hubs hubs_;
     Steps step_;
-    std::vector<FacetVertices> faces_;  ///< of the boundary
-    std::vector<EdgeVertices> edges_;   ///< of these faces, ascending
+    std::vector<FacetVertices> faces_;  ///< faces of the boundary
+    std::vector<EdgeVertices> edges_;   ///< edges of these faces, ascending
 };
 
 }  // namespace

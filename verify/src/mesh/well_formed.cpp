@@ -43,7 +43,7 @@ void check_length(std::string_view what, std::size_t length, std::size_t expecte
     });
 }
 
-/// Tagged facets or edges: different vertices, of some cell.
+/// Checks tagged facets or edges: vertices are distinct, and some cell contains them.
 template <class I, std::size_t N, class OfCells>
 void check_tagged(const IndexVector<I, std::array<VertexIndex, N>>& list, const OfCells& of_cells,
                   Code stray, const JudgedMesh& judged, Findings& findings) {
@@ -56,13 +56,13 @@ void check_tagged(const IndexVector<I, std::array<VertexIndex, N>>& list, const 
             });
         } else if (!of_cells.contains(list[i])) {
             findings.add(stray, [&]() -> Findings::Description {
-                return {{entity(i, which)}, "no cell has it", "a face or edge of some cell"};
+                return {{entity(i, which)}, "belongs to no cell", "a face or edge of some cell"};
             });
         }
     }
 }
 
-/// No entity of the list twice, with different markers.
+/// Checks that no entity of the list occurs twice with different markers.
 template <class I, std::size_t N>
 void check_markers(const IndexVector<I, std::array<VertexIndex, N>>& list,
                    const IndexVector<I, Marker>& markers, const JudgedMesh& judged,
@@ -180,7 +180,7 @@ std::string check_well_formed(JudgedMesh& judged, Findings& findings) {
     });
     check_tagged(mesh.facets, judged.faces, Code::stray_facet, judged, findings);
     check_tagged(mesh.edges, judged.edges, Code::stray_edge, judged, findings);
-    return judged.totals.cells == 0 ? "there are no cells: nothing can be wrong with them" : "";
+    return judged.totals.cells == 0 ? "there are no cells to check" : "";
 }
 
 std::string check_tagged_markers(const JudgedMesh& judged, Findings& findings) {
@@ -204,11 +204,11 @@ std::string check_vertices(const JudgedMesh& judged, const std::vector<char>& to
             continue;
         }
         findings.add(Code::unused_vertex, [&]() -> Findings::Description {
-            return {{entity(v, judged.which)}, "no cell has it", "a corner of some cell"};
+            return {{entity(v, judged.which)}, "belongs to no cell", "a corner of some cell"};
         });
     }
 
-    // Vertices that no cell has are where they are; only those of cells are compared.
+    // The position of unused vertices does not matter; only vertices of cells are compared.
     std::vector<VertexIndex> by_place;
     for (VertexIndex v{0}; v < mesh.points.end_index(); ++v) {
         if (used[v.value()] != 0 && judged.owns(v)) by_place.push_back(v);

@@ -10,7 +10,7 @@ namespace {
 
 using Place = std::array<double, 3>;
 
-/// So many of each process are looked at.
+/// The maximum number of points sampled on each process.
 constexpr std::size_t most_samples = 4096;
 
 std::vector<Place> samples_of_all(const std::vector<Point>& places, const ProcessGroup& group) {
@@ -30,13 +30,14 @@ std::size_t longest_side(std::span<const Place> places) {
     Bounds bounds;
     for (const Place& p : places) bounds.take(Point{p[0], p[1], p[2]});
     std::size_t axis = 0;
-    // Halved first: the difference could overflow.
+    // Halved first, since the difference could overflow.
     const auto side = [&](std::size_t k) { return bounds.high[k] / 2 - bounds.low[k] / 2; };
     for (std::size_t k = 1; k < 3; ++k) axis = side(k) > side(axis) ? k : axis;
     return axis;
 }
 
-/// Cuts `whole` between the processes of `domains`, as the places in it ask for.
+/// Divides `whole` between the processes of `domains` by recursive bisection, in proportion to the
+/// points.
 void cut(const Domain& whole, std::span<Place> places, std::span<Domain> domains) {
     if (domains.size() == 1) {
         domains.front() = whole;
@@ -54,7 +55,7 @@ void cut(const Domain& whole, std::span<Place> places, std::span<Domain> domains
                          [&](const Place& p, const Place& q) { return p[axis] < q[axis]; });
         low.high[axis] = high.low[axis] = (*middle)[axis];
     } else {
-        low.high[axis] = high.low[axis] = whole.low[axis];  // nothing below
+        low.high[axis] = high.low[axis] = whole.low[axis];  // the lower part is empty
     }
     cut(low, places.first(lower_places), domains.first(lower_domains));
     cut(high, places.subspan(lower_places), domains.subspan(lower_domains));

@@ -9,12 +9,12 @@
 
 namespace octetra::verify {
 
-/// Collective. Cuts space into one domain for each process, so that about as many of `places`, of
-/// all processes together, fall into each. The same on all processes.
+/// Collective. Divides space into one domain for each process, such that each contains about the
+/// same number of `places`, of all processes together. The result is the same on all processes.
 [[nodiscard]] std::vector<Domain> cut_space(const std::vector<Point>& places,
                                             const ProcessGroup& group);
 
-/// The domain as far as it lies in `bounds`, closed; empty if it does not.
+/// Returns the closed intersection of the domain with `bounds`, possibly empty.
 [[nodiscard]] Bounds closed_box(const Domain& domain, const Bounds& bounds);
 
 }  // namespace octetra::verify

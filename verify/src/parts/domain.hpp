@@ -8,9 +8,9 @@
 
 namespace octetra::verify {
 
-/// The space that one process answers for: a box with low <= x < high in every coordinate. The
-/// boxes of all processes tile space, so each vertex has one, and each edge, face and cell has that
-/// of its lexicographically smallest corner. By default all of space.
+/// The domain of a process: a box with low <= x < high in every coordinate. The boxes of all
+/// processes tile space, so each vertex belongs to exactly one, and each edge, face and cell to
+/// that of its lexicographically smallest corner. By default all of space.
 struct Domain {
     static constexpr double infinity = std::numeric_limits<double>::infinity();
     std::array<double, 3> low{-infinity, -infinity, -infinity};

@@ -28,7 +28,8 @@ template <class T>
     return values;
 }
 
-/// to_each[r] goes to process r; the result's [r] came from there. Frees what it has sent.
+/// Sends to_each[r] to process r; element [r] of the result was received from there. Frees sent
+/// data.
 template <class T>
 [[nodiscard]] std::vector<std::vector<T>> exchange(const ProcessGroup& group,
                                                    std::vector<std::vector<T>> to_each) {
@@ -47,7 +48,7 @@ template <class T>
     return received;
 }
 
-/// What each process has, by rank.
+/// Returns the values of all processes, by rank.
 template <class T>
 [[nodiscard]] std::vector<std::vector<T>> share_with_all(const ProcessGroup& group,
                                                          const std::vector<T>& values) {
@@ -58,7 +59,7 @@ template <class T>
     return of_all;
 }
 
-/// One value of each process, put together.
+/// Reduces the values of all processes, in the order of ranks.
 template <class T>
 [[nodiscard]] T reduce(const ProcessGroup& group, T value, auto&& combine) {
     if (group.size() == 1) return value;

@@ -5,7 +5,7 @@
 namespace octetra::verify {
 namespace {
 
-/// Vertex numbers asked for by each process, of those that this one has.
+/// The vertex numbers that each process requests from this one.
 using Requests = std::vector<std::vector<std::uint32_t>>;
 
 Requests ask(const std::vector<std::uint32_t>& wanted, const MeshSlice& slice,
@@ -21,8 +21,8 @@ Requests ask(const std::vector<std::uint32_t>& wanted, const MeshSlice& slice,
     return exchange(group, std::move(to_each));
 }
 
-/// Collective. What was asked for out of a list with `per_vertex` elements for each vertex, which
-/// may be missing; in the order of the numbers asked for.
+/// Collective. Returns the requested elements, in the order of the requests, of a distributed list
+/// with `per_vertex` elements for each vertex. The list may be empty.
 template <class T>
 std::vector<T> answer(const Requests& requests, const std::vector<T>& list, std::size_t per_vertex,
                       const MeshSlice& slice, const ProcessGroup& group) {

@@ -8,13 +8,14 @@
 
 namespace octetra::verify {
 
-/// Collective. Where some vertices of the whole mesh are, by their numbers, ascending.
+/// Collective. Returns the coordinates of vertices of the whole mesh, given their numbers,
+/// ascending.
 [[nodiscard]] IndexVector<VertexIndex, Point> fetch_points(const std::vector<std::uint32_t>& wanted,
                                                            const MeshSlice& slice,
                                                            const ProcessGroup& group);
 
-/// Collective. Puts vertices of the whole mesh, by their numbers, ascending, into a mesh that has
-/// none, with markers and attributes.
+/// Collective. Adds vertices of the whole mesh, given their numbers, ascending, to a mesh without
+/// vertices, with markers and attributes.
 void fetch_vertices(const std::vector<std::uint32_t>& wanted, const MeshSlice& slice,
                     const ProcessGroup& group, Mesh& mesh);
 

@@ -28,7 +28,7 @@ std::vector<std::uint32_t> vertices_of_entities(const Mesh& lists) {
     return numbers;
 }
 
-/// A slice with the places of the vertices of its entities, wherever these are.
+/// A slice with the coordinates of the vertices of its entities, wherever these are stored.
 class LocatedSlice {
 public:
     LocatedSlice(MeshSlice slice, const ProcessGroup& group)
@@ -46,7 +46,7 @@ public:
         return points;
     }
 
-    /// Of each cell its smallest corner, by which it belongs to a domain.
+    /// Returns the smallest corner of each cell, which determines its domain.
     [[nodiscard]] std::vector<Point> places_of_cells() const {
         std::vector<Point> places;
         places.reserve(lists().cells.size());
@@ -57,7 +57,7 @@ public:
         return places;
     }
 
-    /// A box around all vertices here.
+    /// Returns a box around all vertices of the slice.
     [[nodiscard]] Bounds bounds() const {
         Bounds bounds;
         for (const Point& p : lists().points) bounds.take(p);
@@ -75,7 +75,7 @@ Bounds joined(Bounds a, const Bounds& b) {
     return a;
 }
 
-/// Collective. Each process's boxes, one for every process, joined with those of the others.
+/// Collective. Each process passes a box for every process; returns the joins over all processes.
 std::vector<Bounds> joined_with_all(const std::vector<Bounds>& boxes, const ProcessGroup& group) {
     std::vector<Bounds> result(boxes.size());
     for (const auto& of_one : share_with_all(group, boxes)) {
@@ -91,7 +91,7 @@ struct Record {
     std::array<VertexIndex, N> vertices;
 };
 
-/// Collective. Brings the entities of a list to the processes whose views they meet.
+/// Collective. Sends the entities of a list to the processes whose views they meet.
 template <class I, std::size_t N>
 std::vector<Record<N>> deliver(const IndexVector<I, std::array<VertexIndex, N>>& list,
                                const IndexVector<I, Marker>& markers, std::uint64_t count,
@@ -112,7 +112,7 @@ std::vector<Record<N>> deliver(const IndexVector<I, std::array<VertexIndex, N>>&
     return all;
 }
 
-/// Collective. The numbers of the vertices in this process's view.
+/// Collective. Returns the numbers of the vertices in this process's view.
 std::vector<std::uint32_t> vertices_in_view(const MeshSlice& slice, const Views& views,
                                             const ProcessGroup& group) {
     std::vector<std::vector<std::uint32_t>> to_each(static_cast<std::size_t>(group.size()));
@@ -153,7 +153,7 @@ void append_vertices(const std::vector<Record<N>>& records, std::vector<std::uin
     }
 }
 
-/// Collective. What this process sees of a mesh.
+/// Collective. Returns the part of a mesh in this process's view.
 MeshPart see(const LocatedSlice& from, const Views& views, const ProcessGroup& group) {
     const Mesh& lists = from.lists();
     const Totals& totals = from.slice().totals;

@@ -12,29 +12,30 @@
 
 namespace octetra::verify {
 
-/// What one process sees of a mesh in order to judge what lies in its domain: every cell, tagged
-/// facet and edge that meets its view, a box, and the vertices of these and in its view.
+/// The part of a mesh that a process holds in order to verify its domain: every cell, tagged facet
+/// and edge that meets its view, a box, with their vertices and all vertices in the view.
 struct MeshPart {
-    Mesh mesh;        ///< numbered on its own, in the order of the whole mesh
-    Numbers numbers;  ///< in the whole mesh
+    Mesh mesh;        ///< with local numbers, in the order of the whole mesh
+    Numbers numbers;  ///< numbers in the whole mesh
 };
 
-/// The parts of one process.
+/// The parts of a process.
 struct Parts {
     MeshPart coarse;
     MeshPart fine;
     Domain domain;
-    /// Of each process a box around the coarse cells that it sees; of a mesh alone, none.
+    /// For each process, a box around the coarse cells in its view; empty for a single mesh.
     std::vector<Bounds> coarse_in_view;
 };
 
-/// Collective. A view that meets the domain is enough to judge a mesh by itself: what has a point
-/// of the domain is seen with all cells that have this point.
+/// Collective. Returns the part for verifying a single mesh. A view that meets the domain suffices:
+/// every entity with a point in the domain is held together with all cells that contain this point.
 [[nodiscard]] Parts part_of(MeshSlice mesh, const ProcessGroup& group);
 
-/// Collective. Here a process answers for the coarse cells of its domain, too. It sees all that
-/// these touch, so that what is in common with others looks the same to both; and of the fine
-/// mesh, what meets any coarse cell that it sees.
+/// Collective. Returns the parts for verifying a refinement. A process also verifies the coarse
+/// cells of its domain. Its view contains all cells that these touch, so that shared entities look
+/// the same to all processes that verify them; and all entities of the fine mesh that meet a coarse
+/// cell in its view.
 [[nodiscard]] Parts parts_of(MeshSlice coarse, MeshSlice fine, const ProcessGroup& group);
 
 }  // namespace octetra::verify

@@ -11,7 +11,8 @@
 namespace octetra::verify {
 namespace {
 
-/// Each process's stretch of a list that the first has, `per_entity` elements for each entity.
+/// Distributes the slices of a list held by the first process, with `per_entity` elements for each
+/// entity.
 template <class T>
 void share_out_list(const std::vector<T>& whole, std::uint64_t count, std::size_t per_entity,
                     std::vector<T>& slice, const ProcessGroup& group) {
@@ -28,13 +29,13 @@ void share_out_list(const std::vector<T>& whole, std::uint64_t count, std::size_
     slice = std::move(exchange(group, std::move(to_each)).front());
 }
 
-/// Verification numbers all entities of the whole mesh with 32 bits.
+/// Throws InputError if any kind of entity of the whole mesh cannot be numbered with 32 bits.
 void check_countable(const MeshFacts& facts) {
     const std::uint64_t most = std::max({facts.vertices, facts.cells, facts.facets, facts.edges});
     if (most < VertexIndex::limit) return;
     throw InputError(
-        fmt::format("the mesh is too large to be verified: {} entities of a kind, and at most {} "
-                    "are possible",
+        fmt::format("the mesh is too large to be verified: {} entities of a kind; at most {} are "
+                    "supported",
                     most, VertexIndex::limit));
 }
 

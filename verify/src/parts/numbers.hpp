@@ -8,8 +8,8 @@
 
 namespace octetra::verify {
 
-/// What entities of a part are called in the whole mesh: ascending, so that parts and wholes agree
-/// about what comes first. An empty list stands for consecutive numbers from `first`.
+/// The numbers in the whole mesh of the entities of a part: ascending, so that parts and the whole
+/// mesh have the same order. An empty list represents consecutive numbers from `first`.
 struct NumberList {
     std::vector<std::uint32_t> numbers{};
     std::uint32_t first = 0;
@@ -18,7 +18,7 @@ struct NumberList {
         return numbers.empty() ? first + local : numbers[local];
     }
 
-    /// The entity of the part that has this number in the whole mesh; none() if it has none.
+    /// Returns the entity of the part with this number in the whole mesh, or none().
     [[nodiscard]] VertexIndex find(std::uint32_t number) const {
         if (numbers.empty()) return VertexIndex{number - first};
         const auto found = std::lower_bound(numbers.begin(), numbers.end(), number);

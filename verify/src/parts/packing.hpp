@@ -9,7 +9,7 @@
 
 namespace octetra::verify {
 
-/// Values behind one another, as bytes for another process of the same program.
+/// Serialises values for another process of the same program.
 class Packer {
 public:
     template <class T>
@@ -17,7 +17,7 @@ public:
         static_assert(std::is_trivially_copyable_v<T>);
         append(&value, sizeof(T));
     }
-    /// Strings, too.
+    /// Appends a list or string with its length.
     template <class List>
     void list(const List& values) {
         static_assert(std::is_trivially_copyable_v<typename List::value_type>);
@@ -35,7 +35,7 @@ private:
     ProcessGroup::Bytes bytes_;
 };
 
-/// Takes values out in the order in which they were put in.
+/// Deserialises values in the order in which they were appended.
 class Unpacker {
 public:
     explicit Unpacker(const ProcessGroup::Bytes& bytes) : next_(bytes.data()) {}

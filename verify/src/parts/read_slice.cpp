@@ -13,12 +13,12 @@
 #include "parts/exchange.hpp"
 #include "parts/packing.hpp"
 
-/// The first process reads, and hands what belongs to others on in rounds, of which all take part
-/// in each: no process ever has more than its slice and a round's bytes.
+/// The first process reads the file and sends entities to their owners in collective rounds: no
+/// process ever holds more than its slice and the bytes of a round.
 namespace octetra::verify {
 namespace {
 
-/// What comes next in a round's bytes.
+/// The type of the next item in the bytes of a round.
 enum class Item : std::uint8_t {
     points,
     cells,
@@ -30,7 +30,7 @@ enum class Item : std::uint8_t {
     failure
 };
 
-/// What is known in the end.
+/// Data known at the end of the file.
 struct Ending {
     Totals totals;
     std::uint64_t attributes_per_point;
@@ -38,10 +38,11 @@ struct Ending {
     bool has_point_markers, has_regions, has_facet_markers, has_edge_markers;
 };
 
-/// Puts together what comes.
+/// Assembles the slice from the received rounds.
 class Receiver {
 public:
-    /// Takes in a round. False after the last one. Throws what the first process has met.
+    /// Takes the bytes of a round. Returns false after the last one. Throws errors of the first
+    /// process.
     bool take(const ProcessGroup::Bytes& bytes) {
         Unpacker unpack(bytes);
         while (true) {
@@ -96,7 +97,7 @@ private:
     Ending ending_{};
 };
 
-/// What the first process hears of the file, shared out. The last round is still to be sent when
+/// Distributes the entities that the first process reads. The last round is still to be sent after
 /// the file has been read.
 class Distributor final : public MeshSink {
 public:
@@ -153,14 +154,14 @@ public:
         });
     }
     void send_error(Item item, const std::string& what) {
-        for (Packer& pack : to_each_) pack.bytes().clear();  // an entry may have come halfway
+        for (Packer& pack : to_each_) pack.bytes().clear();  // an item may be incomplete
         hand_on(packed([&](Packer& pack) {
             pack(item);
             pack.list(what);
         }));
     }
 
-    /// Is this the exchange, of which all processes know that it has failed?
+    /// Returns whether an error occurred in the exchange, so that all processes know of it.
     [[nodiscard]] bool is_exchanging() const { return is_exchanging_; }
 
 private:
@@ -171,7 +172,8 @@ private:
         std::uint64_t heard = 0;
     };
 
-    /// Calls pack_some(packer, begin, count) for each process that some of the next n belong to.
+    /// Calls pack_some(packer, begin, count) for each process that owns some of the next n
+    /// entities.
     void share(Progress& progress, std::size_t n, auto&& pack_some) {
         const Window slices = slices_of(progress.count, group_.size());
         const std::uint64_t end = progress.heard + n;
@@ -199,7 +201,7 @@ private:
         });
     }
 
-    /// The own part is taken in first: who could hear of it if that failed later?
+    /// Processes this process's own bytes first: an error later could not be sent any more.
     void send(auto&& pack_last) {
         std::vector<ProcessGroup::Bytes> outboxes = packed(pack_last);
         (void)own_.take(std::exchange(outboxes.front(), {}));
@@ -228,7 +230,7 @@ private:
     Progress points_, cells_, facets_, edges_;
 };
 
-/// What the first process does. What fails here is thrown on all processes.
+/// Runs the first process's side. Errors are thrown on all processes.
 void read_and_hand_on(const std::filesystem::path& path, const ReadOptions& options,
                       const ProcessGroup& group, Receiver& own) {
     Distributor distributor(group, own);

@@ -8,10 +8,10 @@
 
 namespace octetra::verify {
 
-/// Some vertices of a whole mesh, ascending, and where each stands among them.
+/// A set of vertices of a whole mesh, ascending, with lookup of their positions.
 class VertexLookup {
 public:
-    /// `numbers` in any order, and with repetitions.
+    /// `numbers` may be in any order and contain repetitions.
     explicit VertexLookup(std::vector<std::uint32_t> numbers) : numbers_(std::move(numbers)) {
         std::sort(numbers_.begin(), numbers_.end());
         numbers_.erase(std::unique(numbers_.begin(), numbers_.end()), numbers_.end());
@@ -26,7 +26,7 @@ public:
 
     [[nodiscard]] const std::vector<std::uint32_t>& numbers() const { return numbers_; }
 
-    /// none() if it is not among them.
+    /// Returns none() for a number that is not in the set.
     [[nodiscard]] VertexIndex find(std::uint32_t number) const {
         const std::size_t bucket = bucket_of(number);
         if (bucket + 1 >= bucket_begin_.size()) return VertexIndex::none();
@@ -40,7 +40,7 @@ public:
     }
 
 private:
-    static constexpr unsigned bucket_bits = 6;  // of so many numbers: few steps, and little memory
+    static constexpr unsigned bucket_bits = 6;  // a compromise of speed and memory
     static std::size_t bucket_of(std::uint32_t number) { return number >> bucket_bits; }
 
     std::vector<std::uint32_t> numbers_;

@@ -6,7 +6,8 @@
 
 namespace octetra::verify {
 
-/// What each process sees, as a box, which may be empty: who is sent what.
+/// The views of all processes, as boxes, which may be empty; determines which process needs an
+/// entity.
 class Views {
 public:
     explicit Views(const std::vector<Bounds>& views) : tree_(not_empty(views)) {

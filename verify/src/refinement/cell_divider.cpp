@@ -10,7 +10,7 @@ namespace {
 constexpr std::uint8_t most_depth = 240;
 
 std::array<Piece, 2> halves(const Piece& piece, std::size_t i, std::size_t j, VertexIndex m) {
-    Piece first = piece;  // keeps corner i
+    Piece first = piece;  // retains corner i
     first.vertices[j] = m;
     first.face_of_parent[i] = -1;
     Piece second = piece;
@@ -20,14 +20,15 @@ std::array<Piece, 2> halves(const Piece& piece, std::size_t i, std::size_t j, Ve
     return {first, second};
 }
 
-/// The number of the edge between two corners, in cell_edges.
+/// Returns the index in cell_edges of the edge between two corners.
 constexpr std::size_t edge_of(std::size_t i, std::size_t j) {
     constexpr std::array<std::array<std::size_t, 4>, 4> numbers{
         {{0, 0, 1, 2}, {0, 0, 3, 4}, {1, 3, 0, 5}, {2, 4, 5, 0}}};
     return numbers[i][j];
 }
 
-/// Four corners, and four cells round one diagonal of the octahedron between them.
+/// Returns the pieces at the four corners, and four around a diagonal of the octahedron between
+/// them.
 std::array<Piece, 8> eight_pieces(const Piece& piece, const std::array<VertexIndex, 6>& m,
                                   std::size_t diagonal) {
     const auto depth = static_cast<std::uint8_t>(piece.depth + 3);
@@ -40,9 +41,9 @@ std::array<Piece, 8> eight_pieces(const Piece& piece, const std::array<VertexInd
         }
         p.face_of_parent[corner] = -1;
     }
-    // Diagonal k joins the midpoints of edge a b and of the opposite one, c d. Round it lie the
-    // midpoints of a c, b c, b d, a d, in this order; each two next to each other have a corner
-    // of the cell in common, and with it they and one end of the diagonal lie on a face.
+    // Diagonal k joins the midpoints of edge a b and of the opposite edge, c d. Around it are the
+    // midpoints of a c, b c, b d, a d, in this order. Two consecutive ones share a corner of the
+    // cell, and lie on a face together with this corner and one end of the diagonal.
     const auto [a, b] = cell_edges[diagonal];
     const auto [c, d] = cell_edges[5 - diagonal];
     const std::array<std::array<std::size_t, 2>, 4> round{{{a, c}, {b, c}, {b, d}, {a, d}}};
@@ -51,8 +52,8 @@ std::array<Piece, 8> eight_pieces(const Piece& piece, const std::array<VertexInd
         const auto& far = round[(k + 1) % 4];
         const VertexIndex p = m[edge_of(near[0], near[1])];
         const VertexIndex q = m[edge_of(far[0], far[1])];
-        // They share c: midpoints of ac and bc, with that of ab, lie on face abc, without d;
-        // they share b: midpoints of bc and bd, with that of cd, lie on face bcd, without a.
+        // If they share c, the midpoints of ac and bc, with that of ab, lie on face abc, without d;
+        // if they share b, the midpoints of bc and bd, with that of cd, lie on face bcd, without a.
         const bool share_end_of_second = near[1] == far[1];
         const std::size_t shared = share_end_of_second ? near[1] : near[0];
         const std::size_t missing =
@@ -61,9 +62,9 @@ std::array<Piece, 8> eight_pieces(const Piece& piece, const std::array<VertexInd
         piece_k.depth = depth;
         piece_k.vertices = {m[diagonal], m[5 - diagonal], p, q};
         piece_k.face_of_parent = {-1, -1, -1, -1};
-        // The face has the end of the diagonal on ab (or cd), so the other end is opposite.
+        // The face contains the end of the diagonal on ab (or cd), so the other end is opposite.
         piece_k.face_of_parent[share_end_of_second ? 1 : 0] = piece.face_of_parent[missing];
-        // They run round the diagonal the wrong way if a, b, c, d is an even order.
+        // Their orientation is reversed if a, b, c, d is an even order.
         if (diagonal != 1) std::swap(piece_k.vertices[2], piece_k.vertices[3]);
     }
     return pieces;
@@ -73,7 +74,7 @@ std::array<Piece, 8> eight_pieces(const Piece& piece, const std::array<VertexInd
 
 CellDivider::CellDivider(const JudgedMesh& coarse, const JudgedMesh& fine, Lines& lines)
     : fine_(&fine), lines_(&lines) {
-    // A mesh that is right needs two pieces for each fine cell, and some to take back.
+    // A correct mesh needs two pieces for each fine cell, and some that are discarded.
     const std::size_t cells = coarse.mesh.cells.size() + fine.mesh.cells.size();
     budget_ = 100'000 + 20 * static_cast<std::int64_t>(cells);
 }

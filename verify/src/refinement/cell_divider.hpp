@@ -12,7 +12,7 @@
 
 namespace octetra::verify {
 
-/// Part of a coarse cell.
+/// A part of a coarse cell.
 struct Piece {
     CellVertices vertices;
     std::array<std::int8_t, 4> face_of_parent{0, 1, 2, 3};
@@ -25,27 +25,28 @@ struct Leaf {
     Piece piece;
 };
 
-/// A vertex put between two others.
+/// A vertex inserted between two others.
 struct Split {
     EdgeVertices edge;
     VertexIndex midpoint;
 };
 
-/// Divides one coarse cell after the other.
+/// Divides coarse cells, one at a time.
 ///
-/// A piece that is no fine cell was bisected at one of its edges, a b, and then the midpoint m has
-/// lines to the other two corners; or it was cut into eight at all six. Mostly one way fits; where
-/// several do, they are tried, longest edge first, until one leads to fine cells all over.
+/// A piece that is not a fine cell was either bisected at one of its edges, a b, in which case the
+/// midpoint m has lines to the other two corners, or divided into eight at all six. Usually one
+/// case applies; if several do, they are tried, longest edge first, until one leads to fine cells
+/// everywhere.
 class CellDivider {
 public:
     CellDivider(const JudgedMesh& coarse, const JudgedMesh& fine, Lines& lines);
 
-    /// Finds the fine cells that fill a coarse cell. False if there is no way.
+    /// Finds the fine cells that tile a coarse cell. Returns false if there is no division.
     bool divide_cell(const CellVertices& vertices);
 
     [[nodiscard]] const std::vector<Leaf>& leaves() const { return leaves_; }
     [[nodiscard]] const std::vector<Split>& splits() const { return splits_; }
-    /// A piece that could not be divided, when the most others could.
+    /// Returns the piece that could not be divided in the attempt that found the most fine cells.
     [[nodiscard]] const CellVertices& stuck() const { return stuck_; }
 
 private:
@@ -56,10 +57,10 @@ private:
     };
 
     bool divide(const Piece& piece);
-    /// Tries a way of dividing; takes back what it has found if it leads nowhere.
+    /// Tries a division; discards its results if it fails.
     bool attempt(const auto& pieces);
     bool bisect(const Piece& piece);
-    /// Puts the longest of choices[n ...] at n.
+    /// Moves the longest of choices[n ...] to position n.
     void take_longest_first(const Piece& piece, std::array<Choice, 6>& choices, std::size_t n,
                             std::size_t count) const;
     bool cut_into_eight(const Piece& piece);
@@ -68,10 +69,10 @@ private:
     Lines* lines_;
     std::vector<Leaf> leaves_;
     std::vector<Split> splits_;
-    /// Pieces that cannot be divided, their vertices ascending. A mesh that is right has few: only
-    /// where edges are so short that midpoints are rounded to other vertices.
+    /// Pieces known to be indivisible, with ascending vertices. A correct mesh has few: only where
+    /// edges are so short that midpoints are rounded to other vertices.
     std::set<CellVertices> hopeless_;
-    std::int64_t budget_ = 0;  ///< how many more pieces may be divided: a wrong mesh has many ways
+    std::int64_t budget_ = 0;  ///< remaining number of pieces to divide: bounds the search
     CellVertices stuck_;
     std::size_t stuck_leaves_ = 0;
 };

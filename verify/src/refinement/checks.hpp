@@ -11,29 +11,29 @@
 #include "refinement/descent.hpp"
 #include "refinement/lines.hpp"
 
-/// The checks of a refinement that need its descent. Each adds its violations to the findings.
+/// Checks of a refinement that need its descent. Each adds its violations to the findings.
 namespace octetra::verify {
 
-/// Fine faces have one cell only where they lie on the coarse boundary.
+/// Checks that fine faces have a single cell only on the coarse boundary.
 std::string check_cover(const JudgedMesh& coarse, const JudgedMesh& fine, const Descent& descent,
                         Findings& findings);
 
-/// The exact volumes of the pieces of each coarse cell, and the exact vector areas of the pieces of
-/// each face on the coarse boundary, sum up to its own; where midpoints were rounded, to within a
-/// bound that follows from Descent::rounding.
+/// Checks that the exact volumes of the pieces of each coarse cell, and the exact vector areas of
+/// the pieces of each face on the coarse boundary, sum up to those of the whole; if midpoints were
+/// rounded, up to a bound that follows from Descent::rounding.
 std::string check_volumes(const JudgedMesh& coarse, const JudgedMesh& fine, const Descent& descent,
                           Findings& findings);
 
-/// Region tags, markers and attributes are those that are inherited. If the fine mesh has no
-/// attributes or vertex markers, and the options say why it cannot, these are not checked.
+/// Checks that region tags, markers and attributes are the inherited ones. Missing attributes or
+/// vertex markers of the fine mesh are not checked if the options give a reason for their absence.
 void check_tags(const JudgedMesh& coarse, const JudgedMesh& fine, Lines& lines,
                 const Descent& descent, const VerifyOptions& options, Findings& findings);
 
-/// A parent map says what is found here.
+/// Checks that the refinement maps agree with the descent.
 std::string check_maps(const RefinementMaps& maps, const JudgedMesh& coarse, const JudgedMesh& fine,
                        const Descent& descent, Findings& findings);
 
-/// The fine mesh is what the request asks for.
+/// Checks that the fine mesh is the result of the request.
 std::string check_request(const Request& request, const JudgedMesh& coarse, const JudgedMesh& fine,
                           Lines& lines, const Descent& descent, Findings& findings);
 

@@ -10,14 +10,15 @@
 namespace octetra::verify {
 namespace {
 
-/// The vertex of the fine mesh with the number that v has in the coarse one; none() if there is
-/// none here.
+/// Returns the vertex of the fine mesh with the same number as v has in the coarse one, or none()
+/// if it is not in this part.
 VertexIndex of_same_number(VertexIndex v, const Findings& findings) {
     return findings.numbers(Which::fine)
         .vertices.find(findings.numbers(Which::coarse).vertices.of(v.value()));
 }
 
-/// Collective. Are the vertices of the coarse mesh the first ones of the fine mesh, in its order?
+/// Collective. Returns whether the first vertices of the fine mesh are those of the coarse mesh, in
+/// order.
 bool are_first_vertices(const JudgedMesh& coarse, const JudgedMesh& fine,
                         const Findings& findings) {
     bool differ = false;
@@ -30,9 +31,9 @@ bool are_first_vertices(const JudgedMesh& coarse, const JudgedMesh& fine,
     return !any(findings.group(), differ);
 }
 
-/// Where several fine vertices lie at one place, as at a crack, a coarse vertex is the one whose
-/// fine cells lie in its coarse cells. A wrong choice, where cells are so thin that a rounded
-/// centroid leaves them, makes the descent fail; it never makes it pass.
+/// Matches coincident vertices, as at a crack: a coarse vertex corresponds to the fine vertex whose
+/// cells lie in cells of the coarse vertex. A wrong choice, possible for cells so thin that a
+/// rounded centroid lies outside, can make the descent fail, but never pass.
 class SidesOfCracks {
 public:
     SidesOfCracks(const JudgedMesh& coarse, const JudgedMesh& fine, const Places& places,
@@ -55,8 +56,8 @@ public:
         });
     }
 
-    /// The fine vertex at the place of v, of those that are free, whose cells lie in one of v;
-    /// none() if there is no such, or there is one vertex at the place.
+    /// Returns the free fine vertex with the coordinates of v whose cells lie in a cell of v;
+    /// none() if there is none, or if no vertices coincide there.
     [[nodiscard]] VertexIndex find(VertexIndex v, auto&& is_free) {
         const CellIndex c = cell_at_[v];
         if (c.is_none()) return VertexIndex::none();
@@ -92,7 +93,8 @@ private:
         }
     }
 
-    /// Is the centroid of a fine cell on the inner side of the three faces at a coarse corner?
+    /// Returns whether the centroid of a fine cell is on the inner side of the three faces at a
+    /// coarse corner.
     [[nodiscard]] bool lies_inside(CellIndex fine_cell, CellIndex coarse_cell, std::size_t corner) {
         const Point centre = centroid(fine_.corners(fine_cell));
         for (std::size_t k = 0; k < 4; ++k) {
@@ -108,7 +110,7 @@ private:
     const JudgedMesh& fine_;
     const Places& places_;
     Findings& findings_;
-    IndexVector<VertexIndex, CellIndex> cell_at_;  ///< of each coarse vertex one that has it
+    IndexVector<VertexIndex, CellIndex> cell_at_;  ///< a cell of each coarse vertex
     /// The cells at each fine vertex that coincides with other vertices.
     std::map<VertexIndex, std::vector<CellIndex>> fine_cells_at_;
 };

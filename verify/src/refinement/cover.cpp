@@ -6,7 +6,7 @@
 namespace octetra::verify {
 namespace {
 
-/// Is each face of each coarse cell, by its tag, on the boundary?
+/// Returns, for each face of each coarse cell, by its tag, whether it is on the boundary.
 std::vector<char> boundary_of(const JudgedMesh& coarse) {
     std::vector<char> on_boundary(4 * coarse.mesh.cells.size(), 0);
     for (const CellFace f : boundary_faces(coarse)) on_boundary[tag_of(f)] = 1;
@@ -15,11 +15,12 @@ std::vector<char> boundary_of(const JudgedMesh& coarse) {
 
 }  // namespace
 
-/// Descent gives every fine vertex one place, as a mean of coarse vertices, and tiles each coarse
-/// cell with fine cells, their faces known by the coarse face that they lie on. What is left to
-/// check are faces of one cell. (Two fine cells can only meet rightly: if their common face lay on
-/// two different coarse faces, or on one and inside another cell, its three vertices would be means
-/// of the two vertices or the one that these have in common, on one line.)
+/// The descent assigns to every fine vertex a unique position, as a mean of coarse vertices, and
+/// tiles each coarse cell with fine cells, the faces of which are assigned to coarse faces. Only
+/// faces of a single cell remain to be checked. (Two fine cells meet correctly: if their common
+/// face lay on two different coarse faces, or on one and in the interior of another cell, its three
+/// vertices would be means of the one or two vertices that these have in common, and thus
+/// collinear.)
 std::string check_cover(const JudgedMesh& coarse, const JudgedMesh& fine, const Descent& descent,
                         Findings& findings) {
     const std::vector<char> on_boundary = boundary_of(coarse);

@@ -13,7 +13,7 @@
 namespace octetra::verify {
 namespace {
 
-/// Do two orders of the same four vertices differ by an even permutation?
+/// Returns whether two orders of the same four vertices differ by an even permutation.
 bool same_parity(const CellVertices& v, const CellVertices& w) {
     int inversions = 0;
     for (std::size_t i = 0; i < 4; ++i) {
@@ -24,17 +24,17 @@ bool same_parity(const CellVertices& v, const CellVertices& w) {
     return inversions % 2 == 0;
 }
 
-/// By how much (a + b) / 2 is off, at most, as binary64 rounds it.
+/// Returns an upper bound of the error of (a + b) / 2 in binary64.
 double rounding_of_half(double a, double b) {
     const double sum = a + b;
-    const double b_part = sum - a;  // two-sum: what is lost in the sum, exactly
+    const double b_part = sum - a;  // two-sum: the rounding error of the sum, exactly
     const double lost = (a - (sum - b_part)) + (b - b_part);
     const double half = sum / 2;
     const double underflow = half + half == sum ? 0 : std::numeric_limits<double>::denorm_min();
     return std::abs(lost) / 2 + underflow;
 }
 
-/// In numbers of which no coordinate's square is too large or too small.
+/// Computed in long double, in which the square of no coordinate over- or underflows.
 long double squared_distance(const Point& a, const Point& b) {
     const long double x = static_cast<long double>(a.x) - b.x;
     const long double y = static_cast<long double>(a.y) - b.y;
@@ -47,7 +47,7 @@ double rounding_of_midpoint(const Point& a, const Point& b) {
         {rounding_of_half(a.x, b.x), rounding_of_half(a.y, b.y), rounding_of_half(a.z, b.z)});
 }
 
-/// A sum of bounds, rounded up.
+/// Returns a sum of bounds, rounded up.
 double sum_up(double a, double b) {
     const double sum = a + b;
     return a == 0 || b == 0 ? sum : std::nextafter(sum, std::numeric_limits<double>::infinity());
@@ -154,8 +154,8 @@ private:
         }
     }
 
-    /// Why a coarse cell cannot be divided: the piece where it ends has an edge that should have a
-    /// vertex half way, and has one only near there; or else that piece itself.
+    /// Reports why a coarse cell cannot be divided: the last piece has an edge that needs a
+    /// midpoint but only has a vertex close to it; otherwise the piece itself.
     void explain(CellIndex c, const CellVertices& stuck) {
         for (const auto& [i, j] : cell_edges) {
             const EdgeVertices edge{stuck[i], stuck[j]};
@@ -163,7 +163,7 @@ private:
             const VertexIndex near = misplaced_vertex_near(edge);
             if (near.is_none()) continue;
             if (blamed_.empty()) blamed_.assign(fine_.mesh.points.size(), 0);
-            if (blamed_[near.value()] != 0) return;  // for another cell, which has told
+            if (blamed_[near.value()] != 0) return;  // already reported for another cell
             blamed_[near.value()] = 1;
             if (owns(c)) report_misplaced(near, edge);
             return;
@@ -172,7 +172,7 @@ private:
         findings_.add(Code::not_tiled, [&]() -> Findings::Description {
             return {{entity(c, Which::coarse), entity(stuck)},
                     "no fine cells fill this piece of it",
-                    "fine cells that come of it by bisection"};
+                    "fine cells created from it by bisection"};
         });
     }
 
@@ -185,9 +185,9 @@ private:
         });
     }
 
-    /// The vertex that is nearest to the middle of an edge, but not there, if it is half way
-    /// between no two others and within a quarter of the edge's length. Looks at all vertices, so
-    /// not too often.
+    /// Returns the vertex closest to the middle of an edge, but not equal to it, if it is not the
+    /// midpoint of any two others and is within a quarter of the edge's length. Inspects all
+    /// vertices; the number of searches is therefore limited.
     VertexIndex misplaced_vertex_near(const EdgeVertices& edge) {
         VertexIndex best = VertexIndex::none();
         if (searches_left_ == 0) return best;
@@ -196,7 +196,7 @@ private:
         const Point half = midpoint(points[edge[0]], points[edge[1]]);
         auto best_distance = squared_distance(points[edge[0]], points[edge[1]]) / 16;
         for (VertexIndex v{0}; v < points.end_index(); ++v) {
-            if (points[v] == half) return VertexIndex::none();  // what is wrong is something else
+            if (points[v] == half) return VertexIndex::none();  // the error is a different one
             if (descent_.is_coarse[v.value()] != 0 || lines_.halves_a_line(v)) continue;
             const auto distance = squared_distance(points[v], half);
             if (distance >= best_distance) continue;

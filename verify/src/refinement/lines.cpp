@@ -25,7 +25,7 @@ VertexIndex Lines::midpoint(VertexIndex a, VertexIndex b) {
     const Point& q = mesh_->points[b];
     const Point half = octetra::midpoint(p, q);
     VertexIndex m = VertexIndex::none();
-    if (half != p && half != q) {  // else it would be its own half for ever
+    if (half != p && half != q) {  // otherwise infinite recursion
         m = places_->find(half, [&](VertexIndex v) { return is_line(a, v) && is_line(v, b); });
     }
     if (!m.is_none()) halves_[m.value()] = 1;

@@ -6,12 +6,12 @@
 
 namespace octetra::verify {
 
-/// Which pairs of vertices of the fine mesh were once an edge.
+/// Pairs of vertices of the fine mesh that may once have been an edge.
 ///
 /// A *line* is an edge of the fine mesh, or two vertices a, b with a vertex m exactly at
-/// midpoint(a, b), as core rounds it, such that a, m and m, b are lines. Every edge that was there
-/// before it was bisected, and its halves again, is a line in that sense; so a line's absence
-/// proves that there was no such edge.
+/// midpoint(a, b), as rounded by core, such that a, m and m, b are lines. Every edge that was
+/// bisected, and recursively its halves, is a line in this sense; so if two vertices are not a
+/// line, there was no such edge.
 class Lines {
 public:
     Lines(const JudgedMesh& fine, const Places& places);
@@ -19,20 +19,20 @@ public:
     [[nodiscard]] bool is_whole(VertexIndex a, VertexIndex b) const {
         return whole_.find(a, b) != EdgeTable::absent;
     }
-    /// The vertex that halves the line a, b into two; none() if there is none.
+    /// Returns the vertex that divides the line a, b into two lines, or none().
     [[nodiscard]] VertexIndex midpoint(VertexIndex a, VertexIndex b);
     [[nodiscard]] bool is_line(VertexIndex a, VertexIndex b) {
         return is_whole(a, b) || !midpoint(a, b).is_none();
     }
 
-    /// Has midpoint() found this vertex for any two others?
+    /// Returns whether midpoint() has returned this vertex for any two others.
     [[nodiscard]] bool halves_a_line(VertexIndex v) const { return halves_[v.value()] != 0; }
 
 private:
     const Mesh* mesh_;
     const Places* places_;
     EdgeTable whole_;      ///< edges of the fine mesh
-    EdgeTable midpoints_;  ///< what midpoint() has found so far; no_midpoint if nothing
+    EdgeTable midpoints_;  ///< results of midpoint() so far; no_midpoint for none()
     std::vector<char> halves_;
 };
 

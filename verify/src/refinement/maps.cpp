@@ -22,8 +22,9 @@ void check_parents(const RefinementMaps& maps, const JudgedMesh& fine, const Des
     }
 }
 
-/// `edge` has the numbers of the whole mesh. (What is not seen here has nothing to do with m: the
-/// edge that m halves lies in a coarse cell that m lies in.)
+/// Returns whether m is the midpoint of `edge`, which has numbers of the whole mesh. (Vertices
+/// outside this part cannot be its ends: the edge bisected by m lies in a coarse cell that contains
+/// m.)
 bool is_half_way_in_whole(VertexIndex m, const EdgeVertices& edge, const JudgedMesh& fine,
                           const Descent& descent, const NumberList& numbers) {
     EdgeVertices seen;

@@ -5,10 +5,10 @@
 namespace octetra::verify {
 namespace {
 
-/// How a vertex is made of those of the coarse mesh: their weights, each a power of two's share.
+/// A vertex as a weighted mean of vertices of the coarse mesh.
 using Weights = std::map<VertexIndex, double>;
 
-/// Weights are sums of powers of 2^-depth: exact in binary64 to a depth of fifty.
+/// Weights are sums of powers of 2^-depth, which are exact in binary64 up to a depth of fifty.
 void add_weights(VertexIndex v, double weight, const Descent& descent, Weights& weights) {
     const EdgeVertices& ends = descent.halves[v];
     if (ends[0].is_none()) {

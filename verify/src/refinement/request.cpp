@@ -10,15 +10,15 @@
 namespace octetra::verify {
 namespace {
 
-/// A cell on the way from the coarse mesh to the fine one, by vertices of the fine one.
+/// A cell between the coarse mesh and the fine one, with vertices of the fine mesh.
 struct Cell {
     CellVertices vertices;
-    CellIndex root;  ///< of the coarse mesh
+    CellIndex root;  ///< its cell of the coarse mesh
 };
 
-/// Repeats what was asked for, level by level, with the vertices of the fine mesh: where it asks
-/// for a midpoint, the fine mesh must have one. What comes out must be the fine cells. Processes
-/// tell each other which edges of cells that both see they have marked.
+/// Repeats the request, level by level, with the vertices of the fine mesh, which must contain
+/// every midpoint that is needed. The result must be the fine cells. Processes exchange the marked
+/// edges of cells in the views of several processes.
 class Replay {
 public:
     Replay(const Request& request, const JudgedMesh& coarse, const JudgedMesh& fine, Lines& lines,
@@ -50,7 +50,7 @@ public:
     }
 
 private:
-    // Edges of the present cells have numbers; those of a cell stand in the order of cell_edges.
+    // Edges of the current cells are numbered; those of a cell are in the order of cell_edges.
     void number_edges() {
         edge_ends_.clear();
         cell_to_edges_.assign(cells_.size(), {});
@@ -144,8 +144,8 @@ private:
         }
     }
 
-    /// Collective. Sends to those that may see them the edges marked since the last time; returns
-    /// whether the others have sent any that were not marked here.
+    /// Collective. Sends newly marked edges to the processes that may have them in view; returns
+    /// whether any edges received were not marked on this process.
     bool take_marked_elsewhere() {
         const ProcessGroup& group = findings_.group();
         if (group.size() == 1) return false;
@@ -166,7 +166,7 @@ private:
         return !queue_.empty();
     }
 
-    /// An edge by its numbers in the whole mesh.
+    /// Marks an edge, given by its numbers in the whole mesh, if it is in view.
     void mark_if_seen(const EdgeVertices& edge) {
         const NumberList& vertices = findings_.numbers(Which::fine).vertices;
         const EdgeVertices ends{vertices.find(edge[0].value()), vertices.find(edge[1].value())};
@@ -175,7 +175,7 @@ private:
         mark(static_cast<EdgeNumber>(found - edge_ends_.begin()));
     }
 
-    /// False if nothing was marked.
+    /// Performs a level. Returns false if nothing was marked.
     bool refine_once() {
         number_edges();
         mark_edges();
@@ -197,7 +197,8 @@ private:
         children.reserve(2 * cells_.size());
         for (std::size_t c = 0; c < cells_.size(); ++c) {
             std::array<EdgeNumber, 6> edges = cell_to_edges_[c];
-            // Longest first. (By insertion: the order is strict, and six are few.)
+            // Sort by descending length. (Insertion sort: the order is strict, and there are only
+            // six.)
             for (std::size_t i = 1; i < 6; ++i) {
                 for (std::size_t k = i; k > 0 && is_longer(edges[k], edges[k - 1]); --k) {
                     std::swap(edges[k], edges[k - 1]);
@@ -234,7 +235,7 @@ private:
         failed_ = true;
         if (!fine_.owns(edge)) return;
         findings_.add(Code::missing_bisection, [&]() -> Findings::Description {
-            return {{entity(edge)}, "not bisected", "bisected: the closure has marked it"};
+            return {{entity(edge)}, "not bisected", "bisected: marked by closure"};
         });
     }
 
@@ -246,22 +247,21 @@ private:
             for (const auto& [i, j] : cell_edges) {
                 const EdgeVertices edge{cell.vertices[i], cell.vertices[j]};
                 if (lines_.is_whole(edge[0], edge[1])) continue;
-                if (lines_.midpoint(edge[0], edge[1]).is_none()) continue;  // no edge at all
+                if (lines_.midpoint(edge[0], edge[1]).is_none()) continue;  // not an edge
                 explained = true;
                 std::uint32_t& seen = reported.at(edge[0], edge[1]);
                 if (seen != EdgeTable::absent) continue;
                 seen = 1;
                 if (!fine_.owns(edge)) continue;
                 findings_.add(Code::needless_bisection, [&]() -> Findings::Description {
-                    return {
-                        {entity(edge)}, "bisected", "left whole: the closure has not marked it"};
+                    return {{entity(edge)}, "bisected", "not bisected: not marked by closure"};
                 });
             }
             if (explained || !judged_coarse_.owns(coarse_.cells[cell.root])) continue;
             findings_.add(Code::wrong_pattern, [&]() -> Findings::Description {
                 return {{entity(cell.vertices), entity(cell.root, Which::coarse)},
-                        "no cell, though none of its edges is bisected",
-                        "a cell, as bisection by the longest edges makes it"};
+                        "no cell, although none of its edges is bisected",
+                        "a cell, created by longest-edge bisection"};
             });
         }
     }
@@ -277,11 +277,11 @@ private:
     std::vector<Cell> cells_;
     std::vector<EdgeVertices> edge_ends_;
     std::vector<std::array<EdgeNumber, 6>> cell_to_edges_;
-    std::vector<std::size_t> edge_begin_;  ///< of each edge, into edge_to_cells_
+    std::vector<std::size_t> edge_begin_;  ///< for each edge, its begin in edge_to_cells_
     std::vector<std::uint32_t> edge_to_cells_;
     std::vector<char> marked_;
     std::vector<EdgeNumber> queue_;
-    std::vector<EdgeNumber> unsent_;  ///< marked, and the other processes do not know
+    std::vector<EdgeNumber> unsent_;  ///< marked, but not yet sent to other processes
     std::vector<VertexIndex> midpoints_;
     bool failed_ = false;
 };

@@ -34,8 +34,9 @@ public:
     }
 
 private:
-    /// What the coarse mesh has not, nothing can inherit; what the fine mesh has not counts as 0,
-    /// or as listing nothing, unless `lost` says why it cannot have any.
+    /// Runs a check unless the coarse mesh has no such data, which then cannot be inherited. If the
+    /// fine mesh has none, it counts as 0, or as an empty list, unless `lost` gives a reason why it
+    /// cannot have any.
     void check(std::string_view name, bool coarse_has_none, bool fine_has_none, auto&& judge,
                std::string_view lost = {}) {
         coarse_has_none = !any(findings_.group(), !coarse_has_none);
@@ -55,7 +56,7 @@ private:
         });
     }
 
-    /// The tag of an entity; 0 where the mesh has no such tags.
+    /// Returns the tag of an entity, or 0 if the mesh has no such tags.
     template <class I>
     static Marker tag_at(const IndexVector<I, Marker>& tags, I i) {
         return tags.empty() ? 0 : tags[i];
@@ -75,10 +76,10 @@ private:
         }
     }
 
-    // A facet may be listed more than once, with different markers. What is compared is how often
-    // a face is listed, and with which markers, against the coarse face that it is a piece of.
+    // A facet may be listed repeatedly, with different markers. The multiset of markers with which
+    // a face is listed is compared with that of the coarse face of which it is a piece.
 
-    /// The markers of the entities with these tags, ascending.
+    /// Returns the markers of the entities with these tags, ascending.
     template <class I, class Entries>
     static std::vector<Marker> markers_of(const Entries& entries,
                                           const IndexVector<I, Marker>& markers) {
@@ -161,8 +162,8 @@ private:
         append_pieces(m, b, pieces);
     }
 
-    /// A midpoint of a tagged edge has its marker; else the smallest of the tagged facets that its
-    /// edge lies on; else 0.
+    /// A midpoint of a tagged edge has the marker of this edge; otherwise the smallest marker of
+    /// the tagged facets that contain its edge; otherwise 0.
     void vertex_markers() {
         IndexVector<VertexIndex, Marker> expected(fine_.points.size(), 0);
         std::vector<char> known(fine_.points.size(), 0);
@@ -189,7 +190,8 @@ private:
         }
     }
 
-    /// A new vertex in the inside of a coarse face, or on its border, halves an edge of it.
+    /// A new vertex in the interior of a coarse face, or on its border, is the midpoint of an edge
+    /// of it.
     void take_markers_of_facets(auto&& take) {
         if (coarse_.facet_markers.empty()) return;
         const auto tagged = buckets_of(coarse_.facets, coarse_.points.size());

@@ -7,39 +7,39 @@
 
 #include <octetra/core/mesh.hpp>
 
-/// Are two meshes the same?
+/// Comparison of two meshes, up to the numbering of their entities.
 namespace octetra::verify {
 
 enum class Likeness : std::uint8_t {
-    identical,        ///< entity by entity, number by number, with the same signs of zeros
-    up_to_numbering,  ///< the same vertices, cells, tags and lists, of equal values, with other
-                      ///< numbers or other signs of zeros
+    identical,        ///< equal entity by entity, including the signs of zeros
+    up_to_numbering,  ///< the same vertices, cells, tags and lists, with equal values, but
+                      ///< different numbering or signs of zeros
     different,
 };
 
-/// Something that one mesh has and the other has not, or has with another tag.
+/// An entity that only one of the meshes has, or that has different tags in them.
 struct Difference {
     std::string kind;            ///< "vertex", "cell", "facet" or "edge"
-    std::vector<Point> corners;  ///< where it is
-    std::string in_a;            ///< what it is there: "absent", "region 2", ...
+    std::vector<Point> corners;  ///< coordinates of its vertices
+    std::string in_a;            ///< its state there: "absent", "region 2", ...
     std::string in_b;
 };
 
 struct Comparison {
     Likeness likeness = Likeness::identical;
-    /// They would be identical if both counted from the same number.
+    /// The meshes would be identical if both had the same index base.
     bool only_index_base_differs = false;
-    /// They would be identical if coordinates and attributes that are -0 were 0.
+    /// The meshes would be identical if coordinates and attributes of -0 were 0.
     bool only_signs_of_zeros_differ = false;
     std::uint64_t difference_count = 0;
-    std::vector<Difference> differences;  ///< the first of each kind, in order of coordinates
+    std::vector<Difference> differences;  ///< the first ones of each kind, by coordinates
 };
 
-/// Compares two meshes that satisfy the first line of the invariants of struct Mesh (indices in
-/// range, coordinates finite). Vertices are told apart by coordinates (-0 equals 0), markers and
-/// attributes; where that does not do, by their neighbours' neighbours' neighbours. Of a cell the
-/// order of corners matters as far as it turns it over. Up to `kept` differences of each kind are
-/// described, all are counted.
+/// Compares two meshes that satisfy the first invariant of struct Mesh (indices in range,
+/// coordinates finite). Vertices are matched by coordinates (-0 equals 0), markers and attributes;
+/// vertices for which these coincide, by their neighbourhood up to distance three. The order of a
+/// cell's corners matters only up to even permutations. All differences are counted; up to `kept`
+/// of each kind are described.
 [[nodiscard]] Comparison compare(const Mesh& a, const Mesh& b, std::size_t kept = 10);
 
 }  // namespace octetra::verify

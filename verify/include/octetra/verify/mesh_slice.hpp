@@ -10,7 +10,7 @@
 
 namespace octetra::verify {
 
-/// How many entities a whole mesh has.
+/// The numbers of entities of a whole mesh.
 struct Totals {
     std::uint64_t vertices = 0;
     std::uint64_t cells = 0;
@@ -18,15 +18,16 @@ struct Totals {
     std::uint64_t edges = 0;  ///< tagged ones
 };
 
-/// What one process has of a mesh that is in several memories: of each list a stretch, process
-/// after process. Of `count` entities process r of n has those from slice_begin(count, r, n) on.
+/// The part of a distributed mesh that one process holds: a contiguous slice of each list, in the
+/// order of ranks. Of `count` entities, process r of n holds those from slice_begin(count, r, n)
+/// on.
 struct MeshSlice {
-    Mesh lists;  ///< the stretches; vertices are numbered as in the whole mesh
+    Mesh lists;  ///< the slices; vertices have global numbers
     Totals totals;
 };
 
-/// All `count` entities of a kind, in slices of equal length for `size` processes; the last ones
-/// are shorter, or empty.
+/// Returns the window of all `count` entities of a kind, in slices of equal length for `size`
+/// processes; the last slices are shorter or empty.
 [[nodiscard]] constexpr Window slices_of(std::uint64_t count, int size) {
     const auto n = static_cast<std::uint64_t>(size);
     return {0, (count + n - 1) / n, count};
@@ -35,18 +36,19 @@ struct MeshSlice {
     return slices_of(count, size).begin_of(rank);
 }
 
-/// Collective. The slices of a mesh that the first process has; it must pass the first line of the
-/// invariants of struct Mesh, but for indices out of range. What the others pass is not looked at.
+/// Collective. Distributes the slices of a mesh held by the first process, which must satisfy the
+/// first invariant of struct Mesh except that indices may be out of range. The arguments of other
+/// processes are ignored.
 [[nodiscard]] MeshSlice share_out(const Mesh& mesh, const ProcessGroup& group);
 
-/// Collective. The slices of a mesh file, which the first process reads and hands on as it goes.
-/// Of the options only `note` is looked at, as by stream_mesh(). Throws, on all processes, as that
-/// does.
+/// Collective. Returns the slices of a mesh file, which the first process reads and distributes
+/// without holding all of it. Only the option `note` is used, as by stream_mesh(). Throws the
+/// errors of stream_mesh() on all processes.
 [[nodiscard]] MeshSlice read_slice(const std::filesystem::path& path, const ReadOptions& options,
                                    const ProcessGroup& group);
 
-/// Collective in the mesh's group, whose processes are those of the verifier's. The slices of a
-/// mesh in several memories.
+/// Collective in the mesh's group, whose processes must be those of the verifier's group. Returns
+/// the slices of a distributed mesh.
 [[nodiscard]] MeshSlice slice_of(MeshSource& mesh);
 
 }  // namespace octetra::verify

@@ -10,42 +10,44 @@
 
 namespace octetra::verify {
 
-/// Which cells may go, one step each, and how often that was asked for.
+/// The cells that coarsening was allowed to remove, by one step each, and the number of
+/// repetitions.
 struct CoarseningRequest {
-    /// `cells` are those of the mesh before, in the order of files, and go with one level alone.
+    /// `cells` are indices in the mesh before coarsening, in file order; allowed only with a single
+    /// level.
     Selection may_go;
-    bool outside = false;  ///< rather all cells that the selection does not mark
-    /// The criteria judge the coarser mesh afresh each time, until nothing changes.
+    bool outside = false;  ///< select the cells that `may_go` does not mark instead
+    /// The criteria are applied to the coarser mesh each time, until nothing changes.
     int levels = 1;
 };
 
-/// For each step, of each cell before it, the edges that the step bisected: six bits, in the order
-/// of cell_edges. Cells stand in the order of files: children where their parent stood, in the
-/// order of the bisection. What a checkpoint holds.
+/// For each step and each cell before it, the edges that the step bisected: six bits, in the order
+/// of cell_edges. Cells are in file order: children in the place of their parent, in the order of
+/// bisection. These are the contents of a checkpoint.
 using StepCuts = std::vector<std::vector<std::uint8_t>>;
 
-/// Judges `after` as what coarsening leaves of the mesh that these steps have made of `input`.
+/// Verifies `after` as the result of coarsening the mesh that these steps created from `input`.
 ///
-/// A valid verdict proves what that of verify_refinement(input, after) proves, and
-///  - the vertices are those of the mesh before that the rules of coarsening keep, and no others.
-///    With levels: what the rules, applied so often, keep. A vertex stays that a cell has which may
-///    not go, or which has a vertex of a later step (a); and a midpoint of the longest edge of a
-///    face of which another edge's midpoint, of the same step, stays (b);
-///  - each cell is one of the mesh before, or a union of such that a step, or as many as there are
-///    levels, have cut it into;
-///  - and it is the one that bisection by the longest edges makes of the edges whose midpoints
-///    stay.
-/// No numbers are judged: vertices are found by number, if `after` has those that stay in their
-/// order, else by place. (Where vertices lie at one place, as at a crack, other numbers than those
-/// may be taken for one another, and the right mesh refused.)
+/// A valid verdict proves the properties of verify_refinement(input, after), and
+///  - the vertices are exactly those of the mesh before that the rules of coarsening keep, applied
+///    `levels` times. A vertex is kept if it belongs to a cell that may not go, or to a cell that
+///    has a vertex of a later step (a); and if it is the midpoint of the longest edge of a face
+///    another edge of which has a midpoint, of the same step, that is kept (b);
+///  - each cell is a cell of the mesh before, or a union of cells into which one step, or at most
+///    as many steps as there are levels, divided it;
+///  - each cell is the one that longest-edge bisection creates from the edges whose midpoints are
+///    kept.
+/// The numbering is not verified: vertices are matched by number if `after` has the kept vertices
+/// in their order, otherwise by coordinates. (If vertices coincide, for instance at a crack, and
+/// numbers differ, vertices may be confused, and a correct mesh rejected.)
 ///
-/// Of the steps it is taken for true that they were made; that they fit the mesh, agree on the
-/// edges that cells share, and are closed is checked: else it throws InputError. So it does where
-/// cells are listed that there are not, or with more than a level, or for more vertices than can be
-/// numbered. `options.request` is not looked at.
+/// The steps are assumed to have been made. Throws InputError if they do not fit the mesh, disagree
+/// on edges shared by cells or are not closed; if the request lists cells that do not exist, or any
+/// with more than one level; or if there are more vertices than can be numbered. `options.request`
+/// is ignored.
 ///
-/// Takes the time of verify_refinement(), and for each step and level some passes through the
-/// cells; the memory of the mesh before and of all the cells that its steps have cut.
+/// Time: that of verify_refinement(), and some passes over the cells for each step and level.
+/// Memory: the mesh before, and all cells that its steps divided.
 [[nodiscard]] Verdict verify_coarsening(const Mesh& input, const StepCuts& steps,
                                         const CoarseningRequest& request, const Mesh& after,
                                         const VerifyOptions& options = {});

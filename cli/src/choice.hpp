@@ -11,11 +11,12 @@
 
 namespace octetra::cli {
 
-/// A word that an option takes, and what it means.
+/// A value of an option and its meaning.
 template <class T>
 using Word = std::pair<std::string_view, T>;
 
-/// What `text` means as the value of `option`. Throws InputError, which names the words there are.
+/// Returns the meaning of `text` as the value of `option`. Throws InputError, which lists the valid
+/// words.
 template <class T, std::size_t N>
 [[nodiscard]] T parse_choice(std::string_view option, const std::string& text,
                              const std::array<Word<T>, N>& words) {

@@ -5,7 +5,7 @@
 
 namespace octetra::cli {
 
-/// A count for people: 1234567 as "1,234,567".
+/// Formats a count with separators: 1234567 as "1,234,567".
 [[nodiscard]] std::string grouped(std::uint64_t count);
 
 }  // namespace octetra::cli

@@ -12,7 +12,7 @@
 namespace octetra::cli {
 namespace {
 
-/// Takes a number off the beginning of [next, end).
+/// Removes a number from the beginning of [next, end).
 template <class Number>
 std::errc take_number(const char*& next, const char* end, Number& number) {
     if (next != end && *next == '+' && next + 1 != end && next[1] != '-') ++next;
@@ -29,7 +29,7 @@ Number parse_number(std::string_view option, std::string_view text, const Range<
     const char* next = text.data();
     const char* const end = next + text.size();
     const std::errc error = take_number(next, end, number);
-    // Not a number (nan) is neither less nor greater.
+    // NaN is neither less nor greater.
     if (error == std::errc{} && next == end && number >= range.low && number <= range.high) {
         return number;
     }
@@ -49,7 +49,7 @@ std::vector<double> parse_reals(const std::string& text, std::size_t count, std:
     std::vector<double> numbers;
     const char* next = text.data();
     const char* const end = next + text.size();
-    bool another = true;  // a comma asks for another number
+    bool another = true;  // whether a comma announces another number
     while (another) {
         double number = 0;
         if (take_number(next, end, number) != std::errc{} || !std::isfinite(number)) break;

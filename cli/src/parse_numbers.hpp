@@ -5,11 +5,11 @@
 #include <string_view>
 #include <vector>
 
-/// Numbers on the command line, as in mesh files: decimal, with nothing before or after them, and
-/// none that only becomes one by overflow or underflow.
+/// Numbers on the command line, with the same syntax as in mesh files: decimal, without surrounding
+/// text, and without overflow or underflow.
 namespace octetra::cli {
 
-/// What an option takes: numbers from `low` to `high`, which `words` says, as in "0 to 50".
+/// The range of an option: numbers from `low` to `high`, described by `words`, as in "0 to 50".
 template <class Number>
 struct Range {
     Number low;
@@ -17,14 +17,14 @@ struct Range {
     std::string words;
 };
 
-/// The number that `text` is as the value of `option`: a double, or a whole number of 32 or 64
-/// bits. Throws InputError, which says what the option takes and that it is not `text`.
+/// Parses `text` as the value of `option`: a double, or an integer of 32 or 64 bits. Throws
+/// InputError, which states the valid range and `text`.
 template <class Number>
 [[nodiscard]] Number parse_number(std::string_view option, std::string_view text,
                                   const Range<Number>& range);
 
-/// The `count` finite numbers of "1,2.5,-3". `option` and `form` are for the InputError that
-/// anything else gets, as in `--sphere X,Y,Z,R`.
+/// Parses "1,2.5,-3" into `count` finite numbers. Throws InputError, which contains `option` and
+/// `form`, as in `--sphere X,Y,Z,R`.
 [[nodiscard]] std::vector<double> parse_reals(const std::string& text, std::size_t count,
                                               std::string_view option, std::string_view form);
 

@@ -19,7 +19,7 @@
 #include "terminal.hpp"
 #include "usage_errors.hpp"
 
-#ifdef __GLIBC__  // which only a header of the library says
+#ifdef __GLIBC__  // defined by the library's headers
 #include <malloc.h>
 #endif
 
@@ -27,27 +27,26 @@ namespace octetra::cli {
 namespace {
 
 extern "C" void remove_files_and_end(int signal) {
-    if (!remove_unfinished_files(signal)) return;  // it will come again
+    if (!remove_unfinished_files(signal)) return;  // the signal will be raised again
     std::signal(signal, SIG_DFL);
     std::raise(signal);
 }
 
 void handle_signals() {
-    // Beyond a limit on file sizes a write then fails like one to a full disk, and is cleaned up
-    // after, rather than that the signal ends the program.
+    // If a file exceeds the size limit, the write fails, as on a full disk, and is cleaned up,
+    // instead of the signal terminating the program.
     std::signal(SIGXFSZ, SIG_IGN);
-    // Output to a pipe without a reader is lost, but the work goes on and files are written.
+    // Output to a pipe without a reader is lost, but the run continues and files are written.
     std::signal(SIGPIPE, SIG_IGN);
     for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
-        // Who is started to ignore a signal, as by nohup, goes on ignoring it.
+        // A signal that was ignored at program start, as by nohup, remains ignored.
         if (std::signal(signal, remove_files_and_end) == SIG_IGN) std::signal(signal, SIG_IGN);
     }
 }
 
-/// The memory of a large array that is not needed any more goes back to the system at once rather
-/// than when it suits the allocator: the peak counts where ranks share a machine. What is small
-/// stays for what comes next: being given pages again, and cleared, would take a step of a loop as
-/// long as all else.
+/// Returns the memory of large freed arrays to the system immediately, because the peak matters if
+/// ranks share a machine. Small blocks are kept for reuse: page faults and clearing of pages would
+/// otherwise take as long as a step of a loop.
 void give_back_freed_memory() {
 #ifdef __GLIBC__
     constexpr int large = 32 << 20;
@@ -61,7 +60,7 @@ int fail(Status status, std::string_view what, const distributed::Communicator& 
     return static_cast<int>(status);
 }
 
-/// What one process met alone, and the others may be waiting for it.
+/// Reports an error of this process alone, for which other processes may be waiting.
 int fail_alone(std::string_view what, const distributed::MpiSession& session) {
     constexpr auto status = static_cast<int>(Status::system_failed);
     const distributed::Communicator& world = session.world();

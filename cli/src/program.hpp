@@ -2,7 +2,7 @@
 
 namespace octetra::cli {
 
-/// Exit statuses of every subcommand.
+/// The exit statuses of all subcommands.
 enum class Status {
     done = 0,           ///< done, or the answer is yes
     no = 1,             ///< the answer is no
@@ -10,7 +10,7 @@ enum class Status {
     system_failed = 3,  ///< memory, disk, standard output
 };
 
-/// The program: reads the command line, runs the subcommand, prints what went wrong on stderr as
+/// Runs the program: parses the command line, runs the subcommand, prints errors to stderr as
 /// "octetra: ...". Returns the exit status.
 int run(int argc, char** argv);
 

@@ -4,7 +4,7 @@
 
 namespace octetra::cli {
 
-/// Wall-clock seconds since it was made or last read.
+/// Wall-clock seconds since construction or the last lap.
 class Stopwatch {
 public:
     [[nodiscard]] double lap() {

@@ -15,14 +15,14 @@ namespace {
 
 bool is_closed(int stream) { return ::fcntl(stream, F_GETFD) < 0 && errno == EBADF; }
 
-/// Has the reader of the pipe closed it?
+/// Returns whether the reader of the pipe has closed it.
 bool is_without_reader(int stream) {
     pollfd state{stream, POLLOUT, 0};
     return ::poll(&state, 1, 0) == 1 && (state.revents & POLLERR) != 0;
 }
 
 void print_to(std::FILE* stream, std::string_view text) {
-    // What fails here is remembered by the stream.
+    // Errors are recorded in the stream.
     (void)std::fwrite(text.data(), 1, text.size(), stream);
 }
 
@@ -31,8 +31,8 @@ void print_to(std::FILE* stream, std::string_view text) {
 void hold_closed_streams() {
     for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
         if (!is_closed(stream)) continue;
-        // Open the wrong way round: whoever reads or writes fails, as with a closed stream. The
-        // lowest free number is given out, which is this one.
+        // Opened in the wrong mode, so that reading or writing fails as with a closed stream.
+        // open() returns the lowest free descriptor, which is this one.
         const int wrong_way = stream == STDIN_FILENO ? O_WRONLY : O_RDONLY;
         if (::open("/dev/null", wrong_way) != stream) {
             std::_Exit(static_cast<int>(Status::system_failed));

@@ -6,16 +6,16 @@
 
 #include <fmt/format.h>
 
-/// What the program says: results on stdout, messages on stderr. Nothing here throws because a
-/// stream cannot be written. Of stdout that is found in the end, by stdout_was_written(); of stderr
-/// there is nobody left to tell.
+/// Output of the program: results on stdout, messages on stderr. Errors of a stream do not throw.
+/// Those of stdout are detected at the end by stdout_was_written(); those of stderr cannot be
+/// reported.
 namespace octetra::cli {
 
-/// Call it before any file is opened. Keeps the numbers of standard streams that are closed from
-/// files: the first file to be opened would have the number of stdout, and results in it.
+/// Must be called before any file is opened. Reserves the descriptors of closed standard streams:
+/// otherwise the first file opened would receive the descriptor of stdout, and results in it.
 void hold_closed_streams();
 
-/// Takes the text as it is.
+/// Prints the text unmodified.
 void print_text(std::string_view text);
 
 template <class... Values>
@@ -23,15 +23,15 @@ void print(fmt::format_string<const Values&...> format, const Values&... values)
     print_text(fmt::format(format, values...));
 }
 
-/// Has everything been written that was printed so far? A pipe whose reader has closed it, as head
-/// does, counts as written: the reader has all that it asked for.
+/// Returns whether all output has been written. A pipe closed by its reader, as by head, counts as
+/// written.
 [[nodiscard]] bool stdout_was_written();
 
 void print_error_text(std::string_view text);
 void print_error_line(std::string_view message);
 
-/// A message on stderr, in one piece and in one line: "octetra: ...". Line ends and the like, which
-/// names of files may have, are shown as \x0a. For short messages no memory is needed.
+/// Prints a message to stderr in a single write and line: "octetra: ...". Control characters, which
+/// file names may contain, are shown as \x0a. Short messages allocate no memory.
 template <class... Values>
 void tell(fmt::format_string<const Values&...> format, const Values&... values) {
     fmt::memory_buffer message;

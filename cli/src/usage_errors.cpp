@@ -10,7 +10,7 @@
 namespace octetra::cli {
 namespace {
 
-/// The subcommand that was read, and its name with those before it: "octetra refine".
+/// The innermost subcommand parsed, and its name with those before it: "octetra refine".
 struct Innermost {
     const CLI::App* app;
     std::string name;
@@ -25,12 +25,12 @@ Innermost innermost(const CLI::App& program) {
     return found;
 }
 
-/// The command that takes what this one does not know, or null.
+/// Returns the command that accepts options unknown to this one, or null.
 const CLI::App* falls_through_to(const CLI::App& app) {
     return app.get_fallthrough() ? app.get_parent() : nullptr;
 }
 
-/// The words that no command could place.
+/// Returns the words that no command accepted.
 std::vector<std::string> words_left(const CLI::App& innermost) {
     std::vector<std::string> words;
     for (const CLI::App* app = &innermost; app != nullptr && words.empty();
@@ -40,7 +40,7 @@ std::vector<std::string> words_left(const CLI::App& innermost) {
     return words;
 }
 
-/// How many characters have to be put in, left out or replaced to make one word of the other.
+/// Returns the edit distance: the number of insertions, deletions and replacements of characters.
 std::size_t distance(std::string_view a, std::string_view b) {
     std::vector<std::size_t> row(b.size() + 1);
     std::iota(row.begin(), row.end(), std::size_t{0});
@@ -56,7 +56,8 @@ std::size_t distance(std::string_view a, std::string_view b) {
     return row.back();
 }
 
-/// The name among these that somebody may have meant, or nothing.
+/// Returns the closest of these names, if it is close enough to be a misspelling, or an empty
+/// string.
 std::string meant_by(std::string_view word, const std::vector<std::string>& names) {
     constexpr std::size_t most = 2;
     std::string best;
@@ -76,7 +77,7 @@ bool is_option(std::string_view word) {
            std::string_view(".0123456789").find(word[1]) == std::string_view::npos;
 }
 
-/// And no subcommand of it, or step of a script.
+/// Returns whether the command is the program, not a subcommand or a step of a script.
 bool is_octetra(const CLI::App& app) {
     return app.get_parent() == nullptr && app.get_require_subcommand_min() > 0;
 }
@@ -102,7 +103,7 @@ std::string unknown_subcommand(const Innermost& command, const std::string& word
     }
     const std::string is_none =
         is_octetra(*command.app)
-            ? fmt::format("'{}' is none of {}", word, fmt::join(names, ", "))
+            ? fmt::format("'{}' is not one of {}", word, fmt::join(names, ", "))
             : fmt::format("{} takes one of {}, not '{}'", command.app->get_name(),
                           fmt::join(names, ", "), word);
     return is_none + did_you_mean(word, names);
@@ -113,13 +114,12 @@ std::string unexpected_word(const Innermost& command, std::string_view word) {
         word.find_first_not_of("0123456789.-+eE") == std::string_view::npos &&
         command.app->get_option_no_throw("--sphere") != nullptr;
     return fmt::format("{} does not expect '{}'{}", command.app->get_name(), word,
-                       is_coordinate
-                           ? "; what belongs to one option is one word with commas, as in "
-                             "--sphere X,Y,Z,R"
-                           : "");
+                       is_coordinate ? "; the values of an option are one word with commas, as in "
+                                       "--sphere X,Y,Z,R"
+                                     : "");
 }
 
-/// What stands in `text` behind `before` and ends where `after` ends it; else nothing.
+/// Returns the part of `text` between `before` and a final `after`; empty if there is none.
 std::string between(std::string_view text, std::string_view before, std::string_view after) {
     const auto begin = text.find(before);
     if (begin == std::string_view::npos || !text.ends_with(after)) return {};
@@ -127,14 +127,14 @@ std::string between(std::string_view text, std::string_view before, std::string_
     return std::string(text.substr(0, text.size() - after.size()));
 }
 
-/// "-n, --parts", of an option that goes by both.
+/// Returns "-n, --parts" for an option with a short and a long name.
 std::string both_names(const CLI::App& command, const std::string& name) {
     const CLI::Option* const option = command.get_option_no_throw(name);
     if (option == nullptr || option->get_snames().empty()) return name;
     return fmt::format("-{}, {}", option->get_snames().front(), name);
 }
 
-/// What CLI11 says of an option that is not there, or has too few values, or too many.
+/// Rewords CLI11's messages on missing options and wrong numbers of values.
 std::string in_plain_words(const CLI::App& command, std::string_view said) {
     if (const std::string name = between(said, "", " is required"); name.starts_with("--")) {
         return both_names(command, name) + " is required";
@@ -144,7 +144,7 @@ std::string in_plain_words(const CLI::App& command, std::string_view said) {
         return fmt::format("--{} takes no value", option);
     }
     if (const std::string value = between(said, ": 1 required ", " missing"); !value.empty()) {
-        return fmt::format("{} lacks its value, {}", option, value);
+        return fmt::format("{} requires a value, {}", option, value);
     }
     if (const std::string given = between(said, " required but received ", ""); !given.empty()) {
         const std::string most = between(said.substr(0, said.find(" required")), ": At Most ", "");
@@ -154,21 +154,22 @@ std::string in_plain_words(const CLI::App& command, std::string_view said) {
     return std::string(said);
 }
 
-/// What is to be said where an option took the name of another for its value; else nothing.
+/// Returns the message for an option that took the name of another as its value, or an empty
+/// string.
 std::string taken_for_a_value(const CLI::App& command) {
     for (const CLI::Option* option : command.get_options()) {
         for (const std::string& word : option->results()) {
             const std::string name = word.substr(0, word.find('='));
             if (!is_option(name) || command.get_option_no_throw(name) == nullptr) continue;
-            return fmt::format("{} lacks its value, {}: {} is an option", option->get_name(),
+            return fmt::format("{} requires a value, {}: {} is an option", option->get_name(),
                                option->get_type_name(), name);
         }
     }
     return {};
 }
 
-/// CLI11 lists what it could not place from the last to the first, and asks for a subcommand where
-/// there is a word in its place.
+/// CLI11 lists unaccepted words in reverse order, and requests a subcommand even if there is an
+/// unknown word in its place.
 std::string what_is_wrong(const Innermost& command, const CLI::ParseError& error) {
     if (std::string what = taken_for_a_value(*command.app); !what.empty()) return what;
     const std::vector<std::string> words = words_left(*command.app);

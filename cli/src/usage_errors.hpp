@@ -8,13 +8,13 @@
 
 namespace octetra::cli {
 
-/// What is wrong with a command line that was refused, and where to read more, in two lines.
+/// Returns two lines: the error in a rejected command line, and where to find help.
 [[nodiscard]] std::string usage_error(const CLI::App& program, const CLI::ParseError& error);
 
-/// The first of the two.
+/// Returns the first of the two lines.
 [[nodiscard]] std::string usage_fault(const CLI::App& program, const CLI::ParseError& error);
 
-/// "; did you mean NAME?" of the name among these that somebody may have meant, or nothing.
+/// Returns "; did you mean NAME?" with the closest of these names, or an empty string.
 [[nodiscard]] std::string did_you_mean(std::string_view word,
                                        const std::vector<std::string>& names);
 

@@ -311,11 +311,13 @@ TEST_F(Adapt, RefusesWhatTheReferenceCannotDo) {
     const std::string refine = "refine --all\n";
     run("convert kuhn.mesh kuhn.octetra");
     for (const auto& [mesh, script, options, words] : std::vector<std::array<std::string, 4>>{
-             {"kuhn.octetra", refine, "-o r.mesh", "saves no history"},
-             {"kuhn.mesh", refine, "-o r.octetra", "saves no history"},
+             {"kuhn.octetra", refine, "-o r.mesh", "records no history"},
+             {"kuhn.mesh", refine, "-o r.octetra", "records no history"},
              {"kuhn.mesh", refine + "save r.octetra\n", "-o r.mesh", "s.txt:2: --engine reference"},
-             {"kuhn.mesh", refine, "-o r.mesh --verify", "do not go with --engine reference"},
-             {"kuhn.mesh", refine, "-o r.mesh --partition rcb", "--engine reference works on one"},
+             {"kuhn.mesh", refine, "-o r.mesh --verify",
+              "cannot be combined with --engine reference"},
+             {"kuhn.mesh", refine, "-o r.mesh --partition rcb",
+              "--engine reference, which uses one"},
              {"kuhn.mesh", "refine --region 3\n", "-o r.mesh", "s.txt:1: --region"},
              {"kuhn.mesh", refine, "-o r.mesh --max-cells 9", "s.txt:1: level 1 would"},
              {"kuhn.mesh", refine + "refine --all --levels 2", "-o r.mesh --max-cells 30000",

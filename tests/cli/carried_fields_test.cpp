@@ -191,8 +191,8 @@ TEST_F(CarriedFields, StayOnVerticesAndAreMeansOfCellsThatBecomeOne) {
     for (const int ranks : {0, 3}) {
         const auto outcome = run("coarsen s.octetra --all -o t.octetra", ranks);
         EXPECT_EQ(outcome.err,
-                  "octetra: note: fields 'n', 'but one' are dropped: cells that became one had "
-                  "different whole numbers\n");
+                  "octetra: note: fields 'n', 'but one' are dropped: merged cells had different "
+                  "whole numbers\n");
         const State after = load("t.octetra");
         EXPECT_EQ(names_of(after), (std::vector<std::string>{"u", "v", "id", "ID", "p", "q", "N"}));
         ASSERT_EQ(after.mesh.cells().size(), 384U);
@@ -249,7 +249,7 @@ TEST_F(CarriedFields, ThatTheFormatCannotHoldAreNamed) {
     add_fields("m.octetra", "s.octetra");
     EXPECT_EQ(
         run("refine s.octetra --sphere 9,9,9,1 -o t.mesh").err,
-        "octetra: note: no cell was marked: the mesh stays as it is\n"
+        "octetra: note: no cell was marked: the mesh is unchanged\n"
         "octetra: note: fields 'u', 'v', 'id', 'ID', 'N' are not in t.sol, which holds reals, "
         "and whole numbers of 32 bits, of 1, 3, 6 or 9 components; fields 'p', 'q', 'n' are "
         "stored in t.sol in order, without a name\n");
@@ -319,8 +319,8 @@ TEST_F(CarriedFields, StateOfAProgramIsKeptByConvertAndMissedWithANoteElsewhere)
     EXPECT_TRUE(test::content_of(folder / "copy.octetra") ==
                 test::content_of(folder / "s.octetra"));
     const std::string missed =
-        "octetra: note: the result has no time, step and text, which a program saved in "
-        "s.octetra\n";
+        "octetra: note: the result does not contain the time, step and text that a program saved "
+        "in s.octetra\n";
     for (const std::string command :
          {"convert s.octetra t.vtu", "refine s.octetra --all -o t.octetra",
           "coarsen s.octetra --all --levels 0 -o t.octetra"}) {

@@ -107,17 +107,17 @@ TEST_F(Checkpoints, KeepTheirHistoryWhenCopied) {
 TEST_F(Checkpoints, AreWhatCoarseningTakesAndOthersAreRefused) {
     run("refine m.ele --all -o f.octetra");
     expect_refused("coarsen m.ele --all -o c.octetra",
-                   "m.ele has no history that could be taken back: coarsening takes a .octetra "
-                   "file, as octetra refine or adapt with -o FILE.octetra writes");
+                   "m.ele has no refinement history: coarsening requires a .octetra file, as "
+                   "written by octetra refine or adapt with -o FILE.octetra");
     expect_refused("coarsen f.octetra -o c.octetra",
-                   "say which cells may go: --all, --cells, --sphere, --box, --region, --random or "
-                   "--max-volume");
+                   "specify which cells to coarsen: --all, --cells, --sphere, --box, --region, "
+                   "--random or --max-volume");
     expect_refused("coarsen f.octetra --all -o f.octetra",
                    "-o would write over f.octetra of MESH; choose another name");
     for (const std::string files : {"m.ele -o g.octetra", "f.octetra -o g.ele"}) {
         expect_refused("refine --engine reference --all " + files,
-                       "--engine reference knows no history, so it does not go with .octetra "
-                       "files: leave it out; the other engine makes the same mesh");
+                       "--engine reference does not support history and cannot be combined with "
+                       ".octetra files: omit it; the default engine makes the same mesh");
     }
     (void)folder.write("bad.octetra", "no checkpoint");
     for (const std::string command :

@@ -64,7 +64,7 @@ TEST(Convert, WritesTheMshThatIsAskedFor) {
     EXPECT_EQ(test::octetra("convert cube.mesh a.msh --msh-format 3", folder).err,
               "octetra: --msh-format takes one of 4.1, 4.1-text, 2.2, 2.2-text, not '3'\n");
     EXPECT_EQ(test::octetra("convert cube.mesh a.vtu --msh-format 2.2", folder).err,
-              "octetra: --msh-format is of .msh files, and a.vtu is none\n");
+              "octetra: --msh-format applies only to .msh files, not a.vtu\n");
 }
 
 TEST(Convert, ToAFullDiskEndsInStatus3) {

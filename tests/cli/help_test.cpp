@@ -132,7 +132,7 @@ TEST(BadUsage, NamesTheWordThatIsNoSubcommand) {
     EXPECT_THAT(
         test::octetra("frobnicate gear.1.ele -o x.ele", folder).err,
         StartsWith(
-            "octetra: 'frobnicate' is none of refine, adapt, coarsen, info, generate, convert, "
+            "octetra: 'frobnicate' is not one of refine, adapt, coarsen, info, generate, convert, "
             "partition, verify, compare; see octetra --help\n"));
     EXPECT_THAT(test::octetra("generate sphear -o x.ele", folder).err,
                 StartsWith("octetra: generate takes one of kuhn, bcc, regular, random, slivers, "
@@ -158,8 +158,8 @@ TEST(BadUsage, NamesTheWordThatIsNotExpected) {
     EXPECT_EQ(said("b.ele"), "octetra: refine does not expect 'b.ele'" + see_help);
     for (const char* words :
          {"--sphere 1 0 0 .4", "--sphere -1 0 0 .4", "--sphere 1, 0 0 .4", "--sphere 1,1,1,1 0"}) {
-        EXPECT_THAT(said(words), StartsWith("octetra: refine does not expect '0'; what belongs to "
-                                            "one option is one word with commas, as in --sphere "
+        EXPECT_THAT(said(words), StartsWith("octetra: refine does not expect '0'; the values of an "
+                                            "option are one word with commas, as in --sphere "
                                             "X,Y,Z,R; see octetra refine --help\n"))
             << words;
     }

@@ -233,7 +233,7 @@ TEST_F(MeditFields, AreNotWrittenOverWhatIsRead) {
     EXPECT_THAT(refusal("refine m.mesh --fields m.mesh --all -o u.mesh"),
                 HasSubstr("--fields: m.mesh: files of values end in .sol or .solb"));
     EXPECT_THAT(refusal("refine m.mesh --fields m.sol --all --engine reference -o u.mesh"),
-                HasSubstr("--engine reference knows no fields"));
+                HasSubstr("--engine reference does not support fields"));
 }
 
 TEST_F(MeditFields, AreWrittenWithTheMeshOrNoneOfBothIs) {

@@ -90,7 +90,7 @@ TEST_F(Parallel, EndsInOneMessageAndTheSameStatusOnAllRanks) {
          "octetra: parts.txt: 2 part numbers"},
         {"refine gear.1.ele --all --partition metis -o p.ele", "octetra: --partition takes"},
         {"refine gear.1.ele --all -o no/p.ele", "octetra: no/p.ele: "},
-        {"refine gear.1.ele -o p.ele", "octetra: say which cells"},
+        {"refine gear.1.ele -o p.ele", "octetra: specify which cells"},
         {"refine gear.1.ele --nonsense -o p.ele", "octetra: "},
         {"refine gear.1.ele --all --levels 9 --max-cells 99999 -o p.ele",
          "octetra: gear.1.ele: level 2 would make 198592 cells, more than the 99999 allowed"},

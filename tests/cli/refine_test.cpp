@@ -252,10 +252,9 @@ TEST(Refine, RefusesOptionsThatTheReferenceHasNoUseFor) {
         const std::string refine = "refine cube.ele --all -o f.ele --engine reference ";
         const auto run = test::octetra(refine + option, folder);
         EXPECT_EQ(run.status, 2) << option;
-        EXPECT_EQ(
-            run.err,
-            "octetra: --partition, --sync and --rebalance say how ranks share the work; --engine "
-            "reference works on one\n")
+        EXPECT_EQ(run.err,
+                  "octetra: --partition, --sync and --rebalance cannot be combined with --engine "
+                  "reference, which uses one rank\n")
             << option;
         EXPECT_FALSE(std::filesystem::exists(folder / "f.ele"));
     }

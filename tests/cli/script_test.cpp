@@ -54,12 +54,12 @@ const std::vector<WrongLine> wrong_lines{
      "mean "
      "refine?"},
     {"--all", "a step begins with one of refine, coarsen, rebalance, save, write, not '--all'"},
-    {"rebalance --all", "rebalance takes no options, and here is --all"},
+    {"rebalance --all", "rebalance takes no options, but --all was given"},
     {"refine",
-     "say which cells to refine: --all, --cells, --sphere, --box, --region, --random or "
+     "specify which cells to refine: --all, --cells, --sphere, --box, --region, --random or "
      "--max-volume"},
     {"coarsen --outside",
-     "say which cells may go: --all, --cells, --sphere, --box, --region, --random or "
+     "specify which cells to coarsen: --all, --cells, --sphere, --box, --region, --random or "
      "--max-volume"},
     {"refine --levels 2 --sphere 0,0,0,1 --spere 1",
      "refine has no option --spere; did you mean --sphere?"},
@@ -82,14 +82,13 @@ const std::vector<WrongLine> wrong_lines{
     {"coarsen --all --scheme 4t", "coarsen has no option --scheme; did you mean --sphere?"},
     {"refine all", "refine does not expect 'all'"},
     {"refine --all=1", "--all takes no value"},
-    {"refine --all --levels", "--levels lacks its value, L:0 to 50"},
+    {"refine --all --levels", "--levels requires a value, L:0 to 50"},
     {"refine --all --levels 1.5", "--levels takes a whole number from 0 to 50, not '1.5'"},
     {"coarsen --all --levels 51", "--levels takes a whole number from 0 to 50, not '51'"},
     {"refine --sphere 0,0,0", "--sphere takes 4 finite numbers as X,Y,Z,R, not '0,0,0'"},
     {"refine --sphere 0,0,0,-1", "--sphere: the radius is negative: 0,0,0,-1"},
     {"coarsen --random 2", "--random takes a number from 0 to 1, not '2'"},
-    {"refine --all --seed 1",
-     "--seed is that of --random, which is not given: --random 0.1 --seed 7"},
+    {"refine --all --seed 1", "--seed requires --random, as in --random 0.1 --seed 7"},
     {"refine --all --scheme 3t", "--scheme takes one of 8t, 4t, 2t, not '3t'"},
     {"refine --region 1", "--region: the cells of this mesh have no region tags"},
     {"coarsen --region 1", "--region: the cells of this mesh have no region tags"},
@@ -97,8 +96,8 @@ const std::vector<WrongLine> wrong_lines{
     {"coarsen --cells words.txt",
      "words.txt:2: a cell number should be a whole number from 0, not 'x'"},
     {"coarsen --cells cells.txt --levels 2",
-     "--cells numbers the cells of one mesh, and --levels coarsens others, too; give one of the "
-     "two"},
+     "--cells refers to the cells of one mesh, but --levels also coarsens later ones; give only "
+     "one of the two"},
     {"write", "write takes one word, the name of a file without blanks: write STEP.vtu"},
     {"write \"a b.vtu\"",
      "write takes one word, the name of a file without blanks: write STEP.vtu"},
@@ -175,9 +174,9 @@ TEST_F(Script, HasItsLevelsNamedAlsoBehindAHistory) {
 
 TEST_F(Script, SaysWhetherNothingWasMarkedOrNothingCouldGo) {
     EXPECT_EQ(adapt("refine --all\ncoarsen --sphere 9,9,9,1\n").err,
-              "octetra: note: s.txt:2: no cell was marked: the mesh stays as it is\n");
+              "octetra: note: s.txt:2: no cell was marked: the mesh is unchanged\n");
     EXPECT_EQ(adapt("refine --all\ncoarsen --all --levels 2\n").err,
-              "octetra: note: s.txt:2: no vertex could go any more after level 1 of 2\n");
+              "octetra: note: s.txt:2: no vertex could be removed any more after level 1 of 2\n");
 }
 
 TEST_F(Script, WithoutAStepIsRefused) {
@@ -231,9 +230,9 @@ TEST_F(Script, SaysWhatItsStepsDidAndWhereTheyDidNothing) {
         "write step.mesh\n");
     EXPECT_EQ(run.status, 0);
     EXPECT_EQ(run.err,
-              "octetra: note: s.txt:2: no cell was marked: the mesh stays as it is\n"
-              "octetra: note: s.txt:3: no vertex could go any more after level 1 of 3\n"
-              "octetra: note: s.txt:4: --levels 0: the mesh stays as it is\n");
+              "octetra: note: s.txt:2: no cell was marked: the mesh is unchanged\n"
+              "octetra: note: s.txt:3: no vertex could be removed any more after level 1 of 3\n"
+              "octetra: note: s.txt:4: --levels 0: the mesh is unchanged\n");
     for (const std::string line :
          {"read m.mesh                               27 vertices            48 cells ",
           "s.txt:1 refined, 1 level                 125 vertices           384 cells ",

@@ -159,19 +159,18 @@ TEST_F(Usage, OfNamesAndWordsIsToldInOneLine) {
     const std::string refine = "refine m.ele --all -o out.mesh ";
     for (const std::string option : {"--maps", "--profile", "--trace", "--cells"}) {
         expect_refused(refine + option, "",
-                       option + ": '' is no name of a file; see octetra refine --help");
+                       option + ": '' is not a file name; see octetra refine --help");
     }
     expect_refused("refine m.ele --all -o", "",
-                   "--output: '' is no name of a file; see octetra refine --help");
-    expect_refused("info", "", "MESH: '' is no name of a file; see octetra info --help");
-    expect_refused("convert m.ele", "", "OUT: '' is no name of a file; see octetra convert --help");
-    expect_refused("compare m.ele", "", "B: '' is no name of a file; see octetra compare --help");
-    expect_refused("verify m.ele", "",
-                   "REFINED: '' is no name of a file; see octetra verify --help");
+                   "--output: '' is not a file name; see octetra refine --help");
+    expect_refused("info", "", "MESH: '' is not a file name; see octetra info --help");
+    expect_refused("convert m.ele", "", "OUT: '' is not a file name; see octetra convert --help");
+    expect_refused("compare m.ele", "", "B: '' is not a file name; see octetra compare --help");
+    expect_refused("verify m.ele", "", "REFINED: '' is not a file name; see octetra verify --help");
     expect_refused("verify m.ele --report", "",
-                   "--report: '' is no name of a file; see octetra verify --help");
+                   "--report: '' is not a file name; see octetra verify --help");
     expect_refused("partition m.ele -n 2 -o", "",
-                   "--output: '' is no name of a file; see octetra partition --help");
+                   "--output: '' is not a file name; see octetra partition --help");
     expect_refused(refine + "--scheme", "", "--scheme takes one of 8t, 4t, 2t, not ''");
     expect_refused(refine + "--engine", "x",
                    "--engine takes one of distributed, reference, not 'x'");
@@ -191,8 +190,8 @@ TEST_F(Usage, OfNamesAndWordsIsToldInOneLine) {
 TEST_F(Usage, OfTooFewAndTooManyValuesIsToldInOneLine) {
     const std::string refine = "refine m.ele -o out.mesh ";
     expect_refused(refine, "--levels",
-                   "--levels lacks its value, L:0 to 50; see octetra refine --help");
-    expect_refused(refine, "--maps", "--maps lacks its value, FILE; see octetra refine --help");
+                   "--levels requires a value, L:0 to 50; see octetra refine --help");
+    expect_refused(refine, "--maps", "--maps requires a value, FILE; see octetra refine --help");
     expect_refused(refine + "--all --levels 1", "--levels=2",
                    "--levels takes no more than 1 value, not 2; see octetra refine --help");
     expect_refused(refine, "--all=3", "--all takes no value; see octetra refine --help");
@@ -205,9 +204,9 @@ TEST_F(Usage, OfTooFewAndTooManyValuesIsToldInOneLine) {
                    "--output: '=x.mesh' begins with =; leave it out, or write ./=x.mesh; see "
                    "octetra refine --help");
     expect_refused("refine m.ele --all --profile", "-o",
-                   "--profile lacks its value, FILE: -o is an option; see octetra refine --help");
+                   "--profile requires a value, FILE: -o is an option; see octetra refine --help");
     expect_refused("adapt m.ele --script", "--output=a.ele",
-                   "--script lacks its value, FILE: --output is an option; see octetra adapt "
+                   "--script requires a value, FILE: --output is an option; see octetra adapt "
                    "--help");
     expect_refused("generate kuhn 2", "--sise",
                    "kuhn has no option --sise; did you mean --size? See octetra generate kuhn "

@@ -81,9 +81,10 @@ TEST_F(VerifyCoarsened, EndsWithStatus1WhereOtherCellsMightGo) {
                                     HasSubstr("; expected gone: all cells at it may go"),
                                     HasSubstr("NOT VALID\n")));
     }
-    EXPECT_THAT(run(1, judge + "--sphere 0.5,0.5,0.5,0.25").out,
-                AllOf(HasSubstr("\nvertex_went: "), HasSubstr("  previous vertex "),
-                      HasSubstr("found gone; expected there: this cell has it, and may not go")));
+    EXPECT_THAT(
+        run(1, judge + "--sphere 0.5,0.5,0.5,0.25").out,
+        AllOf(HasSubstr("\nvertex_went: "), HasSubstr("  previous vertex "),
+              HasSubstr("found gone; expected kept: it belongs to this cell, which may not go")));
     run(1, judge + "--outside --sphere 0.5,0.5,0.5,0.3");
     run(1, judge + "--sphere 0.5,0.5,0.5,0.3 --levels 2");
     run(1, judge + "--sphere 0.5,0.5,0.5,0.3 --levels 0 --report r.json");
@@ -107,7 +108,7 @@ TEST_F(VerifyCoarsened, NamesVerticesAsTheirFilesDo) {
         run(0, judge);
         EXPECT_THAT(run(1, judge + " --levels 0 --report r.json").out,
                     HasSubstr("  previous vertex " + std::to_string(first_midpoint + base) +
-                              ": found gone; expected there: it could go at no level\n"));
+                              ": found gone; expected kept: no level could remove it\n"));
         const auto report = nlohmann::json::parse(test::content_of(folder / "r.json"));
         EXPECT_EQ(report["violations"][0]["entities"][0]["number"], first_midpoint + base);
     }
@@ -117,21 +118,21 @@ TEST_F(VerifyCoarsened, TakesWhatCoarsenTakesAndRefusesTheRest) {
     (void)folder.write("cells.txt", "1 2");
     const std::string from = " --coarsened-from fine.octetra";
     expect_refused("m.ele" + from,
-                   "say which cells may go: --all, --cells, --sphere, --box, --region, --random or "
-                   "--max-volume");
+                   "specify which cells to coarsen: --all, --cells, --sphere, --box, --region, "
+                   "--random or --max-volume");
     expect_refused("m.ele --coarsened-from m.ele --all",
                    "--coarsened-from: m.ele has no history: it takes a .octetra file, as octetra "
                    "coarsen does");
     expect_refused("m.ele m.ele --all" + from,
-                   "verify: --coarsened-from takes one mesh, the one after, not two");
+                   "verify: --coarsened-from takes one mesh, the coarsened one, not two");
     expect_refused("m.ele --all --scheme 8t" + from,
-                   "verify: --scheme says how cells were refined, not how they went back");
+                   "verify: --scheme applies to refinement, not to coarsening");
     expect_refused("m.ele --all --maps maps.txt" + from,
-                   "verify: --maps can only be checked of COARSE and REFINED");
-    expect_refused("m.ele m.ele --all --outside", "verify: --outside goes with --coarsened-from");
+                   "verify: --maps can be checked only with COARSE and REFINED");
+    expect_refused("m.ele m.ele --all --outside", "verify: --outside requires --coarsened-from");
     expect_refused("m.ele --cells cells.txt --levels 2" + from,
-                   "--cells numbers the cells of one mesh, and --levels coarsens others, too; give "
-                   "one of the two");
+                   "--cells refers to the cells of one mesh, but --levels also coarsens later "
+                   "ones; give only one of the two");
     (void)folder.write("cells.txt", "99999999");
     EXPECT_THAT(run(2, "verify m.ele --cells cells.txt" + from).err,
                 HasSubstr("octetra: cells.txt"));

@@ -40,7 +40,7 @@ TEST_F(Verify, FindsWhatWeMakeValid) {
     EXPECT_THAT(run.out, HasSubstr("fine.1.ele as a refinement of gear.1.ele: valid"));
     EXPECT_EQ(run.err, "");
     EXPECT_THAT(expect_status(0, "verify gear.1.ele fine.1.ele --fast").out,
-                HasSubstr("gear.1.ele: valid, as far as --fast looks\n"));
+                HasSubstr("gear.1.ele: valid, as far as --fast checks\n"));
     expect_status(0, "verify gear.1.ele fine.1.ele --min-dihedral 10");
 }
 
@@ -173,8 +173,8 @@ TEST_F(Verify, SaysWhatAnOptionTakes) {
 
 TEST_F(Verify, SaysWhoseNumbersTheyAreWhereFilesCountFromDifferentOnes) {
     const std::string whose =
-        "Numbers are those of fine.mesh, which counts from 1; of what is called coarse, those of "
-        "gear.1.ele, from 0.";
+        "Numbers refer to fine.mesh, which counts from 1; those of coarse entities refer to "
+        "gear.1.ele, which counts from 0.";
     expect_status(0, "convert fine.1.ele fine.mesh");
     EXPECT_THAT(expect_status(1, "verify gear.1.ele fine.mesh --all").out, HasSubstr(whose));
     EXPECT_THAT(expect_status(0, "verify gear.1.ele fine.mesh").out, Not(HasSubstr("Numbers")));

@@ -30,7 +30,7 @@ using reference::CellMarks;
 using reference::History;
 using reference::Refinement;
 
-/// Each cell is its own parent.
+/// Returns the mesh with identity maps: each cell is its own parent.
 Refinement as_input(const Mesh& mesh) {
     Refinement refinement{mesh, {}};
     for (CellIndex c{0}; c < mesh.cells.end_index(); ++c) {
@@ -43,7 +43,7 @@ bool is_any_marked(const CellMarks& marks) {
     return std::ranges::any_of(marks, [](char mark) { return mark != 0; });
 }
 
-/// A mesh, and how its input was made into it.
+/// A mesh and the history that created it from its input.
 class AdaptedByReference {
 public:
     AdaptedByReference(Mesh input, std::uint64_t max_cells)
@@ -52,7 +52,7 @@ public:
           max_cells_(max_cells) {}
 
     [[nodiscard]] const Mesh& mesh() const { return refined_.mesh; }
-    /// Returns what of the mesh the format cannot hold, in sentences.
+    /// Writes the mesh. Returns sentences naming the data that the format cannot hold.
     [[nodiscard]] std::vector<std::string> write(const std::string& path) const {
         WholeMesh source(refined_.mesh, &refined_.maps);
         std::string lost = write_mesh(source, path);
@@ -60,9 +60,10 @@ public:
         return {std::move(lost)};
     }
 
-    /// How many levels changed anything.
+    /// Returns the number of levels that changed the mesh.
     int refine(const Selection& selection, Scheme scheme, int levels) {
-        // A list of cells means those of the mesh before the first level, and their descendants.
+        // A list of cells refers to the mesh before the first level, and to their descendants
+        // later.
         Refinement since = as_input(mesh());
         return repeat(levels, [&] {
             const CellMarks marks = reference::marked_cells(since, selection);
@@ -76,7 +77,7 @@ public:
         });
     }
 
-    /// The same. `is_any` gets whether the last level marked any cell.
+    /// As above, for coarsening. Sets `is_any` to whether the last level marked any cell.
     int coarsen(const Selection& selection, bool outside, int levels, bool& is_any) {
         return repeat(levels, [&] {
             CellMarks marks = reference::marked_cells(as_input(mesh()), selection);
@@ -89,7 +90,8 @@ public:
     }
 
 private:
-    /// Takes levels of a step until one changes nothing. Returns how many changed anything.
+    /// Repeats levels of a step until one changes nothing. Returns the number that changed the
+    /// mesh.
     int repeat(int levels, const std::function<bool()>& take_level) {
         const bool was_changed = is_changed_;
         for (int level = 1; level <= levels; ++level) {
@@ -103,7 +105,7 @@ private:
         return levels;
     }
 
-    /// The parent of each cell after refinement of the marked cells.
+    /// Returns the parent of each cell after refinement of the marked cells.
     [[nodiscard]] static IndexVector<CellIndex, CellIndex> parents_after(const Mesh& mesh,
                                                                          const CellMarks& marks,
                                                                          Scheme scheme) {
@@ -114,7 +116,7 @@ private:
         return reference::refine(mesh, listed, scheme, 1).maps.cell_to_parent;
     }
 
-    /// Did it change anything?
+    /// Replaces the history; returns whether this changes the mesh.
     bool take(History next) {
         if (next.steps == history_.steps) return false;
         refined_ = std::move(reference::replay(next, max_cells_).back());
@@ -124,12 +126,12 @@ private:
     }
 
     History history_;
-    Refinement refined_;  ///< the mesh, and the maps from the input to it
+    Refinement refined_;  ///< the mesh, with the maps from its input
     std::uint64_t max_cells_;
-    bool is_changed_ = false;  ///< by any level
+    bool is_changed_ = false;  ///< whether any level changed the mesh
 };
 
-/// What a step does.
+/// Executes a step with the serial reference.
 class ReferenceRunner {
 public:
     explicit ReferenceRunner(AdaptedByReference& adapted) : adapted_(&adapted) {}
@@ -169,12 +171,12 @@ void refuse_what_the_reference_lacks(const AdaptationOptions& options, const Scr
     if (!options.input.fields.empty() || !options.series.empty() || options.verify ||
         !options.profile.profile.empty() || !options.profile.trace.empty()) {
         throw InputError(
-            "--fields, --series, --verify, --profile and --trace do not go with --engine "
-            "reference, which makes the mesh alone");
+            "--fields, --series, --verify, --profile and --trace cannot be combined with --engine "
+            "reference, which creates only the mesh");
     }
     constexpr std::string_view reason =
-        "--engine reference saves no history, so it does not go with .octetra files; the other "
-        "engine makes the same mesh";
+        "--engine reference records no history and cannot be combined with .octetra files; the "
+        "default engine makes the same mesh";
     if (is_checkpoint(options.input.path) || is_checkpoint(options.output)) {
         throw InputError(std::string(reason));
     }

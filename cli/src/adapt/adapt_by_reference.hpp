@@ -5,9 +5,9 @@
 
 namespace octetra::cli {
 
-/// Reads the mesh, runs the steps by the serial reference and writes the result, the same bytes as
-/// adapt(). Not collective: of several processes the first one does it, and the others wait. Throws
-/// InputError as adapt(), and for options and files that ask for more than a mesh.
+/// Reads the mesh, runs the steps with the serial reference and writes the result, bitwise the same
+/// as adapt(). Not collective: runs on the first process while others wait. Throws InputError as
+/// adapt(), and for options and files that involve more than a mesh.
 void adapt_by_reference(const AdaptationOptions& options, const Script& script);
 
 }  // namespace octetra::cli

@@ -40,8 +40,8 @@
 namespace octetra::cli {
 namespace {
 
-/// Collective. The mesh as it was read and as each step leaves it, one after the other in one file,
-/// if that is asked for. Steps are counted from 1.
+/// Collective. Writes the series of meshes, if requested: the input and the result of each step.
+/// Steps are counted from 1.
 class Series {
 public:
     Series(const std::string& path, const distributed::Communicator& world) {
@@ -65,7 +65,7 @@ private:
     int steps_ = 0;
 };
 
-/// Collective.
+/// Collective. Writes the result and reports it.
 void write_and_report(const distributed::AdaptiveMesh& mesh,
                       const std::vector<distributed::Field>& fields,
                       const AdaptationOptions& options, Stopwatch& watch) {
@@ -77,7 +77,8 @@ void write_and_report(const distributed::AdaptiveMesh& mesh,
                 watch.lap());
 }
 
-/// Collective. By rcb unless another method is asked for: then no process has all of the input.
+/// Collective. Loads a checkpoint, partitioned by rcb unless another method is given, so that no
+/// process holds the whole input.
 distributed::AdaptiveMesh load(const AdaptationOptions& options,
                                const distributed::Communicator& world,
                                std::vector<distributed::Field>& fields) {
@@ -87,8 +88,8 @@ distributed::AdaptiveMesh load(const AdaptationOptions& options,
         world, options.input.path, is_given ? partition_of(options.parallel) : rcb, &fields);
 }
 
-/// Collective. What is known of a checkpoint before it is loaded, on the first process; its steps
-/// fit it then.
+/// Collective. Returns the facts of a checkpoint before it is loaded, on the first process, and
+/// checks the steps against them.
 MeshFacts facts_of_checkpoint(const std::string& path, const Script& script,
                               const distributed::Communicator& world) {
     const distributed::Phase phase(world, "read");
@@ -106,8 +107,8 @@ MeshFacts facts_of_checkpoint(const std::string& path, const Script& script,
     return read;
 }
 
-/// Collective. MESH in parts for the steps to come. `read` gets what is known of it, on the first
-/// process.
+/// Collective. Reads MESH into parts, weighted by the steps of the script. Sets `read` to its facts
+/// on the first process.
 distributed::AdaptiveMesh read_in_parts(const AdaptationOptions& options, const Script& script,
                                         const distributed::Partition& partition,
                                         const distributed::Communicator& world, MeshFacts& read) {
@@ -123,7 +124,8 @@ distributed::AdaptiveMesh read_in_parts(const AdaptationOptions& options, const 
         {.read = read_options(options.input), .on_facts = check, .weigh = weigh}));
 }
 
-/// Collective. What the result is to be a refinement of: what a history began with, or the mesh.
+/// Collective. Returns the mesh of which the result is to be a refinement: the input of the
+/// history, or the mesh.
 JudgedMesh input_to_judge(const distributed::AdaptiveMesh& mesh, const AdaptationOptions& options) {
     if (!is_checkpoint(options.input.path)) return mesh_to_judge(mesh, options.input.path);
     Mesh input;
@@ -133,7 +135,7 @@ JudgedMesh input_to_judge(const distributed::AdaptiveMesh& mesh, const Adaptatio
     return {options.input.path, index_base, std::move(slice)};
 }
 
-/// Collective. The request that the only step is, of the mesh as it was read.
+/// Collective. Returns the request of the only step, for the mesh as it was read.
 verify::Request request_of(RefineStep step, const MeshFacts& read,
                            const distributed::Communicator& world) {
     complete_selection(step.selection, step.typed.selection,
@@ -141,7 +143,7 @@ verify::Request request_of(RefineStep step, const MeshFacts& read,
     return {step.selection, step.scheme, step.typed.levels};
 }
 
-/// Collective. Does the result keep what it claims?
+/// Collective. Returns whether the result satisfies the claim.
 bool is_valid(const distributed::AdaptiveMesh& mesh, JudgedMesh coarse,
               const AdaptationOptions& options, const Script& script, const MeshFacts& read,
               const CellsSince* since) {

@@ -13,30 +13,30 @@
 
 namespace octetra::cli {
 
-/// What --verify asks of the result.
+/// The property of the result that --verify checks.
 enum class Claim {
-    refines_input,  ///< a refinement of MESH, or of what its history began with
-    refines_mesh,   ///< of MESH, as it was read, the one that the only step asks for
-    coarsens_mesh,  ///< the coarsening of MESH that the only step asks for
+    refines_input,  ///< a refinement of MESH, or of the input of its history
+    refines_mesh,   ///< the refinement of MESH that the only step requests
+    coarsens_mesh,  ///< the coarsening of MESH that the only step requests
 };
 
-/// What the commands that adapt a mesh by steps have in common, as it was typed.
+/// Options common to the commands that adapt a mesh by steps, as given.
 struct AdaptationOptions {
     InputOptions input;
     std::string output;
     ParallelOptions parallel;
     ProfileOptions profile;
     std::uint64_t max_cells = std::numeric_limits<std::uint64_t>::max();
-    std::string series;  ///< a .vtkhdf with all steps; empty: none
-    std::string maps;    ///< of MESH, as it was read; goes with refinement alone
-    bool check = false;  ///< judge MESH, as it was read
+    std::string series;  ///< a .vtkhdf file with all steps; empty: none
+    std::string maps;    ///< maps of MESH, as it was read; only for refinement
+    bool check = false;  ///< verify MESH, as it was read
     bool verify = false;
     Claim claim = Claim::refines_input;
     bool quiet = false;
 };
 
-/// Collective, among processes that measure themselves if that is asked for. Reads the mesh, or its
-/// history, runs the steps, judges and writes the result. Throws AnswerIsNo if it is not valid.
+/// Collective. `world` is measured if profiling was requested. Reads the mesh or its history, runs
+/// the steps, and verifies and writes the result. Throws AnswerIsNo if it is not valid.
 void adapt(const AdaptationOptions& options, const Script& script,
            const distributed::Communicator& world);
 

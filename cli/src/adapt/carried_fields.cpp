@@ -14,7 +14,7 @@ namespace {
 using distributed::Adaptation;
 using distributed::Field;
 
-/// Of coarsening. Had cells that became one the same?
+/// For coarsening: returns whether all cells that were merged had equal values.
 template <class T>
 bool are_kept(const std::vector<T>& pieces, const std::vector<T>& wholes, std::size_t components,
               const distributed::EntityTransfer& cells) {
@@ -27,7 +27,7 @@ bool are_kept(const std::vector<T>& pieces, const std::vector<T>& wholes, std::s
     return true;
 }
 
-/// Carries one field on this process; false where it cannot be.
+/// Transfers a field on this process; returns false if that is impossible.
 bool carry(Field& field, const Adaptation& step) {
     const auto carry_values = [&]<class T>(std::vector<T>& values) {
         if (field.on == FieldOn::vertices) {
@@ -46,7 +46,7 @@ bool carry(Field& field, const Adaptation& step) {
     return std::visit(carry_values, field.values);
 }
 
-/// "field 'a' is", "fields 'a', 'b' are".
+/// Returns "field 'a' is" or "fields 'a', 'b' are".
 std::string named_fields(const std::vector<std::string>& names) {
     std::string list;
     for (const std::string& name : names) {
@@ -80,7 +80,7 @@ std::vector<std::string> carry_fields(std::vector<Field>& fields, const Adaptati
     }
     if (!on_cells.empty()) {
         dropped.push_back(named_fields(on_cells) +
-                          " dropped: cells that became one had different whole numbers");
+                          " dropped: merged cells had different whole numbers");
     }
     return dropped;
 }

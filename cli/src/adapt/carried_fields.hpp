@@ -10,19 +10,19 @@
 
 namespace octetra::cli {
 
-/// Collective. Carries the fields of a checkpoint over a step:
-///  - on vertices, to a midpoint the mean of the edge's ends. Whole numbers have none: such a field
-///    is dropped by a step of refinement;
-///  - on cells, to each piece of a cell its value. Pieces that become one give it their value where
-///    all have the same, else their mean, the same on any number of processes. Of whole numbers
-///    there is no mean: a field where such pieces differ is dropped.
-/// What is dropped is dropped on all processes. Returns the names of those fields and why, in a
-/// sentence each; nothing if all were carried.
+/// Collective. Transfers the fields of a checkpoint over a step:
+///  - on vertices, a midpoint gets the mean of the edge's ends. Integers have no mean: refinement
+///    drops such a field;
+///  - on cells, each piece gets the value of the cell. A merged cell gets the value of its pieces
+///    if all are equal, otherwise their mean, the same on any number of processes. For integers, a
+///    field whose pieces differ is dropped.
+/// A field is dropped on all processes or on none. Returns a sentence for each reason, with the
+/// names of the fields dropped.
 [[nodiscard]] std::vector<std::string> carry_fields(std::vector<distributed::Field>& fields,
                                                     const distributed::Adaptation& step,
                                                     const distributed::Communicator& world);
 
-/// Collective. Brings the fields along with cells that went to other processes.
+/// Collective. Moves field values along with migrated cells.
 void carry_fields(std::vector<distributed::Field>& fields, const distributed::Migration& move);
 
 }  // namespace octetra::cli

@@ -9,8 +9,7 @@
 namespace octetra::cli {
 namespace {
 
-/// The vertices of a cell by their numbers in the whole mesh, ascending. No two cells have the
-/// same.
+/// The vertices of a cell by their numbers in the whole mesh, ascending. Unique for each cell.
 using CellKey = VertexNumbers<4>;
 
 CellKey key_of(CellKey vertices) {
@@ -23,12 +22,13 @@ struct NumberedCell {
     std::uint64_t number;
 };
 
-/// The process where who knows a cell's number meets who asks for it.
+/// Returns the rendezvous rank of a cell.
 std::size_t meeting_place(const CellKey& key, std::size_t ranks) {
     return static_cast<std::size_t>((key[0] + key[1] + key[2] + key[3]) % ranks);
 }
 
-/// Collective. All cells with their numbers, where they are asked for, by key.
+/// Collective. Sends all cells with their numbers to their rendezvous ranks; returns those
+/// received, sorted by key.
 std::vector<NumberedCell> bring_numbers(const distributed::AdaptiveMesh& mesh) {
     const distributed::Communicator& world = mesh.processes();
     const auto ranks = static_cast<std::size_t>(world.size());

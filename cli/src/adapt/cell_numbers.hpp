@@ -7,8 +7,8 @@
 
 namespace octetra::cli {
 
-/// Collective. Of each cell of this process, the number that a file of the mesh as it is now gives
-/// it, from 0. Takes memory in proportion to the part.
+/// Collective. Returns, for each cell of this process, its number in a file of the current mesh,
+/// from 0. Memory is proportional to the part.
 [[nodiscard]] std::vector<std::uint64_t> cell_numbers(const distributed::AdaptiveMesh& mesh);
 
 }  // namespace octetra::cli

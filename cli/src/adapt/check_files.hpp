@@ -7,8 +7,8 @@
 
 namespace octetra::cli {
 
-/// Refuses outputs that cannot be written, or would take the place of an input or of each other.
-/// Throws InputError.
+/// Throws InputError for outputs that cannot be written, or that would overwrite an input or each
+/// other.
 void check_files(const AdaptationOptions& options, const Script& script,
                  const distributed::Partition& partition, int ranks);
 

@@ -19,8 +19,8 @@ constexpr std::size_t described_of_each_code = 100;
 
 void note_unchecked(const std::string& coarse) {
     note(
-        fmt::format("of {} itself, orientation and faces were checked, not whether cells overlap: "
-                    "octetra verify {} does",
+        fmt::format("of {} itself, only orientation and faces were checked, not whether cells "
+                    "overlap: use octetra verify {}",
                     coarse, coarse));
 }
 

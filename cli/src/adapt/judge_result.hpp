@@ -9,35 +9,35 @@
 
 #include "commands/verify/coarsened.hpp"
 
-/// --verify of commands whose result is an AdaptiveMesh. Where the result is not valid, functions
-/// say why on stdout.
+/// --verify, for commands whose result is an AdaptiveMesh. If the result is not valid, the
+/// functions print the reason to stdout.
 namespace octetra::cli {
 
-/// The mesh as it is, as the verifier takes it.
+/// The current mesh in the form that the verifier takes.
 struct JudgedMesh {
-    std::string name;  ///< for people
+    std::string name;  ///< for messages
     std::uint32_t index_base = 0;
     verify::MeshSlice slice;
 };
 
-/// Collective.
+/// Collective. Returns the current mesh for the verifier.
 [[nodiscard]] JudgedMesh mesh_to_judge(const distributed::AdaptiveMesh& mesh, std::string name);
 
-/// What a mesh is judged as.
+/// The property to be verified.
 struct Judgement {
-    std::optional<verify::Request> request;  ///< or any refinement by midpoints
-    const RefinementMaps* maps = nullptr;    ///< checked if given
-    std::string fine;                        ///< its name, for people
-    bool is_coarse_checked = false;          ///< has --check judged the coarse mesh?
+    std::optional<verify::Request> request;  ///< if not set: any refinement by midpoints
+    const RefinementMaps* maps = nullptr;    ///< checked if not null
+    std::string fine;                        ///< its name, for messages
+    bool is_coarse_checked = false;          ///< whether --check has verified the coarse mesh
 };
 
-/// Collective. Judges a mesh in several memories as a refinement of another, as octetra verify
-/// does; no process has all of it.
+/// Collective. Verifies a distributed mesh as a refinement of another, as octetra verify does; no
+/// process holds the whole mesh.
 [[nodiscard]] bool is_valid_refinement(const distributed::AdaptiveMesh& fine, JudgedMesh coarse,
                                        const Judgement& judgement);
 
-/// Collective. Judges what coarsening has left of a checkpoint, as octetra verify --coarsened-from
-/// does: the first process works, and has all of it.
+/// Collective. Verifies the result of coarsening a checkpoint, as octetra verify --coarsened-from
+/// does: the first process works, and holds the whole mesh.
 [[nodiscard]] bool is_valid_coarsening(const distributed::AdaptiveMesh& after,
                                        const Coarsened& asked, const std::string& name);
 

@@ -39,7 +39,7 @@ std::span<const VertexNumbers<4>> MapsSince::cells(const Window& window) {
     return mesh_.whole().cells(window);
 }
 
-/// Vertices keep their numbers, so those since then stand behind those before.
+/// Vertices keep their numbers, so new midpoints follow the earlier ones.
 std::span<const VertexNumbers<2>> MapsSince::midpoint_ends(const Window& window) {
     Window all = window;
     all.begin += midpoints_before_;

@@ -10,15 +10,15 @@
 
 namespace octetra::cli {
 
-/// What each cell of this process was in the mesh as it once was, by that mesh's numbers.
+/// The origin of each cell of this process in an earlier mesh, by that mesh's numbers.
 class CellsSince {
 public:
-    /// Collective. Of the mesh as it is now.
+    /// Collective. The earlier mesh is the current one.
     explicit CellsSince(const distributed::AdaptiveMesh& mesh);
 
-    /// Not collective. Follows a step of refinement.
+    /// Not collective. Updates the origins after a refinement step.
     void follow(const distributed::Adaptation& step);
-    /// Collective. Follows cells that went to other processes.
+    /// Collective. Updates the origins after a migration.
     void follow(const distributed::Migration& move);
 
     [[nodiscard]] std::uint64_t vertex_count_before() const { return vertices_; }
@@ -29,11 +29,11 @@ private:
     std::vector<std::uint64_t> parents_;
 };
 
-/// The parents of cells and the edges of midpoints since then; else the mesh as it is. For
-/// write_maps(), and who else reads maps.
+/// A source of the maps since an earlier mesh, the parents of cells and the edges of midpoints, and
+/// otherwise of the current mesh. For write_maps() and other readers of maps.
 class MapsSince final : public MeshSource {
 public:
-    /// Collective. Refers to the mesh, which must not be refined meanwhile.
+    /// Collective. Refers to the mesh, which must not be modified during its lifetime.
     MapsSince(const distributed::AdaptiveMesh& mesh, const CellsSince& since);
 
     [[nodiscard]] const MeshFacts& facts() const override { return facts_; }
@@ -48,13 +48,14 @@ private:
     distributed::CanonicalMesh mesh_;
     MeshFacts facts_;
     std::uint64_t midpoints_before_;
-    /// A cell of this process by its number now, with that of the one that it lay in.
+    /// The number of a cell of this process and that of the cell of the earlier mesh that contains
+    /// it.
     struct CellAndParent {
         std::uint64_t cell;
         std::uint64_t parent;
     };
     std::vector<CellAndParent> own_;      ///< ascending
-    std::vector<std::uint64_t> parents_;  ///< that were asked for last
+    std::vector<std::uint64_t> parents_;  ///< buffer of the slice requested last
 };
 
 }  // namespace octetra::cli

@@ -8,13 +8,14 @@
 
 namespace octetra::cli {
 
-/// Collective. A byte for each cell of this process: 1 where it is one of these cells of the whole
-/// mesh, by the numbers that a file of the mesh as it is now gives them, from 0. The same list on
-/// all processes. (A Selection would mean cells of the input.)
+/// Collective. Returns a byte for each cell of this process: 1 for the listed cells of the whole
+/// mesh, which are numbered from 0 as in a file of the current mesh. All processes pass the same
+/// list. (Selection::cells would refer to cells of the input instead.)
 [[nodiscard]] std::vector<std::uint8_t> listed_cells(const distributed::AdaptiveMesh& mesh,
                                                      const std::vector<GlobalCell>& cells);
 
-/// Sets the byte of each cell of this process that the criteria mark, but for its list of cells.
+/// Sets the byte of each cell of this process that the criteria, except for the list of cells,
+/// mark.
 void add_marked_cells(const distributed::AdaptiveMesh& mesh, const Selection& selection,
                       std::vector<std::uint8_t>& cell_to_mark);
 

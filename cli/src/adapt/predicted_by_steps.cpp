@@ -8,7 +8,7 @@ namespace octetra::cli {
 
 std::vector<float> predicted_by_steps(const distributed::CellsToWeigh& cells,
                                       const Script& script) {
-    constexpr float most = 1e9F;  // of one step, too
+    constexpr float most = 1e9F;  // also of a single step
     std::vector<float> product;
     for (const ScriptStep& step : script.steps) {
         const auto* refine = std::get_if<RefineStep>(&step.step);

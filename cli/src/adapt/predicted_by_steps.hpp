@@ -8,9 +8,9 @@
 
 namespace octetra::cli {
 
-/// Collective among the processes that have the cells. About how many cells each cell becomes by
-/// the refinements of a script, as far as its criteria tell without lists of cells; what is
-/// coarsened again is left out. Empty where all become equally many.
+/// Collective among the processes that hold the cells. Estimates the number of cells that each cell
+/// becomes by the refinement steps of a script, as far as their criteria determine this without
+/// lists of cells; coarsening is ignored. Empty if the numbers are equal for all cells.
 [[nodiscard]] std::vector<float> predicted_by_steps(const distributed::CellsToWeigh& cells,
                                                     const Script& script);
 

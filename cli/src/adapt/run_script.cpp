@@ -30,12 +30,12 @@ struct Counts {
     std::uint64_t cells = 0;
 };
 
-/// Collective.
+/// Collective. Returns the global numbers of vertices and cells.
 Counts counts_of(const AdaptiveMesh& mesh) {
     return {mesh.vertex_count(), mesh.processes().sum(mesh.cells().size())};
 }
 
-/// Collective. Of the cells of the ranks.
+/// Collective. Returns the ratio of the maximum to the mean number of cells of a rank.
 double most_over_mean(const AdaptiveMesh& mesh) {
     const std::uint64_t here = mesh.cells().size();
     const auto all = static_cast<double>(mesh.processes().sum(here));
@@ -43,9 +43,9 @@ double most_over_mean(const AdaptiveMesh& mesh) {
 }
 
 constexpr std::string_view why_not_more_even =
-    " (--series tells at each step what cells came from, so a cell of the input moves whole)";
+    " (--series records the origin of cells at each step, so cells of the input move whole)";
 
-/// Collective. What the mesh has forgotten to move cells is known again.
+/// Collective. Restores the history that was discarded to move cells.
 void recall_history(AdaptiveMesh& mesh, const ScriptRun& run) {
     while (mesh.has_forgotten_history()) {
         const distributed::Migration move = mesh.recall_history();
@@ -53,7 +53,7 @@ void recall_history(AdaptiveMesh& mesh, const ScriptRun& run) {
     }
 }
 
-/// Collective. And what was moved for it alone is even again, as far as that goes.
+/// Collective. As above, then rebalances the cells that were moved only for this.
 void recall_history_and_balance(AdaptiveMesh& mesh, const ScriptRun& run) {
     if (!mesh.has_forgotten_history()) return;
     recall_history(mesh, run);
@@ -65,7 +65,7 @@ void recall_history_and_balance(AdaptiveMesh& mesh, const ScriptRun& run) {
 
 class Runner {
 public:
-    /// `is_last` says that no step to come changes the mesh.
+    /// `is_last` means that no further step changes the mesh.
     Runner(AdaptiveMesh& mesh, const ScriptRun& run, bool is_refined_before, bool is_last)
         : mesh_(&mesh),
           run_(&run),
@@ -125,7 +125,7 @@ private:
                 is_refined_before_};
     }
 
-    /// Collective.
+    /// Collective. Completes the selection with the facts of the current mesh.
     void complete(Selection& selection, const SelectionOptions& typed) const {
         const std::uint64_t cells = counts_of(*mesh_).cells;
         const MeshFacts& input = run_->input;

@@ -13,22 +13,23 @@
 namespace octetra::cli {
 
 struct ScriptRun {
-    MeshFacts input;         ///< of the mesh before the first step
-    bool has_steps = false;  ///< has it steps behind it already?
+    MeshFacts input;         ///< facts of the mesh before the first step
+    bool has_steps = false;  ///< whether it already has a history
     distributed::StepOptions options;
-    std::optional<distributed::BalanceOptions> balance;  ///< do cells move before a level?
-    bool may_forget_history = false;  ///< to move cells, until a step or a file needs it
-    bool recalls_history = false;     ///< after the last step, if it was forgotten
-    std::function<void(const distributed::Adaptation&)> on_step = {};  ///< of each level
-    std::function<void(const distributed::Migration&)> on_move = {};   ///< of cells between ranks
-    std::function<void()> on_changed = {};  ///< after each step of refinement or coarsening
-    /// Those of the mesh as it is whenever a step writes it; these two see to that.
+    std::optional<distributed::BalanceOptions> balance;  ///< if set, cells may move before a level
+    bool may_forget_history = false;  ///< in order to move cells, until the history is needed
+    bool recalls_history = false;     ///< restore the history after the last step
+    std::function<void(const distributed::Adaptation&)> on_step = {};  ///< after each level
+    std::function<void(const distributed::Migration&)> on_move = {};   ///< after each migration
+    std::function<void()> on_changed = {};  ///< called after each refinement or coarsening step
+    /// The fields of the current mesh whenever a step writes it; on_step and on_move must keep them
+    /// so.
     const std::vector<distributed::Field>* fields = nullptr;
     bool quiet = false;
 };
 
-/// Collective. Runs the steps one after the other, and says of each what it did. What goes wrong
-/// with one is thrown with its line in front; the files of those before it stay.
+/// Collective. Runs the steps in sequence, and reports each. An error is thrown with the line of
+/// its step prepended; files written by earlier steps are kept.
 void run_script(distributed::AdaptiveMesh& mesh, const Script& script, const ScriptRun& run,
                 Stopwatch& watch);
 

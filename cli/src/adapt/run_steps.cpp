@@ -18,8 +18,8 @@ namespace {
 using distributed::Adaptation;
 using distributed::AdaptiveMesh;
 
-/// What is wrong with a step tells its level as the engine counts, from what the history began
-/// with.
+/// Runs a step. An error message contains the level counted from the input of the history; adds the
+/// level within this step.
 Adaptation naming_the_level(int level, int levels, const Followers& followers, auto&& take_step) {
     try {
         return take_step();
@@ -29,7 +29,7 @@ Adaptation naming_the_level(int level, int levels, const Followers& followers, a
     }
 }
 
-/// Takes a step, which is collective, at most so often, until it changes nothing.
+/// Repeats a collective step, at most `levels` times, until it changes nothing.
 int repeat(AdaptiveMesh& mesh, int levels, const Followers& followers, auto&& take_step) {
     for (int level = 1; level <= levels; ++level) {
         const Adaptation step = naming_the_level(level, levels, followers, take_step);
@@ -41,14 +41,15 @@ int repeat(AdaptiveMesh& mesh, int levels, const Followers& followers, auto&& ta
     return levels;
 }
 
-/// Collective.
+/// Collective. Returns the marks of the listed cells.
 std::vector<std::uint8_t> listed_or_none(const AdaptiveMesh& mesh,
                                          const std::vector<GlobalCell>& cells) {
     if (cells.empty()) return std::vector<std::uint8_t>(mesh.cells().size(), 0);
     return listed_cells(mesh, cells);
 }
 
-/// Collective. The cells of this process that a step marks as the mesh is now.
+/// Collective. Returns the marks of the cells of this process that a step selects in the current
+/// mesh.
 std::vector<std::uint8_t> may_go(const AdaptiveMesh& mesh, const CoarsenStep& step) {
     std::vector<std::uint8_t> marked = listed_or_none(mesh, step.selection.cells);
     add_marked_cells(mesh, step.selection, marked);

@@ -9,26 +9,27 @@
 
 #include "adapt/steps.hpp"
 
-/// Steps as the library makes them. The lists of cells of their selections are complete.
+/// Steps carried out by the library. The lists of cells of their selections are complete.
 namespace octetra::cli {
 
-/// Who is told of each level that changed anything; functions may be empty.
+/// Callbacks for each level that changed the mesh; functions may be empty.
 struct Followers {
     std::function<void(int level, std::uint64_t cells)> on_level;  ///< on the first process
-    std::function<void(const distributed::Adaptation&)> on_step;   ///< on all; collective
-    std::function<void(const distributed::Migration&)> on_move;    ///< before a step; the same
-    bool is_refined_before = false;  ///< had the mesh steps behind it already?
+    std::function<void(const distributed::Adaptation&)> on_step;   ///< on all processes; collective
+    std::function<void(const distributed::Migration&)> on_move;    ///< before a step; likewise
+    bool is_refined_before = false;  ///< whether the mesh already had a history
 };
 
-/// Collective. Repeats marking and refining so often as the step says; what octetra refine does to
-/// a mesh that has the same cells. A list of cells marks their descendants at later levels. Returns
-/// how many levels changed anything. `balance` says whether cells move before a level.
+/// Collective. Repeats marking and refining as often as the step requests, with the same result as
+/// octetra refine of a mesh with the same cells. A list of cells marks their descendants at later
+/// levels. Returns the number of levels that changed the mesh. If `balance` is set, cells may move
+/// before a level.
 int refine(distributed::AdaptiveMesh& mesh, const RefineStep& step,
            const distributed::StepOptions& options,
            const std::optional<distributed::BalanceOptions>& balance, const Followers& followers);
 
-/// Collective. Repeats marking and coarsening. Returns how many levels changed anything, and
-/// whether the last one marked any cell at all.
+/// Collective. Repeats marking and coarsening. Returns the number of levels that changed the mesh,
+/// and sets `is_any_marked` to whether the last one marked any cell.
 int coarsen(distributed::AdaptiveMesh& mesh, const CoarsenStep& step, const Followers& followers,
             bool& is_any_marked);
 

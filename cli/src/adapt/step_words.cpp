@@ -21,14 +21,14 @@ std::string naming_the_level(std::string_view what, int level, int levels) {
 }
 
 std::vector<std::string> idle_levels(int done, int levels, std::string_view reason) {
-    if (levels == 0) return {"--levels 0: the mesh stays as it is"};
+    if (levels == 0) return {"--levels 0: the mesh is unchanged"};
     if (done == levels) return {};
-    if (done == 0) return {fmt::format("{}: the mesh stays as it is", reason)};
+    if (done == 0) return {fmt::format("{}: the mesh is unchanged", reason)};
     return {fmt::format("{} any more after level {} of {}", reason, done, levels)};
 }
 
 std::string_view why_not_coarser(bool is_any_marked) {
-    return is_any_marked ? "no vertex could go" : "no cell was marked";
+    return is_any_marked ? "no vertex could be removed" : "no cell was marked";
 }
 
 }  // namespace octetra::cli

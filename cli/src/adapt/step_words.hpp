@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-/// What is said of a step that is done.
+/// Texts of the report on a step.
 namespace octetra::cli {
 
 struct StepDone {
@@ -14,19 +14,19 @@ struct StepDone {
     bool changes_mesh = true;
 };
 
-/// "refined, 2 levels"
+/// Returns "refined, 2 levels" etc.
 [[nodiscard]] std::string levels_done(std::string_view done, int levels);
 
-/// "  (before: 1,026, 3,103)", of the numbers of vertices and cells
+/// Returns "  (before: 1,026, 3,103)", given the numbers of vertices and cells.
 [[nodiscard]] std::string words_before(std::uint64_t vertices, std::uint64_t cells);
 
-/// The message of a failure in a level of a step that is not the first of a script.
+/// Returns the message of an error in a level of a step that is not the first of a script.
 [[nodiscard]] std::string naming_the_level(std::string_view what, int level, int levels);
 
-/// Why fewer levels than were asked for changed anything; nothing if all did.
+/// Returns the reason why fewer levels than requested changed the mesh; nothing if all did.
 [[nodiscard]] std::vector<std::string> idle_levels(int done, int levels, std::string_view reason);
 
-/// Of coarsening, the reason.
+/// Returns the reason for coarsening.
 [[nodiscard]] std::string_view why_not_coarser(bool is_any_marked);
 inline constexpr std::string_view why_not_finer = "no cell was marked";
 

@@ -8,12 +8,12 @@
 #include "commands/coarsening_options.hpp"
 #include "commands/refinement_options.hpp"
 
-/// What can be done to a mesh that knows its history.
+/// Steps that can be applied to a mesh with a history.
 namespace octetra::cli {
 
 struct RefineStep {
     RefinementOptions typed;
-    Selection selection;  ///< but for the cell list, which the mesh as it then is is needed for
+    Selection selection;  ///< without the cell list, which needs the mesh at that step
     Scheme scheme = Scheme::eight;
 };
 

@@ -8,8 +8,8 @@
 
 namespace octetra::cli {
 
-/// Collective. Writes the mesh, and its fields, as the extension says. Returns what the format
-/// cannot hold, if anything, in a sentence.
+/// Collective. Writes the mesh and its fields in the format of the extension. Returns sentences
+/// naming the data that the format cannot hold, if any.
 [[nodiscard]] std::vector<std::string> write_result(const distributed::AdaptiveMesh& mesh,
                                                     const std::vector<distributed::Field>& fields,
                                                     const std::string& path);

@@ -24,55 +24,55 @@ struct AdaptOptions {
 
 void add_adapt(CLI::App& program, const distributed::Communicator& world) {
     auto options = std::make_shared<AdaptOptions>();
-    CLI::App* command = program.add_subcommand(
-        "adapt", "Refine and coarsen a mesh, step by step, as a script says");
+    CLI::App* command =
+        program.add_subcommand("adapt", "Refine and coarsen a mesh by the steps of a script");
     add_input_options(*command, options->adaptation.input);
     add_fields_option(*command, options->adaptation.input);
     command
-        ->add_option(
-            "--script", options->script,
-            "the steps, one a line, in the order in which they are done; - for standard input")
+        ->add_option("--script", options->script,
+                     "the steps, one per line, in order of execution; - for standard input")
         ->type_name("FILE")
         ->check(names_a_file())
         ->required();
     add_output_option(*command, options->adaptation.output);
     command
-        ->add_option("--series", options->adaptation.series,
-                     "also MESH and what each step makes of it, in one file for ParaView: .vtkhdf")
+        ->add_option(
+            "--series", options->adaptation.series,
+            "also write MESH and the result of each step to one file for ParaView: .vtkhdf")
         ->type_name("FILE")
         ->check(names_a_file());
     add_number(*command, "--max-cells", options->adaptation.max_cells, whole_numbers_from(1),
-               "end in an error before a step that would make more")
+               "fail before a step that would exceed N cells")
         ->type_name("N");
-    const std::string group = "How it is done (the result is the same bytes)";
+    const std::string group = "Execution (does not change the result)";
     add_engine_option(*command, options->engine, group);
     add_partition_option(*command, options->adaptation.parallel, group);
     add_synchronisation_option(*command, options->adaptation.parallel, group);
     add_rebalance_option(*command, options->adaptation.parallel, group);
     add_profile_options(*command, options->adaptation.profile);
-    command->add_flag("--verify", options->adaptation.verify,
-                      "judge the result as a refinement of MESH, and write OUT if it is valid");
-    command->add_flag("--quiet", options->adaptation.quiet, "print nothing but notes and errors");
+    command->add_flag(
+        "--verify", options->adaptation.verify,
+        "verify the result as a refinement of MESH, and write OUT only if it is valid");
+    command->add_flag("--quiet", options->adaptation.quiet, "print only notes and errors");
     command->footer(
         "Steps, with the options of the subcommands of these names; # begins a comment:\n"
         "  refine CRITERION... [--levels L] [--scheme 8t|4t|2t]\n"
-        "  coarsen CRITERION... [--outside] [--levels L]   take refinement back, by one step a "
+        "  coarsen CRITERION... [--outside] [--levels L]   undo refinement, by one step per "
         "level,\n"
         "                                                  in these cells, or outside them\n"
-        "  rebalance                                       under mpirun: even out the ranks' "
-        "cells;\n"
+        "  rebalance                                       under mpirun: balance the cells of "
+        "ranks;\n"
         "                                                  changes no file\n"
-        "  save FILE.octetra                               the mesh as it is then, with its "
+        "  save FILE.octetra                               write the current mesh with its "
         "history\n"
-        "  write FILE                                      the same, in any format\n"
-        "--cells takes the numbers that a file written just before the step has, from 0 or 1 as\n"
-        "MESH. Names have no blanks. All lines are checked before the first step is run.\n"
-        "Fields of --fields or a .octetra go along: midpoints get means, pieces copies, cells that "
-        "become one\n"
-        "means; whole numbers that have no mean are dropped, with a note.\n"
+        "  write FILE                                      write the current mesh in any format\n"
+        "--cells uses the numbers of a file written just before the step, from 0 or 1 as in MESH.\n"
+        "Names must not contain blanks. All lines are checked before the first step is run.\n"
+        "Fields of --fields or a .octetra are transferred: midpoints get means, pieces copies,\n"
+        "merged cells means; integers that have no mean are dropped, with a note.\n"
         "Exit status: 0 done; 1 --verify finds the result not valid, and OUT is not written;\n"
         "2 bad usage or bad input; 3 the system failed: memory, disk; 128 + its number: a signal\n"
-        "ended a rank, as 137 where it was killed.\n"
+        "ended a rank, for example 137 if it was killed.\n"
         "Example:\n"
         "  octetra generate kuhn 8 -o cube.mesh\n"
         "  echo 'refine --sphere 0,0,0,0.5 --levels 2' > steps.txt\n"

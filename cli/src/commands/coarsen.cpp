@@ -23,8 +23,8 @@ void coarsen(const CoarsenOptions& options, const distributed::Communicator& wor
     const std::string& input = options.adaptation.input.path;
     if (!is_checkpoint(input)) {
         throw InputError(
-            fmt::format("{} has no history that could be taken back: coarsening takes a .octetra "
-                        "file, as octetra refine or adapt with -o FILE.octetra writes",
+            fmt::format("{} has no refinement history: coarsening requires a .octetra file, as "
+                        "written by octetra refine or adapt with -o FILE.octetra",
                         input));
     }
     AdaptationOptions adaptation = options.adaptation;
@@ -40,27 +40,27 @@ void coarsen(const CoarsenOptions& options, const distributed::Communicator& wor
 
 void add_coarsen(CLI::App& program, const distributed::Communicator& world) {
     auto options = std::make_shared<CoarsenOptions>();
-    CLI::App* command = program.add_subcommand(
-        "coarsen", "Take refinement back, by a step, in the cells that may go");
+    CLI::App* command =
+        program.add_subcommand("coarsen", "Undo refinement, by one step, in selected cells");
     command
         ->add_option("MESH", options->adaptation.input.path,
-                     "the mesh with its history: .octetra, as refine and adapt write it")
+                     "the mesh with its history: .octetra, as written by refine and adapt")
         ->type_name("")
         ->check(names_a_file())
         ->required();
     add_fields_option(*command, options->adaptation.input);
     add_output_option(*command, options->adaptation.output);
     add_coarsening_options(*command, options->coarsening,
-                           "Which cells may go (criteria add up; give at least one)");
+                           "Cells to coarsen (criteria are combined; at least one is required)");
     add_partition_option(*command, options->adaptation.parallel,
-                         "How it is done (the result is the same bytes)");
+                         "Execution (does not change the result)");
     add_profile_options(*command, options->adaptation.profile);
     command->add_flag(
         "--verify", options->adaptation.verify,
-        "judge the result as octetra verify --coarsened-from does, and write it if it is valid");
-    command->add_flag("--quiet", options->adaptation.quiet, "print nothing but notes and errors");
+        "verify the result (as octetra verify --coarsened-from); write it only if it is valid");
+    command->add_flag("--quiet", options->adaptation.quiet, "print only notes and errors");
     command->footer(
-        "Fields of MESH go along: cells that become one give it their mean; whole numbers that\n"
+        "Fields of MESH are transferred: merged cells get the mean of their values; integers that\n"
         "differ are dropped, with a note.\n"
         "Example:\n"
         "  octetra generate kuhn 8 -o cube.mesh\n"

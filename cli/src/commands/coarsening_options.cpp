@@ -12,19 +12,21 @@ void add_coarsening_options(CLI::App& subcommand, CoarseningOptions& options,
                             const std::string& group) {
     add_selection_options(subcommand, options.selection, group);
     subcommand
-        .add_flag("--outside", options.outside, "the other cells: those that no criterion chooses")
+        .add_flag("--outside", options.outside,
+                  "select the cells that no criterion selects instead")
         ->group(group);
-    add_number<std::uint64_t>(subcommand, "--levels", options.levels, {0, 50, "0 to 50"},
-                              "how often; the criteria judge the coarser mesh afresh each time [1]")
+    add_number<std::uint64_t>(
+        subcommand, "--levels", options.levels, {0, 50, "0 to 50"},
+        "number of levels; criteria are evaluated anew on each coarser mesh [1]")
         ->type_name("L");
 }
 
 Selection parse_coarsening(const CoarseningOptions& options) {
-    Selection selection = parse_selection(options.selection, "which cells may go");
+    Selection selection = parse_selection(options.selection, "which cells to coarsen");
     if (!options.selection.cells_file.empty() && options.levels > 1) {
         throw InputError(
-            "--cells numbers the cells of one mesh, and --levels coarsens others, too; give one of "
-            "the two");
+            "--cells refers to the cells of one mesh, but --levels also coarsens later ones; give "
+            "only one of the two");
     }
     return selection;
 }

@@ -8,18 +8,18 @@
 
 namespace octetra::cli {
 
-/// The options of a subcommand, or of a step, that say how to coarsen, as they were typed.
+/// The options of a subcommand or step for coarsening, as given.
 struct CoarseningOptions {
     SelectionOptions selection;
     bool outside = false;
     int levels = 1;
 };
 
-/// Declares the selection under the headline `group`, --outside and --levels.
+/// Declares the selection under the heading `group`, --outside and --levels.
 void add_coarsening_options(CLI::App& subcommand, CoarseningOptions& options,
                             const std::string& group);
 
-/// What does not need the mesh. Throws InputError.
+/// Parses the parts that do not need the mesh. Throws InputError.
 [[nodiscard]] Selection parse_coarsening(const CoarseningOptions& options);
 
 }  // namespace octetra::cli

@@ -7,10 +7,10 @@ namespace octetra::distributed {
 class Communicator;
 }
 
-/// Each function declares one subcommand of the program: its options, its help, and what runs when
-/// it is called. A subcommand fails by throwing. Under mpirun every process of `world` runs the
-/// subcommand; those that are not parallel work on the first and wait on the others, and failures
-/// are thrown on all.
+/// Each function declares a subcommand of the program: its options, its help, and the function to
+/// be run. A subcommand fails by throwing. Under mpirun, every process of `world` runs the
+/// subcommand; serial subcommands run on the first while the others wait, and errors are thrown on
+/// all.
 namespace octetra::cli {
 
 void add_adapt(CLI::App& program, const distributed::Communicator& world);

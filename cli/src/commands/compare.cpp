@@ -34,8 +34,8 @@ void add_compare(CLI::App& program, const distributed::Communicator& world) {
     auto options = std::make_shared<CompareOptions>();
     CLI::App* command = program.add_subcommand(
         "compare",
-        "Are two meshes the same, up to their numbering?\n"
-        "Ends with status 0 if they are, 1 if not, 2 if one cannot be read.");
+        "Compare two meshes, up to their numbering.\n"
+        "Exits with status 0 if they are the same, 1 if not, 2 if one cannot be read.");
     command->add_option("A", options->a, "a mesh")
         ->type_name("")
         ->check(names_a_file())
@@ -44,7 +44,7 @@ void add_compare(CLI::App& program, const distributed::Communicator& world) {
         ->type_name("")
         ->check(names_a_file())
         ->required();
-    command->add_flag("--identical", options->identical, "numbers must be the same, too");
+    command->add_flag("--identical", options->identical, "also require the same numbering");
     command->footer(
         "Example:\n"
         "  octetra generate gear -o gear.1.ele\n"

@@ -25,11 +25,11 @@ namespace {
 struct ConvertOptions {
     InputOptions input;
     std::string output;
-    std::string msh_format;  // empty: as write_mesh() chooses
+    std::string msh_format;  // empty: the default of write_mesh()
     bool quiet = false;
 };
 
-/// What --msh-format says. Throws InputError where it says nothing of this output.
+/// Parses --msh-format. Throws InputError if it does not apply to this output.
 WriteOptions write_options(const ConvertOptions& options) {
     if (options.msh_format.empty()) return {};
     constexpr std::array<Word<MshFormat>, 4> words{{{"4.1", {}},
@@ -38,10 +38,11 @@ WriteOptions write_options(const ConvertOptions& options) {
                                                     {"2.2-text", {.is_2 = true, .is_text = true}}}};
     const MshFormat format = parse_choice("--msh-format", options.msh_format, words);
     if (std::filesystem::path(options.output).extension() == ".msh") return {.msh = format};
-    throw InputError(fmt::format("--msh-format is of .msh files, and {} is none", options.output));
+    throw InputError(
+        fmt::format("--msh-format applies only to .msh files, not {}", options.output));
 }
 
-/// Of a mesh with fields, or of a checkpoint, with all that the output can hold of what it has.
+/// Converts a mesh with fields, or a checkpoint, with all its data that the output can hold.
 void convert_with_fields(const ConvertOptions& options, const WriteOptions& writing) {
     using distributed::AdaptiveMesh;
     const distributed::Communicator alone;
@@ -83,21 +84,21 @@ void convert(const ConvertOptions& options) {
 void add_convert(CLI::App& program, const distributed::Communicator& world) {
     auto options = std::make_shared<ConvertOptions>();
     CLI::App* command = program.add_subcommand(
-        "convert", "Write a mesh in another format, coordinates bit for bit");
+        "convert", "Convert a mesh to another format; coordinates are preserved exactly");
     add_input_options(*command, options->input);
     add_fields_option(*command, options->input);
     command
-        ->add_option("OUT", options->output,
-                     "where to write: .ele, .mesh, .meshb, .msh, .octetra, .vtu, .pvtu, .vtkhdf or "
-                     ".xdmf")
+        ->add_option(
+            "OUT", options->output,
+            "the output: .ele, .mesh, .meshb, .msh, .octetra, .vtu, .pvtu, .vtkhdf or .xdmf")
         ->type_name("")
         ->check(names_a_file())
         ->required();
     command
         ->add_option("--msh-format", options->msh_format,
-                     "which .msh: 4.1 or 2.2, binary, or 4.1-text or 2.2-text [4.1]")
+                     "the version of .msh: 4.1 or 2.2, binary; 4.1-text or 2.2-text [4.1]")
         ->type_name("WORD");
-    command->add_flag("--quiet", options->quiet, "print nothing but notes and errors");
+    command->add_flag("--quiet", options->quiet, "print only notes and errors");
     command->footer(
         "Example:\n"
         "  octetra generate torus -o torus.1.ele\n"

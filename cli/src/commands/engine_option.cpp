@@ -13,7 +13,7 @@ namespace octetra::cli {
 void add_engine_option(CLI::App& subcommand, std::string& engine, const std::string& group) {
     subcommand
         .add_option("--engine", engine,
-                    "the fast one, over MPI under mpirun, or the serial reference [distributed]")
+                    "the default, parallel under mpirun, or the serial reference [distributed]")
         ->type_name("distributed|reference")
         ->group(group);
 }
@@ -25,8 +25,8 @@ Engine parse_engine(const std::string& text, const ParallelOptions& parallel) {
     if (engine == Engine::reference &&
         (parallel.partition || parallel.synchronisation || parallel.rebalance)) {
         throw InputError(
-            "--partition, --sync and --rebalance say how ranks share the work; --engine reference "
-            "works on one");
+            "--partition, --sync and --rebalance cannot be combined with --engine reference, which "
+            "uses one rank");
     }
     return engine;
 }

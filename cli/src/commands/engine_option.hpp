@@ -12,11 +12,11 @@ namespace octetra::cli {
 
 enum class Engine { distributed, reference };
 
-/// Declares --engine, under the headline `group` of the help.
+/// Declares --engine under the heading `group` of the help.
 void add_engine_option(CLI::App& subcommand, std::string& engine, const std::string& group);
 
-/// Throws InputError for a word that is none, and where the reference is asked how ranks should
-/// share its work.
+/// Throws InputError for an unknown word, or if options for parallel execution are given with the
+/// reference.
 [[nodiscard]] Engine parse_engine(const std::string& engine, const ParallelOptions& parallel);
 
 }  // namespace octetra::cli

@@ -40,24 +40,24 @@ public:
     Shapes(CLI::App& generate, distributed::Communicator world)
         : generate_(&generate), world_(std::move(world)), common_(declare_common()) {}
 
-    /// Declares one shape. `declare(subcommand)` declares its options and returns what makes the
-    /// mesh.
+    /// Declares a shape. `declare(subcommand)` declares its options and returns the function that
+    /// creates the mesh.
     void add(const std::string& name, const std::string& description, const std::string& example,
              const std::function<std::function<Mesh()>(CLI::App&)>& declare) {
         CLI::App* shape = generate_->add_subcommand(name, description);
-        shape->fallthrough();  // -o belongs to `generate`, and may stand behind the shape
+        shape->fallthrough();  // -o belongs to `generate`, but may follow the shape
         shape->footer(fmt::format("Example:\n  octetra generate {}", example));
         shape->callback([common = common_, world = world_, make = declare(*shape)] {
             world.on_first([&] { generate(*common, make); });
         });
-        // The analyzer loses sight of a function that is kept in another one.
+        // False positive: the analyzer does not follow a function stored in another one.
     }  // NOLINT(clang-analyzer-cplusplus.NewDeleteLeaks)
 
 private:
     std::shared_ptr<GenerateOptions> declare_common() {
         auto common = std::make_shared<GenerateOptions>();
         add_output_option(*generate_, common->output);
-        generate_->add_flag("--quiet", common->quiet, "print nothing but notes and errors");
+        generate_->add_flag("--quiet", common->quiet, "print only notes and errors");
         return common;
     }
 
@@ -66,7 +66,7 @@ private:
     std::shared_ptr<GenerateOptions> common_;
 };
 
-/// What shapes can be made of; each asks for more of its own.
+/// The default ranges of numbers for shapes; most shapes check further conditions.
 template <class Number>
 Range<Number> numbers_for_shapes();
 template <>
@@ -78,7 +78,7 @@ Range<double> numbers_for_shapes() {
     return {1e-30, 1e30, "1e-30 to 1e30"};
 }
 
-/// Declares an option with a default that --help shows; returns where its value will be.
+/// Declares an option with a default, which --help shows; returns the storage of its value.
 template <class Number>
 std::shared_ptr<Number> option(CLI::App& shape, const std::string& name, Number standard,
                                const std::string& description, const std::string& type = "LENGTH") {
@@ -128,7 +128,8 @@ void add_lattices(Shapes& shapes) {
                });
     shapes.add("regular", "one regular cell", "regular -o regular.1.ele",
                [](CLI::App& shape) -> std::function<Mesh()> {
-                   auto scale = option(shape, "--scale", 1.0, "half the side of its cube");
+                   auto scale =
+                       option(shape, "--scale", 1.0, "half the side of the cube around it");
                    return [=] { return generator::regular(*scale); };
                });
 }
@@ -137,20 +138,20 @@ void add_clouds(Shapes& shapes) {
     shapes.add("random", "Delaunay mesh of N random points in a cube",
                "random 1000 --seed 7 -o random.1.ele",
                [](CLI::App& shape) -> std::function<Mesh()> {
-                   auto n = required_count(shape, "N", "how many points");
-                   auto seed = option<std::uint64_t>(shape, "--seed", 0, "seed of the draw", "N");
+                   auto n = required_count(shape, "N", "number of points");
+                   auto seed = option<std::uint64_t>(shape, "--seed", 0, "random seed", "N");
                    return [=] { return generator::random(*n, *seed); };
                });
-    shapes.add("slivers", "bad cells on purpose: a lattice shaken by next to nothing",
+    shapes.add("slivers", "badly shaped cells: a minimally perturbed lattice",
                "slivers 6 -o slivers.1.ele", [](CLI::App& shape) -> std::function<Mesh()> {
                    auto n = required_count(shape, "N", "points along every axis");
-                   auto seed = option<std::uint64_t>(shape, "--seed", 0, "seed of the draw", "N");
+                   auto seed = option<std::uint64_t>(shape, "--seed", 0, "random seed", "N");
                    return [=] { return generator::slivers(*n, *seed); };
                });
 }
 
 void add_solids(Shapes& shapes) {
-    const std::string edge_length = "length of the cells' edges";
+    const std::string edge_length = "length of the edges of cells";
     shapes.add("sphere", "a ball", "sphere --edge 0.2 -o sphere.1.ele",
                [=](CLI::App& shape) -> std::function<Mesh()> {
                    auto radius = option(shape, "--radius", 1.0, "the ball's radius");
@@ -181,7 +182,7 @@ void add_solids(Shapes& shapes) {
             auto edge = option(shape, "--edge", standard.edge_length, edge_length);
             return [=] { return generator::gear({*teeth, *radius, *thickness, *bore, *edge}); };
         });
-    shapes.add("two-material", "a cube with a ball of another region tag in it",
+    shapes.add("two-material", "a cube that contains a ball with another region tag",
                "two-material -o composite.1.ele", [=](CLI::App& shape) -> std::function<Mesh()> {
                    auto radius = option(shape, "--radius", 0.3, "the ball's radius");
                    auto edge = option(shape, "--edge", 0.2, edge_length);
@@ -193,7 +194,7 @@ void add_solids(Shapes& shapes) {
 
 void add_generate(CLI::App& program, const distributed::Communicator& world) {
     CLI::App* generate =
-        program.add_subcommand("generate", "Make a mesh: lattices, random points, solids");
+        program.add_subcommand("generate", "Generate a mesh: lattices, random points, solids");
     generate->require_subcommand(1);
     generate->footer(
         "Each shape has a --help of its own, as in: octetra generate gear --help\n"

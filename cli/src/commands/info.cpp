@@ -25,7 +25,7 @@ void add_info(CLI::App& program, const distributed::Communicator& world) {
     CLI::App* command = program.add_subcommand(
         "info", "Counts, size, volume, shapes of the cells and adjacency of a mesh");
     add_input_options(*command, options->input);
-    command->add_flag("--json", options->json, "print JSON rather than a table");
+    command->add_flag("--json", options->json, "print JSON instead of a table");
     command->footer(
         "Example:\n"
         "  octetra generate kuhn 4 -o cube.1.ele\n"

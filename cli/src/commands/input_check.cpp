@@ -16,7 +16,7 @@
 namespace octetra::cli {
 namespace {
 
-/// Throws InputError where the mesh is not valid, on all processes.
+/// Throws InputError on all processes if the mesh is not valid.
 void refuse_unless_valid(const verify::Verdict& verdict, const JudgedFiles& judged,
                          const distributed::Communicator& world) {
     if (verdict.valid()) return;

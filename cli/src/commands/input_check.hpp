@@ -9,16 +9,17 @@
 
 namespace octetra::cli {
 
-/// Collective. All processes judge the mesh, which the first one has read from `path`, as
-/// `octetra verify` does. If it is not valid, says why on stdout, and throws InputError on all.
+/// Collective. Verifies the mesh, which the first process has read from `path`, on all processes,
+/// as `octetra verify` does. If it is not valid, prints the reason to stdout and throws InputError
+/// on all.
 void check_input(const Mesh& mesh, const std::string& path, const distributed::Communicator& world);
 
-/// Collective. The same of a mesh in parts, or in slices.
+/// Collective. As above, for a mesh in parts or slices.
 void check_input(const distributed::DistributedMesh& parts, const std::string& path);
 void check_input(verify::MeshSlice mesh, const std::string& path,
                  const distributed::Communicator& world);
 
-/// Collective. The slices of a mesh in parts.
+/// Collective. Returns the slices of a mesh in parts.
 [[nodiscard]] verify::MeshSlice slice_of(const distributed::DistributedMesh& parts);
 
 }  // namespace octetra::cli

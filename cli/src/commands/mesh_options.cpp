@@ -28,20 +28,20 @@ void add_input_options(CLI::App& subcommand, InputOptions& options) {
         ->check(names_a_file())
         ->required();
     subcommand.add_flag("--fix-orientation", options.fix_orientation,
-                        "turn inverted cells round rather than refuse them");
+                        "reverse inverted cells instead of rejecting the mesh");
 }
 
 void add_fields_option(CLI::App& subcommand, InputOptions& options) {
     subcommand
         .add_option("--fields", options.fields,
-                    "values of MESH's vertices and cells that go along, .sol or .solb (Medit)")
+                    "fields on MESH's vertices and cells to be transferred: .sol or .solb (Medit)")
         ->type_name("FILE")
         ->check(names_a_file());
 }
 
 namespace {
 
-/// Where fields go beside a Medit mesh, if MESH may have some; else nothing.
+/// Returns the file of fields written with a Medit mesh, if MESH may have fields.
 std::optional<std::filesystem::path> fields_beside(const InputOptions& options,
                                                    const std::filesystem::path& output) {
     if (options.fields.empty() && !is_checkpoint(options.path)) return {};
@@ -81,9 +81,9 @@ void read_fields(const distributed::AdaptiveMesh& mesh, const InputOptions& opti
 
 void add_output_option(CLI::App& subcommand, std::string& path) {
     subcommand
-        .add_option("-o,--output", path,
-                    "where to write: .ele, .mesh, .meshb, .msh, .octetra, .vtu, .pvtu, .vtkhdf or "
-                    ".xdmf")
+        .add_option(
+            "-o,--output", path,
+            "the output: .ele, .mesh, .meshb, .msh, .octetra, .vtu, .pvtu, .vtkhdf or .xdmf")
         ->type_name("OUT")
         ->check(names_a_file())
         ->required();
@@ -91,7 +91,7 @@ void add_output_option(CLI::App& subcommand, std::string& path) {
 
 CLI::Validator names_a_file() {
     const auto refusal = [](const std::string& name) {
-        if (name.empty()) return std::string("'' is no name of a file");
+        if (name.empty()) return std::string("'' is not a file name");
         if (name.front() != '=') return std::string();
         return fmt::format("'{}' begins with =; leave it out, or write ./{}", name, name);
     };
@@ -110,7 +110,7 @@ bool tells_history(const std::filesystem::path& path) {
 void check_side_file(std::string_view option, const std::filesystem::path& path) {
     if (path == "-") {
         throw InputError(
-            fmt::format("{}: - names no file; write ./- for one of that name", option));
+            fmt::format("{}: - is not a file name; write ./- for a file of that name", option));
     }
     constexpr std::array<std::string_view, 15> mesh_files{
         ".ele", ".node", ".face", ".edge",   ".mesh", ".meshb", ".sol",    ".solb",
@@ -132,8 +132,9 @@ void check_series(const std::filesystem::path& path) {
 void note(std::string_view what) { tell("note: {}", what); }
 
 std::string state_is_lost(const std::string& checkpoint) {
-    return fmt::format("the result has no time, step and text, which a program saved in {}",
-                       checkpoint);
+    return fmt::format(
+        "the result does not contain the time, step and text that a program saved in {}",
+        checkpoint);
 }
 
 void report_written(const Mesh& mesh, const std::string& path) {

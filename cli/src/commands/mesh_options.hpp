@@ -14,13 +14,13 @@
 
 #include "commands/files_apart.hpp"
 
-/// What every subcommand that reads or writes a mesh has in common.
+/// Options and functions common to the subcommands that read or write a mesh.
 namespace octetra::cli {
 
 struct InputOptions {
     std::string path;
     bool fix_orientation = false;
-    std::string fields;  ///< a .sol or .solb of MESH; empty: none
+    std::string fields;  ///< a .sol or .solb file of MESH; empty: none
 };
 
 /// Declares the positional MESH and --fix-orientation.
@@ -29,57 +29,56 @@ void add_input_options(CLI::App& subcommand, InputOptions& options);
 /// Declares --fields FILE.
 void add_fields_option(CLI::App& subcommand, InputOptions& options);
 
-/// All that a mesh written at `path` replaces or removes, and the file of fields beside it, if MESH
-/// may have some.
+/// Returns all files that writing a mesh to `path` replaces or removes, including the accompanying
+/// file of fields, if MESH may have any.
 [[nodiscard]] NamedFiles output_to_write(std::string_view argument, const InputOptions& options,
                                          const std::filesystem::path& path, int ranks = 1);
-/// Refuses, before the work, an output and what goes beside it. Throws InputError.
+/// Checks in advance an output and its accompanying files. Throws InputError.
 void check_output_with_fields(const InputOptions& options, const std::filesystem::path& output,
                               int ranks = 1);
 
-/// Collective. Adds the fields of --fields, if it is given, to those that MESH has. One that would
-/// have the name of another gets `_field` behind its own.
+/// Collective. Appends the fields of --fields, if given, to those of MESH. `_field` is appended to
+/// a name that is already in use.
 void read_fields(const distributed::AdaptiveMesh& mesh, const InputOptions& options,
                  std::vector<distributed::Field>& fields);
 
 /// Declares -o OUT.
 void add_output_option(CLI::App& subcommand, std::string& path);
 
-/// Refuses, before the work, a path that no mesh, and no checkpoint, can be written at by so many
-/// ranks. Throws InputError.
+/// Checks in advance that a mesh or checkpoint can be written to the path by this many ranks.
+/// Throws InputError.
 void check_output(const std::filesystem::path& path, int ranks = 1);
 
-/// Does a file of this name say what cells came from? Checkpoints do, and the formats that have
-/// each cell's parent.
+/// Returns whether a file of this name records the origin of cells: a checkpoint, or a format that
+/// contains the parent of each cell.
 [[nodiscard]] bool tells_history(const std::filesystem::path& path);
 
-/// Refuses, before the work, a path for a file beside the mesh (maps, parts) that cannot be written
-/// or would take the place of a mesh. Throws InputError.
+/// Checks in advance that an additional file (maps, parts) can be written to the path and would not
+/// replace a mesh. Throws InputError.
 void check_side_file(std::string_view option, const std::filesystem::path& path);
 
-/// Refuses, before the work, a path that no series of meshes can be written at. Throws InputError.
+/// Checks in advance that a series of meshes can be written to the path. Throws InputError.
 void check_series(const std::filesystem::path& path);
 
-/// What an option takes that is the name of a file: anything but "".
+/// A validator of file names: any text except "".
 [[nodiscard]] CLI::Validator names_a_file();
 
-/// A remark on stderr that is not an error: "octetra: note: ...".
+/// Prints a note to stderr: "octetra: note: ...".
 void note(std::string_view what);
 
-/// The note for a result that does not hold the time, step and text of the checkpoint it is made
-/// from.
+/// Returns the note for a result that does not contain the time, step and text of its checkpoint.
 [[nodiscard]] std::string state_is_lost(const std::string& checkpoint);
 
-/// How a mesh is read: what is noted goes to stderr.
+/// Options for reading a mesh, with notes printed to stderr.
 [[nodiscard]] ReadOptions read_options(const InputOptions& options);
 [[nodiscard]] Mesh read_input(const InputOptions& options);
-/// For whoever judges the mesh: of a file, whatever reads as one.
+/// Reads a mesh without semantic checks, for verification.
 [[nodiscard]] Mesh read_as_it_stands(const std::string& path);
 
-/// "wrote PATH: ... vertices, ... cells, ... facets" on stdout.
+/// Prints "wrote PATH: ... vertices, ... cells, ... facets" to stdout.
 void report_written(const Mesh& mesh, const std::string& path);
 
-/// Writes the mesh; notes on stderr what the format cannot hold.
+/// Writes the mesh; prints notes on data that the format cannot hold.
 void write_output(const Mesh& mesh, const std::string& path, const WriteOptions& options = {});
 
 }  // namespace octetra::cli

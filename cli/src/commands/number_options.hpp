@@ -11,7 +11,7 @@
 
 namespace octetra::cli {
 
-/// Whole numbers from `low` on.
+/// The range of integers from `low` on.
 [[nodiscard]] inline Range<std::uint64_t> whole_numbers_from(std::uint64_t low) {
     return {low, std::numeric_limits<std::uint64_t>::max(), std::to_string(low) + " up"};
 }
@@ -25,8 +25,8 @@ void assign(std::optional<To>& to, auto number) {
     to = static_cast<To>(number);
 }
 
-/// Declares an option whose value is a number, which goes to `value`. CLI11's own conversion would
-/// take 010 for 8, 0x10 for 16 and 1e-400 for 0.
+/// Declares an option whose value is a number, stored in `value`. CLI11's own conversion would read
+/// 010 as 8, 0x10 as 16 and 1e-400 as 0.
 template <class Number, class Value>
 CLI::Option* add_number(CLI::App& command, const std::string& names, Value& value,
                         const Range<Number>& range, const std::string& description) {
@@ -36,7 +36,7 @@ CLI::Option* add_number(CLI::App& command, const std::string& names, Value& valu
         return true;
     };
     CLI::Option* option = command.add_option(names, parse, description);
-    // Checks nothing: the help shows the range.
+    // This validator only adds the range to the help.
     option->check({[](const std::string&) { return std::string(); }, range.words});
     return option;
 }

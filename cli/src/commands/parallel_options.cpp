@@ -17,7 +17,7 @@ void add_partition_option(CLI::App& subcommand, ParallelOptions& options,
     subcommand
         .add_option(
             "--partition", options.partition,
-            "which rank gets which cell: rcb, lepp, dual, block, random:SEED, file:PATH [rcb]")
+            "assignment of cells to ranks: rcb, lepp, dual, block, random:SEED, file:PATH [rcb]")
         ->type_name("METHOD")
         ->group(group);
 }
@@ -26,8 +26,7 @@ void add_synchronisation_option(CLI::App& subcommand, ParallelOptions& options,
                                 const std::string& group) {
     subcommand
         .add_option("--sync", options.synchronisation,
-                    "ranks tell their neighbours, or the first rank, which tells the others "
-                    "[neighbour]")
+                    "exchange of marks between neighbours, or through the first rank [neighbour]")
         ->type_name("neighbour|gateway")
         ->group(group);
 }
@@ -37,7 +36,7 @@ void add_rebalance_option(CLI::App& subcommand, ParallelOptions& options,
     subcommand
         .add_option(
             "--rebalance", options.rebalance,
-            "when cells move: auto, never, or if a rank would exceed the mean by so much [auto]")
+            "when cells move: auto, never, or if a rank exceeds the mean by FRACTION [auto]")
         ->type_name("auto|never|FRACTION")
         ->group(group);
 }

@@ -30,7 +30,7 @@ struct PartitionOptions {
     std::string method = "rcb";
     std::string output;
     RefinementOptions refinement;
-    bool says_how_refined = false;  ///< even by options that give the default
+    bool says_how_refined = false;  ///< whether such options were given, even with default values
 };
 
 void print_counts(std::string_view what, const std::vector<std::uint64_t>& counts) {
@@ -63,14 +63,15 @@ void note_empty_parts(const std::vector<std::uint64_t>& cells_of_part) {
     note(fmt::format("{} of {} parts have no cell", grouped(empty), grouped(cells_of_part.size())));
 }
 
-/// What `octetra refine` with the same criteria weighs the cells of the mesh by; empty without.
+/// Returns the weights that `octetra refine` with the same criteria would use; empty without
+/// criteria.
 std::vector<float> weights_of(const Mesh& mesh, const PartitionOptions& options) {
     const SelectionOptions& typed = options.refinement.selection;
     if (!has_criterion(typed)) {
         if (!options.says_how_refined) return {};
         throw InputError(
-            "partition: --levels, --scheme and --seed say how a selection is to be refined; give "
-            "it, too, as in --sphere X,Y,Z,R --levels 2");
+            "partition: --levels, --scheme and --seed require a selection, as in --sphere X,Y,Z,R "
+            "--levels 2");
     }
     Selection selection = parse_selection(typed);
     complete_selection(selection, typed,
@@ -116,22 +117,25 @@ void partition(const PartitionOptions& options) {
 
 void add_partition(CLI::App& program, const distributed::Communicator& world) {
     auto options = std::make_shared<PartitionOptions>();
-    CLI::App* command = program.add_subcommand(
-        "partition", "Share a mesh out among ranks, and say how good the shares are");
+    CLI::App* command =
+        program.add_subcommand("partition", "Partition a mesh, and print statistics of the parts");
     add_input_options(*command, options->input);
     add_number<std::uint64_t>(*command, "-n,--parts", options->parts,
-                              {1, 1'000'000, "1 to 1000000"}, "how many parts")
+                              {1, 1'000'000, "1 to 1000000"}, "number of parts")
         ->type_name("P")
         ->required();
     command
         ->add_option("--partition", options->method,
                      "rcb, lepp, dual, block, random:SEED or file:PATH [rcb]")
         ->type_name("METHOD");
-    command->add_option("-o,--output", options->output, "also write each cell's part, a line each")
+    command
+        ->add_option("-o,--output", options->output,
+                     "also write the part of each cell, one per line")
         ->type_name("FILE")
         ->check(names_a_file());
-    add_refinement_options(*command, options->refinement,
-                           "Even in what cells become where these are refined (as for refine)");
+    add_refinement_options(
+        *command, options->refinement,
+        "Balance the cells expected after refinement of these cells (as for refine)");
     command->footer(
         "Example:\n"
         "  octetra generate gear -o gear.1.ele\n"

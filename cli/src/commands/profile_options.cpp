@@ -13,16 +13,16 @@
 namespace octetra::cli {
 
 void add_profile_options(CLI::App& subcommand, ProfileOptions& options) {
-    const std::string group = "What it took";
+    const std::string group = "Profiling";
     subcommand
         .add_option("--profile", options.profile,
-                    "print seconds, messages and bytes of every phase, and write them as JSON")
+                    "print times, messages and bytes of every phase, and write them as JSON")
         ->type_name("FILE")
         ->check(names_a_file())
         ->group(group);
     subcommand
         .add_option("--trace", options.trace,
-                    "write what each rank did when, as JSON for ui.perfetto.dev")
+                    "write a timeline of all ranks, as JSON for ui.perfetto.dev")
         ->type_name("FILE")
         ->check(names_a_file())
         ->group(group);

@@ -18,12 +18,12 @@ struct ProfileOptions {
 /// Declares --profile and --trace.
 void add_profile_options(CLI::App& subcommand, ProfileOptions& options);
 
-/// Collective. The same processes, measuring themselves if the options ask for it.
+/// Collective. Returns a communicator of the same processes, with profiling if requested.
 [[nodiscard]] distributed::Communicator measured(const distributed::Communicator& world,
                                                  const ProfileOptions& options);
 
-/// Collective. Writes what the options ask for, after all the rest is done; the table of --profile
-/// to stdout, unless `quiet`. Throws SystemError on all processes.
+/// Collective. Writes the requested profiles, at the end of a run, and prints the table of
+/// --profile to stdout unless `quiet`. Throws SystemError on all processes.
 void write_profile(const distributed::Communicator& measured, const ProfileOptions& options,
                    bool quiet);
 

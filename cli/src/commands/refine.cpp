@@ -53,7 +53,7 @@ Plan plan_of(const RefineOptions& options) {
             .balance = balance_of(options.parallel)};
 }
 
-/// Runs an engine; what it finds wrong with the mesh gets the mesh's name in front.
+/// Runs an engine, and prepends the name of the mesh to its errors.
 auto naming_the_mesh(const RefineOptions& options, auto&& engine) {
     try {
         return engine();
@@ -62,7 +62,7 @@ auto naming_the_mesh(const RefineOptions& options, auto&& engine) {
     }
 }
 
-/// How many cells have more volume than the selection wants; none, if it says nothing of it.
+/// Returns the number of cells that exceed the maximum volume of the selection, or 0 without one.
 std::uint64_t too_large_cells(const IndexVector<VertexIndex, Point>& points,
                               const IndexVector<CellIndex, CellVertices>& cells,
                               const Selection& selection) {
@@ -75,8 +75,8 @@ std::uint64_t too_large_cells(const IndexVector<VertexIndex, Point>& points,
     }));
 }
 
-/// Collective. What the first process has all of is judged there, if it is to be, and written.
-/// False, on all processes, if it is not valid.
+/// Collective. Verifies, if requested, and writes a mesh held by the first process. Returns false
+/// on all processes if it is not valid.
 bool judge_and_write(const Mesh& coarse, const Mesh& fine, const RefinementMaps& maps,
                      const Plan& plan, const RefineOptions& options,
                      const distributed::Communicator& world, Stopwatch& watch) {
@@ -98,7 +98,7 @@ bool judge_and_write(const Mesh& coarse, const Mesh& fine, const RefinementMaps&
     return valid.front() == 1;
 }
 
-/// Collective. Finishes what the plan wants of the mesh.
+/// Collective. Completes the selection of the plan with the facts of the mesh.
 void complete_plan(Plan& plan, const MeshFacts& facts, const RefineOptions& options,
                    const distributed::Communicator& world) {
     complete_selection(plan.selection, options.refinement.selection,
@@ -106,7 +106,7 @@ void complete_plan(Plan& plan, const MeshFacts& facts, const RefineOptions& opti
                        world);
 }
 
-/// Collective; the first process works, the others wait. False if the result is not valid.
+/// Collective; the first process works while others wait. Returns false if the result is not valid.
 bool refine_by_reference(Plan plan, const RefineOptions& options,
                          const distributed::Communicator& world, Stopwatch& watch) {
     Mesh mesh;
@@ -142,7 +142,7 @@ bool refine_by_reference(Plan plan, const RefineOptions& options,
     return judge_and_write(mesh, fine.mesh, fine.maps, plan, options, world, watch);
 }
 
-/// Collective. The mesh in parts, for the refinement that is planned.
+/// Collective. Reads the mesh into parts, weighted by the planned refinement.
 distributed::DistributedMesh read_in_parts(Plan& plan, const RefineOptions& options,
                                            const distributed::Communicator& world) {
     const auto complete = [&](const MeshFacts& facts) {
@@ -157,7 +157,7 @@ distributed::DistributedMesh read_in_parts(Plan& plan, const RefineOptions& opti
         {.read = read_options(options.input), .on_facts = complete, .weigh = weigh});
 }
 
-/// Collective. False, on all processes, if the result is not valid.
+/// Collective. Returns false on all processes if the result is not valid.
 bool refine_distributed(Plan plan, const RefineOptions& options,
                         const distributed::Communicator& world, Stopwatch& watch) {
     auto parts = read_in_parts(plan, options, world);
@@ -191,7 +191,7 @@ bool refine_distributed(Plan plan, const RefineOptions& options,
         report_refined(options, {levels, world.size(), facts, too_large}, watch.lap());
     };
     if (plan.balance) {
-        // Nobody asks what cells came from but these.
+        // The origin of cells is needed only in these cases.
         plan.balance->may_forget_history = options.maps.empty() && !options.verify &&
                                            plan.selection.cells.empty() &&
                                            !tells_history(options.output);
@@ -233,7 +233,8 @@ bool refine_distributed(Plan plan, const RefineOptions& options,
     return true;
 }
 
-/// Refuses outputs that cannot be written, or would take the place of an input or of each other.
+/// Throws InputError for outputs that cannot be written, or that would overwrite an input or each
+/// other.
 void check_outputs(const RefineOptions& options, const Plan& plan, int ranks) {
     check_writable(options.output, ranks);
     const std::vector<NamedFiles> beside{file_named("--maps", options.maps),
@@ -249,14 +250,14 @@ void check_outputs(const RefineOptions& options, const Plan& plan, int ranks) {
         {mesh_to_write("-o", options.output, ranks), beside[0], beside[1], beside[2]});
 }
 
-/// Of a mesh with its history or with fields, or into a history: as a step of octetra adapt.
+/// Refines a mesh with history or fields, or writes a history: runs as a step of octetra adapt.
 void refine_with_history(const RefineOptions& options, const Plan& plan,
                          const distributed::Communicator& all) {
     if (plan.engine == Engine::reference) {
         const bool has_fields = !options.input.fields.empty();
         throw InputError(fmt::format(
-            "--engine reference knows no {}, so it does not go with {}: leave it "
-            "out; the other engine makes the same mesh",
+            "--engine reference does not support {} and cannot be combined with {}: omit "
+            "it; the default engine makes the same mesh",
             has_fields ? "fields" : "history", has_fields ? "--fields" : ".octetra files"));
     }
     const Script one_step{
@@ -293,7 +294,7 @@ void refine(const RefineOptions& options, const distributed::Communicator& all) 
 }
 
 void add_engine_options(CLI::App& command, RefineOptions& options) {
-    const std::string group = "How it is done (the result is the same bytes)";
+    const std::string group = "Execution (does not change the result)";
     add_engine_option(command, options.engine, group);
     add_partition_option(command, options.parallel, group);
     add_synchronisation_option(command, options.parallel, group);
@@ -306,33 +307,33 @@ void add_refine(CLI::App& program, const distributed::Communicator& world) {
     auto options = std::make_shared<RefineOptions>();
     CLI::App* refine_command =
         program.add_subcommand("refine",
-                               "Refine a mesh where cells are marked, and as far around as "
-                               "conformity asks");
+                               "Refine a mesh in marked cells, and around them as far as "
+                               "conformity requires");
     add_input_options(*refine_command, options->input);
     add_fields_option(*refine_command, options->input);
     add_output_option(*refine_command, options->output);
     add_refinement_options(*refine_command, options->refinement,
-                           "Which cells (criteria add up; give at least one)");
+                           "Cells to refine (criteria are combined; at least one is required)");
     add_number(*refine_command, "--max-cells", options->max_cells, whole_numbers_from(1),
-               "end in an error, and write nothing, before a level that would make more")
+               "fail, without writing, before a level that would exceed N cells")
         ->type_name("N");
     add_engine_options(*refine_command, *options);
     refine_command
         ->add_option("--maps", options->maps,
-                     "also write each cell's parent and each midpoint's edge, as text")
+                     "also write the parent of each cell and the edge of each midpoint, as text")
         ->type_name("FILE")
         ->check(names_a_file());
     add_profile_options(*refine_command, options->profile);
     refine_command->add_flag("--check", options->check,
-                             "judge MESH as octetra verify does, and refine it if it is valid");
+                             "verify MESH (as octetra verify), and refine it only if it is valid");
     refine_command->add_flag(
         "--verify", options->verify,
-        "judge the result as octetra verify does, and write it if it is valid");
-    refine_command->add_flag("--quiet", options->quiet, "print nothing but notes and errors");
+        "verify the result (as octetra verify), and write it only if it is valid");
+    refine_command->add_flag("--quiet", options->quiet, "print only notes and errors");
     refine_command->footer(
         "Exit status: 0 done; 1 --verify finds the result not valid, and nothing is written;\n"
         "2 bad usage or bad input; 3 the system failed: memory, disk; 128 + its number: a signal\n"
-        "ended a rank, as 137 where it was killed.\n"
+        "ended a rank, for example 137 if it was killed.\n"
         "Example:\n"
         "  octetra generate gear -o gear.1.ele\n"
         "  octetra refine gear.1.ele --sphere 1,0,0.1,0.3 --levels 2 -o fine.vtu\n"

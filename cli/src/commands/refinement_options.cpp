@@ -13,18 +13,18 @@ namespace octetra::cli {
 void add_refinement_options(CLI::App& subcommand, RefinementOptions& options,
                             const std::string& group) {
     add_selection_options(subcommand, options.selection, group);
-    add_number<std::uint64_t>(
-        subcommand, "--levels", options.levels, {0, 50, "0 to 50"},
-        "how often to mark and bisect; what is marked is judged afresh each time [1]")
+    add_number<std::uint64_t>(subcommand, "--levels", options.levels, {0, 50, "0 to 50"},
+                              "number of levels; criteria are evaluated anew at each level [1]")
         ->type_name("L");
     subcommand
         .add_option("--scheme", options.scheme,
-                    "a marked cell marks all its edges, its faces' longest, or its longest [8t]")
+                    "edges that a cell marks: all, the longest of each face, or its longest [8t]")
         ->type_name("8t|4t|2t");
 }
 
 bool was_given(const CLI::App& subcommand, std::string_view name) {
-    // Not by App::count(), which copies names where nothing may be thrown, not even std::bad_alloc.
+    // Does not use App::count(), which copies names, so that std::bad_alloc would be thrown from a
+    // noexcept function.
     const auto options = subcommand.get_options();
     return std::ranges::any_of(options, [&](const CLI::Option* option) {
         return option->count() > 0 && std::ranges::count(option->get_lnames(), name) > 0;

@@ -9,25 +9,25 @@
 
 namespace octetra::cli {
 
-/// The options of a subcommand that say which refinement is meant, as they were typed.
+/// The options of a subcommand for refinement, as given.
 struct RefinementOptions {
     SelectionOptions selection;
     std::string scheme = "8t";
     int levels = 1;
 };
 
-/// Declares the selection under the headline `group`, --levels and --scheme.
+/// Declares the selection under the heading `group`, --levels and --scheme.
 void add_refinement_options(CLI::App& subcommand, RefinementOptions& options,
                             const std::string& group);
 
-/// Was the option with this name, without dashes, typed?
+/// Returns whether the option with this name, without dashes, was given.
 [[nodiscard]] bool was_given(const CLI::App& subcommand, std::string_view name);
 
-/// Was --levels, --scheme or --seed typed, even with the default value? Without a
-/// criterion they mean nothing.
+/// Returns whether --levels, --scheme or --seed was given, even with the default value. They have
+/// no meaning without a criterion.
 [[nodiscard]] bool says_how_refined(const CLI::App& subcommand);
 
-/// Throws InputError for a word that is no scheme.
+/// Throws InputError for an unknown scheme.
 [[nodiscard]] Scheme parse_scheme(const RefinementOptions& options);
 
 }  // namespace octetra::cli

@@ -38,12 +38,12 @@ Marker parse_tag(const std::string& text) {
     return parse_number<Marker>("--region", text, {Limits::min(), Limits::max(), words});
 }
 
-/// Rather than the name of a group.
+/// Returns whether the text is a tag rather than a group name.
 bool is_tag(const std::string& text) {
     return text.empty() || text.find_first_of("0123456789+- ") == 0;
 }
 
-/// One name may be that of several groups.
+/// Returns the tags of all groups of cells with this name.
 std::vector<Marker> tags_of(const std::string& name, const std::vector<GroupName>& groups) {
     std::vector<Marker> tags;
     std::string known;
@@ -65,14 +65,15 @@ std::vector<Marker> tags_of(const std::string& name, const std::vector<GroupName
 
 void add_selection_options(CLI::App& subcommand, SelectionOptions& options,
                            const std::string& group) {
-    subcommand.add_flag("--all", options.all, "every cell")->group(group);
+    subcommand.add_flag("--all", options.all, "all cells")->group(group);
     subcommand
         .add_option("--cells", options.cells_file,
-                    "cells listed in a file, numbered as MESH numbers them")
+                    "cells listed in a file, with the numbers of MESH")
         ->type_name("FILE")
         ->check(names_a_file())
         ->group(group);
-    subcommand.add_option("--sphere", options.spheres, "cells with their centroid nearer than R")
+    subcommand
+        .add_option("--sphere", options.spheres, "cells with their centroid closer than R to X,Y,Z")
         ->type_name("X,Y,Z,R")
         ->allow_extra_args(false)
         ->group(group);
@@ -82,19 +83,20 @@ void add_selection_options(CLI::App& subcommand, SelectionOptions& options,
         ->group(group);
     subcommand
         .add_option("--region", options.regions,
-                    "cells with this region tag, or of the groups with this name (.msh, .octetra)")
+                    "cells with this region tag, or in groups with this name (.msh, .octetra)")
         ->type_name("TAG")
         ->allow_extra_args(false)
         ->group(group);
     add_number<double>(subcommand, "--random", options.random, {0, 1, "0 to 1"},
-                       "about this share of the cells")
+                       "about this fraction of the cells")
         ->type_name("FRACTION")
         ->group(group);
     add_number(subcommand, "--seed", options.seed, whole_numbers_from(0), "for --random [0]")
         ->type_name("N")
         ->group(group);
     add_number<double>(subcommand, "--max-volume", options.max_volume,
-                       {0, std::numeric_limits<double>::max(), "0 up"}, "cells of a larger volume")
+                       {0, std::numeric_limits<double>::max(), "0 up"},
+                       "cells with a larger volume")
         ->type_name("V")
         ->group(group);
 }
@@ -118,12 +120,13 @@ Selection parse_selection(const SelectionOptions& options, std::string_view want
         check(*selection.random, "--random");
     }
     if (options.seed && !options.random) {
-        throw InputError("--seed is that of --random, which is not given: --random 0.1 --seed 7");
+        throw InputError("--seed requires --random, as in --random 0.1 --seed 7");
     }
     selection.max_volume = options.max_volume;
     if (!has_criterion(options)) {
         throw InputError(fmt::format(
-            "say {}: --all, --cells, --sphere, --box, --region, --random or --max-volume", wanted));
+            "specify {}: --all, --cells, --sphere, --box, --region, --random or --max-volume",
+            wanted));
     }
     return selection;
 }

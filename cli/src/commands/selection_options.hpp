@@ -17,7 +17,7 @@ class App;
 
 namespace octetra::cli {
 
-/// The options of a subcommand that mark cells, as they were typed.
+/// The options of a subcommand that mark cells, as given.
 struct SelectionOptions {
     bool all = false;
     std::string cells_file;
@@ -29,19 +29,19 @@ struct SelectionOptions {
     std::optional<double> max_volume;
 };
 
-/// Declares them, under the headline `group` of the help.
+/// Declares them under the heading `group` of the help.
 void add_selection_options(CLI::App& subcommand, SelectionOptions& options,
                            const std::string& group);
 
-/// Was any cell asked for?
+/// Returns whether any criterion was given.
 [[nodiscard]] bool has_criterion(const SelectionOptions& options);
 
-/// What does not need the mesh: at least one criterion, numbers in range. Regions that are given by
-/// name are left out. Throws InputError, which says what the criteria are for.
+/// Parses the parts that do not need the mesh: at least one criterion, numbers in range. Regions
+/// given by name are omitted. Throws InputError, which states the purpose of the criteria.
 [[nodiscard]] Selection parse_selection(const SelectionOptions& options,
                                         std::string_view wanted = "which cells to refine");
 
-/// What a selection asks of a mesh.
+/// The facts of a mesh that a selection refers to.
 struct SelectableMesh {
     bool has_regions = false;
     std::uint32_t index_base = 0;
@@ -49,15 +49,16 @@ struct SelectableMesh {
     SharedGroupNames group_names;
 };
 
-/// Throws InputError if regions are asked for of a mesh that has none.
+/// Throws InputError if regions are selected in a mesh that has none.
 void check_regions(const SelectionOptions& options, bool mesh_has_regions);
 
-/// The rest: the cell list, the tags of regions that are given by name, and whether the mesh has
-/// what is asked for. Throws InputError.
+/// Adds the remaining parts: the cell list and the tags of regions given by name; checks them
+/// against the mesh. Throws InputError.
 void complete_selection(Selection& selection, const SelectionOptions& options,
                         const SelectableMesh& mesh);
 
-/// Collective. The same on all processes; the first one reads the list, and knows the mesh.
+/// Collective. Completes the selection on all processes; the first one reads the list and provides
+/// the facts of the mesh.
 void complete_selection(Selection& selection, const SelectionOptions& options,
                         const SelectableMesh& mesh, const distributed::Communicator& processes);
 

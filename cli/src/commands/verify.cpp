@@ -36,19 +36,19 @@ struct VerifyCommandOptions {
     std::string report;
     std::string maps;
     RefinementOptions refinement;
-    bool says_how_refined = false;  ///< even by options that give the default
+    bool says_how_refined = false;  ///< whether such options were given, even with default values
     bool says_scheme = false;
-    std::string before;  ///< of coarsening
+    std::string before;  ///< the checkpoint before coarsening
     bool outside = false;
 };
 
-/// A report of a million faults helps nobody; they are counted all the same.
+/// Limits the size of a report; all violations are counted.
 constexpr std::size_t described_of_each_code = 100'000;
 
-/// What is asked of a mesh that was coarsened, but for what the checkpoint is needed for.
+/// Parses the options for a coarsened mesh, except for the parts that need the checkpoint.
 Coarsened coarsened_of(const VerifyCommandOptions& given) {
     if (given.before.empty()) {
-        if (given.outside) throw InputError("verify: --outside goes with --coarsened-from");
+        if (given.outside) throw InputError("verify: --outside requires --coarsened-from");
         return {};
     }
     if (!is_checkpoint(given.before)) {
@@ -58,10 +58,10 @@ Coarsened coarsened_of(const VerifyCommandOptions& given) {
                         given.before));
     }
     if (!given.second.empty()) {
-        throw InputError("verify: --coarsened-from takes one mesh, the one after, not two");
+        throw InputError("verify: --coarsened-from takes one mesh, the coarsened one, not two");
     }
     if (given.says_scheme) {
-        throw InputError("verify: --scheme says how cells were refined, not how they went back");
+        throw InputError("verify: --scheme applies to refinement, not to coarsening");
     }
     const RefinementOptions& typed = given.refinement;
     Coarsened asked{given.before, {typed.selection, given.outside, typed.levels}, {}};
@@ -69,8 +69,7 @@ Coarsened coarsened_of(const VerifyCommandOptions& given) {
     return asked;
 }
 
-/// What the options ask for beyond the meshes; what the selection needs of the mesh is still to
-/// come.
+/// Parses the options of the verifier, except for the parts of the selection that need the mesh.
 verify::VerifyOptions options_of(const VerifyCommandOptions& given) {
     verify::VerifyOptions options{.fast = given.fast,
                                   .min_dihedral = given.min_dihedral,
@@ -80,22 +79,21 @@ verify::VerifyOptions options_of(const VerifyCommandOptions& given) {
                            parse_scheme(given.refinement), given.refinement.levels};
     }
     const std::string& fine = given.before.empty() ? given.second : given.first;
-    const std::string no_place = "the format of the fine mesh has no place for them";
+    const std::string no_place = "the format of the fine mesh cannot hold them";
     if (!fine.empty() && !can_hold_attributes(fine)) options.attributes_lost = no_place;
     if (!fine.empty() && !can_hold_vertex_markers(fine)) options.vertex_markers_lost = no_place;
     if (given.second.empty() && options.request) {
-        throw InputError("verify: a selection can only be checked of COARSE and REFINED");
+        throw InputError("verify: a selection can be checked only with COARSE and REFINED");
     }
     if (given.second.empty() && !given.maps.empty()) {
-        throw InputError("verify: --maps can only be checked of COARSE and REFINED");
+        throw InputError("verify: --maps can be checked only with COARSE and REFINED");
     }
     if (given.before.empty() && !options.request && given.says_how_refined) {
         throw InputError(
-            "verify: --levels, --scheme and --seed say how a selection was refined; give it, too, "
-            "as in --all --levels 2");
+            "verify: --levels, --scheme and --seed require a selection, as in --all --levels 2");
     }
     if (given.fast && given.min_dihedral) {
-        throw InputError("verify: --min-dihedral is not checked with --fast");
+        throw InputError("verify: --min-dihedral cannot be checked with --fast");
     }
     return options;
 }
@@ -116,13 +114,13 @@ verify::Verdict judge(const VerifyCommandOptions& given, verify::VerifyOptions o
     }
     std::optional<RefinementMaps> maps;
     if (!given.maps.empty()) {
-        maps = read_maps(given.maps, first.index_base);  // as refine numbers them
+        maps = read_maps(given.maps, first.index_base);  // with the numbering of refine
         options.maps = &*maps;
     }
     return verify_refinement(first, second, options);
 }
 
-/// Collective. No process has the mesh as a whole.
+/// Collective. No process holds the whole mesh.
 verify::MeshSlice read_slice(const std::string& path, const distributed::Communicator& world) {
     if (is_checkpoint(path)) {
         const auto mesh = distributed::AdaptiveMesh::load(world, path);
@@ -132,7 +130,7 @@ verify::MeshSlice read_slice(const std::string& path, const distributed::Communi
     return verify::read_slice(path, {.only_syntax = true, .note = note}, world);
 }
 
-/// Collective. All processes get the first one's maps.
+/// Collective. Broadcasts the maps from the first process.
 void share_maps(RefinementMaps& maps, const distributed::Communicator& world) {
     world.broadcast(maps.cell_to_parent);
     world.broadcast(maps.midpoint_to_edge);
@@ -141,7 +139,7 @@ void share_maps(RefinementMaps& maps, const distributed::Communicator& world) {
     maps.first_midpoint = first_midpoint.front();
 }
 
-/// Collective. Every process judges a part; none has a mesh as a whole.
+/// Collective. Every process verifies a part; none holds a whole mesh.
 verify::Verdict judge_together(const VerifyCommandOptions& given, verify::VerifyOptions options,
                                JudgedFiles& judged, const distributed::Communicator& world) {
     verify::MeshSlice first = read_slice(given.first, world);
@@ -168,7 +166,7 @@ verify::Verdict judge_together(const VerifyCommandOptions& given, verify::Verify
     return verify_refinement(std::move(first), std::move(second), world, options);
 }
 
-/// Collective.
+/// Collective. Returns whether the mesh is valid.
 bool run(const VerifyCommandOptions& given, const distributed::Communicator& world) {
     verify::VerifyOptions options = options_of(given);
     const Coarsened coarsened = coarsened_of(given);
@@ -209,41 +207,43 @@ void add_verify(CLI::App& program, const distributed::Communicator& world) {
     auto options = std::make_shared<VerifyCommandOptions>();
     CLI::App* command = program.add_subcommand(
         "verify",
-        "Judge a mesh, or one as the refinement or coarsening of another, by exact arithmetic");
-    command->add_option("MESH", options->first, "the mesh; or, with REFINED, the coarse one")
+        "Verify a mesh, or one as the refinement or coarsening of another, in exact arithmetic");
+    command->add_option("MESH", options->first, "the mesh; with REFINED, the coarse mesh")
         ->type_name("")
         ->check(names_a_file())
         ->required();
-    command->add_option("REFINED", options->second, "the mesh that claims to refine MESH")
+    command
+        ->add_option("REFINED", options->second, "the mesh to be verified as a refinement of MESH")
         ->type_name("")
         ->check(names_a_file());
     command->add_flag("--fast", options->fast,
-                      "leave out what takes a search in space, exact sums or angles");
+                      "skip checks that need spatial searches, exact sums or angles");
     add_number<double>(*command, "--min-dihedral", options->min_dihedral, {0, 180, "0 to 180"},
-                       "no dihedral angle may be less than D degrees; compared exactly")
+                       "check, exactly, that no dihedral angle is less than D degrees")
         ->type_name("D");
-    command->add_option("--report", options->report, "also write all that was found, as JSON")
+    command->add_option("--report", options->report, "also write all findings, as JSON")
         ->type_name("FILE")
         ->check(names_a_file());
     command
         ->add_option("--maps", options->maps,
-                     "check the parents and midpoints that refine --maps has written")
+                     "also check the parents and midpoints written by refine --maps")
         ->type_name("FILE")
         ->check(names_a_file());
     command
-        ->add_option("--coarsened-from", options->before,
-                     "is MESH what coarsening leaves of this one, if the cells below may go?")
+        ->add_option(
+            "--coarsened-from", options->before,
+            "verify MESH as the result of coarsening this mesh in the cells selected below")
         ->type_name("STATE.octetra")
         ->check(names_a_file());
     command->add_flag("--outside", options->outside,
-                      "with --coarsened-from: the cells that no criterion below chooses");
+                      "with --coarsened-from: select the cells that no criterion selects");
     add_refinement_options(*command, options->refinement,
-                           "Is it the 8T-LE refinement of these cells (as for refine); or, with "
-                           "--coarsened-from, might they go (as for coarsen)?");
+                           "Verify the 8T-LE refinement of these cells (as for refine) or, with "
+                           "--coarsened-from, their coarsening");
     command->footer(
         "Exit status: 0 valid; 1 not valid; 2 bad usage, or a file that cannot be read;\n"
-        "3 the system failed: memory, disk; 128 + its number: a signal ended a rank, as 137 where\n"
-        "it was killed.\n"
+        "3 the system failed: memory, disk; 128 + its number: a signal ended a rank, for example\n"
+        "137 if it was killed.\n"
         "Example:\n"
         "  octetra generate gear -o gear.1.ele\n"
         "  octetra refine gear.1.ele --sphere 1,0,0.1,0.3 --levels 2 -o fine.1.ele\n"

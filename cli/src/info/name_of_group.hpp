@@ -8,8 +8,8 @@
 
 namespace octetra::cli {
 
-/// Null if it has none. Facets of a negative marker are in the group of the positive one, turned
-/// over (Gmsh).
+/// Returns the name of the group of a tag, or null. Facets with a negative marker belong to the
+/// group of the absolute value, reversed (Gmsh).
 [[nodiscard]] inline const std::string* name_of_group(const std::vector<GroupName>& names,
                                                       int dimension, std::int32_t tag) {
     const auto group = std::ranges::find_if(names, [&](const GroupName& each) {

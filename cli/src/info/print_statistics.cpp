@@ -16,7 +16,7 @@
 namespace octetra::cli {
 namespace {
 
-/// How many regions or markers are shown; a mesh may have one per cell.
+/// The maximum number of regions or markers shown; a mesh may have one per cell.
 constexpr std::size_t shown_tags = 20;
 
 std::string shown(double number) {
@@ -25,7 +25,7 @@ std::string shown(double number) {
 
 std::string shown(std::size_t count) { return grouped(count); }
 
-/// Builds the text: headings, and rows of right-aligned columns under them.
+/// Builds the text: headings, and rows of right-aligned columns below them.
 class Table {
 public:
     template <class... Titles>
@@ -39,7 +39,7 @@ public:
         line(fmt::format("  {}", name), std::string_view(cells)...);
     }
 
-    /// A number of bins with bars; the longest bar stands for the largest count.
+    /// Appends a histogram with bars; the longest bar represents the largest count.
     void histogram(std::string_view title, const quality::Histogram& histogram) {
         heading(title, "count", "share");
         const auto& counts = histogram.counts;
@@ -59,7 +59,7 @@ public:
 private:
     static constexpr std::size_t name_width = 30;
     static constexpr std::size_t column_width = 15;
-    static constexpr std::size_t bar_width = 16;  // what 80 columns leave
+    static constexpr std::size_t bar_width = 16;  // the rest of 80 columns
 
     template <class... Cells>
     void line(std::string_view name, const Cells&... cells) {
@@ -75,7 +75,7 @@ private:
                            100 * static_cast<double>(count) / static_cast<double>(total));
     }
 
-    /// Never empty: few are told from none.
+    /// Never empty, so that small counts are distinguishable from none.
     static std::string bar(std::size_t count, std::size_t largest) {
         const double part = static_cast<double>(count) / static_cast<double>(largest);
         const auto length =
@@ -101,7 +101,7 @@ void add_counts(Table& table, const quality::EntityCounts& counts) {
     table.row("Euler characteristic", fmt::format("{}", counts.euler_characteristic));
 }
 
-/// What Medit's files single out; nothing where there is none.
+/// Appends the features of Medit files; nothing if there are none.
 void add_features(Table& table, const FeatureCounts& counts) {
     if (!has_any(counts)) return;
     table.heading("Features", "count");
@@ -161,7 +161,7 @@ void add_adjacency(Table& table, const std::optional<quality::Adjacency>& adjace
     table.row("faces at an edge", shown(adjacency->faces_per_edge));
 }
 
-/// The tag, and behind it as much of its group's name as there is room for.
+/// Returns the tag, followed by as much of its group's name as fits.
 std::string named_tag(Marker tag, const std::string* name) {
     std::string words = fmt::format("{}", tag);
     if (name == nullptr) return words;
@@ -173,7 +173,7 @@ std::string named_tag(Marker tag, const std::string* name) {
     return words.substr(0, end) + "...";
 }
 
-/// Of the groups of a dimension, `names` has the names.
+/// `names` contains the names of the groups of all dimensions.
 void add_tags(Table& table, const std::vector<quality::TagTotal>& totals, const char* title,
               const char* count, const char* size, int dimension,
               const std::vector<GroupName>& names) {

@@ -15,7 +15,7 @@ Json json(const std::vector<T>& of_rank) {
     return {{"min", s.min}, {"mean", s.mean}, {"max", s.max}, {"of_rank", of_rank}};
 }
 
-/// Of a figure that adds up.
+/// Returns a figure that is additive over ranks.
 template <class T>
 Json json_with_sum(const std::vector<T>& of_rank) {
     Json out = json(of_rank);
@@ -43,7 +43,7 @@ Json json(const distributed::ProfiledLevel& level) {
             {"peak_memory_bytes", json(level.peak_memory_of_rank)}};
 }
 
-/// An array with a line for each entry.
+/// Returns an array with a line for each entry.
 template <class T>
 std::string lines(const std::vector<T>& entries) {
     std::string text = "[";

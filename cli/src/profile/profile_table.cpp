@@ -31,7 +31,7 @@ void add_to(std::vector<PhaseCounts>& sums, const ProfiledPhase& phase) {
     for (std::size_t r = 0; r < sums.size(); ++r) add_to(sums[r], phase.of_rank[r]);
 }
 
-/// Each phase once, summed over the levels; what is left over last.
+/// Returns the phases summed over levels, with the rest of the run last.
 std::vector<ProfiledPhase> summed_over_levels(const GatheredProfile& profile) {
     std::vector<ProfiledPhase> sums;
     for (const ProfiledPhase& phase : profile.phases) {
@@ -44,7 +44,7 @@ std::vector<ProfiledPhase> summed_over_levels(const GatheredProfile& profile) {
     return sums;
 }
 
-/// Decimal units, three digits or so.
+/// Formats bytes in decimal units, with about three digits.
 std::string bytes_for_people(double bytes) {
     constexpr std::array<std::string_view, 5> units{"B", "kB", "MB", "GB", "TB"};
     std::size_t unit = 0;
@@ -56,7 +56,7 @@ std::string bytes_for_people(std::uint64_t bytes) {
     return bytes_for_people(static_cast<double>(bytes));
 }
 
-/// Short runs are told in milliseconds.
+/// The unit of time: milliseconds for short runs.
 struct Unit {
     std::string_view name = "s";
     double per_second = 1;

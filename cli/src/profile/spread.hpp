@@ -5,7 +5,7 @@
 
 namespace octetra::cli {
 
-/// A figure over ranks; all 0 for no ranks.
+/// Statistics of a figure over ranks; all 0 if there are no ranks.
 template <class T>
 struct Spread {
     T min{};
@@ -25,7 +25,7 @@ template <class T>
     return result;
 }
 
-/// What each rank has of `member`, a member of T.
+/// Returns `member` of each rank.
 template <class T, class M>
 [[nodiscard]] std::vector<M> each(const std::vector<T>& of_rank, M T::*member) {
     std::vector<M> values;

@@ -10,7 +10,7 @@ using distributed::Span;
 
 double microseconds(std::int64_t nanoseconds) { return static_cast<double>(nanoseconds) / 1000; }
 
-/// How the viewer names and orders the lane of a rank.
+/// Returns the metadata event that names or orders the lane of a rank in the viewer.
 Json lane(std::size_t rank, const char* what, const Json& arguments) {
     return {{"name", what}, {"ph", "M"}, {"pid", rank}, {"tid", 0}, {"args", arguments}};
 }

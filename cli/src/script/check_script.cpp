@@ -24,7 +24,7 @@ const SelectionOptions* criteria_of(const Step& step) {
     return nullptr;
 }
 
-/// Runs check(step) of each step; what that throws gets the line in front.
+/// Calls check(step) for each step; prepends the line to errors.
 void check_each(const Script& script, auto&& check) {
     for (const ScriptStep& step : script.steps) {
         try {
@@ -35,8 +35,8 @@ void check_each(const Script& script, auto&& check) {
     }
 }
 
-/// What is written so far, by the place where it stands in the end: as many files as a long script
-/// has are not to be compared two by two.
+/// The output files so far, by their final paths. Avoids a quadratic number of comparisons for long
+/// scripts.
 class WrittenPlaces {
 public:
     struct Name {
@@ -47,7 +47,7 @@ public:
     void add(const std::string& argument, const std::vector<std::filesystem::path>& files) {
         for (const auto& file : files) places_.try_emplace(place_of(file), Name{argument, file});
     }
-    /// Who writes this file already, or null.
+    /// Returns the argument that already writes this file, or null.
     [[nodiscard]] const Name* find(const std::filesystem::path& file) const {
         const auto found = places_.find(place_of(file));
         return found == places_.end() ? nullptr : &found->second;

@@ -30,7 +30,7 @@ std::vector<std::string> words_of(std::string_view line) {
     return words;
 }
 
-/// A hint for who writes an option into a line that belongs beside the script.
+/// Returns a hint for an option in a line that belongs on the command line.
 std::string options_of_adapt(const std::vector<std::string>& words) {
     constexpr std::array<std::string_view, 11> options{
         "-o",        "--output", "--partition", "--sync",   "--max-cells",      "--verify",
@@ -46,7 +46,7 @@ std::string options_of_adapt(const std::vector<std::string>& words) {
     return {};
 }
 
-/// The options of a step, as those of a subcommand. CLI11 takes words from the last to the first.
+/// Parses the options of a step like those of a subcommand. CLI11 expects words in reverse order.
 void parse_words(CLI::App& command, std::vector<std::string> words) {
     std::ranges::reverse(words);
     try {
@@ -56,7 +56,7 @@ void parse_words(CLI::App& command, std::vector<std::string> words) {
     }
 }
 
-/// Without --help and --all=3.
+/// A command without --help and without flag values such as --all=3.
 struct LineCommand : CLI::App {
     explicit LineCommand(const std::string& word) : CLI::App("", word) {
         set_help_flag();
@@ -85,7 +85,7 @@ Step parse_coarsen(std::vector<std::string> options) {
 
 Step parse_rebalance(const std::vector<std::string>& words) {
     if (words.empty()) return RebalanceStep{};
-    throw InputError(fmt::format("rebalance takes no options, and here is {}", words.front()));
+    throw InputError(fmt::format("rebalance takes no options, but {} was given", words.front()));
 }
 
 std::string only_name(const std::vector<std::string>& words, std::string_view word,

@@ -6,7 +6,7 @@
 
 namespace octetra::cli {
 
-/// The step that a line of a script says. Throws InputError, without the line's number.
+/// Parses a line of a script. Throws InputError, without the line number.
 [[nodiscard]] ScriptStep parse_step(std::string_view line);
 
 }  // namespace octetra::cli

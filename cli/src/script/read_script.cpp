@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::string_view standard_input = "-";
 
-/// The lines as they are, from what cannot be read twice, or from a file.
+/// Returns the unmodified lines of a stream that can be read only once, or of a file.
 std::vector<TextLine> raw_lines(std::istream& in) {
     std::vector<TextLine> lines;
     std::uint64_t number = 0;
@@ -28,7 +28,7 @@ std::vector<TextLine> raw_lines(std::istream& in) {
     return lines;
 }
 
-/// As read_lines() does.
+/// Removes comments as read_lines() does.
 std::vector<TextLine> without_comments(std::vector<TextLine> lines) {
     constexpr std::string_view blanks = " \t\r";
     for (TextLine& line : lines) {
@@ -40,7 +40,7 @@ std::vector<TextLine> without_comments(std::vector<TextLine> lines) {
     return lines;
 }
 
-/// Files that can be read again, and then be told apart from those that are written.
+/// Reads a pipe or device as a stream, a regular file by read_lines().
 std::vector<TextLine> lines_in(const std::filesystem::path& path) {
     if (path == standard_input) return without_comments(raw_lines(std::cin));
     std::error_code error;
@@ -53,7 +53,7 @@ std::vector<TextLine> lines_in(const std::filesystem::path& path) {
     return without_comments(raw_lines(in));
 }
 
-/// Collective. All processes get the lines that the first one has read.
+/// Collective. Returns on all processes the lines read by the first.
 std::vector<TextLine> lines_of(const std::filesystem::path& path,
                                const distributed::Communicator& world) {
     std::vector<std::uint64_t> numbers;

@@ -11,31 +11,32 @@
 
 #include "adapt/steps.hpp"
 
-/// Scripts of octetra adapt: a step a line, in the words of the command line.
+/// Scripts of octetra adapt: a step per line, in the syntax of the command line.
 namespace octetra::cli {
 
 struct ScriptStep {
     std::uint64_t line = 0;
-    std::string word;  ///< the first of the line
+    std::string word;  ///< the first word of the line
     Step step;
 };
 
 struct Script {
-    std::filesystem::path path;  ///< its name for people; empty for a step of the command line
-    bool is_piped = false;       ///< standard input, which is no file
+    std::filesystem::path path;  ///< its name in messages; empty for a step of the command line
+    bool is_piped = false;       ///< whether it is standard input
     std::vector<ScriptStep> steps;
 };
 
 /// Collective. The first process reads the file, a pipe, or for "-" standard input. Throws
-/// InputError, "FILE:LINE: what is wrong", for the first line that is no step, or if there is none
-/// at all.
+/// InputError, "FILE:LINE: what is wrong", for the first line that is not a step, or if there are
+/// no steps.
 [[nodiscard]] Script read_script(const std::filesystem::path& path,
                                  const distributed::Communicator& world);
 
-/// For the message about a wrong line: a hint, if its comment begins within a word; else nothing.
+/// Returns a hint for the message about an invalid line whose comment begins within a word;
+/// otherwise an empty string.
 [[nodiscard]] std::string hint_of_comment(const std::filesystem::path& script, std::uint64_t line);
 
-/// The same InputError, of a line that is wrong for reasons that are not in it.
+/// As above, for a line that is invalid for reasons outside the line.
 [[nodiscard]] InputError wrong_line(const Script& script, const ScriptStep& step,
                                     std::string_view what);
 

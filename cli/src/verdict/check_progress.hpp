@@ -7,8 +7,7 @@
 
 namespace octetra::cli {
 
-/// Where people watch, a line that says which check is running and how far it is, once that has
-/// taken a second.
+/// On a terminal, a line with the running check and its progress, after it has run for a second.
 class CheckProgress {
 public:
     CheckProgress() = default;
@@ -18,8 +17,8 @@ public:
     CheckProgress(CheckProgress&&) = delete;
     CheckProgress& operator=(CheckProgress&&) = delete;
 
-    /// What the verifier tells of its progress; nothing where stderr is no terminal. Ends with
-    /// this.
+    /// Returns the callback for the verifier; empty if stderr is not a terminal. Valid during the
+    /// lifetime of the object.
     [[nodiscard]] verify::Progress listener();
     void clear();
 

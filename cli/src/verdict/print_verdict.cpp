@@ -55,13 +55,13 @@ void print_violations(const Verdict& verdict, const JudgedFiles& judged) {
     }
 }
 
-/// Whose numbers they are, where that makes a difference.
+/// Prints to which files numbers refer, if the files have different index bases.
 void print_whose_numbers(const Verdict& verdict, const JudgedFiles& judged) {
     if (verdict.valid() || judged.coarse.empty()) return;
     if (judged.fine_index_base == judged.coarse_index_base) return;
     print(
-        "\nNumbers are those of {}, which counts from {}; of what is called {}, those of {}, "
-        "from {}.\n",
+        "\nNumbers refer to {}, which counts from {}; those of {} entities refer to {}, "
+        "which counts from {}.\n",
         judged.fine, judged.fine_index_base, judged.is_coarsened ? "coarse or previous" : "coarse",
         judged.coarse, judged.coarse_index_base);
 }
@@ -77,7 +77,7 @@ void print_angles(std::string_view of, const verify::AngleFigures& angles) {
     print_fact(fmt::format("{}least eta", of), fmt::format("{:.6g}", angles.min_eta));
 }
 
-/// The first few of them.
+/// Prints the first ones.
 void print_sums(std::string_view what, const std::vector<verify::TagSum>& sums,
                 bool of_refinement) {
     constexpr std::size_t shown = 10;
@@ -89,7 +89,7 @@ void print_sums(std::string_view what, const std::vector<verify::TagSum>& sums,
         }
         print_fact(fmt::format("{} {}", what, sum.tag), value);
     }
-    if (sums.size() > shown) print_fact("and of more", grouped(sums.size() - shown));
+    if (sums.size() > shown) print_fact("further ones", grouped(sums.size() - shown));
 }
 
 void print_facts(const Verdict& verdict, bool of_refinement) {
@@ -101,7 +101,7 @@ void print_facts(const Verdict& verdict, bool of_refinement) {
     print_fact("singular edges", grouped(facts.singular_edges));
     print_fact("singular vertices", grouped(facts.singular_vertices));
     if (of_refinement) {
-        print_fact("coarse cells left whole", grouped(facts.cells_kept));
+        print_fact("undivided coarse cells", grouped(facts.cells_kept));
         print_fact("midpoints", grouped(facts.bisected_edges));
         print_fact("rounded midpoints", grouped(facts.rounded_midpoints));
     }
@@ -123,7 +123,7 @@ void print_verdict(const Verdict& verdict, const JudgedFiles& judged) {
     const bool fast = std::any_of(verdict.checks.begin(), verdict.checks.end(),
                                   [](const auto& check) { return check.note == verify::not_fast; });
     const std::string_view answer = !verdict.valid() ? "NOT VALID"
-                                    : fast           ? "valid, as far as --fast looks"
+                                    : fast           ? "valid, as far as --fast checks"
                                                      : "valid";
     if (judged.coarse.empty()) {
         print("\n{}: {}\n", judged.fine, answer);

@@ -60,7 +60,7 @@ Json json(const std::optional<verify::AngleFigures>& angles, std::uint32_t index
             {"min_eta", angles->min_eta}};
 }
 
-/// `tag` and `quantity` name what the sums are by and of.
+/// `tag` and `quantity` are the JSON keys of the tag and of the sum.
 Json json(const std::vector<verify::TagSum>& sums, const std::string& tag,
           const std::string& quantity, bool of_refinement) {
     Json out = Json::array();

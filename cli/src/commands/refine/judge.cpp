@@ -24,8 +24,8 @@ verify::VerifyOptions verify_options(const Plan& plan, const RefineOptions& opti
 void note_unchecked(const RefineOptions& options) {
     if (options.check) return;
     note(
-        fmt::format("of {} itself, orientation and faces were checked, not whether cells overlap: "
-                    "octetra verify {} does",
+        fmt::format("of {} itself, only orientation and faces were checked, not whether cells "
+                    "overlap: use octetra verify {}",
                     options.input.path, options.input.path));
 }
 

@@ -8,14 +8,14 @@
 
 #include "commands/refine/options.hpp"
 
-/// octetra refine --verify.
+/// Verification of the result of octetra refine (--verify).
 namespace octetra::cli {
 
-/// Judges what an engine has made. If it is not valid, says why.
+/// Verifies the result of an engine. Prints the reason if it is not valid.
 [[nodiscard]] bool is_valid(const Mesh& coarse, const Mesh& fine, const RefinementMaps& maps,
                             const Plan& plan, const RefineOptions& options);
 
-/// Collective. The same of a mesh in several memories; no process has all of it.
+/// Collective. As above, for a distributed mesh; no process holds the whole mesh.
 [[nodiscard]] bool is_valid_together(verify::MeshSlice coarse, distributed::CanonicalMesh& fine,
                                      const Plan& plan, const RefineOptions& options,
                                      const distributed::Communicator& world);

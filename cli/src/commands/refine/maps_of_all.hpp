@@ -6,7 +6,7 @@
 
 namespace octetra::cli {
 
-/// Collective. Every process gets the whole of the maps. (Only who asks for --maps needs them.)
+/// Collective. Returns the complete maps on every process. Needed only for --maps.
 [[nodiscard]] RefinementMaps maps_of_all(MeshSource& fine, const distributed::Communicator& world);
 
 }  // namespace octetra::cli

@@ -17,7 +17,7 @@
 
 namespace octetra::cli {
 
-/// What the options mean, once they are known to mean something.
+/// The validated and parsed options of octetra refine.
 struct Plan {
     Selection selection;
     Scheme scheme = Scheme::eight;
@@ -27,7 +27,7 @@ struct Plan {
     std::optional<distributed::BalanceOptions> balance;
 };
 
-/// The options of octetra refine, as they were typed.
+/// The options of octetra refine, as given.
 struct RefineOptions {
     InputOptions input;
     std::string output;

@@ -13,12 +13,12 @@ std::string refined_line(int levels, int ranks) {
     return ranks == 1 ? line : fmt::format("{}, {} ranks", line, ranks);
 }
 
-/// Says so where there was less to do than was asked for, or more is left than there may seem.
+/// Prints a note if fewer levels than requested changed the mesh.
 void note_idle_levels(const RefineOptions& options, int levels) {
-    if (options.refinement.levels == 0) return note("--levels 0: the mesh stays as it is");
+    if (options.refinement.levels == 0) return note("--levels 0: the mesh is unchanged");
     if (levels == options.refinement.levels) return;
     const bool asks_for_regions = !options.refinement.selection.regions.empty();
-    note(levels == 0 ? fmt::format("no cell was marked: the mesh stays as it is{}",
+    note(levels == 0 ? fmt::format("no cell was marked: the mesh is unchanged{}",
                                    asks_for_regions ? "; octetra info MESH shows how many cells "
                                                       "each region has"
                                                     : "")

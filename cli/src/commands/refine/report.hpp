@@ -8,24 +8,24 @@
 
 #include "commands/refine/options.hpp"
 
-/// What octetra refine says while it works.
+/// Progress output of octetra refine.
 namespace octetra::cli {
 
-/// A line of what was done, how large the mesh is now, and how long it took.
+/// Prints a line with the action, the current size of the mesh and the time taken.
 void report(const RefineOptions& options, std::string_view doing, std::uint64_t vertices,
             std::uint64_t cells, double seconds);
 
-/// What the engine has made, in numbers.
+/// Figures of the refined mesh.
 struct RefinedFacts {
     int levels = 0;
     int ranks = 1;
     MeshFacts facts;
-    std::uint64_t too_large = 0;  ///< cells
+    std::uint64_t too_large = 0;  ///< number of cells
 };
 
 void report_refined(const RefineOptions& options, const RefinedFacts& refined, double seconds);
 
-/// `lost`: what the format of the output cannot hold, or nothing.
+/// `lost` names the data that the output format cannot hold, or is empty.
 void report_written(const RefineOptions& options, const std::string& lost, const MeshFacts& facts,
                     double seconds);
 

@@ -10,15 +10,15 @@
 
 namespace octetra::cli {
 
-/// What octetra verify --coarsened-from asks of a mesh.
+/// The options of octetra verify --coarsened-from.
 struct Coarsened {
-    std::string before;  ///< the checkpoint; empty: nothing is asked
+    std::string before;  ///< the checkpoint; empty if not requested
     CoarseningOptions typed;
-    Selection selection;  ///< but for the cell list, which the checkpoint is needed for
+    Selection selection;  ///< without the cell list, which needs the checkpoint
 };
 
-/// Judges the mesh `after`, which is called so. Not collective: this process reads the checkpoint.
-/// Throws InputError.
+/// Verifies the mesh `after`, called `name` in messages. Not collective: this process reads the
+/// checkpoint. Throws InputError.
 [[nodiscard]] verify::Verdict judge_coarsened(const Coarsened& asked, const Mesh& after,
                                               const std::string& name,
                                               const verify::VerifyOptions& options,

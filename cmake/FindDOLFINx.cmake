@@ -1,6 +1,7 @@
-# DOLFINx::DOLFINx: the finite-element library of FEniCS, with real numbers (Debian: libdolfinx-dev and
-# libdolfinx-real-dev). Its own file for CMake asks for all that it was built with; what pkg-config knows is
-# enough to compile and link, and its flags beside folders and libraries are those of its own build.
+# DOLFINx::DOLFINx: the finite-element library of FEniCS, with real numbers (Debian: libdolfinx-dev
+# and libdolfinx-real-dev). Its own CMake file requires all packages of its build; the information
+# of pkg-config is sufficient to compile and link. Only include and library folders are used, not
+# the compiler flags of its build.
 find_package(PkgConfig QUIET)
 if(PKG_CONFIG_FOUND)
   pkg_check_modules(DOLFINx_PC QUIET dolfinx_real)

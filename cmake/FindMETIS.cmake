@@ -1,4 +1,4 @@
-# METIS::METIS: graph partitioning (Debian: libmetis-dev, which brings no file of its own for CMake).
+# METIS::METIS: graph partitioning (Debian: libmetis-dev, which does not provide a CMake file).
 find_path(METIS_INCLUDE_DIR metis.h)
 find_library(METIS_LIBRARY metis)
 include(FindPackageHandleStandardArgs)

@@ -1,5 +1,6 @@
-# PETSc::PETSc: the library, by pkg-config (Debian: libpetsc-real-dev). Its flags beside folders and libraries are
-# those of its own build, and not taken. What the compiler finds in its headers fails no build.
+# PETSc::PETSc: the library, found with pkg-config (Debian: libpetsc-real-dev). Only include and
+# library folders are used, not the compiler flags of its build. Headers are system headers, so that
+# warnings in them do not fail the build.
 find_package(PkgConfig QUIET)
 if(PKG_CONFIG_FOUND)
   pkg_check_modules(PETSC_PKG QUIET PETSc)

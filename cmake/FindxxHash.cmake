@@ -1,4 +1,4 @@
-# The headers of xxHash, which are all that it takes: xxHash::headers. Debian has no CMake file for them.
+# xxHash::headers: the headers of xxHash, which suffice. Debian does not provide a CMake file.
 find_path(xxHash_INCLUDE_DIR xxhash.h)
 include(FindPackageHandleStandardArgs)
 find_package_handle_standard_args(xxHash REQUIRED_VARS xxHash_INCLUDE_DIR)

@@ -1,15 +1,16 @@
-# Pages made from the program and the headers. `man`, the manual pages from --help, is built with the rest
-# where its tools are, so that they are installed; `api-docs`, pages of the public headers, is not.
-# Packages: [docs] of packages.txt.
+# Documentation generated from the program and the headers. `man`, the manual pages from --help, is
+# part of the default build if its tools are installed, so that the pages are installed; `api-docs`,
+# pages of the public headers, is not. Packages: [docs] of packages.txt.
 include(GNUInstallDirs)
 
 find_program(OCTETRA_HELP2MAN NAMES help2man)
 find_package(Python3 QUIET COMPONENTS Interpreter)
 find_program(OCTETRA_DOXYGEN NAMES doxygen)
 
-if(OCTETRA_HELP2MAN AND Python3_FOUND AND NOT CMAKE_CROSSCOMPILING)  # the program is run
+if(OCTETRA_HELP2MAN AND Python3_FOUND AND NOT CMAKE_CROSSCOMPILING)  # runs the program
   set(script ${PROJECT_SOURCE_DIR}/tools/man_pages.py)
-  # A page for each subcommand; octetra.1 stands for them all. None of an earlier program stays.
+  # A page for each subcommand, and octetra.1 for the program. Pages of an earlier build are
+  # removed.
   add_custom_command(OUTPUT ${PROJECT_BINARY_DIR}/man/octetra.1
     COMMAND ${CMAKE_COMMAND} -E rm -rf ${PROJECT_BINARY_DIR}/man
     COMMAND ${Python3_EXECUTABLE} ${script} --octetra $<TARGET_FILE:octetra>

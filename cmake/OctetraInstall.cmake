@@ -1,5 +1,5 @@
-# What `cmake --install` puts where. A layer is a component of the package: its library, its headers,
-# a file for find_package() and one for pkg-config. Nothing of it tells where it was installed.
+# Installation. A layer is a component of the package: its library, its headers, a file for
+# find_package() and one for pkg-config. The files do not contain the installation prefix.
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
@@ -7,11 +7,12 @@ set(octetra_package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/Octetra)
 
 # octetra_install_layer(<name> [REQUIRES <package>...] [PRIVATE_PACKAGES <package>...]
 #                       [PRIVATE_LIBRARIES <flag>...])
-# Packages as pkg-config names them. REQUIRES are what the interface asks for; what a library uses by
-# itself concerns only who links a static one.
+# Packages have the names of pkg-config. REQUIRES are those of the interface; private packages and
+# libraries are relevant only for linking a static library.
 function(octetra_install_layer name)
   cmake_parse_arguments(PARSE_ARGV 1 layer "" "" "REQUIRES;PRIVATE_PACKAGES;PRIVATE_LIBRARIES")
-  # A shared layer finds those below it beside itself: a program need not name all of them.
+  # A shared library finds the layers that it depends on in its own folder, so programs need not
+  # list them.
   set(run_path $ORIGIN ${CMAKE_INSTALL_RPATH})
   set_target_properties(octetra_${name} PROPERTIES
     INSTALL_RPATH "${run_path}"
@@ -39,7 +40,7 @@ function(octetra_install_layer name)
           DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
 endfunction()
 
-# Once all layers are known: what find_package(Octetra) reads.
+# Called after all layers have been declared: creates the files read by find_package(Octetra).
 function(octetra_install_package)
   set(OCTETRA_IS_STATIC ON)
   if(BUILD_SHARED_LIBS)
@@ -48,7 +49,7 @@ function(octetra_install_package)
   configure_package_config_file(${PROJECT_SOURCE_DIR}/cmake/OctetraConfig.cmake.in
                                 ${PROJECT_BINARY_DIR}/OctetraConfig.cmake
                                 INSTALL_DESTINATION ${octetra_package_dir})
-  # Before 1.0 a minor version may change what programs see.
+  # Before 1.0, minor versions may change the interface.
   write_basic_package_version_file(${PROJECT_BINARY_DIR}/OctetraConfigVersion.cmake
                                    COMPATIBILITY SameMinorVersion)
   install(FILES ${PROJECT_BINARY_DIR}/OctetraConfig.cmake

@@ -1,5 +1,5 @@
-# One folder of the house, one library: its public headers under include/octetra/<name>/ are its only
-# include root that others see, so a layer can include no other layer than those that it links.
+# Each layer is a folder and a library: include/octetra/<name>/ contains its public headers and is
+# its only include root visible to others, so a layer can include only the layers that it links.
 
 set(CMAKE_CXX_EXTENSIONS OFF)
 
@@ -26,17 +26,17 @@ endfunction()
 
 # octetra_layer(<name> [STATIC] SOURCES <file>... HEADERS <file>... [HEADERS_APART <file>...]
 #               [LAYER_HEADERS <file>...] [LINKS <target>...] [USES <target>...])
-# HEADERS are all that there are under include/, but for HEADERS_APART, which the caller installs.
-# LAYER_HEADERS, under layers/, are for other layers and not for users; they ask for the options of
+# HEADERS are all headers under include/ except HEADERS_APART, which the caller installs.
+# LAYER_HEADERS, under layers/, are for other layers, not for users; they require the options of
 # octetra_compile_options. LINKS are part of the layer's interface, USES are not. BUILD_SHARED_LIBS
-# decides what kind of library it is; a static one can be linked into a shared one, too. STATIC is a layer
-# that is not installed, whatever the others are: the installed program has it in itself.
+# determines the kind of library; a static one can also be linked into a shared one. STATIC declares
+# a layer that is never installed: it is linked into the installed program.
 function(octetra_layer name)
   cmake_parse_arguments(PARSE_ARGV 1 layer "STATIC" "" "SOURCES;HEADERS;HEADERS_APART;LAYER_HEADERS;LINKS;USES")
   file(GLOB_RECURSE headers RELATIVE ${CMAKE_CURRENT_SOURCE_DIR} CONFIGURE_DEPENDS include/*.hpp)
   list(REMOVE_ITEM headers ${layer_HEADERS} ${layer_HEADERS_APART})
   if(headers)
-    message(FATAL_ERROR "not among the HEADERS of ${name}, so not installed: ${headers}")
+    message(FATAL_ERROR "headers missing from HEADERS of ${name}, which would not be installed: ${headers}")
   endif()
   set(kind "")
   if(layer_STATIC)
@@ -56,7 +56,7 @@ function(octetra_layer name)
   target_include_directories(octetra_${name} PRIVATE src)
   target_link_libraries(octetra_${name} PUBLIC ${layer_LINKS} PRIVATE ${layer_USES})
   octetra_compile_options(octetra_${name})
-  # Nobody replaces our functions by others of their name, so they may be inlined in a shared library.
+  # Interposition of functions is not supported, so functions can be inlined in a shared library.
   target_compile_options(octetra_${name} PRIVATE
                          $<$<CXX_COMPILER_ID:GNU>:-fno-semantic-interposition>)
 endfunction()

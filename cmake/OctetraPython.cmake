@@ -1,7 +1,8 @@
-# What the Python module takes, and where it goes: sets OCTETRA_PYTHON_FOUND and OCTETRA_PYTHON_SITE. In the
-# words of CMake's output, what is missing if something is.
+# Dependencies and installation folder of the Python module: sets OCTETRA_PYTHON_FOUND and
+# OCTETRA_PYTHON_SITE. Missing dependencies are reported in CMake's output.
 
-# The system's interpreter, whose packages packages.txt lists, unless -DPython_EXECUTABLE says another.
+# Uses the system's interpreter, whose packages are listed in packages.txt, unless
+# -DPython_EXECUTABLE is given.
 if(NOT DEFINED Python_EXECUTABLE AND EXISTS /usr/bin/python3)
   set(Python_EXECUTABLE /usr/bin/python3)
 endif()
@@ -14,19 +15,19 @@ if(Python_FOUND AND pybind11_FOUND)
   set(OCTETRA_PYTHON_FOUND ON)
   execute_process(COMMAND ${Python_EXECUTABLE} -c "import sysconfig; print(sysconfig.get_path('platlib'))"
                   OUTPUT_VARIABLE site OUTPUT_STRIP_TRAILING_WHITESPACE)
-  cmake_path(GET site FILENAME site)  # dist-packages with Debian, else site-packages
+  cmake_path(GET site FILENAME site)  # dist-packages on Debian, site-packages elsewhere
   set(OCTETRA_PYTHON_SITE lib/python${Python_VERSION_MAJOR}.${Python_VERSION_MINOR}/${site}
       CACHE STRING "Where the Python module is installed, below the prefix")
   message(STATUS "Python module: for ${Python_EXECUTABLE} (${Python_VERSION})")
 elseif(Python_FOUND)
-  message(STATUS "Python module: not built, as there is no pybind11 (Debian: pybind11-dev)")
+  message(STATUS "Python module: not built, because pybind11 was not found (Debian: pybind11-dev)")
 else()
-  message(STATUS "Python module: not built, as there are no files to compile for Python with "
+  message(STATUS "Python module: not built, because the development files of Python were not found "
                  "(Debian: python3-dev)")
 endif()
 
-# octetra_python_extension(<target> <name> SOURCES ... LINKS ... FILES ...): a compiled part of the module beside
-# octetra_python, for an adapter, with what Python files stand in the folder of the caller.
+# octetra_python_extension(<target> <name> SOURCES ... LINKS ... FILES ...): a compiled part of the
+# module next to octetra_python, for an adapter, with Python files from the caller's folder.
 function(octetra_python_extension target name)
   cmake_parse_arguments(extension "" "" "SOURCES;LINKS;FILES" ${ARGN})
   pybind11_add_module(${target} MODULE NO_EXTRAS ${extension_SOURCES})

@@ -1,5 +1,5 @@
 // An adaptive loop without a solver: the mesh follows a steep front, u = atan(60 (|x| - 0.7)),
-// which is interpolated where a solver would solve.
+// which is interpolated instead of computed by a solver.
 //     mpirun -n 4 ./adaptive_loop cube.mesh 5 front.vtu
 #include <mpi.h>
 
@@ -29,7 +29,8 @@ std::vector<double> solve(const od::AdaptiveMesh& mesh) {
     return u;
 }
 
-// For each cell of this process the square of how far u is off in the middle of its edges.
+// Returns, for each cell of this process, the square of the maximum error of u at the midpoints of
+// its edges.
 std::vector<double> estimate(const od::AdaptiveMesh& mesh, const std::vector<double>& u) {
     std::vector<double> eta2;
     for (const octetra::CellVertices& cell : mesh.cells()) {
@@ -45,7 +46,8 @@ std::vector<double> estimate(const od::AdaptiveMesh& mesh, const std::vector<dou
     return eta2;
 }
 
-// At how many vertices of the whole mesh is the guess, carried over from the mesh before, near u?
+// Returns the number of vertices of the whole mesh at which the guess, transferred from the
+// previous mesh, is close to u.
 std::uint64_t count_near(const od::AdaptiveMesh& mesh, const std::vector<double>& guess,
                          const std::vector<double>& u) {
     std::uint64_t count = 0;

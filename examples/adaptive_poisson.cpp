@@ -1,5 +1,5 @@
-// Laplace's equation with a re-entrant edge, solved by linear elements (PETSc: CG with algebraic
-// multigrid) on meshes that follow an error estimator, or on uniformly refined ones.
+// Laplace's equation with a re-entrant edge, solved with linear elements (PETSc: CG with algebraic
+// multigrid) on meshes refined according to an error estimator, or uniformly.
 //
 // Domain: ((-1,1)^2 without [0,1) x (-1,0]) x (0,1). Solution: u = r^(2/3) sin(2 theta / 3), whose
 // gradient has no bound at the edge r = 0. Dirichlet conditions on the sides, natural ones on z = 0
@@ -56,7 +56,7 @@ Vector gradient(const Point& p) {
     const double r = std::hypot(p.x, p.y);
     const double theta = angle(p);
     const double size = 2.0 / 3 * std::pow(r, -1.0 / 3);
-    // d/dr and 1/r d/dtheta, turned into x and y.
+    // d/dr and 1/r d/dtheta, transformed to x and y.
     return {-size * std::sin(theta / 3), size * std::cos(theta / 3), 0};
 }
 bool is_natural(const std::array<Point, 3>& face) {
@@ -92,7 +92,7 @@ octetra::Mesh coarse_mesh() {
                         cell[a + 1] = vertex(p);
                     }
                     const bool is_even = (axes[0] + 1) % 3 == axes[1];
-                    if (!is_even) std::swap(cell[2], cell[3]);  // the other orientation
+                    if (!is_even) std::swap(cell[2], cell[3]);  // opposite orientation
                     mesh.cells.push_back(cell);
                 } while (std::next_permutation(axes.begin(), axes.end()));
             }
@@ -105,7 +105,7 @@ octetra::Mesh coarse_mesh() {
 
 struct CellGeometry {
     double volume = 0;
-    std::array<Vector, 4> gradients{};  // of the four hat functions
+    std::array<Vector, 4> gradients{};  // gradients of the four hat functions
 
     explicit CellGeometry(const std::array<Point, 4>& p) {
         volume = dot(cross(from_to(p[0], p[1]), from_to(p[0], p[2])), from_to(p[0], p[3])) / 6;
@@ -131,10 +131,10 @@ std::array<Point, 3> face_of(const std::array<Point, 4>& corners, std::size_t fa
 
 // ---- solve --------------------------------------------------------------------------------------
 
-// Numbers as PETSc wants them: those of each process's own vertices are consecutive.
+// The numbering required by PETSc: vertices owned by a process have consecutive numbers.
 struct Dofs {
-    std::vector<PetscInt> number;  // of each vertex of this process
-    std::vector<std::size_t> own;  // the vertices that it owns
+    std::vector<PetscInt> number;  // number of each vertex of this process
+    std::vector<std::size_t> own;  // the vertices owned by this process
 };
 
 Dofs number_dofs(const od::AdaptiveMesh& mesh) {
@@ -148,7 +148,8 @@ Dofs number_dofs(const od::AdaptiveMesh& mesh) {
     return dofs;
 }
 
-// Not 0 for vertices on the sides. A process may have a vertex of the boundary and no face there.
+// Returns nonzero for vertices on the sides. A process may have a vertex on the boundary without
+// having a face there.
 std::vector<std::uint8_t> on_sides(const od::AdaptiveMesh& mesh) {
     std::vector<std::uint8_t> flags(mesh.points().size(), 0);
     for (const auto& [cell, face] : mesh.boundary()) {
@@ -240,7 +241,7 @@ std::vector<Vector> gradients_of(const od::AdaptiveMesh& mesh, const std::vector
     return gradients;
 }
 
-// eta_T^2: jumps of the normal derivative, also to cells of other processes.
+// Returns eta_T^2, computed from jumps of the normal derivative, also across process boundaries.
 std::vector<double> estimate(const od::AdaptiveMesh& mesh, const std::vector<Vector>& gradients) {
     const od::FaceNeighbours neighbours = mesh.face_neighbours();
     const od::GhostLayer ghosts = mesh.ghosts(od::GhostsBy::face);

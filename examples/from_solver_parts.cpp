@@ -1,6 +1,5 @@
-// A mesh that the processes of a solver have made themselves, handed over in parts and, refined,
-// taken back as arrays by global numbers. Here each process makes a slab of a bar of cubes, six
-// cells each.
+// A mesh created in parts by the processes of a solver, refined, and returned as arrays with global
+// numbers. Here each process creates a slab of a bar of cubes, each divided into six cells.
 //     mpirun -n 4 ./from_solver_parts
 #include <mpi.h>
 
@@ -20,8 +19,8 @@ namespace od = octetra::distributed;
 
 namespace {
 
-// Cube number k of the bar: its vertices are 4 k .. 4 k + 7, the last four shared with the next
-// one.
+// Returns cube number k of the bar: its vertices are 4 k .. 4 k + 7, the last four shared with the
+// next cube.
 od::MeshPart slab(std::uint64_t k) {
     od::MeshPart part;
     for (std::uint64_t v = 0; v < 8; ++v) {
@@ -51,8 +50,7 @@ void run() {
         od::AdaptiveMesh::from_parts(processes, slab(static_cast<std::uint64_t>(processes.rank())));
     (void)mesh.refine(std::vector<std::uint8_t>(mesh.cells().size(), 1));
 
-    // The arrays that a solver would take: cells by global vertex numbers, and who owns which
-    // vertex.
+    // The arrays for a solver: cells by global vertex numbers, and the owner of each vertex.
     std::vector<std::array<std::uint64_t, 4>> cells;
     for (const octetra::CellVertices& cell : mesh.cells()) {
         auto& global = cells.emplace_back();
@@ -60,7 +58,7 @@ void run() {
             global[k] = static_cast<std::uint64_t>(mesh.vertex_numbers()[cell[k].value()]);
         }
     }
-    // An assembly loop: the lumped mass of each vertex, added up over the processes that have it.
+    // An assembly loop: the lumped mass of each vertex, summed over the processes that share it.
     std::vector<double> mass(mesh.points().size(), 0);
     for (const octetra::CellVertices& cell : mesh.cells()) {
         for (const octetra::VertexIndex v : cell) mass[v.value()] += 1.0 / (6 * 8 * 4);

@@ -1,9 +1,8 @@
-// A front that moves through a mesh, a sphere whose centre goes along the bottom of the unit cube.
-// In every cycle the mesh becomes coarse behind it and fine ahead of it, its cells are shared out
-// anew, and the front leaves heat where it is. The heat of a cell is divided over the pieces of the
-// cell, and added up where pieces become one again; so what there is of it in the end is what was
-// left.
-//     mpirun -n 4 ./moving_front cube.mesh 50 front     writes front.vtkhdf, all meshes, and
+// A front that moves through a mesh: a sphere whose centre moves along the bottom of the unit cube.
+// In every cycle the mesh is coarsened behind the front, refined ahead of it, and rebalanced, and
+// the front deposits heat at its position. The heat of a cell is divided among its pieces, and
+// summed when pieces are merged, so the total heat equals the heat deposited.
+//     mpirun -n 4 ./moving_front cube.mesh 50 front     writes front.vtkhdf, with all meshes, and
 //     front.mesh
 #include <mpi.h>
 
@@ -31,11 +30,11 @@ using octetra::Point;
 namespace {
 
 constexpr double radius = 0.2;
-constexpr double thickness = 0.01;  // of the front
-constexpr double finest = 0.01;     // no cell wider than this is in it
+constexpr double thickness = 0.01;  // thickness of the front
+constexpr double finest = 0.01;     // maximum width of cells in the front
 
 struct Front {
-    double x = 0;  // of the sphere's centre
+    double x = 0;  // x coordinate of the sphere's centre
 
     double distance(const Point& p) const {
         const double dx = p.x - x;
@@ -44,7 +43,7 @@ struct Front {
     }
 };
 
-// Seconds of one cycle on this process.
+// The seconds of a cycle on this process.
 struct Seconds {
     double coarsen = 0;
     double refine = 0;
@@ -53,7 +52,7 @@ struct Seconds {
     double write = 0;
 };
 
-// What work() returns; the time that it takes is added to `seconds`.
+// Returns the result of work(), and adds its duration to `seconds`.
 auto timed(double& seconds, auto&& work) {
     struct Clock {
         double* sum;
@@ -72,7 +71,8 @@ public:
     const od::AdaptiveMesh& mesh() const { return mesh_; }
 
     void follow(const Front& front, Seconds& seconds) {
-        // Of a cell that went, the larger one that it belongs to is not wanted finer at once.
+        // The criteria differ by a margin, so that coarsened cells are not refined again
+        // immediately.
         const auto is_behind = [](double distance, double width) {
             return distance > thickness + 4 * width;
         };
@@ -111,7 +111,7 @@ public:
                         std::array{od::Field{"density", octetra::FieldOn::cells, 1, density}});
     }
 
-    // How far the heat that there is in all is off that which the front has left, over that.
+    // Returns the relative difference between the total heat and the heat deposited.
     double drift() const {
         std::array<double, 2> sums{std::accumulate(heat_.begin(), heat_.end(), 0.0), left_};
         MPI_Allreduce(MPI_IN_PLACE, sums.data(), 2, MPI_DOUBLE, MPI_SUM, MPI_COMM_WORLD);
@@ -119,7 +119,7 @@ public:
     }
 
 private:
-    // A step's doing to what the cells have. Did it do anything?
+    // Transfers the heat of cells over a step. Returns whether the step changed the mesh.
     bool take(const od::Adaptation& step, Seconds& seconds) {
         heat_ = timed(seconds.transfer, [&] {
             return step.transfer_cells(std::move(heat_), 1, od::CellValues::divided);
@@ -146,11 +146,11 @@ private:
     }
 
     od::AdaptiveMesh mesh_;
-    std::vector<double> heat_;  // of each cell
-    double left_ = 0;           // by the front, on this process
+    std::vector<double> heat_;  // heat of each cell
+    double left_ = 0;           // heat deposited on this process
 };
 
-// A line of the table; each of the seconds is that of the process which took longest.
+// Prints a line of the table, with the maximum of the seconds over all processes.
 void print_cycle(int cycle, const HeatedMesh& heated, const Seconds& seconds, double drift) {
     const od::Communicator& processes = heated.mesh().processes();
     const std::uint64_t here = heated.mesh().cells().size();
@@ -187,8 +187,8 @@ void run(const char* input, int cycles, const std::string& name) {
     }
     (void)series.commit();
     (void)heated.mesh().write(name + ".mesh");
-    if (!(greatest < 1e-12)) throw std::runtime_error("heat came or went");
-    if (processes.is_first()) std::printf("no heat came or went but by rounding\n");
+    if (!(greatest < 1e-12)) throw std::runtime_error("heat is not conserved");
+    if (processes.is_first()) std::printf("heat is conserved up to rounding\n");
 }
 
 }  // namespace

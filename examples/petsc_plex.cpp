@@ -1,6 +1,6 @@
-// Poisson's equation, -div grad u = 1 with u = 0 on the boundary, by PETSc's own finite elements on
-// a DMPlex: in each step the mesh becomes a plex, PETSc solves on it, and the cells where the
-// solution changes most are refined.
+// Poisson's equation, -div grad u = 1 with u = 0 on the boundary, with PETSc's finite elements on a
+// DMPlex: in each step the mesh is converted to a plex, PETSc solves the equation on it, and the
+// cells with the largest variation of the solution are refined.
 //     mpirun -n 4 ./petsc_plex cube.mesh 3
 #include <petscdmplex.h>
 #include <petscds.h>
@@ -57,7 +57,7 @@ PetscErrorCode zero(PetscInt, PetscReal, const PetscReal[], PetscInt, PetscScala
     return 0;
 }
 
-// Linear elements; to_plex() has labelled the boundary.
+// Defines the problem with linear elements; to_plex() has labelled the boundary.
 void set_problem(DM plex) {
     DMLabel boundary = nullptr;
     check(DMGetLabel(plex, "boundary", &boundary));
@@ -76,12 +76,12 @@ void set_problem(DM plex) {
     check(DMPlexSetSNESLocalFEM(plex, nullptr, nullptr, nullptr));
 }
 
-// The solution at each vertex of this process, by the mesh's numbers.
+// Returns the solution at each vertex of this process, by the mesh's local numbers.
 std::vector<double> at_vertices(DM plex, Vec u, const od::AdaptiveMesh& mesh) {
     Vec local = nullptr;
     PetscSection section = nullptr;
     check(DMGetLocalVector(plex, &local));
-    check(VecSet(local, 0));  // also of the boundary, whose values no unknown has
+    check(VecSet(local, 0));  // including boundary values, which are not unknowns
     check(DMGlobalToLocal(plex, u, INSERT_VALUES, local));
     check(DMGetLocalSection(plex, &section));
     const op::PlexPoints points = op::points_of(plex);
@@ -126,11 +126,11 @@ Solution solve(const od::AdaptiveMesh& mesh) {
     return solution;
 }
 
-// Of each cell, its volume and the integral of u in it.
+// The volume of a cell and the integral of u over it.
 struct CellIntegral {
     double volume = 0;
     double of_u = 0;
-    double spread = 0;  // how far apart the values at its vertices are
+    double spread = 0;  // range of the values at its vertices
 };
 
 std::vector<CellIntegral> integrals(const od::AdaptiveMesh& mesh, const std::vector<double>& u) {
@@ -156,7 +156,7 @@ std::vector<CellIntegral> integrals(const od::AdaptiveMesh& mesh, const std::vec
 void run(const char* input, int steps) {
     const od::Communicator processes = od::communicator_of(PETSC_COMM_WORLD);
     od::AdaptiveMesh mesh = od::AdaptiveMesh::read(processes, input);
-    // Refined meshes have all functions of the meshes before, so this can only grow.
+    // Function spaces of refined meshes contain the previous ones, so the integral increases.
     check(PetscPrintf(PETSC_COMM_WORLD, "    cells  unknowns  integral of u\n"));
     for (int step = 0;; ++step) {
         const Solution solution = solve(mesh);

@@ -1,5 +1,5 @@
-// A quadratic (P2) function carried through a refinement by the maps: values at the vertices and at
-// the midpoints of edges. A quadratic function is met exactly.
+// A quadratic (P2) function transferred over a refinement with the maps of the step: values at the
+// vertices and at the midpoints of edges. Quadratic functions are transferred exactly.
 //     mpirun -n 4 ./quadratic_transfer bracket.mesh
 #include <mpi.h>
 
@@ -40,7 +40,8 @@ QuadraticField interpolated(const od::AdaptiveMesh& mesh, const od::MeshEdges& e
     return field;
 }
 
-// Barycentric coordinates in a cell before the step: of its vertices, or of midpoints of its edges.
+// Returns barycentric coordinates, in a cell before the step, of a vertex or edge midpoint of the
+// cell.
 std::array<double, 4> barycentric(VertexIndex v, const CellVertices& cell,
                                   const od::Adaptation& step) {
     std::array<double, 4> weights{};
@@ -82,7 +83,7 @@ void run(const char* input) {
     for (std::size_t c = 0; c < marks.size(); c += 3) marks[c] = 1;
     const od::Adaptation step = mesh.refine(marks);
 
-    // Every vertex and every edge's midpoint lies in the cell that its cell was.
+    // Every vertex and edge midpoint of a cell lies in the parent of this cell.
     const od::MeshEdges edges = mesh.number_edges();
     QuadraticField after{std::vector<double>(mesh.points().size()),
                          std::vector<double>(edges.vertices.size())};

@@ -1,4 +1,4 @@
-// The smallest program: reads a mesh, refines it twice around the origin, writes it.
+// A minimal program: reads a mesh, refines it twice around the origin, writes it.
 //     mpirun -n 4 ./read_refine_write bracket.mesh refined.mesh
 #include <mpi.h>
 
@@ -15,7 +15,7 @@ namespace od = octetra::distributed;
 
 namespace {
 
-// One byte for each cell of this process: is its centroid near the centre?
+// Returns a byte for each cell of this process: whether its centroid is near the centre.
 std::vector<std::uint8_t> marks_near(const od::AdaptiveMesh& mesh, const octetra::Point& centre,
                                      double radius) {
     std::vector<std::uint8_t> marks;

@@ -4,9 +4,9 @@
     mpirun -n 4 python3 -m mpi4py adaptive_poisson.py --refine dolfinx --steps 8
 
 -laplace u = 0 on the L-shaped prism ((-1, 1)^2 without [0, 1) x (-1, 0]) x (0, 1), where u = r^(2/3)
-sin(2 theta / 3) is given on the sides, and nothing flows through bottom and top: that of
-examples/adaptive_poisson.cpp. The gradient of u is infinite at the edge that points inwards. Solve,
-estimate, mark and refine: the two runs differ in refine_mesh() alone.
+sin(2 theta / 3) is prescribed on the sides, with natural boundary conditions at bottom and top, as in
+examples/adaptive_poisson.cpp. The gradient of u is singular at the re-entrant edge. The loop consists of
+solve, estimate, mark and refine; the two runs differ only in the class that refines.
 """
 
 import argparse
@@ -46,7 +46,7 @@ def on_sides(x):
 
 
 def coarse_mesh():
-    """24 cubes of side 1/2, of six cells each, on the first rank; on the others nothing."""
+    """Returns 24 cubes of side 1/2, of six cells each, on the first rank, and nothing on the others."""
     if world.rank > 0:
         return np.empty((0, 3)), np.empty((0, 4), np.int64)
     corners = np.stack(np.meshgrid(*(range(n) for n in (4, 4, 2)), indexing="ij"), axis=-1).reshape(-1, 3)
@@ -75,14 +75,14 @@ def solve(domain):
 
 
 def estimate(uh):
-    """Squared, of each cell of this rank: jumps of the normal derivative."""
+    """Returns the squared indicators of the cells of this rank, from jumps of the normal derivative."""
     domain = uh.function_space.mesh
     constants = dolfinx.fem.FunctionSpace(domain, ("DG", 0))
     w = ufl.TestFunction(constants)
     area, n = ufl.FacetArea(domain), ufl.FacetNormal(domain)
     z = ufl.SpatialCoordinate(domain)[2]
     flow = ufl.conditional(ufl.Or(z < 1e-9, z > 1 - 1e-9), ufl.dot(ufl.grad(uh), n), 0)
-    # Of each facet area^(3/2) * jump^2; both cells have half of it.
+    # area^(3/2) * jump^2 for each facet, half of it for each of its cells
     form = (ufl.avg(area) ** 0.5 * ufl.jump(ufl.grad(uh), n) ** 2 * ufl.avg(w) * ufl.dS
             + area ** 0.5 * flow ** 2 * w * ufl.ds(metadata={"quadrature_degree": 0}))
     eta = dolfinx.fem.petsc.assemble_vector(dolfinx.fem.form(form))
@@ -92,7 +92,7 @@ def estimate(uh):
 
 
 def mark(eta):
-    """Doerfler: the cells of largest eta that make half of its sum, as few as a threshold can choose."""
+    """Doerfler marking: the cells with the largest eta that have half of its sum, determined by a threshold."""
     low, high = 0.0, world.allreduce(eta.max(initial=0), MPI.MAX)
     half = world.allreduce(eta.sum()) / 2
     for _ in range(40):

@@ -1,15 +1,15 @@
-"""A front that moves through a mesh, a sphere whose centre goes along the bottom of the unit cube.
+"""A front that moves through a mesh: a sphere whose centre moves along the bottom of the unit cube.
 
-In every cycle the mesh becomes coarse behind it and fine ahead of it, its cells are shared out anew, and
-the front leaves heat where it is. The heat of a cell is divided over the pieces of the cell, and added up
-where pieces become one again; so what there is of it in the end is what was left.
+In every cycle the mesh is coarsened behind the front, refined ahead of it, and rebalanced, and the front
+deposits heat at its position. The heat of a cell is divided among its pieces, and summed when pieces are
+merged, so the total heat equals the heat deposited.
 
     python3 -m octetra generate kuhn 8 -o cube.mesh
     mpirun -n 4 python3 -m mpi4py moving_front.py cube.mesh 50 front
 
-writes front.vtkhdf, all meshes; front.mesh, the last one; and front.png, the bottom of some. The picture
-takes matplotlib (Debian: python3-matplotlib); several ranks take mpi4py. examples/moving_front.cpp is the
-same in C++.
+writes front.vtkhdf, with all meshes; front.mesh, the last mesh; and front.png, the bottom of some meshes.
+The picture requires matplotlib (Debian: python3-matplotlib); several ranks require mpi4py.
+examples/moving_front.cpp is the same program in C++.
 """
 
 import contextlib
@@ -21,19 +21,19 @@ import numpy as np
 import octetra
 
 RADIUS = 0.2
-THICKNESS = 0.01  # of the front
-FINEST = 0.01  # no cell wider than this is in it
+THICKNESS = 0.01  # thickness of the front
+FINEST = 0.01  # maximum width of cells in the front
 
 
 def distances(mesh, x):
-    """How far the middle of each cell is from the front, whose centre is at x, 0.5, 0."""
+    """Returns the distance of the centroid of each cell from the front, whose centre is at x, 0.5, 0."""
     middles = mesh.points[mesh.cells].mean(axis=1)
     from_centre = middles - [x, 0.5, 0]
     return np.abs(np.sqrt((from_centre**2).sum(axis=1)) - RADIUS)
 
 
 def behind(mesh, x):
-    """Of a cell that went, the larger one that it belongs to is not wanted finer at once."""
+    """Marks cells behind the front; the margin prevents coarsened cells from being refined again immediately."""
     return distances(mesh, x) > THICKNESS + 4 * np.cbrt(octetra.quality.volume(mesh))
 
 
@@ -50,7 +50,7 @@ def timed(seconds, what):
 
 
 def follow(mesh, heat, x, seconds):
-    """Moves the mesh to where the front is; returns the heat of its cells."""
+    """Adapts the mesh to the position of the front; returns the heat of its cells."""
     for marked, step, what in ((behind, mesh.coarsen, "coarsen"), (ahead, mesh.refine, "refine")):
         changes = True
         while changes:
@@ -67,10 +67,10 @@ def follow(mesh, heat, x, seconds):
 
 
 def over_all_ranks(numbers, operation):
-    """Each number's "SUM" or "MAX" over the ranks."""
+    """Returns the "SUM" or "MAX" of each number over the ranks."""
     try:
         from mpi4py import MPI
-    except ImportError:  # then there is one rank
+    except ImportError:  # a single rank
         return np.array(numbers)
     all_numbers = np.array(numbers, float)
     MPI.COMM_WORLD.Allreduce(MPI.IN_PLACE, all_numbers, getattr(MPI, operation))
@@ -78,7 +78,7 @@ def over_all_ranks(numbers, operation):
 
 
 def bottom_of(mesh, density):
-    """Of the faces at z = 0, on the first rank: corners, (n, 3, 2), and the density of their cells."""
+    """Returns, on the first rank, the corners, (n, 3, 2), of the faces at z = 0, and the density of their cells."""
     cells, _ = mesh.boundary()
     corners = mesh.points[mesh.boundary_faces()]
     low = np.all(corners[:, :, 2] == 0, axis=1)
@@ -136,9 +136,9 @@ def main(path, cycles, name):
                       "{:9.3f} {:8.3f} {:9.3f} {:8.3f} {:8.3f}".format(*longest), f"{drift:8.0e}")
     mesh.write(name + ".mesh")
     if not greatest < 1e-12:
-        sys.exit("heat came or went")
+        sys.exit("heat is not conserved")
     if mesh.rank == 0:
-        print("no heat came or went but by rounding")
+        print("heat is conserved up to rounding")
         draw(name + ".png", frames)
 
 

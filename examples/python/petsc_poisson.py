@@ -1,9 +1,9 @@
-"""Poisson's equation, -div grad u = 1 with u = 0 on the boundary, by linear elements in petsc4py: in each step the
-mesh becomes a DMPlex, PETSc solves on it, and the cells where the solution changes most are refined.
+"""Poisson's equation, -div grad u = 1 with u = 0 on the boundary, with linear elements in petsc4py: in each step the
+mesh is converted to a DMPlex, PETSc solves on it, and the cells with the largest variation of u are refined.
 
     mpirun -n 4 python3 -m mpi4py petsc_poisson.py cube.mesh 3
 
-Options of PETSc go behind: -pc_type gamg -ksp_monitor.
+Options of PETSc follow the arguments: -pc_type gamg -ksp_monitor.
 """
 
 import sys
@@ -21,7 +21,7 @@ from octetra.petsc import points_of, to_plex
 
 
 def give_vertices_unknowns(plex):
-    """One for each vertex, but none on the boundary, whose faces to_plex() has labelled."""
+    """Assigns an unknown to each vertex except those on the boundary, whose faces to_plex() has labelled."""
     boundary = plex.getLabel("boundary")
     plex.labelComplete(boundary)  # their vertices and edges, on all ranks that have them
     plex.setNumFields(1)
@@ -29,20 +29,20 @@ def give_vertices_unknowns(plex):
 
 
 def places(plex, mesh):
-    """Of each vertex of this rank, where its value is in a local vector."""
+    """Returns the position in a local vector of the value at each vertex of this rank."""
     section, first = plex.getSection(), points_of(plex).first_vertex
     return np.array([section.getOffset(first + v) for v in range(len(mesh.points))], PETSc.IntType)
 
 
 def gradients(mesh):
-    """Of the four linear functions that are 1 at a corner and 0 at the others: (cells, 4, 3)."""
+    """Returns the gradients of the four hat functions of each cell: (cells, 4, 3)."""
     corners = mesh.points[mesh.cells]
     inverse = np.linalg.inv(corners[:, 1:] - corners[:, :1]).transpose(0, 2, 1)
     return np.concatenate([-inverse.sum(axis=1, keepdims=True), inverse], axis=1)
 
 
 def assemble(plex, mesh, place, volumes):
-    """The matrix and the right-hand side. A number of an unknown that is negative is none, which PETSc leaves out."""
+    """Returns the matrix and the right-hand side. PETSc ignores entries with negative indices, which are no unknowns."""
     g = gradients(mesh)
     unknowns = plex.getLGMap().apply(place)[mesh.cells]
     matrix = plex.createMatrix()
@@ -56,7 +56,7 @@ def assemble(plex, mesh, place, volumes):
 
 
 def solve(mesh, volumes):
-    """u at each vertex of this rank, and how many unknowns there are."""
+    """Returns u at each vertex of this rank, and the number of unknowns."""
     plex = to_plex(mesh)
     give_vertices_unknowns(plex)
     place = places(plex, mesh)
@@ -69,7 +69,7 @@ def solve(mesh, volumes):
     solution = right.duplicate()
     solver.solve(right, solution)
     local = plex.createLocalVector()
-    local.set(0)  # also on the boundary
+    local.set(0)  # including the boundary
     plex.globalToLocal(solution, local)
     return local.array[place], solution.size
 

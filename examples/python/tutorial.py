@@ -1,9 +1,9 @@
-"""From a mesh to pictures: read, mark by a function of coordinates, refine, look at the angles, save.
+"""From a mesh to pictures: read, mark by a function of coordinates, refine, plot angles, save.
 
     python3 tutorial.py gear.mesh              on one rank
-    mpirun -n 4 python3 -m mpi4py tutorial.py gear.mesh  on four, with the same files
+    mpirun -n 4 python3 -m mpi4py tutorial.py gear.mesh  on four ranks, with the same output
 
-Pictures take matplotlib (Debian: python3-matplotlib); several ranks take mpi4py.
+Pictures require matplotlib (Debian: python3-matplotlib); several ranks require mpi4py.
 """
 
 import sys
@@ -14,17 +14,17 @@ import octetra
 
 
 def front(points):
-    """How far points, (n, 3), are from a sphere around one tooth of the gear."""
+    """Returns the distance of points, (n, 3), from a sphere around one tooth of the gear."""
     return np.abs(np.linalg.norm(points - [1.0, 0.0, 0.15], axis=1) - 0.3)
 
 
 def refine_to_the_front(mesh, steps):
-    """Bisects the cells that are nearer to the front than they are wide."""
+    """Refines the cells whose distance from the front is less than their width."""
     for step in range(1, steps + 1):
         middles = mesh.points[mesh.cells].mean(axis=1)
         widths = np.cbrt(octetra.quality.volume(mesh))
         told = mesh.refine(front(middles) < widths)
-        cells = mesh.count_cells()  # collective: all ranks ask
+        cells = mesh.count_cells()  # collective
         if mesh.rank == 0:
             print(f"step {step}: {cells:,} cells, {mesh.vertex_count:,} vertices")
         if not told.changed:
@@ -32,7 +32,7 @@ def refine_to_the_front(mesh, steps):
 
 
 def angle_counts(mesh, bins):
-    """How many dihedral angles of the whole mesh are in each bin of 0 .. 180 degrees."""
+    """Returns the number of dihedral angles of the whole mesh in each bin of 0 .. 180 degrees."""
     counts, _ = np.histogram(octetra.quality.dihedral_angles(mesh), bins, range=(0, 180))
     return on_all_ranks(counts)
 
@@ -40,7 +40,7 @@ def angle_counts(mesh, bins):
 def on_all_ranks(counts):
     try:
         from mpi4py import MPI
-    except ImportError:  # then there is one rank
+    except ImportError:  # a single rank
         return counts
     return MPI.COMM_WORLD.allreduce(counts)
 
@@ -59,7 +59,7 @@ def draw_histogram(path, before, after):
 
 
 def draw_surface(path, mesh):
-    """The boundary of this rank's part: all of it, where there is one rank."""
+    """Draws the boundary of this rank's part: the whole boundary on a single rank."""
     from matplotlib.figure import Figure
     from mpl_toolkits.mplot3d.art3d import Poly3DCollection
 
@@ -81,7 +81,7 @@ def main(path):
     before = angle_counts(mesh, 36)
     refine_to_the_front(mesh, 4)
     after = angle_counts(mesh, 36)
-    distance = front(mesh.points)  # a field, of vertices
+    distance = front(mesh.points)  # a field on vertices
     mesh.write("tutorial.vtu", vertex_fields={"distance": distance})  # for ParaView
     mesh.save("tutorial.octetra", vertex_fields={"distance": distance})
     if not mesh.verify(path):

@@ -12,12 +12,12 @@
 namespace octetra::quality {
 
 /// Visits every edge (sides = cell_edges) or face (sides = cell_faces) of the cells once, in
-/// ascending order: calls visit(vertices, cells), the vertices ascending, and how many cells have
-/// that side.
+/// ascending order: calls visit(vertices, cells) with the vertices, ascending, and the number of
+/// cells that contain the side.
 ///
-/// The sides of all cells are put into buckets by smallest vertex, holding the other vertices only,
-/// and each bucket is sorted. Memory meanwhile: 8 bytes per vertex and 24 (edges) or 32 (faces) per
-/// cell.
+/// The sides of all cells are placed in buckets by smallest vertex, which store only the other
+/// vertices, and each bucket is sorted. Temporary memory: 8 bytes per vertex and 24 (edges) or 32
+/// (faces) per cell.
 template <std::size_t N, std::size_t Sides>
 void for_each_side(const Mesh& mesh, const std::array<std::array<std::uint8_t, N>, Sides>& sides,
                    auto&& visit) {
@@ -38,7 +38,8 @@ void for_each_side(const Mesh& mesh, const std::array<std::array<std::uint8_t, N
     std::vector<std::size_t> bucket_end(mesh.points.size(), 0);
     for_each_occurrence([&](const Vertices& v) { ++bucket_end[v[0].value()]; });
     std::exclusive_scan(bucket_end.begin(), bucket_end.end(), bucket_end.begin(), std::size_t{0});
-    // Now it is where each bucket begins; filling the buckets moves it to where each one ends.
+    // bucket_end now contains the beginning of each bucket; filling the buckets advances it to the
+    // end.
     std::vector<Rest> rests(Sides * mesh.cells.size());
     for_each_occurrence([&](const Vertices& v) {
         Rest& rest = rests[bucket_end[v[0].value()]++];

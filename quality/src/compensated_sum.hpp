@@ -4,8 +4,8 @@
 
 namespace octetra::quality {
 
-/// A sum that keeps what each addition rounds away and gives it back at the end (Neumaier 1974):
-/// the error does not grow with the number of terms. Needs arithmetic that is not reassociated.
+/// A sum with compensation of the rounding errors of each addition (Neumaier 1974): the error does
+/// not grow with the number of terms. Requires that additions are not reassociated.
 class CompensatedSum {
 public:
     void add(double term) {

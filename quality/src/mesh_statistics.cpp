@@ -21,8 +21,8 @@ Triangle triangle_of(const Mesh& mesh, const FacetVertices& face) {
     return {mesh.points[face[0]], mesh.points[face[1]], mesh.points[face[2]]};
 }
 
-/// Counts and sums sizes tag by tag. Neighbours in a list mostly have the same tag, so the last one
-/// used is kept at hand.
+/// Counts and sums sizes by tag. Consecutive entities mostly have the same tag, so the last entry
+/// used is cached.
 class TagTotals {
 public:
     void add(Marker tag, double size) {
@@ -49,7 +49,7 @@ private:
     std::map<Marker, Total>::iterator last_ = totals_.end();
 };
 
-/// Sets of vertices, joined one pair at a time: a forest whose trees are the sets.
+/// Disjoint sets of vertices: a forest whose trees are the sets.
 class VertexSets {
 public:
     explicit VertexSets(std::size_t vertex_count) : parent_(vertex_count) {
@@ -63,7 +63,7 @@ public:
 private:
     VertexIndex root(VertexIndex v) {
         while (!is_root(v)) {
-            parent_[v] = parent_[parent_[v]];  // halves the path for who comes next
+            parent_[v] = parent_[parent_[v]];  // path halving
             v = parent_[v];
         }
         return v;
@@ -88,7 +88,8 @@ std::size_t count_components(const Mesh& mesh) {
     return count;
 }
 
-/// Unused vertices, the most cells at a vertex, and the box of those in use.
+/// Computes the number of unused vertices, the maximum number of cells at a vertex, and the
+/// bounding box of the used vertices.
 void measure_vertices(const Mesh& mesh, MeshStatistics& out, Adjacency& adjacency) {
     IndexVector<VertexIndex, std::uint32_t> cells_at(mesh.points.size(), 0);
     for (const CellVertices& cell : mesh.cells) {
@@ -193,7 +194,7 @@ std::int64_t euler_characteristic(const EntityCounts& counts) {
            static_cast<std::int64_t>(counts.cells);
 }
 
-/// Fills in the means. A cell has 6 edges and 4 vertices, a face 3 edges, an edge 2 vertices.
+/// Computes the means. A cell has 6 edges and 4 vertices, a face 3 edges, an edge 2 vertices.
 void average(const EntityCounts& counts, Adjacency& adjacency) {
     const auto vertices = static_cast<double>(counts.vertices - counts.unused_vertices);
     const auto edges = static_cast<double>(counts.edges);

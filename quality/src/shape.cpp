@@ -20,7 +20,7 @@ Point cross(const Point& u, const Point& v) {
 
 double norm(const Point& v) { return std::hypot(v.x, v.y, v.z); }
 
-/// The angle whose sine and cosine have these values, up to a common positive factor.
+/// Returns the angle whose sine and cosine have these values, up to a common positive factor.
 double degrees(double sine, double cosine) {
     return std::atan2(sine, cosine) * (180 / std::numbers::pi);
 }
@@ -29,7 +29,7 @@ Point times_power_of_two(const Point& p, int exponent) {
     return {std::scalbn(p.x, exponent), std::scalbn(p.y, exponent), std::scalbn(p.z, exponent)};
 }
 
-/// The largest difference of two of the points in a coordinate.
+/// Returns the largest difference of two of the points in any coordinate.
 template <std::size_t N>
 double extent_of(const std::array<Point, N>& points) {
     double extent = 0;
@@ -42,19 +42,19 @@ double extent_of(const std::array<Point, N>& points) {
     return extent;
 }
 
-/// Similar points whose largest coordinate difference is about 1, so that no product of lengths
-/// overflows or vanishes. The factor is a power of two, so nothing is rounded.
+/// Returns similar points whose largest coordinate difference is about 1, so that no product of
+/// lengths over- or underflows. The factor is a power of two, so nothing is rounded.
 template <std::size_t N>
 std::array<Point, N> scaled(std::array<Point, N> points) {
     double extent = extent_of(points);
-    if (!std::isfinite(extent)) {  // a quarter of it is
+    if (!std::isfinite(extent)) {  // but a quarter of it is finite
         for (Point& p : points) p = times_power_of_two(p, -2);
         extent = extent_of(points);
     }
     if (extent == 0) return points;
     const int exponent = -std::ilogb(extent);
     constexpr int far_from_one = 200;
-    if (std::abs(exponent) > far_from_one) {  // then a coordinate that all have may overflow
+    if (std::abs(exponent) > far_from_one) {  // a common offset of all points may overflow
         const Point origin = points[0];
         for (Point& p : points) p = p - origin;
     }
@@ -62,8 +62,8 @@ std::array<Point, N> scaled(std::array<Point, N> points) {
     return points;
 }
 
-/// A normal of face i, twice its area long. With the order of cell_faces, normals 0 and 2 point to
-/// one side of the cell (out of it, or into it), 1 and 3 to the other.
+/// Returns a normal of face i whose length is twice its area. With the order of cell_faces, normals
+/// 0 and 2 point to one side of the cell (outward or inward), 1 and 3 to the other.
 Point normal(const Corners& corners, std::size_t i) {
     const auto& [a, b, c] = cell_faces[i];
     return cross(corners[b] - corners[a], corners[c] - corners[a]);
@@ -92,11 +92,13 @@ std::array<double, 6> dihedral_angles(const Corners& corners) {
                                        normal(unit, 3)};
     std::array<double, 6> angles{};
     for (std::size_t k = 0; k < 6; ++k) {
-        // The faces at edge k lie opposite the two corners that it does not have: edge 5 - k.
+        // The faces at edge k are opposite the two corners that are not its ends: those of edge 5 -
+        // k.
         const auto& [i, j] = cell_edges[k];
         const auto& [f, g] = cell_edges[5 - k];
-        // Edge e with faces e x p and e x q: (e x p) x (e x q) = e (e . p x q), whose length is the
-        // edge's times six volumes. The cosine's sign is as both normals point out, or not.
+        // Edge e with faces e x p and e x q: (e x p) x (e x q) = e (e . p x q), whose length is
+        // that of the edge times six volumes. The sign of the cosine depends on whether both
+        // normals point to the same side.
         const double sine = distance(unit[i], unit[j]) * six_volumes;
         const double product = dot(normals[f], normals[g]);
         const bool same_side = (f + g) % 2 == 0;

@@ -176,10 +176,10 @@ TEST(PlexOfPetsc, OfAnotherKindIsRefused) {
     EXPECT_THAT(refused(dm), testing::HasSubstr("dimension 2"));
     must(DMPlexCreateBoxMesh(PETSC_COMM_WORLD, 3, PETSC_FALSE, nullptr, nullptr, nullptr, nullptr,
                              PETSC_TRUE, &dm));
-    EXPECT_THAT(refused(dm), testing::HasSubstr("is no tetrahedron"));
+    EXPECT_THAT(refused(dm), testing::HasSubstr("is not a tetrahedron"));
     must(DMDACreate1d(PETSC_COMM_WORLD, DM_BOUNDARY_NONE, 8, 1, 1, nullptr, &dm));
     must(DMSetUp(dm));
-    EXPECT_THAT(refused(dm), testing::HasSubstr("no DMPlex"));
+    EXPECT_THAT(refused(dm), testing::HasSubstr("not a DMPlex"));
 }
 
 }  // namespace

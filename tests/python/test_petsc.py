@@ -126,5 +126,5 @@ def test_what_is_no_plex_of_tetrahedra_is_refused():
     with pytest.raises(octetra.InputError, match="dimension 2"):
         from_plex(flat)
     alone = PETSc.DMDA().create([4], comm=world)
-    with pytest.raises(octetra.InputError, match="no DMPlex"):
+    with pytest.raises(octetra.InputError, match="not a DMPlex"):
         from_plex(alone)

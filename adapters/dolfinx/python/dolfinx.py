@@ -1,4 +1,4 @@
-"""Meshes of Octetra for DOLFINx, and meshes of DOLFINx for Octetra.
+"""Conversions between meshes of Octetra and DOLFINx.
 
     mesh, _ = octetra.dolfinx.from_mesh(domain)          # once
     now = octetra.dolfinx.to_mesh(mesh)                  # now.mesh is a dolfinx.mesh.Mesh
@@ -6,7 +6,7 @@
     finer = octetra.dolfinx.to_mesh(mesh)
     u = octetra.dolfinx.carry(u, step, now, finer)
 
-Every rank hands over its own part. Functions are collective where their docstring says so.
+Every rank converts its own part. Functions are collective if their docstring says so.
 """
 
 import typing
@@ -23,27 +23,27 @@ from . import _dolfinx, _octetra
 
 __all__ = ["NONE", "Handover", "carry", "from_mesh", "function", "parents", "to_mesh", "vertex_values"]
 
-#: In Handover.vertices, of a node that only ghost cells have.
+#: The entry in Handover.vertices of a node that belongs only to ghost cells.
 NONE = np.int32(-1)
 
 
 class Handover(typing.NamedTuple):
-    """A mesh of DOLFINx, and what its cells and nodes are in the octetra.Mesh, as that was at the time."""
+    """A DOLFINx mesh, with the cells and vertices of the octetra.Mesh, at the time of conversion, for its cells and nodes."""
 
     mesh: Any  #: the dolfinx.mesh.Mesh
-    cell_tags: Any  #: its MeshTags of regions, of ghost cells, too; None where there are none
-    facet_tags: Any  #: its MeshTags of facets, on all ranks that have a facet; None where there are none
-    cells: NDArray[np.int32]  #: of each DOLFINx cell that this rank owns, the cell of octetra.Mesh
-    vertices: NDArray[np.int32]  #: of each row of mesh.geometry.x the vertex of octetra.Mesh, or NONE
+    cell_tags: Any  #: its MeshTags of regions, including ghost cells; None if there are no regions
+    facet_tags: Any  #: its MeshTags of facets, on all ranks that have a facet; None if there are none
+    cells: NDArray[np.int32]  #: for each DOLFINx cell owned by this rank, the cell of octetra.Mesh
+    vertices: NDArray[np.int32]  #: for each row of mesh.geometry.x, the vertex of octetra.Mesh, or NONE
 
 
 def to_mesh(mesh: _octetra.Mesh, *, ghosts: Optional[str] = "face", tags: bool = True) -> Handover:
-    """Collective. The mesh for DOLFINx, on the same communicator.
+    """Collective. Converts the mesh for DOLFINx, on the same communicator.
 
-    Every cell stays on its rank and keeps its number. `ghosts` are cells of other ranks that each rank has
-    beside its own: those with a "face" or a "vertex" in common, or None; integrals over interior facets
-    take those by faces, which is what DOLFINx's create_mesh makes, too. Without `tags` neither regions nor
-    marked facets are handed over: marked facets make DOLFINx number all facets.
+    Every cell stays on its rank and keeps its number. `ghosts` selects the ghost cells of each rank: those
+    with a common "face" or "vertex", or None. Integrals over interior facets require ghosts by faces, which
+    DOLFINx's create_mesh also uses. Without `tags`, regions and tagged facets are not converted; tagged
+    facets require that DOLFINx numbers all facets.
     """
     made, cell_tags, facet_tags, cells, vertices = _dolfinx.to_mesh(mesh, ghosts, tags)
     domain = ufl.Mesh(ufl.VectorElement("Lagrange", "tetrahedron", 1))
@@ -53,12 +53,13 @@ def to_mesh(mesh: _octetra.Mesh, *, ghosts: Optional[str] = "face", tags: bool =
 
 
 def from_mesh(mesh: Any, cell_tags: Any = None, facet_tags: Any = None) -> Tuple[_octetra.Mesh, Handover]:
-    """Collective. A mesh of DOLFINx for Octetra, on the same communicator, and what is what.
+    """Collective. Converts a DOLFINx mesh for Octetra, on the same communicator; returns the mesh and the
+    correspondence of cells and vertices.
 
-    It is of affine tetrahedra; every cell stays on its rank, and inverted ones are turned round. Tags,
-    dolfinx MeshTags of whole numbers or None on all ranks, become regions, 0 where a cell has none, and
-    marked facets. The order of cells and vertices is that in which create_mesh() was given them, if the
-    mesh still tells; so what is written does not depend on the number of ranks.
+    The mesh must consist of affine tetrahedra. Every cell stays on its rank; inverted cells are reversed.
+    Tags, dolfinx MeshTags of integers or None on all ranks, become region tags, 0 for cells without a tag,
+    and tagged facets. Cells and vertices have the order in which they were passed to create_mesh(), if the
+    mesh still has this information; output then does not depend on the number of ranks.
     """
     _check(mesh.comm, _fault_of_cell_tags(mesh, cell_tags))
     made, cells, vertices = _dolfinx.from_mesh(mesh._mesh, _arrays(cell_tags), _arrays(facet_tags))
@@ -66,8 +67,8 @@ def from_mesh(mesh: Any, cell_tags: Any = None, facet_tags: Any = None) -> Tuple
 
 
 def vertex_values(u: Any, handover: Handover) -> NDArray[Any]:
-    """Collective. Of a function u, piecewise linear (Lagrange, degree 1) on handover.mesh, the values at the
-    vertices of the octetra.Mesh: (vertices,), or (vertices, k) of one with k components."""
+    """Collective. Returns the values of a function u, piecewise linear (Lagrange, degree 1) on handover.mesh, at
+    the vertices of the octetra.Mesh: of shape (vertices,), or (vertices, k) for k components."""
     _check(handover.mesh.comm, _fault_of_space(u.function_space, handover))
     u.x.scatter_forward()
     nodes, has_vertex = _nodes(handover)
@@ -80,13 +81,13 @@ def vertex_values(u: Any, handover: Handover) -> NDArray[Any]:
 
 
 def function(values: ArrayLike, handover: Handover, space: Any = None) -> Any:
-    """Collective. The function with these values at the vertices of the octetra.Mesh, of shape (vertices,) or
-    (vertices, k): in `space`, of degree 1 on handover.mesh, or in a new one."""
+    """Collective. Returns the function with these values at the vertices of the octetra.Mesh, of shape (vertices,)
+    or (vertices, k), in `space`, of degree 1 on handover.mesh, or in a new space."""
     values = np.asarray(values)
     nodes, has_vertex = _nodes(handover)
     fault = _fault_of_space(space, handover) if space is not None else ""
     if values.ndim not in (1, 2) or len(values) != len(nodes):
-        fault = f"values for {len(nodes)} vertices are wanted, and these have the shape {values.shape}"
+        fault = f"values for {len(nodes)} vertices are required, but these have the shape {values.shape}"
     _check(handover.mesh.comm, fault)
     if space is None:
         linear = ("Lagrange", 1)
@@ -101,20 +102,20 @@ def function(values: ArrayLike, handover: Handover, space: Any = None) -> Any:
 
 
 def carry(u: Any, step: _octetra.Adaptation, before: Handover, after: Handover, space: Any = None) -> Any:
-    """Collective. A piecewise linear function on before.mesh as one on after.mesh, the mesh after the step: the
-    same function after refinement; after coarsening, that with its values at the vertices that stay."""
+    """Collective. Transfers a piecewise linear function on before.mesh to after.mesh, the mesh after the step. After
+    refinement the function is the same; after coarsening it is the interpolant at the remaining vertices."""
     return function(step.transfer_vertices(vertex_values(u, before)), after, space)
 
 
 def parents(step: _octetra.Adaptation, before: Handover,
             after: Handover) -> Tuple[NDArray[np.int32], NDArray[np.int8]]:
-    """Of each cell of after.mesh that this rank owns, the cell of before.mesh that it is or was a piece of,
-    (cells,); and of each of its facets the facet of that cell in which it lies, 0 to 3, or -1, (cells, 4).
-    Facet i is opposite corner i. Of one step of refinement. This is what DOLFINx's refinement tells, too."""
+    """Returns, for a refinement step, the parent in before.mesh of each cell of after.mesh owned by this rank,
+    (cells,), and for each facet of the cell the facet of the parent that contains it, 0 to 3, or -1, (cells, 4).
+    Facet i is opposite corner i. DOLFINx's refinement returns the same information."""
     if step.is_coarser:
-        raise _octetra.InputError("parents: of refinement, and this step was coarsening")
+        raise _octetra.InputError("parents: the step must be a refinement, not a coarsening")
     if (step.vertex_count_before, len(step.cells.parents)) != (len(_nodes(before)[0]), len(after.cells)):
-        raise _octetra.InputError("parents: the step did not lead from the one mesh to the other")
+        raise _octetra.InputError("parents: the step did not transform the first mesh into the second")
     dolfinx_cell = np.empty(len(before.cells), np.int32)
     dolfinx_cell[before.cells] = np.arange(len(before.cells))
     cells = dolfinx_cell[step.cells.parents][after.cells]
@@ -122,7 +123,7 @@ def parents(step: _octetra.Adaptation, before: Handover,
     ends = np.concatenate([np.stack([old, old], axis=1), step.new_vertex_ends])
     child = ends[_corners(after)]
     parent = _corners(before)[cells]
-    # Which of the parent's corners each corner of the child is or lies between.
+    # For each corner of the child, the parent's corners that it is, or lies between.
     between = np.zeros((len(cells), 4, 4), bool)
     for end in range(2):
         between |= child[:, :, end, None] == parent[:, None, :]
@@ -134,7 +135,7 @@ def parents(step: _octetra.Adaptation, before: Handover,
 
 
 def _check(comm: Any, fault: str) -> None:
-    """Collective. Raises what is wrong on any rank, that of the lowest, on all."""
+    """Collective. Raises the fault of the lowest rank with one on all ranks."""
     first = comm.allreduce(comm.size if fault == "" else comm.rank, MPI.MIN)
     if first < comm.size:
         raise _octetra.InputError(f"rank {first}: " + comm.bcast(fault, root=first))
@@ -151,7 +152,7 @@ def _fault_of_cell_tags(mesh: Any, tags: Any) -> str:
         return ""
     cells = mesh.topology.index_map(3)
     count, last = cells.size_local + cells.num_ghosts, tags.indices.max()
-    return "" if last < count else f"tags of cells up to number {last}, and the mesh has {count}: no such cell"
+    return "" if last < count else f"tags of cells up to number {last}, but the mesh has {count}: no such cell"
 
 
 def _tags(mesh: Any, dimension: int, arrays: Any) -> Any:
@@ -163,22 +164,22 @@ def _arrays(tags: Any) -> Any:
 
 
 def _nodes(handover: Handover) -> Tuple[NDArray[Any], NDArray[Any]]:
-    """Rows of the geometry that have a vertex of the octetra.Mesh: their numbers, and a boolean for each row."""
+    """Returns the rows of the geometry with a vertex of the octetra.Mesh: indices, and a boolean for each row."""
     has_vertex = handover.vertices != NONE
     return np.flatnonzero(has_vertex), has_vertex
 
 
 def _corners(handover: Handover) -> NDArray[Any]:
-    """The vertices of octetra.Mesh of each cell that this rank owns, as DOLFINx has them in order."""
+    """Returns the vertices of octetra.Mesh of each cell owned by this rank, in DOLFINx's order."""
     nodes = handover.mesh.geometry.dofmap.array.reshape(-1, 4)[:len(handover.cells)]
     return handover.vertices[nodes]
 
 
 def _dofs_of_nodes(space: Any, handover: Handover) -> NDArray[Any]:
-    """The dof, of blocks of dofs, at each row of the geometry."""
+    """Returns the dof, or block of dofs, at each row of the geometry."""
     element = space.ufl_element()
     if element.family() != "Lagrange" or element.degree() != 1:
-        raise _octetra.InputError(f"a function in {element}, and not in a Lagrange space of degree 1")
+        raise _octetra.InputError(f"a function in {element}, not in a Lagrange space of degree 1")
     nodes = handover.mesh.geometry.dofmap.array
     dofs = np.empty(len(handover.vertices), np.int32)
     dofs[nodes] = space.dofmap.list.array

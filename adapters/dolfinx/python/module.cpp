@@ -16,7 +16,7 @@
 #include "arrays.hpp"
 #include "held_mesh.hpp"
 
-/// The compiled part of octetra.dolfinx. Meshes are those of the modules octetra._octetra and
+/// The compiled part of octetra.dolfinx. Meshes are objects of the modules octetra._octetra and
 /// dolfinx.cpp, which must have been imported.
 namespace octetra::python {
 namespace {
@@ -25,7 +25,7 @@ using DolfinxMesh = ::dolfinx::mesh::Mesh;
 using Array32 = py::array_t<std::int32_t, py::array::c_style | py::array::forcecast>;
 using Tags = std::tuple<int, Array32, Array32>;  ///< dimension, indices and values
 
-/// The tags as two arrays, or None.
+/// Returns the tags as two arrays, or None.
 py::object arrays_of(const std::optional<dolfinx::MarkerTags>& tags) {
     if (!tags) return py::none();
     return py::make_tuple(array_of(tags->indices()), array_of(tags->values()));
@@ -78,12 +78,12 @@ py::tuple from_mesh(const std::shared_ptr<DolfinxMesh>& mesh, const std::optiona
 PYBIND11_MODULE(_dolfinx, module) {
     module.doc() = "The compiled part of octetra.dolfinx.";
     module.def("to_mesh", &to_mesh, py::arg("mesh"), py::arg("ghosts"), py::arg("tags"),
-               "Collective. The mesh for DOLFINx, cell tags and facet tags as (indices, values) or "
-               "None, cells, vertices.");
+               "Collective. Returns the mesh for DOLFINx, cell tags and facet tags as (indices, "
+               "values) or None, cells, vertices.");
     module.def(
         "from_mesh", &from_mesh, py::arg("mesh"), py::arg("cell_tags"), py::arg("facet_tags"),
-        "Collective. A mesh of DOLFINx, with tags as (dimension, indices, values) or None, as "
-        "mesh, cells, vertices.");
+        "Collective. Converts a DOLFINx mesh, with tags as (dimension, indices, values) or None; "
+        "returns mesh, cells, vertices.");
 }
 
 }  // namespace octetra::python

@@ -39,12 +39,12 @@ std::vector<TaggedFacet> tagged_facets(const od::AdaptiveMesh& mesh, const Nodes
     return facets;
 }
 
-/// Of each facet of DOLFINx that is one of these, the marker.
+/// Returns, for each facet of DOLFINx, the marker if it is one of the tagged facets.
 std::vector<std::int64_t> markers_of_facets(
     const std::vector<TaggedFacet>& tagged, std::size_t node_count,
     const ::dolfinx::graph::AdjacencyList<std::int32_t>& facets) {
     std::vector<std::int64_t> markers(static_cast<std::size_t>(facets.num_nodes()), no_marker);
-    std::vector<std::uint8_t> is_at_tagged(node_count, 0);  // spares most facets the search
+    std::vector<std::uint8_t> is_at_tagged(node_count, 0);  // excludes most facets from the search
     for (const TaggedFacet& facet : tagged) {
         for (const std::int32_t node : facet.nodes)
             is_at_tagged[static_cast<std::size_t>(node)] = 1;
@@ -66,7 +66,8 @@ std::vector<std::int64_t> markers_of_facets(
     return markers;
 }
 
-/// Collective. A facet is tagged on one rank: tells its owner, which tells all that have it.
+/// Collective. A facet is tagged on one rank: sends the marker to its owner, and from there to all
+/// ranks that have the facet.
 void tell_all(const ::dolfinx::common::IndexMap& facets, std::vector<std::int64_t>& markers) {
     const auto own = std::span(markers).first(static_cast<std::size_t>(facets.size_local()));
     const auto ghosts = std::span(markers).subspan(own.size());

@@ -9,8 +9,9 @@
 
 namespace octetra::dolfinx {
 
-/// Collective. The mesh's tagged facets as facets of the DOLFINx mesh that was made of it, on all
-/// ranks that have them, also as those of ghost cells. Numbers the DOLFINx mesh's facets.
+/// Collective. Returns the mesh's tagged facets as tags of the DOLFINx mesh created from it, on all
+/// ranks that have the facets, including facets of ghost cells. Numbers the facets of the DOLFINx
+/// mesh.
 [[nodiscard]] std::optional<MarkerTags> tag_facets(
     const distributed::AdaptiveMesh& mesh, const Nodes& nodes,
     const std::shared_ptr<const ::dolfinx::mesh::Mesh>& made);

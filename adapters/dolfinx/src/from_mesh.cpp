@@ -25,10 +25,10 @@ namespace {
 namespace od = distributed;
 using Mesh = ::dolfinx::mesh::Mesh;
 
-/// What does not differ from rank to rank.
+/// Checks properties that are the same on all ranks.
 void check_kind(const Mesh& mesh, const MarkerTags* cell_tags, const MarkerTags* facet_tags) {
     if (mesh.topology().cell_type() != ::dolfinx::mesh::CellType::tetrahedron) {
-        throw InputError("the cells of the DOLFINx mesh are no tetrahedra");
+        throw InputError("the cells of the DOLFINx mesh are not tetrahedra");
     }
     if (mesh.geometry().cmap().degree() != 1 || mesh.geometry().dim() != 3) {
         throw InputError("the cells of the DOLFINx mesh are not affine tetrahedra in space");
@@ -44,7 +44,7 @@ void check_kind(const Mesh& mesh, const MarkerTags* cell_tags, const MarkerTags*
     }
 }
 
-/// The part of a rank, as the DOLFINx mesh is asked for it.
+/// The part of a rank, read from the DOLFINx mesh.
 class Part {
 public:
     explicit Part(const Mesh& mesh)
@@ -60,7 +60,7 @@ public:
         const double* x = mesh_.geometry().x().data() + 3 * node;
         return {x[0], x[1], x[2]};
     }
-    /// The nodes of a cell, the last two the other way round where it is inverted.
+    /// Returns the nodes of a cell, with the last two exchanged if it is inverted.
     [[nodiscard]] std::array<std::size_t, 4> nodes(std::size_t cell) const {
         std::array<std::size_t, 4> nodes{};
         std::array<Point, 4> points;
@@ -74,7 +74,7 @@ public:
         return nodes;
     }
 
-    /// Does the mesh know the numbers that its vertices and cells had when it was created?
+    /// Returns whether the mesh has the original numbers of its vertices and cells.
     [[nodiscard]] bool knows_input() const {
         const auto& vertices = mesh_.geometry().input_global_indices();
         const auto& cells = mesh_.topology().original_cell_index;
@@ -86,7 +86,7 @@ public:
                std::ranges::all_of(std::span(cells).first(cell_count()),
                                    is_within(cell_map_.size_global()));
     }
-    /// By nodes.
+    /// Returns the global vertex numbers, by node.
     [[nodiscard]] std::vector<std::uint64_t> vertex_numbers(bool of_input) const {
         std::vector<std::uint64_t> numbers(node_count());
         if (of_input) {
@@ -103,7 +103,7 @@ public:
         }
         return numbers;
     }
-    /// The rank's own cells in the order of their numbers.
+    /// Returns the rank's own cells in the order of their numbers.
     [[nodiscard]] std::vector<std::size_t> ordered_cells(bool of_input) const {
         std::vector<std::size_t> cells(cell_count());
         std::iota(cells.begin(), cells.end(), std::size_t{0});
@@ -123,7 +123,7 @@ public:
         }
         return nodes;
     }
-    /// For each facet of this rank, whether one of its own cells has it.
+    /// Returns, for each facet of this rank, whether it belongs to a cell owned by this rank.
     [[nodiscard]] std::vector<std::uint8_t> facets_of_own_cells(std::int32_t facet_count) const {
         std::vector<std::uint8_t> is_own(static_cast<std::size_t>(facet_count), 0);
         const auto& facets = *mesh_.topology().connectivity(3, 2);
@@ -157,8 +157,8 @@ void take_cell_tags(const MarkerTags& tags, const std::vector<std::size_t>& orde
     std::vector<Marker> of_cells(order.size(), 0);
     for (std::size_t i = 0; i < tags.indices().size(); ++i) {
         const std::int32_t cell = tags.indices()[i];
-        if (cell < 0) throw InputError("cell_tags: a cell below 0");
-        if (static_cast<std::size_t>(cell) < of_cells.size()) {  // else a ghost
+        if (cell < 0) throw InputError("cell_tags: a negative cell index");
+        if (static_cast<std::size_t>(cell) < of_cells.size()) {  // otherwise a ghost
             of_cells[static_cast<std::size_t>(cell)] = tags.values()[i];
         }
     }
@@ -205,7 +205,8 @@ od::MeshPart part_of(const Mesh& mesh, const Part& dolfinx, bool of_input,
     return part;
 }
 
-/// What is what: cells of the AdaptiveMesh stand in this order, each with the corners it came with.
+/// Sets the correspondence: cells of the AdaptiveMesh are in this order, each with its original
+/// corners.
 void take_numbers(const od::AdaptiveMesh& made, const Part& dolfinx,
                   const std::vector<std::size_t>& order, Handover& handover) {
     handover.cells.resize(order.size());

@@ -14,10 +14,10 @@ namespace {
 
 namespace od = distributed;
 
-/// What a rank says of a cell to those that have it as a ghost.
+/// A cell as sent to the ranks that have it as a ghost.
 struct SentCell {
     std::int64_t cell = 0;
-    std::array<std::int64_t, 4> nodes{};  ///< by their numbers in the whole mesh
+    std::array<std::int64_t, 4> nodes{};  ///< global numbers
     std::array<std::int32_t, 4> owners{};
 };
 
@@ -30,7 +30,8 @@ void check_counts(const od::AdaptiveMesh& mesh, const od::GhostLayer* ghosts) {
     }
 }
 
-/// This rank's own vertices first, then the others', with the numbers that their owners give them.
+/// Numbers the vertices owned by this rank first, then the others, with the numbers assigned by
+/// their owners.
 void number_vertices(const od::AdaptiveMesh& mesh, od::IndexMap<VertexIndex> map, Nodes& nodes) {
     Numbering& numbering = nodes.numbering;
     for (const auto& with : mesh.vertex_sharing().neighbours()) {
@@ -65,7 +66,7 @@ SentCell sent_cell(const od::AdaptiveMesh& mesh, const Nodes& nodes, CellIndex c
     return sent;
 }
 
-/// What has come from other ranks, of all ghost cells in their order, into the numberings.
+/// Adds the ghost cells received from other ranks, in order, to the numberings.
 void take_cells(const od::AdaptiveMesh& mesh, const od::GhostLayer& ghosts,
                 const std::vector<std::vector<SentCell>>& inboxes, Nodes& nodes) {
     const std::size_t vertex_count = mesh.points().size();
@@ -95,7 +96,7 @@ void take_cells(const od::AdaptiveMesh& mesh, const od::GhostLayer& ghosts,
     }
 }
 
-/// Collective. Ghost cells, and the vertices that only they have.
+/// Collective. Numbers ghost cells and the vertices that belong only to them.
 void number_ghost_cells(const od::AdaptiveMesh& mesh, const od::GhostLayer& ghosts, Nodes& nodes) {
     std::vector<int> ranks;
     std::vector<std::vector<SentCell>> outboxes;

@@ -18,8 +18,8 @@
 #include "facet_tags.hpp"
 #include "nodes.hpp"
 
-// DOLFINx's create_mesh finds out by itself what ranks share, where vertices belong and an order of
-// cells. All that is known here, so its mesh is put together from its parts instead.
+// DOLFINx's create_mesh determines shared entities, owners of vertices and an order of cells. All
+// this is known here, so the mesh is constructed from its parts instead.
 
 namespace octetra::dolfinx {
 namespace {
@@ -28,9 +28,9 @@ namespace od = distributed;
 using IndexMap = ::dolfinx::common::IndexMap;
 using Lists = ::dolfinx::graph::AdjacencyList<std::int32_t>;
 
-/// The arrays of a mesh on this rank, as DOLFINx has them.
+/// The arrays of a mesh on this rank in the format of DOLFINx.
 struct Arrays {
-    std::vector<std::int32_t> corners;  ///< four nodes of each cell, ghosts behind the rank's own
+    std::vector<std::int32_t> corners;  ///< four nodes of each cell, owned cells first
     std::vector<std::int32_t> offsets;  ///< 0, 4, 8 ...
     std::vector<std::int64_t> cell_numbers;
     std::vector<double> points;
@@ -87,7 +87,8 @@ std::shared_ptr<const ::dolfinx::mesh::Mesh> assemble(MPI_Comm comm, const Nodes
                                                       Arrays arrays, bool has_ghosts) {
     using ::dolfinx::mesh::CellType;
     const auto node_map = index_map(comm, nodes.numbering);
-    // A map that cannot have ghosts says to DOLFINx that a facet of one cell may yet be inside.
+    // A map with empty ghosts, instead of none, would tell DOLFINx that facets of one cell may be
+    // interior.
     const auto cell_map =
         has_ghosts ? index_map(comm, nodes.cell_numbering)
                    : std::make_shared<const IndexMap>(comm, nodes.cell_numbering.own_count);
@@ -105,7 +106,7 @@ std::shared_ptr<const ::dolfinx::mesh::Mesh> assemble(MPI_Comm comm, const Nodes
     return std::make_shared<::dolfinx::mesh::Mesh>(comm, std::move(topology), std::move(geometry));
 }
 
-/// Of own cells and ghosts. Collective.
+/// Collective. Returns the tags of owned cells and ghosts.
 std::optional<MarkerTags> tag_cells(const od::AdaptiveMesh& mesh, const od::GhostLayer* ghosts,
                                     const std::shared_ptr<const ::dolfinx::mesh::Mesh>& made) {
     std::vector<Marker> values;

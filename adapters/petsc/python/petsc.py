@@ -1,22 +1,22 @@
-"""Meshes to and from DMPlex, the unstructured meshes of PETSc, through petsc4py.
+"""Conversions between meshes and DMPlex, the unstructured meshes of PETSc, with petsc4py.
 
     from octetra.petsc import from_plex, points_of, to_plex
 
-    plex = to_plex(mesh)            # a petsc4py.PETSc.DMPlex, distributed as the mesh is
+    plex = to_plex(mesh)            # a petsc4py.PETSc.DMPlex with the distribution of the mesh
     back = from_plex(plex).mesh
 """
 
 from typing import Any, NamedTuple, Optional
 
 from numpy.typing import NDArray
-from petsc4py import PETSc  # type: ignore[import]  # which starts PETSc
+from petsc4py import PETSc  # type: ignore[import]  # initialises PETSc
 
 from . import Mesh, _petsc
 
 
 class Points(NamedTuple):
-    """The points of a plex of to_plex(): cells first, from 0, then vertices, faces and edges, each kind by
-    the mesh's local numbers (of faces and edges, those of number_faces() and number_edges())."""
+    """The points of a plex created by to_plex(): cells first, from 0, then vertices, faces and edges, each kind
+    in the order of the mesh's local numbers (faces and edges as in number_faces() and number_edges())."""
 
     first_vertex: int
     first_face: int
@@ -25,8 +25,8 @@ class Points(NamedTuple):
 
 
 class FromPlex(NamedTuple):
-    """A mesh of a plex, and the points that its cells and vertices were: int32 (or int64, as PETSc's
-    integers are) of shape (cells,) and (vertices,); -1 for a vertex that the plex does not have here."""
+    """A mesh created from a plex, and the plex points of its cells and vertices: int32 (or int64, as PETSc's
+    integers) of shape (cells,) and (vertices,); -1 for a vertex that is not in this rank's plex."""
 
     mesh: Mesh
     cell_points: NDArray[Any]
@@ -35,12 +35,13 @@ class FromPlex(NamedTuple):
 
 def to_plex(mesh: Mesh, comm: Optional[Any] = None, *, cells: str = "Cell Sets",
             faces: str = "Face Sets", edges: str = "Edge Sets", boundary: str = "boundary") -> Any:
-    """Collective. The mesh as a petsc4py.PETSc.DMPlex that is distributed in the same way, with faces and
-    edges, coordinates, the point SF, and tags as labels of these names; boundary: that of faces behind which
-    nothing is, with 1. An empty name leaves its label out.
+    """Collective. Converts the mesh into a petsc4py.PETSc.DMPlex with the same distribution, with faces and edges,
+    coordinates, the point SF, and tags as labels with these names; boundary is the label, with value 1, of
+    faces on the boundary. An empty name omits the label.
 
-    comm: an mpi4py communicator with the mesh's ranks in their order; None means all ranks. The plex is a
-    picture of the mesh as it is. A cell's vertices are those of the mesh with the first two exchanged.
+    comm: an mpi4py communicator with the mesh's ranks in the same order; None means all ranks. The plex is
+    independent of later changes of the mesh. The vertices of a cell are those of the mesh with the first two
+    exchanged.
     """
     address = 0
     if comm is not None:
@@ -50,7 +51,7 @@ def to_plex(mesh: Mesh, comm: Optional[Any] = None, *, cells: str = "Cell Sets",
 
 
 def points_of(plex: Any) -> Points:
-    """The points of this rank's part of a plex that to_plex() has made."""
+    """Returns the points of this rank's part of a plex created by to_plex()."""
     first_vertex, first_face = plex.getDepthStratum(0)
     first_edge, end = plex.getDepthStratum(1)
     return Points(first_vertex, first_face, first_edge, end)
@@ -58,8 +59,8 @@ def points_of(plex: Any) -> Points:
 
 def from_plex(plex: Any, *, cells: str = "Cell Sets", faces: str = "Face Sets",
               edges: str = "Edge Sets") -> FromPlex:
-    """Collective. A mesh of a plex of tetrahedra, with labels of these names as tags. Cells stay where they
-    are; those of an overlap count on the rank that owns them."""
+    """Collective. Creates a mesh from a plex of tetrahedra, with labels of these names as tags. Cells stay on their
+    ranks; cells of an overlap are taken on the rank that owns them."""
     if not isinstance(plex, PETSc.DM):
-        raise TypeError("plex: a DM of petsc4py")
+        raise TypeError("plex must be a DM of petsc4py")
     return FromPlex(*_petsc.from_plex(plex, cells, faces, edges))

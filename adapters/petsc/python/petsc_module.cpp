@@ -16,11 +16,11 @@
 #include "arrays.hpp"
 #include "held_mesh.hpp"
 
-/// The compiled part of octetra.petsc: DMs of petsc4py from meshes, and meshes from DMs.
+/// The compiled part of octetra.petsc: conversions between meshes and DMs of petsc4py.
 namespace octetra::python {
 namespace {
 
-/// The communicator that is at an address that mpi4py tells; 0: all ranks.
+/// Returns the communicator at an address provided by mpi4py; 0: all ranks.
 MPI_Comm communicator_at(std::uintptr_t address) {
     MPI_Comm comm = PETSC_COMM_WORLD;
     if (address != 0) std::memcpy(&comm, reinterpret_cast<const void*>(address), sizeof comm);
@@ -32,7 +32,7 @@ py::object to_plex(Mesh& mesh, std::uintptr_t comm, const petsc::PlexLabels& lab
         return petsc::to_plex(now, communicator_at(comm), labels);
     });
     auto made =
-        py::reinterpret_steal<py::object>(PyPetscDM_New(plex));  // which counts one user more
+        py::reinterpret_steal<py::object>(PyPetscDM_New(plex));  // increments the reference count
     (void)DMDestroy(&plex);
     if (!made) throw py::error_already_set();
     return made;
@@ -51,7 +51,7 @@ std::tuple<MeshPointer, py::array, py::array> from_plex(const py::object& given,
 
 PYBIND11_MODULE(_petsc, module) {
     module.doc() = "The compiled part of octetra.petsc.";
-    py::module_::import("octetra._octetra");  // which has the type of meshes
+    py::module_::import("octetra._octetra");  // defines the type of meshes
     if (import_petsc4py() < 0) throw py::error_already_set();
     const auto labels_of = [](std::string cells, std::string faces, std::string edges,
                               std::string boundary) {

@@ -4,13 +4,13 @@
 
 namespace octetra::petsc {
 
-/// Throws what a function of PETSc returns, if it is an error: std::bad_alloc or SystemError.
+/// Throws if the error code of a PETSc function indicates an error: std::bad_alloc or SystemError.
 void check(PetscErrorCode code);
 
-/// Throws InputError unless PETSc is there to be used.
+/// Throws InputError unless PETSc is initialised.
 void check_initialised();
 
-/// While it lives, PETSc returns errors and prints nothing.
+/// During the lifetime of an object, PETSc returns errors without printing.
 class SilentErrors {
 public:
     SilentErrors() { check(PetscPushErrorHandler(PetscReturnErrorHandler, nullptr)); }

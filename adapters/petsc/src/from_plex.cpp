@@ -33,7 +33,7 @@ struct Range {
     [[nodiscard]] std::size_t size() const { return static_cast<std::size_t>(end - begin); }
 };
 
-/// What of a plex this process reads: its strata, and the vertices' numbers in the whole plex.
+/// Reads the part of a plex on this process: its strata, and the global vertex numbers.
 class PlexReader {
 public:
     /// Collective.
@@ -48,19 +48,19 @@ public:
     [[nodiscard]] const Range& vertices() const { return vertices_; }
     [[nodiscard]] const Range& faces() const { return faces_; }
     [[nodiscard]] const Range& edges() const { return edges_; }
-    /// Cells that are this process's own.
+    /// Returns the cells owned by this process.
     [[nodiscard]] const std::vector<PetscInt>& cells() const { return cells_; }
     [[nodiscard]] bool is_own_cell(PetscInt p) const {
         return std::ranges::binary_search(cells_, p);
     }
 
-    /// Of each vertex of this process, by point.
+    /// Returns the global number of each vertex of this process, by point.
     [[nodiscard]] std::vector<std::uint64_t> vertex_numbers() const {
         const PetscInt* numbers = nullptr;
         check(ISGetIndices(numbering_, &numbers));
         std::vector<std::uint64_t> all;
         all.reserve(vertices_.size());
-        for (std::size_t v = 0; v < vertices_.size(); ++v) {  // others' are less than 0
+        for (std::size_t v = 0; v < vertices_.size(); ++v) {  // negative: another process's
             const PetscInt n = numbers[v];
             all.push_back(static_cast<std::uint64_t>(n < 0 ? -(n + 1) : n));
         }
@@ -86,8 +86,8 @@ public:
         return all;
     }
 
-    /// The places in the list of vertices of those of a cell, a face or an edge. Throws InputError
-    /// where there are others than N.
+    /// Returns the positions in the list of vertices of the vertices of a cell, face or edge.
+    /// Throws InputError unless there are N.
     template <std::size_t N>
     [[nodiscard]] std::array<std::size_t, N> vertices_of(PetscInt p) const {
         PetscInt count = 0;
@@ -110,7 +110,7 @@ public:
         return found;
     }
 
-    /// Is the face or edge of a cell that is this process's own?
+    /// Returns whether the face or edge belongs to a cell owned by this process.
     [[nodiscard]] bool has_own_cell(PetscInt p) const {
         PetscInt count = 0;
         PetscInt* star = nullptr;
@@ -130,7 +130,7 @@ private:
         if (plex_ != nullptr) {
             check(PetscObjectTypeCompare(reinterpret_cast<PetscObject>(plex_), DMPLEX, &is_plex));
         }
-        if (is_plex == PETSC_FALSE) throw InputError("the DM is no DMPlex");
+        if (is_plex == PETSC_FALSE) throw InputError("the DM is not a DMPlex");
         check(DMGetDimension(plex_, &dimension));
         check(DMGetCoordinateDim(plex_, &space));
         if (dimension != 3 || space != 3) {
@@ -166,7 +166,7 @@ private:
             DMPolytopeType type = DM_POLYTOPE_UNKNOWN;
             check(DMPlexGetCellType(plex_, p, &type));
             if (type != DM_POLYTOPE_TETRAHEDRON) {
-                throw InputError(fmt::format("point {} of the plex is no tetrahedron", p));
+                throw InputError(fmt::format("point {} of the plex is not a tetrahedron", p));
             }
             cells_.push_back(p);
         }
@@ -180,13 +180,13 @@ private:
     std::vector<PetscInt> cells_;
 };
 
-/// By numbers of the whole plex, positively oriented.
+/// Returns cells by global vertex numbers, positively oriented.
 std::vector<std::array<std::uint64_t, 4>> cells_of(const PlexReader& plex, const MeshPart& part) {
     std::vector<std::array<std::uint64_t, 4>> cells;
     cells.reserve(plex.cells().size());
     for (const PetscInt p : plex.cells()) {
         auto places = plex.vertices_of<4>(p);
-        std::swap(places[0], places[1]);  // as to_plex() did
+        std::swap(places[0], places[1]);  // as in to_plex()
         const auto point = [&](std::size_t k) { return part.points[places[k]]; };
         if (orientation(point(0), point(1), point(2), point(3)) < 0)
             std::swap(places[0], places[1]);
@@ -196,7 +196,7 @@ std::vector<std::array<std::uint64_t, 4>> cells_of(const PlexReader& plex, const
     return cells;
 }
 
-/// Labelled sides of own cells, by numbers of the whole plex.
+/// Collects the labelled sides of owned cells, by global vertex numbers.
 template <std::size_t N>
 void take_sides(const PlexReader& plex, const std::string& label, const Range& range,
                 const MeshPart& part, std::vector<std::array<std::uint64_t, N>>& sides,
@@ -211,7 +211,7 @@ void take_sides(const PlexReader& plex, const std::string& label, const Range& r
     }
 }
 
-/// The region tag of each cell, 0 where the label says nothing.
+/// Returns the region tag of each cell, 0 if the label has no value.
 std::vector<Marker> regions_of(const PlexReader& plex, const std::string& label) {
     std::vector<Marker> regions(plex.cells().size(), 0);
     if (plex.cells().empty()) return regions;
@@ -224,7 +224,7 @@ std::vector<Marker> regions_of(const PlexReader& plex, const std::string& label)
     return regions;
 }
 
-/// Both lists ascend by number, once they are sorted.
+/// Returns the plex point of each vertex by merging the two sorted lists of numbers.
 std::vector<PetscInt> points_of_vertices(const AdaptiveMesh& mesh, const PlexReader& plex,
                                          std::span<const std::uint64_t> numbers) {
     std::vector<std::pair<std::uint64_t, PetscInt>> known;
@@ -265,7 +265,7 @@ MeshFromPlex from_plex(DM plex, const PlexLabels& labels) {
         take_sides(reader, labels.faces, reader.faces(), part, part.facets, part.facet_markers);
         take_sides(reader, labels.edges, reader.edges(), part, part.edges, part.edge_markers);
     });
-    // Region tags are all 0 where no process has any.
+    // Without any nonzero tag on any process, the mesh has no region tags.
     const bool has_tags =
         processes.max(std::ranges::any_of(part.regions, [](Marker tag) { return tag != 0; })) != 0;
     if (!has_tags) part.regions.clear();
@@ -277,7 +277,8 @@ MeshFromPlex from_plex(DM plex, const PlexLabels& labels) {
     });
     MeshFromPlex made{
         AdaptiveMesh::from_parts(processes, std::move(part)), std::move(cell_points), {}};
-    processes.transaction([&] { made.vertex_points = points_of_vertices(made.mesh, reader, numbers); });
+    processes.transaction(
+        [&] { made.vertex_points = points_of_vertices(made.mesh, reader, numbers); });
     return made;
 }
 

@@ -11,14 +11,13 @@ namespace {
 
 using Places = std::array<std::uint8_t, 3>;
 
-/// The faces of a cell in PETSc's order, with their vertices as PETSc goes round them, by places
-/// in our cell: PETSc's first two vertices of a cell are our second and first.
+/// The faces of a cell in PETSc's order, with their vertices in PETSc's order, as local positions
+/// in the cell of the mesh: the first two vertices are exchanged in PETSc.
 constexpr std::array<Places, 4> plex_faces{{{1, 0, 2}, {1, 3, 0}, {1, 2, 3}, {2, 0, 3}}};
-/// The face of our cell that it is: it lies opposite this vertex.
+/// The face of the mesh's cell for each of these, given by the opposite vertex.
 constexpr std::array<std::uint8_t, 4> opposite{3, 2, 0, 1};
 
-/// How PETSc calls a triangle whose vertices are seen in another order than that of its cone: the
-/// places in the cone, from -3 on.
+/// The orders of a triangle's vertices relative to its cone, indexed by PETSc's orientation plus 3.
 constexpr std::array<Places, 6> triangle_orders{
     {{1, 0, 2}, {0, 2, 1}, {2, 1, 0}, {0, 1, 2}, {1, 2, 0}, {2, 0, 1}}};
 
@@ -32,14 +31,14 @@ PetscInt orientation_of(const std::array<VertexIndex, 3>& seen) {
     return static_cast<PetscInt>(found - triangle_orders.begin()) - 3;
 }
 
-/// The edge of a cell between two of its places.
+/// Returns the index in cell_edges of the edge between two local positions.
 std::uint8_t edge_between(std::uint8_t i, std::uint8_t j) {
     const auto [low, high] = std::minmax(i, j);
     const std::array<std::uint8_t, 2> ends{low, high};
     return static_cast<std::uint8_t>(std::ranges::find(cell_edges, ends) - cell_edges.begin());
 }
 
-/// PETSc's arrays of all cones, in the order of points.
+/// Access to PETSc's arrays of all cones, in the order of points.
 class Cones {
 public:
     Cones(DM plex, const PlexPoints& points) : points_(points) {
@@ -54,7 +53,7 @@ public:
             set(edges_begin_ + 2 * std::size_t(e.value()) + k, points_.of(vertices[k]), 0);
         }
     }
-    /// The faces of a cell, and the edges of these.
+    /// Sets the faces of a cell, and the edges of these.
     void set_cell(CellIndex c, const CellVertices& cell, const auto& faces, const auto& edges) {
         for (std::size_t side = 0; side < 4; ++side) {
             const Places& places = plex_faces[side];
@@ -66,8 +65,8 @@ public:
     }
 
 private:
-    /// From the lowest vertex to the next, to the highest, and back: the last against its
-    /// direction.
+    /// Sets the edges of a face from the lowest vertex to the next, to the highest, and back; the
+    /// last edge is traversed against its direction.
     void set_face(distributed::FaceIndex f, const CellVertices& cell, Places places,
                   const auto& edges) {
         std::ranges::sort(places, {}, [&](std::uint8_t place) { return cell[place]; });

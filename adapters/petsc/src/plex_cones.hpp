@@ -7,8 +7,8 @@
 
 namespace octetra::petsc {
 
-/// Not collective. Gives a new plex its points, with the cones of cells (faces), faces (edges) and
-/// edges (vertices). Faces and edges have their vertices in ascending order, the same on all
+/// Not collective. Creates the points of a new plex, with the cones of cells (faces), faces (edges)
+/// and edges (vertices). The vertices of faces and edges are in ascending order, the same on all
 /// processes that share them.
 void set_cones(DM plex, const PlexPoints& points, const distributed::AdaptiveMesh& mesh,
                const distributed::MeshFaces& faces, const distributed::MeshEdges& edges);

@@ -10,7 +10,7 @@
 namespace octetra::petsc {
 namespace {
 
-/// An IS that PETSc counts one user less of in the end.
+/// Owns a reference to an IS.
 class IndexSet {
 public:
     explicit IndexSet(IS set) : set_(set) {
@@ -40,7 +40,7 @@ private:
     PetscInt size_ = 0;
 };
 
-/// Of the markers that occur, each once.
+/// Returns the distinct markers.
 std::vector<Marker> markers_in(std::span<const MarkedPoint> points) {
     std::vector<Marker> markers;
     for (const MarkedPoint& one : points) {
@@ -58,7 +58,7 @@ void set_label(DM plex, const std::string& name, std::span<const MarkedPoint> po
     check(DMCreateLabel(plex, name.c_str()));
     DMLabel label = nullptr;
     check(DMGetLabel(plex, name.c_str(), &label));
-    // One set of points for each marker is made at once; point by point takes several times as
+    // Create one set of points for each marker: inserting single points takes several times as
     // long.
     const std::vector<Marker> markers = markers_in(points);
     std::vector<std::vector<PetscInt>> strata(markers.size());

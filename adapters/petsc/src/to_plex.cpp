@@ -25,13 +25,13 @@ using distributed::MeshEdges;
 using distributed::MeshFaces;
 using distributed::Sharing;
 
-/// Ends a plex that could not be finished.
+/// Owns a plex under construction, and destroys it unless it is completed.
 class NewPlex {
 public:
     explicit NewPlex(MPI_Comm comm) {
         check(DMPlexCreate(comm, &plex_));
         check(DMSetDimension(plex_, 3));
-        // It is distributed already, whatever DMSetFromOptions() may think.
+        // Prevents DMSetFromOptions() from distributing the plex again.
         check(DMPlexDistributeSetDefault(plex_, PETSC_FALSE));
     }
     ~NewPlex() {
@@ -113,13 +113,14 @@ void set_coordinates(DM plex, const PlexPoints& points, std::span<const Point> c
     check(VecDestroy(&values));
 }
 
-/// Points of other processes that this one has copies of, and where they are.
+/// The shared points owned by other processes, and their owners' points.
 struct Leaves {
     std::vector<PetscInt> here;
     std::vector<PetscSFNode> there;
 };
 
-/// Collective. Adds those of one kind, whose first point this is: owners tell their numbers.
+/// Collective. Adds the leaves of one kind of entity, whose first point is `first`; owners send
+/// their points.
 template <class I>
 void add_leaves(const Communicator& processes, const Sharing<I>& sharing, std::size_t count,
                 PetscInt first, Leaves& leaves) {
@@ -156,8 +157,8 @@ void set_sharing(DM plex, const PlexPoints& points, const AdaptiveMesh& mesh,
     check(PetscSFSetUp(sharers));
 }
 
-/// Collective. Labels the sides that are listed, on all processes that have them. Vertices of sides
-/// and of what is listed are local; sides ascend.
+/// Collective. Labels the listed sides on all processes that have them. Vertices of sides and of
+/// the list are local; sides ascend.
 template <class I, std::size_t N, std::size_t PerCell>
 void label_sides(DM plex, const Communicator& processes,
                  const distributed::Sides<I, N, PerCell>& sides, PetscInt first,

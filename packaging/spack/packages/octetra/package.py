@@ -4,7 +4,7 @@ import pathlib
 
 from spack.package import *
 
-try:  # from Spack 1.0 on; before, spack.package had it
+try:  # from Spack 1.0 on; spack.package provides it before
     from spack_repo.builtin.build_systems.cmake import CMakePackage
 except ImportError:
     pass
@@ -14,7 +14,7 @@ class Octetra(CMakePackage):
     """Parallel refinement of tetrahedral meshes by longest-edge bisection (8T-LE), the same on any number
     of MPI ranks, with a verifier that decides by exact arithmetic."""
 
-    # What is built is the repository in which this recipe lies: its branch main, as committed.
+    # Builds the repository that contains this recipe: its branch main, as committed.
     git = pathlib.Path(__file__).resolve().parents[4].as_uri()
 
     license("BSD-3-Clause", when="~tetgen")
@@ -29,9 +29,9 @@ class Octetra(CMakePackage):
     variant("tetgen", default=False,
             description="Generate solids and Delaunay meshes; the program is then under the AGPL")
 
-    conflicts("+cli", when="~distributed", msg="the program has all layers: ~distributed takes ~cli")
-    conflicts("+cli", when="~verify", msg="the program has all layers: ~verify takes ~cli")
-    conflicts("+tetgen", when="~cli", msg="only the program generates meshes: ~cli takes ~tetgen")
+    conflicts("+cli", when="~distributed", msg="the program requires all layers: ~distributed requires ~cli")
+    conflicts("+cli", when="~verify", msg="the program requires all layers: ~verify requires ~cli")
+    conflicts("+tetgen", when="~cli", msg="only the program generates meshes: ~cli requires ~tetgen")
     conflicts("%gcc@:9", msg="Octetra is C++20")
 
     generator("ninja")
@@ -40,8 +40,8 @@ class Octetra(CMakePackage):
     depends_on("fmt")
     depends_on("zlib-api")
     depends_on("hdf5~mpi")
-    depends_on("boost")  # headers alone
-    depends_on("xxhash")  # headers alone
+    depends_on("boost")  # headers only
+    depends_on("xxhash")  # headers only
     with when("+distributed"):
         depends_on("mpi")
         depends_on("metis@5:~int64")
@@ -65,6 +65,6 @@ class Octetra(CMakePackage):
             self.define("OCTETRA_PYTHON_MODULE", False),
             self.define("OCTETRA_DOLFINX", False),
             self.define("OCTETRA_PETSC", False),
-            self.define("OCTETRA_TESTS", False),  # they need RapidCheck, which Spack does not have
+            self.define("OCTETRA_TESTS", False),  # require RapidCheck, which Spack does not provide
             self.define("OCTETRA_BENCH", False),
         ]

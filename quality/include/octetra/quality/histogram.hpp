@@ -6,7 +6,7 @@
 
 namespace octetra::quality {
 
-/// The smallest and the largest of some values.
+/// The minimum and maximum of some values.
 struct Range {
     double min = 0;
     double max = 0;
@@ -14,18 +14,18 @@ struct Range {
     friend bool operator==(const Range&, const Range&) = default;
 };
 
-/// Makes the range reach `value`; an absent range becomes that value alone.
+/// Extends the range to include `value`; an empty range becomes this value.
 inline void extend(std::optional<Range>& range, double value) {
     if (!range) range = Range{value, value};
     if (value < range->min) range->min = value;
     if (value > range->max) range->max = value;
 }
 
-/// Counts of values in bins of equal width over low..high. Bin i begins at its lower bound and ends
-/// before the next one's; the last bin holds `high` as well.
+/// Counts of values in bins of equal width over low..high. Bin i contains its lower bound, but not
+/// the next one's; the last bin also contains `high`.
 ///
-/// A value less than a thousand-millionth of a bin below a bound counts as on it: the angles of a
-/// lattice, 60 degrees say, then all fall into one bin, however they were rounded.
+/// A value less than 1e-9 of a bin below a bound counts as on it, so that equal angles of a
+/// lattice, 60 degrees for example, fall into one bin despite rounding.
 struct Histogram {
     double low = 0;
     double high = 1;
@@ -40,7 +40,7 @@ struct Histogram {
         ++counts[bin_at(position)];
     }
 
-    /// Where bin i begins; for i = counts.size(), where the last one ends.
+    /// Returns the lower bound of bin i; for i = counts.size(), the upper bound of the last one.
     [[nodiscard]] double bound(std::size_t i) const {
         return low + (high - low) * static_cast<double>(i) / bin_count();
     }
@@ -50,7 +50,7 @@ struct Histogram {
 private:
     [[nodiscard]] double bin_count() const { return static_cast<double>(counts.size()); }
 
-    /// Values outside of the bounds go to the first and the last bin.
+    /// Values outside the bounds are counted in the first or last bin.
     [[nodiscard]] std::size_t bin_at(double position) const {
         if (!(position > 0)) return 0;
         if (position >= bin_count()) return counts.size() - 1;

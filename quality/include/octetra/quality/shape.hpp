@@ -5,8 +5,8 @@
 #include <octetra/core/point.hpp>
 #include <octetra/core/selection.hpp>
 
-/// Sizes and angles of triangles and tetrahedra, in binary64. Angles are in degrees, and taken from
-/// their sine and cosine together, so that those near 0 and 180 are as precise as the others.
+/// Sizes and angles of triangles and tetrahedra, in binary64. Angles are in degrees, computed from
+/// sine and cosine together, so that angles near 0 and 180 are as accurate as others.
 namespace octetra::quality {
 
 using Triangle = std::array<Point, 3>;
@@ -15,16 +15,16 @@ using Triangle = std::array<Point, 3>;
 
 [[nodiscard]] double area(const Triangle& triangle);
 
-/// The angle at each corner.
+/// Returns the angle at each corner.
 [[nodiscard]] std::array<double, 3> corner_angles(const Triangle& triangle);
 
-/// The angle between the two faces at each edge, in the order of cell_edges, measured inside.
-/// Does not depend on the orientation. All 0 or 180 for a flat cell.
+/// Returns the interior angle between the two faces at each edge, in the order of cell_edges.
+/// Independent of the orientation. All angles of a flat cell are 0 or 180.
 [[nodiscard]] std::array<double, 6> dihedral_angles(const Corners& corners);
 
-/// The mean ratio eta: eta^3 = 432 D^2 / S^3, with D six times the volume and S the sum of the six
-/// squared edge lengths. 1 for a regular tetrahedron, 0 for a flat one, and the same for similar
-/// ones. (Liu & Joe 1994.)
+/// Returns the mean ratio eta: eta^3 = 432 D^2 / S^3, with D six times the volume and S the sum of
+/// the six squared edge lengths. 1 for a regular tetrahedron, 0 for a flat one; invariant under
+/// similarity. (Liu & Joe 1994.)
 [[nodiscard]] double mean_ratio(const Corners& corners);
 
 }  // namespace octetra::quality

@@ -9,21 +9,23 @@
 
 namespace octetra::petsc {
 
-/// A mesh that came from a plex, and the points that its cells and vertices were. They hold as long
-/// as the mesh is not changed; an Adaptation and a Migration tell of what has become of it.
+/// A mesh created from a plex, and the plex points of its cells and vertices. The points are valid
+/// until the mesh is modified; an Adaptation and a Migration can be used to transfer them.
 struct MeshFromPlex {
     distributed::AdaptiveMesh mesh;
     std::vector<PetscInt> cell_points;    ///< of each cell of this process
-    std::vector<PetscInt> vertex_points;  ///< of each vertex; -1 if its plex does not have it
+    std::vector<PetscInt> vertex_points;  ///< of each vertex; -1 if not in this process's plex
 };
 
-/// Collective. A mesh of a plex's cells, all tetrahedra of three dimensions, with labels as tags;
-/// cells without a label have region tag 0. Cells stay where they are; cells of an overlap count on
-/// the process that owns them. Faces and edges have labels only in a plex that has faces and edges
-/// (DMPlexInterpolate()). Which way round a cell was does not matter.
+/// Collective. Creates a mesh from the cells of a plex, which must be tetrahedra in three
+/// dimensions, with labels as tags; cells without a label have region tag 0. Cells stay on their
+/// processes; cells of an overlap are taken on the process that owns them. Faces and edges can have
+/// labels only if the plex has faces and edges (DMPlexInterpolate()). The orientation of cells does
+/// not matter.
 ///
-/// Throws alike on all processes: InputError where PETSc is not initialised, the plex is of another
-/// kind, or AdaptiveMesh::from_parts() refuses its parts; OutOfMemory if one has no memory.
+/// Throws the same error on all processes: InputError if PETSc is not initialised, the plex is of
+/// another kind, or AdaptiveMesh::from_parts() rejects its parts; OutOfMemory if memory is
+/// exhausted on any.
 [[nodiscard]] MeshFromPlex from_plex(DM plex, const PlexLabels& labels = {});
 
 }  // namespace octetra::petsc

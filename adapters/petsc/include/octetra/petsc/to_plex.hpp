@@ -6,22 +6,23 @@
 
 #include <octetra/distributed/adaptive_mesh.hpp>
 
-/// Meshes to and from DMPlex, the unstructured meshes of PETSc. PETSc must be initialised.
+/// Conversion between meshes and DMPlex, the unstructured meshes of PETSc. PETSc must be
+/// initialised.
 namespace octetra::petsc {
 
-/// The labels of a plex; those that hold tags are called as in meshes that PETSc reads. An empty
-/// name leaves its label out. The same on all processes.
+/// The label names of a plex; the defaults for tags are those of meshes read by PETSc. An empty
+/// name omits the label. The same on all processes.
 struct PlexLabels {
     std::string cells = "Cell Sets";  ///< region tags of cells
     std::string faces = "Face Sets";  ///< markers of tagged facets
     std::string edges = "Edge Sets";  ///< markers of tagged edges
-    /// 1 on faces on the boundary of the whole mesh, tagged or not. from_plex() does not look at
-    /// it. (DMPlexMarkBoundaryFaces() of PETSc 3.18 also marks faces between processes.)
+    /// 1 on faces on the boundary of the whole mesh, tagged or not. Ignored by from_plex().
+    /// (DMPlexMarkBoundaryFaces() of PETSc 3.18 also marks faces between processes.)
     std::string boundary = "boundary";
 };
 
-/// The points of a plex that to_plex() has made: cells first, then vertices, faces and edges, each
-/// kind by the mesh's local numbers; of faces and edges, those of number_faces() and
+/// The points of a plex created by to_plex(): cells first, then vertices, faces and edges, each
+/// kind in the order of the mesh's local numbers; faces and edges as in number_faces() and
 /// number_edges().
 struct PlexPoints {
     PetscInt first_vertex = 0;  ///< the first cell is point 0
@@ -42,24 +43,25 @@ private:
     }
 };
 
-/// Not collective. The points of this process's part of a plex that to_plex() has made. Copies of
-/// the plex that are distributed or reordered have others.
+/// Not collective. Returns the points of this process's part of a plex created by to_plex(). Not
+/// valid for distributed or reordered copies of the plex.
 [[nodiscard]] PlexPoints points_of(DM plex);
 
-/// Collective. The mesh as a DMPlex that is distributed in the same way: every process makes the
-/// cells, vertices, faces and edges of its part, with coordinates and labels. The point SF says
-/// which are shared, from what the mesh knows of its sharers; a point's root is with the mesh's
+/// Collective. Converts the mesh into a DMPlex with the same distribution: every process creates
+/// the cells, vertices, faces and edges of its part, with coordinates and labels. The point SF
+/// describes shared points, as known from the mesh's sharers; the root of a point is on the mesh's
 /// owner. There is no overlap. Tagged facets and edges are labelled on all processes that have
 /// them.
 ///
-/// A cell's vertices in the plex are those of the mesh with the first two exchanged, as PETSc turns
-/// tetrahedra the other way round.
+/// The vertices of a cell in the plex are those of the mesh with the first two exchanged, because
+/// PETSc uses the opposite orientation of tetrahedra.
 ///
-/// `comm` has the processes of the mesh, in their order. The plex is a picture of the mesh as it
-/// is; the caller ends it by DMDestroy().
+/// `comm` must have the processes of the mesh in the same order. The plex is independent of later
+/// changes of the mesh; the caller destroys it with DMDestroy().
 ///
-/// Throws alike on all processes: InputError where PETSc is not initialised, `comm` is another
-/// group, or a process has too many points for PetscInt; OutOfMemory if one has no memory.
+/// Throws the same error on all processes: InputError if PETSc is not initialised, `comm` is a
+/// different group, or a process has too many points for PetscInt; OutOfMemory if memory is
+/// exhausted on any.
 [[nodiscard]] DM to_plex(const distributed::AdaptiveMesh& mesh, MPI_Comm comm = PETSC_COMM_WORLD,
                          const PlexLabels& labels = {});
 

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
-"""Writes the samples of Medit's files of values in this folder, without Octetra: of a mesh of two cells,
-with the field x + 2 y + 4 z, the gradient of it and a tensor on vertices, and numbers on cells.
+"""Writes the sample Medit solution files in this folder, without Octetra: for a mesh of two cells, with
+the field x + 2 y + 4 z, its gradient and a tensor on vertices, and numbers on cells.
 
 usage: write_fields.py FOLDER
 """

@@ -30,7 +30,8 @@ public:
     }
 
 private:
-    /// Of a plane or point that lies `halves` half cubes away from the origin.
+    /// Returns the coordinate of a plane or point at a distance of `halves` half cubes from the
+    /// origin.
     [[nodiscard]] double coordinate(std::size_t halves) const {
         return (static_cast<double>(halves) * size_) / static_cast<double>(2 * n_);
     }
@@ -58,7 +59,7 @@ private:
         return VertexIndex{first_centre_ + (cube[2] * n_ + cube[1]) * n_ + cube[0]};
     }
 
-    /// The cells round the squares of one plane of the lattice.
+    /// Adds the cells around the squares of one plane of the lattice.
     void add_layer(std::size_t axis, std::size_t layer) {
         for (std::size_t v = 0; v < n_; ++v) {
             for (std::size_t u = 0; u < n_; ++u) {
@@ -71,7 +72,7 @@ private:
         }
     }
 
-    /// The four cells round the segment through the square with the given low corner.
+    /// Adds the four cells around the segment through the square with the given low corner.
     void add_square(std::size_t axis, const Triple& low) {
         const std::size_t layer = low[axis];
         Triple cube_behind = low;

@@ -14,7 +14,7 @@ bool all_at(const Triangle& triangle, double Point::*axis, double coordinate) {
     return std::ranges::all_of(triangle, [=](const Point& p) { return p.*axis == coordinate; });
 }
 
-/// The marker of the side that holds the triangle, or 0.
+/// Returns the marker of the side that contains the triangle, or 0.
 Marker side_of(const Triangle& triangle, const Point& high) {
     Marker side = 0;
     for (double Point::*const axis : {&Point::x, &Point::y, &Point::z}) {

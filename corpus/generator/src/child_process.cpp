@@ -31,14 +31,14 @@ void be_silent() {
     ::dup2(nowhere, STDERR_FILENO);
 }
 
-/// So that whoever kills the parent, and knows of no child, leaves nothing running.
+/// Ensures that the child is killed if the parent terminates.
 void end_with(pid_t parent) {
     ::prctl(PR_SET_PDEATHSIG, SIGKILL);
-    if (::getppid() != parent) ::_exit(EXIT_FAILURE);  // it was gone before that was heard
+    if (::getppid() != parent) ::_exit(EXIT_FAILURE);  // the parent has already terminated
 }
 
-/// A handler of the parent's, a sanitizer's for one, would end the child with an exit status of its
-/// own.
+/// Resets signal handlers: those of the parent, a sanitizer's for example, would end the child with
+/// a different exit status.
 void end_by_signals() {
     for (const int signal : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT})
         std::signal(signal, SIG_DFL);
@@ -53,7 +53,7 @@ void end_by_signals() {
     ::_exit(work(parent));
 }
 
-/// Whatever comes through the pipe until the other end is closed.
+/// Reads all bytes from the pipe until the other end is closed.
 std::vector<std::byte> receive(int pipe_end) {
     std::vector<std::byte> bytes;
     std::vector<std::byte> buffer(std::size_t{1} << 16U);
@@ -74,7 +74,7 @@ int wait_for(pid_t child) {
     return status;
 }
 
-/// Closes the parent's end and sees to it that the child is gone, whatever happens.
+/// Closes the parent's end of the pipe and waits for the child, also after an exception.
 class Child {
 public:
     Child(pid_t process, int pipe_end) : process_(process), pipe_end_(pipe_end) {}

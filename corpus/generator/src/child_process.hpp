@@ -19,7 +19,7 @@ public:
     void send(const T* items, std::size_t count) const {
         send(std::as_bytes(std::span(items, count)));
     }
-    /// Ends the process if the parent does not listen any more.
+    /// Ends the process if the parent has closed its end.
     void send(std::span<const std::byte> bytes) const;
 
 private:
@@ -28,12 +28,12 @@ private:
 
 struct ChildResult {
     std::vector<std::byte> sent;
-    int exit_status = 0;  ///< what `work` returned, if the child ended itself
-    int signal = 0;       ///< what ended it, or 0
+    int exit_status = 0;  ///< result of `work`, if the child ended normally
+    int signal = 0;       ///< signal that ended it, or 0
 };
 
-/// Runs `work` in a copy of this process, with nowhere to print to, and waits for it.
-/// Throws SystemError if there can be no such process.
+/// Runs `work` in a forked copy of this process, with output discarded, and waits for it. Throws
+/// SystemError if the process cannot be created.
 [[nodiscard]] ChildResult run_in_child(const std::function<int(ToParent&)>& work);
 
 }  // namespace octetra::generator

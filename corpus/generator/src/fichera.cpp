@@ -9,7 +9,8 @@
 namespace octetra::generator {
 namespace {
 
-/// A number in base 3 has a digit 0, 1 or 2 for each coordinate -1, 0 or 1, the last one for x.
+/// Decodes a number in base 3 with a digit 0, 1 or 2 for each coordinate -1, 0 or 1, the last one
+/// for x.
 Point lattice_point(std::uint32_t code) {
     const std::uint32_t x = code % 3;
     const std::uint32_t y = code / 3 % 3;
@@ -34,7 +35,7 @@ const std::array<Corners, 9> faces{{{1, {0, 2, 8, 6}},
                                     {2, {origin, 14, 23, 22}},
                                     {2, {origin, 16, 25, 22}}}};
 
-/// Adds the edges of a polygon that are not there yet.
+/// Adds the edges of a polygon that are not in the complex yet.
 void add_ridges(Complex& complex, const Polygon& polygon) {
     for (std::size_t k = 0; k < polygon.size(); ++k) {
         const std::uint32_t a = polygon[k];

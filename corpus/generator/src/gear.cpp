@@ -14,12 +14,12 @@
 namespace octetra::generator {
 namespace {
 
-constexpr double root_share = 0.8;            // of the outer radius
-constexpr double half_tip = 0.125;            // of a tooth's share of the circle
+constexpr double root_share = 0.8;            // fraction of the outer radius
+constexpr double half_tip = 0.125;            // fraction of a tooth's part of the circle
 constexpr double half_base = 0.3;             // likewise
 constexpr double half_gap = 0.5 - half_base;  // likewise, between the bases of two teeth
 
-/// How near the outline comes to the axis: in the middle between two teeth.
+/// Returns the smallest distance of the outline from the axis, in the middle between two teeth.
 double inner_distance(const Gear& gear) {
     return root_share * gear.outer_radius *
            direction(half_gap, static_cast<double>(gear.teeth)).cos;
@@ -44,7 +44,7 @@ void check(const Gear& gear) {
                         std::min({gear.edge_length, gear.thickness, gear.bore_radius, wall, tip}));
 }
 
-/// Collects the complex of one gear.
+/// Builds the complex of a gear.
 class GearBuilder {
 public:
     explicit GearBuilder(const Gear& gear) : gear_(&gear) {}

@@ -7,9 +7,8 @@
 namespace octetra::generator {
 namespace {
 
-/// Up to three corners with whole weights that add up to the
-/// frequency: a point of the icosahedron. Corners of weight 0 are left out, so that the sides that
-/// share a point agree on its name.
+/// A point of the icosahedron: up to three corners with integer weights whose sum is the frequency.
+/// Corners of weight 0 are omitted, so that sides sharing a point have the same name for it.
 using Name = std::map<std::uint32_t, std::uint32_t>;
 
 constexpr double golden = 1.6180339887498949;
@@ -37,7 +36,7 @@ public:
     Icosphere(Complex& complex, const Point& centre, double radius)
         : complex_(&complex), centre_(centre), radius_(radius) {}
 
-    /// The number of a point, which is made when it is first asked for.
+    /// Returns the number of a point, which is created on first use.
     std::uint32_t number(const Name& name) {
         const auto [entry, is_new] = numbers_.try_emplace(name, 0);
         if (is_new) entry->second = complex_->add(position(name));
@@ -66,7 +65,7 @@ private:
 }  // namespace
 
 std::uint32_t icosphere_frequency(double radius, double edge_length) {
-    constexpr double icosahedron_edge = 1.0514622;  // of one in the unit sphere
+    constexpr double icosahedron_edge = 1.0514622;  // of an icosahedron in the unit sphere
     return static_cast<std::uint32_t>(std::ceil(icosahedron_edge * radius / edge_length));
 }
 
@@ -74,7 +73,7 @@ void add_icosphere(Complex& complex, const Point& centre, double radius, std::ui
                    Marker marker) {
     Icosphere sphere(complex, centre, radius);
     for (const auto& side : sides) {
-        // The point that is i steps from corner 0 towards corner 1, and j towards corner 2.
+        // Returns the point i steps from corner 0 towards corner 1, and j steps towards corner 2.
         const auto at = [&](std::uint32_t i, std::uint32_t j) {
             Name name;
             if (i + j < frequency) name[side[0]] = frequency - i - j;
@@ -87,8 +86,8 @@ void add_icosphere(Complex& complex, const Point& centre, double radius, std::ui
         };
         for (std::uint32_t i = 0; i < frequency; ++i) {
             for (std::uint32_t j = 0; i + j < frequency; ++j) {
-                // Points get their numbers here. One statement each: the arguments of a call would
-                // be evaluated, and the points numbered, in an order that each compiler chooses.
+                // Points are numbered here. Separate statements, because the evaluation order of
+                // function arguments, and thus the numbering, would depend on the compiler.
                 const std::uint32_t right = at(i, j + 1);
                 const std::uint32_t left = at(i + 1, j);
                 const std::uint32_t near = at(i, j);

@@ -9,8 +9,8 @@
 namespace octetra::generator {
 namespace {
 
-/// The cells of a brick, a ring round its diagonal. A corner's number has bit 0 set when it is at
-/// the high end of x, bit 1 of y, bit 2 of z.
+/// The cells of a brick, around its diagonal. Bit 0 of a corner's number is set at the high end of
+/// x, bit 1 of y, bit 2 of z.
 constexpr std::array<std::array<std::size_t, 4>, 6> brick_cells{
     {{0, 1, 3, 7}, {0, 3, 2, 7}, {0, 2, 6, 7}, {0, 6, 4, 7}, {0, 4, 5, 7}, {0, 5, 1, 7}}};
 

@@ -18,15 +18,17 @@
 namespace octetra::generator {
 namespace {
 
-/// What TetGen throws then. As an exit status it would be what anything says that fails.
+/// The exception that TetGen throws if memory is exhausted. Not used as an exit status, because 1
+/// is the usual one for any failure.
 constexpr int tetgen_without_memory = 1;
 
-/// What the child says in its exit status, beside the 2 to 10 that TetGen throws.
+/// Exit statuses of the child in addition to 2 to 10, which TetGen throws.
 constexpr int no_result = 11;
 constexpr int other_failure = 12;
 constexpr int out_of_memory = 13;
 
-/// TetGen gives the marker 1 to every segment that nobody listed, so ours move up by one.
+/// TetGen assigns the marker 1 to all segments that are not listed, so markers of listed ones are
+/// shifted by one.
 constexpr int unlisted_ridge = 1;
 
 int as_int(std::size_t number) { return static_cast<int>(number); }
@@ -58,7 +60,7 @@ void fill_facet(tetgenio::facet& facet, const PlaneFacet& from) {
     facet.numberofholes = as_int(from.holes.size());
 }
 
-// TetGen's structure owns what it is given and frees it with delete[].
+// TetGen's structure owns its arrays and frees them with delete[].
 
 void fill_facets(tetgenio& in, const std::vector<PlaneFacet>& facets) {
     if (facets.empty()) return;
@@ -93,17 +95,17 @@ void fill_regions(tetgenio& in, const std::vector<Region>& regions) {
         *next++ = region.seed.y;
         *next++ = region.seed.z;
         *next++ = region.tag;
-        *next++ = -1;  // no volume bound of its own
+        *next++ = -1;  // no separate volume bound
     }
 }
 
-/// How many of each, in the order in which the child sends them.
+/// The numbers of items, in the order in which the child sends them.
 struct Counts {
     std::size_t points = 0;
     std::size_t cells = 0;
     std::size_t facets = 0;
     std::size_t ridges = 0;
-    std::size_t regions = 0;  ///< as many as cells, or 0
+    std::size_t regions = 0;  ///< equal to cells, or 0
 };
 
 int send_result(const tetgenio& out, ToParent& parent) {
@@ -171,7 +173,7 @@ void refuse_failure(const ChildResult& result) {
     }
 }
 
-/// Reads the child's bytes back in the order in which they were sent.
+/// Deserialises the child's data in the order in which they were sent.
 class Received {
 public:
     explicit Received(const std::vector<std::byte>& bytes) : next_(bytes.data()) {}

@@ -26,7 +26,7 @@ void check(double inclusion_radius, double edge_length) {
     check_cell_estimate(1, std::min({edge_length, inclusion_radius, gap}));
 }
 
-/// The unit cube; corner number 4z + 2y + x.
+/// Adds the unit cube; corner number 4z + 2y + x.
 void add_cube(Complex& complex) {
     for (std::uint32_t corner = 0; corner < 8; ++corner) {
         complex.add({static_cast<double>(corner & 1U), static_cast<double>(corner >> 1U & 1U),
@@ -53,7 +53,7 @@ Mesh two_material(double inclusion_radius, double edge_length) {
     const Point centre{0.5, 0.5, 0.5};
     add_icosphere(complex, centre, inclusion_radius,
                   icosphere_frequency(inclusion_radius, edge_length), 2);
-    // Half way between the ball and a corner of the cube.
+    // Halfway between the ball and a corner of the cube.
     const double outside = (0.5 - inclusion_radius / std::numbers::sqrt3) / 2;
     complex.regions = {{{outside, outside, outside}, 1}, {centre, 2}};
     return fill(complex, edge_length, Surface::may_be_cut);

@@ -5,7 +5,7 @@
 
 namespace octetra::generator {
 
-/// Numbers in [0, 1), the same on every platform (std::uniform_real_distribution need not be).
+/// Random numbers in [0, 1), the same on every platform (unlike std::uniform_real_distribution).
 class Uniform {
 public:
     explicit Uniform(std::uint64_t seed) : engine_(seed) {}

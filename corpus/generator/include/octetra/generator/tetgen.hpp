@@ -2,7 +2,7 @@
 
 namespace octetra::generator {
 
-/// Was this built with TetGen? Without it only the lattices can be made.
+/// Returns whether this build includes TetGen. Without it only lattices can be generated.
 [[nodiscard]] bool has_tetgen();
 
 }  // namespace octetra::generator

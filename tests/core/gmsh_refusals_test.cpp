@@ -120,7 +120,7 @@ INSTANTIATE_TEST_SUITE_P(
         {"NegativeTag", gmsh_head_2 + "$Nodes\n1\n-1 0 0 0\n", "6: ", "a whole number from 0"},
         {"Dimension", gmsh_head_4 + "$Nodes\n1 1 1 1\n4 1 0 1\n", "6: ", "0 to 3, not 4"},
         {"TooMany", gmsh_head_4 + "$Nodes\n1 1 1 1\n3 1 0 2\n",
-         "6: ", "a block of 2 nodes, where 1 are left"},
+         "6: ", "a block of 2 nodes, where 1 of those announced remain"},
         {"TooFew", gmsh_head_4 + "$Nodes\n1 2 1 2\n3 1 0 1\n1\n0 0 0\n$EndNodes\n$Elements\n",
          "8: ", "1 of the 2 nodes announced are missing"},
     }),
@@ -131,7 +131,7 @@ INSTANTIATE_TEST_SUITE_P(
     testing::ValuesIn(std::vector<BadContent>{
         {"HugeCount2", gmsh_head_2 + gmsh_nodes_2 + "$Elements\n99999\n", "12: ", "holds at most"},
         {"HugeBlock", gmsh_head_4 + gmsh_nodes_4 + "$Elements\n1 9 1 1\n3 1 4 10\n",
-         "18: ", "a block of 10 elements, where 9 are left"},
+         "18: ", "a block of 10 elements, where 9 of those announced remain"},
         {"Missing",
          gmsh_head_4 + gmsh_nodes_4 + "$Elements\n1 2 1 1\n3 1 4 1\n1 1 2 3 4\n$EndElements\n",
          "19: ", "1 of the 2 elements announced are missing"},

@@ -247,7 +247,7 @@ TEST(GmshWriter, WritesTheNamesOfGroups) {
 TEST(GmshWriter, SaysWhatItCannotHold) {
     const TemporaryFolder folder;
     Mesh mesh = rich_mesh();
-    EXPECT_THAT(write_mesh(mesh, folder / "a.msh"), HasSubstr("takes a negative marker"));
+    EXPECT_THAT(write_mesh(mesh, folder / "a.msh"), HasSubstr("reads a negative marker"));
     mesh.regions.clear();
     EXPECT_EQ(write_mesh(mesh, folder / "a.msh"), "");
     mesh.point_markers.resize(mesh.points.size());

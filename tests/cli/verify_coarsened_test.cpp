@@ -78,13 +78,13 @@ TEST_F(VerifyCoarsened, EndsWithStatus1WhereOtherCellsMightGo) {
     for (const int ranks : {1, 3}) {
         const auto more = run(1, judge + "--sphere 0.5,0.5,0.5,0.35", ranks);
         EXPECT_THAT(more.out, AllOf(HasSubstr("\nvertex_stayed: "), HasSubstr("previous vertex "),
-                                    HasSubstr("; expected gone: all cells at it may go"),
+                                    HasSubstr("; expected gone: all cells at it may be coarsened"),
                                     HasSubstr("NOT VALID\n")));
     }
-    EXPECT_THAT(
-        run(1, judge + "--sphere 0.5,0.5,0.5,0.25").out,
-        AllOf(HasSubstr("\nvertex_went: "), HasSubstr("  previous vertex "),
-              HasSubstr("found gone; expected kept: it belongs to this cell, which may not go")));
+    EXPECT_THAT(run(1, judge + "--sphere 0.5,0.5,0.5,0.25").out,
+                AllOf(HasSubstr("\nvertex_went: "), HasSubstr("  previous vertex "),
+                      HasSubstr("found gone; expected kept: it belongs to this cell, which must "
+                                "not be coarsened")));
     run(1, judge + "--outside --sphere 0.5,0.5,0.5,0.3");
     run(1, judge + "--sphere 0.5,0.5,0.5,0.3 --levels 2");
     run(1, judge + "--sphere 0.5,0.5,0.5,0.3 --levels 0 --report r.json");

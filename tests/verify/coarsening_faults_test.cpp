@@ -245,7 +245,7 @@ TEST(CoarseningFaults, AreExplainedByTheRule) {
         EXPECT_EQ(violation.entities.front().number, 4U);
         return violation.expected;
     };
-    EXPECT_EQ(expected({}), "kept: it belongs to this cell, which may not go");
+    EXPECT_EQ(expected({}), "kept: it belongs to this cell, which must not be coarsened");
     EXPECT_EQ(expected({{.all = true}}),
               "kept: this cell contains it and a vertex of a later step");
     EXPECT_EQ(expected({{}, true, 0}), "kept: no level could remove it");

@@ -44,7 +44,7 @@ void report_gone(VertexIndex v, const Reason& reason, Findings& findings) {
         switch (reason.why) {
             case Why::cell:
                 description.entities.push_back(entity(reason.cell, Which::before));
-                expected = "kept: it belongs to this cell, which may not go";
+                expected = "kept: it belongs to this cell, which must not be coarsened";
                 break;
             case Why::cut:
                 description.entities.push_back(entity(reason.cell, Which::before));
@@ -72,7 +72,7 @@ void report_found(VertexIndex w, VertexIndex v, const Lineage& lineage, Findings
     findings.add(Code::vertex_stayed, [&]() -> Findings::Description {
         return {{entity(w), entity(v, Which::before)},
                 fmt::format("still present, of step {}", lineage.step[v]),
-                "gone: all cells at it may go, and no other rule keeps it"};
+                "gone: all cells at it may be coarsened, and no other rule keeps it"};
     });
 }
 

@@ -30,9 +30,9 @@ using StepCuts = std::vector<std::vector<std::uint8_t>>;
 ///
 /// A valid verdict proves the properties of verify_refinement(input, after), and
 ///  - the vertices are exactly those of the mesh before that the rules of coarsening keep, applied
-///    `levels` times. A vertex is kept if it belongs to a cell that may not go, or to a cell that
-///    has a vertex of a later step (a); and if it is the midpoint of the longest edge of a face
-///    another edge of which has a midpoint, of the same step, that is kept (b);
+///    `levels` times. A vertex is kept if it belongs to a cell that must not be coarsened, or to a
+///    cell that has a vertex of a later step (a); and if it is the midpoint of the longest edge of
+///    a face another edge of which has a midpoint, of the same step, that is kept (b);
 ///  - each cell is a cell of the mesh before, or a union of cells into which one step, or at most
 ///    as many steps as there are levels, divided it;
 ///  - each cell is the one that longest-edge bisection creates from the edges whose midpoints are

@@ -1,8 +1,8 @@
-/// How synchronisation grows with ranks and with the mesh: `mpirun -n P bench_communication [N]`
-/// refines a shaken lattice of N^3 cubes once at random places, by either synchronisation, and then
-/// lattices of half and twice the side. Counts, not times: any machine gives the same. Messages are
-/// those of a rank in a round; bytes those of all ranks, of the rank that sends most, and for each
-/// edge in the interface lists of all ranks.
+/// Communication of synchronisation as a function of ranks and mesh size: `mpirun -n P
+/// bench_communication [N]` refines a perturbed lattice of N^3 cubes once at random places, with
+/// either synchronisation, and then lattices of half and twice the side. Prints counts, not times,
+/// which are the same on any machine: messages per rank and round; bytes of all ranks, of the rank
+/// that sends most, and per edge in the interfaces of all ranks.
 
 #include <array>
 #include <cstdlib>
@@ -33,8 +33,8 @@ struct Figures {
     std::uint64_t most_bytes = 0;
     std::uint64_t neighbours = 0;
     std::uint64_t most_neighbours = 0;
-    /// Edges in the interface lists of all ranks: one that two ranks share counts twice, as either
-    /// may have to tell the other.
+    /// Edges in the interfaces of all ranks: an edge that two ranks share counts twice, because
+    /// either rank may have to notify the other.
     std::uint64_t interface_edges = 0;
 };
 

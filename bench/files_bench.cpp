@@ -1,4 +1,4 @@
-/// How fast mesh files are read and written, in bytes of the files a second. Files in the page
+/// Rates of reading and writing mesh files, in bytes of the files per second. Files are in the page
 /// cache.
 
 #include <filesystem>
@@ -47,10 +47,10 @@ void set_rate(benchmark::State& state, const std::filesystem::path& folder) {
 void write_file(benchmark::State& state, const std::string& name,
                 const WriteOptions& options = {}) {
     const test::TemporaryFolder folder;
-    const Mesh& mesh = large_mesh();  // made here, before the clock runs
+    const Mesh& mesh = large_mesh();  // made before timing starts
     for ([[maybe_unused]] auto _ : state) {
         (void)write_mesh(mesh, folder / name, options);
-        // Where a file takes another's place, ext4 brings it to the disk at once.
+        // If a file replaces another one, ext4 flushes it to the disk at once.
         state.PauseTiming();
         for (const auto& entry : std::filesystem::directory_iterator(folder.path())) {
             std::filesystem::remove(entry.path());
@@ -71,7 +71,7 @@ void read_file(benchmark::State& state, const std::string& name, const WriteOpti
     set_rate(state, folder.path());
 }
 
-/// Without the checks that need the whole mesh, and the memory.
+/// Without the checks, and the memory, that require the whole mesh.
 void stream_file(benchmark::State& state, const std::string& name,
                  const WriteOptions& options = {}) {
     const test::TemporaryFolder folder;

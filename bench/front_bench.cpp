@@ -1,8 +1,8 @@
-/// A front that wanders: `bench_front [CUBES [CYCLES]]`. In CUBES^3 cubes of six cells a sphere
-/// moves along the diagonal; each cycle coarsens what is far from its surface, refines what is near
-/// to a sixteenth of a cube's edge, and rebalances. Seconds of each, from barrier to barrier, with
-/// cells that move and with static parts; the share of rebalancing; and the most cells on a process
-/// over the mean after each. Also under mpirun.
+/// A moving front: `bench_front [CUBES [CYCLES]]`. In CUBES^3 cubes of six cells a sphere moves
+/// along the diagonal; each cycle coarsens cells far from its surface, refines cells near it to a
+/// sixteenth of a cube's edge, and rebalances. Prints the seconds of each operation, from barrier
+/// to barrier, with and without migration; the fraction of rebalancing; and the ratio of the
+/// maximum to the mean number of cells per process after each cycle. Also under mpirun.
 
 #include <algorithm>
 #include <cmath>
@@ -75,8 +75,8 @@ public:
 
     Seconds seconds;
     int moves = 0;
-    double cells = 0;           ///< of all cycles
-    double most_over_mean = 1;  ///< after any
+    double cells = 0;           ///< summed over all cycles
+    double most_over_mean = 1;  ///< maximum over the cycles
 
 private:
     std::vector<std::uint8_t> marked(auto&& is_marked, const Front& front) const {

@@ -1,8 +1,9 @@
-/// What history costs: `bench_history [CUBES]` refines CUBES^3 cubes of six cells uniformly, within
-/// a ball, and around a point, and for each says how many bytes of a checkpoint a cut cell takes;
-/// cells a second of saving and loading, beside the same mesh as TetGen files and .vtu; and how
-/// long reading the steps off the mesh, doing them again, and taking all cells back by a generation
-/// take, as shares of refinement. Each time is the least of three. Also under mpirun.
+/// The cost of history: `bench_history [CUBES]` refines CUBES^3 cubes of six cells uniformly,
+/// within a ball, and around a point. For each it prints the bytes of a checkpoint per bisected
+/// cell; the cells per second of saving and loading, compared with the same mesh as TetGen files
+/// and .vtu; and the times of extracting the steps from the mesh, of repeating them, and of
+/// coarsening all cells by one generation, as fractions of the time of refinement. Each time is the
+/// minimum of three. Also under mpirun.
 
 #include <algorithm>
 #include <cmath>
@@ -45,7 +46,7 @@ std::vector<Case> cases() {
     return {{"uniform", {{.all = true}, {.all = true}}}, ball, point};
 }
 
-/// From barrier to barrier, the least of three times.
+/// From barrier to barrier; the minimum of three times.
 double seconds_of(const Communicator& world, auto&& prepare, auto&& work) {
     double least = std::numeric_limits<double>::infinity();
     for (int repeat = 0; repeat < 3; ++repeat) {

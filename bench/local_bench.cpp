@@ -1,7 +1,7 @@
-/// Few cells of many: `bench_local N LEVELS CHOSEN` refines a Kuhn cube of N^3 cubes around its
-/// centre, level by level, each time about CHOSEN cells in a sphere half as large as the one
-/// before; and says what each level takes of a uniform level of the same cube. `--json` prints a
-/// line for bench/run/. Also under mpirun.
+/// Refinement of few cells in a large mesh: `bench_local N LEVELS CHOSEN` refines a Kuhn cube of
+/// N^3 cubes around its centre, level by level, each time about CHOSEN cells in a sphere of half
+/// the previous radius. Prints the time of each level as a fraction of a uniform level of the same
+/// cube. `--json` prints a line for bench/run/. Also under mpirun.
 
 #include <cmath>
 #include <numeric>
@@ -40,7 +40,7 @@ DistributedMesh cube_of(const Communicator& world, std::size_t n) {
     return distributed::distribute(world, std::move(cube), parts);
 }
 
-/// One level: the most that a rank took, in milliseconds.
+/// Makes one level. Returns the maximum over the ranks, in milliseconds.
 double level_milliseconds(DistributedMesh& mesh, const Selection& selection) {
     const double start = processor_seconds();
     (void)distributed::refine(mesh, selection, {.levels = 1});
@@ -49,7 +49,7 @@ double level_milliseconds(DistributedMesh& mesh, const Selection& selection) {
            1e-6;
 }
 
-/// The same, and how many cells all ranks looked at.
+/// The same, with the number of cells that all ranks processed.
 std::pair<double, std::uint64_t> profiled_level(DistributedMesh& mesh, const Selection& selection) {
     const Communicator world = mesh.processes;
     mesh.processes = distributed::profiled(world, distributed::ProfileDetail::sums);
@@ -63,7 +63,7 @@ std::pair<double, std::uint64_t> profiled_level(DistributedMesh& mesh, const Sel
     return {milliseconds, touched};
 }
 
-/// Seconds of the processor of a uniform level, and the cells that it gives.
+/// Processor seconds of a uniform level, and its number of cells.
 ordered_json uniform_level(const Communicator& world, std::size_t cubes) {
     DistributedMesh mesh = cube_of(world, cubes);
     const double milliseconds = level_milliseconds(mesh, {.all = true});

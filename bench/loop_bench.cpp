@@ -1,9 +1,9 @@
-/// What the library adds to the engine: `bench_loop [CUBES [MARKED]]` refines CUBES^3 cubes of six
-/// cells uniformly, by the engine and by an AdaptiveMesh, the least of three times; says how much
-/// memory a rank needs for that, a mesh that the program has given away not counted; how long
-/// which parts of the library's step the engine's has not; and takes steps of about so many marked
-/// cells, in a ball somewhere else each time, by both. Seconds are those of the slowest rank,
-/// barrier to barrier. Also under mpirun.
+/// The overhead of the library over the engine: `bench_loop [CUBES [MARKED]]` refines CUBES^3 cubes
+/// of six cells uniformly, by the engine and by an AdaptiveMesh, and prints the minimum of three
+/// times; the memory that a rank needs for this, without meshes that the program has moved from;
+/// the times of the parts of the library's step that the engine does not have; and the times of
+/// steps by both with about MARKED marked cells, in a ball at a different position each time.
+/// Seconds are those of the slowest rank, from barrier to barrier. Also under mpirun.
 
 #include <malloc.h>
 
@@ -51,7 +51,7 @@ struct Input {
     }
 };
 
-/// Of a uniform step by an AdaptiveMesh: the largest rank's peak.
+/// Peak memory of a uniform step by an AdaptiveMesh: the maximum over the ranks.
 void measure_memory(const Communicator& world, std::size_t cubes) {
     AdaptiveMesh mesh = [&] {
         const Input input(world, cubes);
@@ -66,7 +66,7 @@ void measure_memory(const Communicator& world, std::size_t cubes) {
     fmt::print("peak memory: {:.1f} bytes a cell\n", 0.1 * static_cast<double>(tenths));
 }
 
-/// Of the slowest rank, in the phases of these names.
+/// Seconds of the slowest rank in the phases with these names.
 double seconds_in(const distributed::GatheredProfile& profile,
                   std::initializer_list<std::string_view> names) {
     double most = 0;
@@ -81,8 +81,8 @@ double seconds_in(const distributed::GatheredProfile& profile,
     return most;
 }
 
-/// What the library's uniform step does beside the engine's, in parts of the engine's seconds; the
-/// least of three times.
+/// The additional work of the library's uniform step, as fractions of the engine's time; the
+/// minimum of three.
 void measure_parts(const Communicator& all, const Input& input, double engine) {
     double numbers = std::numeric_limits<double>::infinity();
     double maps = numbers;
@@ -137,7 +137,7 @@ double measure_uniform(const Communicator& world, const Input& input) {
     return engine;
 }
 
-/// A ball of about so many cells of the lattice.
+/// A ball that contains about this number of cells of the lattice.
 Sphere ball(std::size_t cubes, std::size_t cells, int step) {
     constexpr double pi = 3.14159265358979323846;
     const double centre = 0.15 * (step + 1);
@@ -145,7 +145,7 @@ Sphere ball(std::size_t cubes, std::size_t cells, int step) {
     return {{centre, centre, centre}, in_cubes / static_cast<double>(cubes)};
 }
 
-/// What a solver's estimator would have said.
+/// The marks that a solver's estimator would return.
 std::vector<CellIndex> marks_of(const Selection& selection, const AdaptiveMesh& mesh) {
     std::vector<CellIndex> marked;
     const auto points = mesh.points();
@@ -159,7 +159,7 @@ std::vector<CellIndex> marks_of(const Selection& selection, const AdaptiveMesh& 
     return marked;
 }
 
-/// The same as a byte for each cell.
+/// The same marks as a byte for each cell.
 std::vector<std::uint8_t> bytes_of(const std::vector<CellIndex>& marked, const AdaptiveMesh& mesh) {
     std::vector<std::uint8_t> bytes(mesh.cells().size(), 0);
     for (const CellIndex c : marked) bytes[c.value()] = 1;
@@ -167,7 +167,7 @@ std::vector<std::uint8_t> bytes_of(const std::vector<CellIndex>& marked, const A
 }
 
 struct Seconds {
-    double step = 0;  ///< transfer with it
+    double step = 0;  ///< with transfer of values
     double transfer = 0;
 };
 

@@ -7,7 +7,7 @@
 #include <fstream>
 #include <string>
 
-/// What benchmarks measure of the process that they are in.
+/// Measurements of the current process.
 namespace octetra::bench {
 
 inline double seconds_of(clockid_t clock) {
@@ -16,21 +16,21 @@ inline double seconds_of(clockid_t clock) {
     return static_cast<double>(time.tv_sec) + static_cast<double>(time.tv_nsec) * 1e-9;
 }
 
-/// By the wall clock, from some moment on.
+/// Wall-clock seconds since an arbitrary moment.
 inline double wall_seconds() { return seconds_of(CLOCK_MONOTONIC); }
 
-/// Of the processor, in the program and in the kernel. Waiting for other ranks counts, too: they
-/// are asked over and over.
+/// Processor seconds, in user and kernel mode. Waiting for other ranks counts as well, because MPI
+/// polls.
 inline double processor_seconds() { return seconds_of(CLOCK_PROCESS_CPUTIME_ID); }
 
-/// The most memory that this process has held so far.
+/// The peak memory of this process so far.
 inline std::uint64_t peak_bytes() {
     rusage usage{};
     ::getrusage(RUSAGE_SELF, &usage);
     return static_cast<std::uint64_t>(usage.ru_maxrss) * 1024;
 }
 
-/// The most memory that this process has held since this was last called, or ever, if it was not.
+/// The peak memory of this process since the last call, or since its start.
 inline std::uint64_t peak_bytes_since_last() {
     std::uint64_t kilobytes = 0;
     std::ifstream status("/proc/self/status");

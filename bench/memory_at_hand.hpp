@@ -9,11 +9,11 @@
 
 namespace octetra::bench {
 
-/// Gets so much memory from the system, writes to all of it, and keeps it for whatever this process
-/// allocates from now on: what a program has that refines again and again. Without it the time of a
-/// single level is, for the most part, that of the system handing out memory. Not collective.
+/// Allocates this amount of memory from the system, writes to all of it, and keeps it in the heap
+/// for later allocations of this process, as in a program that refines repeatedly. Otherwise the
+/// time of a single level is dominated by page faults. Not collective.
 inline void keep_memory_at_hand(std::size_t bytes) {
-    ::mallopt(M_MMAP_MAX, 0);         // all from the heap ...
+    ::mallopt(M_MMAP_MAX, 0);         // everything from the heap ...
     ::mallopt(M_TRIM_THRESHOLD, -1);  // ... which never shrinks
     void* const memory = std::malloc(bytes);
     if (memory == nullptr) return;

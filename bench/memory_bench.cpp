@@ -1,5 +1,5 @@
-/// How much memory reading and writing a mesh takes beside the mesh itself: peaks of processes that
-/// do nothing else, as the kernel counts them.
+/// Memory for reading and writing a mesh in addition to the mesh itself: peaks of processes that do
+/// nothing else, as counted by the kernel.
 
 #include <sys/resource.h>
 #include <sys/wait.h>
@@ -54,7 +54,7 @@ void measure() {
     std::uint64_t mesh_bytes = 0;
     int to_parent[2];
     if (::pipe(to_parent) != 0) return;
-    // The mesh is made in a process of its own, so that this one's peak stays low.
+    // The mesh is made in a separate process, so that the peak of this one stays low.
     (void)peak_of([&] {
         Mesh mesh = test::kuhn(56, 56, 55, 1.0 / 3);
         test::list_boundary(mesh);

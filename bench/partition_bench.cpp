@@ -1,5 +1,5 @@
-/// What a partition takes: `bench_partition [MESH [PARTS]]`, by default of a lattice of 55^3 cubes
-/// in 4 parts.
+/// The cost of a partition: `bench_partition [MESH [PARTS]]`, by default of a lattice of 55^3 cubes
+/// into 4 parts.
 
 #include <sys/resource.h>
 #include <sys/wait.h>
@@ -49,7 +49,7 @@ void measure(const std::filesystem::path& file, int parts, const std::string& me
     std::fflush(stdout);
 }
 
-/// In a process of its own, so that what it takes is its own.
+/// Runs the work in a separate process, so that its figures contain nothing else.
 void apart(auto&& work) {
     const pid_t child = ::fork();
     if (child == 0) {

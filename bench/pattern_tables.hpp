@@ -8,8 +8,8 @@
 
 namespace octetra::bench {
 
-/// Has this process make the engine's pattern tables, which it makes but once and which are no part
-/// of what a refinement costs in the long run. Not collective.
+/// Makes the engine's pattern tables, which a process makes once and whose cost is not part of
+/// repeated refinement. Not collective.
 inline void make_pattern_tables() {
     const Mesh cube = test::kuhn(1, 1, 1);
     const std::vector<int> parts(cube.cells.size(), 0);

@@ -1,12 +1,15 @@
-"""Pages whose sentences follow their tables: figures in a sentence are computed, and what it says is checked.
+"""Pages whose sentences depend on their tables: figures in sentences are computed, and statements
+are checked.
 
-A page's text has, besides words,
+Besides words, the text of a page contains
 
-    @QUERY@                          the figures that the query finds, as "2.5 to 10"; "most QUERY": the greatest
-    <!-- holds: QUERY < 0.9 -->      what must hold of every figure for the sentence before it to be true; the
-                                     line goes, or the page is not made. Also > and =; "some QUERY": of one at least
+@QUERY@                          the figures of the query, such as "2.5 to 10"; "most QUERY": the greatest
+<!-- holds: QUERY < 0.9 -->      a condition on every figure, without which the preceding sentence is false; the
+                                 line is removed, or the page is refused. Also > and =; "some QUERY": for at
+                                 least one figure
 
-What a query is, the page's own function knows: from its words it makes the list of figures.
+Queries are evaluated by a function of the page, which returns a list of figures for the words of
+the query.
 """
 import operator
 import re
@@ -19,11 +22,11 @@ COMPARE = {"<": operator.lt, ">": operator.gt, "=": operator.eq}
 
 
 class NotTrue(Exception):
-    """A sentence says what the figures do not."""
+    """A sentence contradicts the figures."""
 
 
 def number(value):
-    """To three digits."""
+    """Formats with three digits."""
     return f"{value:,.0f}" if value >= 100 else f"{value:.3g}"
 
 
@@ -33,7 +36,7 @@ def spread(values):
 
 
 def check(text, figures):
-    """Throws NotTrue, with the line and what it says, at the first condition that does not hold."""
+    """Throws NotTrue, with the line, at the first condition that does not hold."""
     for condition in CONDITION.finditer(text):
         values = figures(condition["query"])
         holds = (any if condition["some"] else all)(
@@ -46,10 +49,10 @@ def check(text, figures):
 
 
 def wrapped(block):
-    """A paragraph, or the items of a list, in lines of the same width; a table or a heading as it is."""
+    """Wraps a paragraph or the items of a list; leaves tables and headings unchanged."""
     if block.startswith(("#", "|", "{", "    ")):
         return block
-    block = re.sub(r"\[[^\]]*\]\(", lambda link: re.sub(r"\s", UNBROKEN, link[0]), block)  # a link stays on one line
+    block = re.sub(r"\[[^\]]*\]\(", lambda link: re.sub(r"\s", UNBROKEN, link[0]), block)  # keeps links on one line
     items = re.split(r"\n(?=- )", block)
     lines = [textwrap.fill(" ".join(item.split()), WIDTH, subsequent_indent="  " if item.startswith("- ") else "",
                            break_long_words=False, break_on_hyphens=False) for item in items]
@@ -57,7 +60,7 @@ def wrapped(block):
 
 
 def told(text, figures):
-    """The text with its queries answered and its conditions checked."""
+    """Returns the text with its queries evaluated and its conditions checked."""
     check(text, figures)
     text = re.sub(r"@(most )?([^@\n]+)@",
                   lambda query: number(max(figures(query[2]))) if query[1] else spread(figures(query[2])),

@@ -1,7 +1,7 @@
-/// How a mesh comes from a file into the ranks' memories: `bench_reading MESH [PARTITION]` reads,
-/// partitions and distributes it, and prints the seconds, barrier to barrier, of each phase those
-/// of the slowest rank, and the most memory that each rank has held. One turn for each start, as a
-/// process's peak never falls. Also under mpirun.
+/// Loading of a mesh: `bench_reading MESH [PARTITION]` reads, partitions and distributes a mesh,
+/// and prints the seconds of each phase, from barrier to barrier and on the slowest rank, and the
+/// peak memory of each rank. One measurement per run, because a process's peak never decreases.
+/// Also under mpirun.
 
 #include <algorithm>
 #include <string>

@@ -1,6 +1,7 @@
-/// The distributed engine, barrier to barrier: `bench_refine MESH [LEVELS [RADIUS]]` refines a mesh
-/// file, or of MESH^3 cubes a Kuhn cube, uniformly or inside a sphere about (1/2, 1/2, 1/2), each
-/// level a run of its own. `--json` prints a line for bench/run/. Also under mpirun.
+/// Times of the distributed engine, from barrier to barrier: `bench_refine MESH [LEVELS [RADIUS]]`
+/// refines a mesh file, or a Kuhn cube of MESH^3 cubes, uniformly or inside a sphere about (1/2,
+/// 1/2, 1/2); each level is a separate call. `--json` prints a line for bench/run/. Also under
+/// mpirun.
 
 #include <cstdlib>
 #include <cstring>
@@ -32,7 +33,7 @@ struct Options {
     std::string mesh = "55";  ///< a file, or how many cubes a side
     int levels = 1;
     double radius = 0;  ///< 0: all cells
-    double random = 0;  ///< this share of the cells, at random
+    double random = 0;  ///< this fraction of the cells, at random
     std::string partition = "block";
     bool apart = false;
     bool warm = false;
@@ -57,12 +58,12 @@ Selection selection_of(const Options& options) {
     return selection;
 }
 
-/// Of all ranks together.
+/// The sum over all ranks.
 double sum_of(const Communicator& world, double seconds) {
     return static_cast<double>(world.sum(static_cast<std::uint64_t>(seconds * 1e9))) * 1e-9;
 }
 
-/// Collective. One level; seconds of the processor, messages and bytes are those of all ranks.
+/// Collective. Makes one level; processor seconds, messages and bytes are sums over all ranks.
 ordered_json refine_level(const Communicator& world, DistributedMesh& mesh,
                           const Selection& selection, const distributed::Tuning& tuning) {
     const auto before = world.sum(mesh.cells.size());
@@ -82,7 +83,8 @@ ordered_json refine_level(const Communicator& world, DistributedMesh& mesh,
             {"peak_bytes", world.max(peak_bytes())}};
 }
 
-/// Collective; the first rank gets it. Seconds are means of the ranks, the rest their sums.
+/// Collective; returns the profile on the first rank. Seconds are means over the ranks, other
+/// figures sums.
 ordered_json profile_of(const Communicator& processes) {
     const auto profile = distributed::gather_profile(processes);
     distributed::PhaseCounts sum;
@@ -114,8 +116,8 @@ std::size_t bytes_of(const DistributedMesh& mesh) {
     return mesh.points.size() * sizeof(Point) + mesh.cells.size() * sizeof(CellVertices);
 }
 
-/// What copying that many bytes takes: into memory that the process has yet to get, as a refinement
-/// must, and into memory that was written before.
+/// The time of copying this number of bytes: into memory that the process has not used before, as
+/// in a refinement, and into memory that was written before.
 ordered_json memcpy_seconds(std::size_t bytes) {
     const std::vector<char> from(bytes, 1);
     // NOLINTNEXTLINE(modernize-avoid-c-arrays): a vector would write it

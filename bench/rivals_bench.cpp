@@ -1,9 +1,9 @@
-/// Terminal-edge bisection beside 8T-LE: `bench_rivals MESH --method terminal|8t|4t|2t --task
-/// once|volume|edge --halvings K [--sphere X,Y,Z,R]` refines the cells of the mesh whose centroids
-/// are in the sphere, or all, and their descendants: until each was cut, or has no more than an
-/// 8^K-th of the largest one's volume, or no edge longer than a 2^K-th of the longest one's. Prints
-/// a line of JSON. What is told between parts, by rcb: under mpirun of octetra's methods, of
-/// terminal-edge bisection by --parts, a model.
+/// Compares terminal-edge bisection with 8T-LE: `bench_rivals MESH --method terminal|8t|4t|2t
+/// --task once|volume|edge --halvings K [--sphere X,Y,Z,R]` refines the cells of the mesh whose
+/// centroids are in the sphere, or all, and their descendants, until each was cut, or has at most
+/// an 8^K-th of the largest volume, or no edge longer than a 2^K-th of the longest one. Prints a
+/// line of JSON. Communication between parts, by rcb, is measured under mpirun for octetra's
+/// methods, and modelled for terminal-edge bisection with --parts.
 
 #include <algorithm>
 #include <cmath>
@@ -58,7 +58,7 @@ Corners corners_of(std::span<const Point> points, const CellVertices& cell) {
             points[cell[3].value()]};
 }
 
-/// Points and cells alone: terminal-edge bisection carries no markers.
+/// Points and cells only: terminal-edge bisection does not transfer markers.
 Mesh bare_mesh(const std::string& path) {
     Mesh mesh = read_mesh(path);
     Mesh bare;
@@ -83,7 +83,7 @@ Goal goal_of(const Mesh& mesh, const Options& options) {
         largest = std::max(largest, volume(corners));
         square = std::max(square, longest_square(corners));
     }
-    constexpr double more_than_rounding = 1 + 1e-12;  // halves of halves are small enough
+    constexpr double more_than_rounding = 1 + 1e-12;  // so that exact halves satisfy the goal
     if (options.task == "volume") {
         goal.volume = std::ldexp(largest, -3 * options.halvings) * more_than_rounding;
     }
@@ -93,7 +93,7 @@ Goal goal_of(const Mesh& mesh, const Options& options) {
     return goal;
 }
 
-/// Cells and the cells of the input that they descend from, as any method leaves them.
+/// Cells and the cells of the input from which they descend, for any method.
 struct Result {
     std::span<const Point> points;
     std::span<const CellVertices> cells;
@@ -139,7 +139,7 @@ ordered_json shapes_of_targets(const Mesh& mesh, const Goal& goal) {
     return shapes(cells);
 }
 
-/// Counts of this process's part, and the shapes of what was made of cells that were cut.
+/// Counts of this process's part, and the shapes of the descendants of cut cells.
 ordered_json counts(const Result& result, const Goal& goal) {
     std::vector<std::uint32_t> cells_of_root(goal.targets.size(), 0);
     for (const std::uint32_t root : result.roots) ++cells_of_root[root];
@@ -181,7 +181,7 @@ ordered_json by_terminal_edges(const Mesh& mesh, const Goal& goal) {
     return line;
 }
 
-/// Each rank keeps the cells of its part, as those of octetra's ranks do, and forgets the mesh.
+/// Each rank keeps the cells of its part and releases the mesh, like octetra's ranks.
 ordered_json by_ranks(const Communicator& world, const Mesh& mesh, const Goal& goal) {
     const auto parts = distributed::partition_cells(mesh, world.size(), {});
     rivals::PartOfMesh part = rivals::part_of(mesh, parts, world.rank());
@@ -223,7 +223,7 @@ std::vector<std::uint8_t> marks_of(const AdaptiveMesh& mesh, const Goal& goal) {
     return marks;
 }
 
-/// The same goal by levels of 8T-LE: those that have not reached it are marked, again and again.
+/// The same goal by levels of 8T-LE, each of which marks the cells that have not reached it.
 ordered_json by_levels(const Communicator& world, const Mesh& mesh, const Goal& goal,
                        Scheme scheme) {
     const auto parts = distributed::partition_cells(mesh, world.size(), {});

@@ -1,8 +1,8 @@
-/// What a model of many ranks is made of: `bench_scaling MESH uniform|sphere|moving OUT` reads a
-/// mesh of the unit cube, adapts it, and writes it. Prints a line of JSON: of reading, adapting and
-/// writing, for each rank, seconds of its processor outside MPI, messages, bytes, and calls in
-/// which all take part. Seconds of the wall clock, too, which mean something while ranks have
-/// processors of their own. Also under mpirun; bench/scaling.py makes a page of many runs.
+/// Input of a model of many ranks: `bench_scaling MESH uniform|sphere|moving OUT` reads a mesh of
+/// the unit cube, adapts it, and writes it. Prints a line of JSON: for each rank and each stage
+/// (reading, adapting, writing) the processor seconds outside MPI, messages, bytes, and collective
+/// calls. Also wall-clock seconds, which are meaningful if each rank has its own processor. Also
+/// under mpirun; bench/scaling makes a page from many runs.
 
 #include <algorithm>
 #include <array>
@@ -30,7 +30,7 @@ using distributed::AdaptiveMesh;
 using distributed::Communicator;
 using nlohmann::ordered_json;
 
-/// About a point on the diagonal, so that it cuts some cells of a cube, and not most.
+/// A shell about a point on the diagonal, which intersects some cells of a cube, but not most.
 struct Shell {
     double center = 0.5;
     double radius = 0.3;
@@ -54,7 +54,7 @@ std::vector<std::uint8_t> marked(const AdaptiveMesh& mesh, auto&& is_marked) {
     return marks;
 }
 
-/// To a 64th of the volume of the cells that were read.
+/// Refines to a 64th of the volume of the cells of the input.
 void refine_near(AdaptiveMesh& mesh, const Shell& shell, double finest) {
     for (bool changes = true; changes;) {
         changes =
@@ -89,7 +89,7 @@ void adapt(AdaptiveMesh& mesh, const std::string& what, std::uint64_t cells_read
 enum Stage { reading, adapting, writing, stage_count };
 constexpr std::array<const char*, stage_count> stage_names{"reading", "adapting", "writing"};
 
-/// By the names that the library gives to what it does.
+/// The stage of a phase, by the names that the library uses.
 Stage stage_of(const distributed::ProfiledPhase& phase) {
     const auto is_one_of = [&](std::initializer_list<std::string_view> names) {
         return std::ranges::find(names, phase.name) != names.end();
@@ -107,7 +107,7 @@ ordered_json of_each_rank(const std::vector<distributed::PhaseCounts>& ranks, au
     return list;
 }
 
-/// Collective; the first rank gets it.
+/// Collective; returns the counts on the first rank.
 ordered_json counts_of_stages(const Communicator& processes) {
     using distributed::PhaseCounts;
     const auto profile = distributed::gather_profile(processes);
@@ -134,7 +134,7 @@ ordered_json counts_of_stages(const Communicator& processes) {
     return result;
 }
 
-/// Collective. By the wall clock, from barrier to barrier.
+/// Collective. Wall-clock seconds from barrier to barrier.
 double seconds_of(const Communicator& world, auto&& work) {
     (void)world.max(0);
     const double start = wall_seconds();

@@ -1,6 +1,6 @@
-/// What ranks tell each other, by partition and scheme: `mpirun -n P bench_synchronise [N | MESH]`
-/// refines a shaken lattice of N^3 cubes, or a mesh, twice at random places. Counts, not times: any
-/// machine gives the same.
+/// Communication of synchronisation by partition and scheme: `mpirun -n P bench_synchronise [N |
+/// MESH]` refines a perturbed lattice of N^3 cubes, or a mesh, twice at random places. Prints
+/// counts, not times, which are the same on any machine.
 
 #include <string>
 

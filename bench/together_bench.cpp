@@ -1,10 +1,10 @@
-/// How fast ranks write and read one file together: `bench_together MESH FOLDER [TURNS
-/// [.EXTENSION...]]` reads MESH, gives every rank its part, writes it in all formats or these into
-/// FOLDER, and reads again what can be read, each rank its share of the bytes. Prints of each the
-/// median of the turns, from barrier to barrier, in MB (10^6 bytes) of the file a second. Beside
-/// them stand what there is to do before a cell is written, `slices`: to bring points and cells to
-/// the ranks that write them; and what the bytes of the largest file alone take, by blocks. Files
-/// in the page cache. Also under mpirun.
+/// Rates of collective writing and reading of one file: `bench_together MESH FOLDER [TURNS
+/// [.EXTENSION...]]` reads and distributes MESH, writes it in all formats, or in these, to FOLDER,
+/// and reads again each file that can be read, with a share of the bytes for each rank. Prints for
+/// each the median of the turns, from barrier to barrier, in MB (10^6 bytes) of the file per
+/// second. For comparison it prints `slices`, the redistribution of points and cells to the ranks
+/// that write them, and the rates for the bytes of the largest file alone, in blocks. Files are in
+/// the page cache. Also under mpirun.
 
 #include <fcntl.h>
 #include <unistd.h>
@@ -43,7 +43,7 @@ double seconds_of(const Communicator& world, const std::function<void()>& work) 
     return wall_seconds() - start;
 }
 
-/// All blocks of a file of so many bytes, each by one rank.
+/// All blocks of a file of this size, each by one rank.
 void pass_bytes(const Communicator& world, const fs::path& path, std::uint64_t size, bool writes) {
     std::vector<char> buffer(block, 'x');
     const int file = ::open(path.c_str(), writes ? O_RDWR | O_CREAT : O_RDONLY, 0600);
@@ -58,7 +58,7 @@ void pass_bytes(const Communicator& world, const fs::path& path, std::uint64_t s
     ::close(file);
 }
 
-/// In windows as the writers of binary files ask for.
+/// In windows of the same length as those of the writers of binary files.
 void bring_slices(MeshSource& mesh) {
     constexpr std::uint64_t length = std::uint64_t{1} << 15U;
     const auto ranks = static_cast<std::uint64_t>(mesh.group().size());
@@ -77,7 +77,7 @@ public:
     Table(const Communicator& world, fs::path folder)
         : world_(&world), folder_(std::move(folder)) {}
 
-    /// Into the place of no other file: to clear that away takes as long as to write.
+    /// Writes to a new file: replacing an existing one takes twice as long.
     void write(const std::string& name, const std::function<void(const fs::path&)>& work) {
         const fs::path path = folder_ / name;
         if (world_->is_first()) {

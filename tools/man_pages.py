@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
-"""Makes octetra.1 and a manual page for each subcommand from what --help prints, by help2man.
+"""Makes octetra.1 and a manual page for each subcommand from the output of --help, with help2man.
 
-  tools/man_pages.py --octetra PROGRAM -o FOLDER
+tools/man_pages.py --octetra PROGRAM -o FOLDER
 """
 
 import argparse
@@ -22,19 +22,19 @@ def printed(command):
 
 
 def cut(text, beginning):
-    """What stands before the line that begins so, and from there on."""
+    """Splits the text at the line with this beginning."""
     found = re.search(rf"^{re.escape(beginning)}", text, re.MULTILINE)
     return (text[:found.start()], text[found.start():]) if found else (text, "")
 
 
 def names_below(text):
-    """Of the subcommands that a help lists."""
+    """The subcommands that a help text lists."""
     _, listed = cut(text, "Subcommands:")
     return re.findall(r"^  (\S+)", listed.split("\n\n")[0], re.MULTILINE)
 
 
 def as_it_stands(text):
-    """Lines that troff neither joins nor takes for requests."""
+    """Lines that troff neither joins nor interprets as requests."""
     escaped = text.strip("\n").replace("\\", "\\e").replace("-", "\\-")
     return ".nf\n" + "\n".join(f"\\&{line}" for line in escaped.splitlines()) + "\n.fi\n"
 
@@ -44,11 +44,12 @@ def see_also(name, names):
 
 
 def sections_of(name, text, names, shapes):
-    """The help without its end, and the sections that its end becomes."""
+    """Returns the help text without its end, and the sections made from its end."""
     summary = text.splitlines()[0].rstrip(".")
     rest, example = cut(text, "Example:")
     rest, status = cut(rest, "Exit status:")
-    # "Each shape has a --help of its own" and the like stay where they are; options get a blank.
+    # Sentences such as "Each shape has a --help of its own" remain; a blank is added between
+    # options.
     rest = re.sub(r"^( +-\w),(--)", r"\1, \2", rest, flags=re.MULTILINE)
     included = f"[NAME]\n{name} \\- {summary[0].lower() + summary[1:]}\n"
     if shapes:
@@ -66,7 +67,7 @@ def write_page(help2man, name, version, rest, included, output):
         folder = pathlib.Path(folder)
         (folder / "help").write_text(rest)
         (folder / "included").write_text(included)
-        # What help2man asks: a program of this name, for its --help and its --version.
+        # help2man runs a program of this name with --help and --version.
         program = folder / name
         program.write_text(f"#!/bin/sh\nif [ \"$1\" = --version ]; then echo {shlex.quote(version)};\n"
                            f"else cat {shlex.quote(str(folder / 'help'))}; fi\n")

@@ -1,11 +1,12 @@
 #!/usr/bin/env python3
-"""Reads a checkpoint of Octetra: the mesh as it is, and its fields. docs/formats.md has the format.
+"""Reads a checkpoint of Octetra: the present mesh and its fields. The format is defined in
+docs/formats.md.
 
-Example: tools/read_checkpoint.py state.octetra
-As a module: points, cells, on_vertices, on_cells = read_checkpoint.read("state.octetra")
+Example: tools/read_checkpoint.py state.octetra As a module: points, cells, on_vertices, on_cells =
+read_checkpoint.read("state.octetra")
 
-Hashes are not checked, as numpy has no XXH3: `octetra info state.octetra` does. Coordinates may be of
-any scale, but not of two that are 1e150 apart.
+Hashes are not checked, because numpy has no XXH3: `octetra info state.octetra` checks them.
+Coordinates may have any scale, but not two scales that differ by a factor of 1e150.
 """
 import math
 import struct
@@ -24,11 +25,11 @@ class File:
         with open(path, "rb") as file:
             self.bytes = file.read()
         if len(self.bytes) < 48:
-            raise ValueError(f"{path}: no checkpoint, or cut off")
+            raise ValueError(f"{path}: not a checkpoint, or truncated")
         magic, version, order = struct.unpack_from("<8sII", self.bytes)
         begin, size, _, end_magic = struct.unpack("<QQQ8s", self.bytes[-32:])
         if (magic, version, order, end_magic) != (MAGIC, 1, 0x01020304, MAGIC):
-            raise ValueError(f"{path}: no checkpoint of version 1, or cut off")
+            raise ValueError(f"{path}: not a checkpoint of version 1, or truncated")
         self.table, self.next = memoryview(self.bytes)[begin:begin + size], 0
         self.counts = self.numbers(9)
         self.steps = [self.numbers(3) for _ in range(self.numbers(1)[0])]
@@ -49,12 +50,12 @@ class File:
         return name, on, FIELD_TYPES[kind], components
 
     def group_name(self):
-        """Of a physical group: its dimension, its tag and the name."""
+        """Returns the dimension, tag and name of a physical group."""
         dimension, tag, length = self.numbers(3)
         return dimension, tag - (tag >> 63 << 64), self.text(length)
 
     def saved_state(self):
-        """The time, the step and the text of the program."""
+        """Returns the time, the step and the text of the program."""
         time, step, length = struct.unpack_from("<dqQ", self.table, self.next)
         self.next += 24
         return time, step, self.text(length)
@@ -83,7 +84,8 @@ def number(data, at):
 
 
 def cuts_of(block, step_count):
-    """For each step the runs of a block: pairs of a cut and a number of cells, or none at all."""
+    """For each step the runs of a block: pairs of a pattern and a number of cells; empty if there
+    are none."""
     steps, at = [], 0
     for _ in range(step_count):
         size, at = number(block, at)
@@ -102,17 +104,17 @@ def longest_first(points, cell, cut, scale):
     def key(edge):
         a, b = sorted(tuple(points[cell[i]]) for i in EDGES[edge])
         x, y, z = ((p - q) * scale for p, q in zip(a, b))
-        return (x * x + y * y) + z * z, a, b  # each product and sum rounded by itself
+        return (x * x + y * y) + z * z, a, b  # each product and sum is rounded separately
     return sorted((e for e in range(6) if cut >> e & 1), key=key, reverse=True)
 
 
 def divide(points, cells, cuts):
-    """One step: a cut for each cell."""
+    """Applies one step: a set of bisected edges, as bits, for each cell."""
     edges = sorted({tuple(sorted((cell[EDGES[e][0]], cell[EDGES[e][1]])))
                     for cell, cut in zip(cells, cuts) for e in range(6) if cut >> e & 1})
     midpoint = {edge: len(points) + k for k, edge in enumerate(edges)}
     finer = []
-    # A power of two, so that no square overflows, nor underflows.
+    # A power of two for which no square overflows or underflows.
     largest = max((abs(c) for point in points for c in point), default=0)
     scale = 2.0 ** -max(min(math.frexp(largest)[1], 1000), -1000)
     for cell, cut in zip(cells, cuts):
@@ -132,7 +134,7 @@ def divide(points, cells, cuts):
 
 
 def read(path):
-    """Points (n x 3), cells (m x 4), and fields by name, those on vertices and those on cells."""
+    """Returns points (n x 3), cells (m x 4), and the fields by name, on vertices and on cells."""
     file = File(path)
     vertices, cell_count, facets, edges, vertices_now, cells_now, attributes, _, flags = file.counts
     kind = "<u4" if vertices <= 1 << 32 else "<u8"
@@ -158,7 +160,7 @@ def read(path):
         points, cells = divide(points, cells, cuts)
     if (len(points), len(cells)) != (vertices_now, cells_now):
         raise ValueError(f"{path}: its steps produce a mesh of another size than its table states")
-    fields = {}, {}  # one name may be on both
+    fields = {}, {}  # a name may occur in both
     for name, on, kind, width in file.fields:
         fields[on][name] = file.section((vertices_now, cells_now)[on], kind, width)
     return numpy.array(points), numpy.array(cells), *fields

@@ -1,8 +1,10 @@
 #!/usr/bin/python3
-"""Refines a mesh with DOLFINx, for our verifier to judge: refine_with_dolfinx.py IN.mesh OUT.mesh [LEVELS].
+"""Refines a mesh with DOLFINx, for tests of the verifier: refine_with_dolfinx.py IN.mesh OUT.mesh
+[LEVELS].
 
-Reads and writes Medit files as `octetra convert` writes them. Refines uniformly. DOLFINx does not keep cells
-positively oriented: `octetra convert --fix-orientation` turns them round. Needs Debian's python3-dolfinx-real.
+Reads and writes Medit files in the form written by `octetra convert`. Refines uniformly. DOLFINx
+does not keep cells positively oriented: `octetra convert --fix-orientation` corrects them. Requires
+Debian's python3-dolfinx-real.
 """
 
 import sys
@@ -33,7 +35,7 @@ def write(path, points, cells):
     with open(path, "w", encoding="ascii") as file:
         file.write(f"MeshVersionFormatted 2\nDimension 3\nVertices\n{len(points)}\n")
         for x, y, z in points:
-            # repr() gives the fewest digits that read back to the same bits.
+            # repr() gives the fewest digits that are read back to the same bits.
             file.write(f"{float(x)!r} {float(y)!r} {float(z)!r} 0\n")
         file.write(f"Tetrahedra\n{len(cells)}\n")
         for corners in cells + 1:

@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Draws meshes side by side as a PNG picture. Needs no screen. Debian: python3-vtk9, xvfb."""
+"""Draws meshes side by side as a PNG picture. Requires no screen. Debian: python3-vtk9, xvfb."""
 
 import argparse
 import os
@@ -35,14 +35,14 @@ def numbers(count):
 def direction(text):
     values = numbers(3)(text)
     if values[:2] == [0, 0]:
-        raise argparse.ArgumentTypeError(f"'{text}' should lean away from the z axis, which is up")
+        raise argparse.ArgumentTypeError(f"'{text}' must not be parallel to the z axis, which is up")
     return values
 
 
 def clip_plane(text):
     values = numbers(6)(text)
     if values[3:] == [0, 0, 0]:
-        raise argparse.ArgumentTypeError(f"'{text}' ends with the normal 0,0,0")
+        raise argparse.ArgumentTypeError(f"'{text}' has the normal 0,0,0")
     return values
 
 
@@ -55,7 +55,8 @@ def picture_size(text):
 
 
 def joined(arguments):
-    """With "--clip X" made "--clip=X", for argparse takes an X with a minus for an option."""
+    """Replaces "--clip X" by "--clip=X", because argparse takes an X that begins with a minus sign
+    for an option."""
     out = []
     for argument in arguments:
         if out and out[-1] in ("--clip", "--view"):
@@ -74,13 +75,13 @@ def parse_command_line():
     parser.add_argument("meshes", metavar="MESH.vtu", nargs="+", help="or .pvtu, .vtkhdf")
     parser.add_argument("-o", "--output", metavar="PICTURE.png", required=True)
     parser.add_argument("--clip", metavar="X,Y,Z,NX,NY,NZ", type=clip_plane,
-                        help="remove the cells that lie wholly on the side of the plane through "
+                        help="remove the cells that lie entirely on the side of the plane through "
                              "X,Y,Z that the normal NX,NY,NZ points to")
     parser.add_argument("--view", metavar="X,Y,Z", type=direction,
                         help="direction from the mesh to the eye; z is up in the picture. Without "
-                             "it: half from above, on the open side of a clip")
+                             "it: from obliquely above, on the open side of a clip")
     parser.add_argument("--size", metavar="WxH", type=picture_size, default=(1600, 900),
-                        help="of the picture in pixels (1600x900)")
+                        help="size of the picture in pixels (1600x900)")
     parser.add_argument("--color", choices=["region", "rank", "parent", "quality", "none"],
                         help="colour cells by region tag; by the rank that has them (.pvtu); by "
                              "the cell that they descend from (the first mesh's own numbers); by "
@@ -94,7 +95,7 @@ def parse_command_line():
 
 
 def checked_color(grids, options):
-    """The --color option, checked against what the files have."""
+    """Returns the --color option, after checking it against the contents of the files."""
     if options.color is None:
         return "region" if all(have(grids, "region")) else "none"
     if options.color in ("region", "rank") and not all(have(grids, options.color)):
@@ -117,7 +118,7 @@ def render(options):
     surfaces = [coloured_surface(grid, options.clip, color) for grid in grids]
     for path, surface in zip(options.meshes, surfaces):
         if surface.GetNumberOfCells() == 0:
-            raise Failure(f"{path}: the clip leaves no cell")
+            raise Failure(f"{path}: the clip removes all cells")
     bounds = union_of([surface.GetBounds() for surface in surfaces])
     with display():
         image = draw(surfaces, captions, bounds, options, color)

@@ -1,11 +1,12 @@
-"""What the sentences of docs/paper.md ask for: "partitions links lepp/dual", and the like.
+"""Evaluates the queries in the sentences of docs/paper.md, such as "partitions links lepp/dual".
 
-First the table; then a quantity of it; then what a figure is divided by what; then the only rows that count.
+A query names the table; a quantity of it; numerator and denominator; and the rows to which it is
+restricted.
 """
 
 
 def ratio(of, words, key=None):
-    """Of two of the things measured in one run, "a/b"."""
+    """The ratio "a/b" of two quantities measured in one run."""
     first, second = (of[word] if key is None else of[word][key] for word in words.split("/"))
     return first / second
 
@@ -21,7 +22,7 @@ def of_runs(made, quantity):
 
 def of_propagation(made, tables, quantity, row=None):
     levels = [level for table in tables.split(",") for level in made["propagation"][table]]
-    if quantity == "times":  # later levels beside the first
+    if quantity == "times":  # later levels relative to the first
         times = [level["edges_closed"] / level["edges_marked"] for level in levels]
         return [later / times[0] for later in times[1:]]
     if quantity == "rounds":
@@ -40,7 +41,7 @@ def of_synchronisation(made, quantity, ways, ranks=None):
 
 
 def of_speed(made, ranks):
-    """How many times as fast as one rank; or, of two numbers of ranks, as the second."""
+    """The speedup over one rank; or, for "a/b", of a ranks over b ranks."""
     first, _, second = ranks.partition("/")
     return [case["seconds"][second or "1"]["median"] / case["seconds"][first]["median"] for case in made["speed"]]
 

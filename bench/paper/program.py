@@ -1,4 +1,4 @@
-"""Runs octetra, and finds in a profile what the page needs."""
+"""Runs octetra, and extracts figures from profiles."""
 import json
 import pathlib
 import re
@@ -28,22 +28,23 @@ class Octetra:
         return {"cells": found["counts"]["cells"], "vertices": found["counts"]["vertices"]}
 
     def refine(self, name, out, criteria, ranks=1, **options):
-        """The profile of it."""
+        """Refines, and returns the profile."""
         words = [word for key, value in options.items() for word in (f"--{key}", value)]
         self.run("refine", name, "-o", out, *criteria.split(), *words, "--profile", "profile.json", "--quiet",
                  ranks=ranks)
         return json.loads((self.folder / "profile.json").read_text())
 
     def timed_level(self, name, share, ranks):
-        """A level of the engine alone, from when all ranks have their parts: its cells and seconds. Memory is at
-        hand, as in a program that refines again and again."""
+        """Runs one level of the engine alone, after distribution. Returns its cells and seconds.
+        Memory is already allocated, as in a program that refines repeatedly."""
         criteria = [] if share == 1 else ["--random", share]
         line = self.run(name, 1, *criteria, "--warm", "--memory-at-hand", 200, "--json", ranks=ranks,
                         program=self.bench)
         return json.loads(line)["levels"][0]
 
     def partition(self, name, parts, method):
-        """Shares of cut faces and links, mean of shared vertices, and most cells over the mean."""
+        """Returns the fractions of cut faces and links, the mean number of shared vertices, and the
+        ratio of the maximum to the mean number of cells."""
         lines = self.run("partition", name, "-n", parts, "--partition", method)
 
         def last(words, place=-1):
@@ -53,7 +54,8 @@ class Octetra:
 
 
 def told(profile):
-    """Rounds, messages and bytes of synchronisation, all levels together; bytes also of the busiest rank."""
+    """Returns rounds, messages and bytes of synchronisation, summed over all levels; bytes also of
+    the busiest rank."""
     phases = [phase for phase in profile["phases"] if phase["phase"] == "synchronise"]
     busiest = [sum(of_ranks) for of_ranks in zip(*(phase["bytes"]["of_rank"] for phase in phases))]
     return {"rounds": sum(phase["rounds"]["max"] for phase in phases),

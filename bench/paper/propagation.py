@@ -1,13 +1,13 @@
-"""Closure of marked cells by sweeps, worked out here, beside what octetra makes of the same cells.
+"""Closure of marked cells by sweeps, computed independently of octetra for comparison.
 
-In a sweep every face that has a newly marked edge marks its longest; sweeps go on until none marks anything. The
-lengths that the counts rest on are compared as octetra's order says (docs/algorithm.md).
+In a sweep every face with a newly marked edge marks its longest edge; sweeps are repeated until one
+marks nothing. Edges are compared in octetra's order (docs/algorithm.md).
 """
 import itertools
 
 
 def read_medit(path):
-    """Points and cells of a Medit file, cells as sorted tuples of places."""
+    """Returns points and cells of a Medit file; cells are sorted tuples of indices."""
     with open(path, encoding="ascii") as file:
         words = iter(file.read().split())
     points, cells = [], []
@@ -38,7 +38,7 @@ class Edges:
         ends = {edge for cell in cells for edge in itertools.combinations(cell, 2)}
         self.number = {edge: n for n, edge in enumerate(sorted(ends, key=order))}
         self.of_cells = [tuple(self.number[edge] for edge in itertools.combinations(cell, 2)) for cell in cells]
-        self.longest_beside = [set() for _ in self.number]  # of each edge, in the faces that have it
+        self.longest_beside = [set() for _ in self.number]  # for each edge, in its faces
         faces = {face for cell in cells for face in itertools.combinations(cell, 3)}
         for face in faces:
             of_face = sorted(self.number[edge] for edge in itertools.combinations(face, 2))
@@ -47,7 +47,7 @@ class Edges:
 
 
 def closure(edges, marked):
-    """All marked edges, and how many sweeps marked any."""
+    """Returns all marked edges, and the number of sweeps that marked any."""
     new, sweeps = set(marked), 0
     closed = set(new)
     while new := {e for edge in new for e in edges.longest_beside[edge]} - closed:
@@ -57,8 +57,9 @@ def closure(edges, marked):
 
 
 def predicted(points, cells, chosen):
-    """What a level with all six edges of the chosen cells marked makes, by the law of counts: a cell is cut into one
-    more than its marked edges, and one more again if its longest edge and the one opposite are marked."""
+    """Returns the number of cells of a level with all six edges of the chosen cells marked, by the
+    law of counts: a cell is cut into one more than its marked edges, and one more again if its
+    longest edge and the opposite one are marked."""
     edges = Edges(points, cells)
     marked = {edge for c in chosen for edge in edges.of_cells[c]}
     closed, sweeps = closure(edges, marked)

@@ -1,9 +1,9 @@
-"""The tables of docs/paper.md, of what was measured."""
+"""The tables of docs/paper.md."""
 from machine import known
 
 
 def table(heads, rows, words=1):
-    """The first columns hold words, all others figures."""
+    """The first `words` columns contain words, all others numbers."""
     lines = ["| " + " | ".join(heads) + " |", "|---" * words + "|" + "---:|" * (len(heads) - words)]
     return "\n".join(lines + ["| " + " | ".join(row) + " |" for row in rows])
 
@@ -17,7 +17,7 @@ def share(fraction):
 
 
 def runs_table(runs, paper):
-    """The paper's counts, and beside them those of each kind of mesh."""
+    """The paper's counts beside those of each kind of mesh."""
     by_kind = {(run["kind"], run["size"]): run for run in runs}
     kinds = sorted({run["kind"] for run in runs})
     rows = []

@@ -1,11 +1,11 @@
-/// PETSc's DMPlex beside an AdaptiveMesh: `peer_dmplex [CUBES [LEVELS [SECONDS]]]` takes CUBES^3
-/// cubes of six cells and halves all edges LEVELS times, first by DMRefine(), until the next level
-/// would pass SECONDS in all, and then as often by refine(), with to_plex() after each level; and
-/// of one of these meshes PETSc makes a DMPlex from lists of the same cells on the same ranks. From
-/// barrier to barrier; prints a line of JSON. Also under mpirun.
+/// PETSc's DMPlex compared with AdaptiveMesh: `peer_dmplex [CUBES [LEVELS [SECONDS]]]` halves all
+/// edges of CUBES^3 cubes of six cells LEVELS times, first by DMRefine(), until the next level
+/// would exceed SECONDS in total, and then as often by refine(), with to_plex() after each level.
+/// For one of these meshes PETSc also makes a DMPlex from lists of the same cells on the same
+/// ranks. Times are from barrier to barrier; prints a line of JSON. Also under mpirun.
 ///
-/// What differs: PETSc divides a cell into eight in its own way. Of tetrahedra Debian's PETSc
-/// refines all or none.
+/// Differences: PETSc divides a cell into eight in another way. Debian's PETSc refines either all
+/// tetrahedra or none.
 
 #include <petscdmplex.h>
 
@@ -43,7 +43,7 @@ double seconds(const Communicator& world, auto&& work) {
     return wall_seconds() - start;
 }
 
-/// The lattice as PETSc makes a plex of it and shares it out.
+/// The lattice as a plex that PETSc makes and distributes.
 DM plex_of(const Mesh& mesh, bool is_first) {
     std::vector<PetscInt> cells;
     std::vector<PetscReal> points;
@@ -73,9 +73,9 @@ std::uint64_t cells_of(const Communicator& world, DM plex) {
     return world.sum(static_cast<std::uint64_t>(end - begin));
 }
 
-/// By PETSc alone, from this rank's cells by global vertex number and a share of the points.
+/// By PETSc alone, from this rank's cells by global vertex number and its share of the points.
 double seconds_of_cell_list(const Communicator& world, const AdaptiveMesh& mesh) {
-    // PETSc takes vertices that are numbered rank by rank.
+    // PETSc requires vertices that are numbered rank by rank.
     const auto& sharing = mesh.vertex_sharing();
     std::vector<PetscReal> points;
     std::vector<PetscInt> numbers(mesh.points().size());
@@ -91,7 +91,7 @@ double seconds_of_cell_list(const Communicator& world, const AdaptiveMesh& mesh)
     }
     distributed::update_copies(world, sharing, numbers.size(), numbers);
     std::vector<PetscInt> cells;
-    for (const auto& [a, b, c, d] : mesh.cells()) {  // turned as PETSc has them
+    for (const auto& [a, b, c, d] : mesh.cells()) {  // in PETSc's orientation
         for (const VertexIndex v : {b, a, c, d}) cells.push_back(numbers[v.value()]);
     }
     DM plex = nullptr;
@@ -111,7 +111,7 @@ struct Bounds {
     double seconds = 600;
 };
 
-/// What each level of DMRefine() takes, until all are done or the next would take too long.
+/// Seconds of each level of DMRefine(), until all are done or the next would take too long.
 Json levels_of_dmplex(const Communicator& world, const Mesh& mesh, const Bounds& bounds) {
     DM plex = plex_of(mesh, world.is_first());
     check(DMPlexSetRefinementUniform(plex, PETSC_TRUE));
@@ -133,8 +133,8 @@ Json levels_of_dmplex(const Communicator& world, const Mesh& mesh, const Bounds&
     return levels;
 }
 
-/// The same by refine(), and what to_plex() takes then. Of the first mesh of some size also what
-/// PETSc takes to make a plex of it.
+/// The same with refine(), and the seconds of to_plex(). For the first mesh of sufficient size also
+/// PETSc's time for making a plex of it.
 Json levels_of_octetra(const Communicator& world, const Mesh& mesh, std::size_t level_count,
                        Json& cell_list) {
     constexpr std::uint64_t some_size = 100'000;

@@ -1,10 +1,10 @@
-/// DOLFINx beside bench_refine: `peer_dolfinx MESH --levels L [--sphere X,Y,Z,R] [--write OUT]`
-/// refines the mesh of a file, all of it or the edges of the cells whose centroid is in the sphere,
-/// and prints a line of JSON. Also under mpirun.
+/// DOLFINx compared with bench_refine: `peer_dolfinx MESH --levels L [--sphere X,Y,Z,R] [--write
+/// OUT]` refines the mesh of a file, uniformly or at the edges of the cells whose centroid is in
+/// the sphere, and prints a line of JSON. Also under mpirun.
 ///
-/// A level is timed from barrier to barrier. It takes the edges of the mesh, without which DOLFINx
-/// does not refine; the choice of cells, if there is one; and refine(), which returns a new mesh.
-/// The mesh is partitioned once, before the first level, and not again.
+/// A level is timed from barrier to barrier. It consists of creating the edges of the mesh, which
+/// DOLFINx requires; the choice of cells, if there is a sphere; and refine(), which returns a new
+/// mesh. The mesh is partitioned once, before the first level.
 
 #include <mpi.h>
 
@@ -39,9 +39,9 @@ namespace dm = dolfinx::mesh;
 struct Options {
     std::string mesh;
     int levels = 1;
-    std::vector<double> sphere;  ///< x, y, z, radius; or empty: all cells
+    std::vector<double> sphere;  ///< x, y, z, radius; empty: all cells
     bool bare = false;
-    std::string write;  ///< the refined mesh, or empty
+    std::string write;  ///< file for the refined mesh, or empty
 };
 
 // ---- meshes, there and back
@@ -52,7 +52,7 @@ bool is_first() {
     return rank == 0;
 }
 
-/// Collective. The first rank reads the file; DOLFINx's own partitioner shares the cells out.
+/// Collective. The first rank reads the file; DOLFINx's own partitioner distributes the cells.
 dm::Mesh read(const std::string& path) {
     const Mesh mesh = is_first() ? read_mesh(path) : Mesh{};
     std::vector<double> x;
@@ -73,7 +73,7 @@ std::int32_t cells_of_rank(const dm::Mesh& mesh) {
     return mesh.topology().index_map(3)->size_local();
 }
 
-/// Collective. The first rank gets what each one has, one after the other.
+/// Collective. Concatenates the values of all ranks on the first one.
 template <class T>
 std::vector<T> gather(const std::vector<T>& values) {
     int ranks = 0;
@@ -93,7 +93,7 @@ std::vector<T> gather(const std::vector<T>& values) {
     return all;
 }
 
-/// Collective. For small meshes: what MPI is given at once has less than 2^31 bytes.
+/// Collective. For small meshes: a single MPI message has less than 2^31 bytes.
 void write(const dm::Mesh& mesh, const std::string& path) {
     const auto vertices = mesh.geometry().index_map();
     const auto x = mesh.geometry().x().first(3 * static_cast<std::size_t>(vertices->size_local()));
@@ -120,7 +120,7 @@ void write(const dm::Mesh& mesh, const std::string& path) {
 
 // ---- a level
 
-/// As octetra marks them.
+/// The same cells as octetra marks.
 std::vector<std::int32_t> cells_in(const dm::Mesh& mesh, const Selection& sphere) {
     const auto x = mesh.geometry().x();
     const auto& dofmap = mesh.geometry().dofmap();
@@ -137,7 +137,7 @@ std::vector<std::int32_t> cells_in(const dm::Mesh& mesh, const Selection& sphere
     return marked;
 }
 
-/// Seconds of this rank since `start`, which is now the present.
+/// Returns the seconds of this rank since `start`, and sets `start` to the present.
 double lap(double& start) {
     const double now = wall_seconds();
     return now - std::exchange(start, now);
@@ -155,13 +155,13 @@ std::int64_t sum(std::int64_t value) {
     return result;
 }
 
-/// Of the marked cells.
+/// The edges of the marked cells.
 std::vector<std::int32_t> edges_in(dm::Mesh& mesh, const Selection& sphere) {
     mesh.topology_mutable().create_connectivity(3, 1);
     return dm::compute_incident_entities(mesh, cells_in(mesh, sphere), 3, 1);
 }
 
-/// Makes this rank's new cells and points, no mesh, and tells how many cells.
+/// Makes this rank's new cells and points, but no mesh, and returns the number of cells.
 std::int64_t bare_cells(const dm::Mesh& mesh, const Selection& selection,
                         const std::vector<std::int32_t>& marked) {
     namespace plaza = dolfinx::refinement::plaza;
@@ -172,8 +172,8 @@ std::int64_t bare_cells(const dm::Mesh& mesh, const Selection& selection,
     return std::get<0>(made).num_nodes();
 }
 
-/// Collective. Refines, and tells the figures: seconds are the most of a rank, those of the
-/// processor all ranks' together.
+/// Collective. Refines, and returns the figures: seconds are the maximum over the ranks, processor
+/// seconds the sum.
 nlohmann::ordered_json refine_level(dm::Mesh& mesh, const Selection& selection, bool bare) {
     const std::int64_t before = sum(cells_of_rank(mesh));
     MPI_Barrier(MPI_COMM_WORLD);
@@ -234,7 +234,7 @@ int run(int argc, char** argv) {
     app.add_flag("--bare", options.bare, "make cells and points, but no mesh of them; one level");
     app.add_option("--write", options.write, "write the refined mesh, cells as DOLFINx turns them");
     CLI11_PARSE(app, argc, argv);
-    loguru::g_stderr_verbosity = loguru::Verbosity_WARNING;  // or it tells of every step
+    loguru::g_stderr_verbosity = loguru::Verbosity_WARNING;  // by default it logs every step
     try {
         measure(options);
     } catch (const std::exception& error) {

@@ -1,11 +1,11 @@
-/// UGGrid beside an AdaptiveMesh: `peer_uggrid [CUBES [RADIUS]]` takes CUBES^3 cubes of six cells,
-/// refines the cells whose centroid is within RADIUS of the middle, and lets all within twice of it
-/// go, with the one and with the other by turns, from barrier to barrier; and that five times, each
-/// with a new mesh. Medians. Also under mpirun.
+/// UGGrid compared with AdaptiveMesh: `peer_uggrid [CUBES [RADIUS]]` refines in CUBES^3 cubes of
+/// six cells those whose centroid is within RADIUS of the middle, and coarsens all cells within
+/// twice this radius, alternating between the two programs, from barrier to barrier; five times,
+/// each with a new mesh. Prints medians. Also under mpirun.
 ///
-/// What differs: UGGrid refines red-green, so that it bisects other cells around the marked ones,
-/// and coarsens what a call marks and no neighbour needs; both go back to the input here. It keeps
-/// all levels of the mesh, and its cells as objects.
+/// Differences: UGGrid refines red-green, so that it bisects other cells around the marked ones,
+/// and coarsens marked cells that no neighbour needs; both return to the input here. It stores all
+/// levels of the mesh, and cells as objects.
 
 #include <dune/common/parallel/mpihelper.hh>
 #include <dune/grid/common/gridfactory.hh>
@@ -117,7 +117,7 @@ double median(const std::vector<Cycle>& cycles, auto&& seconds_of) {
     return all[all.size() / 2];
 }
 
-/// Returns the median of both ways together.
+/// Returns the median of refining and coarsening together.
 double print(const char* who, const std::vector<Cycle>& cycles) {
     const Cycle& first = cycles.front();
     std::printf("%-8s %9ld cells to %9ld in %9.5f s, back to %9ld in %9.5f s\n", who, first.before,

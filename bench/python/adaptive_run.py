@@ -1,10 +1,11 @@
-"""A whole adaptive run in DOLFINx, refined by itself or by Octetra: adaptive_run.py octetra|dolfinx [--steps N]
-[--seconds S] [--json], under mpirun for several ranks.
+"""An adaptive run in DOLFINx, refined by DOLFINx or by Octetra: adaptive_run.py octetra|dolfinx
+[--steps N] [--seconds S] [--json], under mpirun for several ranks.
 
-In each step Poisson's equation is solved, cells are marked, and the mesh is refined: those around a line, nearer
-with each step, so that both make the same numbers of cells. The mesh part is DOLFINx's edges and refine(), with
-redistribution on several ranks; or Octetra's refine(), refine_evenly() on several ranks, and to_mesh() with ghosts.
-Once that has taken S seconds, no further step is begun. Seconds are from barrier to barrier.
+Each step solves Poisson's equation, marks cells, and refines the mesh. Cells around a line are
+marked, closer to it at each step, so that both programs make the same numbers of cells. The mesh
+part is DOLFINx's creation of edges and refine(), with redistribution on several ranks; or Octetra's
+refine(), refine_evenly() on several ranks, and to_mesh() with ghosts. No further step begins once
+the mesh part has taken S seconds. Seconds are from barrier to barrier.
 """
 
 import argparse
@@ -35,7 +36,8 @@ class ByDolfinx:
         return around_a_line(self.domain.geometry.x, self.domain.geometry.dofmap.array.reshape(-1, 4)[:own], step)
 
     def refine(self, marks):
-        """Seconds of refinement, and of making a mesh for DOLFINx of it, which is in the first here."""
+        """Returns the seconds of refinement and of making a DOLFINx mesh; here the latter is part
+        of the former."""
         def work():
             self.domain.topology.create_entities(1)
             cells = np.flatnonzero(marks).astype(np.int32)
@@ -62,7 +64,7 @@ class ByOctetra:
 
 
 def solve(domain):
-    """-div grad u = 1 with u = 0 on the boundary, by linear elements."""
+    """Solves -div grad u = 1 with u = 0 on the boundary, by linear elements."""
     space = dolfinx.fem.FunctionSpace(domain, ("Lagrange", 1))
     on_boundary = dolfinx.fem.locate_dofs_geometrical(
         space, lambda x: np.isclose(x, 0).any(axis=0) | np.isclose(x, 1).any(axis=0))

@@ -1,7 +1,8 @@
-"""Reads a mesh file and writes its mesh again: file_tools.py octetra|meshio|dolfinx IN OUT [--json]
+"""Reads a mesh file and writes its mesh to another: file_tools.py octetra|meshio|dolfinx IN OUT
+[--json]
 
-Seconds of both apart. DOLFINx, which reads and writes .xdmf, makes a mesh of what it has read, with numbers and
-neighbours. Python finds octetra by PYTHONPATH.
+Prints the seconds of reading and of writing. DOLFINx, which reads and writes .xdmf, makes a mesh
+from the file, with numbering and neighbours. PYTHONPATH must contain octetra.
 """
 
 import argparse
@@ -11,7 +12,7 @@ import time
 
 
 def octetra_way():
-    from mpi4py import MPI  # which starts MPI, before the clock runs
+    from mpi4py import MPI  # starts MPI, before timing starts
     import octetra
     del MPI
     return octetra.read, lambda mesh, path: mesh.write(path)
@@ -19,7 +20,8 @@ def octetra_way():
 
 def meshio_way():
     import meshio
-    # As version 4.1 it writes no mesh with several blocks of one entity, though it reads such.
+    # In version 4.1 it cannot write a mesh with several blocks of one entity, although it reads
+    # such files.
     formats = {".msh": {"file_format": "gmsh22", "binary": True}, ".mesh": {"file_format": "medit"},
                ".meshb": {"file_format": "medit"}}
     return meshio.read, lambda mesh, path: meshio.write(path, mesh, **formats[pathlib.Path(path).suffix])

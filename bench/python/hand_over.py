@@ -1,8 +1,8 @@
-"""What handing a mesh to DOLFINx takes beside its create_mesh on the same cells: hand_over.py [CUBES] [--json],
-under mpirun for several ranks.
+"""Time of transferring a mesh to DOLFINx compared with its create_mesh on the same cells:
+hand_over.py [CUBES] [--json], under mpirun for several ranks.
 
-Least of five runs, in seconds from barrier to barrier, of a lattice of 6 * CUBES^3 cells, with a tenth of them
-bisected. Python finds octetra by PYTHONPATH.
+Prints the minimum of five runs, in seconds from barrier to barrier, for a lattice of 6 * CUBES^3
+cells, a tenth of which are bisected. PYTHONPATH must contain octetra.
 """
 
 import argparse
@@ -24,14 +24,15 @@ def entities(mesh):
 
 
 def matrix(mesh):
-    """What solving needs of the mesh: numbers of unknowns, and the matrix of the Laplace operator."""
+    """Creates what a solver needs of the mesh: the numbering of unknowns, and the matrix of the
+    Laplace operator."""
     space = dolfinx.fem.FunctionSpace(mesh, ("Lagrange", 1))
     u, v = ufl.TrialFunction(space), ufl.TestFunction(space)
     dolfinx.fem.petsc.assemble_matrix(dolfinx.fem.form(ufl.inner(ufl.grad(u), ufl.grad(v)) * ufl.dx)).assemble()
 
 
 def measure(mesh):
-    """{way: {what: least seconds}}"""
+    """Returns {method: {operation: least seconds}}."""
     create = created(mesh)
     made = create()
     ways = {CREATE: create,

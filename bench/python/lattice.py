@@ -1,4 +1,5 @@
-"""What the benchmarks beside DOLFINx have in common: a lattice in parts, DOLFINx's mesh of the same cells, a clock."""
+"""Common parts of the benchmarks with DOLFINx: a distributed lattice, DOLFINx's mesh of the same
+cells, a clock."""
 
 import gc
 import itertools
@@ -21,7 +22,7 @@ def say(text):
 
 
 def seconds(work):
-    """From barrier to barrier; and what was made."""
+    """Returns the seconds from barrier to barrier, and the result."""
     gc.collect()
     world.Barrier()
     start = time.perf_counter()
@@ -31,7 +32,7 @@ def seconds(work):
 
 
 def lattice(cubes):
-    """The mesh of Octetra: cubes in layers by rank, each of six cells."""
+    """The mesh of Octetra: layers of cubes for each rank, with six cells in each cube."""
     layers = np.array_split(np.arange(cubes), world.size)[world.rank]
     x, y, z = (a.ravel() for a in np.meshgrid(np.arange(cubes), np.arange(cubes), layers, indexing="ij"))
     side = cubes + 1
@@ -46,8 +47,9 @@ def lattice(cubes):
 
 
 def staying(cells):
-    """A partitioner that leaves these cells on their ranks, and tells DOLFINx of the ranks behind their faces, as it
-    must: by those it finds what ranks share. Found once, so that only create_mesh is measured."""
+    """Returns a partitioner that leaves these cells on their ranks. It also returns to DOLFINx the
+    ranks behind their faces, from which DOLFINx determines sharers. It is evaluated once, so that
+    only create_mesh is measured."""
     rank_of = np.repeat(np.arange(world.size), world.allgather(cells.num_nodes))
     graph = cpp.mesh.build_dual_graph(world, cells, 3)
     lists = [[world.rank, *sorted({*rank_of[graph.links(c)]} - {world.rank})] for c in range(cells.num_nodes)]
@@ -57,7 +59,8 @@ def staying(cells):
 
 
 def created(mesh):
-    """What to call for DOLFINx to create its mesh of the same cells, which stay on their ranks."""
+    """Returns a function with which DOLFINx creates its mesh of the same cells, which stay on their
+    ranks."""
     numbers = mesh.vertex_numbers
     mine = mesh.vertex_sharing.owners == world.rank
     points = np.zeros((mesh.vertex_count, 3))

@@ -1,8 +1,9 @@
-"""What a step through Python takes beside one in C++, by turns: overhead.py BUILD [RANKS...]
+"""Compares steps through Python with steps in C++, alternating: overhead.py BUILD [RANKS...]
 
-Prints a row for each kind of step, of a lattice of 998,250 cells: `uniform` bisects all of them, `medium`
-a thousand of each rank's, `small` one. Figures are the least of the runs, in milliseconds: of a medium or
-small step the median of all but a run's first, which makes what later ones go by.
+Prints a row for each kind of step on a lattice of 998,250 cells: `uniform` bisects all cells,
+`medium` a thousand cells of each rank, `small` one. Figures are the minimum over the runs, in
+milliseconds; the figure of a run with medium or small steps is the median without the first step,
+which builds the data for later steps.
 """
 
 import os

@@ -1,6 +1,6 @@
-"""The same steps as steps.cpp, through Python: steps.py MESH uniform|medium|small STEPS [look]
+"""The same steps as steps.cpp through Python: steps.py MESH uniform|medium|small STEPS [look]
 
-With `look`, the program holds the arrays of the mesh over each step.
+With `look`, the program holds the arrays of the mesh during each step.
 """
 
 import sys

@@ -1,11 +1,12 @@
-"""Terminal-edge bisection beside 8T-LE: what each makes of the same meshes for the same goals.
+"""Compares terminal-edge bisection with 8T-LE on the same meshes and goals.
 
-    ./dev bench --rival        measures, into bench/rivals/measured.json and docs/rival.md
-    python3 bench/rivals page  makes docs/rival.md anew of what was measured
-    python3 bench/rivals check status 1 if the page is another
+./dev bench --rival         measures, into bench/rivals/measured.json and docs/rival.md
+python3 bench/rivals page   generates docs/rival.md from the measurements
+python3 bench/rivals check  exits with 1 if the page is not up to date
 
-Every run is a process of its own, which prints a line of JSON (bench/rivals_bench.cpp). Repetitions go in
-turns, so that a busy moment does not meet one method alone; seconds are those of the processor, medians.
+Every run is a separate process that prints a line of JSON (bench/rivals_bench.cpp). Repetitions
+alternate between methods, so that a period of load does not affect a single one; times are medians
+of processor seconds.
 """
 import argparse
 import json
@@ -30,14 +31,15 @@ MESHES = {"kuhn": (["kuhn", "16"], "0.5,0.5,0.5,0.2"),
           "random": (["random", "4000", "--seed", "1"], "0.5,0.5,0.5,0.2"),
           "gear": (["gear", "--edge", "0.08"], "0.8,0,0.1,0.2")}
 QUICK = {"kuhn": (["kuhn", "4"], "0.5,0.5,0.5,0.3"), "random": (["random", "200", "--seed", "1"], "0.5,0.5,0.5,0.3")}
-#        task, halvings, in the sphere?
+# task, halvings, only in the sphere
 GOALS = (("edge", 1, False), ("edge", 2, False), ("edge", 2, True), ("edge", 3, True),
          ("once", 1, True), ("volume", 1, True), ("volume", 3, True))
-# A: until no edge is longer than half of the longest; B: until every cell of a region was cut; and a long way.
+# A: until no edge is longer than half of the longest; B: until every cell of a region is cut; C:
+# many levels.
 ON_RANKS = (("edge", 1, False), ("once", 1, True), ("volume", 2, True))
 RANKS = (2, 4)
 
-# Huge pages for whatever malloc gives, as octetra's engine asks for by itself.
+# Huge pages for all allocations, as the engine of octetra requests itself.
 ENVIRONMENT = os.environ | {"GLIBC_TUNABLES": "glibc.malloc.hugetlb=1"}
 
 
@@ -53,7 +55,7 @@ def command_of(program, mesh, goal, sphere, method):
 
 
 def medians(runs):
-    """Of seconds; all else is the same in every run."""
+    """Medians of seconds; all other figures are the same in every run."""
     first = dict(runs[0])
     for key in SECONDS:
         first[key] = statistics.median(run[key] for run in runs)
@@ -71,7 +73,8 @@ def measured_goal(program, mesh, goal, sphere, repetitions):
 
 
 def on_ranks(program, mesh, goal, sphere, ranks):
-    """What ranks tell each other; of the same cells, if it is the same method on more ranks."""
+    """Returns the communication of each method on this number of ranks, with its number of cells,
+    which must not depend on the ranks."""
     made = {method: printed([ROOT / "tests/support/mpirun.sh", str(ranks),
                              *command_of(program, mesh, goal, sphere, method)]) for method in METHODS}
     return {method: {key: run[key] for key in ("rounds", "messages", "bytes", "cells")}
@@ -79,7 +82,7 @@ def on_ranks(program, mesh, goal, sphere, ranks):
 
 
 def check_cells(cases, of_ranks):
-    """The mesh does not depend on the ranks, of any method."""
+    """Checks that the mesh of each method is independent of the number of ranks."""
     alone = {(case["mesh"], tuple(case["goal"]), method): run["cells"]
              for case in cases for method, run in case["methods"].items()}
     for case in of_ranks:
@@ -89,7 +92,7 @@ def check_cells(cases, of_ranks):
 
 
 def lines_of(made):
-    """JSON, a case a line."""
+    """JSON, one case per line."""
     def one_a_line(cases):
         return "[" + ",\n  ".join(json.dumps(case) for case in cases) + "]"
     return (f'{{"repetitions": {made["repetitions"]}, "machine": {json.dumps(made["machine"])},\n'
@@ -102,7 +105,7 @@ def measure(build, repetitions, quick, only):
     old = json.loads(MEASURED.read_text()) if only else {}
     machine = describe(str(octetra))
     if only == "ranks":
-        repetitions, machine = old["repetitions"], old["machine"]  # of the seconds that stay
+        repetitions, machine = old["repetitions"], old["machine"]  # for the seconds that are kept
     cases, of_ranks = [], []
     with tempfile.TemporaryDirectory() as folder:
         for name, (shape, sphere) in (QUICK if quick else MESHES).items():
@@ -133,7 +136,7 @@ def table(heads, rows):
 
 
 def beside(case, figure, form):
-    """A figure of terminal-edge bisection, and those of the others as so many times it."""
+    """A figure of terminal-edge bisection, and those of the other methods as multiples of it."""
     methods = case["methods"]
     own = figure(methods["terminal"])
     others = [f"{figure(methods[m]) / own:.2f}" if own else f"{figure(methods[m]):,}" for m in METHODS[1:]]
@@ -193,7 +196,7 @@ def ranks_table(cases):
 
 
 def when_and_where(measured):
-    """And how far runs of one thing lay apart: nine in ten took at most so many times the median."""
+    """With the dispersion of repeated runs: nine in ten took at most this multiple of the median."""
     apart = sorted(run["most_over_median"] for case in measured["cases"] for run in case["methods"].values())
     machine = measured["machine"]
     return (f"{', '.join(known(machine))}; other programs kept {machine['load']:.1f} cores busy when it began. "
@@ -222,13 +225,13 @@ def main():
                                      description=__doc__,
                                      formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("what", choices=["measure", "page", "check"],
-                        help="measure: what ./dev bench --rival does")
+                        help="default: measure, like ./dev bench --rival")
     parser.add_argument("--build", type=pathlib.Path, default=ROOT / "build/release", metavar="FOLDER",
-                        help="where it is built [build/release]")
-    parser.add_argument("--repetitions", type=int, default=5, metavar="N", help="runs of each, of which the medians count [5]")
-    parser.add_argument("--quick", action="store_true", help="small meshes, once; prints, and writes no file")
-    parser.add_argument("--only", choices=["cases", "ranks"], help="measure one process, or ranks, and keep the other")
-    parser.add_argument("--list", action="store_true", help="only name what would be measured")
+                        help="build folder [build/release]")
+    parser.add_argument("--repetitions", type=int, default=5, metavar="N", help="runs of each case, whose medians are used [5]")
+    parser.add_argument("--quick", action="store_true", help="small meshes, once each; results are only printed")
+    parser.add_argument("--only", choices=["cases", "ranks"], help="measure one process, or ranks, and keep the other results")
+    parser.add_argument("--list", action="store_true", help="only list what would be measured")
     chosen = parser.parse_args()
     page = ROOT / "docs/rival.md"
     if chosen.list:

@@ -56,7 +56,8 @@ void Border::bisect(SharedEdgeIndex e, VertexIndex midpoint, CellGraph& graph, c
     splits_.push_back(std::move(split));
 }
 
-/// With each neighbour in the order of the numbers that edges and faces had with it before.
+/// Numbers new edges and faces for each neighbour in the order of the previous numbers of their
+/// parents.
 void Border::number_new() {
     std::vector<std::vector<std::pair<std::uint32_t, SplitEdge*>>> of_neighbour(neighbours_.size());
     for (SplitEdge& split : splits_) {

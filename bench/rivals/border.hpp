@@ -9,7 +9,7 @@
 
 #include "rivals/cell_graph.hpp"
 
-/// What a rank shares with others, kept up to date as they bisect the same edges as it does.
+/// The entities that a rank shares with others, updated as all sharers bisect the same edges.
 namespace octetra::rivals {
 
 using SharedEdgeIndex = std::uint32_t;
@@ -17,21 +17,21 @@ inline constexpr SharedEdgeIndex not_shared = std::numeric_limits<SharedEdgeInde
 
 /// Another rank that has an edge or a face.
 struct Sharer {
-    std::uint32_t neighbour = 0;  ///< a place in Border::neighbours()
-    std::uint32_t number = 0;     ///< by which the two ranks know it
+    std::uint32_t neighbour = 0;  ///< an index in Border::neighbours()
+    std::uint32_t number = 0;     ///< the number of the entity between the two ranks
 };
 
 struct SharedEdge {
-    EdgeVertices ends;  ///< in an order that all ranks have in common
+    EdgeVertices ends;  ///< in the same order on all ranks
     std::vector<Sharer> sharers;
     bool is_wanted = false;
-    std::uint32_t ready_ranks = 0;  ///< of those that have it, this one included
+    std::uint32_t ready_ranks = 0;  ///< ranks that are ready, including this one
 };
 
-/// The edges and faces that cells of several ranks have. An edge may be of any number of ranks, a
-/// face is of two. Halves of an edge are of the ranks that have it; an edge from its midpoint
-/// across a face is of the two that have the face. So what becomes of the border each rank knows
-/// without being told, and two ranks give new edges and faces the same numbers.
+/// The edges and faces whose cells are on several ranks. An edge may have any number of sharers, a
+/// face has two. Halves of an edge have the sharers of the edge; an edge from its midpoint across a
+/// face has the two sharers of the face. Therefore each rank can update its border without
+/// communication, and two ranks assign the same numbers to new edges and faces.
 class Border {
 public:
     struct InitialEdge {
@@ -42,14 +42,13 @@ public:
         std::array<VertexIndex, 3> vertices;
         std::uint32_t neighbour = 0;
     };
-    /// Edges and faces stand in an order that all ranks have in common; the graph knows the rows of
-    /// the edges.
+    /// Edges and faces are in the same order on all ranks; the graph has the rows of the edges.
     Border(std::vector<int> neighbours, const std::vector<InitialEdge>& edges,
            const std::vector<InitialFace>& faces);
 
     [[nodiscard]] const std::vector<int>& neighbours() const { return neighbours_; }
     [[nodiscard]] SharedEdge& edge(SharedEdgeIndex e) { return edges_[e]; }
-    /// not_shared, if it is this rank's alone.
+    /// Returns not_shared if only this rank has the edge.
     [[nodiscard]] SharedEdgeIndex find(const EdgeVertices& edge) const {
         const auto found = edge_of_ends_.find(edge_key(edge));
         return found == edge_of_ends_.end() ? not_shared : found->second;
@@ -58,10 +57,10 @@ public:
         return edges_of_neighbour_[sharer.neighbour][sharer.number];
     }
 
-    /// A star was bisected whose edge is shared; all its ranks do so between the same two calls of
-    /// number_new().
+    /// Updates the border after the star of a shared edge was bisected; all sharers bisect it
+    /// between the same two calls of number_new().
     void bisect(SharedEdgeIndex e, VertexIndex midpoint, CellGraph& graph, const Star& star);
-    /// Numbers what has come to be.
+    /// Numbers new edges and faces.
     void number_new();
 
 private:

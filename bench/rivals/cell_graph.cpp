@@ -36,7 +36,7 @@ CellGraph::CellGraph(const Mesh& mesh) : points(mesh.points) {
     find_several_rows();
 }
 
-/// Rows end at the boundary, so where more than two of its faces have an edge there are several.
+/// Rows end at the boundary, so an edge with more than two boundary faces has several rows.
 void CellGraph::find_several_rows() {
     std::vector<std::pair<std::uint64_t, CellIndex>> edges;
     for (CellIndex c{0}; c < cells.end_index(); ++c) {
@@ -114,7 +114,7 @@ void CellGraph::append_row(const StarCell& first, Star& star) const {
     walk(star);
 }
 
-/// From the last cell of a star to the end of its row, or around.
+/// Extends a star from its last cell to the end of the row, or around the edge.
 void CellGraph::walk(Star& star) const {
     const StarCell first = star.cells.back();
     const auto [a, b] = edge_of(first);
@@ -146,7 +146,7 @@ void CellGraph::bisect(const Star& star, VertexIndex midpoint) {
     if (!rows.empty()) halve_rows(star, edge, midpoint);
 }
 
-/// What is known by its ends stays known, as its halves.
+/// Rows that were found by the ends of the edge are kept for its halves.
 void CellGraph::halve_rows(const Star& star, const EdgeVertices& edge, VertexIndex midpoint) {
     const std::size_t first_new = cells.size() - star.cells.size();
     for (std::size_t i = 0; i < star.cells.size(); ++i) {
@@ -172,7 +172,7 @@ void CellGraph::put_into_row(const EdgeVertices& edge, CellIndex old, CellIndex 
     if (found != rows.end()) std::ranges::replace(found->second, old, now);
 }
 
-/// What the halves have to do with one another, and with what is not of the star.
+/// Connects the halves with one another and with cells outside the star.
 void CellGraph::halve(const StarCell& at, VertexIndex midpoint) {
     const CellIndex second = cells.append(cells[at.cell]);
     LinkedCell& one = cells[at.cell];
@@ -191,8 +191,7 @@ void CellGraph::halve(const StarCell& at, VertexIndex midpoint) {
     next[at.cell] = second;
 }
 
-/// Half by half, across the face on this side, what the halves of the cell beside are to those of
-/// this one.
+/// Connects the halves of two adjacent cells across the face on this side.
 void CellGraph::join_halves(const StarCell& at, CellIndex second, std::uint8_t side,
                             const StarCell& beside, CellIndex second_beside) {
     cells[half(at, second, at.a)].neighbours[side] = half(beside, second_beside, beside.a);

@@ -10,27 +10,27 @@
 #include <octetra/core/mesh.hpp>
 #include <octetra/core/selection.hpp>
 
-/// Cells that know what is behind their faces, kept up to date as stars are bisected.
+/// Cells with their face neighbours, updated as stars are bisected.
 namespace octetra::rivals {
 
 inline constexpr std::uint32_t no_waiter = 0xffffffff;
 
 struct LinkedCell {
     CellVertices vertices;
-    std::array<CellIndex, 4> neighbours;     ///< behind the face opposite each vertex; or none
-    CellIndex root;                          ///< the cell of the input that it descends from
+    std::array<CellIndex, 4> neighbours;     ///< behind the face opposite each vertex; may be none
+    CellIndex root;                          ///< the cell of the input from which it descends
     std::uint32_t first_waiter = no_waiter;  ///< see WantedEdges
-    std::uint8_t longest = 0;                ///< edge, a place in cell_edges
+    std::uint8_t longest = 0;                ///< an index in cell_edges
     bool longest_is_wanted = false;
 };
 
-/// The end with the lower number first.
+/// Returns the edge with its lower vertex first.
 [[nodiscard]] inline EdgeVertices ascending(EdgeVertices edge) {
     if (edge[1] < edge[0]) std::swap(edge[0], edge[1]);
     return edge;
 }
 
-/// Of an edge, whichever of its ends is first.
+/// A key of the edge, independent of the order of its ends.
 [[nodiscard]] inline std::uint64_t edge_key(const EdgeVertices& edge) {
     const auto [low, high] = ascending(edge);
     return std::uint64_t{low.value()} << 32U | high.value();
@@ -41,14 +41,14 @@ struct StarCell {
     CellIndex cell;
     std::uint8_t a = 0;
     std::uint8_t b = 0;
-    std::uint8_t next = 0;      ///< behind the face opposite this one is the next of the star
-    std::uint8_t previous = 0;  ///< and the previous one behind this
+    std::uint8_t next = 0;      ///< the next cell of the star is behind the face opposite this
+    std::uint8_t previous = 0;  ///< and the previous one behind the face opposite this
     bool joins_previous = false;
 };
 
-/// The cells around an edge, row after row, each cell behind a face of the one before: a ring, or
-/// rows from boundary to boundary, of which there are several where the cells around an edge have
-/// others between them, of another rank, or nothing.
+/// The cells around an edge in rows, in which each cell is behind a face of the previous one: a
+/// ring, or rows from boundary to boundary. There are several rows where cells of another rank, or
+/// gaps, lie between the cells around the edge.
 struct Star {
     std::vector<StarCell> cells;
     bool is_ring = false;
@@ -57,13 +57,13 @@ struct Star {
 struct CellGraph {
     IndexVector<VertexIndex, Point> points;
     IndexVector<CellIndex, LinkedCell> cells;
-    /// The cell that follows each in the order of results; none() after the last.
+    /// The successor of each cell in the order of results; none() after the last.
     IndexVector<CellIndex, CellIndex> next;
-    /// A cell of each row around an edge that has several, and around those that are to be found
-    /// by their ends; by edge_key().
+    /// A cell of each row around edges that have several rows, and around edges that must be found
+    /// by their ends; indexed by edge_key().
     std::unordered_map<std::uint64_t, std::vector<CellIndex>> rows;
 
-    /// Throws InputError where three cells have a face in common.
+    /// Throws InputError if a face has three cells.
     explicit CellGraph(const Mesh& mesh);
 
     [[nodiscard]] Corners corners(CellIndex c) const {
@@ -74,15 +74,15 @@ struct CellGraph {
         const auto& [i, j] = cell_edges[cells[c].longest];
         return {cells[c].vertices[i], cells[c].vertices[j]};
     }
-    /// The cells around the longest edge of a cell. The star's memory is used again.
+    /// Finds the cells around the longest edge of a cell. Reuses the memory of `star`.
     void find_star(CellIndex c, Star& star) const;
     /// The same for an edge whose rows are known.
     void find_star(const EdgeVertices& edge, Star& star) const;
-    /// Makes the row of a cell around one of its edges known, unless it is.
+    /// Adds the row of a cell around one of its edges unless it is known.
     void add_row(const EdgeVertices& edge, CellIndex c);
-    /// Halves all cells of a star at a vertex between a and b. The first half of star.cells[i] has
-    /// its number, the other one is appended, as number i of those that are new; what belongs to
-    /// longest edges is to be set of both, and the waiters are the first one's.
+    /// Halves all cells of a star at a vertex between a and b. The first half of star.cells[i]
+    /// keeps its index and the waiters; the second half is appended as the i-th new cell. The
+    /// caller sets the data on longest edges of both.
     void bisect(const Star& star, VertexIndex midpoint);
 
 private:

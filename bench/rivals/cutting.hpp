@@ -12,11 +12,11 @@
 
 namespace octetra::rivals {
 
-/// A mesh on its way to a goal: cells, and the edges that are wanted. Whoever has it decides when
-/// an edge that is terminal is bisected.
+/// The state of refinement towards a goal: cells, and the edges that are wanted. The caller decides
+/// when a terminal edge is bisected.
 class Cutting {
 public:
-    /// `border` is that of the graph, or null where there are no other ranks.
+    /// `border` is that of the graph, or null without other ranks.
     explicit Cutting(CellGraph graph, Border* border = nullptr)
         : graph_(std::move(graph)),
           border_(border),
@@ -27,15 +27,16 @@ public:
     Cutting& operator=(const Cutting&) = delete;
     ~Cutting() = default;
 
-    /// Wants what is to be cut. Throws InputError for a goal that makes no sense.
+    /// Marks the longest edges of the cells to be cut as wanted. Throws InputError for an invalid
+    /// goal.
     void begin(const Goal& goal, std::size_t max_cells);
-    /// Bisects the star of a terminal edge that was wanted, and wants what is to be cut of it.
-    /// Throws InputError where a child is not positively oriented, or for too many cells.
+    /// Bisects the star of a wanted terminal edge, and marks further edges of its cells as wanted.
+    /// Throws InputError if a child is not positively oriented, or for too many cells.
     void bisect(const WantedEdges::Edge& edge);
 
     [[nodiscard]] const CellGraph& graph() const { return graph_; }
     [[nodiscard]] WantedEdges& wanted() { return wanted_; }
-    /// What the midpoints are midpoints of. The input's points come before them.
+    /// The ends of the edge of each midpoint. Midpoints follow the points of the input.
     [[nodiscard]] const std::vector<EdgeVertices>& midpoint_to_edge() const {
         return midpoint_to_edge_;
     }
@@ -51,7 +52,7 @@ private:
     Goal goal_;
     std::size_t max_cells_ = 0;
     std::size_t input_points_;
-    IndexVector<CellIndex, std::uint8_t> is_cut_;  // of the input's cells
+    IndexVector<CellIndex, std::uint8_t> is_cut_;  // for each cell of the input
     std::vector<EdgeVertices> midpoint_to_edge_;
     Star star_;
 };

@@ -12,14 +12,14 @@ namespace {
 
 using Neighbours = IndexVector<CellIndex, std::array<CellIndex, 4>>;
 
-/// Of an edge, whose lower vertex is a.
+/// The key of an edge whose lower vertex is a.
 std::uint64_t key(VertexIndex a, VertexIndex b) {
     return std::uint64_t{a.value()} << 32U | b.value();
 }
 
-/// One of a cell, in the bucket of its smallest vertex.
+/// A face of a cell, in the bucket of its smallest vertex.
 struct Face {
-    std::uint64_t rest = 0;  // the key of its other vertices
+    std::uint64_t rest = 0;  // the key of the other vertices
     CellIndex cell;
     std::uint8_t position = 0;
 };
@@ -31,7 +31,7 @@ std::array<VertexIndex, 3> sorted_face(const CellVertices& cell, std::size_t pos
     return face;
 }
 
-/// All faces of all cells, bucket after bucket, and where each bucket ends.
+/// The faces of all cells, grouped by bucket, and the end of each bucket.
 struct FaceBuckets {
     std::vector<Face> faces;
     IndexVector<VertexIndex, std::size_t> ends;

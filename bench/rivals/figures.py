@@ -1,10 +1,12 @@
-"""What the sentences of docs/rival.md ask for: "added 8t/terminal edges,volumes random,gear", and the like.
+"""Evaluates the queries in the sentences of docs/rival.md, such as "added 8t/terminal edges,volumes
+random,gear".
 
-First the quantity; then one method, or two of which the first is told in units of the second; then, in any order, the
-meshes, the goals and the ranks to which it is confined. Goals are "edges" or, more closely, "edges/8", and "-region"
-leaves those that have one.
+A query names the quantity; one method, or two, where the first is given in units of the second;
+then, in any order, the meshes, goals and ranks to which it is restricted. Goals are "edges" or,
+more precisely, "edges/8", and "-region" excludes those with a region.
 """
-# To the goal. Copying a result out, as the rival does at the end, is none of it: octetra's stays where it is.
+# Up to the goal. The copying of results at the end of the rival is excluded, because octetra does
+# not copy.
 SECONDS = ("setup_seconds", "marking_seconds", "refining_seconds")
 SIZES = {"edge": ("edges", 2), "once": ("once", 1), "volume": ("volumes", 8)}
 
@@ -29,11 +31,11 @@ OF_ONE = {"added": added, "outside": lambda run: run["cells_added_outside"], "ns
           "ms": milliseconds, "setup": lambda run: 1000 * run["setup_seconds"], "rounds": rounds}
 ON_RANKS = {"exchanges": lambda run: run["rounds"], "messages": lambda run: run["messages"],
             "kB": lambda run: run["bytes"] / 1000}
-UNITS = {"setup": milliseconds}  # finding neighbours first, beside the other's whole way to the goal
+UNITS = {"setup": milliseconds}  # finding neighbours, relative to the other method's whole time
 
 
 def names_of(case):
-    """Every word by which a query may confine itself to this case."""
+    """All words that restrict a query to this case."""
     task, halvings, local = case["goal"]
     kind, base = SIZES[task]
     names = {case["mesh"], kind, f"{kind}/{base ** halvings}", "-region" if not local else "region"}
@@ -52,6 +54,6 @@ def figures_of(measured, query):
             continue
         value = figure(case["methods"][of])
         unit = UNITS.get(quantity, figure)(case["methods"][over]) if over else 1
-        if value or unit:  # none of either says nothing
+        if value or unit:  # zero relative to zero is omitted
             found.append(value / unit)
     return found

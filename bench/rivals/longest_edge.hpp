@@ -11,7 +11,7 @@
 
 namespace octetra::rivals {
 
-/// The place in cell_edges of the longest edge of a cell, in the strict order.
+/// The index in cell_edges of the longest edge of a cell, in the strict order.
 inline std::uint8_t longest_edge(const Corners& corners) {
     const auto segment = [&](std::size_t edge) {
         const auto& [i, j] = cell_edges[edge];
@@ -23,7 +23,8 @@ inline std::uint8_t longest_edge(const Corners& corners) {
     for (std::size_t e = 1; e < 6; ++e) {
         if (squares[e] > squares[best]) best = e;
     }
-    // What is less than a square that is twice as large as it must be to be sure is less indeed.
+    // If half of the greatest square is in the range of reliable comparisons, a square below this
+    // range is certainly smaller.
     const bool is_sure = is_sure_square(squares[best] / 2) && is_sure_square(squares[best]);
     if (!is_sure || std::ranges::count(squares, squares[best]) > 1) {
         best = 0;

@@ -7,8 +7,8 @@
 
 namespace octetra::rivals {
 
-/// volume(corners) > limit, without what makes the bits of the volume independent of the order of
-/// the corners unless they matter.
+/// volume(corners) > limit, without the operations that make the volume independent of the order of
+/// the corners, unless they affect the result.
 inline bool is_larger(const Corners& corners, double limit) {
     const auto& [a, b, c, d] = corners;
     const Point u{b.x - a.x, b.y - a.y, b.z - a.z};

@@ -11,7 +11,7 @@
 namespace octetra::rivals {
 namespace {
 
-/// In the order that results have, for each midpoint the place that it has now.
+/// For each midpoint in the order of results its present index.
 std::vector<std::size_t> order_of_midpoints(const std::vector<EdgeVertices>& midpoint_to_edge,
                                             std::size_t input_points,
                                             IndexVector<VertexIndex, VertexIndex>& number) {
@@ -45,7 +45,7 @@ struct TerminalEdgeBisection::State {
     Cutting cutting;
     IndexVector<CellIndex, Marker> regions;
     std::uint32_t index_base;
-    std::vector<WantedEdges::Edge> terminal;  // of a round
+    std::vector<WantedEdges::Edge> terminal;  // of one round
 };
 
 TerminalEdgeBisection::TerminalEdgeBisection(const Mesh& mesh)

@@ -10,59 +10,59 @@
 #include <octetra/core/maps.hpp>
 #include <octetra/core/mesh.hpp>
 
-/// Refinement by bisection of terminal edges (Rivara, Pizarro, Chrisochoides), to be compared with
-/// 8T-LE. It stands on core alone.
+/// Refinement by bisection of terminal edges (Rivara, Pizarro, Chrisochoides), for comparison with
+/// 8T-LE. Depends on core alone.
 ///
-/// An edge is terminal if it is the longest edge of every cell around it, of its star; longest in
-/// the strict order of core. A cell to be cut wants its longest edge bisected. An edge that is
-/// wanted, and not terminal, wants the longest edges of the cells in its way bisected first, and so
-/// on: the longest-edge propagation path, which branches, to edges that are longer and longer, so
-/// that it ends. Rounds bisect all terminal edges that are wanted, each with its whole star, at the
-/// midpoint; after each the mesh conforms. Cells are only ever cut at their longest edges, so what
-/// becomes of a cell is always the same, and all that is cut has to be: the result does not depend
-/// on the order in which terminal edges are bisected.
+/// An edge is terminal if it is the longest edge of every cell in its star, that is, of every cell
+/// around it, in the strict order of core. A cell to be cut wants its longest edge to be bisected.
+/// A wanted edge that is not terminal requires that the longest edges of the cells in its way be
+/// bisected first, and so on: the longest-edge propagation path, which branches to longer and
+/// longer edges and therefore ends. Each round bisects all wanted terminal edges with their stars
+/// at the midpoint; after each round the mesh conforms. Cells are cut only at their longest edges,
+/// so the descendants of a cell are determined, and every bisection is necessary: the result does
+/// not depend on the order in which terminal edges are bisected.
 namespace octetra::rivals {
 
-/// Which cells are to be cut: those of the input that are `targets`, and their descendants, as long
-/// as they have an edge longer than `longest_edge`, or more volume than `volume`. Without either,
-/// each target that has not been cut yet is cut once.
+/// The cells to be cut: those of the input in `targets`, and their descendants, as long as they
+/// have an edge longer than `longest_edge`, or a volume greater than `volume`. Without either, each
+/// target that has not been cut yet is cut once.
 struct Goal {
-    std::vector<std::uint8_t> targets;  ///< not 0: a target; one for each cell of the input, or
-                                        ///< empty: all are
+    std::vector<std::uint8_t> targets;  ///< nonzero: a target; one for each cell of the input, or
+                                        ///< empty: all are targets
     std::optional<double> longest_edge;
     std::optional<double> volume;
 };
 
-/// What the rounds of one goal did.
+/// The rounds of one goal.
 struct Rounds {
     std::vector<std::uint64_t> edges_bisected;  ///< in each round
     std::uint64_t cells_cut = 0;
 };
 
-/// Cells stand where their parents stood, as a preorder of halves; the first half has the end of
-/// the bisected edge that comes first in the cell. Input vertices keep their numbers; midpoints
-/// follow level by level, in each by their ends' (smaller, larger) number; the level of a midpoint
-/// is one above the higher one of its ends, that of the input's vertices is 0. So the numbers, too,
-/// do not depend on the order of bisections.
+/// Cells replace their parents, as a preorder of halves; the first half has the end of the bisected
+/// edge that comes first in the cell. Input vertices keep their numbers; midpoints follow level by
+/// level, sorted within a level by the (smaller, larger) number of their ends. The level of a
+/// midpoint is one above the higher level of its ends; input vertices have level 0. Hence the
+/// numbers do not depend on the order of bisections either.
 struct TerminalEdgeMesh {
-    Mesh mesh;  ///< points, cells and region tags: this carries nothing else along
+    Mesh mesh;  ///< points, cells and region tags; nothing else is transferred
     RefinementMaps maps;
 };
 
 class TerminalEdgeBisection {
 public:
-    /// The mesh must satisfy the invariants of struct Mesh. Throws InputError where three cells
-    /// have a face in common.
+    /// The mesh must satisfy the invariants of struct Mesh. Throws InputError if a face has three
+    /// cells.
     explicit TerminalEdgeBisection(const Mesh& mesh);
     ~TerminalEdgeBisection();
     TerminalEdgeBisection(const TerminalEdgeBisection&) = delete;
     TerminalEdgeBisection& operator=(const TerminalEdgeBisection&) = delete;
 
-    /// Rounds, until the goal is reached. May be called again, for another goal.
+    /// Makes rounds until the goal is reached. May be called repeatedly with different goals.
     ///
-    /// Throws InputError where a midpoint, rounded to binary64, would flatten or invert a cell,
-    /// where there would be more than `max_cells` cells, and for a goal that makes no sense. What
-    /// is left then is of no use.
+    /// Throws InputError if a midpoint, rounded to binary64, would flatten or invert a cell, if
+    /// there would be more than `max_cells` cells, and for an invalid goal. The object must not be
+    /// used afterwards.
     Rounds refine(const Goal& goal,
                   std::size_t max_cells = std::numeric_limits<std::size_t>::max());
 

@@ -10,7 +10,7 @@
 
 namespace octetra::rivals {
 
-/// 0 for the input's vertices; for a midpoint, one above the higher one of its ends.
+/// 0 for the input's vertices; for a midpoint, one above the higher level of its ends.
 inline IndexVector<VertexIndex, std::uint32_t> vertex_levels(
     const std::vector<EdgeVertices>& midpoint_to_edge, std::size_t input_points) {
     IndexVector<VertexIndex, std::uint32_t> levels(input_points, 0U);

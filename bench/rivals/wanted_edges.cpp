@@ -36,7 +36,7 @@ void WantedEdges::want_shared(SharedEdgeIndex e) {
     follow_paths();
 }
 
-/// An edge whose star has been found is wanted.
+/// Adds a wanted edge, whose star is in `star_`.
 void WantedEdges::add(const EdgeVertices& ends, CellIndex c, SharedEdgeIndex shared) {
     if (shared != not_shared) border_->edge(shared).is_wanted = true;
     const std::uint32_t edge = put({.ends = ends, .cell = c, .shared = shared});
@@ -44,7 +44,8 @@ void WantedEdges::add(const EdgeVertices& ends, CellIndex c, SharedEdgeIndex sha
     check(edge);
 }
 
-/// A wanted edge and a cell around it: the cell has it as its longest one, or is in its way.
+/// Relates a wanted edge to a cell around it: it is the cell's longest edge, or the cell is in its
+/// way.
 void WantedEdges::meet(std::uint32_t edge, CellIndex c) {
     if (ascending(graph_->longest_edge_of(c)) == edges_[edge].ends) {
         graph_->cells[c].longest_is_wanted = true;

@@ -9,42 +9,42 @@
 
 namespace octetra::rivals {
 
-/// The edges on the propagation paths of the cells that are to be cut, followed as cells are cut,
-/// and never searched for again. Every wanted edge counts the cells around it that have a longer
-/// edge: those wait, in a list of the cell, for its being cut. Of a cell whose longest edge is
-/// wanted the flag is set. What is wanted once is wanted until it is bisected.
+/// The edges on the propagation paths of the cells to be cut, updated as cells are cut instead of
+/// being searched again. Every wanted edge counts the cells around it with a longer edge, in whose
+/// waiter lists it is entered until they are cut. A flag is set for cells whose longest edge is
+/// wanted. An edge stays wanted until it is bisected.
 ///
-/// An edge that ranks share is wanted by each of them by itself, and awaits the rank's own cells.
-/// The others are told when it is first wanted, and when the rank has no cells in its way any more;
-/// it is terminal when all have said so.
+/// Each sharer of a shared edge wants it separately and awaits its own cells. It notifies the other
+/// sharers when it first wants the edge, and when no cell of its own is in the way any longer; the
+/// edge is terminal when all have done so.
 class WantedEdges {
 public:
     struct Edge {
-        EdgeVertices ends;          ///< the one with the lower number first
-        CellIndex cell;             ///< one around it; whose longest it is, if it is terminal
+        EdgeVertices ends;          ///< lower number first
+        CellIndex cell;             ///< a cell around it; its longest edge, if terminal
         std::uint32_t awaited = 0;  ///< cells around it with a longer edge
         SharedEdgeIndex shared = not_shared;
     };
 
-    /// `border` is null where there are no other ranks.
+    /// `border` is null without other ranks.
     WantedEdges(CellGraph& graph, Border* border) : graph_(&graph), border_(border) {}
 
-    /// Wants the longest edge of a cell; follow_paths() what must be bisected before.
+    /// Wants the longest edge of a cell; follow_paths() adds the edges to be bisected before.
     void want(CellIndex c) { to_want_.push_back(c); }
-    /// Tells those that wait for a cell that it was cut into these, of which the first has its
-    /// number and its list. To be told of all cells of a star before paths are followed.
+    /// Updates the edges that wait for a cell after it was cut into these two, the first of which
+    /// keeps its index and list. To be called for all cells of a star before follow_paths().
     void pass_on(CellIndex one, CellIndex other);
     void follow_paths();
-    /// Another rank wants an edge that it shares with this one.
+    /// Notes that another rank wants an edge shared with this one.
     void want_shared(SharedEdgeIndex e);
 
-    /// Those that have become terminal since this was last asked.
+    /// Returns the edges that have become terminal since the last call.
     void take_terminal(std::vector<Edge>& edges) { take(terminal_, edges); }
-    /// Shared edges that have no cell of this rank in their way any more.
+    /// Returns the shared edges that no cell of this rank blocks any longer.
     void take_ready(std::vector<Edge>& edges) { take(ready_, edges); }
-    /// Shared edges that this rank has come to want without having been told.
+    /// Returns the shared edges that this rank wants without notification by another one.
     [[nodiscard]] std::vector<SharedEdgeIndex> take_asked() { return std::exchange(asked_, {}); }
-    /// How many are wanted and have not been taken.
+    /// The number of wanted edges that have not been taken.
     [[nodiscard]] std::size_t count() const { return edges_.size() - free_edges_.size(); }
 
 private:

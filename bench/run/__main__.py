@@ -1,13 +1,13 @@
 #!/usr/bin/python3
-"""Runs the benchmarks and writes what they measured: RESULTS.md, one table for each group, with
-targets and whether they are met, and results.json, the same for programs.
+"""Runs the benchmarks and writes their results: RESULTS.md, one table for each group, with targets
+and whether they are met, and results.json for programs.
 
-    python3 bench/run --build build/release -o bench
+python3 bench/run --build build/release -o bench
 
-Repetitions are made in turns, so that a busy moment of the machine does not meet one run alone.
-Needs Python's standard library alone, and mpirun. Status 0: all ran; 1: a result is not right (what
-DOLFINx made has other cells, say); 2: it could not be measured. A target that is missed changes no
-status: seconds depend on the machine.
+Repetitions alternate between runs, so that a period of load does not affect a single one. Requires
+only Python's standard library and mpirun. Exit status: 0 all ran; 1 a result is wrong (for example,
+DOLFINx made different cells); 2 measurement failed. A missed target does not change the status,
+because times depend on the machine.
 """
 
 import argparse
@@ -40,14 +40,14 @@ def parse_command_line():
     parser.add_argument("--build", metavar="FOLDER", default="build/release")
     parser.add_argument("-o", "--output", metavar="FOLDER", default="bench")
     parser.add_argument("--quick", action="store_true",
-                        help="small meshes, once each: to see that all runs")
-    parser.add_argument("--peers", action="store_true", help="DOLFINx and PETSc, too, in turns with octetra")
+                        help="small meshes, once each, to test that everything runs")
+    parser.add_argument("--peers", action="store_true", help="also DOLFINx and PETSc, alternating with octetra")
     parser.add_argument("--only", metavar="CASE", nargs="+", default=[],
-                        help="only cases with one of these in the name of them or their group")
+                        help="only cases whose name, or whose group, contains one of these")
     parser.add_argument("--repetitions", metavar="N", type=positive,
-                        help="5 unless told, with --quick 1")
+                        help="default: 5, with --quick 1")
     parser.add_argument("--list", action="store_true",
-                        help="only name the cases that would be run")
+                        help="only list the cases that would be run")
     return parser.parse_args()
 
 
@@ -56,7 +56,7 @@ def tell(words):
 
 
 def chosen(every, words):
-    """The groups with the cases that were asked for, without those of which none was."""
+    """The groups restricted to the requested cases, without empty groups."""
     if not words:
         return every
     picked = []
@@ -81,7 +81,7 @@ def chosen_groups(options):
 
 
 def measured_groups(options, place):
-    """All groups so far, after each case anew."""
+    """Yields all groups so far after each case."""
     repetitions = options.repetitions or (1 if options.quick else 5)
     groups_so_far = []
     for group in chosen_groups(options):
@@ -95,7 +95,7 @@ def measured_groups(options, place):
 
 
 def make_results(options):
-    """Writes them after each case, so that what fails later takes nothing with it."""
+    """Writes the results after each case, so that a later failure loses none."""
     machine = where.describe(os.path.abspath(options.build))
     begin = time.monotonic()
     old = kept.load(os.path.join(options.output, "results.json"))

@@ -1,10 +1,10 @@
-"""Whole adaptive runs in other people's programs, and what it takes to hand a mesh over to them."""
+"""Adaptive runs in other programs, and the cost of transferring a mesh to them."""
 
 from measuring import BEGUN_AGAIN, Case, Figure, driver, median, script
 from peers import name_of
 
 RANKS = (1, 2)
-PATIENCE = 1200  # seconds, of a program that does not always end, and takes seven minutes where it does
+PATIENCE = 1200  # seconds for a program that sometimes hangs, and otherwise takes seven minutes
 RUN, HAND_OVER, PLEX = "bench/python/adaptive_run.py", "bench/python/hand_over.py", "bench/peers/peer_dmplex"
 
 
@@ -20,7 +20,7 @@ def total(lines, key):
 
 
 def common_levels(lines):
-    """Steps that all have made; DOLFINx begins none after two minutes in the mesh."""
+    """Steps that all runs have made; DOLFINx begins none after two minutes in the mesh part."""
     return min(len(line["levels"]) for of_run in lines.values() for line in of_run)
 
 
@@ -57,7 +57,8 @@ def cut(of_run, steps):
 
 
 def other_cells(lines):
-    """Where a run has other cells than the first, a line each: none must, as far as both go."""
+    """Lists the runs whose cells differ from those of the first in common steps; there must be
+    none."""
     steps = common_levels(lines)
     found = {name: [level["cells"] for level in line["levels"][:steps]]
              for name, of_run in lines.items() for line in of_run}
@@ -91,7 +92,7 @@ def hand_over_figures(lines):
 
 
 def hand_over_to_dolfinx(cubes):
-    """Each run is the least of five."""
+    """Each run is the minimum of five."""
     return Case("handing a mesh to DOLFINx", [
         script(ranks_word(ranks), HAND_OVER, str(cubes), ranks, PATIENCE) for ranks in RANKS],
         hand_over_figures, at_most=1)

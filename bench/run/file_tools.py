@@ -1,4 +1,5 @@
-"""Octetra beside meshio, gmsh and DOLFINx: the same file read, its mesh written again."""
+"""Octetra compared with meshio, gmsh and DOLFINx: the same file is read, and its mesh written
+again."""
 
 import os
 
@@ -13,7 +14,7 @@ def name_of(tool, kind):
 
 
 def through_python(tool, kind, shape, out=None):
-    """Reading and writing, each by itself, within a process that runs."""
+    """Reading and writing measured separately within a running process."""
     out = out or kind
 
     def line(place):
@@ -23,13 +24,13 @@ def through_python(tool, kind, shape, out=None):
 
 
 def whole(tool, kind, shape):
-    """Both, with the start of the process."""
+    """Both together, including the start of the process."""
     def line(place):
         path = place.mesh(shape, f"tools.{kind}")
         out = os.path.join(place.folder, "tools-out." + kind)
         outcome = run(command(place, path, out), place.folder)
         if outcome.status != 0:
-            must(command(place, path, out), place.folder)  # which says what is wrong
+            must(command(place, path, out), place.folder)  # reports errors
         return {"seconds": outcome.seconds}
 
     def command(place, path, out):

@@ -13,7 +13,7 @@ FILES = "bench/bench_files"
 
 
 def rate(line):
-    """MB (10^6 bytes) of the file a second, by the wall clock."""
+    """MB (10^6 bytes) of the file per second, by the wall clock."""
     (benchmark,) = line["benchmarks"]
     return benchmark["file MB"] / (benchmark["real_time"] * 1e-3)
 
@@ -24,7 +24,7 @@ def rates(lines):
 
 
 def tetgen():
-    """Google Benchmark chooses how often it repeats within a run."""
+    """Google Benchmark chooses the number of repetitions within a run."""
     return Case("TetGen files", [
         driver(name, FILES, f"--benchmark_filter={name}_file/tetgen --benchmark_format=json")
         for name in ("read", "write")], rates)
@@ -40,8 +40,8 @@ def whole_program(place, ranks, shape):
     try:
         command = [*launcher(ranks), place.program("cli/octetra"), "refine", mesh, "--all", "--quiet",
                    "-o", os.path.join(folder, "fine.ele")]
-        # The clock runs for the program as people use it, without a profile. Both runs write where
-        # nothing is: to take an old file's place costs as much again.
+        # The program is timed as users run it, without a profile. Both runs write to new files,
+        # because replacing an old file costs as much again.
         seconds = timed(command, folder)
         for file in os.listdir(folder):
             os.remove(os.path.join(folder, file))
@@ -57,7 +57,7 @@ def whole_program(place, ranks, shape):
 
 
 def in_a_corner(cubes, levels):
-    """What each rank comes to have where one place of the mesh is refined."""
+    """Memory of each rank when a mesh is refined at one place."""
     shape = f"kuhn {cubes}"
     arguments = f"--sphere 0.2,0.2,0.2,0.1 --levels {levels}"
 
@@ -91,12 +91,12 @@ def corner_figures(lines):
 def timed(command, folder):
     outcome = run(command, folder)
     if outcome.status != 0:
-        must(command, folder)  # which says what is wrong
+        must(command, folder)  # reports errors
     return outcome.seconds
 
 
 def of_phase(profile, name):
-    """Of the rank that it keeps longest, waiting included; by the wall clock."""
+    """The time of the slowest rank, including waiting, by the wall clock."""
     parts = ("computing_seconds", "communicating_seconds")
     of_rank = [[sum(seconds) for seconds in zip(*(entry[part]["of_rank"] for part in parts))]
                for entry in profile["phases"] if entry["phase"] == name]

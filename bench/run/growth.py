@@ -1,4 +1,4 @@
-"""How cost grows with cells and with ranks."""
+"""Growth of the cost with cells and with ranks."""
 
 from measuring import Case, Figure, driver, median
 from refinement import REFINE, on
@@ -34,7 +34,7 @@ def with_cells(sizes):
 
 
 def megabytes_for(cubes):
-    """More than all that the run of so many cubes a side has at any one time."""
+    """More memory than the run with this number of cubes a side uses at any time."""
     return 64 + 48 * cubes ** 3 * 64 // 1000000
 
 

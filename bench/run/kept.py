@@ -2,12 +2,12 @@
 
 import json
 
-# What must be the same for figures to stand in one table.
+# Properties that must be equal for figures in one table.
 SAME = ("processor", "cores", "memory_bytes", "system", "mpi", "compiler", "build", "commit")
 
 
 def is_alike(old, new):
-    """Was the old one measured here, of the same program and with the same sizes?"""
+    """Returns whether the old result is from this machine, with the same program and sizes."""
     if old.get("format") != new["format"] or old.get("version") != new["version"]:
         return False
     commit = new["machine"]["commit"]
@@ -17,13 +17,13 @@ def is_alike(old, new):
 
 
 def merged(old_cases, new_cases):
-    """New cases in the place of old ones of the same name; others stay, and where they were."""
+    """Replaces old cases by new ones of the same name; others stay at their positions."""
     old, new = ({case["name"]: case for case in cases} for cases in (old_cases, new_cases))
     return list((old | new).values())
 
 
 def load(path):
-    """The results there; None if there are none."""
+    """The results in a file; None if there is none."""
     try:
         with open(path, encoding="utf-8") as file:
             return json.load(file)
@@ -32,8 +32,7 @@ def load(path):
 
 
 def with_old(made, old, order):
-    """`made`, and from old results, if there are any, what was not measured now, if it still holds;
-    else it is left out."""
+    """Adds to `made` the old results of what was not measured now, if they are still valid."""
     machine = made["machine"]
     dated = [{**group, "date": machine["date"], "load": machine["load"]}
              for group in made["groups"]]

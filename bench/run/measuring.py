@@ -1,4 +1,4 @@
-"""Cases, and how they are measured."""
+"""Cases and their measurement."""
 
 import json
 import os
@@ -14,20 +14,20 @@ ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__)
 
 @dataclass(frozen=True)
 class Place:
-    build: str  # the folder of the programs
-    folder: str  # of files that cases make
+    build: str  # folder of the programs
+    folder: str  # folder of the files of cases
 
     def built(self, name, kind=os.F_OK):
         path = os.path.join(self.build, name)
         if not os.access(path, kind):
-            raise Failure(f"{path} is not there: build it first")
+            raise Failure(f"{path} does not exist: build it first")
         return path
 
     def program(self, name):
         return self.built(name, os.X_OK)
 
     def mesh(self, shape, name):
-        """The file of a generated mesh, made when it is first asked for."""
+        """The file of a generated mesh, which is made on the first call."""
         path = os.path.join(self.folder, name)
         if not os.path.exists(path):
             must([self.program("cli/octetra"), "generate", *shape.split(), "--quiet", "-o", path],
@@ -38,7 +38,7 @@ class Place:
 @dataclass(frozen=True)
 class Run:
     """One of the programs that a case runs in turns. `line` runs it once and returns a dictionary
-    of what it measured."""
+    of its measurements."""
     name: str
     line: Callable[[Place], dict]
     command: str = ""
@@ -46,8 +46,8 @@ class Run:
 
 @dataclass(frozen=True)
 class Figure:
-    """What a case comes to. With a target, the value is to be at most (or at least) that. `spread`:
-    the least and the most of the runs that it is the median of."""
+    """A result of a case. A target is an upper (or lower) bound on the value. `spread`: the minimum
+    and the maximum of the runs whose median is the value."""
     name: str
     value: float
     unit: str
@@ -68,10 +68,9 @@ class Figure:
 
 @dataclass(frozen=True)
 class Case:
-    """`figures` gets the lines of each run, by its name; so do `points`, which returns what is
-    drawn over an axis, a dictionary each, and `wrong`, which returns what must not be, in words.
-    A case whose runs are short has some multiple of the repetitions, one whose runs are long at
-    most so many."""
+    """`figures` receives the lines of each run by name, as do `points`, which returns a list of
+    dictionaries to be plotted over an axis, and `wrong`, which returns descriptions of faults.
+    Cases with short runs have a multiple of the repetitions, those with long runs a maximum."""
     name: str
     runs: list
     figures: Callable[[dict], list]
@@ -95,14 +94,15 @@ BEGUN_AGAIN = "begun_again"
 
 
 def has_crashed(outcome):
-    """By a signal, or in what MPI was asked for; not a program that says itself what is wrong."""
+    """Returns whether the program crashed, by a signal or an MPI error, rather than reporting an
+    error itself."""
     return not 0 <= outcome.status <= 128 or "*** An error occurred in MPI_" in outcome.err
 
 
 def printed_by(command, folder, patience=None):
-    """What a command prints, and how often it was begun again: a program that does not always end,
-    or crashes now and then, is ended after `patience` seconds, if there is such, and begun again up
-    to five times."""
+    """Returns the output of a command, and the number of restarts. With `patience`, a program that
+    sometimes hangs or crashes is ended after this number of seconds and restarted up to five times.
+    """
     if patience is None:
         return must(command, folder), 0
     for times in range(6):
@@ -113,14 +113,14 @@ def printed_by(command, folder, patience=None):
 
 
 def launcher(ranks):
-    """What stands before a program that runs on so many."""
+    """The prefix of a command on this number of ranks."""
     return ["mpirun", "-n", str(ranks)] if ranks > 1 else []
 
 
 def driver(name, program, arguments, ranks=1, mesh=None, patience=None):
-    """A run of a driver that prints JSON. `mesh`, a shape and a file name, is generated before, and
-    is the first argument. With `patience`, see printed_by(), the line says how often it was begun
-    again."""
+    """A run of a driver that prints JSON. `mesh`, a shape and a file name, is generated first and
+    is the first argument. With `patience`, see printed_by(), the line contains the number of
+    restarts."""
     def line(place):
         first = [place.mesh(*mesh)] if mesh else []
         command = [*launcher(ranks), place.program(program), *first, *shlex.split(arguments)]
@@ -136,14 +136,14 @@ def driver(name, program, arguments, ranks=1, mesh=None, patience=None):
 
 
 def script(name, path, arguments, ranks=1, patience=None):
-    """The same of a driver in Python, with the module as it is built."""
+    """The same for a driver in Python, with the module of the build."""
     def line(place):
         place.built("python/octetra/__init__.py")
         command = ["env", "PYTHONPATH=" + os.path.join(place.build, "python"), *launcher(ranks),
                    "/usr/bin/python3", os.path.join(ROOT, path), *shlex.split(arguments), "--json"]
         words, times = printed_by(command, place.folder, patience)
         try:
-            # DOLFINx may tell of forms that it compiles.
+            # DOLFINx may print messages about forms that it compiles.
             return json.loads(words.splitlines()[-1]) | ({BEGUN_AGAIN: times} if patience else {})
         except (ValueError, IndexError) as error:
             raise Failure(f"{path} printed no JSON:\n{words[-300:]}") from error
@@ -153,8 +153,8 @@ def script(name, path, arguments, ranks=1, patience=None):
 
 
 def measure(case, place, repetitions):
-    """The case: how it was run how often, and the figures that follow. What the runs printed is not
-    kept: the figures have its medians, least and most."""
+    """Measures a case: its runs, their numbers and the resulting figures. The output of runs is not
+    kept: the figures have its medians, minima and maxima."""
     lines = {run.name: [] for run in case.runs}
     for _ in range(min(case.multiple * repetitions, case.at_most)):
         for one in case.runs:
@@ -167,25 +167,25 @@ def measure(case, place, repetitions):
 
 
 def inside(line, keys):
-    """The number that stands under these keys."""
+    """The number under these keys."""
     for key in keys:
         line = line[key]
     return line
 
 
 def median(lines, *keys):
-    """Of the number that stands under these keys in every line."""
+    """The median of the number under these keys over all lines."""
     return statistics.median(inside(line, keys) for line in lines)
 
 
 def spread_figure(name, unit, lines, *keys):
-    """The median of that number, with the least and the most."""
+    """The median of that number, with the minimum and the maximum."""
     values = [inside(line, keys) for line in lines]
     return Figure(name, statistics.median(values), unit, spread=(min(values), max(values)))
 
 
 def median_ratio(lines, by_lines, *keys):
-    """Of that number in a line by that in the line of the same turn: what slows the machine down
-    for a while mostly slows both."""
+    """The median ratio of that number to the one in the line of the same turn: temporary load
+    mostly slows both."""
     return statistics.median(inside(line, keys) / inside(by_line, keys)
                              for line, by_line in zip(lines, by_lines, strict=True))

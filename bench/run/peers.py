@@ -1,4 +1,5 @@
-"""Octetra beside DOLFINx: the same mesh from the same file, the same cells chosen, in turns."""
+"""Octetra compared with DOLFINx: the same mesh from the same file, the same cells chosen,
+alternating."""
 
 import os
 
@@ -8,8 +9,8 @@ from running import must, run
 
 OURS, THEIRS = "bench/bench_refine", "bench/peers/peer_dolfinx"
 SPHERE = "0.5,0.5,0.5,0.25"
-# On more ranks than cores DOLFINx now and then never ends, or crashes, in the partitioner.
-PATIENCE = 90  # seconds; it takes 45 where it takes longest
+# On more ranks than cores DOLFINx's partitioner sometimes hangs or crashes.
+PATIENCE = 90  # seconds; the longest run takes 45
 
 
 def name_of(program, ranks):
@@ -28,13 +29,14 @@ def cells_a_second(lines, level):
 
 
 def ratio(lines, level, ranks, clock="seconds"):
-    """Of speeds, ours by theirs. The cells are the same: other_counts() looks at that."""
+    """The ratio of our speed to theirs. The numbers of cells are equal, as checked by
+    other_counts()."""
     ours, theirs = (lines[name_of(program, ranks)] for program in ("octetra", "DOLFINx"))
     return median_ratio(theirs, ours, "levels", level, clock)
 
 
 def other_counts(lines):
-    """Where a run has other cells than the first, a line each: none must."""
+    """Lists the runs whose cells differ from those of the first; there must be none."""
     first_name, first = next(iter(lines.items()))
     expected = [level["cells"] for level in first[0]["levels"]]
     return [f"{name} has {found} cells, {first_name} {expected}"
@@ -68,7 +70,7 @@ def level_figures(least, all_ranks):
 
 
 def bars(lines):
-    """Of the last level."""
+    """The speeds of the last level."""
     return [{"name": name, "cells_a_second": cells_a_second(of_run, -1)}
             for name, of_run in lines.items()]
 
@@ -107,8 +109,8 @@ def bare(cubes):
 
 
 def judged(place, ranks, mesh, levels):
-    """What octetra verify says of DOLFINx's result, and how many cells it has. DOLFINx keeps no
-    markers and turns some cells over, so the coarse mesh goes through its hands, too."""
+    """The verdict of octetra verify on DOLFINx's result, and its number of cells. DOLFINx drops
+    markers and inverts some cells, so the coarse mesh is also converted by it."""
     path = place.mesh(*mesh)
     octetra, theirs = place.program("cli/octetra"), place.program(THEIRS)
     for name, options in (("coarse", ["--levels", "0"]),

@@ -1,4 +1,4 @@
-"""The engine by itself: where everything is refined, some of it, little of it, and cells at random."""
+"""The engine alone, refining everything, a part, a small part, and cells at random."""
 
 import statistics
 
@@ -33,7 +33,8 @@ def speeds(lines):
 
 
 def against_memcpy(lines, into):
-    """Each repetition beside its own copying: the machine's memory is not always equally fast."""
+    """Each repetition is related to its own copying, because the memory bandwidth of the machine
+    varies."""
     return statistics.median(line["levels"][-1]["seconds"] / line["memcpy_seconds"][into]
                              for line in lines)
 
@@ -56,12 +57,12 @@ def uniform(cubes):
         for ranks in RANKS], uniform_figures)
 
 
-# Each with a mesh of its own: no two ranks can do more, and what they lack is the machine's part.
+# Each with its own mesh: an upper bound for two ranks, whose deficit is due to the machine.
 APART = "2 ranks apart"
 
 
 def speed(lines, name, other):
-    """Of one run against another, in cells a second."""
+    """The ratio of the speeds of two runs, in cells per second."""
     cells, other_cells = (lines[run][0]["levels"][-1]["cells"] for run in (name, other))
     return cells / other_cells * median_ratio(lines[other], lines[name], "levels", -1, "seconds")
 
@@ -80,7 +81,7 @@ def at_hand_figures(lines):
 
 
 def uniform_at_hand(cubes, cubes_apart, megabytes):
-    """The same in memory that the process has written to before."""
+    """The same in memory that the process has written before."""
     def options(ranks):
         return f"--warm --memory-at-hand {megabytes // ranks} --json"
     return Case("the same, memory at hand", [
@@ -110,7 +111,7 @@ def sphere_figures(lines):
 
 
 def per_new_cell(lines):
-    """Seconds of the processor, over all levels."""
+    """Processor seconds over all levels."""
     levels = range(len(lines[0]["levels"]))
     used = sum(median(lines, "levels", level, "processor_seconds") for level in levels)
     return used / (lines[0]["levels"][-1]["cells"] - lines[0]["levels"][0]["before"])
@@ -126,7 +127,7 @@ def sphere(cubes):
 
 
 def shares(lines):
-    """Of each level, in the time of a uniform one: medians over the repetitions."""
+    """The time of each level relative to a uniform one: medians over the repetitions."""
     return [statistics.median(line["levels"][level]["processor_seconds"]
                               / line["uniform"]["processor_seconds"] for line in lines)
             for level in range(len(lines[0]["levels"]))]
@@ -168,7 +169,7 @@ def random_cells_figures(lines):
 
 
 def share(line):
-    """Of the time of all phases, the part in which ranks told each other, or waited for it."""
+    """The fraction of the time of all phases that ranks spent communicating or waiting."""
     profile = line["profile"]
     return profile["synchronising_seconds"] / (profile["computing_seconds"]
                                                + profile["communicating_seconds"])

@@ -4,7 +4,7 @@ from machine import is_busy, known
 
 
 def number(value):
-    """To three digits, or whole where it is large or counts something."""
+    """With three digits; as a whole number if it is large or a count."""
     if isinstance(value, int) or abs(value) >= 1000:
         return f"{value:,.0f}"
     return f"{value:.3g}"

@@ -1,4 +1,4 @@
-"""Where and when it was measured, what, and built by what."""
+"""Time, machine, program and compiler of the measurement."""
 
 import glob
 import os
@@ -7,12 +7,12 @@ import subprocess
 import machine
 from machine import ROOT, first_match
 
-# What a run of the benchmarks changes itself.
+# Files that a run of the benchmarks changes itself.
 OWN = (":!bench/results.json", ":!bench/RESULTS.md")
 
 
 def commit():
-    """The commit, with a remark where the checkout differs from it; None outside of git."""
+    """The commit, with a remark if the checkout differs from it; None outside git."""
     name = machine.first_line(["git", "-C", ROOT, "rev-parse", "--short=12", "HEAD"])
     if name is None:
         return None
@@ -22,7 +22,7 @@ def commit():
 
 
 def compiler(build):
-    """As CMake found it, "GNU 12.2.0"; None where it is not known."""
+    """The compiler found by CMake, such as "GNU 12.2.0"; None if unknown."""
     for path in glob.glob(os.path.join(build, "CMakeFiles", "*", "CMakeCXXCompiler.cmake")):
         parts = [first_match(path, rf'^set\(CMAKE_CXX_COMPILER_{part} "(.*)"\)$')
                  for part in ("ID", "VERSION")]

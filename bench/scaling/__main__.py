@@ -1,10 +1,10 @@
-"""What refinement would take on a cluster: a model, fed with what ranks are measured to do on one machine.
+"""Predicts refinement on a cluster by a model, from measurements of ranks on one machine.
 
 usage: scaling measure [--build FOLDER] [--ranks N...]    into bench/scaling/measured.json
        scaling page                                      from it, docs/scaling.md and docs/scaling.svg
 
-Of each rank are measured the seconds of a processor outside MPI, messages, bytes, and calls in which all take
-part. They are of so many ranks on few cores; the model adds what a network would take.
+For each rank the processor seconds outside MPI, messages, bytes, and collective calls are measured,
+with many ranks on few cores; the model adds the cost of a network.
 """
 import argparse
 import json
@@ -24,14 +24,14 @@ CASES = {"uniform": "all cells, one level",
          "moving": "the same, then three times coarsened behind and refined ahead as it moves"}
 MOST_MOVING = 64  # more take minutes: ranks wait for each other a thousand times, on few cores
 STAGES = ("reading", "adapting", "writing")
-ALONE = {9: 256, 14: 64, 22: 16, 35: 4}  # lattices that are about a part of the mesh on so many ranks
+ALONE = {9: 256, 14: 64, 22: 16, 35: 4}  # lattices about as large as a part on this number of ranks
 FASTER = 3  # than the machine of the measurement
 WEAK_CELLS, STRONG_CELLS = 1e6, 1e9
 RANKS = [16, 64, 256, 1024, 4096, 16384]
 
 
 def use_all_memory_once():
-    """Pages that a virtual machine has never used take several times as long to come."""
+    """The first use of a page takes several times as long in a virtual machine."""
     with open("/proc/meminfo", encoding="ascii") as file:
         free = next(int(line.split()[1]) * 1024 for line in file if line.startswith("MemAvailable"))
     size = free * 8 // 10
@@ -64,7 +64,7 @@ def measure(build, ranks):
 
 
 def most_of(run):
-    """Of the ranks the greatest of everything: the slowest is waited for."""
+    """The maximum over the ranks of each quantity, because all wait for the slowest."""
     short = {key: run[key] for key in ("case", "ranks", "cells_read", "cells", "most_cells")}
     short["peak_memory_bytes"] = max(run["peak_memory_bytes"])
     for stage in STAGES:

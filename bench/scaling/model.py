@@ -1,8 +1,9 @@
-"""LogGP (Alexandrov, Ionescu, Schauser, Scheiman 1995) with reductions: the seconds of one stage on P ranks are
+"""LogGP (Alexandrov, Ionescu, Schauser, Scheiman 1995) with reductions: the seconds of one stage on
+P ranks are
 
-    computing(cells of a rank) + messages * 2 o + calls of all * (L + reduction(P)) + bytes * G
+    computing(cells of a rank) + messages * 2 o + collective calls * (L + reduction(P)) + bytes * G
 
-each of the rank that has most of it, as if one rank had most of all.
+where each quantity is the maximum over the ranks, as if one rank had all maxima.
 """
 import dataclasses
 import math
@@ -10,7 +11,7 @@ import math
 
 @dataclasses.dataclass(frozen=True)
 class Network:
-    """Of a cluster: seconds."""
+    """The parameters of a cluster, in seconds."""
     latency: float       # L
     overhead: float      # o, of a message at each end
     byte: float          # G of a node's link, times the ranks that share it
@@ -23,7 +24,8 @@ HIGH = Network(1.5e-6, 0.5e-6, 0.1e-9 * RANKS_OF_A_NODE, 25e-6)
 
 
 def between(points, x):
-    """Through the neighbours of x among (x, y), in logarithms; beyond them in proportion to x."""
+    """Interpolates (x, y) between the points adjacent to x, in logarithms; extrapolates in
+    proportion to x."""
     points = sorted(points)
     if x >= points[-1][0]:
         return points[-1][1] * x / points[-1][0]
@@ -35,7 +37,7 @@ def between(points, x):
 
 
 def with_ranks(points, ranks):
-    """Between what was measured, by the logarithm of ranks; beyond it as between the last two."""
+    """Interpolates between measurements by the logarithm of ranks; extrapolates from the last two."""
     points = sorted(points)
     k = next((i for i in range(1, len(points) - 1) if ranks <= points[i][0]), len(points) - 1)
     (n0, y0), (n1, y1) = points[k - 1], points[k]
@@ -43,10 +45,12 @@ def with_ranks(points, ranks):
 
 
 class Stage:
-    """What the runs of one case measured of a stage, as functions of ranks, or of the cells of a rank."""
+    """The measurements of a stage in the runs of one case, as functions of ranks, or of the cells
+    of a rank."""
 
     def __init__(self, runs, stage, alone=()):
-        """`alone`: runs of one rank whose mesh is as large as a part, to know what a part takes that shares no caches."""
+        """`alone`: runs of one rank whose mesh is as large as a part, for the cost of a part
+        without shared caches."""
         def points(x, key, least_ranks):
             return [(x(run), run[stage][key]) for run in runs if run["ranks"] >= least_ranks]
 
@@ -62,11 +66,11 @@ class Stage:
         return between(self._computing, cells)
 
     def seconds_of_a_cell(self):
-        """At the best of what was measured with half a million cells a rank or more."""
+        """The best time measured with half a million cells per rank or more."""
         return min(y / x for x, y in self._computing if x >= 5e5)
 
     def messages(self, ranks):
-        """Growing beyond what was measured as they did at last, to a power of ranks."""
+        """Extrapolates beyond the measurements by the last power of ranks."""
         most = max(n for n, _ in self._messages)
         if ranks <= most:
             return with_ranks(self._messages, ranks)
@@ -74,7 +78,8 @@ class Stage:
         return last[1] * (ranks / most) ** (math.log(last[1] / before[1]) / math.log(most / before[0]))
 
     def seconds(self, cells, ranks, network, faster=1):
-        """Of a rank with that many cells, one of so many; with processors so many times as fast."""
+        """The seconds of a rank with this number of cells; `faster` is the speed of processors
+        relative to those measured."""
         if ranks == 1:
             return self.computing(cells) / faster
         reduction = network.reduction * math.log2(ranks) / 10
@@ -85,10 +90,10 @@ class Stage:
 
 
 def weak_efficiency(stage, cells, ranks, network, faster=1):
-    """Against one rank with as many cells, which sends nothing."""
+    """Relative to one rank with as many cells, which sends nothing."""
     return stage.computing(cells) / faster / stage.seconds(cells, ranks, network, faster)
 
 
 def strong_efficiency(stage, cells, ranks, network):
-    """Against one rank with all cells, if it took no longer for each than it does at best."""
+    """Relative to one rank with all cells, at the best time per cell."""
     return stage.seconds_of_a_cell() * cells / ranks / stage.seconds(cells / ranks, ranks, network)

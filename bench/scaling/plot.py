@@ -1,4 +1,4 @@
-"""Efficiency against ranks, as an SVG."""
+"""Efficiency over ranks, as an SVG."""
 import math
 
 WIDTH, HEIGHT, LEFT, TOP, GAP = 330, 230, 48, 34, 70

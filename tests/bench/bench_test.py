@@ -1,4 +1,4 @@
-"""What ./dev bench makes of what its programs print, and that they print it."""
+"""Tests of the results that ./dev bench makes from the output of its programs, and of that output."""
 
 import copy
 import json
@@ -42,7 +42,8 @@ class Slopes(unittest.TestCase):
 
 
 class Tries(unittest.TestCase):
-    # Waits as often as the first word says, of which a file keeps count, and then prints.
+    # Waits in its first runs, up to the number in the first argument (a file keeps count), and then
+    # prints.
     WAITS = ("n=$(cat count 2>/dev/null || echo 0); echo $((n + 1)) > count; "
              "if [ $n -lt $0 ]; then exec sleep 60; fi; echo done; exit $1")
 
@@ -55,22 +56,22 @@ class Tries(unittest.TestCase):
                 with open(os.path.join(folder, "count"), encoding="utf-8") as count:
                     self.assertEqual(int(count.read()), tries)
 
-    def test_of_what_does_not_end_are_several(self):
+    def test_of_hanging_programs_are_several(self):
         self.assertEqual(self.printed(2, 0, 0.5, tries=3), ("done\n", 2))
         self.assertEqual(self.printed(0, 0, 0.5), ("done\n", 0))
 
-    def test_of_what_never_ends_are_six(self):
+    def test_of_programs_that_always_hang_are_six(self):
         with self.assertRaisesRegex(Failure, "ended after 0.2 s"):
             self.printed(9, 0, 0.2, tries=6)
 
-    def test_of_what_crashes_are_several(self):
+    def test_of_crashing_programs_are_several(self):
         for end in ("kill -SEGV $$", "exit 139",
                     "echo '*** An error occurred in MPI_Waitany' >&2; exit 15"):
             with tempfile.TemporaryDirectory() as folder:
                 words = f"if [ -e was ]; then echo done; exit; fi; touch was; {end}"
                 self.assertEqual(printed_by(["sh", "-c", words], folder, 5), ("done\n", 1), end)
 
-    def test_of_what_fails_are_one(self):
+    def test_of_failing_programs_are_one(self):
         with self.assertRaisesRegex(Failure, "status 3"):
             self.printed(0, 3, 0.5)
         with self.assertRaisesRegex(Failure, "status 3"):
@@ -86,7 +87,7 @@ class SentencesOfPages(unittest.TestCase):
     def test_have_the_figures_that_they_ask_for(self):
         self.assertEqual(self.told("It is @times a/b@ and\nat most @most times a/b@."), "It is 0.5 to 12.3 and at most 12.3.\n")
 
-    def test_stand_only_while_their_conditions_hold(self):
+    def test_are_kept_only_while_their_conditions_hold(self):
         self.assertEqual(self.told("So.\n<!-- holds: times a/b > 0.4 -->\n<!-- holds: some times a/b < 1 -->\n"), "So.\n")
         for wrong in ("times a/b > 0.6", "some times a/b < 0.5", "times a/b = 0.5", "none > 0"):
             with self.assertRaisesRegex(prose.NotTrue, "line 2: "):
@@ -99,7 +100,7 @@ class SentencesOfPages(unittest.TestCase):
 
 
 class Figures(unittest.TestCase):
-    def test_are_medians_of_runs_in_turns(self):
+    def test_are_medians_of_alternating_runs(self):
         order, values = [], {"a": iter([9, 1, 3]), "b": iter([2, 2, 8])}
 
         def run(name):
@@ -115,26 +116,26 @@ class Figures(unittest.TestCase):
         self.assertEqual([figure["value"] for figure in made["figures"]], [3, 2])
         self.assertEqual([run["times"] for run in made["runs"]], [3, 3])
 
-    def test_of_one_against_another_compare_what_ran_in_the_same_turn(self):
-        # Twice as fast throughout, while the machine was slow for the one in its second turn, and
-        # for the other in its third.
+    def test_of_ratios_compare_runs_of_the_same_turn(self):
+        # Twice as fast throughout, but the machine was slow in the second turn of the one and in
+        # the third turn of the other.
         slow, fast = [{"s": 10}, {"s": 30}, {"s": 10}], [{"s": 5}, {"s": 5}, {"s": 15}]
         self.assertEqual(median_ratio(slow, fast, "s"), 2)
         with self.assertRaises(ValueError):
             median_ratio(slow, fast[:2], "s")
 
-    def test_of_short_runs_come_from_more_of_them(self):
+    def test_of_short_runs_use_more_repetitions(self):
         case = Case("short", [Run("a", lambda _: {})], lambda lines: [], multiple=3)
         self.assertEqual(measure(case, None, 5)["runs"][0]["times"], 15)
 
-    def test_say_how_far_runs_lie_apart(self):
+    def test_show_the_dispersion_of_runs(self):
         lines = [{"s": value} for value in (3, 1, 8)]
         case = {"name": "a case", "figures": [spread_figure("time", "s", lines, "s").as_dict()]}
         self.assertEqual(list(results.rows(case, quick=False)),
                          ["| a case | time | 3 s (1 to 8) |  |  |"])
 
     def test_count_the_time_of_files_once(self):
-        # While one rank reads, the other waits for it.
+        # While one rank reads, the other waits.
         def of_rank(*seconds):
             return {"of_rank": seconds}
         profile = {"phases": [
@@ -178,7 +179,7 @@ class Figures(unittest.TestCase):
         lines["DOLFINx, 2 ranks"] = self.adaptive_run([2, 9], 60)
         self.assertEqual(adaptive.other_cells(lines), ["DOLFINx, 2 ranks has [2, 9] cells, not [2, 8]"])
 
-    def test_of_what_takes_long_come_from_few_runs(self):
+    def test_of_long_runs_use_few_repetitions(self):
         case = Case("long", [Run("a", lambda _: {})], lambda lines: [], at_most=1)
         self.assertEqual(measure(case, None, 5)["runs"][0]["times"], 1)
 
@@ -200,7 +201,7 @@ class Table(unittest.TestCase):
     def table(self, **options):
         return results.results(kept.with_old(made(**options), None, groups.NAMES))
 
-    def test_says_what_is_met_and_what_is_not(self):
+    def test_reports_which_targets_are_met(self):
         self.assertIn("| a case | time | 1 s | at most 2 s | met |", self.table())
         self.assertIn("| a case | time | 3 s | at most 2 s | **not met** |", self.table(value=3.0))
 
@@ -226,7 +227,7 @@ class OldResults(unittest.TestCase):
         both = self.names_with(made(names=("peers", "files")), made(names=("growth", "files")))
         self.assertEqual(both, ["growth", "files", "peers"])
 
-    def test_stay_in_the_place_of_their_case(self):
+    def test_stay_at_the_position_of_their_case(self):
         def cases(*names_and_values):
             return [{"name": name, "value": value} for name, value in names_and_values]
         self.assertEqual(kept.merged(cases(("a", 1), ("b", 1)), cases(("c", 2), ("a", 2))),
@@ -245,7 +246,7 @@ class OldResults(unittest.TestCase):
 
 
 class Programs(unittest.TestCase):
-    """The smallest meshes, with the programs as they are built."""
+    """The smallest meshes, with the programs as built."""
 
     def run_only(self, folder, *only):
         return subprocess.run([sys.executable, RUN, "--build", os.environ["OCTETRA_BUILD"],
@@ -262,13 +263,13 @@ class Programs(unittest.TestCase):
                 self.assertIn("| case | figure | value |", file.read())
         return {case["name"]: case for group in found["groups"] for case in group["cases"]}
 
-    def test_print_what_is_read(self):
+    def test_print_valid_output(self):
         cases = self.cases_of("growth", "around a point", "sphere", "whole program")
         for name in ("with cells", "with cells, memory at hand"):
             self.assertEqual([p["cells"] for p in cases[name]["points"]],
                              [8 * 6 * n ** 3 for n in (6, 12, 24)])
         self.assertEqual([p["ranks"] for p in cases["with ranks"]["points"]], [1, 2, 4])
-        # One rank has nobody to tell; two have.
+        # One rank has no other to communicate with; two have.
         self.assertEqual(cases["with ranks"]["points"][0]["bytes"], 0)
         self.assertGreater(cases["with ranks"]["points"][1]["bytes"], 0)
         self.assertEqual(len(cases["around a point"]["points"]), 4)
@@ -286,7 +287,7 @@ class Programs(unittest.TestCase):
             for figure in case["figures"]:
                 self.assertGreaterEqual(figure["value"], 0, figure)
 
-    def test_say_where_there_is_no_such_case(self):
+    def test_report_missing_cases(self):
         with tempfile.TemporaryDirectory() as folder:
             done = self.run_only(folder, "nonsense")
         self.assertEqual(done.returncode, 2)
@@ -298,10 +299,10 @@ class Rival(unittest.TestCase):
         return subprocess.run([sys.executable, os.path.join(ROOT, "bench", "rivals"), *arguments],
                               stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, check=False)
 
-    def test_has_a_page_made_of_what_was_measured(self):
+    def test_has_a_page_generated_from_measurements(self):
         self.assertEqual(self.rivals("check").returncode, 0)
 
-    def test_refuses_what_it_does_not_know(self):
+    def test_refuses_unknown_entries(self):
         self.assertEqual(self.rivals("measure", "--slow").returncode, 2)
 
 
@@ -310,10 +311,10 @@ class Paper(unittest.TestCase):
         return subprocess.run([sys.executable, os.path.join(ROOT, "bench", "paper"), *arguments],
                               stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, check=False)
 
-    def test_has_a_page_made_of_what_was_measured(self):
+    def test_has_a_page_generated_from_measurements(self):
         self.assertEqual(self.paper("check").returncode, 0)
 
-    def test_refuses_what_it_does_not_know(self):
+    def test_refuses_unknown_entries(self):
         self.assertEqual(self.paper("measure", "--slow").returncode, 2)
 
     def test_finds_the_counts_that_it_foresees(self):
@@ -323,7 +324,7 @@ class Paper(unittest.TestCase):
 
 
 class Closure(unittest.TestCase):
-    """Of the sweeps that bench/paper counts."""
+    """Tests of the sweeps counted by bench/paper."""
     # A cell whose edges are all of different lengths, and one behind the face 0 1 2.
     POINTS = [(0, 0, 0), (8, 0, 0), (1, 6, 0), (2, 1, 5), (2, 2, -9)]
     CELLS = [(0, 1, 2, 3), (0, 1, 2, 4)]
@@ -331,7 +332,8 @@ class Closure(unittest.TestCase):
     def test_marks_the_longest_edges_of_faces(self):
         edges = propagation.Edges(self.POINTS, self.CELLS)
         closed, sweeps = propagation.closure(edges, {edges.number[0, 3]})
-        # Of its faces 0 1 is the longest, and 2 3; from there 1 2, and 1 4 of the other cell.
+        # Of its faces 0 1 is the longest edge, and 2 3; from there closure marks 1 2, and 1 4 of
+        # the other cell.
         self.assertEqual(closed, {edges.number[edge] for edge in [(0, 3), (0, 1), (2, 3), (1, 2), (1, 4)]})
         self.assertEqual(sweeps, 2)
 
@@ -341,7 +343,8 @@ class Closure(unittest.TestCase):
 
     def test_is_in_the_strict_order_where_lengths_tie(self):
         edges = propagation.Edges([(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)], [(0, 1, 2, 3)])
-        # Of equal edges the one whose smaller end is larger is the longer one: (0,1,0) to (1,0,0), not (0,0,1).
+        # Among equal edges the one whose smaller end is larger is the longer one: (0,1,0) to
+        # (1,0,0), not (0,0,1).
         self.assertGreater(edges.number[1, 2], edges.number[1, 3])
         self.assertGreater(edges.number[1, 3], edges.number[2, 3])
 

@@ -13,7 +13,7 @@
 
 #include "cli/octetra_program.hpp"
 
-/// octetra adapt: steps of a script are what the subcommands of the same names do, on any number of
+/// octetra adapt: the steps of a script equal the subcommands of the same names, on any number of
 /// ranks.
 namespace octetra {
 namespace {
@@ -46,7 +46,7 @@ protected:
 
 struct History {
     std::string script;
-    std::vector<std::string> counts;  ///< what the report says after each step
+    std::vector<std::string> counts;  ///< the counts that the report prints after each step
 };
 
 std::string counted(const std::string& vertices, const std::string& cells) {
@@ -54,7 +54,7 @@ std::string counted(const std::string& vertices, const std::string& cells) {
            std::string(13 - cells.size(), ' ') + cells + " cells";
 }
 
-/// Counts that an independent program has found.
+/// Counts computed by an independent program.
 const std::vector<History> histories{
     {"refine --sphere .3,.4,.5,.3\n"
      "refine --sphere .3,.4,.5,.2\n"
@@ -82,7 +82,7 @@ TEST_F(Adapt, HasTheCountsThatWereFoundIndependently) {
         ASSERT_EQ(run.status, 0) << run.err;
         std::istringstream lines(run.out);
         std::string line;
-        std::getline(lines, line);  // read
+        std::getline(lines, line);  // the line "read"
         for (const std::string& count : counts) {
             std::getline(lines, line);
             EXPECT_THAT(line, HasSubstr(count));
@@ -105,7 +105,7 @@ TEST_F(Adapt, RefinesAsTheSubcommandDoes) {
     }
 }
 
-/// Where all steps refine, each may as well be done by itself, to what the one before has written.
+/// If all steps refine, each may also be run separately on the file written by the previous one.
 TEST_F(Adapt, RefinesOnAsIfTheMeshHadBeenWrittenAndReadAgain) {
     (void)folder.write("cells.txt", "1 2 700 5001");
     run("refine m.ele -o one.ele --sphere 0,0,0,0.4");
@@ -135,7 +135,7 @@ TEST_F(Adapt, CoarsensListedCellsAndThoseOutside) {
         (c < count / 2 ? low : high) += std::to_string(c) + "\n";
     (void)folder.write("low.txt", low);
     (void)folder.write("high.txt", high);
-    // What is inside of one is outside of the rest, by any criterion.
+    // For each criterion, cells inside one region are those outside its complement.
     const std::vector<std::pair<std::string, std::string>> alike{
         {"coarsen --box 0,0,0,1,1,0.15", "coarsen --outside --box 0,0,0.1500000001,1,1,1"},
         {"coarsen --cells low.txt", "coarsen --outside --cells high.txt"},
@@ -179,7 +179,7 @@ TEST_F(Adapt, WritesTheSameBytesOnAnyNumberOfRanks) {
     }
 }
 
-/// A corner of few cells of the input, ever finer.
+/// Steps that approach a corner, which few cells of the input contain.
 std::string to_the_corner(int steps) {
     std::string script;
     double radius = 0.9;
@@ -211,7 +211,7 @@ TEST_F(Adapt, MakesRanksEvenWhereOneCornerHasMostOfTheCells) {
     }
 }
 
-/// Ranks become even all the same, but for --series, which tells the history at each step.
+/// Ranks are balanced all the same, except with --series, which writes the history at each step.
 TEST_F(Adapt, RecallsTheHistoryForStepsAndFilesThatNeedIt) {
     run("generate kuhn 2 -o coarse.mesh");
     const std::string corner = to_the_corner(6);
@@ -284,7 +284,7 @@ TEST_F(Adapt, WritesTheSameBytesByTheReference) {
     }
 }
 
-TEST_F(Adapt, WritesParentsAndSaysTheSameByTheReference) {
+TEST_F(Adapt, WritesParentsAndTheSameReportByTheReference) {
     const auto run_by = [&](const std::string& engine, const std::string& name) {
         const auto run = test::octetra("adapt m.ele --script s.txt -o " + name + engine, folder);
         expect_done(run);
@@ -307,7 +307,7 @@ TEST_F(Adapt, WritesParentsAndSaysTheSameByTheReference) {
     }
 }
 
-TEST_F(Adapt, RefusesWhatTheReferenceCannotDo) {
+TEST_F(Adapt, RefusesOptionsThatTheReferenceDoesNotSupport) {
     const std::string refine = "refine --all\n";
     run("convert kuhn.mesh kuhn.octetra");
     for (const auto& [mesh, script, options, words] : std::vector<std::array<std::string, 4>>{
@@ -365,7 +365,7 @@ TEST_F(Adapt, VerifiesTheResultAndWritesOnlyWhatIsValid) {
     const std::string steps =
         "refine --sphere 0,0,0,0.4 --levels 2\ncoarsen --outside --sphere 0,0,0,0.2\n";
     (void)folder.write("s.txt", steps);
-    // Three cells at one face can be read and refined, but that is no mesh.
+    // Three cells at one face can be read and refined, but are not a valid mesh.
     (void)folder.write("three.node",
                        "6 3 0 0\n0 0 0 0\n1 1 0 0\n2 0 1 0\n3 0 0 1\n4 0 0 -1\n5 2 2 1\n");
     (void)folder.write("three.ele", "3 4 0\n0 0 1 2 3\n1 0 2 1 4\n2 0 1 2 5\n");

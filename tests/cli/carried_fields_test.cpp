@@ -20,7 +20,7 @@
 
 #include "cli/octetra_program.hpp"
 
-/// Fields of checkpoints, which programs have saved, where octetra goes on with the mesh.
+/// Fields that programs have saved in checkpoints, transferred by the commands of octetra.
 namespace octetra {
 namespace {
 
@@ -36,7 +36,7 @@ struct State {
     std::vector<Field> fields;
 };
 
-/// Values by place: on vertices, of a function that is linear; on cells, any.
+/// Values by coordinates: a linear function on vertices, an arbitrary one on cells.
 template <class T>
 std::vector<T> linear(const AdaptiveMesh& mesh) {
     std::vector<T> values;
@@ -72,7 +72,7 @@ protected:
         AdaptiveMesh mesh = AdaptiveMesh::load(Communicator(), folder / name, {}, &fields);
         return {std::move(mesh), std::move(fields)};
     }
-    /// Gives a checkpoint fields of every kind.
+    /// Adds fields of every kind to a checkpoint.
     void add_fields(const std::string& name, const std::string& with_fields) const {
         const AdaptiveMesh mesh = load(name).mesh;
         const std::size_t cells = mesh.cells().size();
@@ -87,7 +87,7 @@ protected:
             {"N", FieldOn::cells, 1, std::vector<std::int64_t>(cells, std::int64_t{1} << 40)}};
         mesh.save(folder / with_fields, fields);
     }
-    /// The parents that a file of --maps has.
+    /// The parents listed in a file of --maps.
     [[nodiscard]] std::vector<std::size_t> parents_in(const std::string& name) const {
         std::ifstream in(folder / name);
         std::string word;
@@ -153,8 +153,8 @@ TEST_F(CarriedFields, AreMeansAtMidpointsAndTheParentsOnCells) {
     }
 }
 
-/// The mean of the pieces of each parent, weighted by volumes and summed from the least value to
-/// the greatest. A piece has the volume of its parent divided by a power of two.
+/// The mean over the children of each parent, weighted by volume and summed in ascending order. The
+/// volume of a child is that of its parent divided by a power of two.
 std::vector<double> means(const std::vector<double>& values, const AdaptiveMesh& pieces,
                           const std::vector<std::size_t>& parents) {
     std::map<std::size_t, std::vector<std::pair<double, double>>> of_parents;  // value, volume
@@ -182,7 +182,7 @@ TEST_F(CarriedFields, StayOnVerticesAndAreMeansOfCellsThatBecomeOne) {
     run("refine m.octetra --sphere 0.1,0.2,0.3,0.4 -o fine.octetra --maps p.txt");
     add_fields("fine.octetra", "s.octetra");
     State before = load("s.octetra");
-    // One piece of one cell has another value, so one process alone has met it.
+    // One child of one cell has another value, so a single process meets it.
     const std::vector<std::size_t> parents = parents_in("p.txt");
     std::vector<std::int64_t> but_one(parents.size(), 5);
     but_one[static_cast<std::size_t>(std::ranges::adjacent_find(parents) - parents.begin())] = 6;
@@ -205,8 +205,9 @@ TEST_F(CarriedFields, StayOnVerticesAndAreMeansOfCellsThatBecomeOne) {
     }
 }
 
-/// What was copied to the pieces comes back to the bit, though thirds of it do not sum up.
-TEST_F(CarriedFields, AreAsTheyWereWhereRefinementIsTakenBack) {
+/// Values that were copied to children are restored bit by bit, although thirds of them do not sum
+/// exactly.
+TEST_F(CarriedFields, AreRestoredWhereRefinementIsTakenBack) {
     add_fields("m.octetra", "s.octetra");
     (void)folder.write("s.txt", std::string(refined) + "\ncoarsen --all --levels 2\n");
     run("adapt s.octetra --script s.txt -o t.octetra");
@@ -260,7 +261,8 @@ TEST_F(CarriedFields, ThatTheFormatCannotHoldAreNamed) {
         "Medit mesh\n");
 }
 
-/// VTK reads the files, and another program than Octetra the checkpoint that they are held against.
+/// VTK reads the files, and a program independent of Octetra the checkpoint with which they are
+/// compared.
 void expect_fields_in(const TemporaryFolder& folder, const std::string& files) {
     const auto checked =
         test::run_program(test::words("/usr/bin/python3 " OCTETRA_SOURCE_DIR
@@ -293,7 +295,7 @@ TEST_F(CarriedFields, AreReadByVtkInItsFormats) {
     expect_fields_in(folder, "mid.octetra c.vtkhdf c.pvtu");
 }
 
-/// Names that mean something in XML or HDF5, and those of the mesh's own arrays.
+/// Names with special characters of XML or HDF5, and names of the mesh's own arrays.
 TEST_F(CarriedFields, OfAnyNameAreReadByVtk) {
     const AdaptiveMesh mesh = load("m.octetra").mesh;
     const std::size_t cells = mesh.cells().size();

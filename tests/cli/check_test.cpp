@@ -6,7 +6,7 @@
 
 #include "cli/octetra_program.hpp"
 
-/// octetra refine --check: the input is judged before it is refined.
+/// octetra refine --check: the input is verified before it is refined.
 namespace octetra {
 namespace {
 
@@ -15,7 +15,7 @@ using test::TemporaryFolder;
 using testing::HasSubstr;
 using testing::Not;
 
-/// A mesh that can be read, and what verify finds wrong with it.
+/// A mesh that can be read, and the fault that verify reports.
 struct Fault {
     std::string what;
     std::string node;
@@ -48,7 +48,7 @@ protected:
         EXPECT_FALSE(std::filesystem::exists(folder / "out.ele"));
         EXPECT_FALSE(std::filesystem::exists(folder / "out.node"));
     }
-    /// What is printed, but for how many decisions took which arithmetic, and the line "read".
+    /// The output without the count of decisions by kind of arithmetic and without the line "read".
     static std::string verdict(const std::string& out) {
         std::istringstream lines(out);
         std::string kept;
@@ -64,7 +64,7 @@ protected:
     const std::string refine = "refine in.ele --all -o out.ele";
 };
 
-TEST_F(Check, RefusesWhatReadingDoesNotSeeAndSaysWhatVerifySays) {
+TEST_F(Check, RefusesFaultsThatReadingDoesNotDetectWithTheVerdictOfVerify) {
     for (const Fault& fault : faults) {
         SCOPED_TRACE(fault.what + "\n" + fault.node);
         write(fault);
@@ -85,7 +85,7 @@ TEST_F(Check, RefusesWhatReadingDoesNotSeeAndSaysWhatVerifySays) {
     }
 }
 
-TEST_F(Check, SaysTheSameOnSeveralRanks) {
+TEST_F(Check, GivesTheSameVerdictOnSeveralRanks) {
     for (const Fault& fault : faults) {
         SCOPED_TRACE(fault.what + "\n" + fault.node);
         write(fault);
@@ -113,7 +113,7 @@ TEST_F(Check, OfAValidMeshChangesNothing) {
     EXPECT_EQ(test::octetra(refine + " --check --quiet", folder).out, "");
 }
 
-TEST_F(Check, JudgesCellsAsTheyAreOnceTheyAreTurnedRound) {
+TEST_F(Check, ChecksCellsAfterTheirOrientationIsCorrected) {
     write({"", "4 3\n0 0 0 0\n1 1 0 0\n2 0 1 0\n3 0 0 1\n", "1 4\n0 1 0 2 3\n"});
     EXPECT_EQ(test::octetra(refine + " --check", folder).status, 2);
     EXPECT_EQ(test::octetra(refine + " --check --fix-orientation", folder).status, 0);

@@ -36,7 +36,7 @@ protected:
     const TemporaryFolder folder;
 };
 
-/// Each step by itself, from file to file, and all of them by one script; on any number of ranks.
+/// Single steps from file to file, and one script with all of them, on any number of ranks.
 TEST_F(Checkpoints, OfSingleStepsAreThoseOfAScript) {
     (void)folder.write("cells.txt", "0 7 3000");
     const std::vector<std::string> steps{"refine --sphere 0,0,0,0.4 --levels 2",

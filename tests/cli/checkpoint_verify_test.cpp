@@ -21,7 +21,7 @@ protected:
         run("generate two-material -o m.ele");
         run("refine m.ele --sphere 0,0,0,0.4 -o s.octetra");
         run("refine m.ele --sphere 0,0,0,0.4 -o s.ele");
-        // Three cells at one face can be read and refined, but that is no mesh.
+        // Three cells at one face can be read and refined, but are not a valid mesh.
         (void)folder.write("three.node",
                            "6 3 0 0\n0 0 0 0\n1 1 0 0\n2 0 1 0\n3 0 0 1\n4 0 0 -1\n5 2 2 1\n");
         (void)folder.write("three.ele", "3 4 0\n0 0 1 2 3\n1 0 2 1 4\n2 0 1 2 5\n");
@@ -40,7 +40,7 @@ protected:
     void expect_same(const std::string& a, const std::string& b) const {
         EXPECT_TRUE(test::content_of(folder / a) == test::content_of(folder / b)) << a << " " << b;
     }
-    /// Nothing is written, and stdout says why.
+    /// Checks that nothing is written and that stdout gives the reason.
     void expect_no(const std::string& command, int ranks, int status,
                    const std::string& why) const {
         SCOPED_TRACE(command);
@@ -55,7 +55,7 @@ protected:
     const TemporaryFolder folder;
 };
 
-/// What refine does to a file of the same cells is what it does to the mesh with its history.
+/// Refinement of a mesh with its history equals that of a file with the same cells.
 TEST_F(CheckpointResults, OfRefinementHaveTheMapsOfTheMeshThatWasRead) {
     (void)folder.write("cells.txt", "0 7 3000");
     for (const std::string options :
@@ -77,7 +77,7 @@ TEST_F(CheckpointResults, OfRefinementHaveTheMapsOfTheMeshThatWasRead) {
               "octetra: --maps: x.ele is the name of a mesh file; choose another\n");
 }
 
-TEST_F(CheckpointResults, OfRefinementAreJudgedByTheMeshThatWasRead) {
+TEST_F(CheckpointResults, OfRefinementAreVerifiedAgainstTheMeshThatWasRead) {
     run("refine s.octetra --sphere 0.1,0,0,0.3 --scheme 2t --levels 2 -o plain.octetra");
     for (const int ranks : {0, 3}) {
         SCOPED_TRACE(ranks);
@@ -98,7 +98,7 @@ TEST_F(CheckpointResults, OfRefinementAreJudgedByTheMeshThatWasRead) {
     }
 }
 
-TEST_F(CheckpointResults, OfCoarseningAreJudgedByTheMeshThatWasRead) {
+TEST_F(CheckpointResults, OfCoarseningAreVerifiedAgainstTheMeshThatWasRead) {
     (void)folder.write("cells.txt", "0 7 3000 3001");
     run("refine s.octetra --sphere 0.1,0,0,0.3 -o f.octetra");
     for (const int ranks : {0, 3}) {

@@ -38,7 +38,7 @@ TEST(Convert, ToABinaryMeditFileAndBackGivesTheSameText) {
     EXPECT_EQ(test::octetra("compare gear.mesh gear.meshb", folder).status, 0);
 }
 
-TEST(Convert, SaysWhatTheFormatCannotHold) {
+TEST(Convert, ReportsDataThatTheFormatCannotStore) {
     const TemporaryFolder folder;
     ASSERT_EQ(test::octetra("generate kuhn 2 -o cube.ele", folder).status, 0);
     const test::Outcome run = test::octetra("convert cube.ele cube.vtu", folder);
@@ -70,7 +70,8 @@ TEST(Convert, WritesTheMshThatIsAskedFor) {
 TEST(Convert, ToAFullDiskEndsInStatus3) {
     const TemporaryFolder folder;
     ASSERT_EQ(test::octetra("generate kuhn 2 -o cube.ele", folder).status, 0);
-    // The shell limits the size of files that the program may write, and lets it see the error.
+    // The shell limits the size of files and ignores the signal, so that the program sees the
+    // error.
     const auto run =
         test::run_program({"sh", "-c",
                            "trap '' XFSZ; ulimit -f 1; exec " + std::string(OCTETRA_PROGRAM) +

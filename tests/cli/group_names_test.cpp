@@ -10,7 +10,7 @@
 
 #include "cli/octetra_program.hpp"
 
-/// The names of physical groups: through every command, on any number of ranks.
+/// Names of physical groups, through every command, on any number of ranks.
 namespace octetra {
 namespace {
 
@@ -64,7 +64,7 @@ TEST_F(GroupNames, StayThroughRefiningOnAnyNumberOfRanks) {
     }
 }
 
-TEST_F(GroupNames, StandForTheTagsOfRegions) {
+TEST_F(GroupNames, SelectRegionsByTag) {
     const std::string mesh = "gmsh-box-41b.msh ";
     (void)folder.write("tag.txt", "refine --region 7 --levels 2\n");
     (void)folder.write("name.txt", "refine --region steel --levels 2\n");
@@ -90,7 +90,7 @@ TEST_F(GroupNames, StandForTheTagsOfRegions) {
     EXPECT_EQ(test::octetra("verify " + mesh + "tag.msh --region 2 --levels 2", folder).status, 1);
 }
 
-TEST_F(GroupNames, OfSeveralGroupsStandForAllOfThem) {
+TEST_F(GroupNames, OfSeveralGroupsSelectAllOfThem) {
     std::string text = test::content_of(folder / "gmsh-box-22.msh");
     const std::size_t at = text.find("\"air above\"");
     ASSERT_NE(at, std::string::npos);
@@ -129,7 +129,7 @@ TEST_F(GroupNames, AreShownWithTheMesh) {
     }
 }
 
-/// Through a script that refines and coarsens, and through a checkpoint between every two steps.
+/// By a script that refines and coarsens, and by checkpoints between the steps.
 TEST_F(GroupNames, StayThroughHistoriesOnAnyNumberOfRanks) {
     const std::vector<std::string> steps{"refine --sphere 0,0,0,0.6 --levels 2",
                                          "coarsen --outside --sphere 0,0,0,0.3",
@@ -156,7 +156,7 @@ TEST_F(GroupNames, StayThroughHistoriesOnAnyNumberOfRanks) {
     expect_same("c.msh", "r.msh", 1);
 }
 
-TEST_F(GroupNames, AreSaidOnceToBeLostWhereAFormatHasNoPlaceForThem) {
+TEST_F(GroupNames, AreReportedOnceAsLostIfAFormatCannotStoreThem) {
     const std::string lost = "the names of groups are lost; .msh and .octetra files hold them";
     for (const std::string output : {"o.ele", "o.mesh", "o.vtu", "o.pvtu"}) {
         const auto converted = run("convert gmsh-box-41b.msh " + output);
@@ -174,8 +174,8 @@ TEST_F(GroupNames, AreSaidOnceToBeLostWhereAFormatHasNoPlaceForThem) {
     EXPECT_EQ(test::occurrences(run("convert bare.mesh bare.vtu").err, lost), 0U);
 }
 
-/// A mesh whose facets are of one group first, and of another.
-TEST_F(GroupNames, OfGroupsWhoseEntitiesAreOfAnotherOneFirstStay) {
+/// A mesh in which each facet of one group is listed first in another group.
+TEST_F(GroupNames, OfGroupsThatAreNeverFirstOfAnEntityStay) {
     const auto converted = run("convert gmsh-box-41b.msh o.msh");
     EXPECT_THAT(converted.err, HasSubstr("in more physical groups than one: the first is kept"));
     EXPECT_THAT(names_in("o.msh"), testing::Contains(GroupName{2, 9, "floor and roof"}));

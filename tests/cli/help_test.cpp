@@ -50,7 +50,7 @@ TEST_P(Help, FitsATerminal) {
     for (std::string line; std::getline(lines, line);) EXPECT_LE(line.size(), 120U) << line;
 }
 
-TEST(ExitStatus, IsExplainedWhereItTellsMoreThanWhetherAllWentWell) {
+TEST(ExitStatus, IsExplainedWhereItHasMoreThanTwoMeanings) {
     const TemporaryFolder folder;
     for (const std::string command : {"", "refine", "adapt", "verify"}) {
         const std::string help = test::octetra(command + " --help", folder).out;
@@ -126,7 +126,7 @@ INSTANTIATE_TEST_SUITE_P(
         "generate gear --bore 5 -o out.ele", "generate sphere --edge 0 -o out.ele",
         "generate random 3 -o out.ele", "generate random 9 --seed -1 -o out.ele"));
 
-/// A word where a subcommand should be: that word, and those that there are.
+/// The message contains the unknown word and the existing subcommands.
 TEST(BadUsage, NamesTheWordThatIsNoSubcommand) {
     const TemporaryFolder folder;
     EXPECT_THAT(
@@ -143,7 +143,7 @@ TEST(BadUsage, NamesTheWordThatIsNoSubcommand) {
     EXPECT_THAT(test::octetra("", folder).err, HasSubstr("A subcommand is required"));
 }
 
-/// The first word that has no place, and what was meant by it.
+/// The message contains the first unexpected word and a suggestion.
 TEST(BadUsage, NamesTheWordThatIsNotExpected) {
     const TemporaryFolder folder;
     const auto said = [&](const std::string& words) {

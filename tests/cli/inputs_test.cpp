@@ -5,7 +5,7 @@
 
 #include "cli/octetra_program.hpp"
 
-/// What is read stays as it was: no output takes its place.
+/// Inputs are never overwritten by outputs.
 namespace octetra {
 namespace {
 
@@ -21,12 +21,12 @@ protected:
                   0);
         EXPECT_EQ(test::octetra("partition m.1.ele -n 2 -o parts.txt", folder).status, 0);
         (void)folder.write("cells.txt", "1 2 3\n");
-        // The same facets by another name, of a mesh that is otherwise other files.
+        // Another name of the same facets, for a mesh whose other files differ.
         fs::create_symlink("m.1.face", folder / "link.1.face");
         fs::create_directory(folder / "sub");
     }
 
-    /// The bytes of everything that is there.
+    /// The contents of all files of the folder.
     [[nodiscard]] std::map<std::string, std::string> content() const {
         std::map<std::string, std::string> all;
         for (const auto& entry : fs::directory_iterator(folder.path())) {
@@ -62,7 +62,7 @@ TEST_F(Inputs, AreNotReplacedByTheMeshThatIsWritten) {
 
 constexpr const char* byte_order_mark = "\xef\xbb\xbf";
 
-/// Whatever text is read: meshes, lists, maps and parts.
+/// All text inputs: meshes, lists, maps and parts.
 TEST_F(Inputs, MayBeginWithAByteOrderMark) {
     EXPECT_EQ(test::octetra("convert f.1.ele f.mesh", folder).status, 0);
     const std::vector<std::string> commands{"info m.1.ele",
@@ -89,7 +89,7 @@ TEST_F(Inputs, MayBeginWithAByteOrderMark) {
     EXPECT_EQ(test::content_of(folder / "g.mesh"), refined);
 }
 
-/// Not twice, not later, and lines are counted as before.
+/// A byte order mark is accepted only once and only at the start; lines are counted as without it.
 TEST_F(Inputs, HaveTheirLinesCountedAsWithoutAByteOrderMark) {
     const auto said = [&](const std::string& cells) {
         (void)folder.write("cells.txt", cells);
@@ -121,7 +121,7 @@ TEST_F(Inputs, AreNotReplacedByFilesBesideTheMesh) {
                    "--report would write over cells.txt of --cells");
 }
 
-/// Each link stands where the file would be that is written.
+/// Each link has the name of an output file.
 TEST_F(Inputs, AreNotReplacedThroughLinks) {
     fs::create_symlink("../m.mesh", folder / "sub/chain");
     for (const std::string name : {"o.mesh", "o.face", "o_0.vtu", "o.json"}) {
@@ -139,7 +139,7 @@ TEST_F(Inputs, AreNotReplacedThroughLinks) {
     expect_refused("partition m.mesh -n 2 -o o.json", refusal("-o", "o.json"));
     expect_refused("verify m.mesh --report o.json", refusal("--report", "o.json"));
     expect_refused("convert m.mesh o.mesh", refusal("OUT", "o.mesh"));
-    // The list beside what a link leads to would be removed.
+    // The list beside the target of a link would be removed.
     fs::create_symlink("far.ele", folder / "near.ele");
     fs::create_symlink("m.mesh", folder / "far.face");
     expect_refused("refine m.mesh --all -o near.ele",
@@ -163,7 +163,7 @@ TEST_F(Inputs, OfOneNameForTwoOutputsAreRefused) {
               "octetra: -o and --maps name the same file, three.json, which is out.1.face\n");
 }
 
-/// All that the program writes, on one rank and on two.
+/// All outputs of the program, on one rank and on two.
 TEST_F(Inputs, LeaveOutputsTheirLinksAndPermissions) {
     const std::vector<std::string> names{
         "o.node", "o.ele",  "o.face",  "o.mesh", "o.meshb", "o.vtkhdf", "o.xdmf", "o.h5",
@@ -197,7 +197,7 @@ TEST_F(Inputs, LeaveOutputsTheirLinksAndPermissions) {
 
 TEST_F(Inputs, LeaveOtherNamesFree) {
     auto expected = content();
-    for (int run = 0; run < 2; ++run) {  // the second replaces the files of the first
+    for (int run = 0; run < 2; ++run) {  // the second run replaces the files of the first
         EXPECT_EQ(test::octetra("refine m.1.ele --all -o sub/m.1.ele", folder).status, 0);
         for (const std::string extension : {"node", "ele", "face"}) {
             EXPECT_EQ(test::content_of(folder / "sub" / ("m.1." + extension)),

@@ -15,7 +15,7 @@
 #include "support/full_disk.hpp"
 #include "support/thrown.hpp"
 
-/// Fields in Medit's files of values, through the program.
+/// Fields in Medit's solution files, through the program.
 namespace octetra {
 namespace {
 
@@ -26,7 +26,7 @@ using test::content_of;
 using test::TemporaryFolder;
 using testing::HasSubstr;
 
-/// Linear on vertices, and exact at midpoints.
+/// A linear function on vertices, which is exact at midpoints.
 std::vector<double> by_place(const AdaptiveMesh& mesh) {
     std::vector<double> values;
     for (const Point& p : mesh.points()) {
@@ -37,7 +37,7 @@ std::vector<double> by_place(const AdaptiveMesh& mesh) {
 
 class MeditFields : public testing::Test {
 protected:
-    /// m.mesh and m.sol, m.meshb and m.solb: a vector on vertices, a scalar on cells.
+    /// Writes m.mesh and m.sol, m.meshb and m.solb: a vector on vertices, a scalar on cells.
     MeditFields() {
         run("generate kuhn 4 -o m.mesh");
         const AdaptiveMesh mesh = AdaptiveMesh::read(Communicator(), folder / "m.mesh");
@@ -58,7 +58,7 @@ protected:
         EXPECT_EQ(outcome.status, 0) << command << "\n" << outcome.err;
         return outcome;
     }
-    /// What is said of a run that ends with status 2.
+    /// The message of a run that exits with status 2.
     [[nodiscard]] std::string refusal(const std::string& arguments, int ranks = 0) const {
         const auto outcome = ranks == 0 ? test::octetra(arguments, folder)
                                         : test::octetra_on(ranks, arguments, folder);
@@ -77,8 +77,8 @@ TEST_F(MeditFields, AreMissedWhereAFileHasNone) {
                 HasSubstr("none.sol: there are no fields of vertices or cells"));
 }
 
-/// The format goes column by column through the upper triangle; VTK has the diagonal first.
-TEST_F(MeditFields, OfSymmetricTensorsAreInTheOrderOfVtkAndGoBackAsTheyCame) {
+/// The format stores the upper triangle by columns; VTK stores the diagonal first.
+TEST_F(MeditFields, OfSymmetricTensorsAreInTheOrderOfVtkAndWrittenBackUnchanged) {
     const AdaptiveMesh mesh = AdaptiveMesh::read(Communicator(), folder / "m.mesh");
     std::ofstream sol(folder / "t.sol");
     sol << "MeshVersionFormatted 2\nDimension 3\nSolAtVertices\n"
@@ -135,7 +135,7 @@ TEST_F(MeditFields, AreTheSameBytesOnAnyNumberOfRanksAndFromEitherFile) {
     }
 }
 
-TEST_F(MeditFields, ComeBackBitByBitThroughEveryFormatThatHoldsThem) {
+TEST_F(MeditFields, ArePreservedBitByBitByEveryFormatThatStoresThem) {
     run("convert m.mesh c.meshb --fields m.sol");
     EXPECT_TRUE(content_of(folder / "c.solb") == content_of(folder / "m.solb"));
     run("convert c.meshb c.mesh --fields c.solb");
@@ -152,7 +152,7 @@ TEST_F(MeditFields, ComeBackBitByBitThroughEveryFormatThatHoldsThem) {
     EXPECT_TRUE(std::filesystem::exists(folder / "mid.sol"));
 }
 
-/// Where few cells are refined they have not the order of files any more.
+/// After refining few cells, they are no longer in the order of files.
 TEST_F(MeditFields, AreReadByTheNumbersOfAMeshThatWasRefined) {
     AdaptiveMesh mesh = AdaptiveMesh::read(Communicator(), folder / "m.mesh");
     (void)mesh.refine(std::vector<CellIndex>{CellIndex{200}});
@@ -166,7 +166,7 @@ TEST_F(MeditFields, AreReadByTheNumbersOfAMeshThatWasRefined) {
     EXPECT_EQ(mesh.read_fields(folder / "t.sol"), fields);
 }
 
-/// Files that another program has written, of fields that are linear, so that midpoints have them.
+/// Files written by another program, with linear fields, so that midpoints have the exact values.
 TEST_F(MeditFields, OfEveryVersionAndByteOrderAreRefined) {
     const std::filesystem::path samples = OCTETRA_SOURCE_DIR "/corpus/fields";
     int files = 0;
@@ -197,7 +197,7 @@ TEST_F(MeditFields, OfEveryVersionAndByteOrderAreRefined) {
     EXPECT_EQ(files, 9);
 }
 
-TEST_F(MeditFields, AreRefusedInTheSameWordsOnAnyNumberOfRanks) {
+TEST_F(MeditFields, AreRefusedWithTheSameMessageOnAnyNumberOfRanks) {
     std::string text = content_of(folder / "m.sol");
     const std::size_t end = text.rfind("\nEnd");
     const std::size_t last = text.rfind('\n', end - 1) + 1;
@@ -218,7 +218,7 @@ TEST_F(MeditFields, AreRefusedInTheSameWordsOnAnyNumberOfRanks) {
               refusal("convert m.mesh t.vtu --fields nan.sol"));
 }
 
-TEST_F(MeditFields, AreNotWrittenOverWhatIsRead) {
+TEST_F(MeditFields, NeverReplaceAnInput) {
     std::filesystem::copy_file(folder / "m.mesh", folder / "x.mesh");
     EXPECT_THAT(refusal("refine x.mesh --fields m.sol --all -o m.mesh"),
                 HasSubstr("-o would write over m.sol of --fields"));

@@ -1,8 +1,8 @@
-"""Holds the .msh files that the program writes against other readers of them.
+"""Compares the .msh files written by the program with what other readers find in them.
 
 usage: msh_files_test.py OCTETRA CORPUS gmsh|meshio
 
-Ends in 77 where Gmsh, or meshio, is not installed.
+Exits with 77 if Gmsh, or meshio, is not installed.
 """
 import collections
 import pathlib
@@ -39,7 +39,8 @@ def names_in(path):
 
 
 def named_by_points(path):
-    """The entities of a Medit file by the places of their corners, each with its reference, counted."""
+    """The entities of a Medit file by the coordinates of their corners, each with its reference,
+    counted."""
     lists = sections(path)
     points = [tuple(float(c) for c in row[:3]) for row in lists["Vertices"]]
     return {kind: collections.Counter((tuple(sorted(points[int(v) - 1] for v in row[:-1])), row[-1])
@@ -50,7 +51,7 @@ def named_by_points(path):
 class Case(ProgramCase):
     def setUp(self):
         super().setUp()
-        # Cells of two regions, of which one has no tag, facets of three groups, and two edges.
+        # Cells of two regions, one of them without a tag, facets of three groups, and two edges.
         text = (corpus / "meshes" / "gmsh-box-41b.msh").read_bytes()
         (self.path / "box.msh").write_bytes(text)
         self.run_octetra("convert", "box.msh", "box.mesh")
@@ -81,7 +82,7 @@ class ByGmsh(Case):
                     self.run_octetra("convert", "b.msh", "b.mesh")
                     self.assertEqual(named_by_points(self.path / "b.mesh"), expected)
 
-    def test_saves_what_was_refined(self):
+    def test_saves_refined_meshes(self):
         self.run_octetra("refine", "box.mesh", "--sphere", "0,0,0,0.6", "-o", "a.msh")
         self.run_octetra("refine", "box.mesh", "--sphere", "0,0,0,0.6", "-o", "a.mesh")
         self.gmsh("-check", "a.msh")
@@ -90,7 +91,7 @@ class ByGmsh(Case):
         self.assertEqual(named_by_points(self.path / "b.mesh"), named_by_points(self.path / "a.mesh"))
 
     def test_saves_and_refines_cells_without_a_tag(self):
-        """Where the facets have markers: Gmsh saves only elements of groups, if there are any."""
+        """With markers on facets: Gmsh saves only elements of groups, if there are any."""
         self.run_octetra("generate", "gear", "-o", "gear.1.ele")
         self.run_octetra("convert", "gear.1.ele", "gear.mesh")
         expected = named_by_points(self.path / "gear.mesh")
@@ -108,7 +109,7 @@ class ByGmsh(Case):
                     self.assertEqual({row[-1] for row in fine["Tetrahedra"]}, {"0"})
 
     def test_keeps_the_names_of_groups(self):
-        """In what is written, and in what Gmsh makes of it."""
+        """Names of groups are in the written file and in the file that Gmsh makes of it."""
         expected = names_in(self.path / "box.msh")
         self.assertEqual(len(expected), 7)
         self.run_octetra("refine", "box.msh", "--sphere", "0,0,0,0.6", "-o", "fine.octetra")

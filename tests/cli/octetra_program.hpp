@@ -13,16 +13,15 @@ inline Outcome octetra(const std::string& arguments, const TemporaryFolder& fold
     return run_program(words(std::string(OCTETRA_PROGRAM) + " " + arguments), folder.path());
 }
 
-/// The same under mpirun. Its output is that of all ranks.
+/// The same under mpirun. The output is that of all ranks.
 inline Outcome octetra_on(int ranks, const std::string& arguments, const TemporaryFolder& folder) {
     return run_program(words(std::string(OCTETRA_SOURCE_DIR "/tests/support/mpirun.sh ") +
                              std::to_string(ranks) + " " + OCTETRA_PROGRAM + " " + arguments),
                        folder.path());
 }
 
-/// The numbers of ranks on which to repeat a comparison: with OCTETRA_EVERY_RANK_COUNT in the
-/// environment, as
-/// `./dev campaign nightly` sets it, all of these; otherwise the first alone.
+/// The numbers of ranks on which to repeat a comparison: all of these if the environment has
+/// OCTETRA_EVERY_RANK_COUNT, as set by `./dev campaign nightly`; otherwise only the first.
 inline std::vector<int> rank_counts(std::vector<int> ranks) {
     if (std::getenv("OCTETRA_EVERY_RANK_COUNT") == nullptr) ranks.resize(1);
     return ranks;

@@ -9,7 +9,7 @@
 #include "cli/octetra_program.hpp"
 #include "support/meshes.hpp"
 
-/// The program under mpirun: the same bytes in every file, one message, one exit status.
+/// The program under mpirun: identical files, a single message, a single exit status.
 namespace octetra {
 namespace {
 
@@ -71,7 +71,7 @@ TEST_F(Parallel, TakesThePartsThatPartitionWrote) {
     expect_same_files("r", "p");
 }
 
-TEST_F(Parallel, PrintsOnceWhatOneProcessPrints) {
+TEST_F(Parallel, PrintsTheOutputOfOneProcessOnce) {
     const auto run = octetra_on(3, refine + "-o p.ele", folder);
     EXPECT_EQ(occurrences(run.out, "read gear.1.ele"), 1U) << run.out;
     EXPECT_THAT(run.out, HasSubstr("refined, 2 levels, 3 ranks"));
@@ -122,7 +122,8 @@ TEST_F(Parallel, ReportsRoundingAsOneProcessDoes) {
     EXPECT_THAT(parallel.err, HasSubstr(serial.err));
 }
 
-/// No rank may write a file longer than 50 KiB: whichever meets the limit, all end the same way.
+/// No rank may write a file of more than 50 KiB. Whichever rank meets the limit, all end in the
+/// same way.
 TEST_F(Parallel, EndsInOneMessageWhereARankCannotWriteAndLeavesNothing) {
     for (const std::string output :
          {"p.ele", "p.mesh", "p.meshb", "p.vtu", "p.pvtu", "p.vtkhdf", "p.xdmf", "p.octetra"}) {
@@ -149,7 +150,7 @@ TEST_F(Parallel, NeedsNoLargeFilesOfItsOwn) {
     EXPECT_EQ(run.out, test::octetra("info gear.1.ele", folder).out);
 }
 
-/// Ranks that run out of memory end all, each that does so on its own.
+/// A rank that runs out of memory ends all ranks, without agreement.
 TEST_F(Parallel, EndsAtOnceWhereARankIsOutOfMemoryAndKeepsTheOutput) {
     const auto with_little_memory = [&](const std::string& arguments) {
         return test::run_program(
@@ -169,8 +170,9 @@ TEST_F(Parallel, EndsAtOnceWhereARankIsOutOfMemoryAndKeepsTheOutput) {
     EXPECT_EQ(test::content_of(folder / "p.mesh"), "as it was");
 }
 
-/// At the same moment, see tests/support/mpi_exhauster.cpp. The first three reductions are those of
-/// the start: of the communicator, and of the lock that decides which rank prints.
+/// All ranks fail at the same moment, see tests/support/mpi_exhauster.cpp. The first three
+/// reductions are made at startup, for the communicator and for the lock that selects the rank that
+/// prints.
 TEST_F(Parallel, EndsInOneMessageWhereAllRanksAreOutOfMemory) {
     const TemporaryFolder locks;
     for (const int at : {4, 5, 7, 7, 7, 7}) {
@@ -189,7 +191,7 @@ TEST_F(Parallel, EndsInOneMessageWhereAllRanksAreOutOfMemory) {
     }
 }
 
-/// Runs a refinement of which a rank kills itself at one of its calls of MPI; see
+/// Runs a refinement in which a rank kills itself at one of its MPI calls; see
 /// tests/support/mpi_killer.cpp.
 test::Outcome run_with_a_kill(int rank, int at, const std::string& arguments,
                               const TemporaryFolder& folder) {
@@ -211,13 +213,13 @@ int calls_of_mpi(int rank, const std::string& arguments, const TemporaryFolder& 
     return std::stoi(run.err.substr(place + before.size()));
 }
 
-/// Kills one rank or another, early, late and between. `output` is there before, and stays.
+/// Kills different ranks at early, middle and late calls. The existing `output` must stay.
 void expect_ends_at_kills(const std::string& command, const std::string& output,
                           const TemporaryFolder& folder) {
     const int calls = calls_of_mpi(2, command, folder);
     ASSERT_GT(calls, 40) << "the calls are not caught";
     const std::string complete = test::content_of(folder / output);
-    // In the last one it waits while the first rank writes, which may just be done.
+    // At its last call a rank waits for the first rank to write, which may just be finished.
     for (const auto& [rank, at] : {std::pair{2, 1}, {0, calls / 3}, {2, calls / 2}, {2, calls}}) {
         SCOPED_TRACE(testing::Message() << "rank " << rank << ", call " << at << " of " << calls);
         (void)folder.write(output, "as it was");

@@ -8,7 +8,7 @@
 
 #include "cli/octetra_program.hpp"
 
-/// `octetra refine --profile --trace`: what is in the files, and what is printed.
+/// `octetra refine --profile --trace`: the contents of the files, and the printed table.
 namespace octetra {
 namespace {
 
@@ -17,7 +17,7 @@ using test::TemporaryFolder;
 using testing::HasSubstr;
 using testing::Not;
 
-/// {min, mean, max, of_rank} of as many ranks, and `sum` where figures add up.
+/// Checks {min, mean, max, of_rank} for this number of ranks, and `sum` for additive figures.
 void expect_spread(const Json& figure, std::size_t ranks, bool has_sum) {
     const auto of_rank = figure.at("of_rank").get<std::vector<double>>();
     ASSERT_EQ(of_rank.size(), ranks);
@@ -36,7 +36,7 @@ void expect_spread(const Json& figure, std::size_t ranks, bool has_sum) {
     EXPECT_EQ(figure.size(), has_sum ? 5U : 4U);
 }
 
-/// The whole of the schema at cli/src/profile/format_profile.hpp.
+/// Checks the complete schema in cli/src/profile/format_profile.hpp.
 void expect_schema(const Json& profile, std::size_t ranks) {
     EXPECT_EQ(profile.size(), 7U);
     EXPECT_EQ(profile.at("format"), "octetra profile");
@@ -73,7 +73,7 @@ void expect_schema(const Json& profile, std::size_t ranks) {
     }
 }
 
-/// One lane a rank, which has a name, and in which spans lie within each other or apart.
+/// Checks that each rank has one named lane, in which spans are nested or disjoint.
 void expect_trace(const Json& trace, std::size_t ranks) {
     struct Span {
         std::int64_t begin;
@@ -127,7 +127,7 @@ protected:
     const std::string measured = refine + " --profile p.json --trace t.json";
 };
 
-TEST_F(Profiled, RunsOfAnyNumberOfRanksSayWhereTheTimeWent) {
+TEST_F(Profiled, RunsOfAnyNumberOfRanksReportTheirTimes) {
     ASSERT_EQ(test::octetra(refine, folder).status, 0);
     const std::string expected = test::content_of(folder / "p.mesh");
     for (const int ranks : {0, 1, 2, 3, 4}) {  // 0: without mpirun
@@ -168,14 +168,14 @@ TEST_F(Profiled, RefinementsOfAHistoryHaveTheirLevels) {
         EXPECT_THAT(cells, ElementsAre(Pair(0, 3103), Pair(1, testing::Gt(3103)), Pair(2, 18246)));
         EXPECT_EQ(cells_of_levels("refine gear.1.ele" + sphere + "-o p.octetra", ranks), cells);
         const auto more = cells_of_levels("refine p.octetra --all -o q.octetra", ranks);
-        // Its steps are replayed.
+        // The steps of its history are replayed.
         EXPECT_THAT(more, ElementsAre(cells[0], cells[1], cells[2], Pair(3, 8 * 18246)));
     }
 }
 
-/// The sphere is in one corner of the gear. Shares of the input that are equal in their cells would
-/// leave nearly all of the result to one rank.
-TEST_F(Profiled, RunsShareOutWhatIsRefined) {
+/// The sphere is in one corner of the gear. A partition that balances the cells of the input would
+/// leave nearly all cells of the result to one rank.
+TEST_F(Profiled, RunsBalanceThePredictedCells) {
     for (const int ranks : {2, 4}) {
         for (const std::string method : {"lepp", "dual"}) {
             ASSERT_EQ(
@@ -195,7 +195,7 @@ TEST_F(Profiled, RunsShareOutWhatIsRefined) {
     }
 }
 
-TEST_F(Profiled, RunsAreSharedOutAsPartitionSays) {
+TEST_F(Profiled, RunsAreDistributedLikeThePartitionCommand) {
     const std::string what = "gear.1.ele --sphere 1,0,0.15,0.4 --levels 2 -n 3 -o parts.txt ";
     for (const std::string method : {"rcb", "lepp"}) {
         const auto said = test::octetra("partition " + what + "--partition " + method, folder);
@@ -213,8 +213,8 @@ TEST_F(Profiled, RunsAreSharedOutAsPartitionSays) {
     EXPECT_THAT(unasked.out, Not(HasSubstr("expected")));
 }
 
-/// Cells that are still too large are counted by all ranks together, after the last level.
-TEST_F(Profiled, RunsForAVolumeTalkWithinPhases) {
+/// All ranks together count the cells that are still too large, after the last level.
+TEST_F(Profiled, RunsForAVolumeCommunicateWithinPhases) {
     ASSERT_EQ(test::octetra_on(3, measured + " --max-volume 1e-4", folder).status, 0);
     expect_schema(json("p.json"), 3);
     expect_trace(json("t.json"), 3);

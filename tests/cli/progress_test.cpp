@@ -9,15 +9,15 @@
 #include "cli/octetra_program.hpp"
 #include "support/temporary_folder.hpp"
 
-/// What is shown while the program works, and to whom.
+/// Progress shown while the program works, and where it is shown.
 namespace octetra {
 namespace {
 
 using namespace std::chrono_literals;
 
-/// Runs `octetra ARGUMENTS` at a terminal, and stops it, over and over, for more than a second: a
-/// check that it is at takes so long. Returns what came to the terminal. What it has to say on
-/// stderr may go to a file instead.
+/// Runs `octetra ARGUMENTS` at a terminal and repeatedly stops it, so that its current check takes
+/// more than a second. Returns the output on the terminal. Messages on stderr may be sent to a file
+/// instead.
 std::string seen_at_a_slow_terminal(const std::string& arguments,
                                     const std::filesystem::path& folder,
                                     const std::string& file_for_stderr = "") {
@@ -50,13 +50,13 @@ std::string seen_at_a_slow_terminal(const std::string& arguments,
         seen.append(buffer.data(), static_cast<std::size_t>(n));
     }
     slow.request_stop();
-    slow.join();  // before the number of the child may be another's
+    slow.join();  // before the process id can be reused
     ::waitpid(child, nullptr, 0);
     ::close(terminal);
     return seen;
 }
 
-/// A mesh whose check is stopped a few times.
+/// A mesh whose check is stopped several times.
 const std::string generate_mesh =
     OCTETRA_SANITIZED ? "generate kuhn 10 10 10 -o mesh.ele" : "generate kuhn 20 20 20 -o mesh.ele";
 

@@ -1,4 +1,4 @@
-"""Holds tools/read_checkpoint.py against the program.
+"""Compares tools/read_checkpoint.py with the program.
 
 usage: read_checkpoint_test.py OCTETRA TOOLS
 """
@@ -27,7 +27,7 @@ def mesh_of(path):
 
 class ReadCheckpoint(ProgramCase):
     def test_finds_the_mesh_that_the_program_finds(self):
-        # More than a block of cells, and steps that cut few and many.
+        # More than one block of cells, and steps that bisect few and many edges.
         (self.path / "steps.txt").write_text("refine --random 0.2 --seed 3\n"
                                              "refine --sphere 0.5,0.5,0.5,0.1 --scheme 2t\n"
                                              "coarsen --random 0.9 --seed 5\n"

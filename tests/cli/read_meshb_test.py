@@ -1,4 +1,4 @@
-"""Holds the program's .meshb files against a reader and a writer of the format that are no part of it.
+"""Compares the program's .meshb files with an independent reader and writer of the format.
 
 usage: read_meshb_test.py OCTETRA
 """
@@ -8,17 +8,18 @@ import unittest
 
 from program_case import ProgramCase
 
-# Code of the keyword, its name in text files, vertex numbers or coordinates of an entry.
+# Code of the keyword; its name in text files, and the number of vertex numbers or coordinates of an
+# entry.
 SECTIONS = {4: ("Vertices", 3), 8: ("Tetrahedra", 4), 6: ("Triangles", 3), 5: ("Edges", 2)}
 
 
 def types_of(version):
-    """Of positions, integers and reals, as struct has them."""
+    """The format characters of struct for positions, integers and reals."""
     return ("i" if version < 3 else "q", "i" if version < 4 else "q", "f" if version < 2 else "d")
 
 
 def read_binary(data):
-    """{name: rows}, and the version."""
+    """Returns {name: rows} and the version."""
     order = "<" if data[:4] == b"\1\0\0\0" else ">"
     one, version = struct.unpack_from(order + "ii", data)
     assert one == 1
@@ -75,7 +76,7 @@ def read_text(path):
 
 
 class Meshb(ProgramCase):
-    def test_written_has_what_the_text_has(self):
+    def test_written_has_the_contents_of_the_text_format(self):
         for shape in (["gear"], ["two-material"], ["kuhn", "3"]):
             self.run_octetra("generate", *shape, "-o", "a.mesh")
             self.run_octetra("convert", "a.mesh", "a.meshb")
@@ -86,7 +87,7 @@ class Meshb(ProgramCase):
     def test_of_every_version_and_byte_order_is_read(self):
         self.run_octetra("generate", "gear", "-o", "a.mesh")
         sections = read_text(self.path / "a.mesh")
-        # What 32 bits hold, so that version 1 has the same.
+        # Rounded to 32 bits, so that version 1 has the same values.
         sections["Vertices"] = [tuple(struct.unpack("f", struct.pack("f", x))[0] for x in row[:3]) + row[3:]
                                 for row in sections["Vertices"]]
         for version in (1, 2, 3, 4):

@@ -29,7 +29,7 @@ protected:
     const TemporaryFolder folder;
 };
 
-TEST_F(RefineCube, BySphereGivesThePublishedCounts) {
+TEST_F(RefineCube, BySphereHasThePublishedCounts) {
     EXPECT_EQ(cells_after(folder, "--sphere .5,.5,.5,.25"), 6624U);
     EXPECT_EQ(cells_after(folder, "--sphere .5,.5,.5,.25 --levels 2"), 25968U);
     EXPECT_EQ(cells_after(folder, "--sphere .5,.5,.5,.25 --levels 3 --engine reference"), 143016U);
@@ -138,7 +138,7 @@ TEST_F(RefineCube, WritesMapsOfParentsAndMidpoints) {
     }
 }
 
-TEST(Refine, ReportsRoundingByFileCellAndLevelAndKeepsWhatWasThere) {
+TEST(Refine, ReportsRoundingByFileCellAndLevelAndKeepsTheOldFile) {
     const TemporaryFolder folder;
     const double far = 0x1p52;
     (void)write_mesh(test::one_cell({{{far, 0, 0}, {far + 1, 0, 0}, {far, 1, 0}, {far, 0, 1}}}),
@@ -192,7 +192,7 @@ TEST(Output, ToAFullDiskIsAFailureOfTheSystem) {
 }
 
 /// A unit cube of six cells; each level halves lengths.
-TEST(Refine, SaysHowManyCellsAreStillTooLarge) {
+TEST(Refine, ReportsTheNumberOfCellsThatAreStillTooLarge) {
     const TemporaryFolder folder;
     ASSERT_EQ(test::octetra("generate kuhn 1 -o cube.ele", folder).status, 0);
     const auto notes = [&](const std::string& options) {
@@ -273,7 +273,7 @@ TEST(Refine, TurnsInvertedCellsRoundOnlyWhenAsked) {
     EXPECT_THAT(fixed.err, HasSubstr("1 inverted"));
 }
 
-/// Refines and sends a signal as soon as the temporary file is there.
+/// Refines, and sends a signal as soon as the temporary file exists.
 test::Outcome refine_interrupted_by(const std::string& signal, const TemporaryFolder& folder) {
     return test::run_program(
         {"sh", "-c",
@@ -290,7 +290,8 @@ TEST(Refine, EndedByASignalWhileItWritesLeavesNothingBehind) {
     ASSERT_EQ(test::octetra("generate kuhn 16 -o cube.ele --quiet", folder).status, 0);
     for (const std::string signal : {"TERM", "HUP"}) {
         test::Outcome run;
-        // On a busy machine the program may be done before the signal comes: then once more.
+        // On a loaded machine the program may be finished before the signal arrives; then it is run
+        // again.
         for (int attempt = 0; attempt < 10 && run.status <= 0; ++attempt) {
             std::filesystem::remove(folder / "fine.vtu");
             run = refine_interrupted_by(signal, folder);
@@ -345,8 +346,8 @@ TEST(Refine, KilledBetweenRenamesLeavesNoMeshThatCanBeReadWithoutItsFacets) {
     }
 }
 
-TEST(Refine, GoesOnWhereItWasStartedToIgnoreASignal) {
-    // As nohup does; a shell that starts a program in the background does it with SIGINT.
+TEST(Refine, ContinuesIfItWasStartedToIgnoreASignal) {
+    // As nohup does; a shell does the same with SIGINT for programs in the background.
     const TemporaryFolder folder;
     ASSERT_EQ(test::octetra("generate kuhn 16 -o cube.ele --quiet", folder).status, 0);
     EXPECT_EQ(refine_interrupted_by("INT", folder).status, 0);

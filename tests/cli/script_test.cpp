@@ -7,8 +7,8 @@
 
 #include "cli/octetra_program.hpp"
 
-/// Scripts of octetra adapt: what a line may say, and that a wrong one is named before anything is
-/// done.
+/// Scripts of octetra adapt: the syntax of lines, and the rejection of wrong lines before any step
+/// is made.
 namespace octetra {
 namespace {
 
@@ -30,7 +30,7 @@ protected:
         return test::octetra("adapt m.mesh --script s.txt " + options, folder);
     }
 
-    /// Behind a step that writes a file, which must not come to be.
+    /// The wrong line follows a step that writes a file, which must not be created.
     void expect_refused(const std::string& line, const std::string& message) const {
         const auto run = adapt("# first\nwrite first.mesh\n\n" + line + "\n");
         EXPECT_EQ(run.status, 2) << line;
@@ -135,8 +135,8 @@ TEST_F(Script, IsNotWrittenOverNorAreItsLists) {
               "octetra: --profile would write over s.txt of --script; choose another name\n");
 }
 
-/// By way of standard input and of a pipe, which can be read once.
-TEST_F(Script, MayComeThroughAPipe) {
+/// Through standard input and a pipe, which can be read only once.
+TEST_F(Script, MayBeReadFromAPipe) {
     const std::string script =
         "\xef\xbb\xbf# near\r\nrefine --sphere 0,0,0,0.7 --levels 2 # twice\r\n\n"
         "\t coarsen --all\nsave s.octetra";
@@ -158,8 +158,8 @@ TEST_F(Script, MayComeThroughAPipe) {
               "octetra: stdin:1: there is no step in this file\n");
 }
 
-/// A message about a level says which one it is here, where the mesh has steps behind it.
-TEST_F(Script, HasItsLevelsNamedAlsoBehindAHistory) {
+/// Messages count levels from the beginning of the script, also for a mesh with a history.
+TEST_F(Script, NamesItsLevelsAlsoAfterAHistory) {
     const auto behind =
         adapt("refine --all\nrefine --all --levels 9\n", "--max-cells 5000 -o n.mesh");
     EXPECT_EQ(behind.err,
@@ -172,7 +172,7 @@ TEST_F(Script, HasItsLevelsNamedAlsoBehindAHistory) {
               "fewer cells or levels, or allow more\n");
 }
 
-TEST_F(Script, SaysWhetherNothingWasMarkedOrNothingCouldGo) {
+TEST_F(Script, ReportsWhetherNothingWasMarkedOrNothingCouldBeCoarsened) {
     EXPECT_EQ(adapt("refine --all\ncoarsen --sphere 9,9,9,1\n").err,
               "octetra: note: s.txt:2: no cell was marked: the mesh is unchanged\n");
     EXPECT_EQ(adapt("refine --all\ncoarsen --all --levels 2\n").err,
@@ -207,7 +207,7 @@ TEST_F(Script, MayHaveCommentsBlankLinesAnyLineEndsAndNoneAtTheEnd) {
     }
 }
 
-TEST_F(Script, HasTheLineNamedThatFailsWhenItIsRunAndKeepsWhatWasWrittenBefore) {
+TEST_F(Script, NamesTheLineThatFailsAndKeepsFilesWrittenBefore) {
     const auto too_many =
         adapt("refine --all\nwrite one.mesh\nrefine --all\n", "-o out.mesh --max-cells 400");
     EXPECT_EQ(too_many.status, 2);
@@ -224,7 +224,7 @@ TEST_F(Script, HasTheLineNamedThatFailsWhenItIsRunAndKeepsWhatWasWrittenBefore) 
     EXPECT_EQ(adapt("refine --all\nrefine --cells cells.txt\n").status, 0);
 }
 
-TEST_F(Script, SaysWhatItsStepsDidAndWhereTheyDidNothing) {
+TEST_F(Script, ReportsTheEffectOfItsSteps) {
     const auto run = adapt(
         "refine --all\nrefine --sphere 9,9,9,1\ncoarsen --all --levels 3\nrefine --all --levels 0\n"
         "write step.mesh\n");

@@ -1,9 +1,9 @@
-"""Holds the series of meshes that octetra adapt writes against the single files of its steps, by the places
-that VTKHDF's specification of version 2.0 gives them.
+"""Compares the series of meshes that octetra adapt writes with the single files of its steps, by
+the offsets defined in VTKHDF's specification of version 2.0.
 
 usage: series_test.py OCTETRA SOURCES
 
-Ends in 77 where h5py is not installed.
+Exits with 77 if h5py is not installed.
 """
 import pathlib
 import subprocess
@@ -18,7 +18,7 @@ except ImportError:
     sys.exit(77)
 
 octetra, sources = sys.argv[1], pathlib.Path(sys.argv[2])
-# What each step leaves is also written alone; a step that changes nothing is a step, too.
+# The mesh after each step is also written to a single file; a step without changes is a step, too.
 SCRIPT = """refine --sphere 0,0,0,0.5 --levels 2
 write 1.vtkhdf
 rebalance
@@ -31,7 +31,7 @@ refine --box 0,0,0,1,1,0.4
 
 
 def step_of(root, step):
-    """What a reader takes of a step, by the offsets of the group Steps."""
+    """Returns the data of a step that a reader finds through the offsets of the group Steps."""
     steps = root["Steps"]
     part = steps["PartOffsets"][step]
     assert steps["NumberOfParts"][step] == 1
@@ -41,7 +41,7 @@ def step_of(root, step):
     first_id = steps["ConnectivityIdOffsets"][step, 0]
     found = {"Points": root["Points"][first_point:first_point + points],
              "Types": root["Types"][first_cell:first_cell + cells],
-             # Each part has an offset more than cells.
+             # Each part has one offset more than cells.
              "Offsets": root["Offsets"][first_cell + part:first_cell + part + cells + 1],
              "Connectivity": root["Connectivity"][first_id:first_id + ids]}
     for group, count in (("PointData", points), ("CellData", cells)):
@@ -115,7 +115,8 @@ class Series(unittest.TestCase):
         self.assertFalse(list(self.path.glob("*.vtkhdf*")))
 
     def test_leaves_nothing_where_the_disk_is_full(self):
-        """Beside, and where that is put together, which takes a little more."""
+        """The disk is full while the parts of the series are written, or when they are assembled, which
+        takes slightly more space."""
         self.octetra("adapt", "m.mesh", "--script", "s.txt", "-o", "e.octetra", "--series", "all.vtkhdf")
         size = (self.path / "all.vtkhdf").stat().st_size
         for file in self.path.glob("*.vtkhdf"):

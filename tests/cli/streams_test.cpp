@@ -6,9 +6,9 @@
 
 #include "cli/octetra_program.hpp"
 
-/// The program with standard streams that are closed, full or read by nobody: the work is done, the
-/// status is that of the work, or 3 where results could not be printed, and no file gets what was
-/// meant for a stream.
+/// The program with standard streams that are closed, full or without a reader: the work is
+/// completed, the exit status is that of the work, or 3 if results could not be printed, and no
+/// file receives the output of a stream.
 namespace octetra {
 namespace {
 
@@ -16,15 +16,15 @@ namespace fs = std::filesystem;
 using test::TemporaryFolder;
 using testing::HasSubstr;
 
-/// A command line, and what comes of it where nothing is amiss.
+/// A command line and its outcome without faults.
 struct Command {
     std::string arguments;
     int status;
     bool prints = false;    ///< results, on stdout
-    std::string file = {};  ///< that it writes
+    std::string file = {};  ///< the file that it writes
 };
 
-/// What the shell does to the streams, and whether stdout is lost by it.
+/// A redirection by the shell, and whether it loses stdout.
 struct Redirection {
     std::string text;
     bool loses_results = false;
@@ -38,13 +38,13 @@ protected:
         (void)folder.write("bad.mesh", "MeshVersionFormatted 2\nDimension 2\n");
     }
 
-    /// What is not redirected is caught.
+    /// Streams that are not redirected are captured.
     [[nodiscard]] test::Outcome run(const std::string& arguments,
                                     const std::string& redirection) const {
         return test::run_program({"/bin/bash", "-c", line(arguments, redirection)}, folder.path());
     }
 
-    /// The streams of two ranks are redirected; mpirun's own stay as they are.
+    /// Redirects the streams of both ranks; those of mpirun stay as they are.
     [[nodiscard]] test::Outcome run_on_two(const std::string& arguments,
                                            const std::string& redirection) const {
         return test::run_program({OCTETRA_SOURCE_DIR "/tests/support/mpirun.sh", "2", "/bin/bash",
@@ -52,7 +52,7 @@ protected:
                                  folder.path());
     }
 
-    /// What was written, less the seconds in it, which are never the same; and removes it.
+    /// Returns the contents of the written file, without its times, and removes it.
     [[nodiscard]] std::string take(const std::string& file) const {
         if (file.empty()) return {};
         const std::string content = test::content_of(folder / file);
@@ -107,7 +107,7 @@ TEST_F(Streams, ThatCannotBeUsedChangeNoFileAndNoStatusButWhereResultsAreLost) {
         {"refine --help", 0, true},
         {"nonsense", 2},
     };
-    std::size_t turn = 0;  // under sanitizers each command has every fourth
+    std::size_t turn = 0;  // under sanitizers each command runs with every fourth redirection
     for (const Command& command : commands) {
         const test::Outcome open = run(command.arguments, "");
         ASSERT_EQ(open.status, command.status) << command.arguments << "\n" << open.err;
@@ -134,8 +134,8 @@ TEST_F(Streams, ThatLoseResultsAreNamed) {
     EXPECT_THAT(run("info nothing.ele", "<&- >&-").err, HasSubstr("octetra: nothing.ele: "));
 }
 
-/// A pipe whose reader is gone before anything is written.
-TEST_F(Streams, ThatNobodyReadsDoNotEndTheWork) {
+/// A pipe whose reader exits before anything is written.
+TEST_F(Streams, WithoutAReaderDoNotEndTheWork) {
     const auto piped = test::run_program(
         {"/bin/bash", "-c",
          "(sleep 0.3; exec " OCTETRA_PROGRAM " refine gear.ele --all -o out.mesh) | true; "

@@ -9,8 +9,8 @@
 
 #include "cli/octetra_program.hpp"
 
-/// What options take, and what is said of anything else: one line, with the option, what was given
-/// and what is expected.
+/// Values of options, and the message about wrong ones: one line with the option, the value and
+/// what is expected.
 namespace octetra {
 namespace {
 
@@ -23,7 +23,7 @@ protected:
         EXPECT_EQ(test::octetra("generate two-material -o m.ele --quiet", folder).status, 0);
     }
 
-    /// The last word may be anything, blanks and line ends included.
+    /// The last argument may be any text, including blanks and line ends.
     [[nodiscard]] test::Outcome run(const std::string& arguments, const std::string& last) const {
         auto command = test::words(OCTETRA_PROGRAM " " + arguments);
         command.push_back(last);
@@ -71,14 +71,14 @@ const std::vector<NumberOption> number_options{
     {"generate bcc 1 -o out.mesh --size", "--size", "a number from 1e-30 to 1e30", false},
 };
 
-TEST_F(Usage, OfNumbersIsToldInOneLine) {
+TEST_F(Usage, OfNumbersIsReportedInOneLine) {
     std::size_t combination = 0;
     for (const auto& [arguments, name, takes, whole] : number_options) {
         std::vector<std::string> values{"",   "x",  "nan", "inf", "0x2",  "2q",
                                         " 2", "2 ", "+-2", "2,2", "1e400"};
         if (whole) values.insert(values.end(), {"1.5", "2.0", "1e0", "1e-310"});
         for (const std::string& value : values) {
-            // Of some 15 values and as many options each comes up.
+            // Every fourth combination covers each of about 15 values and as many options.
             if (combination++ % 4 != 0) continue;
             if (name == "--region" && std::isalpha(static_cast<unsigned char>(value[0])) != 0) {
                 expect_refused(arguments, value,
@@ -94,7 +94,7 @@ TEST_F(Usage, OfNumbersIsToldInOneLine) {
     }
 }
 
-TEST_F(Usage, OfNumbersThatOnlyUnderflowMakesNumbersIsTold) {
+TEST_F(Usage, OfNumbersThatUnderflowIsReported) {
     for (const auto& [arguments, name, takes, whole] : number_options) {
         if (whole) continue;
         for (const std::string value : {"1e-400", "-1e-400", "2e-324"}) {
@@ -115,7 +115,7 @@ TEST_F(Usage, OfNumbersThatOnlyUnderflowMakesNumbersIsTold) {
     }
 }
 
-TEST_F(Usage, OfNumbersOutOfRangeIsTold) {
+TEST_F(Usage, OfNumbersOutOfRangeIsReported) {
     expect_refused("refine m.ele -o out.mesh --all --levels", "51",
                    "--levels takes a whole number from 0 to 50, not '51'");
     expect_refused("refine m.ele -o out.mesh --all --levels", "99999999999999999999",
@@ -132,7 +132,7 @@ TEST_F(Usage, OfNumbersOutOfRangeIsTold) {
                    "--edge takes a number from 1e-30 to 1e30, not '1e-310'");
 }
 
-/// A sign, zeros in front: decimal all the same.
+/// A sign and leading zeros: the number is still decimal.
 TEST_F(Usage, OfNumbersIsThatOfDecimals) {
     const auto cells_after = [&](const std::string& options) {
         const auto outcome = run("refine m.ele -o out.mesh --quiet " + options, "--all");
@@ -155,7 +155,7 @@ TEST_F(Usage, OfNumbersIsThatOfDecimals) {
     }
 }
 
-TEST_F(Usage, OfNamesAndWordsIsToldInOneLine) {
+TEST_F(Usage, OfNamesAndWordsIsReportedInOneLine) {
     const std::string refine = "refine m.ele --all -o out.mesh ";
     for (const std::string option : {"--maps", "--profile", "--trace", "--cells"}) {
         expect_refused(refine + option, "",
@@ -187,7 +187,7 @@ TEST_F(Usage, OfNamesAndWordsIsToldInOneLine) {
     }
 }
 
-TEST_F(Usage, OfTooFewAndTooManyValuesIsToldInOneLine) {
+TEST_F(Usage, OfTooFewAndTooManyValuesIsReportedInOneLine) {
     const std::string refine = "refine m.ele -o out.mesh ";
     expect_refused(refine, "--levels",
                    "--levels requires a value, L:0 to 50; see octetra refine --help");
@@ -213,7 +213,7 @@ TEST_F(Usage, OfTooFewAndTooManyValuesIsToldInOneLine) {
                    "--help");
 }
 
-TEST_F(Usage, IsToldInOneLineWhateverIsInAName) {
+TEST_F(Usage, IsReportedInOneLineForAnyCharactersInAName) {
     EXPECT_EQ(run("info", "m\n\x1b.ele").err,
               "octetra: m\\x0a\\x1b.ele: cannot be opened: No such file or directory\n");
 }

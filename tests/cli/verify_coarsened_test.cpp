@@ -8,7 +8,7 @@
 
 #include "cli/octetra_program.hpp"
 
-/// octetra verify --coarsened-from, as people run it.
+/// octetra verify --coarsened-from on the command line.
 namespace octetra {
 namespace {
 
@@ -37,7 +37,7 @@ protected:
     const TemporaryFolder folder;
 };
 
-TEST_F(VerifyCoarsened, FindsWhatCoarsenLeavesValid) {
+TEST_F(VerifyCoarsened, AcceptsTheResultsOfCoarsen) {
     std::string numbers;
     for (int c = 1000; c < 9000; ++c) numbers += std::to_string(c) + " ";
     (void)folder.write("cells.txt", numbers);
@@ -63,7 +63,7 @@ TEST_F(VerifyCoarsened, FindsWhatCoarsenLeavesValid) {
         EXPECT_THAT(judged.out, testing::Not(HasSubstr("passed   0 of ")));  // some are gone
         EXPECT_EQ(judged.err, "");
     }
-    // Of what was coarsened, and refined again.
+    // A mesh that was coarsened and refined again.
     run(0, "coarsen fine.octetra --outside --sphere 0.6,0.5,0.5,0.3 -o a.octetra --quiet");
     run(0, "refine a.octetra --sphere 0.6,0.7,0.5,0.2 -o b.octetra --quiet");
     run(0, "coarsen b.octetra --outside --region 2 -o c.octetra --quiet");
@@ -96,7 +96,7 @@ TEST_F(VerifyCoarsened, EndsWithStatus1WhereOtherCellsMightGo) {
     EXPECT_EQ(report["violations"][0]["entities"][0]["mesh"], "before");
 }
 
-/// Vertices of the mesh before are named as its files number them: from 0 or from 1.
+/// Vertices of the previous mesh are named as in their files: from 0 or from 1.
 TEST_F(VerifyCoarsened, NamesVerticesAsTheirFilesDo) {
     run(0, "convert m.ele from1.mesh --quiet");
     const auto info = nlohmann::json::parse(run(0, "info m.ele --json").out);
@@ -114,7 +114,7 @@ TEST_F(VerifyCoarsened, NamesVerticesAsTheirFilesDo) {
     }
 }
 
-TEST_F(VerifyCoarsened, TakesWhatCoarsenTakesAndRefusesTheRest) {
+TEST_F(VerifyCoarsened, AcceptsTheOptionsOfCoarsenAndNoOthers) {
     (void)folder.write("cells.txt", "1 2");
     const std::string from = " --coarsened-from fine.octetra";
     expect_refused("m.ele" + from,

@@ -5,7 +5,7 @@
 #include "cli/octetra_program.hpp"
 #include "support/manifest.hpp"
 
-/// octetra verify and refine --verify under mpirun: what one process says.
+/// octetra verify and refine --verify under mpirun give the verdict of one process.
 namespace octetra {
 namespace {
 
@@ -25,14 +25,14 @@ protected:
             0);
     }
 
-    /// The report but for what depends on who judges.
+    /// The report without the entries that depend on the number of processes.
     [[nodiscard]] nlohmann::json report() const {
         auto report = nlohmann::json::parse(test::content_of(folder / "r.json"));
         report.erase("arithmetic");
         for (auto& check : report["checks"]) check.erase("seconds");
         return report;
     }
-    /// What is printed, but for how many decisions took which arithmetic.
+    /// The output without the count of decisions by kind of arithmetic.
     static std::string without_decisions(const std::string& out) {
         std::istringstream lines(out);
         std::string kept;
@@ -60,14 +60,14 @@ protected:
     const std::string selection = " --sphere 1,0,0.15,0.4 --levels 2";
 };
 
-TEST_F(VerifyParallel, SaysOfAValidMeshWhatOneProcessSays) {
+TEST_F(VerifyParallel, GivesTheVerdictOfOneProcessOnAValidMesh) {
     expect_same("gear.1.ele --min-dihedral 5", 0);
     expect_same("gear.1.ele fine.1.ele --maps fine.maps" + selection, 0,
                 test::rank_counts({3, 1, 2, 4, 7}));
     expect_same("gear.1.ele fine.1.ele --fast", 0);
 }
 
-TEST_F(VerifyParallel, SaysOfABrokenMeshWhatOneProcessSays) {
+TEST_F(VerifyParallel, GivesTheVerdictOfOneProcessOnABrokenMesh) {
     expect_same("gear.1.ele fine.1.ele --all", 1);
     expect_same("fine.1.ele gear.1.ele", 1);
     expect_same("gear.1.ele --min-dihedral 30", 1);

@@ -7,7 +7,7 @@
 #include "cli/octetra_program.hpp"
 #include "support/manifest.hpp"
 
-/// octetra verify, octetra compare and refine --verify, as people run them.
+/// octetra verify, octetra compare and refine --verify on the command line.
 namespace octetra {
 namespace {
 
@@ -34,7 +34,7 @@ protected:
     const std::string refine = "refine gear.1.ele" + selection;
 };
 
-TEST_F(Verify, FindsWhatWeMakeValid) {
+TEST_F(Verify, AcceptsTheResultsOfTheEngines) {
     EXPECT_THAT(expect_status(0, "verify gear.1.ele").out, HasSubstr("gear.1.ele: valid"));
     const auto run = expect_status(0, "verify gear.1.ele fine.1.ele --maps fine.maps" + selection);
     EXPECT_THAT(run.out, HasSubstr("fine.1.ele as a refinement of gear.1.ele: valid"));
@@ -129,7 +129,7 @@ TEST_F(Verify, ReadsMapsByTheNumbersOfTheCoarseMeshWhateverTheFormatOfTheFine) {
     expect_status(0, "verify gear.1.ele fine.mesh --maps medit.maps");
 }
 
-TEST_F(Verify, FailsWhereAFileHasLostWhatItsFormatCanHold) {
+TEST_F(Verify, FailsIfAFileLacksDataThatItsFormatCanStore) {
     const std::string coarse =
         (test::corpus_folder() / "meshes/attributes-and-markers.ele").string();
     expect_status(0, "refine " + coarse + " --all -o tagged.1.ele --quiet");
@@ -157,7 +157,7 @@ TEST_F(Verify, RefusesOptionsThatMeanNothing) {
     EXPECT_FALSE(std::filesystem::exists(folder / "-"));
 }
 
-TEST_F(Verify, SaysWhatAnOptionTakes) {
+TEST_F(Verify, ReportsWhatAnOptionExpects) {
     const auto message = [&](const std::string& options) {
         return expect_status(2, "verify gear.1.ele fine.1.ele " + options).err;
     };
@@ -171,7 +171,7 @@ TEST_F(Verify, SaysWhatAnOptionTakes) {
     EXPECT_THAT(message("--scheme 8t"), HasSubstr("as in --all --levels 2"));
 }
 
-TEST_F(Verify, SaysWhoseNumbersTheyAreWhereFilesCountFromDifferentOnes) {
+TEST_F(Verify, ReportsWhoseNumbersTheyAreIfIndexBasesDiffer) {
     const std::string whose =
         "Numbers refer to fine.mesh, which counts from 1; those of coarse entities refer to "
         "gear.1.ele, which counts from 0.";
@@ -188,7 +188,7 @@ TEST_F(Verify, OfRefineWritesWhatIsValidAndNothingElse) {
     EXPECT_THAT(run.err, HasSubstr("note: of gear.1.ele itself, only orientation and"));
     EXPECT_EQ(test::content_of(folder / "again.1.ele"), test::content_of(folder / "fine.1.ele"));
 
-    // Three cells at one face can be read and refined, but that is no mesh.
+    // Three cells at one face can be read and refined, but are not a valid mesh.
     (void)folder.write("three.node",
                        "6 3 0 0\n0 0 0 0\n1 1 0 0\n2 0 1 0\n3 0 0 1\n4 0 0 -1\n5 2 2 1\n");
     (void)folder.write("three.ele", "3 4 0\n0 0 1 2 3\n1 0 2 1 4\n2 0 1 2 5\n");
@@ -201,7 +201,7 @@ TEST_F(Verify, OfRefineWritesWhatIsValidAndNothingElse) {
     EXPECT_FALSE(std::filesystem::exists(folder / "m.txt"));
 }
 
-TEST_F(Verify, CompareTellsWhatIsTheSame) {
+TEST_F(Verify, CompareReportsWhatIsTheSame) {
     expect_status(0, "convert gear.1.ele gear.mesh --quiet");
     EXPECT_THAT(expect_status(0, "compare gear.1.ele gear.mesh").out,
                 HasSubstr("the same up to numbering"));

@@ -10,7 +10,7 @@
 #include "cli/octetra_program.hpp"
 #include "support/meshes.hpp"
 
-/// What VTK's own reader, which is ParaView's, finds in the .vtu files.
+/// Reads .vtu files with VTK's own reader, which ParaView uses.
 namespace octetra {
 namespace {
 
@@ -18,7 +18,7 @@ using nlohmann::json;
 using test::TemporaryFolder;
 
 test::Outcome read_by_vtk(const std::string& arguments, const TemporaryFolder& folder) {
-    // Debian's interpreter: only that one sees Debian's VTK.
+    // Only Debian's interpreter finds Debian's VTK.
     return test::run_program(
         test::words("/usr/bin/python3 " OCTETRA_SOURCE_DIR "/tests/vtu/check_vtu.py " + arguments),
         folder.path());
@@ -102,7 +102,7 @@ TEST(Vtu, InPiecesIsTheWholeMeshForVtk) {
     EXPECT_EQ(by_number("three.pvtu"), expected);
     const json three = json::parse(read_by_vtk("three.pvtu", folder).out);
     EXPECT_EQ(three["cells"], one["cells"]);
-    EXPECT_GT(three["points"], one["points"]) << "shared ones come twice";
+    EXPECT_GT(three["points"], one["points"]) << "shared ones occur twice";
     EXPECT_EQ(three["cell_data"][0], one["cell_data"][0]) << "parent";
     EXPECT_EQ(three["cell_data"][1]["name"], "rank");
     EXPECT_EQ(three["cell_data"][1]["range"], json({{0, 2}}));
@@ -164,7 +164,7 @@ TEST(Vtu, OfAnEmptyMeshIsRead) {
     }
 }
 
-/// All that VTK reads in two files of one mesh, and in what order does not matter.
+/// Compares everything that VTK reads from two files of one mesh, in any order.
 void expect_same_for_vtk(const std::string& a, const std::string& b,
                          const TemporaryFolder& folder) {
     for (const std::string what : {"--points ", "--cells ", "--values "}) {
@@ -182,7 +182,7 @@ void expect_same_for_vtk(const std::string& a, const std::string& b,
     }
 }
 
-TEST(Vtkhdf, IsToVtkWhatTheVtuIs) {
+TEST(Vtkhdf, HasTheSameContentsForVtkAsTheVtu) {
     const TemporaryFolder folder;
     Mesh mesh = test::shaken_kuhn(6, 0.2, 1);
     mesh.index_base = 1;

@@ -43,12 +43,12 @@ TEST(WriteMesh, LeavesItsFilesAndNothingElse) {
     EXPECT_THAT(names_in(folder.path()), testing::ElementsAre("a.ele", "a.face", "a.node"));
 }
 
-TEST(WriteMesh, ThatFailsLeavesWhatWasThereBefore) {
+TEST(WriteMesh, ThatFailsLeavesTheOldFile) {
     const TemporaryFolder folder;
     const Mesh mesh = test::kuhn(1, 1, 1);
     (void)write_mesh(mesh, folder / "a.ele");
     const std::string before = test::content_of(folder / "a.node");
-    // The second file of the set cannot take its place: a folder stands there.
+    // The second file of the set cannot be renamed: a folder has its name.
     std::filesystem::remove(folder / "a.ele");
     std::filesystem::create_directory(folder / "a.ele");
     EXPECT_THROW((void)write_mesh(test::kuhn(2, 2, 2), folder / "a.node"), InputError);
@@ -56,7 +56,7 @@ TEST(WriteMesh, ThatFailsLeavesWhatWasThereBefore) {
     EXPECT_THAT(names_in(folder.path()), testing::ElementsAre("a.ele", "a.node"));
 }
 
-TEST(WriteMesh, RemovesNoFolderThatStandsWhereFacesOfAnotherMeshMight) {
+TEST(WriteMesh, RemovesNoFolderWithTheNameOfAList) {
     for (const std::string extension : {"face", "edge"}) {
         const TemporaryFolder folder;
         std::filesystem::create_directory(folder / ("a." + extension));
@@ -67,7 +67,7 @@ TEST(WriteMesh, RemovesNoFolderThatStandsWhereFacesOfAnotherMeshMight) {
     }
 }
 
-TEST(WriteMesh, TakesThePlaceOfNothingButAFile) {
+TEST(WriteMesh, ReplacesOnlyFiles) {
     const TemporaryFolder folder;
     const Mesh mesh = test::kuhn(1, 1, 1);
     ASSERT_EQ(::mkfifo((folder / "a.mesh").c_str(), 0600), 0);

@@ -26,7 +26,7 @@ std::string bytes_of(T number) {
     return {bytes.data(), bytes.size()};
 }
 
-/// The same number as a machine of the other byte order writes it.
+/// The same number in the opposite byte order.
 template <class T>
 std::string reversed_bytes_of(T number) {
     std::string bytes = bytes_of(number);
@@ -106,7 +106,7 @@ TEST(ByteReader, HandsOutWholeRowsUntilAllAreThere) {
     EXPECT_EQ(reader.take<char>("the last"), 'z');
 }
 
-TEST(ByteReader, GoesToAnyPlaceOfTheFileAndToNoOther) {
+TEST(ByteReader, SeeksToAnyPositionWithinTheFileOnly) {
     std::string bytes(3 * ByteReader::buffer_size + 7, '\0');
     for (std::size_t i = 0; i < bytes.size(); ++i) bytes[i] = static_cast<char>(i % 253);
     const TemporaryFolder folder;

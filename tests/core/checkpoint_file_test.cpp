@@ -13,7 +13,7 @@
 #include "support/temporary_folder.hpp"
 #include "support/thrown.hpp"
 
-/// The format of checkpoints, and what becomes of files that are damaged or made up.
+/// The format of checkpoints, and the rejection of damaged or invalid files.
 namespace octetra {
 namespace {
 
@@ -31,7 +31,7 @@ TEST(CutRuns, ReadBackAsWritten) {
     for (int sequence = 0; sequence < 20; ++sequence) {
         std::vector<CutRun> list;
         for (Cut cut = 0; cut < 128; ++cut) {
-            if (cut == one_child_more) continue;  // of no edges
+            if (cut == one_child_more) continue;  // the pattern of no edges
             const std::uint64_t length =
                 random() % 4 == 0 ? random() >> (random() % 60 + 2) : random() % 4;
             list.push_back({cut, length + 1});
@@ -44,7 +44,7 @@ TEST(CutRuns, ReadBackAsWritten) {
     }
 }
 
-TEST(CutRuns, MergeNeighboursThatAreAlike) {
+TEST(CutRuns, MergeEqualNeighbours) {
     CutRuns one_by_one;
     for (int k = 0; k < 300; ++k) {
         one_by_one.append(9);
@@ -65,7 +65,7 @@ Mesh input() {
     return mesh;
 }
 
-/// A step that cuts everything, and one that cuts the first two cells.
+/// A step that bisects all edges, and one that bisects edges of the first two cells.
 std::filesystem::path write_example(const std::filesystem::path& path) {
     const Mesh mesh = input();
     WholeMesh source(mesh);
@@ -102,7 +102,7 @@ std::filesystem::path write_example(const std::filesystem::path& path) {
     return path;
 }
 
-TEST(CheckpointFile, GivesBackWhatWasPut) {
+TEST(CheckpointFile, ReadsBackWhatWasWritten) {
     const test::TemporaryFolder folder;
     const auto path = write_example(folder / "a.octetra");
     const Checkpoint read = read_checkpoint(path);
@@ -120,7 +120,8 @@ TEST(CheckpointFile, GivesBackWhatWasPut) {
               (std::vector<std::int32_t>{3, 4, 5, 6}));
 }
 
-/// Reads it wholly, if it is not refused. Anything but an InputError that names the file fails.
+/// Reads the whole file unless it is refused. Any outcome but an InputError that names the file
+/// fails the test.
 bool is_refused(const std::filesystem::path& path) {
     try {
         const CheckpointReader reader(path);
@@ -147,7 +148,7 @@ TEST(CheckpointFile, OfWhichAnyByteIsAnotherIsRefused) {
     }
 }
 
-TEST(CheckpointFile, ThatIsCutOffOrLongerIsRefused) {
+TEST(CheckpointFile, ThatIsTruncatedOrLongerIsRefused) {
     const test::TemporaryFolder folder;
     const std::string good = test::content_of(write_example(folder / "a.octetra"));
     for (std::size_t size = 0; size < good.size(); ++size) {
@@ -157,7 +158,7 @@ TEST(CheckpointFile, ThatIsCutOffOrLongerIsRefused) {
     EXPECT_FALSE(is_refused(folder.write("good.octetra", good)));
 }
 
-TEST(CheckpointFile, SaysWhichBlockIsDamagedAndItsHash) {
+TEST(CheckpointFile, ReportsTheDamagedBlockAndItsHash) {
     const test::TemporaryFolder folder;
     std::string bad = test::content_of(write_example(folder / "a.octetra"));
     bad[20] = static_cast<char>(bad[20] + 1);  // of the first point
@@ -166,7 +167,7 @@ TEST(CheckpointFile, SaysWhichBlockIsDamagedAndItsHash) {
     EXPECT_NE(what.find("block 0 of the points: damaged: its hash is "), std::string::npos) << what;
 }
 
-TEST(CheckpointFile, MadeUpWithRightHashesIsReadOrRefused) {
+TEST(CheckpointFile, InventedWithRightHashesIsReadOrRefused) {
     const test::TemporaryFolder folder;
     const std::string good = test::content_of(write_example(folder / "a.octetra"));
     std::mt19937_64 random(1);
@@ -180,11 +181,11 @@ TEST(CheckpointFile, MadeUpWithRightHashesIsReadOrRefused) {
         test::seal(bad);
         read += is_refused(folder.write("bad.octetra", bad)) ? 0 : 1;
     }
-    EXPECT_GT(read, 0);  // some of these are other meshes
+    EXPECT_GT(read, 0);  // some of these are different meshes
     EXPECT_LT(read, 4000);
 }
 
-TEST(CheckpointFile, WhoseTableHasOtherFiguresOfAStepIsRefusedByPlace) {
+TEST(CheckpointFile, WithWrongFiguresOfAStepInItsTableIsRefusedWithPosition) {
     const test::TemporaryFolder folder;
     const std::string good = test::content_of(write_example(folder / "a.octetra"));
     std::uint64_t table = 0;
@@ -203,7 +204,7 @@ TEST(CheckpointFile, WhoseTableHasOtherFiguresOfAStepIsRefusedByPlace) {
     }
 }
 
-/// By another byte in the names of groups, or in what stands before them in the table.
+/// One byte differs in the names of groups, or in the fields before them in the table.
 TEST(CheckpointFile, WithNamesOfGroupsThatNoMeshHasIsRefused) {
     const test::TemporaryFolder folder;
     const std::string good = test::content_of(write_example(folder / "a.octetra"));
@@ -232,7 +233,7 @@ TEST(CheckpointFile, WithNamesOfGroupsThatNoMeshHasIsRefused) {
                 HasSubstr("group -5 of dimension 2 has two names"));
 }
 
-TEST(CheckpointFile, ThatIsSomethingElseIsRefused) {
+TEST(CheckpointFile, OfAnotherFormatIsRefused) {
     const test::TemporaryFolder folder;
     EXPECT_TRUE(is_refused(folder.write("a.octetra", "MeshVersionFormatted 2\nDimension 3\n")));
     EXPECT_TRUE(is_refused(folder.path()));

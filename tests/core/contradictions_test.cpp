@@ -17,7 +17,7 @@
 #include "support/thrown.hpp"
 
 /// Entries of a file that contradict an earlier one: cells with the same vertices, cells on the
-/// same side of a tagged facet, one marker here and another there.
+/// same side of a tagged facet, duplicates with different markers.
 namespace octetra {
 namespace {
 
@@ -30,7 +30,7 @@ CellPair find_repeated(const Mesh& mesh) {
     return repeated.find(mesh.cells, mesh.points.size());
 }
 
-/// The same by a map of all cells.
+/// The same result from a map of all cells.
 CellPair find_repeated_slowly(const Mesh& mesh) {
     std::map<CellVertices, CellIndex> first;
     for (CellIndex c{0}; c < mesh.cells.end_index(); ++c) {
@@ -49,7 +49,7 @@ void expect_same_pair(const Mesh& mesh) {
     EXPECT_EQ(found.earlier, expected.earlier);
 }
 
-/// What read_mesh says of a mesh that it refuses.
+/// The message of read_mesh for a mesh that it refuses.
 std::string refusal(const Mesh& mesh, const std::string& name, const ReadOptions& options = {}) {
     const TemporaryFolder folder;
     (void)write_mesh(mesh, folder / name);
@@ -66,7 +66,7 @@ bool is_read(const Mesh& mesh) {
     return read_mesh(folder / "a.ele") == mesh && read_mesh(folder / "a.mesh").cells == mesh.cells;
 }
 
-/// Two cells, one on either side of a face, and that face tagged.
+/// Two cells on either side of a face, which is tagged.
 Mesh two_cells_and_their_face() {
     Mesh mesh = test::mesh_of({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {0, 0, -1}},
                               {{0, 1, 2, 3}, {0, 1, 2, 4}});
@@ -75,7 +75,7 @@ Mesh two_cells_and_their_face() {
     return mesh;
 }
 
-TEST(RepeatedCell, IsFoundAmongManyInWhateverOrderItsCornersStand) {
+TEST(RepeatedCell, IsFoundAmongManyForAnyOrderOfItsCorners) {
     std::mt19937 random(1);
     for (int round = 0; round < 30; ++round) {
         Mesh mesh = test::kuhn(8, 8, 8);
@@ -91,7 +91,7 @@ TEST(RepeatedCell, IsFoundAmongManyInWhateverOrderItsCornersStand) {
     }
 }
 
-/// What is kept of a cell is looked up some cells later, or at the end.
+/// The key kept for a cell is compared some cells later, or at the end.
 TEST(RepeatedCell, IsFoundInTheShortestMeshesAndAtTheirEnds) {
     for (std::size_t cells = 0; cells < 20; ++cells) {
         for (std::size_t copied = 0; copied < cells; ++copied) {
@@ -122,7 +122,7 @@ TEST(RepeatedCell, IsFoundAtAHubOfAHundredThousand) {
     EXPECT_EQ(find_repeated(mesh).earlier, CellIndex{0});
 }
 
-TEST(RepeatedCell, IsRefusedAlsoIfItIsTurnedRoundFirst) {
+TEST(RepeatedCell, IsRefusedAlsoIfItsOrientationIsCorrectedFirst) {
     Mesh mesh = two_cells_and_their_face();
     auto [a, b, c, d] = mesh.cells[CellIndex{0}];
     mesh.cells.append({b, a, c, d});
@@ -132,7 +132,7 @@ TEST(RepeatedCell, IsRefusedAlsoIfItIsTurnedRoundFirst) {
     }
 }
 
-TEST(RepeatedCell, IsNamedByItsNumberWhereLinesDoNotTell) {
+TEST(RepeatedCell, IsNamedByItsNumberIfTheLineIsUnknown) {
     const TemporaryFolder folder;
     (void)folder.write(
         "a.mesh",

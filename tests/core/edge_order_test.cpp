@@ -59,11 +59,11 @@ TEST(EdgeOrder, DoesNotDependOnWhichEndComesFirst) {
     }
 }
 
-TEST(EdgeOrder, GoesByLengthFirst) {
+TEST(EdgeOrder, IsByLengthFirst) {
     EXPECT_TRUE(longer({{0, 0, 0}, {3, 0, 0}}, {{9, 9, 9}, {9, 9, 11}}));
 }
 
-TEST(EdgeOrder, GivesATieToTheLargerSmallerEndThenToTheLargerOther) {
+TEST(EdgeOrder, BreaksTiesByTheLargerSmallerEndThenByTheLargerOther) {
     EXPECT_TRUE(longer({{1, 0, 0}, {2, 0, 0}}, {{0, 0, 0}, {1, 0, 0}}));
     EXPECT_TRUE(longer({{0, 0, 0}, {1, 0, 0}}, {{0, 0, 0}, {0, 1, 0}}));
     EXPECT_TRUE(longer({{0, 0, 0}, {0, 1, 0}}, {{0, 0, 0}, {0, 0, 1}}));
@@ -77,15 +77,15 @@ TEST(EdgeOrder, TakesMinusZeroForZero) {
 }
 
 TEST(EdgeOrder, SumsTheSquaresFromXToZ) {
-    const double small = 1.2 * 0x1p-27;  // its square is less than half an ulp of 1, two are more
+    const double small = 1.2 * 0x1p-27;  // its square is below half an ulp of 1, twice that above
     EXPECT_EQ(squared_length({{0, 0, 0}, {1, small, small}}), 1);
     EXPECT_EQ(squared_length({{0, 0, 0}, {small, 1, small}}), 1);
     EXPECT_EQ(squared_length({{0, 0, 0}, {small, small, 1}}), 1 + 0x1p-52);
 }
 
-TEST(EdgeOrder, RoundsEveryProductByItself) {
+TEST(EdgeOrder, RoundsEveryProductSeparately) {
     std::mt19937_64 random(1);
-    int telling = 0;  // samples on which a fused multiply-add gives another last bit
+    int telling = 0;  // samples whose last bit differs with a fused multiply-add
     for (int i = 0; i < 1000; ++i) {
         const double x = static_cast<double>(random()) * 0x1p-64;
         const double y = static_cast<double>(random()) * 0x1p-64;
@@ -98,7 +98,7 @@ TEST(EdgeOrder, RoundsEveryProductByItself) {
     EXPECT_GT(telling, 100);
 }
 
-/// Binary64 as it would be if exponents had no limits; of this test alone.
+/// Binary64 arithmetic with unlimited exponents, for this test only.
 using Unlimited = boost::multiprecision::number<
     boost::multiprecision::cpp_bin_float<53, boost::multiprecision::digit_base_2, void,
                                          std::int32_t, -100000, 100000>,
@@ -115,8 +115,8 @@ Unlimited unlimited_squared_length(const Segment& s) {
     return sum + zz;
 }
 
-/// A segment whose coordinates are some bits wide, at most 2^exponent, and often nearly as long as
-/// another.
+/// A segment whose coordinates have several bits and are at most 2^exponent; often nearly as long
+/// as another one.
 Segment draw_segment(std::mt19937_64& random, int exponent) {
     const int bits = random() % 2 == 0 ? 52 : 2;
     const auto coordinate = [&] {
@@ -126,7 +126,7 @@ Segment draw_segment(std::mt19937_64& random, int exponent) {
     return {{coordinate(), coordinate(), coordinate()}, {coordinate(), coordinate(), coordinate()}};
 }
 
-TEST(EdgeOrder, GoesByLengthsAsIfExponentsHadNoLimits) {
+TEST(EdgeOrder, IsByLengthsWithUnlimitedExponents) {
     std::mt19937_64 random(1);
     int ties = 0;
     for (const int exponent :
@@ -147,7 +147,7 @@ TEST(EdgeOrder, GoesByLengthsAsIfExponentsHadNoLimits) {
     EXPECT_GT(ties, 50);
 }
 
-TEST(EdgeOrder, GoesByLengthsWhereCoordinatesDifferByManyMagnitudes) {
+TEST(EdgeOrder, IsByLengthsWhereCoordinatesDifferByManyMagnitudes) {
     std::mt19937_64 random(1);
     const auto coordinate = [&] {
         const auto bits = static_cast<double>(random() % 8);
@@ -181,8 +181,8 @@ TEST(EdgeOrder, DoesNotChangeWhenAllIsMultipliedByAPowerOfTwo) {
     }
 }
 
-/// Where squares are about as small as numbers with all their digits can be, the smaller ones of a
-/// sum lack digits, and lengths that are nearly the same round otherwise.
+/// Where squares are close to the smallest normal numbers, the smaller squares of a sum lack
+/// digits, and nearly equal lengths round differently.
 TEST(EdgeOrder, DoesNotChangeWhereOnlyTheSmallerSquaresLoseDigits) {
     std::mt19937_64 random(6);
     std::uniform_real_distribution<double> digits(1, 2);

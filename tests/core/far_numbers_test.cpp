@@ -8,13 +8,13 @@
 
 #include "support/temporary_folder.hpp"
 
-/// Files of meshes that 32 bits do not number.
+/// Files of meshes whose entity numbers exceed 32 bits.
 namespace octetra {
 namespace {
 
 constexpr std::uint64_t far = 5'000'000'000;
 
-/// The last cell of a mesh of billions, and what belongs to it.
+/// The last cell of a mesh of billions of cells, with its entities.
 class LastCell final : public MeshSource {
 public:
     [[nodiscard]] const MeshFacts& facts() const override { return facts_; }

@@ -15,7 +15,7 @@
 #include "support/temporary_folder.hpp"
 #include "support/thrown.hpp"
 
-/// Corners, ridges and what is required, in files of Medit's.
+/// Corners, ridges and required entities in Medit files.
 namespace octetra {
 namespace {
 
@@ -25,7 +25,7 @@ using test::TemporaryFolder;
 using testing::ElementsAre;
 using testing::HasSubstr;
 
-/// Two triangles and three edges of a cell.
+/// A cell with two listed triangles and three listed edges.
 MeshbFile listed_cell(int version = 2, bool swapped = false) {
     MeshbFile file = MeshbFile(version, swapped).dimension().corner().cell();
     file.section(6, 2).row({1, 2, 3, 1, 1, 2, 4, 1});
@@ -62,7 +62,7 @@ TEST(Features, OfTextAreReadInAnyOrderAndOnceEach) {
                       "1\nRequiredEdges\n1\n2\nCorners\n4\n4\n2\n1\n4\n"
                       "RequiredVertices\n1\n3\nEnd\n"),
         featured_cell());
-    // Scattered, and before what they are of.
+    // In scattered sections, which precede the entities that they refer to.
     std::string text = head_of_text;
     text.insert(text.find("Vertices"),
                 "Corners 3 1 2\n4 Ridges 2 1 3 RequiredEdges 1 2 RequiredVertices 1 3 "
@@ -100,7 +100,7 @@ TEST(Features, AreReadBackAsTheyWereWritten) {
     EXPECT_EQ(test::content_of(folder / "a.meshb"), expected.bytes());
 }
 
-/// Several turns of a writer.
+/// Several blocks of a writer.
 TEST(Features, OfAMeshInManySlicesAreReadBack) {
     Mesh mesh = test::kuhn(16, 16, 16);
     mesh.index_base = 1;
@@ -187,7 +187,7 @@ TEST(Features, AreNotReadFromMoreBytesThanThereAre) {
                 HasSubstr("a second section of Corners"));
 }
 
-TEST(Features, AreRefusedInTheSameWordsWhereAMeshIsStreamed) {
+TEST(Features, AreRefusedWithTheSameMessageWhereAMeshIsStreamed) {
     const TemporaryFolder folder;
     for (const std::string section : {"Corners\n2\n1\n5\n", "Ridges\n1\n4\n", "Corners\n1\n0\n"}) {
         std::string early = head_of_text;

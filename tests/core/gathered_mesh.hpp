@@ -10,7 +10,7 @@
 
 namespace octetra::test {
 
-/// Puts the stretches together again, and expects of them what struct MeshSink promises.
+/// Assembles the blocks of a mesh, and checks the guarantees of MeshSink.
 class GatheredMesh : public MeshSink {
 public:
     Mesh mesh;

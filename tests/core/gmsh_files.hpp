@@ -13,10 +13,10 @@
 #include "core/stretches.hpp"
 #include "support/temporary_folder.hpp"
 
-/// Gmsh files in pieces, for tests that put them together wrongly, too.
+/// Fragments of Gmsh files, which tests combine into valid and invalid files.
 namespace octetra::test {
 
-/// Bytes of a binary file, of numbers in this machine's byte order, or turned round.
+/// The bytes of a binary file, with numbers in this machine's byte order or in the opposite one.
 class BinaryBytes {
 public:
     explicit BinaryBytes(bool swapped = false) : swapped_(swapped) {}
@@ -62,7 +62,7 @@ inline const std::string gmsh_entities_4 =
     "$Entities\n0 0 0 1\n1 0 0 0 1 1 1 1 7 0\n$EndEntities\n";
 inline const std::string gmsh_cell_4 = "$Elements\n1 1 1 1\n3 1 4 1\n1 1 2 3 4\n$EndElements\n";
 
-/// The same in a binary file, with all that can be wrong in its place.
+/// The head of a binary file; every part of it may be wrong.
 inline std::string gmsh_binary_head(std::string_view version, bool swapped = false) {
     return BinaryBytes(swapped)
         .text("$MeshFormat\n")
@@ -106,7 +106,7 @@ struct GmshRead {
     std::vector<std::string> notes;
 };
 
-/// What such a file is read as, by one process as by several.
+/// Reads such a file, by one process and by several.
 inline GmshRead read_gmsh(const std::string& content) {
     const TemporaryFolder folder;
     const auto file = folder.write("m.msh", content);

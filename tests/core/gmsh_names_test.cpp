@@ -12,7 +12,7 @@
 #include "support/temporary_folder.hpp"
 #include "support/thrown.hpp"
 
-/// The names of groups in Gmsh's files.
+/// Names of groups in Gmsh files.
 namespace octetra {
 namespace {
 
@@ -23,7 +23,7 @@ using testing::ElementsAre;
 using testing::EndsWith;
 using testing::HasSubstr;
 
-/// The one cell of the files in pieces.
+/// The only cell of the fragments.
 Mesh unnamed_cell() {
     Mesh mesh = test::one_cell(test::cube_corner);
     mesh.regions = {7};
@@ -31,7 +31,7 @@ Mesh unnamed_cell() {
     return mesh;
 }
 
-/// Where the first section of a binary file begins.
+/// The position of the first section of a binary file.
 const std::size_t binary_head = test::gmsh_binary_head("4.1").size();
 
 TEST(GmshNames, AreReadFromTextAndBinaryFiles) {
@@ -49,7 +49,7 @@ TEST(GmshNames, AreReadFromTextAndBinaryFiles) {
     }
 }
 
-/// Gmsh may have given the group to a reversed entity.
+/// Gmsh may have assigned the group to a reversed entity.
 TEST(GmshNames, OfElementsWithoutAMarkerAreTheReservedOne) {
     const std::string names = "$PhysicalNames\n2\n3 7 \"octetra:untagged\"\n2 7 \"wall\"\n" +
                               std::string("$EndPhysicalNames\n");
@@ -93,7 +93,7 @@ struct BadName {
 
 class BadGmshNames : public testing::TestWithParam<BadName> {};
 
-TEST_P(BadGmshNames, AreRefusedByPlaceAndReason) {
+TEST_P(BadGmshNames, AreRefusedWithPositionAndReason) {
     const auto& [name, content, place, what] = GetParam();
     const std::string message =
         test::thrown_by<InputError>([&, &content = content] { (void)test::read_gmsh(content); });

@@ -19,7 +19,7 @@
 #include "support/temporary_folder.hpp"
 #include "support/thrown.hpp"
 
-/// What of Gmsh's files is refused, and in which words.
+/// Gmsh files that are refused, and the messages.
 namespace octetra {
 namespace {
 
@@ -44,7 +44,7 @@ void PrintTo(const BadContent& test_case, std::ostream* out) { *out << test_case
 
 class BadGmshFile : public testing::TestWithParam<BadContent> {};
 
-TEST_P(BadGmshFile, IsRefusedByPlaceAndReason) {
+TEST_P(BadGmshFile, IsRefusedWithPositionAndReason) {
     const auto& [name, content, place, what] = GetParam();
     const std::string message =
         test::thrown_by<InputError>([&, &content = content] { (void)test::read_gmsh(content); });
@@ -182,7 +182,7 @@ INSTANTIATE_TEST_SUITE_P(
     }),
     named_by_case);
 
-/// The file, with other bytes at a place; then what is wrong with it.
+/// Replaces bytes at a position.
 std::string patched(std::string file, std::size_t place, const std::string& bytes) {
     return file.replace(place, bytes.size(), bytes);
 }
@@ -259,8 +259,8 @@ std::vector<std::string> lines_in(const std::string& text) {
     return lines;
 }
 
-/// Rows of binary files are looked up and judged many at a time.
-TEST(GmshReader, NamesTheFirstRowWithAFaultWhicheverFaultItIs) {
+/// Rows of binary files are checked in blocks.
+TEST(GmshReader, NamesTheFirstRowWithAnyFault) {
     const TemporaryFolder folder;
     const Mesh mesh = test::kuhn(4, 4, 4);
     (void)write_mesh(mesh, folder / "whole.msh");
@@ -285,8 +285,8 @@ TEST(GmshReader, NamesTheFirstRowWithAFaultWhicheverFaultItIs) {
     }
 }
 
-/// Those of version 2 that have one group are read together.
-TEST(GmshReader, NamesTheFirstRowOfVersion2WithAFaultWhicheverFaultItIs) {
+/// Elements of version 2 with one group are read in blocks.
+TEST(GmshReader, NamesTheFirstRowOfVersion2WithAnyFault) {
     const TemporaryFolder folder;
     Mesh mesh = test::kuhn(4, 4, 4);
     mesh.regions.assign(mesh.cells.size(), 3);
@@ -317,8 +317,8 @@ TEST(GmshReader, NamesTheFirstRowOfVersion2WithAFaultWhicheverFaultItIs) {
     }
 }
 
-/// So are lines, which are read one by one.
-TEST(GmshReader, NamesTheFirstLineWithAFaultWhicheverFaultItIs) {
+/// Lines, in contrast, are read one by one.
+TEST(GmshReader, NamesTheFirstLineWithAnyFault) {
     const TemporaryFolder folder;
     Mesh mesh = test::kuhn(4, 4, 4);
     mesh.regions.assign(mesh.cells.size(), 3);
@@ -365,7 +365,7 @@ TEST(GmshReader, NamesTheFirstLineWithAFaultWhicheverFaultItIs) {
     }
 }
 
-/// Whatever is cut off: no file without its end is taken for a mesh.
+/// A truncated file is refused wherever it is cut off.
 TEST(GmshReader, RefusesAFileThatIsCutOffAnywhere) {
     const TemporaryFolder folder;
     const std::string text_4 = gmsh_head_4 + gmsh_entities_4 + gmsh_nodes_4 + gmsh_cell_4;

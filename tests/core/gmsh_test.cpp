@@ -18,7 +18,7 @@
 #include "support/temporary_folder.hpp"
 #include "support/thrown.hpp"
 
-/// What is read of Gmsh's files, and what is said of it.
+/// Reading of Gmsh files, and the notes about them.
 namespace octetra {
 namespace {
 
@@ -37,7 +37,7 @@ using testing::IsEmpty;
 
 Mesh read_content(const std::string& content) { return test::read_gmsh(content).mesh; }
 
-/// The one cell of the files in pieces.
+/// The only cell of the fragments.
 Mesh one_cell() {
     Mesh mesh = test::one_cell(test::cube_corner);
     mesh.regions = {7};
@@ -69,7 +69,7 @@ TEST(GmshReader, TakesBlanksCommentsLineEndsAndABom) {
               one_cell());
 }
 
-TEST(GmshReader, GivesElementsOfNoGroupTheMarkerZeroWhichIsNone) {
+TEST(GmshReader, AssignsMarkerZeroToElementsOfNoGroup) {
     EXPECT_THAT(read_content(gmsh_head_4 + gmsh_nodes_4 + gmsh_cell_4).regions, IsEmpty());
     EXPECT_THAT(
         read_content(gmsh_head_2 + gmsh_nodes_2 + "$Elements\n1\n1 4 2 0 5 1 2 3 4\n$EndElements\n")
@@ -99,7 +99,7 @@ TEST(GmshReader, MakesTrianglesFacetsAndLinesEdgesInAnyOrder) {
     EXPECT_THAT(mesh.edge_markers, ElementsAre(5));
 }
 
-TEST(GmshReader, TakesTheFirstGroupOfAnEntityAndSaysSo) {
+TEST(GmshReader, TakesTheFirstGroupOfAnEntityWithANote) {
     const test::GmshRead found = test::read_gmsh(
         gmsh_head_4 + "$Entities\n0 0 1 1\n9 0 0 0 1 1 1 2 -3 8 0\n1 0 0 0 1 1 1 1 7 1 9\n" +
         "$EndEntities\n" + gmsh_nodes_4 +
@@ -111,8 +111,9 @@ TEST(GmshReader, TakesTheFirstGroupOfAnEntityAndSaysSo) {
                     "m.msh: 1 entities are in more physical groups than one: the first is kept")));
 }
 
-/// Version 2 lists an element once for each group, turned round if the group has it reversed.
-TEST(GmshReader, TakesAnElementOfSeveralGroupsOnceAndSaysSo) {
+/// Version 2 lists an element once for each group, with reversed orientation if the group has it
+/// reversed.
+TEST(GmshReader, KeepsAnElementOfSeveralGroupsOnceWithANote) {
     const std::string elements =
         "$Elements\n5\n1 4 2 7 1 1 2 3 4\n2 4 2 8 1 1 2 3 4\n3 2 2 3 6 1 2 3\n4 2 2 9 6 2 1 3\n"
         "5 2 2 4 6 3 2 1\n$EndElements\n";
@@ -124,7 +125,7 @@ TEST(GmshReader, TakesAnElementOfSeveralGroupsOnceAndSaysSo) {
                     "m.msh: 3 elements are in more physical groups than one: the first is kept")));
 }
 
-/// Elements of version 2 whose groups change now and then, some of them listed again: as a text
+/// Elements of version 2 whose groups change at random, some of them listed repeatedly: as a text
 /// file and as a binary one.
 struct ListedElements {
     std::string text;
@@ -189,7 +190,7 @@ TEST(GmshReader, ReadsTheSameOfVersion2AsTextAndBinaryHoweverGroupsChange) {
     }
 }
 
-TEST(GmshReader, SaysWhichElementsAreOfEntitiesThatAreNotListed) {
+TEST(GmshReader, ReportsElementsOfEntitiesThatAreNotListed) {
     const std::string nodes_of_two =
         "$Nodes\n1 5 1 5\n3 1 0 5\n1\n2\n3\n4\n5\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n1 1 1\n$EndNodes\n";
     const std::string elements =
@@ -200,7 +201,7 @@ TEST(GmshReader, SaysWhichElementsAreOfEntitiesThatAreNotListed) {
     EXPECT_THAT(found.notes,
                 ElementsAre(EndsWith("m.msh: 1 elements are of entities that $Entities does not "
                                      "list, and have no group")));
-    // Some programs write no entities at all.
+    // Some programs write no entities.
     EXPECT_THAT(test::read_gmsh(gmsh_head_4 + nodes_of_two + elements).notes, IsEmpty());
 }
 
@@ -225,7 +226,7 @@ TEST(GmshReader, FindsNodesBySparseTagsInAnyOrder) {
     }
 }
 
-TEST(GmshReader, SkipsWhatIsNoPartOfAMeshAndSaysHowMuch) {
+TEST(GmshReader, SkipsAndCountsElementsThatAreNotPartOfAMesh) {
     const test::GmshRead found = test::read_gmsh(
         gmsh_head_2 + "$Comments\nwhatever\n$EndComments\n$PhysicalNames\n1\n3 7 \"rock # 1\"\n" +
         "$EndPhysicalNames\n" + gmsh_nodes_2 +
@@ -242,7 +243,7 @@ TEST(GmshReader, SkipsWhatIsNoPartOfAMeshAndSaysHowMuch) {
                             EndsWith("m.msh: 1 elements that are quadrangles are not kept")));
 }
 
-/// Also where the end of the section does not fit into what is searched at once.
+/// Also if the end of the section exceeds the block that is searched.
 TEST(GmshReader, SkipsSectionsOfBinaryFilesByTheirEnd) {
     for (const std::size_t size :
          {0U, 1U, 65518U, 65519U, 65520U, 65530U, 65535U, 65536U, 3000000U}) {
@@ -280,7 +281,7 @@ TEST(GmshReader, SkipsCommentsBeforeTheFormat) {
     }
 }
 
-TEST(GmshReader, SkipsLinesThatHaveOneNodeTwiceAndSaysHowMany) {
+TEST(GmshReader, SkipsAndCountsLinesThatHaveOneNodeTwice) {
     const std::string rows_2 =
         "10 1 2 5 1 1 2\n14 1 2 5 1 2 2\n15 1 2 6 1 2 2\n16 1 2 6 1 2 3\n11 4 2 7 1 1 2 3 4\n";
     const std::string rows_4 = "1 1 1 4\n10 1 2\n14 2 2\n15 2 2\n16 2 3\n3 1 4 1\n11 1 2 3 4\n";
@@ -297,7 +298,7 @@ TEST(GmshReader, SkipsLinesThatHaveOneNodeTwiceAndSaysHowMany) {
     }
 }
 
-TEST(GmshReader, PutsPartitionsTogetherWithoutWhatLiesBetweenThem) {
+TEST(GmshReader, JoinsPartitionsWithoutTheInterfacesBetweenThem) {
     const test::GmshRead found = test::read_gmsh(
         gmsh_head_4 + gmsh_entities_4 +
         "$PartitionedEntities\n2\n1\n5 1\n0 0 1 2\n"

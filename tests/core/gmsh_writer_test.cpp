@@ -20,7 +20,7 @@
 #include "support/thrown.hpp"
 #include "verify/thread_group.hpp"
 
-/// What is written to Gmsh's files, and read again.
+/// Writing of Gmsh files, which are read again.
 namespace octetra {
 namespace {
 
@@ -35,7 +35,7 @@ std::string kind_of(const MshFormat& format) {
     return std::string(format.is_2 ? "2.2 " : "4.1 ") + (format.is_text ? "text" : "binary");
 }
 
-/// A mesh that has everything that these files can carry.
+/// A mesh with everything that these files can contain.
 Mesh rich_mesh() {
     Mesh mesh = test::shaken_kuhn(3, 0.2, 3);
     test::list_boundary(mesh);
@@ -88,7 +88,7 @@ TEST(GmshRoundTrip, KeepsExtremeCoordinates) {
     }
 }
 
-/// Markers that change at random, now and then or with every entity.
+/// Markers that change at random, rarely or at every entity.
 void mark_at_random(IndexVector<CellIndex, Marker>& markers, std::size_t count, std::uint64_t often,
                     std::mt19937_64& random) {
     Marker marker = 0;
@@ -98,7 +98,7 @@ void mark_at_random(IndexVector<CellIndex, Marker>& markers, std::size_t count, 
     }
 }
 
-/// A mesh in the slices of one of several processes.
+/// A mesh divided into slices, as seen by one of several processes.
 class SlicedMesh final : public MeshSource {
 public:
     SlicedMesh(const Mesh& mesh, const ProcessGroup& group) : whole_(mesh), group_(&group) {}
@@ -168,7 +168,7 @@ TEST(GmshWriter, WritesTheSameBytesOnAnyNumberOfProcesses) {
     }
 }
 
-TEST(GmshWriter, WritesWhatIsSaidOfVersion4) {
+TEST(GmshWriter, WritesVersion4AsSpecified) {
     Mesh mesh = test::one_cell(test::cube_corner);
     mesh.regions = {7};
     mesh.facets = {{VertexIndex{0}, VertexIndex{1}, VertexIndex{2}},
@@ -198,8 +198,8 @@ TEST(GmshWriter, WritesWhatIsSaidOfVersion4) {
     EXPECT_EQ(content_of(folder / "a.msh"), test::gmsh_binary_2());
 }
 
-/// Gmsh saves and refines only what is in a group, if anything is.
-TEST(GmshWriter, GivesUntaggedElementsAGroupOfTheirOwnWhereOthersAreTagged) {
+/// If there are groups, Gmsh saves and refines only what is in one.
+TEST(GmshWriter, AssignsUntaggedElementsToAReservedGroupIfOthersAreTagged) {
     Mesh mesh = test::kuhn(2, 2, 2);
     test::list_boundary(mesh);
     mesh.index_base = 1;
@@ -244,7 +244,7 @@ TEST(GmshWriter, WritesTheNamesOfGroups) {
     }
 }
 
-TEST(GmshWriter, SaysWhatItCannotHold) {
+TEST(GmshWriter, ReportsDataThatItCannotStore) {
     const TemporaryFolder folder;
     Mesh mesh = rich_mesh();
     EXPECT_THAT(write_mesh(mesh, folder / "a.msh"), HasSubstr("reads a negative marker"));

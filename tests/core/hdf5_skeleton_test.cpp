@@ -7,7 +7,7 @@
 
 #include "files/hdf5/hdf5_layout.hpp"
 
-/// The part of a VTKHDF file that HDF5 makes, of meshes that no test writes.
+/// The part of a VTKHDF file that HDF5 makes, for meshes too large to be written by a test.
 namespace octetra {
 namespace {
 
@@ -32,7 +32,7 @@ TEST(Hdf5Skeleton, IsSmallAndLeavesRoomForValuesOfAnyNumber) {
     EXPECT_LT(rest, 20'000U);
     std::ranges::sort(stretches);
     std::uint64_t at = 0;
-    for (const auto& [begin, size] : stretches) {  // all of the file, each byte once
+    for (const auto& [begin, size] : stretches) {  // the whole file, each byte once
         EXPECT_EQ(begin, at);
         at = begin + size;
     }

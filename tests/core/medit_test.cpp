@@ -161,7 +161,7 @@ TEST(MeditReader, TakesTokensAcrossLinesInAnyOrderWithComments) {
               read_medit_text(good));
 }
 
-/// They differ in the width of binary numbers; as text all four are the same.
+/// Versions differ in the width of binary numbers; as text they are the same.
 TEST(MeditReader, TakesVersionsOneToFour) {
     for (const std::string version : {"1", "2", "3", "4"}) {
         std::string text = good;
@@ -176,7 +176,7 @@ TEST(MeditReader, TakesCarriageReturnsAloneForBlanks) {
     EXPECT_EQ(read_medit_text(text), read_medit_text(good));
 }
 
-TEST(MeditReader, SkipsWhatItDoesNotKeepAndSaysSo) {
+TEST(MeditReader, SkipsUnsupportedSectionsWithANote) {
     std::string note;
     const Mesh mesh = read_medit_text(
         head + vertices + "NormalAtVertices\n2\n1 1\n2 1\nNormals 1 0 0 1\n" + cells + "End",
@@ -186,8 +186,8 @@ TEST(MeditReader, SkipsWhatItDoesNotKeepAndSaysSo) {
     EXPECT_THAT(note, HasSubstr("the 1 entries of Normals are not kept"));
 }
 
-/// As ParMmg writes them behind a part of a mesh.
-TEST(MeditReader, SkipsTheSectionsOfParallelCommunicatorsAndSaysSo) {
+/// As written by ParMmg for a part of a mesh.
+TEST(MeditReader, SkipsTheSectionsOfParallelCommunicatorsWithANote) {
     for (const std::string kind : {"Triangle", "Vertex"}) {
         const std::string items = kind == "Vertex" ? "Vertices" : "Triangles";
         const std::string sections = "NumberOfPartitions\n3\n\nParallel" + kind +
@@ -209,7 +209,7 @@ TEST(MeditReader, SkipsTheSectionsOfParallelCommunicatorsAndSaysSo) {
     }
 }
 
-TEST(MeditReader, TakesAFileThatLacksEndAndSaysSo) {
+TEST(MeditReader, ReadsAFileWithoutEndWithANote) {
     std::string note;
     EXPECT_EQ(read_medit_text(head + vertices + cells, {.note = [&](const auto& n) { note = n; }}),
               read_medit_text(good));
@@ -222,12 +222,12 @@ TEST(MeditReader, RefusesAFileThatEndsBeforeItsTetrahedra) {
     EXPECT_TRUE(read_medit_text(head + vertices + "End\n").cells.empty());  // it may have none
 }
 
-TEST(MeditReader, SaysOnlyOneThingOfAFileThatIsAllHead) {
+TEST(MeditReader, HasNoNotesOnAFileWithOnlyAHead) {
     EXPECT_THROW((void)read_medit_text(head, {.note = [](const auto& n) { FAIL() << n; }}),
                  InputError);
 }
 
-TEST(MeditReader, TurnsInvertedCellsRoundWhenAsked) {
+TEST(MeditReader, CorrectsInvertedCellsIfRequested) {
     const Mesh mesh = read_medit_text(head + vertices + "Tetrahedra\n1\n2 1 3 4 0\nEnd\n",
                                       {.fix_orientation = true});
     EXPECT_EQ(mesh.cells.front(),

@@ -19,7 +19,7 @@
 #include "support/temporary_folder.hpp"
 #include "support/thrown.hpp"
 
-/// stream_mesh() tells a sink what read_mesh() with ReadOptions::only_syntax puts into memory.
+/// stream_mesh() sends to a sink what read_mesh() with ReadOptions::only_syntax stores.
 namespace octetra {
 namespace {
 
@@ -28,7 +28,7 @@ using Gathered = test::GatheredMesh;
 using test::TemporaryFolder;
 using testing::HasSubstr;
 
-/// What becomes of a file: a mesh or an error, and the notes on the way there.
+/// The result of reading a file: a mesh or an error, and notes.
 struct Outcome {
     Mesh mesh;
     std::string error;
@@ -46,7 +46,7 @@ Outcome outcome_of(const std::function<Mesh(const ReadOptions&)>& read) {
     return outcome;
 }
 
-/// Reads the file both ways, and expects the same.
+/// Reads the file both ways, and compares.
 void expect_streamed_as_read(const fs::path& file, Gathered& gathered) {
     SCOPED_TRACE(file);
     const Outcome read = outcome_of([&](const auto& options) { return read_mesh(file, options); });
@@ -59,7 +59,7 @@ void expect_streamed_as_read(const fs::path& file, Gathered& gathered) {
     if (!read.error.empty()) return;
     EXPECT_EQ(test::bits(streamed.mesh), test::bits(read.mesh));
     Mesh heard = read.mesh;
-    heard.features = {};  // sinks are not told of them
+    heard.features = {};  // sinks do not receive them
     EXPECT_EQ(streamed.mesh, heard);
     EXPECT_EQ(streamed.notes, read.notes);
 }
@@ -94,7 +94,7 @@ TEST(StreamedMesh, EndsInTheErrorOfReadingForEveryBadFileOfTheCorpus) {
 
 Marker random_marker(std::mt19937_64& random) { return static_cast<Marker>(random() % 7) - 3; }
 
-/// Entities of each kind, any vertices at all, and every column or not.
+/// Entities of each kind with arbitrary vertices, and each column present or not.
 Mesh random_mesh(std::uint64_t seed, std::size_t size) {
     std::mt19937_64 random(seed);
     Mesh mesh;
@@ -136,7 +136,7 @@ void write_all_kinds_of_msh(const Mesh& mesh, const TemporaryFolder& folder) {
     (void)write_mesh(mesh, folder / "2t.msh", {.msh = {.is_2 = true, .is_text = true}});
 }
 
-/// The sections of a Medit file in another order.
+/// Shuffles the sections of a Medit file.
 std::string shuffled_sections(const std::string& file, std::uint64_t seed) {
     std::vector<std::size_t> begins;
     for (const std::string keyword : {"\nVertices", "\nTetrahedra", "\nTriangles", "\nEdges"}) {
@@ -179,7 +179,7 @@ TEST(StreamedMesh, IsTheOneReadForRandomMeshesInAnyOrderOfSections) {
     }
 }
 
-TEST(StreamedMesh, ComesInFullStretches) {
+TEST(StreamedMesh, IsDeliveredInFullBlocks) {
     constexpr std::size_t longest = MeshSink::longest_stretch;
     Mesh mesh = test::one_cell(test::regular_corners);
     mesh.cells.resize(2 * longest + 1, mesh.cells.front());
@@ -192,7 +192,7 @@ TEST(StreamedMesh, ComesInFullStretches) {
         expect_streamed_as_read(folder / name, gathered);
         EXPECT_EQ(gathered.stretches, 2U + 3U + 2U) << name;
     }
-    // With three attributes, a fourth of the points at once.
+    // With three attributes a block holds a fourth of the points.
     mesh.attributes_per_point = 3;
     mesh.point_attributes.resize(3 * mesh.points.size());
     (void)write_mesh(mesh, folder / "a.ele");
@@ -230,8 +230,8 @@ TEST(StreamedMesh, HasAdjacentCellsAtEachFaceIfAtTheFirst) {
     }
 }
 
-/// A Medit file of four vertices and `count` cells, of which `bad` ("1 2 3 9 0", say) is entry
-/// `place`, and then `tail`.
+/// A Medit file of four vertices and `count` cells, where entry `place` is `bad` (such as "1 2 3 9
+/// 0"), followed by `tail`.
 std::string medit_cells(std::size_t count, std::size_t place, const std::string& bad,
                         bool vertices_first, const std::string& tail) {
     const std::string vertices = "Vertices\n4\n0 0 0 0\n1 0 0 0\n0 1 0 0\n0 0 1 0\n";
@@ -291,7 +291,7 @@ TEST(StreamedMesh, ReportsOfTwoErrorsTheOneThatReadingReports) {
     }
 }
 
-TEST(StreamedMesh, ComesAsFarAsWholeStretchesOfAFileThatEndsEarly) {
+TEST(StreamedMesh, DeliversWholeBlocksOfATruncatedFile) {
     const TemporaryFolder folder;
     (void)write_mesh(test::kuhn(16, 16, 16), folder / "a.ele");
     const std::string whole = test::content_of(folder / "a.ele");
@@ -308,7 +308,7 @@ TEST(StreamedMesh, IsNotedOnceThoughItsFileIsReadTwice) {
                             gathered);
 }
 
-/// Puts other bytes into a file that is being read.
+/// Modifies a file while it is being read.
 class Meddler : public Gathered {
 public:
     Meddler(fs::path file, std::string from, std::string to)
@@ -357,7 +357,7 @@ TEST(StreamedMesh, MayNotGainElementsBetweenTwoReadings) {
     EXPECT_FALSE(meddler.is_finished);
 }
 
-/// Tags of nodes that are not consecutive, kinds that take turns, what is not kept.
+/// Nonconsecutive node tags, alternating kinds, and elements that are discarded.
 TEST(StreamedMesh, IsTheOneReadOfAGmshFileInNoOrder) {
     const TemporaryFolder folder;
     std::mt19937_64 random(5);
@@ -390,7 +390,7 @@ TEST(StreamedMesh, IsOfAFormatThatCanBeRead) {
     }
 }
 
-TEST(StreamedMesh, EndsInWhatTheSinkThrows) {
+TEST(StreamedMesh, ThrowsTheErrorOfTheSink) {
     struct Refusing : Gathered {
         void take_cells(std::span<const CellVertices>, std::span<const Marker>) override {
             throw SystemError("no room");

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-/// Puts `.meshb` files together byte by byte, good and bad ones, without the code under test.
+/// Composes valid and invalid `.meshb` files byte by byte, independently of the code under test.
 namespace octetra::test {
 
 class MeshbFile {
@@ -37,7 +37,7 @@ public:
         return version_ < 3 ? put(static_cast<std::int32_t>(number)) : put(number);
     }
 
-    /// A section's head; what the one before said of the next keyword becomes right.
+    /// Starts a section, and corrects the position of the next keyword in the previous one.
     MeshbFile& keyword(std::int32_t code) {
         if (next_at_ != 0) set_next(size());
         keyword_at_ = size();
@@ -48,7 +48,7 @@ public:
     MeshbFile& section(std::int32_t code, std::int64_t count) {
         return keyword(code).integer(count);
     }
-    /// What this section says of the next keyword.
+    /// Sets the position of the next keyword in this section.
     MeshbFile& set_next(std::size_t position_of_next) {
         const std::string whole = std::exchange(bytes_, {});
         position(static_cast<std::int64_t>(position_of_next));
@@ -74,7 +74,7 @@ public:
             .point(0, 0, 1, -2);
     }
     MeshbFile& cell() { return section(8, 1).row({1, 2, 3, 4, 5}); }
-    /// The last keyword, which has nothing behind it.
+    /// The last keyword.
     MeshbFile& end() { return keyword(54); }
 
     [[nodiscard]] std::size_t size() const { return bytes_.size(); }

@@ -43,7 +43,7 @@ Mesh read_bytes(const std::string& bytes, const ReadOptions& options = {}) {
     return read_mesh(file, options);
 }
 
-/// One cell, a triangle and an edge, all with tags, in the words of the text format.
+/// One cell, a triangle and an edge, all with tags, read from the text format.
 Mesh tagged_cell() {
     const TemporaryFolder folder;
     return read_mesh(folder.write("m.mesh",
@@ -81,14 +81,14 @@ TEST(MeshbReader, TakesEveryEndThatProgramsWrite) {
     EXPECT_EQ(read_bytes(MeshbFile(whole).set_next(bytes.size()).bytes(), options), expected);
     EXPECT_EQ(note, "");
     EXPECT_EQ(read_bytes(MeshbFile(corner()).cell().bytes(), options),
-              expected);  // the next is at 0
+              expected);  // the next position is 0
     EXPECT_THAT(note, HasSubstr("without the keyword End"));
     note.clear();
     EXPECT_EQ(read_bytes(bytes.substr(0, bytes.size() - 8), options), expected);  // cut off
     EXPECT_THAT(note, HasSubstr("without the keyword End"));
 }
 
-TEST(MeshbReader, SkipsWhatItDoesNotKeepAndSaysSo) {
+TEST(MeshbReader, SkipsUnsupportedSectionsWithANote) {
     MeshbFile file = corner();
     const std::size_t normals_at = file.size();
     file.section(20, 2).row({1, 1, 2, 1});
@@ -123,7 +123,7 @@ TEST(MeshbReader, DropsReferencesThatAreAllZero) {
     EXPECT_EQ(mesh.index_base, 1U);
 }
 
-TEST(MeshbReader, TurnsInvertedCellsRoundWhenAsked) {
+TEST(MeshbReader, CorrectsInvertedCellsIfRequested) {
     const std::string bytes = corner().section(8, 1).row({2, 1, 3, 4, 0}).end().bytes();
     EXPECT_THROW((void)read_bytes(bytes), InputError);
     EXPECT_EQ(read_bytes(bytes, {.fix_orientation = true}).cells.front(),
@@ -133,7 +133,7 @@ TEST(MeshbReader, TurnsInvertedCellsRoundWhenAsked) {
 struct BadBytes {
     std::string name;
     std::string bytes;
-    std::size_t at;  ///< the byte that is named
+    std::size_t at;  ///< the byte that the message names
     std::string what;
 };
 
@@ -148,7 +148,7 @@ TEST_P(BadMeshbFile, IsRefusedByByteAndReason) {
     EXPECT_THAT(message, HasSubstr(GetParam().what));
 }
 
-/// Puts what `change` adds behind a file, and says that it is wrong `back` bytes before its end.
+/// A file extended by `change`, whose fault is `back` bytes before its end.
 BadBytes case_of(const std::string& name, MeshbFile file, const auto& change, std::size_t back,
                  const std::string& what) {
     change(file);
@@ -180,7 +180,7 @@ std::vector<BadBytes> bad_bytes() {
         cases.push_back(case_of(name, file, change, back, what));
     };
     using F = MeshbFile&;
-    // Positions, seen from the file's end: keyword, position and count have 4 bytes each.
+    // Positions relative to the end of the file: keyword, position and count have 4 bytes each.
     add(
         "Unknown", cell, [](F f) { f.section(0, 3); }, 12, "a keyword expected, 0 found");
     add(
@@ -319,7 +319,7 @@ std::vector<BadBytes> bad_bytes() {
 INSTANTIATE_TEST_SUITE_P(, BadMeshbFile, testing::ValuesIn(bad_bytes()),
                          [](const auto& test_case) { return test_case.param.name; });
 
-/// The first bad entry of several hundred thousand, far behind what a buffer holds.
+/// The first bad entry of several hundred thousand, far beyond the first buffer.
 TEST(MeshbReader, NamesTheByteOfAnEntryFarBehind) {
     constexpr std::int64_t count = 100'000;
     constexpr std::int64_t bad = 77'777;
@@ -335,7 +335,7 @@ TEST(MeshbReader, NamesTheByteOfAnEntryFarBehind) {
 TEST(MeshbVersion, IsTheLowestThatHoldsTheMesh) {
     constexpr std::uint64_t most = 2147483647;
     EXPECT_EQ(meshb_version({}), 2);
-    // 20 bytes of head, 12 of each section's, 8 of the end.
+    // 20 bytes of head, 12 of the head of each section, 8 of the end.
     constexpr std::uint64_t vertices = (most - 20 - 2 * 12 - 8) / 28;
     EXPECT_EQ(meshb_version({.vertices = vertices}), 2);
     EXPECT_EQ(meshb_version({.vertices = vertices + 1}), 3);
@@ -379,10 +379,10 @@ TEST(MeshbWriter, WritesTheBytesThatTheFormatAsksFor) {
     EXPECT_EQ(test::content_of(folder / "a.meshb"), expected.bytes());
 }
 
-/// All processes together write what one does, slice by slice.
+/// All processes together write the same bytes as one, slice by slice.
 TEST(MeshbWriter, WritesTheSameBytesAsTheTextReadBack) {
     const TemporaryFolder folder;
-    const Mesh mesh = test::kuhn(20, 20, 20, 1.0 / 3);  // several turns of a writer
+    const Mesh mesh = test::kuhn(20, 20, 20, 1.0 / 3);  // several blocks of a writer
     (void)write_mesh(mesh, folder / "a.mesh");
     (void)write_mesh(mesh, folder / "a.meshb");
     EXPECT_TRUE(read_mesh(folder / "a.meshb") == read_mesh(folder / "a.mesh"));
@@ -395,8 +395,8 @@ std::uint64_t meshb_seed() {
     return given != nullptr ? std::strtoull(given, nullptr, 10) : std::random_device()();
 }
 
-/// Bytes that are made others at random, and files that are cut: a mesh or a refusal, the same
-/// however the file is read.
+/// Files with random bytes, and truncated files: a mesh or a refusal, the same for all ways of
+/// reading.
 TEST(MeshbReader, MakesAMeshOrARefusalOfWhateverIsThere) {
     const std::uint64_t seed = meshb_seed();
     SCOPED_TRACE(testing::Message() << "OCTETRA_MESHB_SEED=" << seed);

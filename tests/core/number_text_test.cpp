@@ -16,7 +16,7 @@
 #include "files/output/text_slices.hpp"
 #include "support/temporary_folder.hpp"
 
-/// Numbers as text below the mesh files: several digits at a time, written and read.
+/// Conversion of numbers to and from text, several digits at a time.
 namespace octetra {
 namespace {
 
@@ -25,7 +25,7 @@ std::string text_of(auto number) {
     return {room.data(), put_number(room.data(), number)};
 }
 
-/// Of all lengths: the least and the largest, those beside them, and some between.
+/// Numbers of all lengths: the least and the greatest, their neighbours, and some between.
 std::vector<std::uint64_t> numbers_of_every_length() {
     std::mt19937_64 random(1);
     std::vector<std::uint64_t> numbers{0, 1, std::numeric_limits<std::uint64_t>::max()};
@@ -75,7 +75,8 @@ TEST(TextRow, HasASpaceBetweenNumbersAcrossTheFilesBuffer) {
     EXPECT_TRUE(test::content_of(folder / "a") == expected);
 }
 
-/// Files of more than a buffer, without a line end at the end: what was read before stands there.
+/// Files longer than a buffer, without a line end at the end, where the buffer still holds older
+/// bytes.
 TEST(Fields, HaveTheValueOfNumbersOfEveryLength) {
     const test::TemporaryFolder folder;
     std::vector<std::uint64_t> numbers;
@@ -104,7 +105,7 @@ TEST(Fields, HaveTheValueOfNumbersOfEveryLength) {
     }
 }
 
-/// What is not digits is nowhere taken for a digit, nor is what ends a number.
+/// No other byte is taken for a digit or for the end of a number.
 TEST(Fields, RefuseEveryOtherByteInsideANumber) {
     const test::TemporaryFolder folder;
     for (int byte = 1; byte < 256; ++byte) {
@@ -160,8 +161,8 @@ TEST(TextLength, OfConsecutiveNumbersIsTheirSum) {
     EXPECT_EQ(text_length_between(9'999'999'998, 10'000'000'003), 2 * 10 + 3 * 11);
 }
 
-/// Lines with and without comments, over a file of several buffers.
-TEST(LineReader, CutsCommentsOffWhereverTheyStand) {
+/// Lines with and without comments, in a file of several buffers.
+TEST(LineReader, RemovesCommentsAtAnyPosition) {
     const test::TemporaryFolder folder;
     std::mt19937 random(3);
     for (const unsigned seldom : {1U, 3U, 50'000U}) {

@@ -7,7 +7,8 @@
 
 #include "support/temporary_folder.hpp"
 
-/// ReadOptions::only_syntax takes what a judge must be able to see, and nothing that it cannot.
+/// ReadOptions::only_syntax accepts meshes that a verifier must be able to inspect, and refuses
+/// those that it cannot.
 namespace octetra {
 namespace {
 
@@ -18,7 +19,7 @@ Mesh read_bad(const std::string& file, bool only_syntax) {
 
 class WrongMesh : public testing::TestWithParam<std::string> {};
 
-TEST_P(WrongMesh, IsReadAsItStandsIfOnlySyntaxIsAskedFor) {
+TEST_P(WrongMesh, IsReadUnchangedIfOnlySyntaxIsRequested) {
     EXPECT_THROW((void)read_bad(GetParam(), false), InputError);
     const Mesh mesh = read_bad(GetParam(), true);
     EXPECT_GE(mesh.cells.size(), 1U);

@@ -16,7 +16,8 @@ namespace {
 
 using boost::multiprecision::cpp_rational;
 
-/// By rational numbers throughout: slow, and with nothing in common but the formula.
+/// The sign from rational arithmetic: slow, and independent of the code under test except for the
+/// formula.
 int exact_sign(const Point& a, const Point& b, const Point& c, const Point& d) {
     const auto minus = [&](const Point& p) {
         return std::array<cpp_rational, 3>{cpp_rational(p.x) - cpp_rational(a.x),
@@ -77,7 +78,7 @@ TEST(Orientation, IsRightWithinAFewUlpsOfAPlane) {
     EXPECT_GT(flat, 10) << "the sample should contain flat ones too";
 }
 
-/// Three points of all digits, and one that rounding moves off their plane.
+/// Three points with full mantissas, and one that rounding moves off their plane.
 std::array<Point, 4> nearly_flat(std::mt19937_64& random) {
     const auto unit = [&] { return static_cast<double>(random() >> 11U) * 0x1p-53; };
     const auto point = [&] { return Point{unit() - 0.5, unit() * 0.125, unit()}; };
@@ -93,8 +94,8 @@ std::array<Point, 4> nearly_flat(std::mt19937_64& random) {
 }
 
 TEST(Orientation, IsRightNearPlanesThroughPointsOfAllDigits) {
-    // Here differences round as well, and the determinant is wrong by up to three times 2^-53 of
-    // its terms: a filter that trusts it further answers wrongly about 80 times.
+    // Here differences round as well, and the determinant has an error of up to three times 2^-53
+    // of its terms: a filter with a smaller bound gives about 80 wrong answers.
     std::mt19937_64 random(5);
     for (int i = 0; i < 20000; ++i) {
         const auto [a, b, c, d] = nearly_flat(random);
@@ -167,7 +168,7 @@ TEST(PositiveFilter, IsSureOfAllCellsOfAMeshThatAreNotNearlyFlat) {
     }
 }
 
-TEST(PositiveFilter, IsNotSureOfWhatRoundingMakesPositive) {
+TEST(PositiveFilter, IsUncertainWhereRoundingMakesTheResultPositive) {
     std::mt19937_64 random(6);
     for (int i = 0; i < 20000; ++i) {
         const auto [a, b, c, d] = nearly_flat(random);
@@ -176,7 +177,7 @@ TEST(PositiveFilter, IsNotSureOfWhatRoundingMakesPositive) {
 }
 
 TEST(PositiveFilter, IsNotSureWhereProductsUnderflowOrOverflow) {
-    // The least number is 2^-1074: products of 0.6 and 0.9 times that become it.
+    // The smallest double is 2^-1074: products of 0.6 and 0.9 times that round to it.
     const Point a{0, 0, 0};
     const Point b{0x1p-537, 0, 0};
     const Point c{0, 0.6 * 0x1p-537, 0x1p1000};

@@ -20,13 +20,13 @@
 
 namespace {
 
-/// The first random bytes of a temporary name, as many times as there is need for them; then those
-/// of the system.
+/// The number of temporary names with predicted random bytes; later names use random bytes of the
+/// system.
 int predicted_names = 0;
 
 }  // namespace
 
-/// Takes the place of the C library's function in the whole program.
+/// Replaces the C library's function in the whole program.
 int getentropy(void* bytes, size_t size) {
     if (predicted_names == 0) {
         return ::syscall(SYS_getrandom, bytes, size, 0) == static_cast<long>(size) ? 0 : -1;
@@ -36,7 +36,7 @@ int getentropy(void* bytes, size_t size) {
     return 0;
 }
 
-/// The bytes below the mesh writers, in amounts that only meshes of many gigabytes have.
+/// The output file below the mesh writers, with the volumes of meshes of many gigabytes.
 namespace octetra {
 namespace {
 
@@ -62,16 +62,16 @@ TEST(OutputFile, KeepsCountOfBlocksOfEverySizeAcrossItsBuffer) {
     }
 }
 
-/// What a rank puts in a turn, and how the turn ends: the same for all that ask.
+/// The bytes that a rank puts in a turn, and the end of the turn: a function of the arguments.
 struct Turn {
     std::string block;
     bool ends_later = false;
-    std::size_t overwritten = 0;  ///< a byte of what was put so far, once the turn has ended
-    int overwriter = 0;           ///< or no rank's
+    std::size_t overwritten = 0;  ///< a byte of the output so far, overwritten after the turn
+    int overwriter = 0;           ///< the rank that overwrites it; may be none
 };
 
 Turn turn_of(int number, int rank, int ranks, std::size_t put_so_far) {
-    std::mt19937 random(static_cast<unsigned>(number));  // as all ranks must agree on the end
+    std::mt19937 random(static_cast<unsigned>(number));  // all ranks must agree on the end
     Turn turn{.ends_later = random() % 3 != 0,
               .overwritten = put_so_far == 0 ? 0 : random() % put_so_far,
               .overwriter = static_cast<int>(random() % static_cast<unsigned>(ranks + 1))};
@@ -90,7 +90,7 @@ void put_in_parts(OutputFile& out, const std::string& block) {
     out.put_bytes(rest.data() + rest.size() / 3, rest.size() - rest.size() / 3);
 }
 
-TEST(OutputFile, OfAGroupHasWhatAllHavePutInOrderHoweverTheirTurnsEnd) {
+TEST(OutputFile, OfAGroupHasTheOutputOfAllInOrderHoweverTheirTurnsEnd) {
     constexpr int turns = 60;
     for (const int ranks : {2, 3, 4}) {
         std::string expected;
@@ -170,10 +170,10 @@ TEST(OutputFile, EndsWhereAllTemporaryNamesAreTakenAndRemovesNone) {
     EXPECT_EQ(test::content_of(folder / predicted_name), "of another program");
 }
 
-/// What a rank puts of its stretch, piece by piece.
+/// The pieces that a rank puts.
 std::vector<std::string> pieces_of(int rank) {
     std::mt19937 random(static_cast<unsigned>(rank));
-    std::vector<std::string> pieces(random() % 12);  // some put nothing
+    std::vector<std::string> pieces(random() % 12);  // some ranks put nothing
     for (std::string& piece : pieces) {
         const std::size_t most = random() % 4 == 0 ? 3 * buffer_size : 1000;
         const std::size_t length = random() % most;
@@ -182,7 +182,7 @@ std::vector<std::string> pieces_of(int rank) {
     return pieces;
 }
 
-TEST(OutputFile, OfAGroupHasTheStretchesOfAllInOrder) {
+TEST(OutputFile, OfAGroupHasTheSharesOfAllInOrder) {
     for (const int ranks : {2, 3, 5}) {
         std::string expected = "head";
         for (int rank = 0; rank < ranks; ++rank) {
@@ -211,7 +211,7 @@ TEST(OutputFile, OfAGroupHasTheStretchesOfAllInOrder) {
     }
 }
 
-TEST(OutputFile, IsNotWrittenWhereAStretchIsOfAnotherSizeThanWasSaid) {
+TEST(OutputFile, IsNotWrittenIfAShareHasAnotherSizeThanAnnounced) {
     const test::TemporaryFolder folder;
     for (const std::uint64_t said : {std::uint64_t{4}, std::uint64_t{6}}) {
         test::run_together(3, [&](const ProcessGroup& group) {

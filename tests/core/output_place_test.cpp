@@ -22,7 +22,7 @@
 #include "support/temporary_folder.hpp"
 #include "support/thrown.hpp"
 
-/// Outputs where links stand, or files with permissions of their own.
+/// Outputs through links, and outputs that replace files with permissions of their own.
 namespace octetra {
 namespace {
 
@@ -55,8 +55,8 @@ unsigned mode_of(const fs::path& file) {
 
 constexpr unsigned nobody = 65534;
 
-/// Runs `work` in a process of nobody's, whom permissions bind as they do not bind root; says what
-/// it threw, or "". The folder is opened to everybody.
+/// Runs `work` in a process of the user nobody, to whom permissions apply in contrast to root.
+/// Returns the message that it threw, or "". Makes the folder accessible to everybody.
 std::string as_nobody(const TemporaryFolder& folder, const std::function<void()>& work) {
     fs::permissions(folder.path(), fs::perms::all);
     const pid_t child = ::fork();
@@ -89,7 +89,7 @@ TEST(OutputLinks, AreWrittenWhereTheyPointAndStayLinks) {
             SCOPED_TRACE(extension + (dangling ? ", dangling" : ""));
             const TemporaryFolder folder;
             fs::create_directories(folder / "store/deep");
-            // A chain: absolute, then relative to a folder that is a link itself.
+            // A chain: absolute, then relative to a folder that is itself a link.
             fs::create_symlink("store/deep", folder / "short");
             const std::string name = "a." + extension;
             fs::create_symlink(folder / "store/b", folder / name);
@@ -149,7 +149,7 @@ TEST(OutputLinks, ThatLeadInACircleOrNowhereAreRefused) {
     EXPECT_THAT(names_in(folder.path()), ElementsAre("a.mesh", "b.mesh", "c.mesh"));
 }
 
-TEST(OutputLinks, ThatCannotBeWrittenLeaveWhatTheyPointTo) {
+TEST(OutputLinks, ThatCannotBeWrittenLeaveTheirTargets) {
     const TemporaryFolder folder;
     fs::create_directory(folder / "store");
     test::write_file(folder / "store/b.mesh", "as it was");
@@ -176,8 +176,8 @@ TEST(OutputLinks, ThatLeadToOneFileAreRefused) {
     EXPECT_FALSE(fs::exists(folder / "one"));
 }
 
-/// What would be read with the new mesh goes, under whichever name, and nothing else.
-TEST(OutputLinks, OfListsThatTheMeshDoesNotHaveAreRemovedButNotWhatIsElsewhere) {
+/// Files that would be read with the new mesh are removed, under any name, and no others.
+TEST(OutputLinks, OfListsThatTheMeshDoesNotHaveAreRemovedButNotTheirTargets) {
     const TemporaryFolder folder;
     fs::create_directory(folder / "store");
     for (const std::string name : {"store/b.node", "store/b.ele", "store/b.face", "shared.face",
@@ -244,8 +244,8 @@ TEST(OutputPermissions, GoWithOwnerAndGroupWhereTheSystemAllowsIt) {
     EXPECT_EQ(mode_of(folder / "text"), 0640U);
 }
 
-/// A group that a file has only because the writer is in it gets no rights over it.
-TEST(OutputPermissions, OfAGroupThatCannotBeKeptAreThoseOfEverybody) {
+/// If the file's group is only the writer's own group, it gets no permissions.
+TEST(OutputPermissions, OfAGroupThatCannotBeKeptAreRemoved) {
     if (::geteuid() != 0) GTEST_SKIP() << "only root gives files to others";
     const TemporaryFolder folder;
     write_text("as it was", folder / "text");

@@ -17,7 +17,7 @@ namespace {
 
 using test::TemporaryFolder;
 
-/// A mesh that has everything that files can carry.
+/// A mesh with everything that files can contain.
 Mesh rich_mesh() {
     Mesh mesh = test::shaken_kuhn(2, 0.2, 3);
     test::list_boundary(mesh);
@@ -34,7 +34,7 @@ Mesh rich_mesh() {
     return mesh;
 }
 
-/// The same, every coordinate a random double anywhere near the point where it was.
+/// A mesh whose coordinates are random doubles near those of a lattice.
 Mesh awkward_numbers() {
     Mesh mesh = test::kuhn(3, 3, 3);
     std::mt19937_64 random(7);
@@ -75,7 +75,7 @@ TEST(RoundTrip, MeditKeepsEverythingButAttributes) {
     mesh.point_attributes.assign(mesh.points.size(), 0.5);
     const TemporaryFolder folder;
     const std::string loss = write_mesh(mesh, folder / "a.mesh");
-    EXPECT_NE(loss, "") << "the loss must be told";
+    EXPECT_NE(loss, "") << "the loss must be reported";
     EXPECT_EQ(write_mesh(mesh, folder / "a.meshb"), loss);
 }
 

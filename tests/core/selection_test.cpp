@@ -18,7 +18,7 @@ namespace {
 constexpr GlobalCell any_cell{0};
 const Corners unit{{{0, 0, 0}, {4, 0, 0}, {0, 4, 0}, {0, 0, 4}}};  // centroid (1, 1, 1)
 
-TEST(Selection, MarksNothingUnlessTold) { EXPECT_FALSE(marks({}, unit, 0, any_cell)); }
+TEST(Selection, MarksNothingByDefault) { EXPECT_FALSE(marks({}, unit, 0, any_cell)); }
 
 TEST(Selection, OfAllMarksEveryCell) { EXPECT_TRUE(marks({.all = true}, unit, 0, any_cell)); }
 
@@ -47,18 +47,18 @@ TEST(Selection, OfABoxBoundsEveryCoordinateFromBothSides) {
     }
 }
 
-TEST(Selection, OfARegionGoesByTheTag) {
+TEST(Selection, OfARegionIsByTag) {
     EXPECT_TRUE(marks({.regions = {3, -7}}, unit, -7, any_cell));
     EXPECT_FALSE(marks({.regions = {3, -7}}, unit, 7, any_cell));
 }
 
-TEST(Selection, OfListedCellsGoesByTheCellOfTheInput) {
+TEST(Selection, OfListedCellsIsByTheCellOfTheInput) {
     const Selection listed{.cells = {GlobalCell{2}, GlobalCell{5}}};
     EXPECT_TRUE(marks(listed, unit, 0, GlobalCell{5}));
     EXPECT_FALSE(marks(listed, unit, 0, GlobalCell{3}));
 }
 
-TEST(Selection, ByVolumeMarksWhatIsLarger) {
+TEST(Selection, ByVolumeMarksLargerCells) {
     EXPECT_FALSE(marks({.max_volume = 64.0 / 6}, unit, 0, any_cell));
     EXPECT_TRUE(marks({.max_volume = 10.6}, unit, 0, any_cell));
 }
@@ -126,7 +126,7 @@ TEST(Selection, ComparesDistancesThatHaveNoSquares) {
         EXPECT_TRUE(marked(1.8)) << factor;
         EXPECT_FALSE(marked(1.7)) << factor;
     }
-    // Corners of which two have a sum that is no number.
+    // The sum of two of these coordinates overflows.
     const Corners huge{{{1.5e308, 0, 0}, {1.6e308, 1, 0}, {1.7e308, 0, 1}, {1.6e308, 1, 1}}};
     EXPECT_EQ(centroid(huge).x, 1.6e308);
     EXPECT_TRUE(
@@ -142,7 +142,7 @@ TEST(Selection, ComparesVolumesThatNoDoubleHolds) {
     EXPECT_TRUE(marked(scaled(unit, 1e160), largest));
     EXPECT_TRUE(marked(scaled(unit, 1e-170), 0));
     EXPECT_FALSE(marked(scaled(unit, 1e-170), std::numeric_limits<double>::denorm_min()));
-    // Though a product of two lengths is less, or more, than any number.
+    // Although a product of two lengths underflows or overflows.
     const Corners needle{{{0, 0, 0}, {4e250, 0, 0}, {0, 4e-170, 0}, {0, 0, 4e-170}}};
     EXPECT_TRUE(marked(needle, 1.06e-89));
     EXPECT_FALSE(marked(needle, 1.07e-89));

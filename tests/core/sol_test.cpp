@@ -16,7 +16,7 @@
 #include "support/thrown.hpp"
 #include "verify/thread_group.hpp"
 
-/// Medit's files of values.
+/// Medit's solution files.
 namespace octetra {
 namespace {
 
@@ -32,8 +32,8 @@ bool same(const FieldRows& a, const FieldRows& b) {
            a.values == b.values;
 }
 
-/// Several processes that read this file together have what one has, or nothing; true for the
-/// former.
+/// Checks that collective reading gives the result of serial reading, or nothing; returns whether
+/// it gave a result.
 bool is_read_together(const std::filesystem::path& path, const EntityCounts& counts) {
     bool together = true;
     for (const int size : {2, 3, 5}) {
@@ -67,7 +67,8 @@ SolFields read_text(const std::string& sections, const EntityCounts& counts) {
     return read_sol(file, counts);
 }
 
-/// "LINE: ..." or "at byte N: ..." of what is refused, by one process; several leave it to that.
+/// The message "LINE: ..." or "at byte N: ..." of serial reading; collective reading leaves
+/// refusals to it.
 std::string refusal_of(const std::string& name, const std::string& bytes,
                        const EntityCounts& counts) {
     const TemporaryFolder folder;
@@ -95,13 +96,13 @@ TEST(SolReader, TakesScalarsVectorsAndTensorsOfVerticesAndCells) {
     EXPECT_THAT(read.notes, ElementsAre());
 }
 
-TEST(SolReader, TakesTokensHoweverTheyStandOnLines) {
+TEST(SolReader, ReadsTokensInAnyArrangementOfLines) {
     const TemporaryFolder folder;
     const auto file = folder.write("v.sol",
                                    "\xef\xbb\xbf# made by hand\r\nMeshVersionFormatted 1 "
                                    "Dimension\r\n3 SolAtVertices 2 2 1\r\n"
                                    "1 1 2 3 # of the second\r\n4 End\r\n");
-    EXPECT_FALSE(is_read_together(file, {2, 0}));  // one process reads it
+    EXPECT_FALSE(is_read_together(file, {2, 0}));  // it is read serially
     EXPECT_THAT(read_sol(file, EntityCounts{2, 0}).lists.at(0).values, ElementsAre(1, 2, 3, 4));
 }
 
@@ -116,7 +117,7 @@ TEST(SolReader, IsSharedByProcessesWhereARowIsOnALine) {
     EXPECT_TRUE(is_read_together(folder.write("v.sol", text), {1000, 3}));
 }
 
-TEST(SolReader, NotesWhatIsNotKept) {
+TEST(SolReader, NotesWhatIsDiscarded) {
     const SolFields read = read_text(
         "Time 0.5\nIterations 7\nSolAtTriangles 2 1 1 8 9\nSolAtVertices 1 1 1 5\n", {1, 0});
     ASSERT_EQ(read.lists.size(), 1U);
@@ -235,8 +236,8 @@ TEST(SolbReader, NamesTheByteOfTheFirstFault) {
     EXPECT_THAT(refusal_of("v.solb", "garbage!", {}), HasSubstr("at byte 0: a binary Medit file"));
 }
 
-/// Whatever one byte is made, and wherever the file ends: read, or refused.
-TEST(SolbReader, ReadsOrRefusesWhatIsChangedInAnyByte) {
+/// A file with one byte changed, or truncated anywhere, is read or refused.
+TEST(SolbReader, ReadsOrRefusesFilesWithAnyByteChanged) {
     const std::string good = two_sections(2, false).end().bytes();
     const TemporaryFolder folder;
     std::mt19937 random(7);
@@ -255,7 +256,7 @@ TEST(SolbReader, ReadsOrRefusesWhatIsChangedInAnyByte) {
             }
         }
     }
-    EXPECT_GT(read, 50);  // those of values
+    EXPECT_GT(read, 50);  // those with changed values
 }
 
 }  // namespace

@@ -13,7 +13,7 @@
 
 namespace octetra::test {
 
-/// The stretches of all processes, one after the other.
+/// Concatenates the shares of all processes.
 inline Mesh put_together(const std::vector<std::optional<MeshShare>>& stretches) {
     Mesh whole;
     const auto append = [](auto& list, const auto& stretch) {
@@ -43,7 +43,7 @@ inline Mesh put_together(const std::vector<std::optional<MeshShare>>& stretches)
     return whole;
 }
 
-/// Several processes that read this file in stretches have the mesh that it is, or nothing.
+/// Checks that several processes that read this file in shares obtain its mesh, or nothing.
 inline void expect_right_stretches(const std::filesystem::path& path) {
     for (const int size : {1, 2, 3, 5}) {
         std::vector<std::optional<MeshShare>> stretches(static_cast<std::size_t>(size));

@@ -207,7 +207,7 @@ TEST(TetgenReader, KeepsTheNumberingFromOne) {
     EXPECT_EQ(mesh.cells.front()[0], VertexIndex{0});
 }
 
-TEST(TetgenReader, TurnsInvertedCellsRoundWhenAskedAndSaysHowMany) {
+TEST(TetgenReader, CorrectsAndCountsInvertedCellsIfRequested) {
     std::string note;
     const Mesh mesh =
         read_files({.ele = "1 4 0\n0 1 0 2 3\n"},
@@ -217,7 +217,7 @@ TEST(TetgenReader, TurnsInvertedCellsRoundWhenAskedAndSaysHowMany) {
     EXPECT_THAT(note, HasSubstr("1 inverted"));
 }
 
-TEST(TetgenReader, ReadsOverTheAdjacentCellsThatTetgenAddsWithNnAndSaysSo) {
+TEST(TetgenReader, SkipsTheAdjacentCellsThatTetgenAddsWithNnWithANote) {
     std::string notes;
     const ReadOptions options{.note = [&](const auto& n) { notes += n + "\n"; }};
     const Files with_adjacency{.face = "2 1\n0 0 1 2 7 0 -1\n1 0 1 3 8 -1 0\n",
@@ -257,7 +257,7 @@ TEST(TetgenReader, RefusesWhatIsNotAFile) {
                 HasSubstr("(with its history), in lower case"));
 }
 
-TEST(TetgenReader, ReportsWhatIsThereAndCannotBeOpened) {
+TEST(TetgenReader, ReportsFilesThatCannotBeOpened) {
     const TemporaryFolder folder;
     std::filesystem::create_symlink("loop.ele", folder / "loop.ele");
     std::filesystem::create_symlink("loop.node", folder / "loop.node");
@@ -272,7 +272,7 @@ TEST(TetgenReader, ReportsWhatIsThereAndCannotBeOpened) {
     }
 }
 
-/// `count` cells round one edge of two hubs, their faces at that edge's lower end tagged.
+/// `count` cells round one edge of two hubs; their faces at the lower end of this edge are tagged.
 Files fan(int count) {
     Files files{.node = fmt::format("{} 3\n0 0 0 -1\n1 0 0 1\n", count + 2),
                 .ele = fmt::format("{} 4\n", count),
@@ -287,7 +287,7 @@ Files fan(int count) {
 }
 
 TEST(TetgenReader, TakesFansInTimeThatDoesNotGrowWithTheSquareOfTheirSize) {
-    constexpr int count = 100000;  // the square of it takes longer than any test may
+    constexpr int count = 100000;  // a quadratic algorithm would exceed the time limit
     EXPECT_EQ(read_files(fan(count)).facets.size(), std::size_t{count});
 }
 
@@ -299,8 +299,8 @@ TEST(TetgenReader, FindsTheFirstOfStrayFacesAmongMany) {
                 HasSubstr("m.face:51: face 49 belongs to no cell"));
 }
 
-/// Cells are judged many at a time, and lines are read one by one.
-TEST(TetgenReader, NamesTheFirstLineWithAFaultWhicheverFaultItIs) {
+/// Cells are checked in blocks, but lines are read one by one.
+TEST(TetgenReader, NamesTheFirstLineWithAnyFault) {
     constexpr std::size_t count = 600;
     for (const std::size_t flat : {0U, 7U, 255U, 256U, 300U, 599U}) {
         for (const std::size_t malformed :

@@ -17,8 +17,8 @@
 #include "support/run_program.hpp"
 #include "support/thrown.hpp"
 
-/// Every entry of corpus/manifest.json: what must be read is read and refined, what must be refused
-/// is refused as the manifest says.
+/// Every entry of corpus/manifest.json: valid files are read and refined, invalid ones are refused
+/// as the manifest specifies.
 namespace octetra {
 namespace {
 
@@ -72,9 +72,8 @@ TEST_P(CorpusMesh, KeepsEverythingThroughFiles) {
     EXPECT_EQ(test::content_of(folder / "copy.mesh"), test::content_of(folder / "again.mesh"));
 }
 
-/// Holds if `fine` was refined from a mesh whose facets are its boundary faces: every face of a
-/// cell is then in two cells, or is one of the pieces of the boundary. A hanging vertex leaves
-/// faces that are in one cell and are not.
+/// Checks a refinement of a mesh whose facets are its boundary faces: every face of a cell is in
+/// two cells or is a child of a boundary face. A hanging vertex leaves faces that are neither.
 void expect_conforming(const Mesh& fine) {
     const auto census = test::count_faces(fine);
     ASSERT_EQ(census.faults, 0U);
@@ -110,8 +109,9 @@ TEST_P(RefinedCorpusMesh, IsRefinedByEverySchemeOrRefusedForRounding) {
     }
 }
 
-/// Generated meshes, too; tests/verify has all schemes and levels of those in the corpus itself.
-TEST_P(RefinedCorpusMesh, IsRefinedToWhatTheVerifierFindsValid) {
+/// Also generated meshes; tests/verify covers all schemes and levels for the meshes in the corpus
+/// folder.
+TEST_P(RefinedCorpusMesh, HasAValidRefinementAccordingToTheVerifier) {
     const Selection selection{.random = RandomShare{0.1, 1}};
     Mesh fine;
     try {
@@ -136,7 +136,7 @@ INSTANTIATE_TEST_SUITE_P(, RefinedCorpusMesh,
 class BadFile : public testing::TestWithParam<CorpusEntry> {
 protected:
     const json& entry = GetParam().content;
-    /// "FILE:LINE: " or "FILE: ", as the manifest has it.
+    /// "FILE:LINE: " or "FILE: ", according to the manifest.
     std::string place() const {
         const std::string file = corpus / entry["blamed"].get<std::string>();
         if (entry["line"].is_null()) return file + ": ";

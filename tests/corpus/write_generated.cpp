@@ -1,5 +1,5 @@
-/// write_generated MANIFEST PROGRAM FOLDER: makes the generated meshes of the corpus, as the
-/// manifest says, by the program itself. Programs under mpirun read them from there.
+/// write_generated MANIFEST PROGRAM FOLDER: makes the generated meshes of the corpus with the
+/// program, as the manifest specifies. Programs under mpirun read them from the folder.
 
 #include <cstdlib>
 #include <filesystem>

@@ -7,14 +7,15 @@ import unittest
 
 root = pathlib.Path(__file__).resolve().parent.parent.parent
 
-# Layers that the preset asan-ubsan builds; with OCTETRA_CLI, as at night; and never.
+# Layers that the preset asan-ubsan builds always; those built with OCTETRA_CLI in the nightly run;
+# and those never built.
 ALWAYS = {"core", "reference", "quality", "distributed", "verify"}
 AT_NIGHT = {"generator"}
 NEVER = {
     "dolfinx": "DOLFINx is not built with sanitizers, and its objects cross the interface",
     "petsc": "PETSc is not built with sanitizers, and its objects cross the interface",
 }
-# The option without which a layer is not built.
+# The option required to build a layer.
 OPTION_OF = {"generator": "OCTETRA_CLI", "dolfinx": "OCTETRA_DOLFINX", "petsc": "OCTETRA_PETSC"}
 
 

@@ -3,7 +3,7 @@
 
 #include "support/run_program.hpp"
 
-/// What ./dev and mpirun.sh say before anything is installed or built.
+/// The output of ./dev and mpirun.sh before anything is installed or built.
 namespace octetra {
 namespace {
 
@@ -38,7 +38,7 @@ INSTANTIATE_TEST_SUITE_P(
                     "campaign packages --minutes 0", "campaign packages now", "format --slow",
                     "docs now", "clean all"));
 
-/// What a verb needs is neither installed nor built for that.
+/// Help neither installs nor builds the prerequisites of a verb.
 class Help : public testing::TestWithParam<std::pair<std::string, std::string>> {};
 
 TEST_P(Help, IsOfTheVerbThatIsAskedFor) {
@@ -65,8 +65,8 @@ INSTANTIATE_TEST_SUITE_P(CommandLines, Help,
                                          std::pair("bench --quick --paper -h", "--paper [--quick]"),
                                          std::pair("equivalence --help", "--quick")));
 
-/// Without installing anything: that comes before the list of mutants is read.
-TEST(Mutants, TakeNoTimeThatIsOverAtOnce) {
+/// The arguments are checked before anything is installed and before the list of mutants is read.
+TEST(Mutants, RefuseATimeLimitThatIsNotPositive) {
     const test::TemporaryFolder folder;
     for (const std::string minutes : {"0", "-1", "nan"}) {
         const auto run = test::run_program(
@@ -76,8 +76,8 @@ TEST(Mutants, TakeNoTimeThatIsOverAtOnce) {
     }
 }
 
-/// A rank looks for a terminal to colour, and mpirun gives it one.
-TEST(Mpirun, LetsNoTestPrintColoursIntoAFile) {
+/// A rank colours its output if it has a terminal, and mpirun gives it one.
+TEST(Mpirun, PrintsNoColoursIntoAFile) {
     const test::TemporaryFolder folder;
     const auto mpirun = sources + "/tests/support/mpirun.sh";
     const auto run = test::run_program(

@@ -28,14 +28,14 @@
 #include "support/temporary_folder.hpp"
 #include "support/thrown.hpp"
 
-/// The mesh of a solver's loop, by what a program sees of it.
+/// Tests of AdaptiveMesh through its public interface.
 namespace octetra::distributed {
 namespace {
 
 const Partition at_random{.method = PartitionMethod::random, .seed = 7};
 const Partition in_blocks{.method = PartitionMethod::block};
 
-/// The first process's mesh after these steps, by the reference; nothing on the others.
+/// On the first process, the mesh after these steps by the reference; an empty mesh on the others.
 Mesh expected_after(const Mesh& mesh, std::span<const Selection> selections, Scheme scheme) {
     Mesh fine = mesh;
     if (!test::world().is_first()) return {};
@@ -48,7 +48,7 @@ Mesh expected_after(const Mesh& mesh, std::span<const Selection> selections, Sch
 INSTANTIATE_TEST_SUITE_P(Parts, AdaptiveMeshIn, testing::Values(Partition{}, in_blocks, at_random),
                          [](const auto& i) { return fmt::format("{}", i.index); });
 
-TEST_P(AdaptiveMeshIn, IsAfterAnyStepWhatTheReferenceMakes) {
+TEST_P(AdaptiveMeshIn, EqualsTheReferenceAfterEveryStep) {
     const Mesh mesh = test::marked(test::shaken_kuhn(6, 0.2, 3), 3);
     for (const Scheme scheme : {Scheme::eight, Scheme::four, Scheme::two}) {
         AdaptiveMesh adapted = shared_out(mesh, GetParam());
@@ -57,7 +57,7 @@ TEST_P(AdaptiveMeshIn, IsAfterAnyStepWhatTheReferenceMakes) {
                 k % 2 == 0 ? adapted.refine(marks_of(adapted, steps[k]), {.scheme = scheme})
                            : adapted.refine(steps[k], {.scheme = scheme});
             EXPECT_TRUE(step.changed);
-            // Where one process has all, the ways that it takes are known.
+            // With one process the kind of each level is known.
             EXPECT_TRUE(test::world().size() > 1 ||
                         step.cells.keeps_numbers() == (k != 2 && k != 5));
             const Mesh expected = expected_after(mesh, std::span(steps).first(k + 1), scheme);
@@ -67,12 +67,12 @@ TEST_P(AdaptiveMeshIn, IsAfterAnyStepWhatTheReferenceMakes) {
     }
 }
 
-TEST(AdaptiveMesh, FindsAMarkWhereverItStandsAmongOthersThatAreNone) {
+TEST(AdaptiveMesh, FindsASingleMarkAtAnyPosition) {
     const Mesh mesh = test::shaken_kuhn(6, 0.2, 3);
     const auto ranks = partition_cells(mesh, test::world().size(), in_blocks);
     const AdaptiveMesh input = AdaptiveMesh::distribute(test::world(), mesh, ranks);
     const std::size_t most = test::world().max(input.cells().size());
-    for (std::size_t c = 0; c < most; c += 7) {  // in each word of eight
+    for (std::size_t c = 0; c < most; c += 7) {  // one mark in each word of eight
         std::vector<std::uint8_t> bytes(input.cells().size(), 0);
         std::vector<CellIndex> list;
         if (c < bytes.size()) {
@@ -89,7 +89,7 @@ TEST(AdaptiveMesh, FindsAMarkWhereverItStandsAmongOthersThatAreNone) {
 
 TEST_P(AdaptiveMeshIn, WritesTheFilesOfTheWholeMesh) {
     AdaptiveMesh mesh = shared_out(test::shaken_kuhn(3, 0.2, 3), GetParam());
-    std::optional<test::TemporaryFolder> folder;  // one for all processes
+    std::optional<test::TemporaryFolder> folder;  // one folder for all processes
     std::string path;
     if (test::world().is_first()) {
         folder.emplace();
@@ -135,7 +135,7 @@ TEST_P(AdaptiveMeshIn, KnowsOfEveryVertexItsNumberItsSharersAndItsOwner) {
         EXPECT_EQ(mesh.vertex_count(), ranks.size());
         EXPECT_EQ(ranks.rbegin()->first + 1, ranks.size());
 
-        // What others say of the owner, and of what they have in common with this one.
+        // A process's report of an owner and of the interface with this process.
         struct Said {
             std::uint64_t number;
             int owner;
@@ -175,7 +175,7 @@ TEST_P(AdaptiveMeshIn, KnowsOfEveryVertexItsNumberItsSharersAndItsOwner) {
     }
 }
 
-TEST_P(AdaptiveMeshIn, TellsWhatEachCellFacetAndEdgeWas) {
+TEST_P(AdaptiveMeshIn, ReturnsTheAncestorOfEachCellFacetAndEdge) {
     AdaptiveMesh mesh = shared_out(test::marked(test::shaken_kuhn(3, 0.2, 2), 2), GetParam());
     for (const Selection& selection : steps) {
         const std::vector<CellVertices> cells(mesh.cells().begin(), mesh.cells().end());
@@ -194,7 +194,8 @@ TEST_P(AdaptiveMeshIn, TellsWhatEachCellFacetAndEdgeWas) {
             EXPECT_EQ(mesh.points()[vertex_count + k],
                       midpoint(mesh.points()[a.value()], mesh.points()[b.value()]));
         }
-        // A piece has corners of the whole and midpoints of its edges; shares add up to it.
+        // Children have corners of the parent and midpoints of its edges, and their shares add up
+        // to 1.
         const auto check = [&](const EntityTransfer& entity_transfer, const auto& before,
                                const auto& after, const auto& markers_before,
                                const auto& markers_after) {
@@ -231,7 +232,7 @@ TEST_P(AdaptiveMeshIn, TellsWhatEachCellFacetAndEdgeWas) {
     }
 }
 
-/// What a program may have for each cell; nothing that could be divided.
+/// A cell value of a program that cannot be divided.
 struct Material {
     int number = 0;
     int phase = 0;
@@ -281,7 +282,8 @@ TEST_P(AdaptiveMeshIn, TransfersLinearFunctionsExactlyAndKeepsSums) {
 }
 
 TEST_P(AdaptiveMeshIn, BisectsMarkedEdgesAndWhatClosureAdds) {
-    // Of two cells' marks the edges, by whichever process has them: what `2t` marks is one edge.
+    // Lists the longest edges of marked cells on all processes that have them; scheme 2t marks
+    // exactly these.
     const Mesh whole = test::shaken_kuhn(3, 0.2, 6);
     for (const Selection& selection : {steps[0], steps[2]}) {
         AdaptiveMesh by_edges = shared_out(whole, GetParam());
@@ -335,21 +337,21 @@ TEST_P(AdaptiveMeshIn, ExchangesValuesOfSharedVertices) {
     }
     EXPECT_EQ(world.sum(owned), mesh.vertex_count());
 
-    // Too few on one process: the same words on all.
+    // A list that is too short on one process: the same message on all.
     if (world.rank() == world.size() - 1) ones.pop_back();
     const auto words =
         test::thrown_by<InputError>([&] { update_copies(world, sharing, count, std::span(ones)); });
     EXPECT_THAT(words, testing::HasSubstr("values for"));
 }
 
-/// A number that a cell adds to each of its vertices; sums of these are exact.
+/// A number that a cell contributes to each of its vertices; sums of these are exact.
 double weight_of(const Corners& corners) {
     double sum = 0;
     for (const Point& p : corners) sum += p.x + 2 * p.y + 4 * p.z;
     return sum;
 }
 
-/// As solvers assemble: every process over its own cells, and what it shares added up.
+/// Assembly as in solvers: each process sums over its own cells, and shared values are then added.
 std::vector<double> assembled(const AdaptiveMesh& mesh) {
     std::vector<double> values(mesh.points().size(), 0);
     for (std::size_t c = 0; c < mesh.cells().size(); ++c) {
@@ -363,8 +365,8 @@ std::vector<double> assembled(const AdaptiveMesh& mesh) {
 }
 
 TEST(AdaptiveMesh, HasSharersAlsoWherePartsTouchInOneVertexOrEdgeOnly) {
-    // Fans of cells round one vertex, and round one edge, every cell on another process: few have a
-    // face in common with another one, or an edge.
+    // Fans of cells round one vertex and round one edge, each cell on another process: few cells
+    // share a face or an edge.
     Mesh round_vertex;
     round_vertex.points = {{0, 0, 0}};
     Mesh round_edge;
@@ -409,7 +411,7 @@ TEST(AdaptiveMesh, HasSharersAlsoWherePartsTouchInOneVertexOrEdgeOnly) {
     }
 }
 
-TEST_P(AdaptiveMeshIn, IsJudgedWithoutBeingCollectedOrChanged) {
+TEST_P(AdaptiveMeshIn, IsVerifiedWithoutBeingCollectedOrChanged) {
     Mesh coarse = test::shaken_kuhn(3, 0.2, 2);
     test::list_boundary(coarse);
     AdaptiveMesh mesh = shared_out(coarse, GetParam());
@@ -420,7 +422,7 @@ TEST_P(AdaptiveMeshIn, IsJudgedWithoutBeingCollectedOrChanged) {
         verify::share_out(coarse, test::world()), verify::slice_of(fine.whole()), test::world(),
         {.request = verify::Request{selection, Scheme::eight, 1}});
     EXPECT_TRUE(verdict.valid());
-    (void)mesh.refine(Selection{.all = true});  // it can go on
+    (void)mesh.refine(Selection{.all = true});  // further steps are possible
 }
 
 }  // namespace

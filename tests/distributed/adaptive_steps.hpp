@@ -10,7 +10,7 @@
 
 #include "distributed/world.hpp"
 
-/// What tests of the mesh of a solver's loop have in common.
+/// Common parts of the tests of AdaptiveMesh.
 namespace octetra::distributed {
 
 inline AdaptiveMesh shared_out(const Mesh& mesh, const Partition& partition) {
@@ -32,15 +32,15 @@ inline std::vector<std::uint8_t> marks_of(const AdaptiveMesh& mesh, const Select
     return bytes;
 }
 
-/// Steps that change little, much, little: incremental levels, full sweeps, and from one to the
-/// other.
+/// Steps that change few, many, few cells: incremental levels, full sweeps, and transitions between
+/// them.
 inline const std::vector<Selection> steps{
     {.spheres = {{{0.5, 0.5, 0.5}, 0.45}}}, {.spheres = {{{0.5, 0.5, 0.5}, 0.35}}},
     {.random = RandomShare{0.3, 5}},        {.spheres = {{{2.5, 2.5, 2.5}, 0.45}}},
     {.spheres = {{{2.5, 2.5, 2.5}, 0.35}}}, {.all = true},
 };
 
-/// By how the cells are shared out in the beginning.
+/// Parametrised by the initial partition.
 class AdaptiveMeshIn : public testing::TestWithParam<Partition> {};
 
 }  // namespace octetra::distributed

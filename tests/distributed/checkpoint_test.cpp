@@ -30,7 +30,7 @@ using test::world;
 
 Selection some(double share, std::uint64_t seed) { return {.random = RandomShare{share, seed}}; }
 
-/// Little and much, back and forth.
+/// Steps that change few or many cells, refining and coarsening.
 void adapt(AdaptiveMesh& mesh, std::uint64_t seed, int steps) {
     std::mt19937_64 random(seed);
     for (int k = 0; k < steps; ++k) {
@@ -44,7 +44,7 @@ void adapt(AdaptiveMesh& mesh, std::uint64_t seed, int steps) {
     }
 }
 
-/// Its lists of points, cells and cuts take several blocks.
+/// Its lists of points, cells and cuts extend over several blocks.
 Mesh input_of(std::uint64_t seed) { return test::featured(test::marked_lattice(16, seed), seed); }
 
 AdaptiveMesh shared_out(const Communicator& processes, Mesh mesh, const std::string& partition) {
@@ -94,7 +94,7 @@ TEST_P(Checkpoint, IsTheSameBytesOnAnyNumberOfRanks) {
     });
 }
 
-TEST_P(Checkpoint, GivesTheMeshBackWhicheverPartitionItIsLoadedBy) {
+TEST_P(Checkpoint, RestoresTheMeshWithAnyPartition) {
     const test::SharedFolder folder;
     AdaptiveMesh mesh = shared_out(world(), input_of(GetParam()), "block");
     adapt(mesh, GetParam(), 5);
@@ -109,7 +109,7 @@ TEST_P(Checkpoint, GivesTheMeshBackWhicheverPartitionItIsLoadedBy) {
     }
 }
 
-TEST_P(Checkpoint, LeavesOffWhereTheMeshGoesOn) {
+TEST_P(Checkpoint, ContinuesLikeTheSavedMesh) {
     const test::SharedFolder folder;
     AdaptiveMesh mesh = shared_out(world(), input_of(GetParam()), "random:5");
     adapt(mesh, GetParam(), 4);
@@ -183,8 +183,9 @@ TEST(CheckpointOfAMeshWithVerticesOfNoCell, KeepsThem) {
     EXPECT_TRUE(loaded.collect() == mesh.collect());
 }
 
-/// Written when the version was new: `version-1.ele` is the mesh, of which the fields tell, too.
-TEST(CheckpointOfVersion1, IsReadAsItAlwaysWas) {
+/// A file written when version 1 was current; `version-1.ele` is its mesh, and its fields follow
+/// from the mesh.
+TEST(CheckpointOfVersion1, IsReadUnchanged) {
     const test::SharedFolder folder;
     const std::filesystem::path corpus =
         std::filesystem::path(OCTETRA_SOURCE_DIR) / "corpus/checkpoints";
@@ -201,7 +202,7 @@ TEST(CheckpointOfVersion1, IsReadAsItAlwaysWas) {
     });
 }
 
-/// Collective. All processes refuse it, or none.
+/// Collective. Checks that all processes refuse the file or none does.
 bool is_refused(const std::filesystem::path& path) {
     bool refused = false;
     try {
@@ -214,7 +215,7 @@ bool is_refused(const std::filesystem::path& path) {
     return refused;
 }
 
-TEST(CheckpointThatIsMadeUp, IsReadOrRefusedByAllRanks) {
+TEST(InventedCheckpoint, IsReadOrRefusedByAllRanks) {
     const test::SharedFolder folder;
     AdaptiveMesh mesh = shared_out(world(), test::featured(test::marked_lattice(2, 1), 1), "block");
     for (const std::uint64_t seed : {1U, 2U, 3U}) (void)mesh.refine(some(0.1, seed));
@@ -227,7 +228,7 @@ TEST(CheckpointThatIsMadeUp, IsReadOrRefusedByAllRanks) {
             std::string bad = test::content_of(folder / "good.octetra");
             std::uint64_t table = 0;
             std::memcpy(&table, bad.data() + bad.size() - 32, sizeof table);
-            // Half of the time of the cuts, which are the last that stands before the table.
+            // Half of the time a byte of the cuts, which precede the table.
             const std::size_t first = k % 2 == 0 ? table - 200 : 16;
             bad[first + random() % (table - first)] = static_cast<char>(random());
             test::seal(bad);
@@ -238,8 +239,8 @@ TEST(CheckpointThatIsMadeUp, IsReadOrRefusedByAllRanks) {
     EXPECT_GT(refused, 20);
 }
 
-/// Each rank has only its share of the cuts, on which all three figures of a step depend.
-TEST(CheckpointWhoseTableHasOtherFiguresOfAStep, IsRefusedByAllRanksAlike) {
+/// Each rank has only its share of the cuts, but all three figures of a step depend on all cuts.
+TEST(CheckpointWithWrongFiguresOfAStep, IsRefusedIdenticallyByAllRanks) {
     const test::SharedFolder folder;
     AdaptiveMesh mesh = shared_out(world(), test::marked_lattice(12, 1), "block");  // some blocks
     for (const std::uint64_t seed : {1U, 2U}) (void)mesh.refine(some(0.1, seed));
@@ -263,8 +264,8 @@ TEST(CheckpointWhoseTableHasOtherFiguresOfAStep, IsRefusedByAllRanksAlike) {
     }
 }
 
-/// The message is that of the only rank, whatever the number of ranks.
-TEST(CheckpointWithATaggedSideOfNoCell, IsRefusedByAllRanksAlike) {
+/// The message is that of a single rank, for any number of ranks.
+TEST(CheckpointWithATaggedSideOfNoCell, IsRefusedIdenticallyByAllRanks) {
     const test::SharedFolder folder;
     Mesh whole = test::marked_lattice(12, 1);
     AdaptiveMesh mesh = shared_out(world(), whole, "block");

@@ -8,11 +8,11 @@
 #include "distributed/world.hpp"
 #include "support/meshes.hpp"
 
-/// The engine's coarsening, edit by edit, beside the reference's.
+/// Compares coarsening by the engine with that by the reference, step by step.
 namespace octetra::distributed {
 namespace {
 
-/// Collective. The same steps by both.
+/// Collective. Applies the same steps to both.
 class Both {
 public:
     explicit Both(const Mesh& mesh, std::uint64_t seed)
@@ -76,8 +76,9 @@ TEST_P(Coarsening, IsTheReferencesStepByStep) {
     }
 }
 
-/// The lists stay in no order all the time, and what finds their entities is kept up.
-TEST_P(Coarsening, OfFewCellsAgainAndAgainIsTheReferences) {
+/// The lists stay unordered throughout, and the maps that locate their entities are kept up to
+/// date.
+TEST_P(Coarsening, OfFewCellsRepeatedlyEqualsTheReference) {
     std::mt19937_64 random(GetParam());
     Both both(test::marked(test::shaken_kuhn(3, 0.2, GetParam()), 1), GetParam());
     const Tuning incremental{.incremental_below = 2, .roots_below = 1};
@@ -99,7 +100,7 @@ TEST_P(Coarsening, OfFewCellsAgainAndAgainIsTheReferences) {
     EXPECT_NE(both.mesh().adjacency, nullptr);
 }
 
-TEST_P(Coarsening, OfAllAgainAndAgainEndsInTheInput) {
+TEST_P(Coarsening, OfAllRepeatedlyRestoresTheInput) {
     const Mesh mesh = test::marked(test::shaken_kuhn(2, 0.2, GetParam()), 1);
     Both both(mesh, GetParam());
     for (std::uint64_t step = 0; step < 3; ++step) {
@@ -116,8 +117,8 @@ TEST_P(Coarsening, OfAllAgainAndAgainEndsInTheInput) {
 
 class CoarseningOfSmallMeshes : public Coarsening {};
 
-/// Of several levels at once, where often only another process knows that one is divided.
-TEST_P(CoarseningOfSmallMeshes, OfAllButFewCellsIsTheReferences) {
+/// Several levels at once: often only another process knows that an edge is bisected.
+TEST_P(CoarseningOfSmallMeshes, OfAllButFewCellsEqualsTheReference) {
     std::mt19937_64 random(GetParam());
     const int trials = test::world().size() > 3 ? 2 : 20;
     for (int trial = 0; trial < trials; ++trial) {

@@ -17,7 +17,7 @@
 #include "support/meshes.hpp"
 #include "support/refinement.hpp"
 
-/// AdaptiveMesh::coarsen, and what it tells.
+/// Tests of AdaptiveMesh::coarsen and the Adaptation that it returns.
 namespace octetra::distributed {
 namespace {
 
@@ -31,7 +31,7 @@ Selection some(double share, std::uint64_t seed) { return {.random = RandomShare
 
 class CoarseningMesh : public testing::TestWithParam<std::uint64_t> {};
 
-/// Little and much, back and forth: full sweeps and incremental ones.
+/// Few or many cells, refined and coarsened: full sweeps and incremental levels.
 std::vector<std::pair<bool, Selection>> random_steps(std::uint64_t seed) {
     std::mt19937_64 random(seed);
     std::vector<std::pair<bool, Selection>> steps{{true, some(0.1, seed)}};
@@ -60,7 +60,7 @@ TEST_P(CoarseningMesh, IsTheReferencesOnEveryPartition) {
         if (!test::world().is_first()) continue;
         EXPECT_EQ(step.changed, reference.history().steps != before.steps);
         EXPECT_TRUE(found == reference.mesh());
-        // What is kept up, not found anew as by collect().
+        // These are maintained by the steps, not recomputed as in collect().
         for (std::size_t v = 0; v < mesh.points().size(); ++v) {
             const auto number = static_cast<std::size_t>(mesh.vertex_numbers()[v]);
             ASSERT_TRUE(found.points.at(number) == mesh.points()[v]);
@@ -68,8 +68,8 @@ TEST_P(CoarseningMesh, IsTheReferencesOnEveryPartition) {
     }
 }
 
-/// Of vertices and cells, what the mesh says of them by where they are.
-TEST_P(CoarseningMesh, KnowsNumbersSharersAndOwnersAsIfItHadNeverBeenFiner) {
+/// The data that the mesh reports for each vertex and cell, keyed by coordinates.
+TEST_P(CoarseningMesh, HasNumbersSharersAndOwnersOfAMeshThatWasNeverFiner) {
     const Mesh input = test::marked(test::shaken_kuhn(3, 0.2, GetParam()), 1);
     AdaptiveMesh mesh = shared_out(input, "random:5");
     (void)mesh.refine(some(0.1, GetParam()));
@@ -80,7 +80,7 @@ TEST_P(CoarseningMesh, KnowsNumbersSharersAndOwnersAsIfItHadNeverBeenFiner) {
     EXPECT_TRUE(before == test::SeenMesh(mesh));
 }
 
-TEST_P(CoarseningMesh, KeepsValuesOfVerticesAndMakesThoseOfCellsFromTheirPieces) {
+TEST_P(CoarseningMesh, KeepsValuesOfVerticesAndComputesThoseOfCellsFromTheirChildren) {
     const Mesh input = test::marked(test::shaken_kuhn(3, 0.2, GetParam()), 1);
     AdaptiveMesh mesh = shared_out(input, "random:5");
     for (const std::uint64_t k : {0U, 1U, 2U}) (void)mesh.refine(some(0.02, GetParam() + k));
@@ -118,7 +118,7 @@ TEST_P(CoarseningMesh, KeepsValuesOfVerticesAndMakesThoseOfCellsFromTheirPieces)
         EXPECT_NEAR(density[c] * cell_volume(c), mass[c], 1e-12);
     }
     EXPECT_NEAR(kept, total, 1e-9);
-    EXPECT_EQ(density, step.transfer_cells(before, 1));  // the mean by volumes is the default
+    EXPECT_EQ(density, step.transfer_cells(before, 1));  // the default is the mean by volume
     const auto means = step.transfer_cells(ones);
     const auto weighted = step.transfer_cells(ones, 1, CellValues::averaged);
     for (std::size_t c = 0; c < means.size(); ++c) {
@@ -127,7 +127,7 @@ TEST_P(CoarseningMesh, KeepsValuesOfVerticesAndMakesThoseOfCellsFromTheirPieces)
     }
 }
 
-TEST(MergedValue, IsWhatAllPiecesHaveToTheBitAndElseTheirMeanInNoOrder) {
+TEST(MergedValue, IsTheCommonValueOfAllChildrenOrElseTheirMeanInAnyOrder) {
     using distributed::merged_value;
     const auto of = []<class T>(CellValues how, std::vector<distributed::FineValue<T>> pieces) {
         std::vector<T> found;
@@ -159,7 +159,7 @@ TEST(MergedValue, IsWhatAllPiecesHaveToTheBitAndElseTheirMeanInNoOrder) {
     EXPECT_EQ(of(CellValues::divided, Wholes{{7, 1}, {7, 2}, {-1, 2}}), 13);
 }
 
-TEST_P(CoarseningMesh, KeepsWholeNumbersThatAllPiecesHave) {
+TEST_P(CoarseningMesh, KeepsWholeNumbersCommonToAllChildren) {
     AdaptiveMesh mesh = shared_out(test::shaken_kuhn(3, 0.2, GetParam()), "random:5");
     std::vector<int> tag(mesh.cells().size(), 7);
     std::vector<double> tenth(mesh.cells().size(), 0.1);
@@ -178,7 +178,7 @@ TEST_P(CoarseningMesh, KeepsWholeNumbersThatAllPiecesHave) {
     EXPECT_EQ(step.transfer_cells(tenth), std::vector<double>(mesh.cells().size(), 0.1));
 }
 
-TEST_P(CoarseningMesh, TellsOfEveryFacetAndTaggedEdgeWhatItBecame) {
+TEST_P(CoarseningMesh, MapsEveryFacetAndTaggedEdgeToItsSuccessor) {
     const Mesh input = test::marked(test::shaken_kuhn(3, 0.2, GetParam()), 1);
     AdaptiveMesh mesh = shared_out(input, "random:5");
     for (const std::uint64_t k : {0U, 1U, 2U}) (void)mesh.refine(some(0.02, GetParam() + k));
@@ -189,7 +189,7 @@ TEST_P(CoarseningMesh, TellsOfEveryFacetAndTaggedEdgeWhatItBecame) {
     const Adaptation step = mesh.coarsen(some(0.9, GetParam()));
     ASSERT_EQ(step.facets.coarse_of().size(), facets.size());
     ASSERT_EQ(step.edges.coarse_of().size(), edges.size());
-    // A piece lies in its whole: its corners are some means of the whole's.
+    // A child lies in its parent: its corners are means of the parent's corners.
     const auto area = [](const Point& a, const Point& b, const Point& c) {
         const Point u{b.x - a.x, b.y - a.y, b.z - a.z};
         const Point v{c.x - a.x, c.y - a.y, c.z - a.z};

@@ -21,8 +21,8 @@ protected:
         return ::open((folder / "lock").c_str(), O_RDWR | O_CREAT, 0600);
     }
 
-    /// A process that takes the lock, lives on for a while, and says by its status whether it was
-    /// the first. Returns when it has the lock.
+    /// Starts a process that takes the lock, lives for a while, and reports by its exit status
+    /// whether it was the first. Returns when it holds the lock.
     [[nodiscard]] pid_t start_a_holder(std::chrono::milliseconds life) const {
         std::array<int, 2> ends{};
         EXPECT_EQ(::pipe(ends.data()), 0);
@@ -49,7 +49,7 @@ bool was_first(pid_t child) {
     return status == EXIT_SUCCESS;
 }
 
-TEST_F(CommonLock, IsTakenOnceAlsoWhenItsHolderHasEnded) {
+TEST_F(CommonLock, IsAcquiredOnceAlsoAfterItsHolderHasEnded) {
     const pid_t holder = start_a_holder(std::chrono::milliseconds(0));
     EXPECT_TRUE(was_first(holder));
     const int lock = open();
@@ -57,7 +57,7 @@ TEST_F(CommonLock, IsTakenOnceAlsoWhenItsHolderHasEnded) {
     ::close(lock);
 }
 
-TEST_F(CommonLock, LetsOthersGoOnWhenItsHolderHasEnded) {
+TEST_F(CommonLock, BlocksOthersUntilItsHolderHasEnded) {
     const pid_t holder = start_a_holder(std::chrono::milliseconds(200));
     const auto start = std::chrono::steady_clock::now();
     const int lock = open();
@@ -67,7 +67,7 @@ TEST_F(CommonLock, LetsOthersGoOnWhenItsHolderHasEnded) {
     ::close(lock);
 }
 
-TEST_F(CommonLock, IsAnybodysWhereThereIsNone) {
+TEST_F(CommonLock, IsAcquiredByEveryCallerIfThereIsNone) {
     EXPECT_TRUE(try_claim(-1));
     EXPECT_TRUE(try_claim(-1));
 }

@@ -20,15 +20,15 @@
 #include "support/meshes.hpp"
 #include "support/mpi_counter.hpp"
 
-/// How much synchronisation may send: bounds that hold for every mesh, partition and rank. The
-/// figures are those of the profile, which profile_test.cpp holds against MPI's.
+/// Bounds of the communication of synchronisation, valid for every mesh, partition and rank. The
+/// figures are those of the profile, which profile_test.cpp compares with MPI.
 namespace octetra::distributed {
 namespace {
 
-/// What a rank shares with others before a level.
+/// The border of a rank before a level.
 struct Border {
     std::uint64_t neighbours = 0;
-    std::uint64_t edges = 0;  ///< in the lists of all its interfaces
+    std::uint64_t edges = 0;  ///< in all interfaces
 };
 
 Border border_of(const DistributedMesh& mesh) {
@@ -38,11 +38,11 @@ Border border_of(const DistributedMesh& mesh) {
 }
 
 struct LevelFigures {
-    std::vector<std::vector<Border>> borders;  ///< [rank], one each
-    std::vector<PhaseCounts> of_rank;          ///< in the phase "synchronise"
+    std::vector<std::vector<Border>> borders;  ///< [rank], one level each
+    std::vector<PhaseCounts> of_rank;          ///< of each rank, in the phase "synchronise"
 };
 
-/// Collective. Refines once; the first process gets the figures.
+/// Collective. Refines once; returns the figures on the first process.
 LevelFigures refine_once(DistributedMesh& mesh, const Selection& selection, Scheme scheme,
                          Synchronisation synchronisation, const Tuning& tuning = {}) {
     LevelFigures figures;
@@ -61,7 +61,8 @@ DistributedMesh distributed_lattice(std::size_t n, const Partition& partition) {
     return distribute(test::world(), mesh, partition_cells(mesh, test::world().size(), partition));
 }
 
-/// Three levels by every scheme and some partitions; check(figures, rank) for each rank and level.
+/// Refines three levels by every scheme and some partitions, and calls check(figures, rank) for
+/// each rank and level.
 void for_each_level(Synchronisation synchronisation, auto&& check) {
     std::uint64_t bytes = 0;
     for (const Partition& partition :
@@ -89,7 +90,7 @@ TEST(Communication, OfNeighboursIsAMessageARoundAndAtMostFourBytesAnEdgeOfTheBor
         const Border& border = figures.borders[r].front();
         EXPECT_LE(counts.messages, counts.rounds * border.neighbours);
         EXPECT_LE(counts.bytes, 4 * border.edges);
-        // Beside them a sum over all ranks in each round, and one that finds nothing left to tell.
+        // Each round has a sum over all ranks, and one more finds that no marks are pending.
         EXPECT_EQ(counts.collectives, test::world().size() > 1 ? counts.rounds + 1 : 0);
     });
 }
@@ -112,8 +113,8 @@ TEST(Communication, ThroughTheGatewayIsAMessageARoundEachWayAndTwelveBytesASelec
 constexpr Tuning always_incremental{.incremental_below = 10};
 constexpr Tuning always_sweep{.incremental_below = 0};
 
-/// Six cells round one edge that is the longest of all, a cell on each rank as far as there are so
-/// many, refined once by 2t: what each rank sends.
+/// The bytes that each rank sends in one refinement by 2t of six cells round an edge that is the
+/// longest of all, distributed over as many ranks as possible.
 std::vector<std::uint64_t> bytes_sent_in_a_ring(const Selection& selection,
                                                 Synchronisation synchronisation,
                                                 const Tuning& tuning) {
@@ -130,13 +131,13 @@ std::vector<std::uint64_t> bytes_sent_in_a_ring(const Selection& selection,
     return bytes;
 }
 
-/// How many ranks have a cell of the ring.
+/// The number of ranks that have a cell of the ring.
 std::size_t sharers_of_a_ring() {
     return static_cast<std::size_t>(std::min(test::world().size(), 6));
 }
 
-TEST(Communication, OfNeighboursIsNotToldBackToWhoHasTold) {
-    const Selection one_cell{.cells = {GlobalCell{0}}};  // which the first rank has
+TEST(Communication, OfNeighboursIsNotReturnedToTheSender) {
+    const Selection one_cell{.cells = {GlobalCell{0}}};  // owned by the first rank
     for (const Tuning& tuning : {always_sweep, always_incremental}) {
         const auto bytes = bytes_sent_in_a_ring(one_cell, Synchronisation::neighbour, tuning);
         for (std::size_t r = 0; r < bytes.size(); ++r) {
@@ -145,7 +146,7 @@ TEST(Communication, OfNeighboursIsNotToldBackToWhoHasTold) {
     }
 }
 
-TEST(Communication, ThroughTheGatewayIsNotPassedOnToWhoSaidTheSame) {
+TEST(Communication, ThroughTheGatewayIsNotPassedOnToItsSenders) {
     const auto bytes = bytes_sent_in_a_ring({.all = true}, Synchronisation::gateway, always_sweep);
     for (std::size_t r = 0; r < bytes.size(); ++r) {
         const bool speaks = r > 0 && r < sharers_of_a_ring();
@@ -161,19 +162,20 @@ TEST(Communication, TakesNoMoreRoundsAsTheMeshGrows) {
             const Selection selection{.random = RandomShare{0.05, 3}};
             rounds.push_back(refine(mesh, selection, {.scheme = scheme, .levels = 1}).rounds);
         }
-        // The larger meshes have 8 and 64 times as many cells, and longer paths by chance alone.
+        // The larger meshes have 8 and 64 times as many cells; their paths are longer only by
+        // chance.
         EXPECT_LE(rounds[1], rounds[0] + 1);
         EXPECT_LE(rounds[2], rounds[0] + 1);
     }
 }
 
-/// One process knows what it has for others, and no process what others have for it.
-TEST(Communication, OfAllWithAllSendsNothingToWhomThereIsNothingFor) {
+/// A process knows what it sends, but not what it will receive.
+TEST(Communication, OfAllWithAllSendsNoEmptyMessages) {
     const Communicator& world = test::world();
     const auto size = static_cast<std::size_t>(world.size());
     const auto rank = static_cast<std::size_t>(world.rank());
     for (std::size_t round = 0; round < 50; ++round) {
-        // Every other process has something for the next one, and one of them more than a message.
+        // Every other process sends to the next one; sometimes more than fits in one message.
         const auto sends = [&](std::size_t r) { return r % 2 == round % 2; };
         const std::size_t longest = round % 10 == 0 ? 400'000 : 3;
         std::vector<std::vector<std::uint64_t>> outboxes(size);
@@ -181,7 +183,7 @@ TEST(Communication, OfAllWithAllSendsNothingToWhomThereIsNothingFor) {
         const test::MpiCounts before = test::mpi_counts();
         const auto inboxes = world.all_to_all(outboxes);
         const test::MpiCounts after = test::mpi_counts();
-        const std::size_t pieces = rank == 0 && longest > 3 ? 5 : 1;  // the size, and four
+        const std::size_t pieces = rank == 0 && longest > 3 ? 5 : 1;  // the size, and four pieces
         EXPECT_EQ(after.messages - before.messages, size > 1 && sends(rank) ? pieces : 0U);
         EXPECT_EQ(after.collectives - before.collectives, size > 1 ? 1U : 0U);
         const std::size_t sender = (rank + size - 1) % size;
@@ -194,7 +196,7 @@ TEST(Communication, OfAllWithAllSendsNothingToWhomThereIsNothingFor) {
     }
 }
 
-TEST(Communication, OfAFewBytesOfEveryProcessIsByCallsOfAll) {
+TEST(Communication, OfAFewBytesOfEveryProcessIsCollective) {
     const Communicator& world = test::world();
     const auto bytes_of = [](std::size_t r) {
         return ProcessGroup::Bytes(3 * r, static_cast<std::byte>(r));
@@ -207,7 +209,7 @@ TEST(Communication, OfAFewBytesOfEveryProcessIsByCallsOfAll) {
     for (std::size_t r = 0; r < all.size(); ++r) EXPECT_EQ(all[r], bytes_of(r));
 }
 
-/// All that is sent here is sent for the sake of a line of the file, or a vertex, or a cell.
+/// The messages are proportional to the lines, vertices and cells of the file.
 TEST(Communication, OfReadingAFileOfOneCellDoesNotGrowWithTheProcesses) {
     const test::SharedFolder folder;
     for (const std::string name : {"m.ele", "m.mesh", "m.meshb", "m.msh"}) {
@@ -221,7 +223,7 @@ TEST(Communication, OfReadingAFileOfOneCellDoesNotGrowWithTheProcesses) {
     }
 }
 
-/// The blocks of nodes and of elements are found one after the other, by one process for all.
+/// One process locates the blocks of nodes and elements one after the other, for all processes.
 TEST(Communication, OfReadingBlocksOfGmshTakesNoMoreCallsOfAllWithMoreProcesses) {
     const Communicator& world = test::world();
     if (world.size() < 3) GTEST_SKIP() << "there are no two groups";
@@ -252,7 +254,7 @@ TEST(DuplicateOfACommunicator, IsUsedAgainOnceNoProcessUsesItAnyMore) {
     if (world.size() == 1) GTEST_SKIP() << "one process needs none";
     Communicator first = communicator_of(MPI_COMM_WORLD);
     const MPI_Comm used = comm_of(first);
-    if (world.rank() == world.size() - 1) first = Communicator();  // sooner than the others
+    if (world.rank() == world.size() - 1) first = Communicator();  // released before the others
     Communicator second = communicator_of(MPI_COMM_WORLD);
     EXPECT_NE(comm_of(second), used);
     first = Communicator();

@@ -23,8 +23,8 @@ namespace {
 
 using Complex = std::complex<double>;
 
-/// The integral over the whole mesh of component k of a P1 function, and of its absolute values at
-/// the corners, by cells: the mean of the corners times the volume.
+/// The integral of component k of a P1 function over the whole mesh, and that of the mean of its
+/// absolute values at corners, computed by cells: mean of the corners times volume.
 std::array<Complex, 2> integrals(const AdaptiveMesh& mesh, const std::vector<Complex>& values,
                                  std::size_t components, std::size_t k) {
     std::vector<Complex> own(2);
@@ -42,7 +42,7 @@ std::array<Complex, 2> integrals(const AdaptiveMesh& mesh, const std::vector<Com
     return whole;
 }
 
-/// A mesh after three steps, so that coarsening removes vertices of some of them.
+/// A mesh after three steps; coarsening removes vertices of some of them.
 AdaptiveMesh fine_mesh(PartitionMethod method) {
     const Mesh input = test::shaken_kuhn(3, 0.2, 2);
     AdaptiveMesh mesh = AdaptiveMesh::distribute(
@@ -55,7 +55,7 @@ AdaptiveMesh fine_mesh(PartitionMethod method) {
     return mesh;
 }
 
-/// Two components of no smoothness, the same on all processes.
+/// Two components of a function without smoothness, the same on all processes.
 std::vector<Complex> rough(const AdaptiveMesh& mesh) {
     std::vector<Complex> values;
     for (const Point& p : mesh.points()) {
@@ -66,7 +66,7 @@ std::vector<Complex> rough(const AdaptiveMesh& mesh) {
 }
 
 constexpr std::array methods{PartitionMethod::block, PartitionMethod::random};
-constexpr std::array<double, 3> shares{0.02, 0.6, 1.0};  // incremental coarsening, and of all
+constexpr std::array<double, 3> shares{0.02, 0.6, 1.0};  // incremental coarsening, and of all cells
 
 TEST(ConservativeTransfer, KeepsTheIntegralWhereTheInterpolantChangesIt) {
     for (const PartitionMethod method : methods) {

@@ -11,8 +11,8 @@
 #include "distributed/world.hpp"
 #include "support/manifest.hpp"
 
-/// Every mesh of the corpus, by every scheme and partition, against the reference; the
-/// synchronisations take turns.
+/// Compares the engine with the reference for every mesh of the corpus, scheme and partition, with
+/// alternating synchronisation.
 namespace octetra::distributed {
 namespace {
 
@@ -29,11 +29,11 @@ protected:
                (entry["name"].get<std::string>() + ".ele");
     }
     const Mesh mesh = read_mesh(file());
-    /// Enough for small meshes to grow, and for large ones to end.
+    /// Enough levels for small meshes, and few for large ones.
     const int levels = mesh.cells.size() < 100 ? 4 : mesh.cells.size() < 1000 ? 3 : 2;
 };
 
-/// A refinement, or the error it ended in.
+/// A refinement, or the message of its error.
 struct Outcome {
     Mesh mesh;
     RefinementMaps maps;
@@ -51,7 +51,7 @@ Outcome outcome_of(auto&& refine) {
     }
 }
 
-/// Partitions and synchronisations take turns, which begin elsewhere with each mesh.
+/// Partitions and synchronisations alternate, with a different start for each mesh.
 TEST_P(CorpusEquality, ByEverySchemeAndPartition) {
     const Communicator& world = test::world();
     const std::vector<Selection> selections{{.random = RandomShare{0.15, 4}},
@@ -78,7 +78,8 @@ TEST_P(CorpusEquality, ByEverySchemeAndPartition) {
     }
 }
 
-/// One of each kind that the program offers, about the middle of the mesh where there is a choice.
+/// One selection of each kind of the command line, about the middle of the mesh where it has a
+/// location.
 std::vector<Selection> selectors(const Mesh& mesh) {
     Point low = mesh.points.front();
     Point high = low;
@@ -98,7 +99,7 @@ std::vector<Selection> selectors(const Mesh& mesh) {
             {.max_volume = volume(corners) * 0.9}};
 }
 
-/// Partitions and synchronisations take turns, so that all are met with every selector.
+/// Partitions and synchronisations alternate, so that each selection meets all of them.
 TEST_P(CorpusEquality, BySelectorsOfEveryKindOverOneToFourLevels) {
     const Communicator& world = test::world();
     if (mesh.cells.empty()) return;

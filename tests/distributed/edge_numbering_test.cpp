@@ -10,7 +10,7 @@
 namespace octetra::distributed {
 namespace {
 
-/// Cells round an edge whose ends are vertices 0 and 1, hubs of `count` edges each.
+/// Cells round the edge of vertices 0 and 1, which have about `count` edges each.
 Mesh fan(std::size_t count) {
     std::vector<Point> points{{0, 0, 0}, {0, 0, 1}};
     std::vector<std::array<std::size_t, 4>> cells;
@@ -44,7 +44,7 @@ void expect_every_edge_once(const Mesh& mesh) {
     EXPECT_TRUE(stars.find(VertexIndex{0}, VertexIndex{0}).is_none());
 }
 
-/// An edge that there is not may be one of a neighbour's.
+/// A neighbour may have an edge that is not in this part.
 TEST(EdgeNumbering, FindNothingBetweenVerticesWithoutAnEdge) {
     const Mesh mesh = test::kuhn(3, 2, 4);
     const EdgeNumbering stars(mesh.points.size(), mesh.cells);
@@ -61,14 +61,14 @@ TEST(EdgeNumbering, HaveEveryEdgeOfTheCellsOnce) {
     expect_every_edge_once(test::one_cell(test::cube_corner));
 }
 
-/// Sixteen edges of a vertex are kept together; beyond 64 they are kept in another way.
-TEST(EdgeNumbering, HaveEveryEdgeOnceHoweverManyAVertexHas) {
+/// Up to sixteen edges of a vertex are stored together; beyond 64 the storage changes.
+TEST(EdgeNumbering, HaveEveryEdgeOnceForAnyDegreeOfAVertex) {
     for (std::size_t count = 2; count < 70; ++count) expect_every_edge_once(fan(count));
 }
 
 TEST(EdgeNumbering, HaveEveryEdgeOnceAtAHubOfThousands) { expect_every_edge_once(fan(5000)); }
 
-/// Of some cells: their edges have the numbers, and one more stands for all others.
+/// In a numbering of some cells, all other edges share one further number.
 TEST(EdgeNumbering, OfSomeCellsLeaveOneNumberForAllOtherEdges) {
     const Mesh mesh = test::kuhn(3, 2, 4);
     std::vector<CellIndex> some;
@@ -99,7 +99,7 @@ TEST(EdgeNumbering, OfSomeCellsLeaveOneNumberForAllOtherEdges) {
     }
 }
 
-/// A hub's further edges are looked up in another place.
+/// Further edges of a hub are found through a separate table.
 TEST(EdgeNumbering, OfSomeCellsFindNoOtherEdgeOfAHub) {
     const Mesh mesh = fan(200);
     std::vector<CellIndex> some;

@@ -16,7 +16,7 @@
 #include "support/meshes.hpp"
 #include "support/thrown.hpp"
 
-/// The distributed engine against the reference: the same mesh, numbers and all, and the same maps.
+/// Compares the distributed engine with the reference: identical meshes, numbering and maps.
 namespace octetra::distributed {
 namespace {
 
@@ -39,7 +39,7 @@ const std::vector<Partition> partitions{
     {.method = PartitionMethod::random, .seed = 2},
 };
 
-/// One rank has all cells, whatever the partition. Under sanitizers the most even one is enough,
+/// With one rank all partitions are the same. Under sanitizers two suffice: the most compact one,
 /// and one with borders everywhere.
 std::vector<Partition> partitions_that_differ() {
     if (test::world().size() == 1) return {partitions.front()};
@@ -137,7 +137,7 @@ TEST(Edges, EmptyMeshesAndVerticesOfNoCellStayAsTheyAre) {
     expect_equal(mesh, {.all = true}, {.levels = 2}, {partitions[0]});
 }
 
-TEST(Rounding, IsRefusedOnAllRanksWithTheWordsOfTheReference) {
+TEST(Rounding, IsRefusedOnAllRanksWithTheMessageOfTheReference) {
     Mesh mesh = test::kuhn(2, 2, 2);
     for (Point& p : mesh.points) p = {p.x * 2 + 0x1p52, p.y, p.z};
     for (const Partition& partition : partitions_that_differ()) {
@@ -174,8 +174,9 @@ TEST(Rounding, OfTheSmallestNumbersThereAreIsRefusedToo) {
               expected);
 }
 
-/// As many as there come to be are allowed; with one less the level is refused that makes them.
-TEST(MostCells, AreCountedBeforeALevelIsMadeAndRefusedInTheWordsOfTheReference) {
+/// The limit equals the final count, and is then reduced by one, which refuses the level that
+/// exceeds it.
+TEST(MostCells, AreCountedBeforeALevelIsMadeAndRefusedWithTheMessageOfTheReference) {
     const Mesh mesh = marked(test::shaken_kuhn(5, 0.3, 5), 1);
     const Selection selection{.spheres = {{{0, 0, 0}, 1.1}}};
     const std::size_t most = reference::refine(mesh, selection, Scheme::eight, 3).mesh.cells.size();

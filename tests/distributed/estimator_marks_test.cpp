@@ -19,7 +19,7 @@
 #include "support/meshes.hpp"
 #include "support/thrown.hpp"
 
-/// Marks by indicators, held against what one process finds by looking at all of them.
+/// Compares marks by indicators with those of one process that has all indicators.
 namespace octetra::distributed {
 namespace {
 
@@ -78,7 +78,7 @@ Marks fraction_of(const Indicators& all, double fraction) {
 // ---- by all
 // ---------------------------------------------------------------------------------------
 
-/// Which process has which of the cells.
+/// The process of each cell.
 using Deal = std::vector<int>;
 
 Deal at_random(std::size_t cells, std::uint64_t seed) {
@@ -91,7 +91,7 @@ Deal at_random(std::size_t cells, std::uint64_t seed) {
 
 Deal all_to(int rank, std::size_t cells) { return Deal(cells, rank); }
 
-/// Cells in the order of their numbers, and every other process none.
+/// Cells in blocks of numbers; every other process has none.
 Deal in_blocks(std::size_t cells) {
     const std::size_t with_cells = static_cast<std::size_t>(test::world().size() + 1) / 2;
     Deal deal(cells);
@@ -103,7 +103,7 @@ Deal in_blocks(std::size_t cells) {
 
 using Mark = std::vector<std::uint8_t> (*)(const Communicator&, std::span<const double>, double);
 
-/// Collective. The marks of all cells, if they are dealt like this.
+/// Collective. The marks of all cells, when they are dealt in this way.
 Marks marked_by_all(Mark mark, const Indicators& all, const Deal& deal, double parameter) {
     const Communicator& world = test::world();
     Indicators own;
@@ -171,7 +171,7 @@ std::vector<Drawn> indicators_of_all_sorts() {
             {"none", {}}};
 }
 
-TEST(EstimatorMarks, AreThoseOfOneProcessHoweverCellsAreDealt) {
+TEST(EstimatorMarks, AreThoseOfOneProcessForAnyPartition) {
     for (const auto& [name, indicators] : indicators_of_all_sorts()) {
         const std::size_t count = indicators.size();
         const std::vector<Deal> deals{at_random(count, 1), at_random(count, 2), in_blocks(count),
@@ -188,7 +188,8 @@ TEST(EstimatorMarks, AreThoseOfOneProcessHoweverCellsAreDealt) {
     }
 }
 
-/// Half of the sum is in the first cells: to the last bit, and not in one bit less.
+/// The first cells have exactly half of the sum; with one unit in the last place less, they have
+/// not.
 TEST(EstimatorMarks, CompareSumsToTheLastBit) {
     std::mt19937_64 random(3);
     const auto whole = [&](std::uint64_t below) { return static_cast<double>(random() % below); };
@@ -211,7 +212,7 @@ TEST(EstimatorMarks, CompareSumsToTheLastBit) {
     EXPECT_GT(std::ranges::count(more, 1), 1000);
 }
 
-/// No set with fewer cells has such a sum; and none without the ties would do.
+/// No smaller set has the required sum, and the set without its ties has not.
 TEST(EstimatorMarks, OfBulkMarkingAreTheFewestThatHaveTheShare) {
     std::mt19937_64 random(4);
     for (int repeated = 0; repeated < 20; ++repeated) {
@@ -256,7 +257,7 @@ TEST(EstimatorMarks, OfZerosAreNone) {
 // ---- what is refused
 // ------------------------------------------------------------------------------
 
-/// Collective. Are they the same on all processes?
+/// Collective. Returns whether the messages are the same on all processes.
 bool are_common(const std::string& words) {
     std::vector<char> of_first(words.begin(), words.end());
     test::world().broadcast(of_first);
@@ -331,7 +332,7 @@ TEST(EstimatorMarks, TakeFewAndSmallReductionsHoweverManyCells) {
 // ---- in a loop
 // ------------------------------------------------------------------------------------
 
-/// Something that is large near a corner, and the same for cells that are mirrored.
+/// Indicators that are large near a corner, and invariant under mirroring.
 Indicators indicators_of(std::span<const Point> points, std::span<const CellVertices> cells) {
     Indicators indicators;
     for (const CellVertices& cell : cells) {

@@ -18,11 +18,11 @@
 #include "support/refinement.hpp"
 #include "support/thrown.hpp"
 
-/// Cells that move between closure and bisection.
+/// Tests of migration between closure and bisection.
 namespace octetra::distributed {
 namespace {
 
-/// Wherever it makes ranks more even by the least.
+/// Migrates for the least improvement of the balance.
 constexpr BalanceOptions always{.most_over_mean = 1};
 
 class EvenSteps : public testing::TestWithParam<std::uint64_t> {};
@@ -66,9 +66,8 @@ TEST_P(EvenSteps, OfManyLevelsAreThoseOfTheReference) {
     }
 }
 
-/// What a program has for cells and vertices goes along, first to where they move and then through
-/// the step.
-TEST_P(EvenSteps, BringValuesAlong) {
+/// Values on cells and vertices are transferred by the migration and then by the step.
+TEST_P(EvenSteps, TransferValues) {
     std::mt19937_64 random(GetParam());
     AdaptiveMesh mesh = shared_out(input_of(GetParam()), "block");
     const auto roots_of_cells = [&] {
@@ -116,9 +115,9 @@ TEST(EvenStep, LeavesProcessesEvenThatWouldNotBe) {
 TEST(EvenStep, MovesWhereItPaysOnly) {
     const BalanceOptions paying{.most_over_mean = 1.1, .only_if_it_pays = true};
     AdaptiveMesh mesh = shared_out(test::shaken_kuhn(10, 0.2, 1), "block");
-    // A few cells more are not worth to move many for.
+    // A slight imbalance does not justify migrating many cells.
     EXPECT_FALSE(mesh.refine_evenly({.spheres = {{{1, 1, 1}, 1.0}}}, paying).move.changed());
-    // One process would get eight times what it has, and the others nothing.
+    // One process would get eight times its cells, and the others none.
     const auto all_here = static_cast<std::uint64_t>(test::world().is_first() ? 1 : 0);
     std::vector<std::uint8_t> marks(mesh.cells().size(), all_here != 0 ? 1 : 0);
     const auto done = mesh.refine_evenly(std::span<const std::uint8_t>(marks), paying);
@@ -126,7 +125,7 @@ TEST(EvenStep, MovesWhereItPaysOnly) {
     EXPECT_LE(most_over_mean(mesh), 1.1);
 }
 
-/// Where one root is too heavy, no shares are better, and the level that was undone is done again.
+/// If a single root dominates, no partition is better, and the level that was undone is repeated.
 TEST(EvenStep, ThatNoOtherSharesHelpIsAPlainOne) {
     const Selection corner{.spheres = {{{3, 0, 0}, 0.8}}};
     AdaptiveMesh evenly = shared_out(test::shaken_kuhn(3, 0.2, 1), "block");
@@ -144,7 +143,8 @@ TEST(EvenStep, ThatNoOtherSharesHelpIsAPlainOne) {
 }
 
 TEST(EvenStep, ThatIsRefusedLeavesTheMeshAsItWas) {
-    // Whole numbers are all that there is: some levels down an edge has no midpoint.
+    // At this distance only whole numbers are representable: after some levels an edge has no
+    // midpoint.
     Mesh whole = test::kuhn(3, 3, 3, 8);
     for (Point& p : whole.points) p = {p.x + 0x1p52, p.y + 0x1p52, p.z + 0x1p52};
     const Selection corner{

@@ -42,7 +42,7 @@ Whole value_of(const std::vector<double>& addends) {
     return value >> (exact_unit - 1074U);
 }
 
-/// Of any size, each bit pattern alike.
+/// Doubles of all magnitudes: all bit patterns are equally likely.
 std::vector<double> random_doubles(std::size_t count, std::uint64_t seed) {
     constexpr auto bits_of_greatest = std::bit_cast<std::uint64_t>(greatest);
     std::mt19937_64 random(seed);
@@ -90,7 +90,7 @@ TEST(ExactSum, OfManyDoublesHasNoErrorInAnyOrder) {
     EXPECT_EQ(sum_of(mixed), sum);
 }
 
-/// As carries go: all ones, and one more at the lower end.
+/// Carries propagate through limbs of all ones after an addition to the lowest.
 TEST(ExactSum, CarriesThroughAllLimbs) {
     std::vector<double> ones{least};
     for (int bit = -1074; bit < 1024; ++bit) ones.push_back(std::ldexp(1.0, bit));
@@ -104,7 +104,7 @@ TEST(ExactSum, OfSumsIsThatOfTheirLimbsUpToTwoToThe63Addends) {
     for (std::size_t i = 0; i < limbs.size(); ++i) limbs[i] += other.limbs()[i];
     EXPECT_EQ(value_of(ExactSum(limbs)), value_of(half) + value_of(other));
 
-    // 2^32 processes, which all have the same 2^31 doubles.
+    // 2^32 processes, each with 2^31 equal doubles.
     ExactSum many = sum_of({greatest});
     for (const std::uint64_t copies : {std::uint64_t{1} << 31U, std::uint64_t{1} << 32U}) {
         limbs = many.limbs();
@@ -133,7 +133,7 @@ TEST(ExactSum, SharesAreTheExactOnesRoundedUpToAUnit) {
     for (const double any : random_doubles(20, 5)) shares.push_back(any > 1 ? 1 / any : any);
     for (const auto& addends : sums) {
         for (const double share : shares) {
-            // Shares count units of 2^-exact_unit, sums units of 2^-1074.
+            // Shares are in units of 2^-exact_unit, sums in units of 2^-1074.
             const Whole product = value_of(addends) * exact_value(share);
             const Whole rounded_up = (product + (Whole(1) << exact_unit) - 1) >> exact_unit;
             EXPECT_EQ(value_of(sum_of(addends).share(share)), rounded_up) << share;

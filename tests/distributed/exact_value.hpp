@@ -12,7 +12,7 @@ using Whole = boost::multiprecision::cpp_int;
 /// 2^-exact_unit is below the last bit of any double.
 inline constexpr unsigned exact_unit = 1127;
 
-/// A finite double that is not negative, in units of 2^-exact_unit.
+/// A finite nonnegative double in units of 2^-exact_unit.
 inline Whole exact_value(double number) {
     int exponent = 0;
     const double mantissa = std::frexp(number, &exponent);

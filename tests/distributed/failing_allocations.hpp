@@ -10,17 +10,17 @@
 
 #include "distributed/world.hpp"
 
-/// The operator new of a program that has this refuses an allocation when it is told to.
+/// Replaces operator new by one that refuses an allocation on request.
 namespace octetra::test {
 
 constexpr long never = -1;
 
-/// How many allocations succeed before one is refused, and whether only that one is.
+/// The number of allocations that succeed before one is refused, and whether only that one is.
 inline long allocations_left = never;
 inline bool refuses_one_alone = false;
 
-/// Does `work` on all processes, while on `rank` only so many allocations succeed. Did it get
-/// there?
+/// Performs `work` on all processes; on `rank` only this number of allocations succeed. Returns
+/// whether the work was completed.
 bool done_with(long allocations, int rank, auto&& work) {
     if (world().rank() == rank) allocations_left = allocations;
     bool done = true;
@@ -30,16 +30,16 @@ bool done_with(long allocations, int rank, auto&& work) {
         allocations_left = never;
         EXPECT_STREQ(error.what(), fmt::format("rank {}: out of memory", rank).c_str());
         done = false;
-    } catch (const std::bad_alloc&) {  // of an exchange by itself, which tells nobody
+    } catch (const std::bad_alloc&) {  // an exchange alone reports no failure
         done = false;
     }
     allocations_left = never;
     return done;
 }
 
-/// Collective. Lets allocations of some work that begins anew each time fail in turn on each of the
-/// processes, the first fifty one after the other, later ones with ever more between them; when
-/// none fails any more, the work is done on all. Returns how many that were.
+/// Collective. Repeats work that starts anew each time, and refuses allocations in turn on each
+/// process: each of the first fifty, and later ones with growing gaps, until the work is completed
+/// on all. Returns the number of refused allocations.
 std::uint64_t let_each_fail_anew(auto&& work) {
     const distributed::Communicator& all = world();
     std::uint64_t failures = 0;

@@ -19,8 +19,8 @@
 #include "distributed/shared_folder.hpp"
 #include "distributed/world.hpp"
 
-/// Where one process has no memory, at whatever place of a step, all processes hear of it, and the
-/// mesh is as it was.
+/// If one process runs out of memory at any point of a step, all processes throw, and the mesh is
+/// unchanged.
 namespace octetra::distributed {
 namespace {
 
@@ -28,7 +28,8 @@ using test::allocations_left;
 using test::done_with;
 using test::never;
 
-/// Little, and what that leaves; much, so that the order of all cells is restored; and all.
+/// Few cells, and those left unordered by that; many, so that the canonical order is restored; and
+/// all.
 const std::vector<Selection> steps{
     {.spheres = {{{0.5, 0.5, 0.5}, 0.45}}},
     {.spheres = {{{0.5, 0.5, 0.5}, 0.4}}},
@@ -36,7 +37,7 @@ const std::vector<Selection> steps{
     {.all = true},
 };
 
-/// The mesh as it is before one of the steps.
+/// The mesh before this step.
 AdaptiveMesh before_step(std::size_t step) {
     Mesh whole = test::marked(test::shaken_kuhn(5, 0.2, 1), 1);
     test::mark_alike(whole.facets, whole.facet_markers);
@@ -48,10 +49,10 @@ AdaptiveMesh before_step(std::size_t step) {
     return mesh;
 }
 
-/// Lets every allocation of some work on a mesh, which prepare(mesh) makes, fail in turn on each of
-/// the processes. Afterwards the mesh is as before, and when none fails any more, the work is done
-/// on all. Returns how many allocations that were, on all processes. Of many, those are left out
-/// that come soon after one that has failed.
+/// Refuses every allocation of the work that prepare(mesh) returns, in turn on each process, and
+/// checks each time that the mesh is unchanged, until the work is completed on all. Returns the
+/// number of refused allocations on all processes. If there are many, allocations soon after a
+/// refused one are skipped.
 std::uint64_t let_each_fail(std::size_t step, auto&& prepare) {
     const Communicator& world = test::world();
     long failures = 0;
@@ -93,8 +94,8 @@ TEST(FailingAllocations, OfAStepBySoManyMarkedEdgesLeaveTheMeshAsItWas) {
     EXPECT_GE(failures, 20U);
 }
 
-/// Little and much, each in its own way; to see that allocations are refused at all, there are
-/// some.
+/// Few and many cells, by the incremental and the full algorithm; checks that some allocations were
+/// refused.
 TEST(FailingAllocations, OfCoarseningLeaveTheMeshAsItWasOnAllProcesses) {
     for (const Selection& may_go : {steps[0], steps[3]}) {
         const std::uint64_t failures = let_each_fail(
@@ -138,9 +139,9 @@ TEST(FailingAllocations, OfAStepBeforeWhichCellsBecomeRootsLeaveTheMeshAsItWas) 
     EXPECT_TRUE(failures >= 250 || test::world().size() == 1);
 }
 
-/// A checkpoint leaves tagged facets to the lowest process that has a cell at them, and they go
-/// another way than the first of these cells.
-TEST(FailingAllocations, OfRecallingWhatCellsCameFromLeaveTheMeshAsItWas) {
+/// After loading a checkpoint the lowest process with an adjacent cell has a tagged facet, and the
+/// facet then migrates to another rank than the first of these cells.
+TEST(FailingAllocations, OfRecallingHistoryLeaveTheMeshUnchanged) {
     constexpr BalanceOptions forgetting{.most_over_mean = 1, .may_forget_history = true};
     const std::uint64_t failures = let_each_fail(2, [&](AdaptiveMesh& mesh) {
         const test::SharedFolder folder;
@@ -154,7 +155,7 @@ TEST(FailingAllocations, OfRecallingWhatCellsCameFromLeaveTheMeshAsItWas) {
     EXPECT_TRUE(failures >= 300 || test::world().size() == 1);
 }
 
-/// Of a mesh that is no AdaptiveMesh, which becomes one for the move.
+/// A DistributedMesh, which is wrapped in an AdaptiveMesh for the migration.
 TEST(FailingAllocations, OfALevelBeforeWhichCellsMoveLeaveTheMeshAsItWas) {
     const Mesh whole = test::marked(test::shaken_kuhn(4, 0.2, 1), 1);
     const Partition in_blocks{.method = PartitionMethod::block};
@@ -180,7 +181,7 @@ TEST(FailingAllocations, OfALevelBeforeWhichCellsMoveLeaveTheMeshAsItWas) {
     }
 }
 
-TEST(FailingAllocations, OfValuesThatGoAlongAreThrownOnAllProcesses) {
+TEST(FailingAllocations, OfTransferringValuesAreThrownOnAllProcesses) {
     const int size = test::world().size();
     const std::uint64_t failures = let_each_fail(1, [&](AdaptiveMesh& mesh) {
         const std::vector<double> values(mesh.cells().size(), 1);
@@ -194,7 +195,8 @@ TEST(FailingAllocations, OfValuesThatGoAlongAreThrownOnAllProcesses) {
             ranks.push_back(static_cast<int>(root) % size);
         AdaptiveMesh moved = before_step(1);
         return [=, migration = moved.migrate(ranks)] {
-            const long left = std::exchange(allocations_left, never);  // copies are the caller's
+            const long left =
+                std::exchange(allocations_left, never);  // the caller makes the copies
             auto copy_of_values = values;
             auto copy_of_lists = lists;
             allocations_left = left;
@@ -231,7 +233,7 @@ TEST(FailingAllocations, OfMarkingByIndicatorsAreThrownOnAllProcesses) {
     EXPECT_GE(failures, 3U);
 }
 
-/// A small mesh, of which saving takes few allocations.
+/// A small mesh, whose saving needs few allocations.
 AdaptiveMesh to_save() {
     const Mesh whole = test::marked(test::shaken_kuhn(3, 0.2, 1), 1);
     const Partition in_blocks{.method = PartitionMethod::block};
@@ -245,15 +247,15 @@ std::string content_if_there(const std::filesystem::path& path) {
     return std::filesystem::exists(path) ? test::content_of(path) : std::string("none");
 }
 
-/// Is there a file that was not completed?
+/// Returns whether there is an incomplete file.
 bool leaves_unfinished(const test::SharedFolder& folder) {
     const std::filesystem::directory_iterator files((folder / ".").parent_path());
     return std::any_of(begin(files), end(files),
                        [](const auto& file) { return file.path().extension() == ".tmp"; });
 }
 
-/// Where a file was, and where none was.
-TEST(FailingAllocations, OfSavingLeaveTheMeshAsItWasAndTheOldFileOrNone) {
+/// With and without an existing file.
+TEST(FailingAllocations, OfSavingLeaveTheMeshAndTheOldFileUnchanged) {
     const Communicator& world = test::world();
     const test::SharedFolder folder;
     AdaptiveMesh mesh = to_save();
@@ -269,7 +271,7 @@ TEST(FailingAllocations, OfSavingLeaveTheMeshAsItWasAndTheOldFileOrNone) {
             const std::filesystem::path place = folder / (old + std::to_string(rank) + ".octetra");
             if (world.is_first() && old != "none") std::ofstream(place) << old;
             for (long allocations = 0;; ++allocations) {
-                (void)world.max(0);  // all have seen what the last one left
+                (void)world.max(0);  // all have inspected the folder
                 const bool done = done_with(allocations, rank, [&] { mesh.save(place, fields); });
                 const std::uint64_t done_on = world.sum(done ? 1 : 0);
                 ASSERT_EQ(done_on, done ? static_cast<std::uint64_t>(world.size()) : 0U);

@@ -24,8 +24,7 @@
 #include "output/own_piece.hpp"
 #include "sharing/vertex_sharing.hpp"
 
-/// Where one process has no memory for what all do together without a mesh yet: exchanges, and
-/// reading.
+/// Failing allocations in collective operations that have no mesh yet: exchanges and reading.
 namespace octetra::distributed {
 namespace {
 
@@ -34,7 +33,7 @@ using test::done_with;
 using test::let_each_fail_anew;
 using test::never;
 
-/// As the verifier and the readers of files use it: nobody watches over the work.
+/// As used by the verifier and the readers of files, without agreement on failures by the caller.
 TEST(FailingAllocations, OfAnExchangeBetweenProcessesOfAnyKindAreThrownOnAll) {
     const Communicator& world = test::world();
     const ProcessGroup& group = world;
@@ -54,7 +53,7 @@ TEST(FailingAllocations, OfAnExchangeBetweenProcessesOfAnyKindAreThrownOnAll) {
     }
 }
 
-TEST(FailingAllocations, OfWhatAllTellAllAreThrownOnAll) {
+TEST(FailingAllocations, OfAllToAllExchangesAreThrownOnAll) {
     const Communicator& world = test::world();
     const auto size = static_cast<std::size_t>(world.size());
     for (int rank = 0; rank < world.size(); ++rank) {
@@ -84,7 +83,7 @@ TEST(FailingAllocations, OfABroadcastAreThrownOnAllProcesses) {
 }
 
 TEST(FailingAllocations, OfReadingAFileTogetherAreThrownOnAllProcesses) {
-    if (test::world().size() == 1) return;  // which reads alone
+    if (test::world().size() == 1) return;  // a single process reads without exchanges
     const test::SharedFolder folder;
     Mesh mesh = test::marked(test::shaken_kuhn(2, 0.2, 1), 1);
     for (Marker& marker : mesh.facet_markers) marker = 3;
@@ -150,7 +149,7 @@ TEST(FailingAllocations, OfLoadingAMeshAndFieldsAreThrownOnAllProcesses) {
     EXPECT_GE(failures, 100U);
 }
 
-/// In a `.pvtu` each process writes its part, with the markers and values on which all agree.
+/// For a `.pvtu` each process writes its part, with the markers and values on which all agree.
 TEST(FailingAllocations, OfAPieceToWriteAreThrownOnAllProcesses) {
     const Mesh whole = test::marked(test::shaken_kuhn(2, 0.2, 1), 1);
     const Partition in_blocks{.method = PartitionMethod::block};
@@ -169,8 +168,8 @@ TEST(FailingAllocations, OfAPieceToWriteAreThrownOnAllProcesses) {
     EXPECT_GE(failures, 20U);
 }
 
-/// The one that reads hands on what it has read; an entry that it could not pack is not taken for
-/// what it has to say.
+/// The process that reads distributes what it has read; an entry that it could not pack must not be
+/// taken for data.
 TEST(FailingAllocations, OfTheProcessThatReadsForTheVerifierAreThrownOnAll) {
     const Communicator& world = test::world();
     const test::SharedFolder folder;
@@ -178,7 +177,7 @@ TEST(FailingAllocations, OfTheProcessThatReadsForTheVerifierAreThrownOnAll) {
     world.on_first([&] { (void)write_mesh(test::marked(test::shaken_kuhn(2, 0.2, 1), 1), file); });
     test::refuses_one_alone = true;
     std::uint64_t failures = 0;
-    for (long allocations = 1;; ++allocations) {  // without the first it cannot hand on anything
+    for (long allocations = 1;; ++allocations) {  // the first is needed to send at all
         if (world.is_first()) allocations_left = allocations;
         std::string said;
         try {
@@ -200,8 +199,8 @@ TEST(FailingAllocations, OfTheProcessThatReadsForTheVerifierAreThrownOnAll) {
     EXPECT_GE(failures, 10U);
 }
 
-/// Messages that are cut into pieces, and of which one process can keep nothing.
-TEST(FailingAllocations, OfAReceiverOfLongMessagesKeepNobodyWaiting) {
+/// Messages that are divided into pieces, and that one process cannot store.
+TEST(FailingAllocations, OfAReceiverOfLongMessagesBlockNoProcess) {
     const Communicator& world = test::world();
     std::vector<std::vector<std::uint64_t>> outboxes;
     for (int r = 0; r < world.size(); ++r) {

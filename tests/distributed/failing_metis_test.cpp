@@ -25,7 +25,7 @@ extern "C" void count_signal(int /*signal*/) { signals_received = signals_receiv
 
 }  // namespace
 
-/// In place of the one of METIS, which it calls unless it is to fail as METIS does at a SIGTERM.
+/// Wraps the METIS function of this name, or fails as METIS does at a SIGTERM.
 extern "C" int METIS_PartGraphKway(idx_t* nodes, idx_t* constraints, idx_t* begin,
                                    idx_t* neighbours, idx_t* node_weights, idx_t* sizes,
                                    idx_t* weights, idx_t* parts, real_t* shares, real_t* imbalance,

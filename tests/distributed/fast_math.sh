@@ -1,6 +1,7 @@
 #!/bin/sh
-# fast_math.sh MPIRUN PLAIN FAST: a program that was linked with -ffast-math, whose start-up code makes the processor
-# flush subnormal numbers to zero, writes the same bytes as the same program without the option.
+# fast_math.sh MPIRUN PLAIN FAST: checks that a program linked with -ffast-math, whose start-up code
+# sets the processor to flush subnormal numbers to zero, writes the same bytes as the program
+# without the option.
 set -eu
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT

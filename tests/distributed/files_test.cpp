@@ -13,7 +13,7 @@
 #include "distributed/world.hpp"
 #include "support/temporary_folder.hpp"
 
-/// What all ranks write together: slices of the canonical order, and one file.
+/// Tests of collective writing: slices of the canonical order, and one file.
 namespace octetra::distributed {
 namespace {
 
@@ -27,7 +27,7 @@ DistributedMesh refined(const Mesh& mesh, const std::string& partition, const Se
     return part;
 }
 
-/// Collective. All slices of all windows, put together on the first process.
+/// Collective. The slices of all windows, concatenated on the first process.
 template <class T>
 std::vector<T> put_together(std::uint64_t count, std::uint64_t slice_length, auto&& slice_of) {
     std::vector<T> all;
@@ -82,8 +82,8 @@ TEST(Slices, OfEveryLengthMakeUpTheWholeMesh) {
     }
 }
 
-/// Collective. Slices that lie as far apart as they can, in pieces of so many entities, put
-/// together on the first process.
+/// Collective. Slices of `length` entities that are as far apart as possible, concatenated on the
+/// first process.
 template <class T>
 std::vector<T> put_stretches_together(std::uint64_t count, std::uint64_t length, auto&& slice_of) {
     const auto ranks = static_cast<std::uint64_t>(world().size());
@@ -99,7 +99,7 @@ std::vector<T> put_stretches_together(std::uint64_t count, std::uint64_t length,
     return all;
 }
 
-TEST(Slices, ThatLieFarApartMakeUpTheWholeMesh) {
+TEST(Slices, ThatAreFarApartMakeUpTheWholeMesh) {
     const Mesh mesh = test::marked(test::shaken_kuhn(2, 0.3, 5), 1);
     const Selection selection{.random = RandomShare{0.1, 3}};
     const reference::Refinement expected = reference::refine(mesh, selection, Scheme::eight, 2);
@@ -119,7 +119,7 @@ TEST(Slices, ThatLieFarApartMakeUpTheWholeMesh) {
     }
 }
 
-/// Without asking for the vertices, as many digits as these have.
+/// The number of digits is known without requesting the vertices.
 TEST(Slices, KnowHowManyDigitsTheirVerticesHave) {
     const Mesh mesh = test::marked(test::shaken_kuhn(3, 0.3, 5), 1);
     CanonicalMesh fine(refined(mesh, "random:1", {.random = RandomShare{0.2, 3}}, 2));
@@ -153,7 +153,7 @@ TEST(Slices, KnowHowManyDigitsTheirVerticesHave) {
         });
 }
 
-/// Collective. The mesh as if it were the end of one that has `vertices` more vertices before.
+/// Collective. The mesh as the last part of one with `vertices` more vertices before it.
 DistributedMesh behind(std::uint64_t vertices, const Mesh& mesh) {
     DistributedMesh part = distribute(world(), mesh, partition_cells(mesh, world().size(), {}));
     for (GlobalVertex& v : part.input_vertices) {
@@ -165,7 +165,7 @@ DistributedMesh behind(std::uint64_t vertices, const Mesh& mesh) {
 }
 
 TEST(Slices, NumberVerticesBeyond32Bits) {
-    if (world().size() == 1) return;  // which numbers its vertices from 0
+    if (world().size() == 1) return;  // a single process numbers its vertices from 0
     constexpr std::uint64_t far = std::uint64_t{1} << 33U;
     const Mesh mesh = test::marked(test::shaken_kuhn(2, 0.3, 5), 1);
     CanonicalMesh near(behind(0, mesh));
@@ -196,7 +196,7 @@ TEST(Slices, NumberVerticesBeyond32Bits) {
 
 class FilesOfAllRanks : public testing::TestWithParam<std::string> {
 protected:
-    /// Collective. All ranks write the file, the first one the reference's, and compares.
+    /// Collective. All ranks write the file; the first one compares it with the reference's.
     void expect_equal_files(const Mesh& mesh, const Selection& selection, int levels) const {
         const test::SharedFolder folder;
         CanonicalMesh fine(refined(mesh, GetParam(), selection, levels));

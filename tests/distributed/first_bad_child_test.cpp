@@ -18,10 +18,9 @@
 #include "support/refinement.hpp"
 #include "support/thrown.hpp"
 
-/// Where rounding spoils several children of a cell, some flat and some inverted, both engines say
-/// what the first one in canonical order is. What it is the tests know from small whole numbers:
-/// there midpoints are exact, and far out, where whole numbers are all there is, they are the same
-/// ones rounded.
+/// If rounding makes several children of a cell flat or inverted, both engines report the first one
+/// in canonical order. The tests derive it from small whole numbers, where midpoints are exact; far
+/// from the origin, where only whole numbers are representable, the same midpoints are rounded.
 namespace octetra::distributed {
 namespace {
 
@@ -35,7 +34,7 @@ Mesh moved(Mesh mesh, double by) {
     return mesh;
 }
 
-/// How the children are oriented that one more level makes of a cell, in canonical order. Before
+/// The orientations of the children that one more level makes of a cell, in canonical order. Before
 /// the last level all coordinates are whole numbers.
 std::vector<int> signs_far_out(const Mesh& cell, Scheme scheme, int levels) {
     const Mesh fine = moved(reference::refine(cell, {.all = true}, scheme, levels).mesh, far_out);
@@ -47,8 +46,8 @@ std::vector<int> signs_far_out(const Mesh& cell, Scheme scheme, int levels) {
     return signs;
 }
 
-/// A cell that the last of so many levels spoils: its first bad child has the sign `first`, and a
-/// later one the sign `later`.
+/// A cell that the last of these levels makes invalid: its first bad child has the sign `first`,
+/// and a later one the sign `later`.
 Mesh spoiled_cell(int first, int later, Scheme scheme, int levels) {
     std::mt19937_64 random(1);
     const std::uint64_t grid = levels == 1 ? 1 : 2;  // the first of two levels is exact
@@ -65,7 +64,7 @@ Mesh spoiled_cell(int first, int later, Scheme scheme, int levels) {
     }
 }
 
-/// Cells one after the other, which do not meet.
+/// Places the cells in a row, so that they do not meet.
 Mesh in_a_row(const std::vector<Mesh>& cells) {
     std::vector<Point> points;
     std::vector<std::array<std::size_t, 4>> all;
@@ -87,7 +86,7 @@ protected:
     const int levels = std::get<1>(GetParam());
     const Tuning tuning{.incremental_below = std::get<2>(GetParam())};
 
-    /// Of both engines, on all ranks, by partitions that separate the cells in several ways.
+    /// Checks the message of both engines, on all ranks, with several partitions.
     void expect_words(const Mesh& mesh, const std::string& words) const {
         Selection every;
         for (std::size_t c = 0; c < mesh.cells.size(); ++c) every.cells.push_back(GlobalCell{c});
@@ -106,7 +105,7 @@ protected:
     }
 };
 
-TEST_P(FirstBadChild, SaysWhetherItIsFlatOrInverted) {
+TEST_P(FirstBadChild, IsReportedAsFlatOrInverted) {
     const Mesh good = test::one_cell({{{0, 0, 0}, {16, 0, 0}, {0, 16, 0}, {0, 0, 16}}});
     const Mesh flat_first = spoiled_cell(0, -1, scheme, levels);
     const Mesh inverted_first = spoiled_cell(-1, 0, scheme, levels);

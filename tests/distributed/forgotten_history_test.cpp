@@ -15,18 +15,18 @@
 #include "distributed/shared_folder.hpp"
 #include "support/refinement.hpp"
 
-/// Cells of the mesh that take the place of those of the input, where these are too heavy.
+/// Tests of roots that are replaced by descendants because they are too heavy.
 namespace octetra::distributed {
 namespace {
 
-/// Wherever it makes ranks more even by the least.
+/// Migrates for the least improvement of the balance.
 constexpr BalanceOptions forgetting{.most_over_mean = 1, .may_forget_history = true};
 
-/// Of one cube, six cells: of more cells that were marked at random some are almost always light
-/// enough to make ranks even.
+/// One cube of six cells: with more cells, random marks almost always leave some roots light enough
+/// to balance the ranks.
 constexpr std::size_t cubes = 1;
 
-/// Ever nearer to a corner, which few cells of the input have: 20 times.
+/// 20 steps that approach a corner, which few cells of the input contain.
 std::vector<Selection> to_a_corner() {
     std::vector<Selection> steps;
     double radius = 0.9;
@@ -37,14 +37,14 @@ std::vector<Selection> to_a_corner() {
 
 class ForgottenHistory : public testing::TestWithParam<std::uint64_t> {};
 
-/// Point markers and attributes, regions, tags and features among what stays.
+/// Point markers and attributes, regions, tags and features are preserved as well.
 TEST_P(ForgottenHistory, ChangesNoStepAndNoFile) {
     std::mt19937_64 random(GetParam());
     MovingAndResting pair(GetParam(), cubes);
     bool has_forgotten = false;
     for (int k = 0; k < 6; ++k) {
         constexpr std::array<double, 4> shares{0.05, 0.1, 0.2, 0.3};
-        const std::uint64_t seed = random();  // first, whatever order a compiler prefers
+        const std::uint64_t seed = random();  // argument evaluation is unordered
         const Selection selection = some(shares[random() % shares.size()], seed);
         (void)pair.moving.refine_evenly(selection, forgetting);
         (void)pair.resting.refine(selection);
@@ -58,7 +58,7 @@ TEST_P(ForgottenHistory, ChangesNoStepAndNoFile) {
     EXPECT_EQ(has_forgotten, test::world().size() > 1);
 }
 
-TEST_P(ForgottenHistory, IsNotInACheckpointWhichGoesOnAllTheSame) {
+TEST_P(ForgottenHistory, IsNotInACheckpointWhichContinuesIdentically) {
     AdaptiveMesh mesh = shared_out(input_of(GetParam(), cubes), "block");
     for (std::uint64_t k = 0; k < 4; ++k) {
         (void)mesh.refine_evenly(some(0.3, GetParam() + k), forgetting);
@@ -72,7 +72,7 @@ TEST_P(ForgottenHistory, IsNotInACheckpointWhichGoesOnAllTheSame) {
     EXPECT_TRUE(loaded.collect() == mesh.collect());
 }
 
-/// The engine alone, of which nobody asks for maps.
+/// The engine alone, without maps.
 TEST_P(ForgottenHistory, OfManyLevelsGivesTheMeshOfTheReference) {
     const Mesh input = input_of(GetParam(), cubes);
     const auto parts = partition_cells(input, test::world().size(), parse_partition("block"));
@@ -85,8 +85,7 @@ TEST_P(ForgottenHistory, OfManyLevelsGivesTheMeshOfTheReference) {
     }
 }
 
-/// Collective. Takes back all that was forgotten; the points that come along are those that are
-/// there.
+/// Collective. Recalls all forgotten history, and checks that points migrate with their vertices.
 int recall_all(AdaptiveMesh& mesh) {
     int times = 0;
     for (; mesh.has_forgotten_history(); ++times) {
@@ -98,7 +97,7 @@ int recall_all(AdaptiveMesh& mesh) {
     return times;
 }
 
-/// Each root goes anywhere.
+/// Migrates each root to a random rank.
 void scatter(AdaptiveMesh& mesh, std::uint64_t seed) {
     std::vector<int> ranks;
     for (const std::uint64_t root : mesh.roots()) {
@@ -108,8 +107,8 @@ void scatter(AdaptiveMesh& mesh, std::uint64_t seed) {
     (void)mesh.migrate(ranks);
 }
 
-/// Of the same mesh, on processes at random. Tagged facets and edges are with the lowest process
-/// that has a cell at them, and not with the first cell.
+/// The same mesh, loaded with a random partition. The lowest process with an adjacent cell has a
+/// tagged facet or edge; the process of the first such cell need not have it.
 AdaptiveMesh loaded_again(const AdaptiveMesh& mesh, std::uint64_t seed) {
     const test::SharedFolder folder;
     mesh.save(folder / "a.octetra");
@@ -117,8 +116,9 @@ AdaptiveMesh loaded_again(const AdaptiveMesh& mesh, std::uint64_t seed) {
                               {.method = PartitionMethod::random, .seed = seed});
 }
 
-/// Whatever was refined and moved since: coarsening and checkpoints are what they would have been.
-TEST_P(ForgottenHistory, IsRecalledWithWhatWasRefinedSince) {
+/// After refinement and migration, coarsening and checkpoints are unaffected by the forgotten
+/// history.
+TEST_P(ForgottenHistory, IsRecalledWithLaterRefinement) {
     MovingAndResting pair(GetParam(), cubes);
     if (GetParam() % 2 == 1) pair.moving = loaded_again(pair.moving, GetParam());
     int recalled = 0;
@@ -149,7 +149,7 @@ TEST_P(ForgottenHistory, IsRecalledWithWhatWasRefinedSince) {
     EXPECT_GE(recalled, test::world().size() > 1 ? 1 : 0);
 }
 
-/// What is taken back in the midst of it is the upper part alone.
+/// This takes back only the levels above the forgotten history.
 TEST_P(ForgottenHistory, IsRecalledAfterCoarseningThatEndedWithIt) {
     AdaptiveMesh mesh = shared_out(input_of(GetParam(), cubes), "block");
     const Mesh input = mesh.collect();
@@ -168,7 +168,7 @@ TEST_P(ForgottenHistory, IsRecalledAfterCoarseningThatEndedWithIt) {
 
 INSTANTIATE_TEST_SUITE_P(Seeds, ForgottenHistory, testing::Range<std::uint64_t>(0, 4));
 
-TEST(ForgottenHistory, LetsProcessesBeEvenThatHaveACornerOfFewCells) {
+TEST(ForgottenHistory, BalancesProcessesWhereFewRootsHaveMostCells) {
     AdaptiveMesh forgetful = shared_out(test::kuhn(2, 2, 2, 1.0 / 2), "block");
     AdaptiveMesh faithful = shared_out(test::kuhn(2, 2, 2, 1.0 / 2), "block");
     for (const Selection& selection : to_a_corner()) {
@@ -177,14 +177,14 @@ TEST(ForgottenHistory, LetsProcessesBeEvenThatHaveACornerOfFewCells) {
         (void)faithful.refine_evenly(selection, {.most_over_mean = 1.1});
     }
     EXPECT_LE(most_over_mean(forgetful), 1.15);
-    // Of three processes each has as much of the corner.
+    // Up to three processes can share the corner evenly.
     EXPECT_EQ(most_over_mean(faithful) > 1.15, test::world().size() > 3);
     EXPECT_TRUE(forgetful.collect() == faithful.collect());
 }
 
-/// No level alone is worth it, but all together are. Between two moves processes become uneven, so
-/// what counts is how long all levels take, which is what the process takes that has most.
-TEST(ForgottenHistory, LetsCellsMoveWhereWaitingForOneProcessAddsUp) {
+/// No single level justifies migration, but all levels together do. Processes become unbalanced
+/// between migrations, so the criterion is the accumulated time of the slowest process.
+TEST(ForgottenHistory, MigratesCellsWhenAccumulatedWaitingJustifiesIt) {
     AdaptiveMesh mesh = shared_out(test::kuhn(2, 2, 2, 1.0 / 2), "block");
     AdaptiveMesh unmoved = shared_out(test::kuhn(2, 2, 2, 1.0 / 2), "block");
     int moves = 0;
@@ -204,10 +204,10 @@ TEST(ForgottenHistory, LetsCellsMoveWhereWaitingForOneProcessAddsUp) {
     EXPECT_LE(moves, 10);
 }
 
-/// Marks of all cells, again and again, end in the mesh whose cells are the roots.
+/// Repeatedly marking all cells ends at the mesh whose cells are the roots.
 TEST(ForgottenHistory, IsWhereCoarseningEnds) {
     AdaptiveMesh mesh = shared_out(input_of(1, cubes), "block");
-    Mesh last = mesh.collect();  // before it was forgotten
+    Mesh last = mesh.collect();  // before its history was forgotten
     bool has_forgotten = false;
     for (std::uint64_t k = 0; k < 6; ++k) {
         const Mesh before = mesh.collect();
@@ -224,7 +224,7 @@ TEST(ForgottenHistory, IsWhereCoarseningEnds) {
     EXPECT_TRUE(mesh.collect() == last);
 }
 
-/// It is taken back where the step is refused.
+/// The migration is undone if the step is refused.
 TEST(ForgottenHistory, IsThereStillAfterAStepThatIsRefused) {
     Mesh whole = test::kuhn(3, 3, 3, 8);
     for (Point& p : whole.points) p = {p.x + 0x1p52, p.y + 0x1p52, p.z + 0x1p52};

@@ -15,17 +15,17 @@
 #include <octetra/core/files/mesh_files.hpp>
 #include <octetra/core/mesh.hpp>
 
-/// Gmsh's files as other programs may write them.
+/// Gmsh files in forms that other programs may write.
 namespace octetra::test {
 
-/// What a file may have that those of write_mesh() have not.
+/// Variations of a file that write_mesh() does not produce.
 struct GmshForm {
     MshFormat format;
     std::function<std::uint64_t(std::uint64_t)> tag_of = [](std::uint64_t v) { return v + 1; };
-    std::size_t block = 1000;    ///< rows of a block at most, in blocks of version 4.1 and binary 2
+    std::size_t block = 1000;    ///< most rows in a block, in version 4.1 and binary version 2
     bool is_parametric = false;  ///< version 4.1
-    std::size_t groups = 1;      ///< version 2: of each element, which is listed for each
-    bool has_points = false;     ///< elements of a kind that is not kept
+    std::size_t groups = 1;      ///< version 2: groups of an element, which is listed for each
+    bool has_points = false;     ///< elements of a kind that is discarded
 };
 
 /// Writes numbers as text or in binary.
@@ -152,7 +152,7 @@ private:
         of(2, 2, mesh_->facets, mesh_->facet_markers);
         of(4, 3, mesh_->cells, mesh_->regions);
     }
-    /// A block has elements of one marker.
+    /// A block contains elements of one marker.
     void list(std::int32_t type, std::int32_t dimension, std::size_t count, auto&& marker_of,
               auto&& vertices_of) {
         for (std::size_t begin = 0; begin < count;) {

@@ -11,7 +11,7 @@
 namespace octetra::distributed {
 namespace {
 
-/// Roots on processes at random, some of which have a part that no root here stands for.
+/// Roots on random processes, some of which have further load besides these roots.
 struct Placed {
     explicit Placed(std::uint64_t seed) {
         std::mt19937_64 random(seed);
@@ -29,7 +29,7 @@ struct Placed {
     std::vector<AssignedRoot> roots;
 };
 
-/// Do the loads of processes follow from where roots are, as they did before?
+/// Returns whether the loads of processes agree with the new ranks of the roots.
 bool are_loads_of(const Placed& after, const Placed& before) {
     std::vector<std::uint64_t> loads = before.loads;
     for (std::size_t i = 0; i < before.roots.size(); ++i) {
@@ -40,7 +40,7 @@ bool are_loads_of(const Placed& after, const Placed& before) {
     return loads == after.loads;
 }
 
-TEST(HeavyRoots, MoveUntilNoMoveAndNoSwapMakesTheFullestAndTheEmptiestMoreAlike) {
+TEST(HeavyRoots, MoveUntilNoMoveAndNoSwapImprovesTheBalance) {
     for (std::uint64_t seed = 0; seed < 2000; ++seed) {
         const Placed before(seed);
         Placed after = before;
@@ -50,7 +50,7 @@ TEST(HeavyRoots, MoveUntilNoMoveAndNoSwapMakesTheFullestAndTheEmptiestMoreAlike)
         const auto most = std::ranges::max_element(after.loads);
         const auto least = std::ranges::min_element(after.loads);
         const std::uint64_t gap = *most - *least;
-        std::vector<std::uint64_t> of_least{0};  // for a root nothing may come
+        std::vector<std::uint64_t> of_least{0};  // a root may move without a swap
         for (const AssignedRoot& root : after.roots) {
             if (root.rank == least - after.loads.begin()) of_least.push_back(root.weight);
         }
@@ -63,7 +63,7 @@ TEST(HeavyRoots, MoveUntilNoMoveAndNoSwapMakesTheFullestAndTheEmptiestMoreAlike)
     }
 }
 
-TEST(HeavyRoots, StayWhereNobodyHasMoreThanTheGoal) {
+TEST(HeavyRoots, StayIfNoProcessExceedsTheGoal) {
     int reached = 0;
     for (std::uint64_t seed = 0; seed < 2000; ++seed) {
         const Placed before(seed);
@@ -89,20 +89,20 @@ TEST(HeavyRoots, OfEqualWeightsAreSharedOutEvenly) {
     EXPECT_EQ(all.loads, (std::vector<std::uint64_t>{3, 3, 3, 3}));
 }
 
-TEST(HeavyRoots, MoveByWhatLeavesTwoMostAlikeAndNotByWeight) {
+TEST(HeavyRoots, MoveByTheResultingBalanceAndNotByWeight) {
     Placed all(0);
     all.loads = {20, 10};
     all.roots = {{9, 0}, {5, 0}};
-    balance_loads(all.loads, all.roots, 19);  // either would do, and no swap comes after it
+    balance_loads(all.loads, all.roots, 19);  // either would do; no swap follows
     EXPECT_EQ(all.loads, (std::vector<std::uint64_t>{15, 15}));
 }
 
-TEST(HeavyRoots, TakeEachOthersPlaceWhereNoneMayMoveAlone) {
+TEST(HeavyRoots, AreSwappedIfNoneCanMoveAlone) {
     Placed all(0);
     all.loads = {14, 6};
     all.roots = {{14, 0}, {6, 1}};
     balance_loads(all.loads, all.roots, 0);
-    EXPECT_EQ(all.loads, (std::vector<std::uint64_t>{14, 6}));  // else only the names change
+    EXPECT_EQ(all.loads, (std::vector<std::uint64_t>{14, 6}));  // else loads are merely exchanged
     all.loads = {20, 16};
     all.roots = {{10, 0}, {10, 0}, {8, 1}, {8, 1}};
     balance_loads(all.loads, all.roots, 0);

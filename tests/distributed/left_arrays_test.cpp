@@ -15,11 +15,11 @@
 #include "support/meshes.hpp"
 #include "support/thrown.hpp"
 
-/// Arrays that a program goes on looking at, and work that each process does by itself.
+/// Arrays that a program keeps reading, and work without communication.
 namespace octetra::distributed {
 namespace {
 
-/// A span, and what was in it when this was made.
+/// A span, and its contents at construction.
 template <class T>
 struct Seen {
     std::span<const T> span;
@@ -30,7 +30,7 @@ struct Seen {
 template <class T>
 Seen(std::span<const T>) -> Seen<T>;
 
-TEST_P(AdaptiveMeshIn, LeavesArraysInUseAsTheyAreAndGoesOnAsWithout) {
+TEST_P(AdaptiveMeshIn, LeavesArraysInUseUnchangedAndContinuesNormally) {
     const Mesh input = test::marked(test::shaken_kuhn(5, 0.2, 2), 2);
     AdaptiveMesh mesh = shared_out(input, GetParam());
     AdaptiveMesh expected = shared_out(input, GetParam());
@@ -75,7 +75,7 @@ TEST_P(AdaptiveMeshIn, LeavesOnlyArraysThatAreInUse) {
     EXPECT_TRUE(left.points.empty());
 }
 
-TEST(OnEach, ThrowsOnAllWhatTheLowestRankThatFailedHasThrown) {
+TEST(OnEach, ThrowsTheErrorOfTheLowestFailedRankOnAll) {
     const Communicator& world = test::world();
     int runs = 0;
     world.transaction([&] { ++runs; });

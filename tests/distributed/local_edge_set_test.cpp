@@ -20,7 +20,7 @@ DistributedMesh lattice() {
     return distribute({}, std::move(mesh), parts);
 }
 
-constexpr double default_share = 0.5;  // of Tuning
+constexpr double default_share = 0.5;  // the default of Tuning
 
 MarkedCells marked(std::vector<CellIndex> cells) {
     MarkedCells result;
@@ -29,7 +29,8 @@ MarkedCells marked(std::vector<CellIndex> cells) {
     return result;
 }
 
-/// Has every cell that an edge of these cells touches edges of its own, if is_surrounded() says so?
+/// Checks that all cells at an edge of these cells have numbered edges, if is_surrounded() returns
+/// true.
 void expect_to_know_what_surrounds(const DistributedMesh& mesh, const LocalEdgeSet& edges) {
     const EdgeNumbering& numbering = edges.numbering();
     std::vector<std::uint8_t> has_edges(mesh.cells.size(), 0);
@@ -61,7 +62,7 @@ void expect_to_know_what_surrounds(const DistributedMesh& mesh, const LocalEdgeS
 TEST(LocalEdgeSet, AreThoseOfTheCellsWithinTwoEdgesThenTwiceAsFarAndThenAll) {
     const DistributedMesh mesh = lattice();
     LocalEdgeSet edges(mesh, marked({CellIndex{0}}), default_share);  // at the corner 0 0 0
-    for (const double reach : {4.0, 6.0}) {  // 1 and the rings, and the cells at the last ones
+    for (const double reach : {4.0, 6.0}) {  // 1 plus the rings, and the cells at the last ring
         double farthest = 0;
         for (std::size_t k = 0; k < edges.numbering().cell_count(); ++k) {
             for (const VertexIndex v : mesh.cells[edges.numbering().cell_at(k)]) {
@@ -96,7 +97,7 @@ TEST(LocalEdgeSet, BecomeAllWhereTwiceAsFarIsTooMany) {
     expect_to_know_what_surrounds(mesh, edges);
 }
 
-TEST(LocalEdgeSet, TakeInWhatIsSharedWithOthers) {
+TEST(LocalEdgeSet, IncludeEdgesSharedWithOtherRanks) {
     DistributedMesh mesh = lattice();
     const CellVertices& last = mesh.cells.back();
     mesh.interfaces.push_back({.rank = 1, .edges = {{last[0], last[1]}}, .faces = {}});

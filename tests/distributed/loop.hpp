@@ -9,12 +9,12 @@ namespace octetra::test {
 
 using namespace distributed;
 
-/// A mesh that is refined and coarsened as an AdaptiveMesh is, in the way that a test wants.
+/// Refines and coarsens like AdaptiveMesh, with a given Tuning.
 class Loop {
 public:
     explicit Loop(DistributedMesh input) : state_(AdaptiveMesh::State::make(std::move(input))) {}
 
-    /// Collective. One step.
+    /// Collective. Makes one step.
     Adaptation refine(const Selection& selection, Scheme scheme, const Tuning& tuning) {
         return state_->refine([&] { return mark_cells(mesh(), selection, false); },
                               {.scheme = scheme}, tuning);

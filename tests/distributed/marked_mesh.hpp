@@ -9,14 +9,14 @@
 
 namespace octetra::test {
 
-/// Everything that a mesh can carry.
+/// Adds random markers, attributes, regions, tagged facets and edges.
 inline Mesh marked(Mesh mesh, std::uint64_t seed) {
     std::mt19937_64 random(seed);
     const auto marker = [&] { return static_cast<Marker>(random() % 9) - 4; };
     list_boundary(mesh);
     for (const CellVertices& cell : mesh.cells) {
         mesh.regions.append(static_cast<Marker>(random() % 4));
-        if (random() % 5 == 0) {  // inner facets too, some of them twice
+        if (random() % 5 == 0) {  // also inner facets, some of them twice
             mesh.facets.append({cell[2], cell[0], cell[1]});
             mesh.facet_markers.append(marker());
         }
@@ -38,7 +38,7 @@ inline Mesh marked(Mesh mesh, std::uint64_t seed) {
     return mesh;
 }
 
-/// What is listed again gets the marker that it had, as in files.
+/// Gives duplicates the marker of the first occurrence, as in files.
 template <class I, std::size_t N>
 void mark_alike(const IndexVector<I, std::array<VertexIndex, N>>& list,
                 IndexVector<I, Marker>& markers) {
@@ -50,7 +50,7 @@ void mark_alike(const IndexVector<I, std::array<VertexIndex, N>>& list,
     }
 }
 
-/// Corners, ridges and what is required, about a third of all of each.
+/// Marks about a third of the entities as corners, ridges or required.
 inline Mesh featured(Mesh mesh, std::uint64_t seed) {
     std::mt19937_64 random(seed);
     const std::array counts{mesh.points.size(), mesh.edges.size(), mesh.facets.size(),
@@ -63,7 +63,7 @@ inline Mesh featured(Mesh mesh, std::uint64_t seed) {
     return mesh;
 }
 
-/// A lattice with all that a file can say of it.
+/// A lattice with everything that a file can describe.
 inline Mesh marked_lattice(std::size_t n, std::uint64_t seed) {
     Mesh mesh = marked(shaken_kuhn(n, 0.2, seed), seed);
     mark_alike(mesh.facets, mesh.facet_markers);
@@ -71,7 +71,7 @@ inline Mesh marked_lattice(std::size_t n, std::uint64_t seed) {
     return mesh;
 }
 
-/// All that a file can hold; what is listed again is so with the same marker.
+/// A mesh with everything that a file can contain; duplicates have the same marker.
 inline Mesh full_mesh(std::size_t n, std::uint32_t index_base) {
     Mesh mesh = marked(shaken_kuhn(n, 0.2, 1), index_base);
     for (Marker& marker : mesh.facet_markers) marker = 3;

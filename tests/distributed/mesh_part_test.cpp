@@ -17,12 +17,12 @@
 #include "support/meshes.hpp"
 #include "support/thrown.hpp"
 
-/// Meshes that processes hold in parts of their own making.
+/// Tests of meshes that processes construct from their own parts.
 namespace octetra::distributed {
 namespace {
 
-/// What one process has of a mesh when cells are dealt out: vertices in some order, with those that
-/// only others use in between.
+/// The part of one process when cells are dealt out: its vertices in some order, interleaved with
+/// unused vertices of other parts.
 MeshPart part_of(const Mesh& mesh, const std::function<int(CellIndex)>& rank_of,
                  bool with_numbers) {
     const int rank = test::world().rank();
@@ -77,10 +77,11 @@ MeshPart part_of(const Mesh& mesh, const std::function<int(CellIndex)>& rank_of,
     return part;
 }
 
-/// No process goes without.
+/// Every process has cells.
 int dealt_out(CellIndex c) { return static_cast<int>(c.value() * 5 % 13) % test::world().size(); }
 
-/// Facets and edges are numbered in the order of the ranks that have them, so not as in `mesh`.
+/// Facets and edges are numbered in the order of the ranks that have them, and hence not as in
+/// `mesh`.
 template <class List, class Markers>
 auto sorted(const List& list, const Markers& markers) {
     std::vector<std::pair<typename List::value_type, Marker>> all;
@@ -153,7 +154,7 @@ TEST(MeshPart, KeepsNoVertexThatOnlyOthersUse) {
 
 TEST(MeshPart, KeepsVerticesOfNoCellOnOneProcess) {
     Mesh mesh = test::kuhn(1, 1, 1);
-    mesh.points.push_back({5, 5, 5});  // number 8, and not a multiple of 3
+    mesh.points.push_back({5, 5, 5});  // number 8, which is not a multiple of 3
     mesh.points.push_back({6, 6, 6});  // number 9, which all processes list
     MeshPart part = part_of(mesh, dealt_out, true);
     if (test::world().rank() == test::world().size() - 1) {
@@ -167,7 +168,7 @@ TEST(MeshPart, KeepsVerticesOfNoCellOnOneProcess) {
     EXPECT_TRUE(parts.collect() == mesh || !test::world().is_first());
 }
 
-/// The words, on all processes, when the last one has spoilt its part.
+/// The message, the same on all processes, after the last one has spoiled its part.
 std::string refused(const std::function<void(MeshPart&)>& spoil) {
     const Mesh mesh = without_repeated(test::marked(test::kuhn(3, 3, 3), 1));
     MeshPart part = part_of(mesh, dealt_out, true);
@@ -176,7 +177,7 @@ std::string refused(const std::function<void(MeshPart&)>& spoil) {
         [&] { (void)AdaptiveMesh::from_parts(test::world(), std::move(part)); });
 }
 
-TEST(MeshPart, ThatIsWrongOnOneProcessIsRefusedOnAllWithTheSameWords) {
+TEST(MeshPart, ThatIsWrongOnOneProcessIsRefusedOnAllWithTheSameMessage) {
     using testing::HasSubstr;
     const std::string last = fmt::format("rank {}: ", test::world().size() - 1);
     EXPECT_THAT(refused([](MeshPart& p) { p.points.pop_back(); }), HasSubstr(last));

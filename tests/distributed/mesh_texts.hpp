@@ -16,18 +16,18 @@
 #include "distributed/world.hpp"
 #include "support/temporary_folder.hpp"
 
-/// Files of meshes as texts, for tests that change them and read them on several processes.
+/// Meshes as the text of files, for tests that modify the text and read it on several processes.
 namespace octetra::test {
 
 inline const std::vector<std::string> partitions{"rcb", "block"};
 
-/// Collective. The first process writes the file, as all others see from then on.
+/// Collective. Writes on the first process; afterwards the file exists for all.
 inline void write_on_first(const auto& write) {
     if (world().is_first()) write();
     (void)world().max(0);
 }
 
-/// A mesh in one file or several, and what stands in them.
+/// A mesh in one file or several, with their contents.
 struct Files {
     std::string extension;  ///< of the file that is read
     std::vector<std::pair<std::string, std::string>> texts{};
@@ -47,10 +47,10 @@ struct Files {
     }
 };
 
-/// Collective. What write_mesh makes of a mesh.
+/// Collective. The files that write_mesh() makes of a mesh.
 inline Files files_of(const Mesh& mesh, const std::string& extension,
                       const WriteOptions& options = {}) {
-    const TemporaryFolder folder;  // of each process
+    const TemporaryFolder folder;  // one for each process
     Files files{extension};
     (void)write_mesh(mesh, folder / ("m" + extension), options);
     for (const std::string ending :
@@ -61,7 +61,8 @@ inline Files files_of(const Mesh& mesh, const std::string& extension,
     return files;
 }
 
-/// Collective. Writes files, and reads them in both ways. Returns whether there is a mesh.
+/// Collective. Writes the files and reads them serially and collectively. Returns whether there is
+/// a mesh.
 inline bool expect_one_outcome(const Files& files) {
     const SharedFolder folder;
     files.write(folder);
@@ -69,11 +70,11 @@ inline bool expect_one_outcome(const Files& files) {
     for (const std::string& partition : partitions) {
         is_mesh = expect_one_outcome(folder / ("m" + files.extension), partition);
     }
-    (void)world().max(0);  // before the folder goes
+    (void)world().max(0);  // before the folder is removed
     return is_mesh;
 }
 
-/// Collective.
+/// Collective. Returns whether the files are read collectively.
 inline bool are_read_together(const Files& files) {
     const SharedFolder folder;
     files.write(folder);
@@ -94,10 +95,10 @@ struct Case {
     std::string name;
     Files files;
     bool is_mesh = true;
-    bool together = true;  ///< in the end one process may refuse it, or have to read it alone
+    bool together = true;  ///< false if one process may have to read it alone or to refuse it
 };
 
-/// Changes a text at random places, as an editor, a disk or a careless program would.
+/// Changes a text at random positions, like an editor, a disk or a faulty program.
 inline std::string mutated(std::string text, std::mt19937_64& random) {
     const auto below = [&](std::size_t n) { return static_cast<std::size_t>(random() % n); };
     const auto line = [&](std::size_t at) {
@@ -118,12 +119,12 @@ inline std::string mutated(std::string text, std::mt19937_64& random) {
             case 4: text.erase(begin, end - begin); break;
             case 5: text.insert(begin, copy); break;
             case 6: text.insert(line(below(text.size())).first, copy); break;
-            case 7: {  // one line becomes another's, and the count stays
+            case 7: {  // one line replaces another, and the count stays
                 const auto [other, its_end] = line(below(text.size()));
                 text.replace(other, its_end - other, copy);
                 break;
             }
-            default: {  // one number of a line becomes another's
+            default: {  // one number of a line replaces another
                 const auto [other, its_end] = line(below(text.size()));
                 const std::size_t from = text.find_first_of("0123456789", other);
                 if (from == std::string::npos || from >= its_end) break;

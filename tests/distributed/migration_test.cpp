@@ -16,14 +16,13 @@
 #include "distributed/world.hpp"
 #include "support/refinement.hpp"
 
-/// AdaptiveMesh::migrate and rebalance, and what they bring along.
+/// Tests of AdaptiveMesh::migrate and rebalance, and of the values that they transfer.
 namespace octetra::distributed {
 namespace {
 
 using test::world;
 
-/// Where each root is to go, the same on all processes: to any of the first so many, or as they
-/// come.
+/// Target ranks of roots, the same on all processes: random among the first ranks, or in sequence.
 struct Targets {
     std::uint64_t seed = 0;
     int ranks = 1;
@@ -39,7 +38,7 @@ struct Targets {
     }
 };
 
-/// Some with ranks that have nothing.
+/// Some of these leave ranks without roots.
 Targets random_targets(std::mt19937_64& random) {
     const auto all = static_cast<std::uint64_t>(world().size());
     return {random(), random() % 2 == 0 ? world().size() : static_cast<int>(random() % all) + 1};
@@ -72,7 +71,7 @@ std::vector<CellVertices> sorted(std::vector<CellVertices> cells) {
     return cells;
 }
 
-/// Do both say the same of every vertex? The order of the lists for exchange may be another.
+/// Compares the sharers of each vertex. The order of the lists for exchange may differ.
 void expect_same_sharers(const Sharing<VertexIndex>& a, const Sharing<VertexIndex>& b) {
     EXPECT_EQ(a.shared(), b.shared());
     for (const VertexIndex v : a.shared()) {
@@ -107,7 +106,7 @@ TEST_P(MigratingMesh, IsAsIfItsCellsHadBeenThereFromTheBeginning) {
     const test::SeenMesh b(there);
     EXPECT_EQ(std::ranges::equal(moved.roots(), there.roots()), true);
     EXPECT_EQ(sorted(a.cells), sorted(b.cells));
-    // The vertex of no cell is where it was.
+    // The vertex of no cell has not moved.
     const auto has_lone = [](const test::SeenMesh& seen) {
         return std::ranges::find(seen.points, Point{9, 9, 9}) != seen.points.end();
     };
@@ -117,23 +116,23 @@ TEST_P(MigratingMesh, IsAsIfItsCellsHadBeenThereFromTheBeginning) {
         expect_same_sharers(a.sharing, b.sharing);
     }
     EXPECT_EQ(a.whole == b.whole, true);
-    // The lists of both sides of a border fit each other.
+    // The lists on both sides of an interface correspond.
     std::vector<Point> points = a.points;
     for (const VertexIndex v : a.sharing.shared()) {
         if (!a.sharing.is_owned(v)) points[v.value()] = {};
     }
     update_copies(world(), a.sharing, points.size(), points);
     EXPECT_EQ(points, a.points);
-    // And a cell's root is what it was made of.
+    // The root of a cell is its ancestor.
     const auto roots_of = moved.root_of_cells();
     std::vector<std::uint32_t> count(moved.roots().size(), 0);
     for (const std::uint32_t r : roots_of) ++count[r];
     EXPECT_EQ(std::ranges::count(count, 0U), 0);
 }
 
-/// Values that tell what they are of.
+/// Values that identify the cell or vertex that they belong to.
 struct Told {
-    std::vector<Point> corners_of_cells;  ///< four for each
+    std::vector<Point> corners_of_cells;  ///< four for each cell
     std::vector<Point> of_vertices;
     ValueLists<std::uint64_t> lists_of_cells;
     ValueLists<std::uint8_t> lists_of_vertices;
@@ -159,7 +158,7 @@ struct Told {
     friend bool operator==(const Told&, const Told&) = default;
 };
 
-TEST_P(MigratingMesh, BringsTheValuesOfCellsAndVerticesAlong) {
+TEST_P(MigratingMesh, TransfersTheValuesOfCellsAndVertices) {
     std::mt19937_64 random(GetParam());
     AdaptiveMesh mesh = shared_out(input_of(GetParam()), "random:1");
     for (int k = 0; k < 6; ++k) {
@@ -181,7 +180,7 @@ TEST_P(MigratingMesh, RefusesValuesThatDoNotFitItOnAllProcesses) {
     (void)mesh.refine(some(0.1, GetParam()));
     const std::vector<int> targets = random_targets(random).of(mesh.roots());
     const std::vector<int> here(mesh.roots().size(), world().rank());
-    for (const std::vector<int>& ranks : {here, targets}) {  // also where nothing moves
+    for (const std::vector<int>& ranks : {here, targets}) {  // also if nothing moves
         const std::size_t count = mesh.cells().size() + (world().is_first() ? 1 : 0);
         const Migration migration = mesh.migrate(ranks);
         EXPECT_THROW((void)migration.cells(std::vector<double>(count)), InputError);
@@ -202,7 +201,7 @@ TEST_P(MigratingMesh, RefusesValuesOfAnotherSizeOnOneProcess) {
     const std::vector<int> targets = random_targets(random).of(mesh.roots());
     const std::vector<int> here(mesh.roots().size(), world().rank());
     const bool is_odd = world().rank() == world().size() - 1;
-    for (const std::vector<int>& ranks : {here, targets}) {  // also where nothing moves
+    for (const std::vector<int>& ranks : {here, targets}) {  // also if nothing moves
         const std::size_t count = mesh.cells().size();
         const Migration migration = mesh.migrate(ranks);
         const std::size_t components = is_odd ? 2 : 3;
@@ -225,7 +224,7 @@ TEST_P(MigratingMesh, RefusesValuesOfAnotherSizeOnOneProcess) {
 
 INSTANTIATE_TEST_SUITE_P(Seeds, MigratingMesh, testing::Range<std::uint64_t>(0, 6));
 
-TEST(MigratingToWhereNobodyIs, IsRefusedOnAllProcessesAndChangesNothing) {
+TEST(MigratingToInvalidRanks, IsRefusedOnAllProcessesAndChangesNothing) {
     AdaptiveMesh mesh = shared_out(input_of(1), "block");
     (void)mesh.refine(some(0.1, 1));
     const test::SeenMesh before(mesh);
@@ -243,7 +242,7 @@ TEST(MigratingToWhereNobodyIs, IsRefusedOnAllProcessesAndChangesNothing) {
 }
 
 TEST(DistributingMesh, RefusesWhatIsNotARankForEachCell) {
-    if (world().size() == 1) return;  // it takes the mesh over as it is
+    if (world().size() == 1) return;  // a single process keeps the mesh as it is
     const Mesh mesh = input_of(1);
     const auto refused = [&](std::size_t count, int last) {
         std::vector<int> ranks(count, 0);
@@ -268,7 +267,7 @@ TEST(RebalancingMesh, WithABallRefinedIsEvenAndNotMovedAgain) {
     EXPECT_FALSE(mesh.rebalance().changed());
 }
 
-/// What is refined as often as that in some cells of few is cut badly by coordinates alone.
+/// A few roots with many levels each are partitioned badly by coordinates alone.
 TEST(RebalancingMesh, OfFewHeavyRootsIsEvenWhereTheyLetIt) {
     AdaptiveMesh mesh = shared_out(test::shaken_kuhn(2, 0.2, 1), "block");
     for (int k = 0; k < 4; ++k) (void)mesh.refine({.spheres = {{{1, 1, 1}, 0.9}}});

@@ -17,14 +17,14 @@
 #include "support/meshes.hpp"
 #include "support/refinement.hpp"
 
-/// What tests of cells that move have in common.
+/// Common parts of the tests of migration.
 namespace octetra::distributed {
 
 inline Selection some(double share, std::uint64_t seed) {
     return {.random = RandomShare{share, seed}};
 }
 
-/// A mesh with everything, and with a vertex of no cell.
+/// A mesh with all kinds of data, and with a vertex of no cell.
 inline Mesh input_of(std::uint64_t seed, std::size_t cubes = 4) {
     Mesh mesh = test::marked_lattice(cubes, seed);
     mesh.points.push_back({9, 9, 9});
@@ -39,7 +39,7 @@ inline AdaptiveMesh shared_out(Mesh mesh, const std::string& partition) {
     return AdaptiveMesh::distribute(test::world(), std::move(mesh), parts);
 }
 
-/// One mesh twice, with cells that move in the one and rest in the other, beside the reference.
+/// Two copies of one mesh, one of which migrates, and the reference.
 struct MovingAndResting {
     AdaptiveMesh moving;
     AdaptiveMesh resting;
@@ -50,7 +50,7 @@ struct MovingAndResting {
           resting(shared_out(input_of(seed, cubes), "block")),
           reference(input_of(seed, cubes)) {}
 
-    /// Collective. After both have done a step: is it the reference's?
+    /// Collective. Compares both copies with the reference after they have made the step.
     void expect_step(const Selection& selection, bool refines) {
         if (refines) {
             reference.refine(selection);

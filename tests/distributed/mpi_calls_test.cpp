@@ -12,7 +12,7 @@
 namespace octetra {
 namespace {
 
-/// Every name followed by a parenthesis that begins as those of MPI do.
+/// All names followed by a parenthesis that begin with the prefix of MPI.
 std::set<std::string> mpi_calls_in(const std::filesystem::path& folder) {
     const std::regex call(R"(\b(MPI_[A-Z]\w*)\()");
     std::set<std::string> calls;
@@ -26,8 +26,8 @@ std::set<std::string> mpi_calls_in(const std::filesystem::path& folder) {
     return calls;
 }
 
-/// A profile is held against what tests/support/mpi_counter.cpp counts: a new call of MPI must be
-/// measured by the engine, and counted there, too.
+/// Profiles are compared with the counts of tests/support/mpi_counter.cpp: a new MPI call must be
+/// measured by the engine and counted there.
 TEST(MpiCalls, ThatSendOrWaitAreAllCounted) {
     const std::set<std::string> neither_send_nor_wait{
         "MPI_Abort",     "MPI_Comm_compare",    "MPI_Comm_dup", "MPI_Comm_rank",

@@ -17,11 +17,11 @@
 #include "distributed/world.hpp"
 #include "support/meshes.hpp"
 
-/// Orientation of faces and facets, and numberings, held against the whole mesh.
+/// Compares the orientation of faces and facets, and numberings, with those of the whole mesh.
 namespace octetra::distributed {
 namespace {
 
-/// Meshes after full sweeps and incremental steps, moved and coarsened.
+/// Meshes after full sweeps, incremental levels, migration and coarsening.
 std::vector<AdaptiveMesh> numbered_meshes() {
     std::vector<AdaptiveMesh> meshes;
     for (const PartitionMethod method : {PartitionMethod::block, PartitionMethod::random}) {
@@ -59,13 +59,13 @@ std::array<Point, 3> points_of(const AdaptiveMesh& mesh, const FacetVertices& fa
     return {points[face[0].value()], points[face[1].value()], points[face[2].value()]};
 }
 
-/// Does the normal of this face of a cell point to the side on which the cell is not?
+/// Returns whether the normal of this face points away from its cell.
 bool leaves_behind(const AdaptiveMesh& mesh, const FacetVertices& face, VertexIndex opposite) {
     const auto& [a, b, c] = points_of(mesh, face);
     return orientation(a, b, c, mesh.points()[opposite.value()]) < 0;
 }
 
-/// The ascending vertices of the boundary faces of this process.
+/// The boundary faces of this process, by their ascending vertices.
 std::map<FacetVertices, BoundaryFace> boundary_of(const AdaptiveMesh& mesh) {
     std::map<FacetVertices, BoundaryFace> faces;
     for (const BoundaryFace& face : mesh.boundary()) {
@@ -119,7 +119,7 @@ TEST(Orientation, OfTaggedFacetsIsOutwardOnTheBoundaryAndAscendingInside) {
             }
         }
         test::world().sum(kinds);
-        EXPECT_GT(std::ranges::min(kinds), 0U);  // some stand the other way round in the input
+        EXPECT_GT(std::ranges::min(kinds), 0U);  // some are oriented the other way in the input
     }
 }
 
@@ -142,7 +142,7 @@ TEST(Orientation, OfEdgesAndFacesIsTheSameOnAllProcesses) {
     }
 }
 
-/// Holds a contiguous numbering against what all processes say; key(i) names an entity.
+/// Compares a contiguous numbering with the reports of all processes; key(i) identifies an entity.
 template <class I>
 void expect_contiguous(const IndexMap<I>& map, const Sharing<I>& sharing, std::size_t count,
                        auto&& key) {
@@ -184,7 +184,7 @@ void expect_contiguous(const IndexMap<I>& map, const Sharing<I>& sharing, std::s
     EXPECT_EQ(map.rank_begin.back(), numbers.size());
 }
 
-TEST(IndexMap, NumbersWhatAProcessOwnsConsecutivelyAndCopiesAsTheirOwnersDo) {
+TEST(IndexMap, NumbersOwnedEntitiesConsecutivelyAndCopiesAsTheirOwners) {
     for (const AdaptiveMesh& mesh : numbered_meshes()) {
         const std::size_t vertices = mesh.points().size();
         expect_contiguous(make_index_map(test::world(), mesh.vertex_sharing(), vertices),

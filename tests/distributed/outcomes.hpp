@@ -17,7 +17,7 @@
 
 namespace octetra::test {
 
-/// What comes of reading a file: a mesh and notes, or words.
+/// The result of reading a file: a mesh and notes, or a message.
 struct Outcome {
     Mesh mesh;
     std::vector<std::string> notes;
@@ -38,8 +38,8 @@ Outcome outcome_of(auto&& read) {
     return outcome;
 }
 
-/// Collective. Reads a file by one process and by all, each with a part of it: the mesh must be the
-/// same, number by number, or the words, on all processes. Returns whether there is a mesh.
+/// Collective. Reads a file serially and collectively, and checks that the mesh is the same, number
+/// by number, or that the message is the same on all processes. Returns whether there is a mesh.
 inline bool expect_one_outcome(const std::filesystem::path& file, const std::string& partition) {
     const Outcome expected =
         outcome_of([&](const ReadOptions& options) { return read_mesh(file, options); });
@@ -56,11 +56,11 @@ inline bool expect_one_outcome(const std::filesystem::path& file, const std::str
     }
     auto stretch = read_mesh_share(file, world());
     if (stretch) {
-        // No other process reads it once more, unless there is something to refuse.
+        // Nothing is read serially again unless the file is refused.
         const auto method = distributed::parse_partition(partition).method;
         const auto mesh = distributed::distribute_share(world(), std::move(*stretch), method, {});
         EXPECT_EQ(mesh.has_value(), expected.error.empty()) << file;
-        if (mesh) {  // nothing is there twice, which collecting would not show
+        if (mesh) {  // finds duplicates, which collecting would not show
             EXPECT_EQ(world().sum(mesh->cells.size()), expected.mesh.cells.size()) << file;
             EXPECT_EQ(world().sum(mesh->facets.size()), expected.mesh.facets.size()) << file;
             EXPECT_EQ(world().sum(mesh->edges.size()), expected.mesh.edges.size()) << file;
@@ -69,7 +69,7 @@ inline bool expect_one_outcome(const std::filesystem::path& file, const std::str
     return expected.error.empty();
 }
 
-/// Collective. Is the file in a form that all read together?
+/// Collective. Returns whether the file has a form that is read collectively.
 inline bool is_read_together(const std::filesystem::path& file) {
     return read_mesh_share(file, world()).has_value();
 }

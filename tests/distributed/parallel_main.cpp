@@ -17,8 +17,8 @@ const distributed::Communicator& world() { return *world_pointer(); }
 
 }  // namespace octetra::test
 
-/// The main() of tests that run under mpirun: all ranks run the same tests in the same order, and
-/// all end with failure if one fails.
+/// The main() of tests under mpirun: all ranks run the same tests in the same order, and all exit
+/// with failure if one fails.
 int main(int argc, char** argv) {
     const octetra::distributed::MpiSession session(&argc, &argv);
     octetra::test::world_pointer() = &session.world();

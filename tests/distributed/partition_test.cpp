@@ -25,7 +25,7 @@ namespace {
 
 using testing::HasSubstr;
 
-TEST(Partition, OfEveryMethodGivesEachCellAPart) {
+TEST(Partition, OfEveryMethodAssignsAPartToEachCell) {
     const Mesh mesh = test::shaken_kuhn(4, 0.2, 1);
     for (const std::string method : {"lepp", "dual", "block", "random:3"}) {
         for (const int parts : {1, 2, 5, 400}) {
@@ -46,7 +46,7 @@ TEST(Partition, OfEveryMethodGivesEachCellAPart) {
 
 extern "C" void ignore_signal(int /*signal*/) {}
 
-/// METIS has some of its own while it works.
+/// METIS installs its own handlers while it works.
 TEST(Partition, LeavesSignalHandlersAsTheyWere) {
     struct sigaction mine {};
     mine.sa_handler = ignore_signal;
@@ -58,7 +58,7 @@ TEST(Partition, LeavesSignalHandlersAsTheyWere) {
     EXPECT_EQ(::sigaction(SIGTERM, &before, &after), 0);
     EXPECT_EQ(after.sa_handler, ignore_signal);
     EXPECT_TRUE((after.sa_flags & SA_RESTART) != 0);
-    EXPECT_FALSE((after.sa_flags & static_cast<int>(SA_RESETHAND)) != 0) << "it works but once";
+    EXPECT_FALSE((after.sa_flags & static_cast<int>(SA_RESETHAND)) != 0) << "it works only once";
 }
 
 TEST(Partition, FilesAreReadAndChecked) {
@@ -122,7 +122,7 @@ TEST(Partition, OfTheLeppGraphCutsFewerPropagationStepsThanBlocksOrLots) {
     EXPECT_LT(cut("lepp"), cut("random:1") / 4);
 }
 
-/// What follows is found by looking at every pair of cells.
+/// Brute force over all pairs of cells.
 std::size_t common_corners(const CellVertices& a, const CellVertices& b) {
     return static_cast<std::size_t>(
         std::ranges::count_if(a, [&](VertexIndex v) { return std::ranges::count(b, v) != 0; }));
@@ -149,7 +149,7 @@ void for_each_pair(const Mesh& mesh, auto&& visit) {
     }
 }
 
-/// Cells round an edge, the longest of each.
+/// Cells round an edge, which is the longest edge of each.
 Mesh wheel(std::size_t count) {
     std::vector<Point> points{{0, 0, -10}, {0, 0, 10}};
     std::vector<std::array<std::size_t, 4>> cells;
@@ -162,7 +162,7 @@ Mesh wheel(std::size_t count) {
     return test::mesh_of(points, cells);
 }
 
-/// Numbered at random, as those of mesh generators often are.
+/// Cells in random order, as from some mesh generators.
 Mesh shuffled(Mesh mesh) {
     std::shuffle(mesh.cells.begin(), mesh.cells.end(), std::mt19937_64(1));
     return mesh;
@@ -216,7 +216,7 @@ TEST(PartitionStatistics, AgreeWithALookAtEveryPairOfCells) {
     }
 }
 
-/// Are the graph's links and weights those that its nodes' cells give rise to?
+/// Compares the links and weights of the graph with those computed from the cells of its nodes.
 void expect_links(const Mesh& mesh, const CellGraph& graph, std::int32_t face, std::int32_t path) {
     ASSERT_EQ(graph.cell_to_node.size(), mesh.cells.size());
     std::map<std::pair<std::int32_t, std::int32_t>, std::int32_t> expected;
@@ -297,7 +297,7 @@ TEST(Partition, BalancesAWheelWhoseCellsAllHaveOneLongestEdge) {
 }
 
 TEST(CellGraph, TooLargeForMetisIsRefusedWithAdvice) {
-    constexpr std::uint64_t most = 536'870'911;  // four links each are just below 2^31
+    constexpr std::uint64_t most = 536'870'911;  // four links for each are just below 2^31
     EXPECT_NO_THROW(check_graph_size(most));
     for (const std::uint64_t cells : {most + 1, std::uint64_t{1} << 32U, std::uint64_t{1} << 62U}) {
         EXPECT_THAT(test::thrown_by<InputError>([&] { check_graph_size(cells); }),

@@ -10,7 +10,8 @@
 #include "pattern/length_order.hpp"
 #include "support/meshes.hpp"
 
-/// The tables against the recursion of the reference, for every order of the edges and selection.
+/// Compares the tables with the recursion of the reference, for every order of the edges and every
+/// selection.
 namespace octetra::distributed {
 namespace {
 

@@ -15,7 +15,7 @@
 #include "partition/cell_graph.hpp"
 #include "support/meshes.hpp"
 
-/// How many cells each cell is expected to become, and parts that are equal in that.
+/// Tests of the predicted number of cells that each cell becomes, and of partitions by this weight.
 namespace octetra::distributed {
 namespace {
 
@@ -25,7 +25,7 @@ using testing::IsEmpty;
 constexpr std::array<std::pair<Scheme, int>, 3> schemes{
     {{Scheme::eight, 8}, {Scheme::four, 4}, {Scheme::two, 2}}};
 
-/// What becomes of each cell of the mesh.
+/// The number of cells that each cell of the mesh becomes.
 std::vector<float> real_cells(const Mesh& mesh, const Selection& selection, int levels) {
     DistributedMesh refined = distribute(Communicator(), mesh, {});
     refine(refined, selection, {.levels = levels});
@@ -43,7 +43,7 @@ Selection ball(const Point& centre, double radius) {
     return {.spheres = {{.centre = centre, .radius = radius}}};
 }
 
-TEST(PredictedCells, AreNoneWhereNothingTellsWhichBecomeMore) {
+TEST(PredictedCells, AreAbsentIfTheSelectionMarksAllOrNone) {
     const Mesh mesh = test::kuhn(3, 3, 3);
     const auto predicted = [&](const Selection& selection, int levels) {
         return predicted_cells(mesh, selection, Scheme::eight, levels);
@@ -89,11 +89,12 @@ TEST(PredictedCells, OfALargestVolumeAreAsManyAsMakeThemSmall) {
     }
 }
 
-TEST(PredictedCells, OfABoxCountWhatIsInside) {
+TEST(PredictedCells, OfABoxCountTheCellsInside) {
     const Mesh mesh = test::kuhn(4, 4, 4);
     const auto predicted =
         predicted_cells(mesh, {.boxes = {{{0, 0, 0}, {1.5, 4, 4}}}}, Scheme::eight, 4);
-    // Of the cubes' four layers the first is inside, half of the second, nothing of the others.
+    // Of the four layers of cubes the first is inside, half of the second, and nothing of the
+    // others.
     std::array<double, 4> of_layer{};
     for (CellIndex c{0}; c < mesh.cells.end_index(); ++c) {
         double x = 0;
@@ -107,7 +108,7 @@ TEST(PredictedCells, OfABoxCountWhatIsInside) {
     EXPECT_EQ(of_layer[3], 16 * 6);
 }
 
-TEST(PredictedCells, OfASphereAreAboutWhatRefinementMakes) {
+TEST(PredictedCells, OfASphereAreCloseToTheResultOfRefinement) {
     for (const std::uint32_t seed : {1U, 2U, 3U}) {
         const Mesh mesh = test::shaken_kuhn(8, 0.2, seed);
         for (const double radius : {0.9, 1.7, 3.0}) {
@@ -127,7 +128,7 @@ TEST(PredictedCells, OfASphereAreAboutWhatRefinementMakes) {
 }
 
 TEST(PredictedCells, AreFiniteHoweverManyLevelsAndHoweverLargeTheMesh) {
-    const Mesh mesh = test::kuhn(2, 2, 2, 8e307);  // opposite corners: sums overflow
+    const Mesh mesh = test::kuhn(2, 2, 2, 8e307);  // opposite corners, so that sums overflow
     Selection selection = ball({8e307, 8e307, 8e307}, 4e307);
     selection.cells.push_back(GlobalCell{0});
     const auto once = predicted_cells(mesh, selection, Scheme::eight, 1);
@@ -178,7 +179,7 @@ std::vector<int> cells_of_parts(const std::vector<int>& part, int parts) {
     return cells;
 }
 
-TEST(Weights, OfAnyMagnitudeCountByWhatTheyAreToEachOther) {
+TEST(Weights, OfAnyMagnitudeCountByTheirRatios) {
     const Mesh mesh = test::shaken_kuhn(8, 0.2, 1);
     std::vector<float> weights(mesh.cells.size());
     for (std::size_t c = 0; c < weights.size(); ++c) weights[c] = c % 3 == 0 ? 5 : 1;
@@ -195,7 +196,7 @@ TEST(Weights, OfAnyMagnitudeCountByWhatTheyAreToEachOther) {
                 Each(testing::AllOf(testing::Ge(700), testing::Le(840))));
 }
 
-/// METIS by itself leaves parts empty here, and complains on standard output.
+/// METIS alone leaves parts empty here, and prints a warning on standard output.
 TEST(Weights, OfAFewCellsThatOutweighAllOthersSpreadThemAndLeaveNoPartEmpty) {
     const Mesh mesh = test::shaken_kuhn(12, 0.2, 1);
     for (const int heavy : {1, 2, 3, 10, 30}) {

@@ -15,8 +15,7 @@
 #include "support/meshes.hpp"
 #include "support/mpi_counter.hpp"
 
-/// What a profile says, held against what stands between the program and MPI, and against a clock
-/// beside it.
+/// Compares a profile with the counts of a library between the program and MPI, and with a clock.
 namespace octetra::distributed {
 namespace {
 
@@ -33,7 +32,7 @@ test::MpiCounts counted_since(const test::MpiCounts& before) {
             now.nanoseconds - before.nanoseconds};
 }
 
-/// All that a run of the program does with its ranks.
+/// The parallel work of a run of the program.
 SynchronisationCounts run(const Communicator& processes, Synchronisation synchronisation) {
     const Mesh mesh = test::shaken_kuhn(4, 0.3, 5);
     const auto parts = in_phase(processes, "partition",
@@ -111,7 +110,7 @@ TEST_P(Profiled, SecondsOfAllPhasesAreThoseOfTheRun) {
     const double around = seconds_between(before, Clock::now());
     const auto insides = test::world().gather(std::vector{inside});
     const auto arounds = test::world().gather(std::vector{around});
-    constexpr double nanosecond = 1e-9;  // figures are added in another order
+    constexpr double nanosecond = 1e-9;  // the figures are summed in another order
     for (std::size_t r = 0; r < insides.size(); ++r) {
         const PhaseCounts sum = sum_over_phases(profile, r);
         const double seconds = sum.computing_seconds + sum.communicating_seconds;
@@ -193,7 +192,7 @@ void sleep_milliseconds(int count) {
     std::this_thread::sleep_for(std::chrono::milliseconds(count));
 }
 
-TEST(Phase, GivesTheInnerPhaseItsTimeAndTheOuterOneTheRest) {
+TEST(Phase, AssignsTheInnerPhaseItsTimeAndTheOuterOneTheRest) {
     const Communicator alone = profiled(Communicator(), ProfileDetail::sums);
     {
         const Phase outer(alone, "outer", 2);

@@ -18,8 +18,8 @@ namespace {
 
 double along(std::size_t axis, const Point& p) { return std::array{p.x, p.y, p.z}[axis]; }
 
-/// The same by sorting: the first half of a box gets points in the order of coordinates and numbers
-/// as long as they weigh no more than its share.
+/// Reference by sorting: the first half of a box gets points in the order of coordinates and
+/// numbers until they exceed its share of the weight.
 void bisect_by_sorting(std::span<WeighedPoint> points, int begin, int end, std::vector<int>& part) {
     if (end - begin == 1) {
         for (const WeighedPoint& one : points) part[one.number / 3] = begin;
@@ -47,7 +47,7 @@ void bisect_by_sorting(std::span<WeighedPoint> points, int begin, int end, std::
     bisect_by_sorting(points.subspan(first), middle, end, part);
 }
 
-/// Numbers go up in threes.
+/// Numbers are in steps of three.
 void expect_as_by_sorting(const std::vector<WeighedPoint>& points,
                           std::initializer_list<int> numbers_of_parts = {1, 2, 3, 5, 8, 40}) {
     for (const int parts : numbers_of_parts) {
@@ -83,7 +83,7 @@ TEST(CoordinateBisection, CutsWhereSortingWould) {
     }
 }
 
-TEST(CoordinateBisection, TellsEqualCoordinatesApartByNumbers) {
+TEST(CoordinateBisection, BreaksTiesOfCoordinatesByNumbers) {
     std::mt19937_64 random(2);
     const auto weight = [&] { return 1 + random() % 5; };
     expect_as_by_sorting(points_of(
@@ -94,15 +94,15 @@ TEST(CoordinateBisection, TellsEqualCoordinatesApartByNumbers) {
         500, [&] { return random() % 2 == 0 ? 0.0 : -0.0; }, one));
 }
 
-/// More than processes tell each other one by one.
-TEST(CoordinateBisection, TellsManyPointsApartByNumbers) {
+/// More points than processes exchange individually.
+TEST(CoordinateBisection, BreaksTiesOfManyPointsByNumbers) {
     std::mt19937_64 random(4);
     const auto coordinate = [&] { return static_cast<double>(random() % 3); };
     expect_as_by_sorting(points_of(40'000, coordinate, one), {2, 3, 7});
     expect_as_by_sorting(points_of(40'000, coordinate, [&] { return random() % 3; }), {2, 7, 50});
 }
 
-/// More than have many sums each.
+/// More boxes than are given many sums each.
 TEST(CoordinateBisection, MakesThousandsOfParts) {
     std::mt19937_64 random(5);
     std::uniform_real_distribution<double> anywhere(0, 1);
@@ -122,9 +122,9 @@ TEST(CoordinateBisection, TakesCoordinatesOfAnySize) {
     expect_as_by_sorting(points_of(2000, coordinate, one));
 }
 
-/// Parts are those of one process also where the axis that was guessed, from a few points, is
-/// another than that of all.
-TEST(CoordinateBisection, FindsAnAxisThatFewPointsTell) {
+/// Parts equal those of one process even if the axis estimated from a sample differs from that of
+/// all points.
+TEST(CoordinateBisection, FindsAnAxisThatFewPointsDetermine) {
     auto points = points_of(
         100'000, [] { return 0.0; }, one);
     for (std::size_t i = 0; i < points.size(); ++i) points[i].point.x = static_cast<double>(i);
@@ -132,7 +132,7 @@ TEST(CoordinateBisection, FindsAnAxisThatFewPointsTell) {
     expect_as_by_sorting(points);
 }
 
-/// So a process that reads a stretch of a lattice keeps what it has read.
+/// So a process that reads a block of a lattice keeps the cells that it has read.
 TEST(CoordinateBisection, CutsACubeBetweenItsLastLayers) {
     std::vector<WeighedPoint> points;
     for (std::uint64_t i = 0; i < 512; ++i) {

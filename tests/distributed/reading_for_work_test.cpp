@@ -17,8 +17,8 @@
 #include "distributed/world.hpp"
 #include "support/thrown.hpp"
 
-/// Parts of a mesh that is read for a purpose: even in what is to come of the cells, if the mesh is
-/// one that the caller takes.
+/// Partitions of a mesh that is read for refinement: balanced by the predicted cells if the caller
+/// accepts the mesh.
 namespace octetra {
 namespace {
 
@@ -31,7 +31,7 @@ const std::filesystem::path& write_once(const std::filesystem::path& file, const
     return file;
 }
 
-/// The numbers of the cells that this process has by these parts.
+/// The numbers of the cells that this partition assigns to this process.
 std::vector<std::uint64_t> own_cells(const std::vector<int>& parts) {
     std::vector<std::uint64_t> cells;
     for (std::size_t c = 0; c < parts.size(); ++c) {
@@ -53,7 +53,7 @@ std::vector<Selection> selections(const Mesh& mesh) {
             tagged};
 }
 
-TEST(ReadForWork, PartsAreEvenInWhatIsExpectedOfTheCells) {
+TEST(ReadForWork, PartsAreBalancedByPredictedCells) {
     const test::SharedFolder folder;
     for (const std::size_t n : {2U, 5U}) {
         const Mesh mesh = test::full_mesh(n, 1);
@@ -79,7 +79,7 @@ TEST(ReadForWork, PartsAreEvenInWhatIsExpectedOfTheCells) {
     (void)test::world().max(0);
 }
 
-TEST(ReadForWork, StretchesMakeTheWholeMeshThatIsToBeWeighed) {
+TEST(ReadForWork, SharesMakeUpTheMeshToBeWeighed) {
     const test::SharedFolder folder;
     const Mesh mesh = test::full_mesh(3, 0);
     const auto file = write_once(folder / "m.mesh", mesh);
@@ -102,7 +102,7 @@ TEST(ReadForWork, StretchesMakeTheWholeMeshThatIsToBeWeighed) {
 }
 
 TEST(ReadForWork, WeightsThatAreNoneAreRefusedOnAllProcesses) {
-    if (test::world().size() == 1) return;  // where there is one part, nobody weighs
+    if (test::world().size() == 1) return;  // a single part needs no weights
     const test::SharedFolder folder;
     const Mesh mesh = test::full_mesh(3, 0);
     const auto file = write_once(folder / "m.ele", mesh);

@@ -16,7 +16,7 @@
 #include "distributed/outcomes.hpp"
 #include "distributed/world.hpp"
 
-/// Gmsh's files that all processes read together.
+/// Tests of collective reading of Gmsh files.
 namespace octetra {
 namespace {
 
@@ -39,10 +39,10 @@ std::string shown(const MshFormat& format) {
 Files msh(const std::string& text) { return {".msh", {{".msh", text}}}; }
 Files msh(const Mesh& mesh, const GmshForm& form) { return msh(test::GmshText(mesh, form).text()); }
 
-/// Tags are signed numbers of 32 bits in version 2.
+/// Tags are signed 32-bit numbers in version 2.
 std::uint64_t scattered(std::uint64_t v) { return 1 + v * 7919 % 10007 * 1000; }
 
-TEST(ReadGmshTogether, MeshesWithEverythingAreWhatOneProcessReads) {
+TEST(ReadGmshTogether, MeshesWithEverythingEqualThoseOfSerialReading) {
     for (const MshFormat& format : all_kinds) {
         SCOPED_TRACE(shown(format));
         for (const std::size_t n : {1U, 2U, 6U}) {
@@ -53,7 +53,7 @@ TEST(ReadGmshTogether, MeshesWithEverythingAreWhatOneProcessReads) {
     }
 }
 
-TEST(ReadGmshTogether, TagsOfAnyOrderBecomeTheNumbersThatOneProcessGives) {
+TEST(ReadGmshTogether, TagsOfAnyOrderBecomeTheNumbersOfSerialReading) {
     const std::uint64_t count = 27;
     const std::vector<std::function<std::uint64_t(std::uint64_t)>> orders{
         [](std::uint64_t v) { return v + 1000; },
@@ -89,7 +89,7 @@ TEST(ReadGmshTogether, TagsOf64BitsAreReadTogetherUnlessTheyAreFarApart) {
     }
 }
 
-/// Wherever a process's share begins: within a block, between two, behind many.
+/// A process's share may begin within a block, between blocks or after many blocks.
 TEST(ReadGmshTogether, BlocksOfAnyLengthAreFound) {
     for (const MshFormat& format : all_kinds) {
         SCOPED_TRACE(shown(format));
@@ -107,8 +107,8 @@ TEST(ReadGmshTogether, BlocksOfAnyLengthAreFound) {
     }
 }
 
-/// So that lines are looked for in the middle of a large file, and messages are many.
-TEST(ReadGmshTogether, AMeshOfManyCellsIsWhatOneProcessReads) {
+/// Large enough that lines are sought in the middle of a file, and that there are many messages.
+TEST(ReadGmshTogether, AMeshOfManyCellsEqualsThatOfSerialReading) {
     Mesh mesh = test::kuhn(34, 33, 32, 1.0 / 3);
     test::list_boundary(mesh);
     const auto backwards = [&](std::uint64_t v) { return mesh.points.size() - v; };
@@ -120,7 +120,7 @@ TEST(ReadGmshTogether, AMeshOfManyCellsIsWhatOneProcessReads) {
     }
 }
 
-/// Version 2 lists an element of several groups several times, and shares begin anywhere.
+/// Version 2 lists an element once for each of its groups, and shares may begin between these.
 TEST(ReadGmshTogether, ElementsOfSeveralGroupsAreKeptOnce) {
     for (const bool is_text : {true, false}) {
         for (const std::size_t groups : {2U, 3U, 5U}) {
@@ -231,7 +231,7 @@ std::vector<OddGmsh> odd_gmsh_files() {
     };
 }
 
-TEST(ReadGmshTogether, OddFilesComeToWhatOneProcessMakesOfThem) {
+TEST(ReadGmshTogether, OddFilesHaveTheOutcomeOfSerialReading) {
     for (const OddGmsh& one : odd_gmsh_files()) {
         SCOPED_TRACE(one.name);
         if (one.name != "listed in groups in turn") {  // where shares begin decides
@@ -241,8 +241,8 @@ TEST(ReadGmshTogether, OddFilesComeToWhatOneProcessMakesOfThem) {
     }
 }
 
-/// A blank line, and later two rows on a line, within one process's share: in the end lines are as
-/// many as rows, but those between are not where they are looked for.
+/// A blank line, and later two rows on one line, within the share of one process: the total number
+/// of lines is right, but the rows between are not at their expected lines.
 TEST(ReadGmshTogether, RowsThatMakeUpForABlankLineAreReadByOneProcess) {
     std::string text = test::GmshText(test::full_mesh(2, 1), {.format = {true, true}}).text();
     text = replaced(replaced(text, "\n2 ", "\n\n2 "), "\n4 ", " 4 ");
@@ -250,7 +250,7 @@ TEST(ReadGmshTogether, RowsThatMakeUpForABlankLineAreReadByOneProcess) {
     EXPECT_TRUE(expect_one_outcome(msh(text)));
 }
 
-TEST(ReadGmshTogether, FilesThatWereChangedAtRandomComeToWhatOneProcessMakesOfThem) {
+TEST(ReadGmshTogether, FilesChangedAtRandomHaveTheOutcomeOfSerialReading) {
     const char* const given = std::getenv("OCTETRA_READING_SEED");
     std::vector<std::uint64_t> seed{given != nullptr ? std::strtoull(given, nullptr, 10)
                                                      : std::random_device()()};
@@ -270,7 +270,7 @@ TEST(ReadGmshTogether, FilesThatWereChangedAtRandomComeToWhatOneProcessMakesOfTh
                             .text());
     }
     int meshes = 0;
-    // Where there are more processes than cores, each turn takes long.
+    // With more processes than cores each turn is slow.
     const int turns = OCTETRA_SANITIZED ? 100 : test::world().size() > 3 ? 200 : 1000;
     for (int turn = 0; turn < turns; ++turn) {
         const std::string text = test::mutated(texts[random() % texts.size()], random);

@@ -14,7 +14,7 @@
 #include "distributed/world.hpp"
 #include "support/temporary_folder.hpp"
 
-/// Files that are made by hand, right and wrong: all processes together say of them what one would.
+/// Hand-made files, valid and invalid: collective reading has the same outcome as serial reading.
 namespace octetra {
 namespace {
 
@@ -219,7 +219,7 @@ std::vector<Case> odd_files() {
     };
 }
 
-TEST(ReadTogether, OddFilesComeToWhatOneProcessMakesOfThem) {
+TEST(ReadTogether, OddFilesHaveTheOutcomeOfSerialReading) {
     for (const auto& cases : {odd_files(), odd_binary_files()}) {
         for (const Case& one : cases) {
             SCOPED_TRACE(one.name);
@@ -229,7 +229,7 @@ TEST(ReadTogether, OddFilesComeToWhatOneProcessMakesOfThem) {
     }
 }
 
-TEST(ReadTogether, WhatIsNotThereIsMissedInTheWordsOfOneProcess) {
+TEST(ReadTogether, MissingFilesAreReportedWithTheMessageOfSerialReading) {
     const test::SharedFolder folder;
     write_on_first([&] {
         test::write_file(folder / "a.ele", one_cell);
@@ -247,8 +247,8 @@ TEST(ReadTogether, WhatIsNotThereIsMissedInTheWordsOfOneProcess) {
     (void)test::world().max(0);
 }
 
-/// Inverted cells are turned round by one process, as it must say how many.
-TEST(ReadTogether, InvertedCellsAreTurnedRoundIfAskedFor) {
+/// Inverted cells are corrected by serial reading, because their number must be reported.
+TEST(ReadTogether, InvertedCellsAreCorrectedIfRequested) {
     const test::SharedFolder folder;
     tetgen(points, "1 4 0\n1 2 1 3 4\n").write(folder);
     const auto read = [&](const auto& how) {

@@ -19,8 +19,7 @@
 #include "distributed/shared_folder.hpp"
 #include "distributed/world.hpp"
 
-/// A mesh that all processes read together is what one would read, and where it is broken they
-/// say what one would say.
+/// Collective reading yields the mesh of serial reading, or its error message.
 namespace octetra {
 namespace {
 
@@ -34,7 +33,7 @@ using test::partitions;
 using test::replaced;
 using test::write_on_first;
 
-/// The meshes in a folder, by what they are called in commands.
+/// The meshes in a folder, by the names that commands accept.
 std::vector<fs::path> meshes_in(const fs::path& folder) {
     std::set<fs::path> files;
     for (const auto& entry : fs::directory_iterator(folder)) {
@@ -53,7 +52,7 @@ fs::path corpus(const std::string& folder) {
     return fs::path(OCTETRA_SOURCE_DIR) / "corpus" / folder;
 }
 
-TEST(ReadTogether, EveryMeshOfTheCorpusIsWhatOneProcessReads) {
+TEST(ReadTogether, EveryMeshOfTheCorpusEqualsThatOfSerialReading) {
     int alone = 0;
     for (const fs::path& file : meshes_in(corpus("meshes"))) {
         if (!test::is_read_together(file)) ++alone;
@@ -64,13 +63,13 @@ TEST(ReadTogether, EveryMeshOfTheCorpusIsWhatOneProcessReads) {
     EXPECT_EQ(alone, 1);  // all on one line
 }
 
-TEST(ReadTogether, EveryBadFileOfTheCorpusIsRefusedInTheWordsOfOneProcess) {
+TEST(ReadTogether, EveryBadFileOfTheCorpusIsRefusedWithTheMessageOfSerialReading) {
     const std::vector<fs::path> files = meshes_in(corpus("bad"));
     EXPECT_GE(files.size(), 60U);
     for (const fs::path& file : files) EXPECT_FALSE(test::expect_one_outcome(file, "rcb")) << file;
 }
 
-TEST(ReadTogether, MeshesWithEverythingAreWhatOneProcessReads) {
+TEST(ReadTogether, MeshesWithEverythingEqualThoseOfSerialReading) {
     for (const std::string extension : {".ele", ".mesh", ".meshb"}) {
         for (const std::uint32_t index_base : {0U, 1U}) {
             for (const std::size_t n : {1U, 2U, 6U}) {
@@ -83,7 +82,7 @@ TEST(ReadTogether, MeshesWithEverythingAreWhatOneProcessReads) {
     }
 }
 
-/// In a lattice many centroids have the same coordinate, and numbers decide.
+/// In a lattice many centroids have equal coordinates, and numbers break the ties.
 TEST(ReadTogether, PartsAreThoseThatOneProcessWouldMake) {
     for (const Mesh& mesh : {test::full_mesh(5, 1), test::kuhn(5, 4, 3)}) {
         const test::SharedFolder folder;
@@ -103,7 +102,7 @@ TEST(ReadTogether, PartsAreThoseThatOneProcessWouldMake) {
     }
 }
 
-/// Interfaces are no part of what is collected: closure must go from part to part.
+/// Collecting does not check interfaces, but closure depends on them.
 TEST(ReadTogether, MeshesAreRefinedAsTheReferenceRefinesThem) {
     const Selection selection{.random = RandomShare{0.1, 3}};
     const test::SharedFolder folder;
@@ -122,8 +121,8 @@ TEST(ReadTogether, MeshesAreRefinedAsTheReferenceRefinesThem) {
     (void)test::world().max(0);
 }
 
-/// So that every process has many messages of cells.
-TEST(ReadTogether, AMeshOfManyCellsIsWhatOneProcessReads) {
+/// Every process has many messages of cells.
+TEST(ReadTogether, AMeshOfManyCellsEqualsThatOfSerialReading) {
     Mesh mesh = test::kuhn(34, 33, 32, 1.0 / 3);
     test::list_boundary(mesh);
     for (const std::string extension : {".ele", ".meshb"}) {
@@ -133,8 +132,8 @@ TEST(ReadTogether, AMeshOfManyCellsIsWhatOneProcessReads) {
     }
 }
 
-/// Forms of the same files that all processes read together.
-TEST(ReadTogether, CommentsBlanksAndLineEndsAreReadOver) {
+/// Forms of the same files that are read collectively.
+TEST(ReadTogether, CommentsBlanksAndLineEndsAreSkipped) {
     for (const std::string extension : {".ele", ".mesh"}) {
         const Files plain = files_of(test::full_mesh(2, 1), extension);
         const auto with = [&](const auto& change) {
@@ -156,7 +155,7 @@ TEST(ReadTogether, CommentsBlanksAndLineEndsAreReadOver) {
     }
 }
 
-TEST(ReadTogether, FilesThatWereChangedAtRandomComeToWhatOneProcessMakesOfThem) {
+TEST(ReadTogether, FilesChangedAtRandomHaveTheOutcomeOfSerialReading) {
     const char* const given = std::getenv("OCTETRA_READING_SEED");
     std::vector<std::uint64_t> seed{given != nullptr ? std::strtoull(given, nullptr, 10)
                                                      : std::random_device()()};
@@ -168,7 +167,7 @@ TEST(ReadTogether, FilesThatWereChangedAtRandomComeToWhatOneProcessMakesOfThem) 
                                    files_of(test::featured(test::full_mesh(1, 1), 3), ".mesh"),
                                    files_of(test::featured(test::full_mesh(1, 1), 3), ".meshb")};
     int meshes = 0;
-    // Where there are more processes than cores, each turn takes long.
+    // With more processes than cores each turn is slow.
     const int turns = OCTETRA_SANITIZED ? 100 : test::world().size() > 3 ? 200 : 1000;
     for (int turn = 0; turn < turns; ++turn) {
         Files changed = files[random() % files.size()];

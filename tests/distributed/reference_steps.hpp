@@ -6,7 +6,8 @@
 
 namespace octetra::test {
 
-/// The reference's steps, which the first process takes alone; on others there is only the input.
+/// The steps of the reference, made by the first process alone; other processes have only the
+/// input.
 class ReferenceSteps {
 public:
     explicit ReferenceSteps(const Mesh& input) : history_{input, {}} { update(); }

@@ -19,7 +19,7 @@
 #include "support/meshes.hpp"
 #include "support/thrown.hpp"
 
-/// Arguments that all processes are to pass alike, and of which the last one passes another.
+/// Arguments that must be the same on all processes, with a different value on the last one.
 namespace octetra::distributed {
 namespace {
 
@@ -27,7 +27,8 @@ using test::world;
 
 bool is_odd() { return world().rank() == world().size() - 1; }
 
-/// Collective. The words of the InputError that the work throws, which are the same on all.
+/// Collective. The message of the InputError thrown by the work, which must be the same on all
+/// processes.
 std::string words_of(const std::function<void()>& work) {
     const auto words = test::thrown_by<InputError>(work);
     const auto all = test::of_all(std::vector<char>(words.begin(), words.end()));
@@ -35,7 +36,7 @@ std::string words_of(const std::function<void()>& work) {
     return words;
 }
 
-/// Shared out in blocks, or all on the first process: then nothing is exchanged.
+/// Distributed in blocks, or all on the first process, where nothing is exchanged.
 std::vector<AdaptiveMesh> meshes() {
     std::vector<AdaptiveMesh> all;
     const Mesh mesh = test::marked(test::shaken_kuhn(3, 0.2, 1), 1);

@@ -12,7 +12,7 @@
 #include "support/meshes.hpp"
 #include "support/thrown.hpp"
 
-/// A step that is refused leaves the mesh as it was.
+/// A refused step leaves the mesh unchanged.
 namespace octetra::distributed {
 namespace {
 
@@ -40,7 +40,7 @@ TEST_P(AdaptiveMeshIn, IsAsItWasAfterAStepThatIsRefused) {
                       fmt::format("rank {}: options of the step are not those of rank 0",
                                   world.size() - 1));
             other = {};
-            if (is_last) other.max_cells = 10;  // alone it would ask how many cells there are
+            if (is_last) other.max_cells = 10;  // alone it would need the number of all cells
             EXPECT_THROW((void)mesh.refine(marks_of(mesh, selection), other), InputError);
         }
         const Selection negative{.all = true, .spheres = {{{0, 0, 0}, -1}}};
@@ -79,7 +79,8 @@ TEST_P(AdaptiveMeshIn, IsAsItWasAfterAStepThatOneProcessCannotAskFor) {
 }
 
 TEST_P(AdaptiveMeshIn, IsAsItWasAfterAStepThatRoundingForbids) {
-    // Whole numbers are all that there is: some levels down an edge has no midpoint.
+    // At this distance only whole numbers are representable: after some levels an edge has no
+    // midpoint.
     Mesh whole = test::kuhn(3, 3, 3, 8);
     for (Point& p : whole.points) p = {p.x + 0x1p52, p.y + 0x1p52, p.z + 0x1p52};
     const Selection corner{
@@ -103,7 +104,7 @@ TEST_P(AdaptiveMeshIn, IsAsItWasAfterAStepThatRoundingForbids) {
 }
 
 TEST_P(AdaptiveMeshIn, IsAsItWasAfterAStepThatChangesMuchAndIsRefusedAfterOneThatChangedLittle) {
-    // Small steps leave lists in another order, and a full sweep needs the canonical one.
+    // Incremental levels leave the lists unordered, and a full sweep needs the canonical order.
     AdaptiveMesh mesh = shared_out(test::marked(test::shaken_kuhn(6, 0.2, 1), 1), GetParam());
     for (const Selection& small : {steps[0], steps[1], steps[3]}) {
         (void)mesh.refine(small);

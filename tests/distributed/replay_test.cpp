@@ -9,7 +9,7 @@
 #include "history/steps_of.hpp"
 #include "support/meshes.hpp"
 
-/// The history that is read off a part makes the part again.
+/// The history extracted from a part reproduces the part.
 namespace octetra::distributed {
 namespace {
 
@@ -51,7 +51,7 @@ DistributedMesh with_interfaces(DistributedMesh mesh, const DistributedMesh& oth
 
 class Replay : public testing::TestWithParam<std::uint64_t> {};
 
-TEST_P(Replay, OfTheStepsReadOffThePartGivesEveryNumberAndBitOfItAgain) {
+TEST_P(Replay, OfTheStepsExtractedFromAPartReproducesItBitByBit) {
     std::mt19937_64 random(GetParam());
     const Mesh mesh = test::marked(test::shaken_kuhn(3, 0.2, GetParam()), 1);
     const auto ranks = partition_cells(mesh, test::world().size(),

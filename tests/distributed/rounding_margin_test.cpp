@@ -9,21 +9,20 @@
 #include "pattern/patterns.hpp"
 #include "support/meshes.hpp"
 
-/// A cell that is said to have a margin has sound children, whatever the order of its edges and
-/// however thin it is.
+/// A cell with a margin has valid children for every order of its edges, however flat it is.
 namespace octetra::distributed {
 namespace {
 
 constexpr CellVertices cell{VertexIndex{0}, VertexIndex{1}, VertexIndex{2}, VertexIndex{3}};
 
-/// The cell's corners and the midpoints of its edges, by place.
+/// The corners of the cell and the midpoints of its edges, by position in the table.
 IndexVector<VertexIndex, Point> places_of(const std::array<Point, 4>& corners) {
     IndexVector<VertexIndex, Point> points(corners.begin(), corners.end());
     for (const auto& [i, j] : cell_edges) points.push_back(midpoint(corners[i], corners[j]));
     return points;
 }
 
-/// Are the children sound, when all edges are bisected in whatever order?
+/// Returns whether the children are valid if all edges are bisected, for every order.
 bool has_sound_children(const IndexVector<VertexIndex, Point>& points) {
     for (LengthOrder order = 0; order < order_count; ++order) {
         const Pattern& pattern = PatternTable::get().pattern(order, 0b111111);
@@ -40,7 +39,8 @@ class ThinCells {
 public:
     explicit ThinCells(std::uint64_t seed) : random_(seed) {}
 
-    /// Positively oriented, of all sizes and degrees of flatness, nearer to the origin or farther.
+    /// Positively oriented cells of all sizes and degrees of flatness, at various distances from
+    /// the origin.
     std::array<Point, 4> next() {
         while (true) {
             const double size = std::exp2(-20 * uniform());
@@ -49,7 +49,7 @@ public:
             std::array<Point, 4> corners;
             for (Point& p : corners) {
                 p = {at.x + size * uniform(), at.y + size * uniform(), thickness * uniform()};
-                // So that a plane that is no axis's comes up, too.
+                // Avoids planes perpendicular to an axis.
                 p.z += p.x + at.z;
             }
             const int sign = orientation(corners[0], corners[1], corners[2], corners[3]);
@@ -79,7 +79,7 @@ TEST(RoundingMargin, IsOnlyFoundWhereAllChildrenAreSound) {
     EXPECT_GT(unsound, 500);
 }
 
-TEST(RoundingMargin, IsFoundInWhatMeshesAreMadeOf) {
+TEST(RoundingMargin, IsFoundForMostCellsOfMeshes) {
     const Mesh lattice = test::kuhn(3, 3, 3, 1.0 / 3);
     for (const CellVertices& any : lattice.cells) {
         EXPECT_TRUE(has_rounding_margin(lattice.points, any));

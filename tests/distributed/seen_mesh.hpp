@@ -6,7 +6,8 @@
 
 namespace octetra::test {
 
-/// All that a program can see of a mesh, and what it will be written as. Making it is collective.
+/// Everything that a program can read from a mesh, and the file that it would write. The
+/// constructor is collective.
 struct SeenMesh {
     std::vector<Point> points;
     std::vector<CellVertices> cells;

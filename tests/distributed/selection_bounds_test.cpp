@@ -8,14 +8,14 @@
 namespace octetra::distributed {
 namespace {
 
-/// Those on which all corners are beyond reach.
+/// The sides of the bounds beyond which all corners lie, as bits.
 int sides_in_common(const SelectionBounds& reach, const Corners& corners) {
     int sides = 0b111111;
     for (const Point& corner : corners) sides &= reach.sides_beyond(corner);
     return sides;
 }
 
-/// Random cells of a size, and spheres whose border goes through their centroids, or nearly.
+/// Random cells of a size, and spheres whose surface passes through or near their centroids.
 void expect_marked_only_where_it_may_be(double size, double offset) {
     SCOPED_TRACE(testing::Message() << "size " << size << ", offset " << offset);
     std::mt19937_64 random(1);
@@ -29,7 +29,7 @@ void expect_marked_only_where_it_may_be(double size, double offset) {
         if (i % 3 == 0) corners = {corners[0], corners[0], corners[0], corners[0]};
         const Point centre = centroid(corners);
         Point c = point();
-        if (i % 5 == 0) c = {c.x, centre.y, centre.z};  // where the sphere reaches farthest
+        if (i % 5 == 0) c = {c.x, centre.y, centre.z};  // where the sphere extends farthest
         const double radius = std::hypot(centre.x - c.x, centre.y - c.y, centre.z - c.z);
         const Selection sphere{.spheres = {{c, radius * (1 + (i % 7 - 3) * 2e-16)}}};
         const Selection box{.boxes = {{centre, centre}}};
@@ -48,7 +48,7 @@ void expect_marked_only_where_it_may_be(double size, double offset) {
     EXPECT_GT(marked, 20000);
 }
 
-TEST(SelectionBounds, NeverPassOverACellThatIsMarked) {
+TEST(SelectionBounds, NeverExcludeAMarkedCell) {
     for (const double size : {1.0, 1e-9, 1e-165, 3e-320, 1e153, 1e170, 8e307}) {
         expect_marked_only_where_it_may_be(size, 0);
     }
@@ -56,7 +56,7 @@ TEST(SelectionBounds, NeverPassOverACellThatIsMarked) {
     expect_marked_only_where_it_may_be(1e300, 1e307);
 }
 
-TEST(SelectionBounds, PassOverWhatIsFarAway) {
+TEST(SelectionBounds, ExcludeDistantCells) {
     const Box corners{{0, 0, 0}, {1, 1, 1}};
     EXPECT_FALSE(may_be_marked({.spheres = {{{2, 0.5, 0.5}, 0.999}}}, corners));
     EXPECT_TRUE(may_be_marked({.spheres = {{{2, 0.5, 0.5}, 1.001}}}, corners));
@@ -109,7 +109,7 @@ TEST(SelectionBounds, FindCellsThatAreWhollyInside) {
         EXPECT_EQ(reach.is_wholly_inside({{0, 0, 0}, {0, x, 0}}), is_inside);
         EXPECT_EQ(reach.is_wholly_inside({{0, 0, -0.1}, {0, 0, x}}), is_inside);
     }
-    EXPECT_FALSE(reach.is_wholly_inside({{-1.5, -1.5, 0}, {0, 0, 0}}));  // a corner is not
+    EXPECT_FALSE(reach.is_wholly_inside({{-1.5, -1.5, 0}, {0, 0, 0}}));  // one corner is outside
     EXPECT_TRUE(reach.is_wholly_inside({{-9, -9, -9}, {-8, -8, -8}}));
     EXPECT_FALSE(reach.is_wholly_inside({{-9, -9, -9}, {-8, -8, -7.9}}));
 }

@@ -15,7 +15,7 @@
 #include "distributed/world.hpp"
 #include "support/thrown.hpp"
 
-/// Meshes one after the other in one file, from a program.
+/// Series: successive meshes written to one file by a program.
 namespace octetra::distributed {
 namespace {
 
@@ -32,7 +32,7 @@ std::vector<Field> heights(const AdaptiveMesh& mesh) {
     return {{"height", FieldOn::vertices, 1, values}};
 }
 
-/// On all processes, before the first one removes the folder.
+/// Counted on all processes before the first one removes the folder.
 std::size_t files_in(const test::SharedFolder& folder) {
     (void)test::world().sum(std::uint64_t{0});
     std::size_t count = 0;
@@ -43,7 +43,7 @@ std::size_t files_in(const test::SharedFolder& folder) {
     return count;
 }
 
-TEST(Series, LeavesOutWhatNotAllStepsHaveAndSaysSo) {
+TEST(Series, OmitsArraysThatNotAllStepsHaveWithANote) {
     const test::SharedFolder folder;
     AdaptiveMesh mesh = mesh_in_parts();
     MeshSeries series(folder / "a.vtkhdf", test::world());
@@ -68,7 +68,7 @@ TEST(Series, ThatIsNotFinishedLeavesNothing) {
     EXPECT_EQ(files_in(folder), 0U);
 }
 
-TEST(Series, RefusesTimesThatDoNotAscendAndWhatIsNone) {
+TEST(Series, RefusesInvalidTimesAndTimesThatDoNotAscend) {
     const test::SharedFolder folder;
     const AdaptiveMesh mesh = mesh_in_parts();
     EXPECT_NE(test::thrown_by<InputError>([&] {

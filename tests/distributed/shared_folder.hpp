@@ -10,7 +10,7 @@
 
 namespace octetra::test {
 
-/// Collective. A folder of the first process's that all know.
+/// Collective. A temporary folder of the first process, whose path all processes have.
 class SharedFolder {
 public:
     SharedFolder() {

@@ -10,7 +10,7 @@
 namespace octetra::distributed {
 namespace {
 
-TEST(CompressedWords, ComeBackAsTheyWere) {
+TEST(CompressedWords, AreDecodedUnchanged) {
     std::mt19937_64 random(1);
     constexpr std::uint64_t most = std::numeric_limits<std::uint64_t>::max();
     for (int k = 0; k < 500; ++k) {
@@ -23,8 +23,8 @@ TEST(CompressedWords, ComeBackAsTheyWere) {
     }
 }
 
-/// Numbers that go up by one, and counts that are about the same.
-TEST(CompressedWords, AreAByteEachWhereTheyChangeLittle) {
+/// Numbers that increase by one, and counts that vary little.
+TEST(CompressedWords, TakeOneByteEachIfTheyChangeLittle) {
     std::vector<std::uint64_t> words;
     for (std::uint64_t k = 0; k < 1000; ++k)
         words.insert(words.end(), {1'000'000'000 + k, 10 + k % 7});

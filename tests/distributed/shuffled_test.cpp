@@ -5,12 +5,12 @@
 #include "distributed/world.hpp"
 #include "support/mpi_shuffler.hpp"
 
-/// That the messages of this program are late and in disorder, so that its other tests, those of
-/// equality_test.cpp, mean what they should.
+/// Checks that the messages of this program are delayed and reordered, without which its other
+/// tests, those of equality_test.cpp, would be meaningless.
 namespace octetra::distributed {
 namespace {
 
-TEST(Weather, IsBad) {
+TEST(ShuffledMessages, AreDelayedAndReordered) {
     const Communicator& world = test::world();
     const auto size = static_cast<std::size_t>(world.size());
     for (int round = 0; round < 200; ++round) {

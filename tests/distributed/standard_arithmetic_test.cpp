@@ -26,14 +26,15 @@
 #include "support/meshes.hpp"
 #include "support/temporary_folder.hpp"
 
-/// The same functions in the default floating-point environment and in a program that has another.
+/// The same functions in the default floating-point environment and in a program with another one.
 namespace octetra::distributed {
 namespace {
 
 using test::in_hostile_arithmetic;
 using test::world;
 
-/// Numbers of all kinds: a vertex with subnormal coordinates, and a mesh with subnormal lengths.
+/// Numbers of all magnitudes: a vertex with subnormal coordinates, and a mesh with subnormal
+/// lengths.
 std::vector<Mesh> meshes_of_any_scale() {
     Mesh ordinary = test::marked(test::shaken_kuhn(3, 0.2, 1), 1);
     test::mark_alike(ordinary.facets, ordinary.facet_markers);
@@ -44,7 +45,7 @@ std::vector<Mesh> meshes_of_any_scale() {
     return {ordinary, tiny};
 }
 
-/// All files of a folder, by name.
+/// The contents of all files of a folder, by name.
 std::map<std::string, std::string> contents_of(const std::filesystem::path& folder) {
     std::map<std::string, std::string> contents;
     for (const auto& entry : std::filesystem::directory_iterator(folder)) {
@@ -70,7 +71,7 @@ TEST(StandardArithmetic, WritesAndReadsTheSameFilesInAnyEnvironment) {
     }
 }
 
-TEST(StandardArithmetic, RefinesAndCoarsensByTheReferenceAlikeInAnyEnvironment) {
+TEST(StandardArithmetic, RefinesAndCoarsensByTheReferenceIdenticallyInAnyEnvironment) {
     for (const Mesh& mesh : meshes_of_any_scale()) {
         const auto work = [&] {
             const auto fine =
@@ -90,7 +91,7 @@ TEST(StandardArithmetic, RefinesAndCoarsensByTheReferenceAlikeInAnyEnvironment) 
     }
 }
 
-TEST(StandardArithmetic, JudgesAlikeInAnyEnvironment) {
+TEST(StandardArithmetic, VerifiesIdenticallyInAnyEnvironment) {
     for (const Mesh& mesh : meshes_of_any_scale()) {
         const Selection selection{.random = RandomShare{0.2, 3}};
         const Mesh fine = reference::refine(mesh, selection, Scheme::eight, 1).mesh;
@@ -106,7 +107,7 @@ TEST(StandardArithmetic, JudgesAlikeInAnyEnvironment) {
     }
 }
 
-TEST(StandardArithmetic, AdaptsMeshesAlikeInAnyEnvironment) {
+TEST(StandardArithmetic, AdaptsMeshesIdenticallyInAnyEnvironment) {
     const test::SharedFolder folder;
     for (const Mesh& whole : meshes_of_any_scale()) {
         world().on_first([&] { (void)write_mesh(whole, folder / "m.ele"); });
@@ -125,13 +126,13 @@ TEST(StandardArithmetic, AdaptsMeshesAlikeInAnyEnvironment) {
         const AdaptiveMesh expected = adapted("expected.octetra");
         const AdaptiveMesh found = in_hostile_arithmetic([&] { return adapted("found.octetra"); });
         EXPECT_TRUE(test::SeenMesh(found) == test::SeenMesh(expected));
-        if (!world().is_first()) continue;  // the folder is that of the first process
+        if (!world().is_first()) continue;  // only the first process has the folder
         EXPECT_EQ(test::content_of(folder / "found.octetra"),
                   test::content_of(folder / "expected.octetra"));
     }
 }
 
-TEST(StandardArithmetic, PartitionsAndMarksAlikeInAnyEnvironment) {
+TEST(StandardArithmetic, PartitionsAndMarksIdenticallyInAnyEnvironment) {
     for (const Mesh& mesh : meshes_of_any_scale()) {
         const auto partitions = [&] {
             const auto weights = predicted_cells(
@@ -158,7 +159,7 @@ TEST(StandardArithmetic, PartitionsAndMarksAlikeInAnyEnvironment) {
     }
 }
 
-TEST(StandardArithmetic, RefinesDistributedMeshesAlikeInAnyEnvironment) {
+TEST(StandardArithmetic, RefinesDistributedMeshesIdenticallyInAnyEnvironment) {
     const Partition in_blocks{.method = PartitionMethod::block};
     for (const Mesh& mesh : meshes_of_any_scale()) {
         const auto parts = partition_cells(mesh, world().size(), in_blocks);

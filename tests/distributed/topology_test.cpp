@@ -17,7 +17,7 @@
 #include "support/meshes.hpp"
 #include "support/thrown.hpp"
 
-/// What a program asks of a mesh, held against what all processes know together.
+/// Compares the topology reported by a mesh with that computed from all processes.
 namespace octetra::distributed {
 namespace {
 
@@ -65,7 +65,7 @@ Numbers<N> side_of(const Numbers<4>& cell, const std::array<std::uint8_t, N>& pl
 
 class Topology : public testing::TestWithParam<PartitionMethod> {
 protected:
-    /// A mesh after a step or two, of which some leave it unordered.
+    /// Meshes after one or two steps, some of which leave the mesh unordered.
     static std::vector<AdaptiveMesh> meshes() {
         std::vector<AdaptiveMesh> meshes;
         for (const Selection& selection :
@@ -84,7 +84,7 @@ INSTANTIATE_TEST_SUITE_P(Parts, Topology,
                          testing::Values(PartitionMethod::block, PartitionMethod::random),
                          [](const auto& i) { return fmt::format("{}", i.index); });
 
-/// Holds numbered sides against those of all cells.
+/// Compares the numbered faces or edges with those of all cells.
 template <class AnySides, std::size_t N, std::size_t PerCell>
 void expect_numbered(const AnySides& sides, const AdaptiveMesh& mesh,
                      const std::array<std::array<std::uint8_t, N>, PerCell>& places) {
@@ -135,7 +135,7 @@ TEST_P(Topology, NumbersEdgesAndFacesAsTheWholeMeshDoes) {
     }
 }
 
-TEST_P(Topology, KnowsWhatIsBehindEachFace) {
+TEST_P(Topology, HasTheNeighbourBehindEachFace) {
     for (const AdaptiveMesh& mesh : meshes()) {
         std::map<Numbers<3>, std::vector<FaceNeighbour>> cells_at;
         for (const KnownCell& cell : cells_of_all(mesh)) {
@@ -217,7 +217,7 @@ TEST_P(Topology, HasGhostCellsByFaceAndByVertexAndTheirValues) {
     }
 }
 
-/// For each vertex of this process whether `is_in_set` holds for its number in the whole mesh.
+/// For each vertex of this process, whether `is_in_set` holds for its global number.
 std::vector<std::uint8_t> flags_of(const AdaptiveMesh& mesh,
                                    const std::function<bool(std::uint64_t)>& is_in_set) {
     std::vector<std::uint8_t> flags;
@@ -227,7 +227,7 @@ std::vector<std::uint8_t> flags_of(const AdaptiveMesh& mesh,
     return flags;
 }
 
-/// How many flags a process would miss that marks the vertices of its own faces alone.
+/// The number of flags that are missing on a process that flags only the vertices of its own faces.
 std::size_t missed_by_own_faces(const AdaptiveMesh& mesh, std::vector<std::uint8_t> flags) {
     for (const auto& [cell, face] : mesh.boundary()) {
         for (const std::uint8_t k : cell_faces[face]) {
@@ -252,7 +252,7 @@ TEST_P(Topology, KnowsEachBoundaryVertexAlsoWhereAnotherProcessHasTheFace) {
         EXPECT_EQ(flags, flags_of(mesh, [&](auto v) { return expected.contains(v); }));
         missed += missed_by_own_faces(mesh, flags);
     }
-    if (GetParam() != PartitionMethod::random) return;  // parts of one piece may miss none
+    if (GetParam() != PartitionMethod::random) return;  // connected parts may miss none
     EXPECT_EQ(test::world().sum(missed) > 0, test::world().size() > 1);
 }
 

@@ -17,16 +17,15 @@
 #include "support/meshes.hpp"
 #include "support/thrown.hpp"
 
-/// Each rank goes about a level in one of two kinds, a full sweep or an incremental one, and in a
-/// full one it numbers all edges or those near the marked cells: whichever it is, the result is the
-/// reference's, and the work of an incremental level is in proportion to what changes.
+/// Each rank makes a level as a full sweep, with all edges or the local edge set numbered, or
+/// incrementally. The result always equals the reference's, and the work of an incremental level is
+/// proportional to the number of changed cells.
 namespace octetra::distributed {
 namespace {
 
 constexpr double always = 10;
 
-/// Which rank takes which way; `local_sweep` is a full sweep with edges numbered near the marked
-/// cells.
+/// The kind of level of each rank; `local_sweep` is a full sweep with a local edge set.
 enum class Kinds { full_sweep, local_sweep, incremental, alternating, alternating_otherwise };
 
 Tuning tuning_of(Kinds kinds, int level) {
@@ -50,7 +49,8 @@ const std::vector<Partition> few_partitions{
     {.method = PartitionMethod::random, .seed = 1},
 };
 
-/// One rank has all cells, whatever the partition; under sanitizers one has borders everywhere.
+/// With one rank all partitions are the same; under sanitizers one partition with borders
+/// everywhere suffices.
 std::vector<Partition> few_partitions_that_differ() {
     if (test::world().size() == 1) return {few_partitions.front()};
     if (OCTETRA_SANITIZED) return {few_partitions.back()};
@@ -134,7 +134,7 @@ TEST_P(LevelKinds, MayChangeFromLevelToLevelAndSoMayTheSelection) {
     }
 }
 
-TEST_P(LevelKinds, RefuseRoundingInTheSameWords) {
+TEST_P(LevelKinds, RefuseRoundingWithTheSameMessage) {
     Mesh mesh = test::kuhn(2, 2, 2);
     for (Point& p : mesh.points) p = {p.x * 2 + 0x1p52, p.y, p.z};
     const Selection selection{.random = RandomShare{0.5, 2}};
@@ -163,7 +163,7 @@ struct Work {
     friend bool operator==(const Work&, const Work&) = default;
 };
 
-/// Collective. What all levels of a run take; on the first rank.
+/// Collective. The work of each level of a run, on the first rank.
 std::vector<Work> work_of(DistributedMesh& mesh, const Selection& selection, int levels,
                           const Tuning& tuning = {}) {
     mesh.processes = profiled(test::world(), ProfileDetail::sums);
@@ -211,7 +211,7 @@ TEST(IncrementalLevel, IsTakenWhereFewCellsAreMarkedByAnotherSelectionEachTime) 
         if (!test::world().is_first()) continue;
         ASSERT_EQ(work.size(), 2U);
         EXPECT_GT(work[1].cells, cells);
-        // The first one has to judge all cells.
+        // The first level must judge all cells.
         EXPECT_LT(work[1].touched, level == 1 ? cells * 11 / 10 : cells / 10) << "level " << level;
     }
 }
@@ -231,7 +231,7 @@ TEST(IncrementalLevel, IsTakenForALastLevelOnlyWhereEarlierOnesHavePreparedIt) {
     DistributedMesh twice = refined(2, true);
     EXPECT_TRUE(twice.adjacency != nullptr);
     (void)refine(once, selection, {.levels = 1, .is_last = true});
-    EXPECT_TRUE(once.adjacency != nullptr) << "what is there is used";
+    EXPECT_TRUE(once.adjacency != nullptr) << "the existing one is used";
     (void)refine(only_once, selection, {.levels = 1, .is_last = true});
     const Mesh expected = collect(std::move(twice)).mesh;
     EXPECT_TRUE(collect(std::move(once)).mesh == expected);
@@ -245,7 +245,7 @@ TEST(IncrementalLevel, IsNotTakenWhereManyCellsAreMarkedOrFewEverywhere) {
         const std::uint64_t cells = test::world().sum(mesh.cells.size());
         const auto work = work_of(mesh, selection, 2);
         if (!test::world().is_first()) continue;
-        // Every cell was judged, unless all are marked, and then went the way of a full sweep.
+        // Every cell was judged and, unless all are marked, processed again by a full sweep.
         const std::uint64_t times = selection.all ? 1 : 2;
         EXPECT_EQ(work[1].touched, times * cells);
         EXPECT_EQ(work[2].touched, times * work[1].cells);

@@ -6,10 +6,10 @@
 
 namespace octetra::test {
 
-/// The processes that mpirun started for this test.
+/// The communicator of the processes that mpirun started for this test.
 const distributed::Communicator& world();
 
-/// Collective. On each process, what all processes have, in the order of their ranks.
+/// Collective. Returns the entries of all processes, in the order of their ranks, on each process.
 template <class T>
 std::vector<std::vector<T>> of_all(const std::vector<T>& own) {
     return world().all_to_all(

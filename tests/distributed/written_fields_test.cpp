@@ -11,7 +11,7 @@
 #include "distributed/world.hpp"
 #include "support/thrown.hpp"
 
-/// Fields that a program gives for the files of a mesh.
+/// Fields that a program adds to the files of a mesh.
 namespace octetra::distributed {
 namespace {
 
@@ -24,7 +24,7 @@ AdaptiveMesh refined_mesh() {
     return mesh;
 }
 
-/// By place on vertices, where copies are not the owner's if `spoils`; by root on cells.
+/// Vertex values by coordinates, wrong on copies if `spoils` is set; cell values by root.
 std::vector<Field> fields_of(const AdaptiveMesh& mesh, bool spoils) {
     std::vector<double> heights;
     for (std::size_t v = 0; v < mesh.points().size(); ++v) {
@@ -55,7 +55,7 @@ TEST(WrittenFields, OfAVertexAreItsOwners) {
     (void)test::world().sum(std::uint64_t{0});  // before the first process removes the folder
 }
 
-/// One process has what does not fit, and all say so.
+/// A field with a wrong size on one process is refused by all.
 TEST(WrittenFields, ThatDoNotFitAreRefusedByAll) {
     const AdaptiveMesh mesh = refined_mesh();
     const test::SharedFolder folder;

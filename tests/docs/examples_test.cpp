@@ -9,17 +9,17 @@
 #include "docs/pages.hpp"
 #include "support/run_program.hpp"
 
-/// The examples of README.md and docs/ work when pasted, and print what the page says they print.
+/// Runs the examples of README.md and docs/ and compares their output with the pages.
 ///
-/// A block ```console holds commands behind "$ " and below each what it prints, where a line "..."
-/// stands for any lines left out. A block ```sh whose first line begins with "octetra " holds
-/// commands alone. Those of a page run in a folder of its own, in the order of the page;
-/// `mpirun -n N` as tests/support/mpirun.sh runs it.
+/// A block ```console contains commands after "$ ", each followed by its output, in which a line
+/// "..." matches any number of lines. A block ```sh whose first line begins with "octetra "
+/// contains only commands. The commands of a page run in one folder, in the order of the page;
+/// `mpirun -n N` is replaced by tests/support/mpirun.sh.
 namespace octetra::test {
 namespace {
 
 struct Example {
-    std::size_t line = 0;  ///< of its block
+    std::size_t line = 0;  ///< of the block
     std::string command;
     std::vector<std::string> printed;
 };
@@ -47,7 +47,8 @@ std::vector<Example> examples_of(const std::string& page_name) {
     return examples;
 }
 
-/// As it is run here: mpirun is told what it needs in containers and on machines of few cores.
+/// Replaces mpirun by the script that adds the options for containers and for machines with few
+/// cores.
 std::string runnable(const std::string& command) {
     constexpr std::string_view mpirun = "mpirun -n ";
     if (!command.starts_with(mpirun)) return command;
@@ -58,7 +59,7 @@ std::string runnable(const std::string& command) {
     return result;
 }
 
-/// Without what differs from run to run and from screen to screen: seconds, widths of columns.
+/// Removes times and the widths of columns, which vary between runs and terminals.
 std::string comparable(const std::string& line) {
     const std::string timeless = std::regex_replace(line, std::regex(R"(\d+\.\d+ s\b)"), "T s");
     std::string result;

@@ -1,6 +1,6 @@
 #!/bin/sh
-# man_pages.sh PROGRAM FOLDER: the manual pages are made, one for each subcommand, and troff has no
-# warning of them. Status 77 where the tools are not installed.
+# man_pages.sh PROGRAM FOLDER: checks that the manual pages are made, one for each subcommand, and
+# that troff gives no warnings. Exits with 77 if the tools are not installed.
 set -eu
 for tool in help2man groff; do
     if ! command -v "$tool" >/dev/null; then

@@ -9,20 +9,20 @@
 
 #include "support/temporary_folder.hpp"
 
-/// The Markdown pages of the repository, taken apart as far as the tests need it.
+/// Parses the Markdown pages of the repository as far as the tests require.
 namespace octetra::test {
 
 inline const std::filesystem::path repository = OCTETRA_SOURCE_DIR;
 
 struct FencedBlock {
-    std::string language;  ///< what stands behind the opening fence
+    std::string language;  ///< the text after the opening fence
     std::size_t line = 0;  ///< of that fence, from 1
     std::vector<std::string> lines;
 };
 
 struct Page {
     std::vector<FencedBlock> blocks;
-    std::vector<std::string> prose;  ///< the lines outside of the blocks
+    std::vector<std::string> prose;  ///< the lines outside the blocks
 };
 
 inline Page page(const std::string& name) {
@@ -44,7 +44,7 @@ inline Page page(const std::string& name) {
     return result;
 }
 
-/// README.md and what stands in docs/: the pages whose examples are run.
+/// README.md and the files in docs/: the pages whose examples are run.
 inline std::vector<std::string> user_pages() {
     std::vector<std::string> names{"README.md"};
     for (const auto& entry : std::filesystem::directory_iterator(repository / "docs")) {
@@ -56,7 +56,7 @@ inline std::vector<std::string> user_pages() {
     return names;
 }
 
-/// A page's name as that of a test: letters, digits and underlines.
+/// The name of a page as part of a test name: letters, digits and underscores.
 inline std::string name_of_test(std::string page_name) {
     std::ranges::replace_if(
         page_name, [](unsigned char c) { return std::isalnum(c) == 0; }, '_');

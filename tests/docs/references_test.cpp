@@ -7,7 +7,7 @@
 
 #include "docs/pages.hpp"
 
-/// What the pages refer to is in the repository: links, paths and the names of tests.
+/// Checks that links, paths and test names in the pages exist in the repository.
 namespace octetra::test {
 namespace {
 
@@ -20,7 +20,7 @@ std::vector<std::string> matches(const std::string& text, const std::string& pat
     return found;
 }
 
-/// Is it there, a path with one `*` at its end matching anything that begins so?
+/// Returns whether the path exists; a `*` at its end matches any suffix.
 bool exists(const std::string& path) {
     const std::filesystem::path full = repository / path;
     if (!path.ends_with('*')) return std::filesystem::exists(full);
@@ -45,7 +45,7 @@ TEST_P(Markdown, LinksLeadSomewhere) {
     }
 }
 
-/// What GitHub makes of a heading: lower case, blanks to hyphens, no other marks.
+/// The anchor that GitHub makes of a heading: lower case, hyphens for blanks, no other punctuation.
 std::string anchor_of(const std::string& heading) {
     std::string anchor;
     for (const char c : heading) {
@@ -83,8 +83,8 @@ TEST_P(Markdown, LinksIntoPagesLeadToTheirHeadings) {
     }
 }
 
-/// A path is what stands in backquotes, or begins a line of a block ```text, and whose first part
-/// is a folder of the sources.
+/// A path is text in backquotes, or the beginning of a line in a block ```text, whose first
+/// component is a folder of the sources.
 TEST_P(Markdown, PathsExist) {
     const std::string sources =
         "((?:core|reference|distributed|verify|cli|corpus|tests|tools|bench|docs|cmake|\\.ci)/"

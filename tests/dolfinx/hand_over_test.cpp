@@ -18,8 +18,8 @@
 #include "distributed/marked_mesh.hpp"
 #include "distributed/world.hpp"
 
-/// Meshes for DOLFINx, which dealt-out lattices become: what a rank says of a vertex or cell is
-/// what is true of the whole mesh.
+/// Meshes for DOLFINx made of randomly distributed lattices: the data of each rank's vertices and
+/// cells agree with those of the whole mesh.
 namespace octetra::dolfinx {
 namespace {
 
@@ -35,7 +35,7 @@ od::AdaptiveMesh dealt_out(const Mesh& mesh, unsigned seed) {
                                         ranks);
 }
 
-/// Of this rank's nodes, own and ghosts, the numbers in the whole mesh of DOLFINx.
+/// The global numbers in DOLFINx of this rank's nodes, including ghosts.
 std::vector<std::int64_t> global_nodes(const Handover& made) {
     return made.mesh->topology().index_map(0)->global_indices();
 }
@@ -50,7 +50,7 @@ std::array<std::int64_t, 4> vertices_of_cell(const Handover& made, std::int32_t 
     return numbers;
 }
 
-/// Pairs of all ranks as a map; fails where two of them contradict each other.
+/// Combines the pairs of all ranks into a map; fails the test if two of them contradict each other.
 template <class Value>
 std::map<std::int64_t, Value> map_of_all(const std::vector<std::pair<std::int64_t, Value>>& own) {
     struct Pair {
@@ -70,7 +70,7 @@ std::map<std::int64_t, Value> map_of_all(const std::vector<std::pair<std::int64_
 
 class HandOver : public testing::TestWithParam<std::optional<od::GhostsBy>> {
 protected:
-    /// Else it tells of every step.
+    /// By default it logs every step.
     static void SetUpTestSuite() { loguru::g_stderr_verbosity = loguru::Verbosity_WARNING; }
 
     Mesh whole_ = test::marked_lattice(3, 5);
@@ -81,7 +81,7 @@ protected:
 INSTANTIATE_TEST_SUITE_P(With, HandOver,
                          testing::Values(std::nullopt, od::GhostsBy::face, od::GhostsBy::vertex));
 
-TEST_P(HandOver, SaysTheSameOfAVertexOnAllRanks) {
+TEST_P(HandOver, HasTheSameDataOfAVertexOnAllRanks) {
     const auto& geometry = made_.mesh->geometry();
     const auto nodes = global_nodes(made_);
     std::vector<std::pair<std::int64_t, std::int64_t>> vertices;
@@ -97,7 +97,7 @@ TEST_P(HandOver, SaysTheSameOfAVertexOnAllRanks) {
     EXPECT_EQ(map.rbegin()->first + 1, static_cast<std::int64_t>(map.size()));
 }
 
-TEST_P(HandOver, SaysTheSameOfACellOnAllRanks) {
+TEST_P(HandOver, HasTheSameDataOfACellOnAllRanks) {
     const auto& cell_map = *made_.mesh->topology().index_map(3);
     const auto numbers = cell_map.global_indices();
     std::vector<std::pair<std::int64_t, std::array<std::int64_t, 4>>> cells;
@@ -162,7 +162,7 @@ TEST_P(HandOver, HasTheBoundaryOfTheWholeMesh) {
               test::world().sum(mesh_.boundary().size()));
 }
 
-TEST_P(HandOver, ComesBackAsItWas) {
+TEST_P(HandOver, IsRestoredUnchanged) {
     const auto [again, back] = from_mesh(made_.mesh, &*made_.cell_tags, &*made_.facet_tags);
     EXPECT_TRUE(std::ranges::equal(again.cells(), mesh_.cells()));
     EXPECT_TRUE(std::ranges::equal(again.vertex_numbers(), mesh_.vertex_numbers()));

@@ -1,4 +1,4 @@
-"""Parts of the equivalence report by themselves."""
+"""Tests of single parts of the equivalence report."""
 
 import os
 import re
@@ -50,7 +50,7 @@ class Comparison(unittest.TestCase):
             self.put(self.b, "m.ele", bytes(changed))
             self.assertEqual(self.differences(), [f"m.ele differs from byte {offset:,} on"])
 
-    def test_sees_a_file_that_ends_early_or_goes_on(self):
+    def test_detects_a_file_that_is_shorter_or_longer(self):
         self.put(self.a, "m.ele", b"1 2 3\n")
         self.put(self.b, "m.ele", b"1 2 3\n4")
         self.assertEqual(self.differences(), ["m.ele differs from byte 6 on"])
@@ -100,9 +100,9 @@ class Figures(unittest.TestCase):
         for highest in (1e-6, 0.03, 1, 19.9, 123456):
             self.assertGreaterEqual(charts.round_steps(highest)[-1], highest * (1 - 1e-9))
 
-    def test_taken_beside_other_work_are_called_so(self):
+    def test_measured_on_a_loaded_machine_are_marked(self):
         self.assertEqual(page.load_notice({"cores": 2, "load": 0.4}), "")
-        self.assertIn("no measure", page.load_notice({"cores": 2, "load": 1.5}))
+        self.assertIn("unreliable", page.load_notice({"cores": 2, "load": 1.5}))
 
 
 class Words(unittest.TestCase):
@@ -119,7 +119,7 @@ class Words(unittest.TestCase):
 
 
 def results(points):
-    """Of ./dev bench, with these points of the case named."""
+    """Results of ./dev bench with these points of the named case."""
     name, = points
     case = {"name": name, "points": points[name]}
     machine = {"date": "today", "commit": "abc", "cores": 2, "processor": "<one>",
@@ -145,7 +145,7 @@ class Style(unittest.TestCase):
 
 class Benchmarks(unittest.TestCase):
     def places(self, drawing):
-        """Of the dots of each drawing."""
+        """The coordinates of the dots of each drawing."""
         svgs = [ElementTree.fromstring(svg) for svg in re.findall(r"<svg .*?</svg>", drawing)]
         return [[(float(dot.get("cx")), float(dot.get("cy"))) for dot in svg.iter("circle")]
                 for svg in svgs]
@@ -155,7 +155,7 @@ class Benchmarks(unittest.TestCase):
         self.assertEqual(bench_section.section(results({"with cells": []})), "")
         self.assertIsNone(bench_section.load("/no/such/file.json"))
 
-    def test_that_grow_in_proportion_lie_on_a_straight_line(self):
+    def test_that_grow_in_proportion_are_on_a_straight_line(self):
         points = [{"cells": 8 ** i, "processor_seconds": 3e-6 * 8 ** i, "peak_bytes": 40 * 8 ** i}
                   for i in range(4, 9)]
         drawing = bench_section.section(results({"with cells": points}))
@@ -163,14 +163,14 @@ class Benchmarks(unittest.TestCase):
         for dots in self.places(drawing):
             self.assertEqual(len(dots), 5)
             slopes = [(y2 - y1) / (x2 - x1) for (x1, y1), (x2, y2) in zip(dots, dots[1:])]
-            self.assertLess(max(slopes), 0)  # upwards, as y goes down
+            self.assertLess(max(slopes), 0)  # upwards, because y increases downwards
             self.assertLess(max(slopes) - min(slopes), 0.02)
 
-    def test_beside_other_work_are_called_so(self):
+    def test_on_a_loaded_machine_are_marked(self):
         made = results({"with ranks": [{"ranks": 2, "processor_seconds_of_rank": 1, "bytes": 9}]})
-        self.assertNotIn("no measure", bench_section.section(made))
+        self.assertNotIn("unreliable", bench_section.section(made))
         made["machine"]["load"] = 1.5
-        self.assertIn("no measure", bench_section.section(made))
+        self.assertIn("unreliable", bench_section.section(made))
 
     def test_of_one_rank_send_nothing_and_are_drawn_all_the_same(self):
         points = [{"ranks": n, "processor_seconds_of_rank": 1 / n, "bytes": 1000 * (n - 1)}

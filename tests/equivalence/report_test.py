@@ -1,4 +1,4 @@
-"""The equivalence report as a whole: with the program as it is, and with programs that go wrong."""
+"""The equivalence report as a whole, with the program and with faulty programs."""
 
 import json
 import os
@@ -13,7 +13,7 @@ import xml.etree.ElementTree
 TOOL = os.path.join(os.path.dirname(__file__), "..", "..", "tools", "equivalence")
 OCTETRA = os.environ.get("OCTETRA_PROGRAM", "octetra")
 
-# Programs that do what octetra does, but for one thing. $OMPI_COMM_WORLD_RANK is set by mpirun.
+# Programs that act like octetra except for one fault. $OMPI_COMM_WORLD_RANK is set by mpirun.
 CHANGES_A_BYTE_ON_3_RANKS_BY_THE_GATEWAY = """#!/bin/bash
 "{octetra}" "$@" || exit
 if [[ $OMPI_COMM_WORLD_RANK == 0 && $OMPI_COMM_WORLD_SIZE == 3 && "$*" == *gateway* ]]; then
@@ -59,7 +59,7 @@ class Report(unittest.TestCase):
         return path
 
     def report(self, only, program=OCTETRA):
-        """Status, the sentence printed, and the JSON of a report on one case."""
+        """Returns the exit status, the printed sentence, and the JSON of a report on one case."""
         done = subprocess.run(
             [sys.executable, TOOL, "--octetra", program, "-o", os.path.join(self.folder, "out"),
              "--only", only, "--no-pictures"], capture_output=True, text=True, check=False)
@@ -75,14 +75,14 @@ class Report(unittest.TestCase):
                 if not run["identical"]]
 
     def names(self, *options):
-        """Status, the cases that are listed, and what stands on stderr."""
+        """Returns the exit status, the listed cases, and the output on stderr."""
         out = os.path.join(self.folder, "out")
         done = subprocess.run([sys.executable, TOOL, "-o", out, "--list", *options],
                               capture_output=True, text=True, check=False)
         self.assertFalse(os.path.exists(out))
         return done.returncode, done.stdout.splitlines(), done.stderr
 
-    def test_compares_loops_step_by_step_and_where_they_are_gone_on_with(self):
+    def test_compares_loops_step_by_step_and_after_restarts(self):
         status, said, report = self.report("loop: gear")
         loop, = report["loops"]
         self.assertEqual(status, 0, said)
@@ -92,7 +92,7 @@ class Report(unittest.TestCase):
         self.assertIn("Loops", self.output("index.html"))
         self.assertIn("| loop: gear | 4 |", self.output("equivalence.md"))
 
-    def test_names_the_loops_that_go_on_wrongly(self):
+    def test_names_the_loops_that_continue_wrongly(self):
         program = self.program(GOES_ON_WRONGLY_FROM_CHECKPOINTS)
         status, said, report = self.report("loop: gear", program)
         loop, = report["loops"]
@@ -110,7 +110,7 @@ class Report(unittest.TestCase):
         self.assertEqual(self.names("--only", "no such case"),
                          (2, [], "equivalence: no case has 'no such case' in its name\n"))
 
-    def test_says_that_all_is_identical_and_valid(self):
+    def test_reports_that_everything_is_identical_and_valid(self):
         status, said, report = self.report("kuhn-2")
         self.assertEqual(status, 0)
         self.assertIn("1 case, 7 runs on 1 to 4 ranks: all identical", said)
@@ -122,7 +122,7 @@ class Report(unittest.TestCase):
         self.assertEqual(self.output("index.html").split("Moments of faults")[1].split("</table>")[0].count("<tr>"), 13)
         self.assertIn("| kuhn-2 | 48 | 3,072 | 7 of 7 | valid |", self.output("equivalence.md"))
 
-    def test_is_a_page_that_needs_nothing_beside_it(self):
+    def test_is_a_self_contained_page(self):
         self.report("bcc-4")
         html = self.output("index.html")
         self.assertNotRegex(html, r"(src|href)=\"(?!data:)")
@@ -152,14 +152,14 @@ class Report(unittest.TestCase):
         self.assertEqual(self.runs_that_differ(report), [(2, "neighbour"), (2, "gateway")])
         self.assertIn("status 3 instead of 0", report["cases"][0]["runs"][1]["differences"][0])
 
-    def test_says_what_is_not_valid(self):
+    def test_reports_invalid_meshes(self):
         status, said, report = self.report("kuhn-2", self.program(FINDS_NOTHING_VALID))
         self.assertEqual(status, 1)
         self.assertIn("Not valid by exact verification: kuhn-2", said)
         self.assertEqual(self.runs_that_differ(report), [])
         self.assertIn('class="verdict bad"', self.output("index.html"))
 
-    def test_wants_refusals_in_the_same_words(self):
+    def test_requires_refusals_with_the_same_message(self):
         status, _, report = self.report("no-room-for-midpoints")
         self.assertEqual(status, 0)
         self.assertEqual(report["cases"][0]["reference"]["status"], 2)

@@ -1,8 +1,8 @@
-/// To be preloaded (LD_PRELOAD) into a program under mpirun: on rank OCTETRA_FAULT_RANK call number
-/// OCTETRA_FAULT_AT, from 1, of a kind fails. OCTETRA_FAULT_KIND is `file`, for calls that open,
-/// write, resize, sync or rename files below OCTETRA_FAULT_FOLDER, which then say that the disk is
-/// full; or `memory`, for allocations by operator new since MPI was started. With 0 none fails, and
-/// stderr is told how many there were.
+/// To be preloaded (LD_PRELOAD) into a program under mpirun: on rank OCTETRA_FAULT_RANK, call
+/// number OCTETRA_FAULT_AT, from 1, of a kind fails. OCTETRA_FAULT_KIND is `file`, for calls that
+/// open, write, resize, sync or rename files below OCTETRA_FAULT_FOLDER, which then report a full
+/// disk; or `memory`, for allocations by operator new after the start of MPI. With 0 none fails,
+/// and the number of calls is printed on stderr.
 
 #include <dlfcn.h>
 #include <fcntl.h>
@@ -33,7 +33,7 @@ bool is_in_environment(const char* name, std::string_view value) {
     return text != nullptr && value == text;
 }
 
-/// Counts what may fail. MPI's own threads may call, too.
+/// Counts the calls that may fail, also those of MPI's own threads.
 class Injector {
 public:
     Injector() = default;
@@ -82,7 +82,7 @@ int disk_is_full() {
     return -1;
 }
 
-/// The function that this library stands before.
+/// The function that this library wraps.
 template <class Function>
 Function* next(const char* name) {
     return reinterpret_cast<Function*>(::dlsym(RTLD_NEXT, name));

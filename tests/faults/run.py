@@ -1,14 +1,14 @@
 #!/usr/bin/env python3
-"""What becomes of a command when something fails on one of its ranks.
+"""Runs commands in which something fails on one rank, and checks the outcome.
 
 usage: run.py [--moments N] [--minutes M] [--seconds S] [--only TEXT] [--build FOLDER]
 
-Each command runs on three ranks, again and again, and each time one rank fails at another moment: it is
-killed at a call of MPI, a call that writes a file fails, or an allocation. Whatever the moment: all ranks
-end soon; the exit status says so; what was at the output's place is still there, byte by byte, or the
-complete result is; no other file is left, but by who is killed; one line says why, if anybody can.
-Prints a table, and ends with status 1 where that does not hold, and not when the same moment is tried again
-either: how Open MPI ends the other ranks is a race, which now and then ends otherwise.
+Each command is run repeatedly on three ranks. In each run one rank fails at another moment: it is killed
+at an MPI call, a call that writes a file fails, or an allocation fails. Whatever the moment, all ranks must
+end soon; the exit status must report the failure; the output must be the old file, byte by byte, or the
+complete result; no other file may be left, except by a killed rank; one line must state the reason, except
+for a killed rank. Prints a table. Exits with 1 if a violation occurs twice at the same moment: Open MPI
+ends the other ranks in a race, whose outcome occasionally varies.
 """
 
 import argparse
@@ -31,7 +31,7 @@ coarsen --sphere 0,0,0,0.3
 refine --box 0,0,0,0.4,0.4,0.4
 """
 
-# What is done, with what, into which files.
+# Descriptions, with the arguments of the command and its outputs.
 COMMANDS = {
     "refine a Medit text file": ("refine in.mesh --random 0.3 -o out.mesh", ["out.mesh"]),
     "refine TetGen files, cells moving": (
@@ -48,17 +48,17 @@ COMMANDS = {
     "load a checkpoint and refine": ("refine in.octetra --random 0.2 -o out.octetra", ["out.octetra"]),
     "verify a refinement": ("verify in.mesh fine.mesh", []),
 }
-KINDS = {"killed": "killed at a call of MPI", "file": "a call for a file fails", "memory": "an allocation fails"}
+KINDS = {"killed": "killed at an MPI call", "file": "a file call fails", "memory": "an allocation fails"}
 
 
 @dataclass
 class Tried:
-    """Of a command and a kind of fault."""
-    calls: list = field(default_factory=list)  # that may fail, of the ranks that were tried
+    """The results for a command and a kind of fault."""
+    calls: list = field(default_factory=list)  # calls that may fail, for each rank
     moments: int = 0
-    went_on: int = 0  # it did not matter
-    seconds: float = 0.0  # until the last rank ended, at most
-    once: int = 0  # faults that did not come again
+    went_on: int = 0  # runs that succeeded in spite of the fault
+    seconds: float = 0.0  # maximum until the last rank ended
+    once: int = 0  # faults that did not recur
     faults: list = field(default_factory=list)
 
 
@@ -83,7 +83,7 @@ class Bench:
         subprocess.run([self.program, *arguments.split(), "--quiet"], cwd=self.inputs, check=True)
 
     def run(self, arguments, outputs, kind, rank, at):
-        """(status, what was said, seconds); 124 where it does not end."""
+        """Returns (status, stderr, seconds); the status is 124 if the command does not end."""
         shutil.rmtree(self.folder, ignore_errors=True)
         shutil.copytree(self.inputs, self.folder)
         for output in outputs:
@@ -112,22 +112,22 @@ class Bench:
                 for output in outputs}
 
     def strangers(self, outputs):
-        """Files that are neither inputs nor outputs."""
+        """Returns the files that are neither inputs nor outputs."""
         known = {path.name for path in self.inputs.iterdir()} | set(outputs)
         return sorted(path.name for path in self.folder.iterdir() if path.name not in known)
 
 
 def fault_of(bench, outputs, complete, kind, status, said, seconds):
-    """What should not be, in words, or nothing."""
+    """Describes a violation of the requirements, or returns an empty string."""
     if status == 124:
         return "does not end"
     if seconds > bench.seconds:
         return f"takes {seconds:.1f} s to end"
     found = bench.contents(outputs)
     if any(found[output] not in (BEFORE, complete[output]) for output in outputs):
-        return "an output is neither what was there nor complete"
+        return "an output is neither the old file nor complete"
     if status == 0:
-        return "" if found == complete else "ends as if all were well, without its outputs"
+        return "" if found == complete else "exit status 0 without its outputs"
     if status != {"killed": 137}.get(kind, 3):
         return f"exit status {status}"
     if kind == "killed":
@@ -136,12 +136,12 @@ def fault_of(bench, outputs, complete, kind, status, said, seconds):
         return f"leaves {' '.join(bench.strangers(outputs))}"
     messages = re.findall(r"^octetra: (?!note: ).*", said, re.MULTILINE)
     if len(messages) != 1:
-        return f"says {len(messages)} things"
-    return "" if kind != "memory" or "memory" in messages[0] else f"says {messages[0]}"
+        return f"prints {len(messages)} messages"
+    return "" if kind != "memory" or "memory" in messages[0] else f"prints {messages[0]}"
 
 
 def moments_of(calls, count):
-    """So many, evenly, of those from 1 to `calls`, the last among them."""
+    """At most `count` evenly spaced numbers from 1 to `calls`, including `calls`."""
     count = min(count, calls)
     return [round(calls * (k + 1) / count) for k in range(count)]
 
@@ -181,33 +181,33 @@ def row(name, kind, result):
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--build", type=pathlib.Path, default=ROOT / "build/release")
-    parser.add_argument("--moments", type=int, default=100, help="of each command and kind of fault [100]")
-    parser.add_argument("--minutes", type=float, default=30, help="begin nothing else after so long [30]")
-    parser.add_argument("--seconds", type=float, default=10, help="within which all ranks must end [10]")
-    parser.add_argument("--only", default="", metavar="TEXT", help="commands whose description has it")
+    parser.add_argument("--moments", type=int, default=100, help="number of moments for each command and kind of fault [100]")
+    parser.add_argument("--minutes", type=float, default=30, help="start no further command after this time [30]")
+    parser.add_argument("--seconds", type=float, default=10, help="maximum time until all ranks have ended [10]")
+    parser.add_argument("--only", default="", metavar="TEXT", help="only commands whose description contains TEXT")
     chosen = parser.parse_args()
     if chosen.moments < 1:
         parser.error(f"--moments: not a positive number: {chosen.moments}")
     if not any(chosen.only in name for name in COMMANDS):
-        parser.error(f"--only: no command has {chosen.only!r}; there are: {'; '.join(COMMANDS)}")
-    print("At each moment a call fails on one of three ranks, or the rank is killed there. Went on: status 0, as the "
-          "command can do\nwithout that call. Faults: ranks that end in different ways or too late, or files that are not "
-          "whole; once: not when tried again.\n")
-    print("| command | fault | calls that may fail, on the first rank and the last | moments | went on | "
-          "s until all ended, at most | faults once | faults |\n|---|---|---:|---:|---:|---:|---:|---:|", flush=True)
+        parser.error(f"--only: no command contains {chosen.only!r}; the commands are: {'; '.join(COMMANDS)}")
+    print("At each moment a call fails on one of three ranks, or the rank is killed. Succeeded: exit status 0, because "
+          "the command\ndoes not depend on that call. Faults: ranks end in different ways or too late, or files are "
+          "incomplete; once: not\nreproduced when repeated.\n")
+    print("| command | fault | calls that may fail, on the first rank and the last | moments | succeeded | "
+          "s until all ended, maximum | faults once | faults |\n|---|---|---:|---:|---:|---:|---:|---:|", flush=True)
     turns = [(name, kind) for name in COMMANDS if chosen.only in name for kind in KINDS]
     faults, moments, end = 0, 0, time.monotonic() + 60 * chosen.minutes
     with tempfile.TemporaryDirectory() as folder:
         bench = Bench(chosen.build.resolve(), pathlib.Path(folder), chosen.seconds)
         for name, kind in turns:
             if time.monotonic() > end:
-                print(f"time is up before: {name}, {KINDS[kind]}; --only TEXT begins there")
+                print(f"time is up before: {name}, {KINDS[kind]}; --only TEXT starts there")
                 break
             result = tried(bench, *COMMANDS[name], kind, chosen.moments)
             faults += len(result.faults)
             moments += result.moments
             print(row(name, kind, result), flush=True)
-    print(f"\n{moments:,} moments, {faults:,} faults" + ("" if faults else ": all ranks ended alike, and files are whole"))
+    print(f"\n{moments:,} moments, {faults:,} faults" + ("" if faults else ": all ranks ended alike, and files are complete"))
     sys.exit(1 if faults else 0)
 
 

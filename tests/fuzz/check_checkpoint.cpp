@@ -16,7 +16,7 @@ namespace fs = std::filesystem;
 using distributed::AdaptiveMesh;
 using distributed::Communicator;
 
-/// A few bytes may ask for more cells than there is memory for.
+/// A few bytes may request more cells than fit in memory.
 bool is_small(const CheckpointFacts& facts) {
     constexpr std::uint64_t most = 100'000;
     for (const StepFacts& step : facts.steps) {
@@ -25,7 +25,7 @@ bool is_small(const CheckpointFacts& facts) {
     return facts.cells_now <= most;
 }
 
-/// Reads a checkpoint, and writes what it is to another file.
+/// Loads a checkpoint and saves it to another file.
 void load_and_save(const fs::path& from, const fs::path& to) {
     std::vector<distributed::Field> fields;
     const AdaptiveMesh mesh = AdaptiveMesh::load(Communicator(), from, {}, &fields);
@@ -60,7 +60,7 @@ void check_checkpoint(std::string_view input, const fs::path& folder) {
     std::string bytes(input);
     write_file(folder / "in.octetra", bytes);
     check(folder);
-    // Few files that are made up have the right hashes.
+    // Few generated files have the right hashes.
     seal(bytes);
     write_file(folder / "in.octetra", bytes);
     check(folder);

@@ -36,7 +36,7 @@ void check_unless_refused(const fs::path& folder, auto&& read, auto&& check) {
 
 void check_written_maps(const RefinementMaps& maps, std::uint32_t index_base,
                         const fs::path& path) {
-    constexpr std::size_t most_vertices = 100'000;  // which a mesh is made of below
+    constexpr std::size_t most_vertices = 100'000;  // maximum for the meshes that are made below
     const std::size_t vertices = maps.first_midpoint.value() + maps.midpoint_to_edge.size();
     if (vertices > most_vertices) return;
     Mesh mesh;
@@ -62,7 +62,7 @@ void check_cells(const std::vector<GlobalCell>& cells, std::uint32_t index_base,
            "cells written and read are the same");
 }
 
-/// The lines of a part file that must hold a number each.
+/// The lines of a part file that must contain a number each.
 std::vector<std::string_view> lines_with_content(std::string_view text) {
     std::vector<std::string_view> lines;
     if (text.starts_with("\xef\xbb\xbf")) text.remove_prefix(3);  // as other programs may begin
@@ -75,7 +75,7 @@ std::vector<std::string_view> lines_with_content(std::string_view text) {
     return lines;
 }
 
-/// Is this text the number, maybe with zeros in front?
+/// Returns whether this text is the number, possibly with leading zeros.
 bool says(std::string_view text, int number) {
     while (text.size() > 1 && text.front() == '0') text.remove_prefix(1);
     return text == std::to_string(number);

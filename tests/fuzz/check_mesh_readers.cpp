@@ -24,7 +24,7 @@ bool same_bits(const Mesh& a, const Mesh& b) {
            std::ranges::equal(a.point_attributes, b.point_attributes, same);
 }
 
-/// The mesh, checked, or nothing if it was refused.
+/// The mesh, after its checks; nothing if it was refused.
 std::optional<Mesh> read(const fs::path& path, const ReadOptions& options) {
     try {
         Mesh mesh = read_mesh(path, options);
@@ -47,7 +47,7 @@ void drop_if_all_zero(IndexVector<I, Marker>& markers) {
     if (std::ranges::all_of(markers, [](Marker m) { return m == 0; })) markers.clear();
 }
 
-/// What of a mesh Medit's format can hold.
+/// The content of a mesh that Medit's format can store.
 Mesh as_in_medit(Mesh mesh) {
     mesh.index_base = mesh.points.empty() ? 0 : 1;
     mesh.group_names.clear();
@@ -60,7 +60,7 @@ Mesh as_in_medit(Mesh mesh) {
     return mesh;
 }
 
-/// What of a mesh TetGen's files can hold.
+/// The content of a mesh that TetGen's files can store.
 Mesh as_in_tetgen(Mesh mesh) {
     mesh.group_names.clear();
     mesh.features = {};
@@ -80,7 +80,7 @@ void check_written(const Mesh& mesh, const fs::path& folder, bool only_syntax) {
                 "when written to a binary Medit file and read");
 }
 
-/// What of a mesh Gmsh's format can hold.
+/// The content of a mesh that Gmsh's format can store.
 Mesh as_in_gmsh(Mesh mesh) {
     mesh.point_markers.clear();
     std::vector<GroupName> group_names = std::move(mesh.group_names);

@@ -44,7 +44,7 @@ bool all_different(const IndexVector<I, std::array<VertexIndex, N>>& list) {
     });
 }
 
-/// Is every entity of the list a side (face or edge) of some cell?
+/// Returns whether every entity of the list is a face or edge of some cell.
 template <class I, std::size_t N, std::size_t Sides>
 bool all_of_cells(const IndexVector<I, std::array<VertexIndex, N>>& list, const Mesh& mesh,
                   const std::array<std::array<std::uint8_t, N>, Sides>& sides) {
@@ -66,7 +66,7 @@ bool has_repetition(const Mesh& mesh) {
                                 [&](const auto& c) { return cells.insert(sorted(c)).second; });
 }
 
-/// Is an entity of the list there twice, with different markers?
+/// Returns whether an entity of the list occurs twice, with different markers.
 template <class I, std::size_t N>
 bool has_two_markers(const IndexVector<I, std::array<VertexIndex, N>>& list,
                      const IndexVector<I, Marker>& markers) {
@@ -77,7 +77,7 @@ bool has_two_markers(const IndexVector<I, std::array<VertexIndex, N>>& list,
     return false;
 }
 
-/// Has a tagged facet more than one cell on either side?
+/// Returns whether a tagged facet has more than one cell on either side.
 bool has_overlap_at_facet(const Mesh& mesh) {
     std::map<FacetVertices, std::array<int, 2>> cells_at_sides;
     for (const FacetVertices& facet : mesh.facets) cells_at_sides[sorted(facet)] = {};
@@ -169,7 +169,7 @@ void check_message(const std::string& message, const std::filesystem::path& fold
     std::size_t line = 0;
     const char* const end = message.data() + message.size();
     const auto [stop, error] = std::from_chars(message.data() + colon + 1, end, line);
-    if (error != std::errc{}) return;  // of the file as a whole
+    if (error != std::errc{}) return;  // refers to the file as a whole
     const std::string content = content_of(message.substr(0, colon));
     const auto line_ends = static_cast<std::size_t>(std::ranges::count(content, '\n'));
     if (stop == end || *stop != ':' || line == 0 || line > line_ends + 1) fail();

@@ -8,33 +8,33 @@
 
 #include <octetra/core/mesh.hpp>
 
-/// What must hold of every reader of files, whatever the bytes that it gets: it accepts them or
-/// throws an InputError that names file and line, and what it accepts keeps its promises.
-/// Fed by libFuzzer (fuzz_reader.cpp) and by the files that were kept (replay_test.cpp).
+/// Requirements on every reader of files for arbitrary input: it accepts the input or throws an
+/// InputError that names file and line, and accepted input satisfies the invariants. Used by
+/// libFuzzer (fuzz_reader.cpp) and for recorded files (replay_test.cpp).
 namespace octetra::test {
 
-/// A promise that a reader broke.
+/// A requirement that a reader has violated.
 struct BrokenPromise : std::logic_error {
     using std::logic_error::logic_error;
 };
 
-/// Puts `input` into files in `folder` and reads them. Throws BrokenPromise, or what the reader
-/// throws and should not.
+/// Writes `input` to files in `folder` and reads them. Throws BrokenPromise, or an unexpected
+/// exception of the reader.
 using CheckReader = void (*)(std::string_view input, const std::filesystem::path& folder);
 
-/// `input` is the files .node, .ele, .face and .edge, in this order, with '%' between them; "-" in
-/// place of a file stands for none, and so does what is missing at the end.
+/// `input` consists of the files .node, .ele, .face and .edge, in this order, separated by '%'; "-"
+/// in place of a file, or its absence at the end, means no file.
 void check_tetgen(std::string_view input, const std::filesystem::path& folder);
 void check_medit(std::string_view input, const std::filesystem::path& folder);
 void check_meshb(std::string_view input, const std::filesystem::path& folder);
 void check_gmsh(std::string_view input, const std::filesystem::path& folder);
-/// Of a mesh of as many vertices and cells as the file says.
+/// Reads fields for a mesh of as many vertices and cells as the file claims.
 void check_sol(std::string_view input, const std::filesystem::path& folder);
 void check_solb(std::string_view input, const std::filesystem::path& folder);
 void check_maps(std::string_view input, const std::filesystem::path& folder);
 void check_cell_list(std::string_view input, const std::filesystem::path& folder);
 void check_part_file(std::string_view input, const std::filesystem::path& folder);
-/// As it stands, and with hashes that are right.
+/// Reads the input as it is, and with corrected hashes.
 void check_checkpoint(std::string_view input, const std::filesystem::path& folder);
 
 struct NamedCheck {
@@ -42,16 +42,16 @@ struct NamedCheck {
     CheckReader check;
 };
 
-/// All of them, by the names that corpus/regression/files/ has folders of.
+/// All checks, by the names of the folders in corpus/regression/files/.
 [[nodiscard]] std::span<const NamedCheck> reader_checks();
 
-/// What of the invariants at struct Mesh does not hold, or nothing; those that only_syntax leaves
-/// out are not asked for with it.
+/// Describes an invariant of struct Mesh that is violated, or returns an empty string. With
+/// only_syntax, the invariants that it omits are not checked.
 [[nodiscard]] std::string broken_invariant(const Mesh& mesh, bool only_syntax);
 
 /// Throws BrokenPromise unless the message of an InputError is "FILE: ...", "FILE:LINE: ..." or
-/// "FILE: at byte N: ...", the file one of `folder`, the line one that it has or the one behind the
-/// last, the byte likewise, all in one line of printable characters.
+/// "FILE: at byte N: ...", where the file is in `folder`, and the line exists or follows the last
+/// one, the byte likewise, in a single line of printable characters.
 void check_message(const std::string& message, const std::filesystem::path& folder);
 
 }  // namespace octetra::test

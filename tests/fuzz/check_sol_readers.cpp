@@ -20,7 +20,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// What was read, as fields of a mesh that has nothing else.
+/// The fields that were read, as those of a mesh without any other content.
 class ReadFields final : public MeshSource {
 public:
     explicit ReadFields(const SolFields& read) {

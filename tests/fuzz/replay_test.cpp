@@ -13,7 +13,7 @@
 #include "support/meshes.hpp"
 #include "support/temporary_folder.hpp"
 
-/// The files that readers once stumbled over, and those of the corpus, read as when fuzzing.
+/// Files on which readers once failed, and those of the corpus, read as in fuzzing.
 namespace octetra::test {
 namespace {
 
@@ -32,7 +32,7 @@ std::vector<fs::path> files_in(const fs::path& folder, const std::string& extens
     return files;
 }
 
-/// The files of a TetGen mesh as check_tetgen takes them.
+/// The files of a TetGen mesh in the form that check_tetgen takes.
 std::string in_one(fs::path path) {
     std::string joined;
     for (const std::string extension : {".node", ".ele", ".face", ".edge"}) {
@@ -43,7 +43,7 @@ std::string in_one(fs::path path) {
     return joined;
 }
 
-TEST(KeptFile, IsReadOrRefusedAsItShould) {
+TEST(KeptFile, IsReadOrRefusedCorrectly) {
     const TemporaryFolder folder;
     for (const auto& kept : fs::directory_iterator(corpus / "regression" / "files")) {
         const std::string name = kept.path().filename();
@@ -56,7 +56,7 @@ TEST(KeptFile, IsReadOrRefusedAsItShould) {
     }
 }
 
-TEST(CorpusFile, IsReadOrRefusedAsItShould) {
+TEST(CorpusFile, IsReadOrRefusedCorrectly) {
     const TemporaryFolder folder;
     for (const fs::path& meshes : {corpus / "meshes", corpus / "bad"}) {
         for (const fs::path& file : files_in(meshes, ".ele")) {
@@ -74,8 +74,8 @@ TEST(CorpusFile, IsReadOrRefusedAsItShould) {
     }
 }
 
-/// Single bytes of it, too, made others at random.
-TEST(KeptCheckpoint, IsReadOrRefusedAsItShould) {
+/// Also with single bytes replaced at random.
+TEST(KeptCheckpoint, IsReadOrRefusedCorrectly) {
     const TemporaryFolder folder;
     const std::string good = content_of(corpus / "checkpoints" / "version-1.octetra");
     check_checkpoint(good, folder.path());
@@ -92,7 +92,8 @@ std::uint64_t gmsh_seed() {
     return given == nullptr ? std::random_device{}() : std::strtoull(given, nullptr, 10);
 }
 
-/// Bytes made others, taken out, and put in twice. (Numbers that are often somewhere, too.)
+/// Replaces, removes and duplicates bytes. (The replacements include bytes that are frequent in
+/// files.)
 std::string edited(std::string file, std::mt19937_64& random) {
     constexpr std::array<char, 8> likely{'\0', '\1', '\4', '\xff', '\x7f', '9', '-', '\n'};
     for (std::uint64_t edits = 1 + random() % 3; edits > 0 && !file.empty(); --edits) {
@@ -113,8 +114,8 @@ std::uint64_t sol_seed() {
     return given == nullptr ? std::random_device{}() : std::strtoull(given, nullptr, 10);
 }
 
-/// As they are, and edited at random.
-TEST(CorpusFields, AreReadOrRefusedAsTheyShould) {
+/// Unmodified, and edited at random.
+TEST(CorpusFields, AreReadOrRefusedCorrectly) {
     const TemporaryFolder folder;
     const std::uint64_t seed = sol_seed();
     std::mt19937_64 random(seed);
@@ -132,8 +133,8 @@ TEST(CorpusFields, AreReadOrRefusedAsTheyShould) {
     }
 }
 
-/// OCTETRA_GMSH_SEED takes the seed again.
-TEST(EditedGmshFile, IsReadOrRefusedAsItShould) {
+/// OCTETRA_GMSH_SEED sets the seed.
+TEST(EditedGmshFile, IsReadOrRefusedCorrectly) {
     const TemporaryFolder folder;
     const std::uint64_t seed = gmsh_seed();
     SCOPED_TRACE(testing::Message() << "OCTETRA_GMSH_SEED=" << seed);
@@ -150,7 +151,7 @@ TEST(EditedGmshFile, IsReadOrRefusedAsItShould) {
     EXPECT_GE(read, 600U);
 }
 
-/// What no reader returns is told apart from what it may.
+/// Data that no reader may return are distinguished from valid data.
 TEST(BrokenInvariant, IsSeen) {
     const Mesh good = one_cell(cube_corner);
     EXPECT_EQ(broken_invariant(good, false), "");

@@ -13,7 +13,7 @@
 namespace octetra::generator {
 namespace {
 
-/// The child holds the writing end of a pipe, which its end closes, whoever notices.
+/// The child holds the write end of a pipe, which is closed when the child ends.
 TEST(ChildProcess, EndsWhenItsParentIsKilled) {
     std::array<int, 2> ends{};
     ASSERT_EQ(::pipe(ends.data()), 0);
@@ -38,13 +38,13 @@ TEST(ChildProcess, EndsWhenItsParentIsKilled) {
     ASSERT_EQ(::waitpid(parent, &ignored, 0), parent);
     pollfd pipe{.fd = read_end, .events = POLLIN, .revents = 0};
     constexpr int milliseconds = 60'000;
-    ASSERT_EQ(::poll(&pipe, 1, milliseconds), 1) << "the child goes on without its parent";
+    ASSERT_EQ(::poll(&pipe, 1, milliseconds), 1) << "the child continues without its parent";
     EXPECT_EQ(::read(read_end, &begun, 1), 0);
     ::close(read_end);
 }
 
-/// TetGen ends like that now and then. Sanitizers have such handlers, and so may a program that
-/// uses us.
+/// TetGen sometimes ends in this way. Sanitizers install such handlers, and so may a program that
+/// uses the library.
 TEST(ChildProcess, EndsByItsSignalWhateverItsParentDoesAboutIt) {
     for (const int signal : {SIGSEGV, SIGABRT, SIGFPE}) {
         auto* const before = std::signal(signal, [](int) { ::_exit(1); });

@@ -45,8 +45,8 @@ TEST_F(Clouds, RandomMeshDependsOnItsSeedAlone) {
 }
 
 TEST_F(Clouds, RandomPointsAreTheSameOnEveryPlatform) {
-    // The standard fixes the 10000th draw of std::mt19937_64 from its default seed: here, the x of
-    // point 3333.
+    // The standard specifies the 10000th draw of std::mt19937_64 from its default seed: here, the x
+    // of point 3333.
     const Mesh mesh = random(3334, 5489);
     const double expected = static_cast<double>(9981545732273789042U >> 11U) * 0x1p-53;
     EXPECT_EQ(mesh.points[VertexIndex{3333}].x, expected);
@@ -57,7 +57,8 @@ TEST_F(Clouds, RandomMeshIsDelaunay) {
     for (CellIndex c{0}; c < mesh.cells.end_index(); ++c) {
         const auto [a, b, d, e] = corners_of(mesh, c);
         for (const Point& p : mesh.points) {
-            // Lifted onto the paraboloid, no point lies below the plane through the cell's corners.
+            // Delaunay condition: lifted onto the paraboloid, no point lies below the plane through
+            // the cell's corners.
             const auto lifted = [&](const Point& q) { return squared_length({q, p}); };
             const double above =
                 lifted(a) * six_volumes({b, d, e, p}) - lifted(b) * six_volumes({a, d, e, p}) +
@@ -75,7 +76,7 @@ TEST_F(Clouds, SliversAboundAndNoneIsFlat) {
     EXPECT_TRUE(all_positively_oriented(mesh));
     EXPECT_EQ(euler_characteristic(mesh), 1);
     expect_hull_tagged(mesh);
-    // A cell of the lattice itself has six volumes of one or two cubes of the spacing.
+    // Six times the volume of a cell of the lattice is one or two cubes of the spacing.
     const double cube = 1.0 / (5 * 5 * 5);
     std::size_t nearly_flat = 0;
     for (CellIndex c{0}; c < mesh.cells.end_index(); ++c) {
@@ -112,7 +113,7 @@ TEST(CloudParameters, OutOfBoundsAreRefused) {
     EXPECT_THROW((void)slivers(401, 1), InputError);
 }
 
-TEST(Tetgen, IsThereOrItsShapesSayHowToGetIt) {
+TEST(Tetgen, IsAvailableOrItsShapesReportHowToInstallIt) {
     try {
         EXPECT_EQ(random(10, 1).points.size(), 10U);
         EXPECT_TRUE(has_tetgen());

@@ -14,7 +14,7 @@ namespace {
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 
-/// Every facet with marker m lies in the side of the box that m stands for.
+/// Checks that every facet with marker m lies in side m of the box.
 void expect_facets_in_their_sides(const Mesh& mesh, const Point& high) {
     for (FacetIndex f{0}; f < mesh.facets.end_index(); ++f) {
         for (const Point& p : corners_of(mesh, f)) {
@@ -60,7 +60,7 @@ TEST(Kuhn, CellsAreOrientedAndFillTheBoxExactly) {
     EXPECT_TRUE(all_positively_oriented(kuhn(3, 7, 11, {1e-30, 0.1, 1e30})));
 }
 
-TEST(Kuhn, VerticesAreNumberedXFastestAndPlacedByOneProductAndOneQuotient) {
+TEST(Kuhn, VerticesAreNumberedXFastestAndComputedByOneProductAndOneQuotient) {
     const Mesh mesh = kuhn(3, 2, 4, {0.1, 0.7, 10});
     for (std::size_t k = 0; k <= 4; ++k) {
         for (std::size_t j = 0; j <= 2; ++j) {
@@ -187,7 +187,7 @@ TEST(Regular, HasSixEqualEdgesAndFourMarkedFacets) {
     EXPECT_THROW((void)regular(not_a_number), InputError);
 }
 
-TEST(Lattices, RefusalsSayWhatIsAllowed) {
+TEST(Lattices, RefusalsStateWhatIsAllowed) {
     try {
         (void)kuhn(0, 1, 1);
         FAIL();

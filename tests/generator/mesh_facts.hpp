@@ -10,7 +10,7 @@
 #include <octetra/core/mesh.hpp>
 #include <octetra/core/orientation.hpp>
 
-/// What the tests count and measure, found in the plainest way from the lists of a mesh.
+/// Quantities of meshes, computed in the simplest way from their lists.
 namespace octetra::generator::test {
 
 inline FacetVertices sorted(FacetVertices face) {
@@ -70,7 +70,7 @@ inline Counts counts_of(const Mesh& mesh) {
             mesh.cells.size(), boundary_of(mesh).size()};
 }
 
-/// Vertices less edges plus faces less cells: 1 for a ball, 0 for a solid torus.
+/// Vertices - edges + faces - cells: 1 for a ball, 0 for a solid torus.
 inline int euler_characteristic(const Mesh& mesh) {
     const Counts n = counts_of(mesh);
     return static_cast<int>(n.vertices + n.faces) - static_cast<int>(n.edges + n.cells);
@@ -89,7 +89,7 @@ inline bool all_positively_oriented(const Mesh& mesh) {
     return true;
 }
 
-/// Six times the volume of a cell; exact where the coordinates are small whole numbers.
+/// Six times the volume of a cell; exact if the coordinates are small whole numbers.
 inline double six_volumes(const std::array<Point, 4>& corners) {
     const auto& [a, b, c, d] = corners;
     const Point u{b.x - a.x, b.y - a.y, b.z - a.z};
@@ -116,8 +116,8 @@ inline std::map<Marker, std::size_t> facets_by_marker(const Mesh& mesh) {
     return counts;
 }
 
-/// Does every facet have three different corners that are counterclockwise seen from outside: is
-/// the opposite corner of its cell behind it?
+/// Returns whether every facet has three different corners that are counterclockwise as seen from
+/// outside, that is, with the opposite corner of its cell behind it.
 inline bool facets_face_outwards(const Mesh& mesh) {
     const auto cells = cells_of_faces(mesh);
     return std::ranges::all_of(mesh.facets, [&](const FacetVertices& facet) {

@@ -27,7 +27,7 @@ double distance_from_origin(const Point& p) { return std::sqrt(squared_length({p
 
 double distance_from_axis(const Point& p) { return std::hypot(p.x, p.y); }
 
-/// What every solid without an interface promises.
+/// Requirements on every solid without an interface.
 void expect_sound(const Mesh& mesh, int characteristic) {
     EXPECT_TRUE(all_positively_oriented(mesh));
     EXPECT_EQ(tagged_facets(mesh), boundary_of(mesh));
@@ -112,7 +112,8 @@ TEST_F(Solids, FicheraListsItsRidges) {
         const double length = std::sqrt(squared_length({mesh.points[a], mesh.points[b]}));
         (mesh.edge_markers[e] == 2 ? re_entrant : convex) += length;
     }
-    // Nine of length 2, three pairs and six more of length 1; and the three at the origin.
+    // Convex edges: nine of length 2, and nine of length 1 (three pairs and three shortened ones).
+    // The three re-entrant edges meet at the origin.
     EXPECT_NEAR(convex, 9 * 2 + 9 * 1, 1e-9);
     EXPECT_NEAR(re_entrant, 3, 1e-9);
 }
@@ -145,7 +146,7 @@ TEST_F(Solids, GearListsItsRidges) {
         EXPECT_EQ(mesh.edge_markers[e], in_bore ? 3 : p.z == q.z ? 1 : 2);
     }
     ASSERT_EQ(lengths.size(), 3U);
-    // Four upright edges to a tooth; two rims of ten sides.
+    // Four upright edges for each tooth; two rims of ten sides.
     EXPECT_NEAR(lengths[2], 4 * 12 * 0.3, 1e-9);
     EXPECT_NEAR(lengths[3], 2 * 10 * 2 * 0.3 * std::sin(std::numbers::pi / 10), 1e-9);
 }
@@ -196,7 +197,7 @@ TEST_F(Solids, TwoMaterialRegionsAreTaggedOutsideAndInside) {
             EXPECT_LT(distance, 0.3);
             inside += six_volumes(corners) / 6;
         } else {
-            EXPECT_GT(distance, 0.3 * 0.79);  // an icosahedron's inscribed sphere
+            EXPECT_GT(distance, 0.3 * 0.79);  // radius of an icosahedron's inscribed sphere
         }
     }
     const double ball = 4 * std::numbers::pi / 3 * 0.3 * 0.3 * 0.3;

@@ -61,7 +61,7 @@ TEST(Table, DrawsABarForEvenOneOfBillions) {
     EXPECT_THAT(table, HasSubstr("100.00 %  ################\n"));
 }
 
-TEST(Table, OfAMeshWithoutCellsSaysNone) {
+TEST(Table, OfAMeshWithoutCellsShowsNone) {
     const std::string table = format_table(quality::measure(Mesh{}));
     EXPECT_THAT(table, HasSubstr("none"));
     EXPECT_THAT(table, Not(HasSubstr("nan")));

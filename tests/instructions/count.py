@@ -1,7 +1,7 @@
 #!/usr/bin/python3
-"""Counts the instructions of a case by callgrind, and holds them against the recorded ones, or
-records them. Status 0: at most MARGIN more; 1: more than that; 77: there is nothing to compare with
-here, for the reason that is printed."""
+"""Counts the instructions of a case with callgrind and compares them with the recorded count, or
+records them. Exit status: 0 at most MARGIN more; 1 more than that; 77 no comparison is possible,
+for the printed reason."""
 
 import argparse
 import os
@@ -15,15 +15,15 @@ MARGIN = 10  # per cent
 SKIPPED = 77
 HOW_TO_RECORD = "cmake --build build/release --target record_instructions"
 HEAD = """\
-# Instructions of the cases of counted_cases.cpp, as callgrind counts them, and what the program was
-# built by: other compilers make other code, and are not compared. Recorded by
+# Instructions of the cases of counted_cases.cpp, as counted by callgrind, and the compiler of the
+# program: counts of other compilers are not compared. Recorded by
 #     {how}
-# Say in the commit why there are more of them, or fewer.
+# Explain in the commit message why the counts have changed.
 """
 
 
 def read(path):
-    """What built the program, and the counts by case; None and {} where there is no file."""
+    """Returns the compiler of the program, and the counts by case; None and {} if there is no file."""
     built_by, counts = None, {}
     if os.path.exists(path):
         with open(path, encoding="utf-8") as file:
@@ -44,7 +44,7 @@ def write(path, built_by, counts):
 
 
 def count(program, case):
-    """Instructions inside of counted(), which the program calls once."""
+    """Instructions within counted(), which the program calls once."""
     with tempfile.TemporaryDirectory() as folder:
         done = subprocess.run(["valgrind", "--tool=callgrind", "--collect-atstart=no",
                                "--toggle-collect=octetra::counted(*",
@@ -57,23 +57,23 @@ def count(program, case):
 
 
 def verdict(case, now, before):
-    """What is to be said of a count, and the status."""
+    """Returns the message about a count, and the exit status."""
     change = 100 * (now - before) / before
     words = f"{case}: {now:,} instructions, recorded {before:,}: {change:+.1f} %"
     if change > MARGIN:
-        return (f"{words}. At most {MARGIN} % more are allowed. If they are worth it:\n"
-                f"    {HOW_TO_RECORD}\nand commit tests/instructions/recorded.txt, saying why.", 1)
+        return (f"{words}. At most {MARGIN} % more are allowed. If the increase is justified:\n"
+                f"    {HOW_TO_RECORD}\nand commit tests/instructions/recorded.txt with the reason.", 1)
     if change < -MARGIN:
-        return f"dev note: {words}. Keep it so: {HOW_TO_RECORD}", 0
+        return f"dev note: {words}. To record it: {HOW_TO_RECORD}", 0
     return words, 0
 
 
 def check(options, case):
     built_by, counts = read(options.recorded)
     if shutil.which("valgrind") is None:
-        return "not counted: there is no valgrind", SKIPPED
+        return "not counted: valgrind is not installed", SKIPPED
     if built_by != options.built_by:
-        return (f"not compared: recorded was what '{built_by}' built, and this is built by "
+        return (f"not compared: the recorded counts are of '{built_by}', and this program is built by "
                 f"'{options.built_by}'"), SKIPPED
     if case not in counts:
         return f"{case} is not recorded. To do so: {HOW_TO_RECORD}", 1

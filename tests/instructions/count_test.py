@@ -1,4 +1,4 @@
-"""How counts of instructions are judged, without counting any."""
+"""Tests of the judgement of counts, without counting."""
 
 import argparse
 import os
@@ -24,7 +24,7 @@ class Count(unittest.TestCase):
         for now, status in ((1000, 0), (1100, 0), (1101, 1), (5000, 1)):
             self.assertEqual(self.check(now)[1], status, now)
 
-    def test_that_rises_says_how_to_record_it(self):
+    def test_that_rises_explains_how_to_record_it(self):
         self.assertIn(count.HOW_TO_RECORD, self.check(1200)[0])
 
     def test_that_falls_by_more_than_a_tenth_asks_to_be_recorded(self):
@@ -34,7 +34,7 @@ class Count(unittest.TestCase):
         self.assertIn(count.HOW_TO_RECORD, words)
         self.assertEqual(status, 0)
 
-    def test_of_another_compiler_is_skipped_and_says_so(self):
+    def test_of_another_compiler_is_skipped_with_the_reason(self):
         words, status = self.check(1000, built_by="Clang 14")
         self.assertEqual(status, count.SKIPPED)
         self.assertIn("GNU 12", words)

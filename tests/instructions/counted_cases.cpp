@@ -1,5 +1,6 @@
-/// `counted_cases CASE` refines a small mesh on one process, for callgrind to count what counted()
-/// takes: not the making of the mesh, nor the pattern tables, which a program makes but once.
+/// `counted_cases CASE` refines a small mesh on one process, so that callgrind counts the
+/// instructions of counted(): without those for making the mesh and the pattern tables, which a
+/// program makes once.
 
 #include <array>
 #include <cstdio>
@@ -15,7 +16,7 @@ namespace {
 
 struct CountedCase {
     std::string_view name;
-    std::size_t cubes = 0;  ///< a side
+    std::size_t cubes = 0;  ///< on each side
     double radius = 0;      ///< of a sphere about the middle; 0: all cells
     int levels = 1;
     double incremental_below = 0;  ///< see Tuning
@@ -23,11 +24,10 @@ struct CountedCase {
 
 constexpr std::array<CountedCase, 4> cases{{
     {.name = "uniform", .cubes = 12},
-    // Twelve cells of 24,576, and then what is nearer to the middle than they are: few at each
-    // level.
+    // Twelve cells of 24,576, and then those within the same radius: few at each level.
     {.name = "incremental", .cubes = 16, .radius = 0.04, .levels = 3, .incremental_below = 0.125},
     {.name = "full_sweep", .cubes = 8, .radius = 0.25, .levels = 3},
-    // 380 cells of 48,000, a full sweep all the same: few have to be numbered.
+    // 380 cells of 48,000, in a full sweep with a local edge set.
     {.name = "local_sweep", .cubes = 20, .radius = 0.125},
 }};
 
@@ -39,7 +39,7 @@ distributed::DistributedMesh lattice(std::size_t n) {
 
 }  // namespace
 
-/// What callgrind counts, by this name; so it is never inlined.
+/// Counted by callgrind under this name; so it is never inlined.
 [[gnu::noinline]] void counted(distributed::DistributedMesh& mesh, const Selection& selection,
                                int levels, const distributed::Tuning& tuning) {
     (void)distributed::refine(mesh, selection, {.levels = levels}, tuning);

@@ -1,18 +1,18 @@
 #!/usr/bin/env python3
-"""Deliberate faults of our own code, and whether the tests notice them.
+"""Deliberate faults of the sources, and whether the tests detect them.
 
-The faults stand in the .toml files beside this one, each a [[mutant]] with
-  name   what is then wrong; it names the mutant on the command line
-  file   of the checkout, in which
-  old    stands exactly once, to be replaced by
-  new    (a line end at the beginning of either is left out)
-  tests  the test programs that may catch it, cheapest first: NAME runs test_NAME, NAME@3 on 3 ranks,
-         NAME@3:FILTER of its cases those.
+The faults are defined in the .toml files beside this one, each by a [[mutant]] with
+  name   the fault; it selects the mutant on the command line
+  file   the file of the checkout in which
+  old    occurs exactly once and is replaced by
+  new    (a line end at the beginning of either is removed)
+  tests  the test programs that may detect it, fastest first: NAME runs test_NAME, NAME@3 runs it on
+         3 ranks, NAME@3:FILTER runs only the cases selected by FILTER.
 
-./dev campaign mutants puts one after the other into a copy of the checkout, build/mutants/tree, builds what
-has changed and runs these programs. A program catches a mutant when it fails, or does not end in
-three times as long as without any fault, and two minutes. A mutant that none of them catches has
-survived: a test is missing.
+./dev campaign mutants applies one mutant after the other to a copy of the checkout, build/mutants/tree,
+rebuilds what has changed and runs these programs. A program detects a mutant if it fails, or takes longer
+than three times its time without a fault plus two minutes. A mutant that no program detects has survived:
+a test is missing.
 """
 
 import argparse
@@ -48,14 +48,15 @@ def read_mutants():
 
 
 def mutated(mutant, folder):
-    """The file's content with the fault in it. Ends the program unless the fault fits exactly once."""
+    """Returns the content of the file with the fault. Ends the program unless the fault fits
+    exactly once."""
     path = folder / mutant["file"]
     if not path.exists():
         die(f"{mutant['name']}: there is no file {mutant['file']}")
     content = path.read_text()
     found = content.count(mutant["old"])
     if found != 1:
-        die(f"{mutant['name']}: what it replaces is {found} times in {mutant['file']}, not once")
+        die(f"{mutant['name']}: the text to be replaced occurs {found} times in {mutant['file']}, not once")
     if mutant["new"] == mutant["old"]:
         die(f"{mutant['name']}: changes nothing")
     return content.replace(mutant["old"], mutant["new"])
@@ -73,7 +74,7 @@ def check(mutants):
     names = [mutant["name"] for mutant in mutants]
     for name in names:
         if names.count(name) > 1:
-            die(f"two mutants are called {name}")
+            die(f"two mutants are named {name}")
     for mutant in mutants:
         mutated(mutant, root)
         for test in mutant["tests"]:
@@ -86,7 +87,7 @@ def check(mutants):
 
 
 def copy_tree():
-    """Copies what has changed, so that what was built of the rest stays."""
+    """Copies changed files, so that what was built from the others remains."""
     left_out = shutil.ignore_patterns(".git", "build", "demo", "__pycache__")
     kept = set()
     for folder, folders, files in os.walk(root):
@@ -116,8 +117,8 @@ def write_if_other(path, content):
 def configure():
     cache = build / "CMakeCache.txt"
     if cache.exists() and f"CMAKE_HOME_DIRECTORY:INTERNAL={tree}\n" not in cache.read_text():
-        shutil.rmtree(build)  # made for a checkout that was elsewhere
-    # A fault may leave a name unused, which is no concern here.
+        shutil.rmtree(build)  # configured for a checkout in another folder
+    # A fault may leave a name unused, which must not stop the build.
     command = ["cmake", "--preset", "release", "-S", tree, "-B", build, "-DOCTETRA_TESTS=ON",
                "-DOCTETRA_TEST_TIER=nightly", "-DOCTETRA_BENCH=OFF", "-DOCTETRA_WARNINGS_AS_ERRORS=OFF"]
     done = subprocess.run(command, cwd=tree, stdout=subprocess.DEVNULL)
@@ -126,7 +127,7 @@ def configure():
 
 
 def build_programs(tests, jobs):
-    """What went wrong, or nothing."""
+    """Returns an error message, or nothing."""
     targets = sorted({"test_" + program_of(test) for test in tests})
     command = ["cmake", "--build", build, "--parallel", str(jobs), "--target", *targets]
     done = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
@@ -137,7 +138,7 @@ def build_programs(tests, jobs):
 
 
 def failure_of(test, seconds):
-    """What of a test program fails, or nothing. It is ended at its first failure."""
+    """Returns the first failure of a test program, at which the program is ended, or nothing."""
     program_and_ranks, _, cases = test.partition(":")
     name, _, ranks = program_and_ranks.partition("@")
     (program,) = (path for path in build.glob(f"tests/*/test_{name}") if path.is_file())
@@ -153,7 +154,7 @@ def failure_of(test, seconds):
 
     def stop():
         late.set()
-        process.terminate()  # mpirun ends its ranks then
+        process.terminate()  # mpirun then ends its ranks
 
     timer = threading.Timer(seconds, stop)
     timer.start()
@@ -178,7 +179,7 @@ def failure_of(test, seconds):
 
 
 def fate_of(mutant, seconds_of, jobs):
-    """("caught", by which test), ("survived", "") or ("does not compile", the first error)."""
+    """Returns ("caught", the test), ("survived", "") or ("does not compile", the first error)."""
     path = tree / mutant["file"]
     original = path.read_bytes()
     path.write_text(mutated(mutant, tree))
@@ -201,7 +202,7 @@ def run(mutants, minutes, jobs):
     copy_tree()
     configure()
     every_test = sorted({test for mutant in mutants for test in mutant["tests"]})
-    print(f"building and running {', '.join(every_test)} without any fault", flush=True)
+    print(f"building and running {', '.join(every_test)} without faults", flush=True)
     wrong = build_programs(every_test, jobs)
     if wrong:
         die("the copy does not compile\n" + wrong)
@@ -210,12 +211,12 @@ def run(mutants, minutes, jobs):
         begin = time.monotonic()
         failure = failure_of(test, seconds_without_fault)
         if failure:
-            die(f"fails without any fault: {failure}")
+            die(f"fails without faults: {failure}")
         seconds_of[test] = time.monotonic() - begin
     bad = 0
     for done, mutant in enumerate(mutants):
         if time.monotonic() > end:
-            print(f"\ntime is up after {done} of {len(mutants)} mutants; to go on: "
+            print(f"\ntime is up after {done} of {len(mutants)} mutants; to continue: "
                   f"./dev campaign mutants --from {mutant['name']}")
             break
         begin = time.monotonic()
@@ -234,11 +235,11 @@ def positive(text):
 
 def main():
     parser = argparse.ArgumentParser(prog="./dev campaign mutants")
-    parser.add_argument("--check", action="store_true", help="only see whether they fit the sources")
-    parser.add_argument("--minutes", type=positive, default=30, help="begin no other after so long")
-    parser.add_argument("--from", dest="first", metavar="NAME", help="go on with this one")
+    parser.add_argument("--check", action="store_true", help="only check that the mutants fit the sources")
+    parser.add_argument("--minutes", type=positive, default=30, help="start no further mutant after this time")
+    parser.add_argument("--from", dest="first", metavar="NAME", help="start with this mutant")
     parser.add_argument("--jobs", type=int, default=os.cpu_count(), help=argparse.SUPPRESS)
-    parser.add_argument("names", metavar="NAME", nargs="*", help="only these; all if none is named")
+    parser.add_argument("names", metavar="NAME", nargs="*", help="only these mutants; default: all")
     arguments = parser.parse_args()
 
     mutants = read_mutants()

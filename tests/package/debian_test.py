@@ -1,8 +1,9 @@
 #!/usr/bin/env python3
-"""Builds the Debian packages in a copy of the sources, looks at what is in them, and builds an example
-against them. For ./dev campaign packages, as it takes minutes. Status 77 where the tools are missing.
+"""Builds the Debian packages in a copy of the sources, checks their contents, and builds an example
+with them. For ./dev campaign packages, because it takes minutes. Exits with 77 if the tools are
+missing.
 
-  tests/package/debian_test.py SOURCES FOLDER MINUTES
+tests/package/debian_test.py SOURCES FOLDER MINUTES
 """
 
 import os
@@ -25,7 +26,7 @@ stage = folder / "stage"
 
 
 def finished(*command, cwd=None, env=None, status=0):
-    """What a command prints, on both streams. None goes on when time is up, or at Ctrl-C."""
+    """Returns the output of a command on both streams. Commands end at the time limit or at Ctrl-C."""
     process = subprocess.Popen([str(word) for word in command], cwd=cwd, env=env, text=True,
                                start_new_session=True, stdin=subprocess.DEVNULL,
                                stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
@@ -55,7 +56,8 @@ def skip_unless_ready():
 
 
 def copy_sources(target):
-    """What git knows of, as it is in the working tree; without git, all but what is made here."""
+    """Lists the files known to git, in their state in the working tree; without git, all files
+    except build products."""
     listed = subprocess.run(["git", "ls-files", "-z", "--cached", "--others", "--exclude-standard"],
                             cwd=source, capture_output=True, check=False)
     if listed.returncode != 0 or not (source / ".git").exists():
@@ -85,7 +87,7 @@ def deb_of(package):
 
 
 def files_of(package):
-    """Those of a package, and its symbolic links; but for documentation and lintian's."""
+    """The files and symbolic links of a package, without documentation and lintian's files."""
     names = set()
     for line in finished("dpkg-deb", "--contents", deb_of(package)).splitlines():
         name = line.split(maxsplit=5)[5].split(" -> ")[0].removeprefix("./")
@@ -108,7 +110,8 @@ class Packages(unittest.TestCase):
         cls.version = re.search(r"project\(Octetra VERSION (\S+)",
                                 (source / "CMakeLists.txt").read_text())[1]
         cls.soversion = cls.version.rpartition(".")[0]
-        # As if they were installed; with the files for pkg-config that the packages ask for, alone.
+        # As if they were installed; only the files of pkg-config that the packages require are
+        # visible.
         known = folder / "pkgconfig"
         known.mkdir()
         for package in depends_of("liboctetra-dev") - set(packages):
@@ -132,7 +135,7 @@ class Packages(unittest.TestCase):
             f"{self.libraries}/liboctetra_{layer}.so.{version}"
             for layer in layers for version in (self.version, self.soversion)})
 
-    def test_for_development_have_all_headers_and_what_finds_them(self):
+    def test_for_development_have_all_headers_and_configuration_files(self):
         headers = {"usr/include/octetra/core/version.hpp"}
         for layer in layers:
             headers |= {f"usr/include/{header.relative_to(source / layer / 'include')}"
@@ -165,7 +168,7 @@ class Packages(unittest.TestCase):
     def test_for_development_ask_for_mpi_alone(self):
         self.assertEqual(depends_of("liboctetra-dev"), {"liboctetra0.1", "libopenmpi-dev"})
 
-    def test_can_be_installed_with_what_the_system_has(self):
+    def test_can_be_installed_with_the_packages_of_the_system(self):
         planned = finished("apt-get", "--simulate", "--no-install-recommends", "install",
                            *(deb_of(package) for package in packages))
         for package in packages:

@@ -1,10 +1,10 @@
-"""The manual pages that belong to the program: its own, and one for each subcommand."""
+"""The manual pages of the program: its own, and one for each subcommand."""
 
 import re
 
 
 def manual_pages(help_text):
-    """Their names, from what --help prints."""
+    """Returns their names, from the output of --help."""
     listed = help_text.partition("Subcommands:\n")[2].partition("\n\n")[0]
     subcommands = re.findall(r"^  (\S+)", listed, re.MULTILINE)
     if "refine" not in subcommands:

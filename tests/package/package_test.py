@@ -1,5 +1,5 @@
-"""Programs that are built against Octetra in the ways in which programs are: by find_package() and by
-pkg-config from an installation that was moved, shared and static, and with Octetra as a part of them."""
+"""Programs built with Octetra in the usual ways: by find_package() and by pkg-config from an
+installation that was moved, shared and static, and with Octetra as a subdirectory."""
 
 import os
 import pathlib
@@ -15,7 +15,7 @@ from manual_pages import manual_pages
 source, build = (pathlib.Path(argument) for argument in sys.argv[1:3])
 mpirun = source / "tests/support/mpirun.sh"
 
-# What is compiled here is run on small meshes.
+# The programs compiled here run only on small meshes.
 QUICKLY = ("-DCMAKE_UNITY_BUILD=ON", "-DCMAKE_UNITY_BUILD_BATCH_SIZE=32", "-DCMAKE_CXX_FLAGS_RELEASE=-O0")
 
 PART_OF_A_PROGRAM = """\
@@ -26,13 +26,13 @@ add_executable(program {source}/examples/read_refine_write.cpp)
 find_package(MPI REQUIRED COMPONENTS CXX)
 target_link_libraries(program PRIVATE Octetra::distributed MPI::MPI_CXX)
 if(TARGET octetra OR TARGET test_core OR TARGET octetra_verify)
-  message(FATAL_ERROR "Octetra as a part of a program brings more than libraries of its own accord")
+  message(FATAL_ERROR "Octetra as a subdirectory builds more than libraries by default")
 endif()
 """
 
 
 def blocks_of_tutorial():
-    """What the page of the library shows as lines to type or to copy, by its first words."""
+    """Returns the text blocks of the page about the library, by their first words."""
     page = (source / "docs/library.md").read_text()
     blocks = re.findall(r"^```text\n(.*?)^```$", page, re.MULTILINE | re.DOTALL)
     return lambda start: next(block for block in blocks if block.startswith(start))
@@ -57,7 +57,7 @@ class Package(unittest.TestCase):
         run("cmake", "-G", "Ninja", "-S", project, "-B", folder, *options)
 
     def installed(self, built):
-        """Where what was built is installed, and was moved to."""
+        """The folder to which the installed build was moved."""
         run("cmake", "--install", built, "--prefix", self.folder / "first")
         return self.moved(self.folder / "first")
 
@@ -71,7 +71,7 @@ class Package(unittest.TestCase):
         return self.folder / "moved"
 
     def check_manual_pages(self, prefix):
-        """Made with the rest where the tool for them is installed."""
+        """They are installed if the tool for them is available."""
         expected = set()
         if shutil.which("help2man"):
             names = manual_pages(run(prefix / "bin/octetra", "--help"))
@@ -89,7 +89,7 @@ class Package(unittest.TestCase):
             self.configure(project, project / "build", f"-DCMAKE_PREFIX_PATH={prefix}")
 
     def check_refined(self, program, ranks=(1, 2, 4)):
-        """The program's file is the same on any number of ranks, and what the command makes."""
+        """The program's file is the same on any number of ranks, and equals that of the command."""
         files = set()
         for n in ranks:
             output = self.folder / f"refined.{n}.mesh"
@@ -114,13 +114,14 @@ class Package(unittest.TestCase):
                  + (self.folder / "front.mesh").read_text() for n in ranks]
         self.assertEqual(loops, [loops[0]] * len(ranks))
         self.check_fronts(built / "moving_front", ranks)
-        if (built / "petsc_plex").exists():  # where PETSc is installed
+        if (built / "petsc_plex").exists():  # if PETSc is installed
             self.check_solutions(built / "petsc_plex", ranks)
-        if (built / "adaptive_poisson").exists():  # where PETSc is installed
+        if (built / "adaptive_poisson").exists():  # if PETSc is installed
             self.check_rates(built / "adaptive_poisson", [n for n in ranks if n < 4])
 
     def check_fronts(self, program, ranks):
-        """The same meshes on any number of ranks, and from the example in Python; no heat is lost."""
+        """The meshes are the same on any number of ranks and in the Python example; heat is
+        conserved."""
         runs = [(f"cpp.{n}", (mpirun, n, program)) for n in ranks]
         if (build / "python/octetra").exists():
             runs.append(("python", ("/usr/bin/env", f"PYTHONPATH={build / 'python'}", sys.executable,
@@ -138,7 +139,8 @@ class Package(unittest.TestCase):
         self.assertEqual(meshes, [meshes[0]] * len(runs))
 
     def check_solutions(self, program, ranks):
-        """The same table on any number of ranks; every mesh has all functions of those before."""
+        """The table is the same on any number of ranks; every mesh has all functions of the
+        previous ones."""
         tables = [run(mpirun, n, program, self.mesh, 2) for n in ranks]
         self.assertEqual(tables, [tables[0]] * len(tables))
         rows = [line.split() for line in tables[0].splitlines()[1:]]
@@ -147,7 +149,8 @@ class Package(unittest.TestCase):
         self.assertEqual(integrals, sorted(set(integrals)))
 
     def check_rates(self, program, ranks):
-        """In theory, of the error against unknowns: -2/9 on uniform meshes, -1/3 on adaptive ones."""
+        """The theoretical rates of the error against unknowns are -2/9 on uniform meshes and -1/3
+        on adaptive ones."""
         for kind, steps, low, high in (("uniform", 3, -0.24, -0.18), ("adaptive", 5, -0.36, -0.29)):
             for n in ranks:
                 rows = [line.split() for line in run(mpirun, n, program, kind, steps).splitlines()]
@@ -174,18 +177,19 @@ class Package(unittest.TestCase):
         self.check_refined(program, ranks=(2,))
 
     def cached(self, variable):
-        """What our build was configured with."""
+        """The value of a variable in the cache of our build."""
         return re.search(rf"^{variable}:\w+=(.*)$", (build / "CMakeCache.txt").read_text(), re.MULTILINE)[1]
 
     def commands(self, folder, target, part):
-        """All that makes a target, as if the part of the folder in which Octetra is built were our build."""
+        """The commands that make a target, as if the part of the folder in which Octetra is built
+        were our build."""
         lines = run("ninja", "--quiet", "-C", folder, "-t", "commands", target)
         lines = lines.replace(str(folder / part), str(build)).replace(f" {part}/", " ")
         return re.sub("^[^ ]*ccache ", "", lines, flags=re.MULTILINE).splitlines()
 
     def test_a_program_has_octetra_as_a_part_of_itself(self):
-        """It would make our libraries by the commands by which our build has made them. So to link these
-        shows what it would be, in a tenth of the time."""
+        """The commands for our libraries are those of our build. Therefore linking these libraries
+        gives the same result in a tenth of the time."""
         ours = set(self.commands(build, "octetra_distributed", "."))
         for part, how in (("octetra", f"add_subdirectory({source} octetra)"),
                           ("_deps/octetra-build", "include(FetchContent)\n"
@@ -218,7 +222,8 @@ class Package(unittest.TestCase):
         def follow(commands, folder):
             return run("bash", "-e", "-c", settings + commands, cwd=folder, env=environment)
 
-        # The checkout stays as it is, and the program is there already; to compile it well takes longer.
+        # The checkout stays unchanged, and the existing program is used, because an optimised build
+        # takes longer.
         install = block("cmake -S .").replace("build/mine", str(self.folder / "mine")).replace(
             "cmake -S .",
             f"cmake -S . -DOCTETRA_VERIFY=OFF -DOCTETRA_CLI=OFF {' '.join(QUICKLY)}")
@@ -235,8 +240,8 @@ class Package(unittest.TestCase):
         follow(block("export PKG_CONFIG_PATH") + "./loop cube.mesh 5 front.vtu", loop)
         self.assertEqual((loop / "front.vtu").read_bytes(), by_cmake)
 
-        # Shared libraries ask their users for MPI alone, and that for PETSc for PETSc. They compute what
-        # static ones do, so one number of ranks is enough.
+        # Shared libraries require only MPI of their users, and the one for PETSc also PETSc. They
+        # compute the same as static ones, so one number of ranks is enough.
         prefix = self.moved(prefix)
         for file in prefix.rglob("*.pc"):
             for kind in ("--print-requires", "--print-requires-private"):

@@ -1,4 +1,4 @@
-"""The recipes for packages agree with what is built: Spack's, taken without Spack, and Debian's."""
+"""The packaging recipes agree with the build: Spack's, evaluated without Spack, and Debian's."""
 
 import importlib.util
 import itertools
@@ -15,20 +15,20 @@ import urllib.parse
 source = pathlib.Path(sys.argv[1])
 lists = (source / "CMakeLists.txt").read_text()
 
-# What Spack calls what find_package() looks for.
+# Spack's names of the packages sought by find_package().
 SPACK_NAMES = {"fmt": "fmt", "ZLIB": "zlib-api", "SerialHDF5": "hdf5",
                "Boost": "boost", "xxHash": "xxhash", "MPI": "mpi", "METIS": "metis",
                "CGAL": "cgal", "CLI11": "cli11", "nlohmann_json": "nlohmann-json"}
 
 
 def holds(condition, variants):
-    """Does `+this ~that` hold? Of compilers and the like nothing is known here."""
+    """Returns whether `+this ~that` holds; false for conditions on compilers and other properties."""
     words = re.findall(r"([+~])(\w+)", condition)
     return bool(words) and all(variants[name] == (sign == "+") for sign, name in words)
 
 
 class Recipe:
-    """What package.py says to Spack, as far as it matters here."""
+    """The relevant declarations of package.py."""
 
     def __init__(self, path):
         self.defaults, self.conflicts, self.dependencies = {}, [], []
@@ -77,7 +77,7 @@ class Recipe:
         self.dependencies.append((re.match(r"[\w-]+", spec)[0], conditions))
 
     def allowed(self):
-        """All combinations of variants that conflict with nothing."""
+        """All combinations of variants without conflicts."""
         for values in itertools.product((True, False), repeat=len(self.defaults)):
             variants = dict(zip(self.defaults, values))
             if not any(holds(what, variants) and holds(when, variants)
@@ -96,7 +96,7 @@ class Spack(unittest.TestCase):
     def setUp(self):
         self.recipe = Recipe(source / "packaging/spack/packages/octetra/package.py")
 
-    def test_recipe_builds_the_repository_in_which_it_lies(self):
+    def test_recipe_builds_its_own_repository(self):
         url = urllib.parse.urlparse(self.recipe.package.git)
         self.assertEqual(url.scheme, "file")
         self.assertTrue(source.samefile(urllib.parse.unquote(url.path)))
@@ -107,14 +107,14 @@ class Spack(unittest.TestCase):
                        for option in self.recipe.options_of(self.recipe.defaults)}
         self.assertLessEqual(set_options, known)
 
-    def test_recipe_depends_on_all_that_cmake_looks_for(self):
-        """CMake says so itself, when it is told that there is none of the other packages."""
+    def test_recipe_depends_on_all_packages_sought_by_cmake(self):
+        """CMake itself reports which packages it needs when the others are declared missing."""
         self.assertEqual(set(re.findall(r"find_package\((\w+)", lists)), set(SPACK_NAMES))
         combinations = list(self.recipe.allowed())
         self.assertIn(self.recipe.defaults, combinations)
         for variants in combinations:
             if variants["shared"]:
-                continue  # which changes nothing of this
+                continue  # does not affect this
             needed = self.recipe.dependencies_of(variants)
             self.assertEqual("tetgen" in needed, variants["tetgen"])
             others = (f"-DCMAKE_DISABLE_FIND_PACKAGE_{name}=ON"
@@ -127,7 +127,7 @@ class Spack(unittest.TestCase):
 
 
 class Debian(unittest.TestCase):
-    """What needs no package to be built."""
+    """Checks that need no package to be built."""
 
     version = re.search(r"project\(Octetra VERSION (\S+)", lists)[1]
     control = (source / "debian/control").read_text()

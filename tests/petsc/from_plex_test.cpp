@@ -14,13 +14,13 @@
 #include "support/meshes.hpp"
 #include "support/thrown.hpp"
 
-/// Meshes of DMPlex, made by us or by PETSc.
+/// Meshes from a DMPlex made by Octetra or by PETSc.
 namespace octetra::petsc {
 namespace {
 
 using distributed::AdaptiveMesh;
 
-/// Without what a plex does not hold; what is listed twice, once.
+/// Removes what a plex cannot store, and duplicates.
 Mesh as_plex_has_it(Mesh mesh) {
     mesh.point_markers.clear();
     mesh.attributes_per_point = 0;
@@ -50,7 +50,7 @@ Mesh as_plex_has_it(Mesh mesh) {
 class FromPlex : public testing::TestWithParam<const char*> {};
 INSTANTIATE_TEST_SUITE_P(Partitions, FromPlex, testing::Values("rcb", "random:3"));
 
-TEST_P(FromPlex, AMeshComesBackWithAllItsTags) {
+TEST_P(FromPlex, AMeshIsRestoredWithAllItsTags) {
     const AdaptiveMesh mesh = adapted_mesh(GetParam());
     const OwnedPlex plex(to_plex(mesh));
     const MeshFromPlex back = from_plex(plex);
@@ -83,7 +83,7 @@ TEST_P(FromPlex, VerticesAreThePointsThatAreNamed) {
     }
 }
 
-/// The first process's lattice as PETSc makes a plex of it, and shares it out.
+/// The first process's lattice as a plex made and distributed by PETSc.
 OwnedPlex lattice_of_petsc(std::size_t n, PetscBool interpolate) {
     const Mesh mesh = test::kuhn(n, n, n, 1.0 / static_cast<double>(n));
     std::vector<PetscInt> cells;
@@ -126,7 +126,7 @@ double area_of_facets(const AdaptiveMesh& mesh) {
     return sum_over_all(area);
 }
 
-/// Is it the lattice, all of it once, with its boundary?
+/// Checks that the mesh is the whole lattice with its boundary.
 void expect_lattice(const AdaptiveMesh& mesh, std::size_t n) {
     EXPECT_EQ(test::world().sum(mesh.cells().size()), 6 * n * n * n);
     EXPECT_EQ(mesh.vertex_count(), (n + 1) * (n + 1) * (n + 1));

@@ -9,7 +9,7 @@
 
 #include "petsc/plex_support.hpp"
 
-/// Labels of a plex, by the volumes and areas of what has them, held against those of the mesh.
+/// Compares the volumes and areas of the points with each label value with those of the mesh.
 namespace octetra::petsc {
 namespace {
 
@@ -26,7 +26,7 @@ Measures over_all(Measures measures) {
     return measures;
 }
 
-/// Of each value of a label the measure of the points of this depth, each counted once.
+/// For each value of a label the measure of the points at this depth, each counted once.
 Measures measures_of(DM plex, const char* name, PetscInt depth) {
     const std::vector<char> is_leaf = are_leaves(plex);
     Measures measures;
@@ -71,7 +71,7 @@ protected:
     AdaptiveMesh mesh_ = adapted_mesh(GetParam());
     OwnedPlex plex_{to_plex(mesh_)};
 
-    /// Of sides that are listed, each once, on the first process.
+    /// The measures of listed facets or edges, each counted once, on the first process.
     template <class I, std::size_t N>
     static Measures expected(const Mesh& whole,
                              const IndexVector<I, std::array<VertexIndex, N>>& list,

@@ -7,7 +7,8 @@
 
 #include "petsc/plex_support.hpp"
 
-/// Laplace's equation on a plex, by PETSc's own elements: a linear function comes out exactly.
+/// Solves Laplace's equation on a plex with PETSc's finite elements: a linear function is
+/// reproduced exactly.
 namespace octetra::petsc {
 namespace {
 
@@ -16,7 +17,8 @@ PetscErrorCode linear(PetscInt, PetscReal, const PetscReal x[], PetscInt, PetscS
     return 0;
 }
 
-// What PETSc asks for: the gradient, and its derivative by the gradient.
+// The weak form in PETSc's interface: the gradient, and its derivative with respect to the
+// gradient.
 void gradient(PetscInt dim, PetscInt, PetscInt, const PetscInt[], const PetscInt[],
               const PetscScalar[], const PetscScalar[], const PetscScalar u_x[], const PetscInt[],
               const PetscInt[], const PetscScalar[], const PetscScalar[], const PetscScalar[],
@@ -31,7 +33,7 @@ void identity(PetscInt dim, PetscInt, PetscInt, const PetscInt[], const PetscInt
     for (PetscInt d = 0; d < dim; ++d) g[d * dim + d] = 1;
 }
 
-/// Elements of this order with the linear function on the boundary.
+/// Elements of this order, with the linear function on the boundary.
 void set_problem(DM plex, PetscInt order) {
     DMLabel boundary = nullptr;
     must(DMGetLabel(plex, "boundary", &boundary));
@@ -50,7 +52,7 @@ void set_problem(DM plex, PetscInt order) {
                        reinterpret_cast<void (*)()>(&linear), nullptr, nullptr, nullptr));
 }
 
-/// Of the whole mesh, those of no face on the boundary.
+/// The number of vertices of the whole mesh that are on no boundary face.
 std::uint64_t count_inner_vertices(const distributed::AdaptiveMesh& mesh) {
     std::vector<std::uint8_t> is_outer(mesh.points().size(), 0);
     for (const auto& [cell, face] : mesh.boundary()) {

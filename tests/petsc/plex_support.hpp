@@ -16,13 +16,13 @@
 #include "distributed/marked_mesh.hpp"
 #include "distributed/world.hpp"
 
-/// What the tests of the adapter for PETSc have in common.
+/// Common parts of the tests of the PETSc adapter.
 namespace octetra::petsc {
 
-/// Ends the test where PETSc says that something is wrong.
+/// Ends the test if PETSc returns an error.
 inline void must(PetscErrorCode code) { ASSERT_EQ(code, 0); }
 
-/// A DM that is destroyed in the end.
+/// A DM that the destructor destroys.
 class OwnedPlex {
 public:
     OwnedPlex() = default;
@@ -42,8 +42,8 @@ private:
     DM plex_ = nullptr;
 };
 
-/// A lattice with regions, facets and edges, refined, coarsened and, on several processes, moved.
-/// No marker is -1, which is what PETSc says of points without one.
+/// A lattice with regions, facets and edges, refined, coarsened and, on several processes,
+/// migrated. No marker is -1, which PETSc returns for points without a label value.
 inline distributed::AdaptiveMesh adapted_mesh(const std::string& partition, std::size_t n = 2) {
     using namespace distributed;
     Mesh input = test::marked_lattice(n, 1);
@@ -66,7 +66,7 @@ inline PetscReal sum_over_all(PetscReal value) {
     return value;
 }
 
-/// Of this process's points those that are other processes' own.
+/// For each point of this process, whether another process owns it.
 inline std::vector<char> are_leaves(DM plex) {
     PetscInt begin = 0;
     PetscInt end = 0;
@@ -99,7 +99,7 @@ inline std::vector<PetscInt> vertices_of(DM plex, PetscInt point) {
     return vertices;
 }
 
-/// All that PETSc can say against a plex.
+/// All checks that PETSc offers for a plex.
 inline void expect_valid(DM plex) {
     must(DMPlexCheckSymmetry(plex));
     must(DMPlexCheckSkeleton(plex, 0));

@@ -10,14 +10,14 @@
 #include "petsc/plex_support.hpp"
 #include "support/thrown.hpp"
 
-/// A mesh as a DMPlex: its points, what they are made of and who shares them.
+/// A mesh as a DMPlex: its points, their cones and their sharers.
 namespace octetra::petsc {
 namespace {
 
 using distributed::AdaptiveMesh;
 using distributed::FaceIndex;
 
-/// PETSc as long as there are tests; MPI runs before, or it starts it.
+/// Initialises PETSc for the whole run; MPI is initialised before, or by PETSc.
 class WithPetsc : public testing::Environment {
 public:
     void SetUp() override { must(PetscInitializeNoArguments()); }
@@ -33,7 +33,7 @@ protected:
 };
 INSTANTIATE_TEST_SUITE_P(Partitions, Plex, testing::Values("rcb", "random:3", "block"));
 
-TEST_P(Plex, PassesWhatPetscChecks) { expect_valid(plex_); }
+TEST_P(Plex, PassesTheChecksOfPetsc) { expect_valid(plex_); }
 
 TEST_P(Plex, HasTheCellsOfTheMeshWithTwoVerticesExchanged) {
     PetscInt begin = 0;
@@ -89,7 +89,7 @@ TEST_P(Plex, HasTheCoordinatesOfTheMesh) {
     must(VecRestoreArrayRead(values, &numbers));
 }
 
-/// Numbers of the whole mesh, by point.
+/// Global numbers, by point.
 std::vector<std::int64_t> numbers_of(const AdaptiveMesh& mesh, const PlexPoints& points) {
     std::vector<std::int64_t> numbers(static_cast<std::size_t>(points.end), -1);
     const auto at = [&](PetscInt p) -> std::int64_t& {
@@ -137,7 +137,7 @@ TEST_P(Plex, SharesEachPointWithItsOwnerAndNoOther) {
     }
 }
 
-TEST_P(Plex, StaysAsItIsWhenTheMeshGoesOn) {
+TEST_P(Plex, StaysUnchangedWhenTheMeshIsModified) {
     (void)mesh_.refine(Selection{.all = true});
     mesh_ = adapted_mesh("rcb", 1);
     expect_valid(plex_);
@@ -179,7 +179,7 @@ TEST_P(Plex, LabelsTheBoundaryAndNoFaceBetweenProcesses) {
     }
 }
 
-TEST(PlexRefusal, OfAnotherGroupIsThrownAlikeOnAll) {
+TEST(PlexRefusal, OfAnotherGroupIsThrownIdenticallyOnAll) {
     if (test::world().size() == 1) return;
     const AdaptiveMesh mesh = adapted_mesh("rcb", 1);
     const std::string said =

@@ -1,11 +1,11 @@
-"""The files of a list of refinements, coarsenings and checkpoints have the recorded SHA-256, on every processor,
-operating system, compiler and MPI.
+"""Checks the SHA-256 of the files of a list of refinements, coarsenings and checkpoints, which are
+the same on every processor, operating system, compiler and MPI.
 
-  results_test.py PROGRAM RANKS             run the list, on RANKS ranks if that is not 0, and compare
-  results_test.py PROGRAM RANKS --record    run the list and write recorded.txt
+results_test.py PROGRAM RANKS             run the list, on RANKS ranks if that is not 0, and compare
+results_test.py PROGRAM RANKS --record    run the list and write recorded.txt
 
-Inputs are lattices and meshes of the corpus, as Delaunay meshes depend on the version of TetGen. Formats are those that
-Octetra writes without a compressor or HDF5, whose versions differ in their bytes.
+Inputs are lattices and meshes of the corpus, because Delaunay meshes depend on the version of
+TetGen. Formats are those written without a compressor or HDF5, whose output depends on the version.
 """
 
 import hashlib
@@ -28,7 +28,7 @@ refine --box 0,0,0,0.4,0.3,0.2 --scheme 2t --levels 3
 coarsen --random 0.5
 """
 
-# Each command with the files that it writes.
+# Each command, with the files that it writes.
 COMMANDS = [
     ("generate kuhn 5 -o kuhn.mesh", ["kuhn.mesh"]),
     ("generate bcc 3 -o bcc.ele", ["bcc.node", "bcc.ele"]),
@@ -50,7 +50,7 @@ COMMANDS = [
 
 
 def results(program, ranks):
-    """[(name, SHA-256), ...] of all files that the commands write."""
+    """Returns [(name, SHA-256), ...] of all files that the commands write."""
     launcher = [source / "tests/support/mpirun.sh", str(ranks)] if ranks else []
     found = []
     with tempfile.TemporaryDirectory(prefix="octetra-results-") as folder:

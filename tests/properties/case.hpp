@@ -10,51 +10,50 @@
 
 namespace octetra::properties {
 
-/// What a step of a history does.
+/// The action of a step of a history.
 enum class Action {
-    refine,     ///< the cells that are selected
-    coarsen,    ///< the cells that are selected may go
-    take_back,  ///< coarsen the cells that the step before made; none, if it did not refine
+    refine,     ///< the selected cells
+    coarsen,    ///< the selected cells are marked to be removed
+    take_back,  ///< coarsen the cells that the previous step made; none if it did not refine
     again,      ///< refine what was marked for the step that was just taken back; else nothing
-    reload,     ///< save, and load on the first few ranks, or all
-    rebalance,  ///< cells move to where all ranks have about as many
-    scatter,    ///< cells move to ranks drawn for their roots; some may have none then
-    rewrite,    ///< write, and read again: what was done so far cannot be taken back any more
+    reload,     ///< save, and load on the first few ranks, or on all
+    rebalance,  ///< migrate so that all ranks have nearly the same number of cells
+    scatter,    ///< migrate roots to random ranks; some ranks may be left without cells
+    rewrite,    ///< write and read again: earlier steps can no longer be taken back
 };
 
 struct Step {
     Action action = Action::refine;
-    Selection selection;            ///< of refine and coarsen
-    Scheme scheme = Scheme::eight;  ///< of refine
-    int ranks = 1;                  ///< of reload; a run that has fewer takes all
-    std::string format;             ///< of rewrite: a name of formats()
+    Selection selection;            ///< for refine and coarsen
+    Scheme scheme = Scheme::eight;  ///< for refine
+    int ranks = 1;                  ///< for reload; all ranks if the run has fewer
+    std::string format;             ///< for rewrite: a name of formats()
 };
 
-/// Histories that are drawn exact have coordinates of less than 16 on a grid of 2^-16, and each of
-/// their up to twelve steps halves that: times this they are integers.
+/// Exact histories have coordinates below 16 on a grid of 2^-16, and each of their at most twelve
+/// steps halves the grid: multiplied by this scale, coordinates are integers.
 inline constexpr double exact_grid_scale = 0x1p28;
 
-/// No step of a history makes more cells: one that would is refused.
+/// Maximum number of cells of a history: a step that would exceed it is refused.
 inline constexpr std::size_t most_cells_of_a_history = 3000;
 
-/// One refinement, or history, that laws are held against: everything that it depends on, and
-/// nothing else.
+/// One refinement or history on which laws are judged: the complete input of the judgement.
 struct Case {
-    std::string kind;  ///< how the mesh was made, for people
-    Mesh mesh;         ///< valid, as the verifier sees it
+    std::string kind;  ///< how the mesh was made, in words
+    Mesh mesh;         ///< valid according to the verifier
     Selection selection;
     Scheme scheme = Scheme::eight;
     int levels = 1;
     distributed::Synchronisation synchronisation = distributed::Synchronisation::neighbour;
-    /// One for each cell. Ranks that a run does not have stand for those left over by division.
+    /// The rank of each cell. Ranks are taken modulo the number of ranks of the run.
     std::vector<int> cell_to_rank;
     std::uint64_t seed =
-        0;  ///< of what a law draws by itself (a numbering, a translation), and of the ranks' ways
-    /// Of a history. Its selection is then empty, and `levels` 1.
+        0;  ///< seeds the law's own draws (numbering, translation) and the ranks' tuning
+    /// The steps of a history. If there are any, `selection` is empty and `levels` is 1.
     std::vector<Step> steps;
 };
 
-/// Without steps that begin a new history, where a law looks at the one input.
+/// Removes the steps that begin a new history, for laws that inspect a single input.
 [[nodiscard]] inline Case of_one_input(Case c) {
     std::erase_if(c.steps, [](const Step& step) { return step.action == Action::rewrite; });
     return c;

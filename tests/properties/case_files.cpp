@@ -29,7 +29,7 @@ fs::path write_finding(const Finding& finding, const fs::path& folder, const std
     json["law"] = finding.law;
     json["fault"] = finding.fault;
     if (finding.ranks > 0) json["ranks"] = finding.ranks;
-    // Which TetGen's files cannot hold.
+    // TetGen's files cannot store group names.
     for (const auto& [dimension, tag, group] : finding.refinement.mesh.group_names) {
         json["group_names"].push_back({dimension, tag, group});
     }

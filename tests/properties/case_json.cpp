@@ -14,7 +14,7 @@ json json_of(const Point& p) { return json::array({p.x, p.y, p.z}); }
 
 Point point_of(const json& j) { return {j.at(0), j.at(1), j.at(2)}; }
 
-/// Criteria that mark nothing are left out.
+/// Omits criteria that mark nothing.
 json json_of(const Selection& selection) {
     json j = json::object();
     if (selection.all) j["all"] = true;
@@ -63,7 +63,7 @@ Scheme scheme_of(const std::string& name) {
     return name == "8t" ? Scheme::eight : name == "4t" ? Scheme::four : Scheme::two;
 }
 
-/// By the numbers of Action.
+/// Names, indexed by the values of Action.
 constexpr std::array<const char*, 8> actions{"refine", "coarsen",   "take back", "again",
                                              "reload", "rebalance", "scatter",   "rewrite"};
 

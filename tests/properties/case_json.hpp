@@ -6,10 +6,11 @@
 
 namespace octetra::properties {
 
-/// All of a case but its mesh. Numbers keep every bit.
+/// The whole case except its mesh. Numbers are written with full precision.
 [[nodiscard]] nlohmann::json json_of(const Case& c);
 
-/// The way back. Throws nlohmann::json::exception where something is missing or of another type.
+/// The inverse of json_of(). Throws nlohmann::json::exception if an entry is missing or has another
+/// type.
 [[nodiscard]] Case case_of(const nlohmann::json& json);
 
 }  // namespace octetra::properties

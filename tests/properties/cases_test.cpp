@@ -14,8 +14,7 @@
 #include "properties/simpler.hpp"
 #include "support/temporary_folder.hpp"
 
-/// The cases themselves: whether they are as degenerate as they are meant to be, how they become
-/// smaller, and whether files keep them.
+/// Tests of the cases themselves: degeneracy, simplification and storage in files.
 namespace octetra::properties {
 namespace {
 
@@ -46,7 +45,7 @@ std::vector<Case> some_of_both(int count) {
 }
 
 TEST(Cases, AreOftenDegenerateInEachWay) {
-    if (!test::world().is_first()) return;  // drawn by one, as for the laws
+    if (!test::world().is_first()) return;  // drawn on the first rank alone, as for the laws
     ASSERT_TRUE(generator::has_tetgen()) << "without TetGen there are lattices only";
     std::map<std::string, int> counts;
     for (const Case& c : some_cases(300)) {
@@ -67,7 +66,7 @@ TEST(Cases, AreHistoriesInWhichEachThingHappensOften) {
         EXPECT_GE(counts[tag], 9) << tag << ": " << counts[tag];
 }
 
-/// Whatever is done to it first, a case ends as one cell that nothing marks.
+/// Whichever simplification is tried first, the search ends at one cell that nothing marks.
 TEST(Cases, BecomeSimplerUntilOneCellIsLeft) {
     if (!test::world().is_first()) return;
     for (Case c : some_of_both(20)) {
@@ -128,7 +127,7 @@ TEST(Cases, OfHistoriesBecomeSimplerUntilOnlyStepsAreLeftThatMatter) {
     EXPECT_GT(tried, 5);
 }
 
-TEST(Cases, ComeBackFromFilesBitByBit) {
+TEST(Cases, AreReadBackFromFilesBitByBit) {
     if (!test::world().is_first()) return;
     const test::TemporaryFolder folder;
     for (const Case& c : some_of_both(20)) {

@@ -8,7 +8,7 @@
 namespace octetra::properties {
 namespace {
 
-/// Longest first; nothing if two are as long.
+/// Longest first; nothing if two edges have the same length.
 std::optional<Order> order_without_ties(const std::vector<Point>& points,
                                         const std::array<std::size_t, 4>& cell) {
     std::array<double, 6> squared{};
@@ -24,7 +24,7 @@ std::optional<Order> order_without_ties(const std::vector<Point>& points,
     return order;
 }
 
-/// By cell, the number of its order.
+/// The number of the order of each cell.
 using OrderNumbers = std::vector<std::size_t>;
 
 std::optional<OrderNumbers> orders_of(const std::vector<Point>& points, const Complex& complex) {
@@ -37,9 +37,11 @@ std::optional<OrderNumbers> orders_of(const std::vector<Point>& points, const Co
     return numbers;
 }
 
-constexpr std::uint64_t number_base = 1024;  // there are fewer orders, classes and cells
+constexpr std::uint64_t number_base =
+    1024;  // greater than the numbers of orders, classes and cells
 
-/// A number made of the class of each cell; in place of that of one cell may stand its order.
+/// Combines the class of each cell into one number; `cell_with_order` contributes its order in
+/// place of its class.
 std::uint64_t joined(const Census& census, const OrderNumbers& orders,
                      std::size_t cell_with_order) {
     std::uint64_t number = cell_with_order;
@@ -61,7 +63,7 @@ void for_each_combination(const Census& census, const OrderNumbers& orders, Use&
     }
 }
 
-/// Evenly out of all: those of three cells apart from one another are 82,944.
+/// At most about 1000 symmetries, evenly spaced: three cells apart from one another have 82,944.
 std::vector<std::vector<std::size_t>> some_symmetries(const Complex& complex) {
     const std::vector<std::vector<std::size_t>> all = symmetries(complex);
     std::vector<std::vector<std::size_t>> some;

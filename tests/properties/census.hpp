@@ -10,27 +10,27 @@
 
 #include "properties/combinations.hpp"
 
-/// Counts which combinations (combinations.hpp) worlds of one complex have.
+/// Counts the combinations (combinations.hpp) that occur in worlds of one complex.
 namespace octetra::properties {
 
 struct Census {
     Complex complex;
-    bool is_full = false;               ///< Are combinations of the third kind counted?
-    std::vector<OrderClasses> classes;  ///< of each cell
-    std::vector<std::vector<std::size_t>> symmetries;      ///< of the complex, up to about 1000
-    std::array<std::unordered_set<std::uint64_t>, 3> met;  ///< of each kind, as numbers
+    bool is_full = false;               ///< whether combinations of the third kind are counted
+    std::vector<OrderClasses> classes;  ///< indexed by cell
+    std::vector<std::vector<std::size_t>> symmetries;      ///< of the complex, at most about 1000
+    std::array<std::unordered_set<std::uint64_t>, 3> met;  ///< encoded, for each kind
 };
 
 [[nodiscard]] Census empty_census(const Complex& complex, bool is_full);
 
-/// Does the complex with these corners have a combination that was not met? No if edges of a cell
-/// tie.
+/// Returns whether the complex with these corners has a combination that has not occurred. False if
+/// two edges of a cell tie.
 [[nodiscard]] bool has_new(const Census& census, const std::vector<Point>& points);
 
-/// Notes what a world without ties has, and what those have that differ from it by a symmetry.
+/// Records the combinations of a world without ties, and of its images under the symmetries.
 void note(Census& census, const std::vector<Point>& points);
 
-/// How many were met of each kind.
+/// The number of recorded combinations of each kind.
 [[nodiscard]] CombinationCounts counts(const Census& census);
 
 }  // namespace octetra::properties

@@ -13,7 +13,7 @@ Edges bisected(const Outcome& outcome) {
     return {outcome.maps.midpoint_to_edge.begin(), outcome.maps.midpoint_to_edge.end()};
 }
 
-/// The same with another cell marked, or a few.
+/// The same case with one to three more cells marked.
 Case with_more_marked(Case c, Draw& draw) {
     for (int i = draw.between(1, 3); i > 0; --i) {
         c.selection.cells.push_back(GlobalCell{draw.below(c.mesh.cells.size())});

@@ -15,7 +15,7 @@ using reference::CellMarks;
 using reference::History;
 using reference::Refinement;
 
-/// Coordinates are whole numbers of 22 bits, and each of up to eight steps adds a bit.
+/// Coordinates are whole numbers of 22 bits, and each of at most eight steps adds a bit.
 constexpr double scale = 0x1p8;
 
 bool are_closed(const History& history, const std::vector<Refinement>& meshes) {
@@ -42,7 +42,7 @@ std::string fault_of_coarsening(const History& history, const CellMarks& may_go)
     const Refinement& coarser = after.back();
     if (!are_closed(rest, after)) return "a step is not closed";
     if (test::points_of(coarser.mesh) != test::points_that_stay(history, may_go).all) {
-        return "the rules force other vertices to stay";
+        return "the rules require other vertices";
     }
     if (!has_unmarked_cells(old.mesh, may_go, coarser.mesh)) return "a cell is gone";
     if (!test::refines(old, coarser, scale)) return "the old mesh does not refine the new one";

@@ -17,10 +17,10 @@ namespace {
 using reference::CellMarks;
 using reference::History;
 
-/// Of the worlds of a kind, every so-manieth.
+/// Strides: every n-th world of a kind is tested.
 struct Steps {
-    std::size_t every_day = 1;  ///< under sanitizers fewer
-    std::size_t campaign = 1;   ///< ./dev campaign worlds sets OCTETRA_COARSENED_WORLDS
+    std::size_t every_day = 1;  ///< default run and nightly run; greater under sanitizers
+    std::size_t campaign = 1;   ///< for ./dev campaign worlds, which sets OCTETRA_COARSENED_WORLDS
 };
 
 void for_worlds(const WorldKind& kind, const Steps& steps,
@@ -37,7 +37,7 @@ void for_worlds(const WorldKind& kind, const Steps& steps,
     }
 }
 
-/// An edge of the only cell, as a bit.
+/// The bit of an edge of the only cell.
 EdgeBits bit_of(const EdgeVertices& edge, const Mesh& cell) {
     EdgeBits bits = 0;
     for (std::size_t e = 0; e < 6; ++e) {
@@ -64,8 +64,8 @@ std::vector<EdgeBits> midpoints_of_children(const History& history) {
     return result;
 }
 
-/// For every set of children: what stays is the closure of what the others have. Whatever set of
-/// edges stays is judged once.
+/// For every set of children, the remaining edges are the closure of those required by the other
+/// children. Each set of remaining edges is judged once.
 void hold_for_all_children(const History& history) {
     const Order order = order_of(history.input, CellIndex{0});
     const auto midpoints = midpoints_of_children(history);
@@ -97,7 +97,7 @@ TEST(CoarsenedWorlds, OfOneCellInEveryOrderAndEveryPatternForEverySetOfItsChildr
     });
 }
 
-/// Other cells may keep any edges of a cell, so this is more than its own children can bring about.
+/// Neighbours may keep any edges of a cell, so more sets occur than its own children can cause.
 TEST(CoarsenedWorlds, OfOneCellInEveryOrderAreNestedWhateverClosedSetIsLeftOfAnother) {
     lead([] {
         for_worlds(one_cell(), {}, [](const Mesh& world, Draw&) {
@@ -113,7 +113,7 @@ TEST(CoarsenedWorlds, OfOneCellInEveryOrderAreNestedWhateverClosedSetIsLeftOfAno
     });
 }
 
-/// Some random cells and then, of what is left, some more.
+/// Coarsens random cells, `times` times in succession.
 void coarsen_at_random(History history, std::size_t times, Draw& draw) {
     for (std::size_t i = 0; i < times; ++i) {
         const CellMarks may_go = random_marks(history, draw);
@@ -132,7 +132,7 @@ TEST(CoarsenedWorlds, OfOneCellInEveryOrderAndEveryPatternRefinedOnceMore) {
     });
 }
 
-/// Refines the world twice or three times at random, and coarsens it thrice.
+/// Refines the world at random two or three times, then coarsens it three times.
 void hold_at_random(const Mesh& world, Draw& draw) {
     History history{world, {}};
     const int steps = draw.between(2, 3);

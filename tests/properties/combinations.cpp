@@ -9,8 +9,8 @@ namespace {
 
 using DescendingEdges = std::vector<Edge>;
 
-/// Of the classes of a cell, those that put its shared edges in one order: how many they are, and
-/// of how many orders.
+/// The classes of a cell that sort its shared edges in one order: their number, and the number of
+/// orders in them.
 struct OrderCount {
     std::size_t classes = 0;
     std::size_t orders = 0;
@@ -29,8 +29,8 @@ std::map<DescendingEdges, OrderCount> by_shared_edges(const std::array<std::size
     return result;
 }
 
-/// Is there one order that all of these agree with? Takes away, as long as there are any, edges
-/// that are the longest in all lists that have them.
+/// Returns whether a common order extends all lists. Repeatedly removes an edge that is first in
+/// every list that contains it.
 bool can_be_merged(std::vector<DescendingEdges> lists) {
     while (true) {
         std::erase_if(lists, [](const DescendingEdges& list) { return list.empty(); });
@@ -47,7 +47,7 @@ bool can_be_merged(std::vector<DescendingEdges> lists) {
     }
 }
 
-/// Adds the combinations in which the first cells put their edges as `lists` has them.
+/// Adds the combinations in which the first cells sort their edges as in `lists`.
 void add_combinations(CombinationCounts& counts,
                       const std::vector<std::map<DescendingEdges, OrderCount>>& cells,
                       std::vector<DescendingEdges>& lists, std::vector<OrderCount>& taken) {

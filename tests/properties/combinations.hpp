@@ -5,16 +5,16 @@
 
 #include "properties/small_complexes.hpp"
 
-/// Combinations of what the cells of a complex are like: of their orders, and of the classes of
-/// these (order_classes.hpp).
+/// Combinations of orders of the cells of a complex and of the classes of these orders
+/// (order_classes.hpp).
 namespace octetra::properties {
 
-/// Of an order of one cell; of a class of each cell; of an order of one cell and a class of each
-/// other.
+/// Counts of three kinds: an order of one cell; a class of each cell; an order of one cell with a
+/// class of each other cell.
 using CombinationCounts = std::array<std::size_t, 3>;
 
-/// How many there are by comparisons alone: two cells compare the edges of a common face the same
-/// way, and no edges are longer than one another in a circle. Not all need have a geometry.
+/// Counts the combinations that comparisons alone permit: two cells compare the edges of a common
+/// face in the same way, and comparisons have no cycle. Some may have no geometric realisation.
 [[nodiscard]] CombinationCounts count_combinations(const Complex& complex);
 
 }  // namespace octetra::properties

@@ -29,12 +29,12 @@ Counts counts_of(const Mesh& mesh) {
             faces.insert(face);
         }
     }
-    // each inner face counts twice, and each of the boundary once
+    // each inner face counts twice, each boundary face once
     return {mesh.points.size(), edges.size(), faces.size(),
             2 * faces.size() - 4 * mesh.cells.size(), mesh.cells.size()};
 }
 
-/// Every edge halved, every face in four, every cell in eight.
+/// Each edge is halved, each face is cut into four, each cell into eight.
 Counts after_uniform_level(const Counts& n) {
     return {n.vertices + n.edges, 2 * n.edges + 3 * n.faces + n.cells, 4 * n.faces + 8 * n.cells,
             4 * n.boundary_faces, 8 * n.cells};
@@ -42,7 +42,7 @@ Counts after_uniform_level(const Counts& n) {
 
 std::size_t opposite(std::size_t edge) { return 5 - edge; }  // 01-23, 02-13, 03-12
 
-/// How many children a cell has by its bisected edges.
+/// The number of children of a cell, given the bisected edges.
 std::size_t children_of(const Mesh& mesh, const CellVertices& cell, const Edges& bisected) {
     const auto edges = edges_of(cell);
     std::size_t count = 1;
@@ -60,9 +60,9 @@ std::string fault_of_one_level(const Case& c, const Outcome& outcome) {
     for (const CellIndex parent : outcome.maps.cell_to_parent) ++children[parent.value()];
     for (CellIndex i{0}; i < c.mesh.cells.end_index(); ++i) {
         const std::size_t expected = children_of(c.mesh, c.mesh.cells[i], bisected);
-        if (children[i.value()] != expected) return "a cell has not as many children as it should";
+        if (children[i.value()] != expected) return "a cell has a wrong number of children";
         if (is_marked(c, i) && !std::ranges::includes(bisected, marked_by(c, i))) {
-            return "a marked cell is not bisected as the scheme says";
+            return "a marked cell is not bisected as the scheme requires";
         }
     }
     if (outcome.mesh.points.size() != c.mesh.points.size() + bisected.size()) {

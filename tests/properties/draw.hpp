@@ -13,13 +13,13 @@ public:
     explicit Draw(std::uint64_t seed) : engine_(seed) {}
 
     [[nodiscard]] std::uint64_t any() { return engine_(); }
-    /// 0 to n-1
+    /// A number from 0 to n-1.
     [[nodiscard]] std::size_t below(std::size_t n) { return engine_() % n; }
-    /// low to high, both included
+    /// A number from low to high, both included.
     [[nodiscard]] int between(int low, int high) {
         return low + static_cast<int>(below(static_cast<std::size_t>(high - low) + 1));
     }
-    /// in [0, 1)
+    /// A number in [0, 1).
     [[nodiscard]] double unit() { return static_cast<double>(engine_() >> 11U) * 0x1p-53; }
     [[nodiscard]] bool chance(double probability) { return unit() < probability; }
 

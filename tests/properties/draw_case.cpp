@@ -42,7 +42,7 @@ std::vector<GlobalCell> some_numbers(const Mesh& mesh, Draw& draw) {
     return {cells.begin(), cells.end()};
 }
 
-/// About a vertex, and as large as a cell there or as half the mesh.
+/// A sphere about a vertex, as large as a cell at it or as half the mesh.
 Sphere some_sphere(const Mesh& mesh, Draw& draw) {
     const Corners corners = test::corners_of(mesh, any_cell(mesh, draw));
     const double radius = draw.chance(0.7) ? longest_side(corners) : extent(mesh) / 2;
@@ -56,7 +56,7 @@ Box some_box(const Mesh& mesh, Draw& draw) {
             {std::max(a.x, b.x), std::max(a.y, b.y), std::max(a.z, b.z)}};
 }
 
-/// At random more often than not: then the border is everywhere.
+/// Usually random, so that the border is everywhere.
 std::vector<int> some_partition(const Mesh& mesh, int ranks, Draw& draw) {
     const int parts = draw.chance(0.5) ? ranks : draw.between(1, ranks);
     const auto by = [&](PartitionMethod method) {
@@ -66,7 +66,7 @@ std::vector<int> some_partition(const Mesh& mesh, int ranks, Draw& draw) {
         case 0: return by(PartitionMethod::lepp);
         case 1: return by(PartitionMethod::dual);
         case 2: return by(PartitionMethod::block);
-        case 3: {  // one cell alone among those of another rank
+        case 3: {  // a single cell among cells of another rank
             std::vector<int> parts_of_cells(mesh.cells.size(), ranks - 1);
             parts_of_cells[any_cell(mesh, draw).value()] = 0;
             return parts_of_cells;
@@ -86,7 +86,7 @@ bool has_ties(const Corners& corners) {
     return lengths.size() < 6;
 }
 
-/// Flatter than a cell of lattices and clouds by orders of magnitude.
+/// Flatter by orders of magnitude than the cells of lattices and clouds.
 bool is_sliver(const Corners& corners) {
     return volume(corners) < 1e-4 * std::pow(longest_side(corners), 3);
 }
@@ -98,7 +98,7 @@ bool any_cell_is(const Mesh& mesh, bool (*is)(const Corners&)) {
     return false;
 }
 
-/// In how many pieces the cells are that are joined through as many vertices.
+/// The number of components, where cells that share this many vertices are connected.
 std::size_t pieces(const Mesh& mesh, std::size_t shared_vertices) {
     std::vector<std::size_t> piece(mesh.cells.size());
     for (std::size_t c = 0; c < piece.size(); ++c) piece[c] = c;

@@ -19,8 +19,8 @@ void move_points(Mesh& mesh, const std::function<Point(const Point&)>& to) {
     for (Point& p : mesh.points) p = to(p);
 }
 
-/// Some of the cells: a few here and there, or a share of all, which leaves holes and pieces that
-/// meet at vertices and edges.
+/// Keeps a few random cells or a fraction of all, which leaves holes, and components that meet at
+/// vertices and edges.
 Mesh some_cells(const Mesh& mesh, Draw& draw) {
     std::vector<char> keep(mesh.cells.size(), 0);
     if (draw.chance(0.5)) {
@@ -31,8 +31,8 @@ Mesh some_cells(const Mesh& mesh, Draw& draw) {
     return submesh(mesh, keep);
 }
 
-/// The second mesh put to the right of the first, so that they meet where the first has its
-/// rightmost vertex and the second its leftmost one.
+/// Places the second mesh to the right of the first, so that the rightmost vertex of the first is
+/// the leftmost one of the second.
 Mesh joined_at_a_vertex(const Mesh& left, const Mesh& right) {
     const auto last = std::ranges::max_element(left.points, std::less<>{});
     const auto first = std::ranges::min_element(right.points, std::less<>{});
@@ -62,7 +62,7 @@ double power_of_ten(Draw& draw, int low, int high) {
     return std::pow(10.0, low + (high - low) * draw.unit());
 }
 
-/// Longer by up to 10^6 along one axis.
+/// Stretches by up to 10^6 along one axis.
 void stretch(Mesh& mesh, Draw& draw) {
     const double factor = power_of_ten(draw, 0, 6);
     const std::size_t axis = draw.below(3);
@@ -72,8 +72,8 @@ void stretch(Mesh& mesh, Draw& draw) {
     });
 }
 
-/// So far along one axis that vertices stand few numbers apart, and the midpoints of a level or two
-/// have no place between them: cells may be flat then.
+/// Moves so far along one axis that the spacing of floating-point numbers is close to the size of
+/// cells: after a level or two midpoints cannot be represented, and cells may be flat.
 void move_to_the_last_bits(Mesh& mesh, Draw& draw) {
     const int digits = draw.between(0, 10);
     const double away = std::ldexp(1.0, 52 - digits);
@@ -84,14 +84,14 @@ void move_to_the_last_bits(Mesh& mesh, Draw& draw) {
     });
 }
 
-/// Away from the origin, so that midpoints round.
+/// Moves away from the origin, so that midpoints are rounded.
 void move_away(Mesh& mesh, Draw& draw) {
     const double x = power_of_ten(draw, 2, 12);
     const double y = draw.chance(0.5) ? power_of_ten(draw, 2, 12) : 0;
     move_points(mesh, [&](const Point& p) { return Point{p.x + x, p.y + y, p.z}; });
 }
 
-/// Tiny or huge, but that volumes are still numbers in range.
+/// Scales to tiny or huge sizes; volumes stay in the range of double.
 void magnify(Mesh& mesh, Draw& draw) {
     const double factor = power_of_ten(draw, -90, 90);
     move_points(mesh, [&](const Point& p) {
@@ -115,7 +115,7 @@ bool is_valid(const Mesh& mesh) {
     return verify::verify_mesh(mesh).valid();
 }
 
-/// Drops what is listed a second time, as its markers might conflict.
+/// Removes duplicates, because their markers could conflict.
 template <class I, std::size_t N>
 void list_once(IndexVector<I, std::array<VertexIndex, N>>& list, IndexVector<I, Marker>& markers) {
     std::set<std::array<VertexIndex, N>> listed;
@@ -149,7 +149,7 @@ Mesh with_marks(Mesh mesh, Draw& draw) {
 
 using Change = void (*)(Mesh&, Draw&);
 
-/// Changes the mesh, if it stays valid.
+/// Applies the change with this probability, and keeps it if the mesh stays valid.
 void attempt(Mesh& mesh, Draw& draw, double probability, Change change) {
     if (!draw.chance(probability)) return;
     Mesh changed = mesh;

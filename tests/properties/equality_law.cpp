@@ -15,7 +15,7 @@
 namespace octetra::properties {
 namespace {
 
-/// a + b, and so half of it, cannot be written down.
+/// Returns whether a + b, and therefore its half, is not representable.
 bool is_rounded(double a, double b) {
     const double sum = a + b;
     const double of_b = sum - a;
@@ -26,7 +26,7 @@ bool is_rounded(const Point& a, const Point& b) {
     return is_rounded(a.x, b.x) || is_rounded(a.y, b.y) || is_rounded(a.z, b.z);
 }
 
-/// Of each vertex: is it elsewhere than it would be if nothing were rounded?
+/// Returns, for each vertex, whether rounding moved it.
 std::vector<char> moved_by_rounding(const Mesh& fine, const RefinementMaps& maps) {
     std::vector<char> moved(fine.points.size(), 0);
     for (std::size_t k = 0; k < maps.midpoint_to_edge.size(); ++k) {
@@ -37,9 +37,9 @@ std::vector<char> moved_by_rounding(const Mesh& fine, const RefinementMaps& maps
     return moved;
 }
 
-/// Where cells that have no face in common are as near each other as numbers are apart, a rounded
-/// midpoint may come to lie on a cell, or in one. No engine looks for that; the verifier finds it.
-/// A cell that has the whole edge must have been cut there.
+/// Where cells without a common face are as close as the spacing of floating-point numbers, a
+/// rounded midpoint may lie on or in another cell. The engines do not check this; the verifier
+/// reports it. A cell that has the whole edge must have been cut there.
 bool may_meet_by_rounding(const Mesh& fine, const RefinementMaps& maps,
                           const std::vector<verify::Violation>& violations) {
     const std::vector<char> moved = moved_by_rounding(fine, maps);

@@ -7,9 +7,9 @@
 #include "properties/laws.hpp"
 #include "properties/one_level.hpp"
 
-/// Stand in the places of the laws where it is tried how cases become smaller: each has a fault of
-/// its own where more than three cells are marked and a rank other than the first one has a cell,
-/// so on two ranks at least.
+/// Replacements of the laws for tests of shrinking. Each has its own fault, which occurs if more
+/// than three cells are marked and a rank other than the first has a cell, hence on two ranks or
+/// more.
 namespace octetra::properties {
 namespace {
 
@@ -28,22 +28,22 @@ std::string fault_of_equality(const Case& c) {
     return {};
 }
 
-/// Waits for ever: nobody else takes part.
+/// Blocks for ever: no other rank takes part.
 std::string fault_of_numbering(const Case& c) {
     if (is_faulty(c)) (void)test::world().sum(1);
     return {};
 }
 
-/// Is broken.
+/// Reports a broken law.
 std::string fault_of_closure(const Case& c) { return is_faulty(c) ? "as it should be" : ""; }
 
-/// Ends the process as if all were well.
+/// Ends the process with success.
 std::string fault_of_files(const Case& c) {
     if (is_faulty(c)) std::_Exit(0);
     return {};
 }
 
-/// Takes its time by the clock, as on a machine that has other work to do, and holds.
+/// Holds, but takes wall-clock time, as on a loaded machine.
 std::string fault_of_geometry(const Case& /*c*/) {
     std::this_thread::sleep_for(std::chrono::seconds(3));
     return {};

@@ -13,7 +13,7 @@ namespace {
 
 using Path = std::filesystem::path;
 
-/// All bytes of a mesh's files.
+/// The contents of all files of a mesh.
 std::string bytes_of(const Path& mesh) {
     std::string bytes;
     for (const char* extension : {".mesh", ".node", ".ele", ".face", ".edge"}) {
@@ -28,8 +28,9 @@ void drop_if_all_zero(auto& markers) {
     if (std::ranges::all_of(markers, [](Marker marker) { return marker == 0; })) markers.clear();
 }
 
-/// Medit has no attributes, and takes markers that are all 0 for none. Midpoints have none where
-/// vertices have none; and a tagged edge without one leaves its midpoint that of a facet.
+/// Adapts the mesh to Medit, which has no attributes and reads markers that are all 0 as absent.
+/// Midpoints have no markers if vertices have none, and an unmarked tagged edge leaves its midpoint
+/// the marker of a facet.
 void fit_medit(Mesh& mesh) {
     mesh.attributes_per_point = 0;
     mesh.point_attributes.clear();
@@ -38,7 +39,7 @@ void fit_medit(Mesh& mesh) {
     drop_if_all_zero(mesh.edge_markers);
 }
 
-/// Cells have other numbers in the file between, so none can be marked by number.
+/// Replaces marks by number, because the intermediate file numbers cells differently.
 void mark_by_place(Selection& selection) {
     if (selection.cells.empty()) return;
     selection.cells.clear();

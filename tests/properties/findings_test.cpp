@@ -7,8 +7,7 @@
 #include "properties/judge.hpp"
 #include "properties/team.hpp"
 
-/// What once broke a law, and must not again: corpus/regression/, or the one file that
-/// OCTETRA_FINDING names.
+/// Regression tests of findings: corpus/regression/, or the one file that OCTETRA_FINDING names.
 namespace octetra::properties {
 namespace {
 

@@ -20,7 +20,7 @@ namespace {
 
 using Map = std::function<Point(const Point&)>;
 
-/// The selection as a list of the cells that it marks at first.
+/// The selection as a list of the cells that it marks at the first level.
 Selection by_number(const Case& c) {
     Selection selection;
     for (CellIndex i{0}; i < c.mesh.cells.end_index(); ++i) {
@@ -32,7 +32,7 @@ Selection by_number(const Case& c) {
     return selection;
 }
 
-/// By a scaling by `factor` and a translation: `map` is both.
+/// Applies `map`, a scaling by `factor` and a translation.
 Case mapped(const Case& c, const Map& map, double factor) {
     Case r = c;
     for (Point& p : r.mesh.points) p = map(p);
@@ -44,7 +44,8 @@ Case mapped(const Case& c, const Map& map, double factor) {
 
 std::string fault_of_map(const Case& c, const Map& map, double factor) {
     Case plain = c;
-    if (plain.selection.random) plain.selection = by_number(plain);  // drawn by coordinates
+    if (plain.selection.random)
+        plain.selection = by_number(plain);  // random criteria use coordinates
     const Outcome one = refined_by_all(plain);
     const Outcome other = refined_by_all(mapped(plain, map, factor));
     if (!one.error.empty() || !other.error.empty()) return one.error + other.error;
@@ -64,11 +65,12 @@ std::string fault_of_scaling(const Case& c, Draw& draw) {
         factor);
 }
 
-/// By which powers of two all coordinates of a mesh can be multiplied exactly, from least to most.
+/// The least and the greatest power of two by which all coordinates of a mesh can be multiplied
+/// exactly.
 std::pair<int, int> exact_scales(const Mesh& mesh) {
     constexpr int digits = std::numeric_limits<double>::digits;
     constexpr int lowest = std::numeric_limits<double>::min_exponent - digits;  // of a last bit
-    constexpr int highest = std::numeric_limits<double>::max_exponent - 2;      // of a first one
+    constexpr int highest = std::numeric_limits<double>::max_exponent - 2;      // of a first bit
     std::pair<int, int> scales{-2000, 2000};
     for (const Point& p : mesh.points) {
         for (const double x : {p.x, p.y, p.z}) {
@@ -84,8 +86,8 @@ std::pair<int, int> exact_scales(const Mesh& mesh) {
     return scales;
 }
 
-/// To where squared lengths overflow or lose digits; marked by number, as radii and volumes may
-/// have no place there.
+/// Scales until squared lengths overflow or lose digits. Cells are marked by number, because radii
+/// and volumes may not be representable.
 std::string fault_of_extreme_scaling(const Case& c, Draw& draw) {
     Case plain = c;
     plain.selection = by_number(c);
@@ -117,7 +119,7 @@ std::string fault_of_translation(const Case& c, Draw& draw) {
         1);
 }
 
-/// Ties go by coordinates, which a mirror exchanges.
+/// Ties are broken by coordinates, which a mirror exchanges.
 bool meets_ties(const Case& c) {
     for (int level = 0; level < c.levels; ++level) {
         if (test::has_ties(reference::refine(c.mesh, c.selection, c.scheme, level).mesh))
@@ -126,7 +128,7 @@ bool meets_ties(const Case& c) {
     return false;
 }
 
-/// Inside out, so that its cells are positively oriented again.
+/// Mirrors, and exchanges corners so that cells stay positively oriented.
 Mesh mirrored(Mesh mesh, std::size_t axis) {
     for (Point& p : mesh.points) {
         double& x = axis == 0 ? p.x : axis == 1 ? p.y : p.z;

@@ -11,10 +11,10 @@ namespace {
 
 // ---- orders up to the names of corners ----------------------------------------------------------
 
-/// Where in the order the edges 01 02 03 12 13 23 stand.
+/// The position in the order of each of the edges 01 02 03 12 13 23.
 using PlaceOfEdge = std::array<std::size_t, 6>;
 
-/// All orders that this is true of.
+/// All orders that satisfy the predicate.
 template <class Predicate>
 std::vector<Order> orders(Predicate&& is_wanted) {
     std::vector<Order> result;
@@ -31,13 +31,12 @@ std::vector<Order> all_orders() {
     return orders([](const PlaceOfEdge&) { return true; });
 }
 
-/// Those in which the edges of the face 012 descend.
+/// The orders in which the edges of the face 012 descend.
 std::vector<Order> orders_at_a_face() {
     return orders([](const PlaceOfEdge& at) { return at[0] < at[1] && at[1] < at[3]; });
 }
 
-/// Those in which 02 is longer than 03: exchanging the corners 2 and 3 makes it the other way
-/// round.
+/// The orders in which 02 is longer than 03; exchanging the corners 2 and 3 yields the others.
 std::vector<Order> orders_at_an_edge() {
     return orders([](const PlaceOfEdge& at) { return at[1] < at[2]; });
 }
@@ -46,24 +45,23 @@ bool is_02_longest_of_four(const PlaceOfEdge& at) {
     return at[1] < at[2] && at[1] < at[3] && at[1] < at[4];
 }
 
-/// Those in which 02 is the longest of the edges 02, 03, 12 and 13: exchanging the corners 0 and 1,
-/// or 2 and 3, makes it any of the four.
+/// The orders in which 02 is the longest of the edges 02, 03, 12 and 13; exchanging the corners 0
+/// and 1, or 2 and 3, yields the others.
 std::vector<Order> orders_with_a_marked_edge() { return orders(is_02_longest_of_four); }
 
-/// Those in which the edges of the vertex 0 descend.
+/// The orders in which the edges of the vertex 0 descend.
 std::vector<Order> orders_at_a_vertex() {
     return orders([](const PlaceOfEdge& at) { return at[0] < at[1] && at[1] < at[2]; });
 }
 
-/// Those in which 01 is the longest of all, and 02 of those that have an end in common with it.
+/// The orders in which 01 is the longest edge, and 02 the longest of the edges that meet it.
 std::vector<Order> orders_apart() {
     return orders([](const PlaceOfEdge& at) { return at[0] == 0 && is_02_longest_of_four(at); });
 }
 
 // ---- numbers ------------------------------------------------------------------------------------
 
-/// In how many ways some cells can have some of so many orders, if it does not matter which has
-/// which.
+/// The number of multisets of `cells` orders.
 std::size_t count_ways(std::size_t orders, std::size_t cells) {
     std::size_t ways = 1;
     for (std::size_t i = 0; i < cells; ++i) ways = ways * (orders + i) / (i + 1);
@@ -74,9 +72,8 @@ std::size_t count_ways(const AlikeCells& cells) {
     return count_ways(cells.orders.size(), cells.count);
 }
 
-/// The way that has this number. Those that do with the first n orders come before all others: so
-/// the last order that is had is found first, and then likewise what stands before it, which may be
-/// the same order again.
+/// Appends the multiset of orders with this number. Multisets of the first n orders precede all
+/// others: hence the last order is found first, and then the one before it, which may be equal.
 void add_orders(std::vector<Order>& result, const AlikeCells& cells, std::size_t number) {
     std::size_t last = cells.orders.size();
     for (std::size_t left = cells.count; left > 0; --left) {
@@ -101,8 +98,9 @@ std::vector<Order> orders_of_world(const WorldKind& kind, std::size_t number) {
 
 const std::array<std::size_t, 4> first{0, 1, 2, 3};
 
-/// A marked edge is at the vertex 0 or at 1, and exchanging these two moves those of all cells. So
-/// of two cells both have theirs at 0, or the last one at 1; and of three cells likewise.
+/// A marked edge is at the vertex 0 or at 1, and exchanging these two vertices exchanges this for
+/// all cells. So of two cells both have theirs at 0, or the last one has it at 1; three cells
+/// likewise.
 std::vector<WorldKind> kinds_at_an_edge() {
     const AlikeCells one{orders_with_a_marked_edge(), 1};
     const AlikeCells two{orders_with_a_marked_edge(), 2};

@@ -14,14 +14,14 @@
 #include "properties/small_worlds.hpp"
 #include "properties/team.hpp"
 
-/// That worlds up to exchange are all there are, and each once: those that differ from them by a
-/// symmetry of their complex are, taken together, as many as there are ways to order the edges.
+/// Tests that the worlds up to exchange are complete and distinct: the sizes of their orbits under
+/// the symmetries of the complex add up to the number of ways to order the edges.
 namespace octetra::properties {
 namespace {
 
 using Places = std::array<std::size_t, 4>;
 
-/// By number, what becomes of the orders of a cell whose corners come to other places.
+/// For each order of a cell by number, the order after its corners are permuted.
 using NewOrders = std::vector<std::uint64_t>;
 
 NewOrders new_orders(const Places& places) {
@@ -39,8 +39,8 @@ NewOrders new_orders(const Places& places) {
     return result;
 }
 
-/// What a symmetry does to the orders of each cell, and where the number of the new one stands
-/// among those of all cells, which are written as one.
+/// The effect of a symmetry on the order of each cell, and the position of the new order's number
+/// among those of all cells, which are encoded as one number.
 struct Symmetry {
     std::array<const NewOrders*, 3> orders{};
     std::array<unsigned, 3> shift{};
@@ -65,14 +65,14 @@ Symmetry symmetry(const Complex& complex, const std::vector<std::size_t>& number
     return result;
 }
 
-/// All that a world becomes by symmetries.
+/// The orbit of a world under symmetries.
 struct Orbit {
     std::uint64_t least = std::numeric_limits<std::uint64_t>::max();
     std::size_t size = 0;
 };
 
-/// `orders` are those of its cells, by number. The orbit is as many times smaller than the group as
-/// there are symmetries that leave the world as it is.
+/// `orders` are those of its cells, by number. The size of the orbit is that of the group divided
+/// by that of the stabiliser.
 Orbit orbit_of(const std::vector<std::size_t>& orders, const std::vector<Symmetry>& all) {
     Orbit orbit;
     std::size_t times = 0;
@@ -87,11 +87,11 @@ Orbit orbit_of(const std::vector<std::size_t>& orders, const std::vector<Symmetr
         }
         if (image == orbit.least) ++times;
     }
-    orbit.size = all.size() / std::max<std::size_t>(times, 1);  // the identity is one of them
+    orbit.size = all.size() / std::max<std::size_t>(times, 1);  // the identity counts, too
     return orbit;
 }
 
-/// Read off the lengths that the world has.
+/// Computed from the lengths in the world.
 std::vector<std::size_t> orders_in(Mesh world, const Complex& complex) {
     world.cells.clear();
     std::vector<std::size_t> numbers;
@@ -103,7 +103,7 @@ std::vector<std::size_t> orders_in(Mesh world, const Complex& complex) {
     return numbers;
 }
 
-/// Kinds of one complex, and in how many ways its edges can be ordered.
+/// The kinds of one complex, and the number of ways to order its edges.
 struct Whole {
     std::vector<WorldKind> kinds;
     std::size_t ways = 0;
@@ -135,7 +135,7 @@ WorldKind without_last_cell(WorldKind kind) {
     return kind;
 }
 
-/// Without a common face there are 720^2 ways, and with one 720 * 120.
+/// 720^2 ways without a common face, 720 * 120 with one.
 TEST(GluedCells, OfTwoCellsUpToExchangeAreEachOnce) {
     lead([] {
         const auto& kinds = kinds_up_to_exchange();
@@ -146,8 +146,8 @@ TEST(GluedCells, OfTwoCellsUpToExchangeAreEachOnce) {
     });
 }
 
-/// In ./dev test one complex of six, two cells at a face and one apart. Where
-/// OCTETRA_COUNT_ALL_WORLDS is set, as in part 206 of ./dev campaign worlds, all.
+/// ./dev test counts one complex of six: two cells at a face and one apart. If
+/// OCTETRA_COUNT_ALL_WORLDS is set, as in part 206 of ./dev campaign worlds, all are counted.
 TEST(GluedCells, OfThreeCellsUpToExchangeAreEachOnce) {
     lead([] {
         constexpr std::size_t ways = 720 * 720 * 720;

@@ -15,11 +15,12 @@ using Face = std::array<std::size_t, 3>;
 
 constexpr double unit_length = 0x1p20;
 
-/// Cells being glued together. Points are not rounded as long as others are to be found from them.
+/// Cells being glued together. A point is rounded only when no other is to be computed from it.
 struct World {
     std::vector<Point> points;
     std::vector<Cell> cells;
-    /// How long an edge is, 3 to 33: the order is that of lengths. For either order of its ends.
+    /// The length class of each edge, 3 to 33, for either order of its ends: lengths increase with
+    /// it.
     std::array<std::array<int, 12>, 12> steps{};
 };
 
@@ -29,15 +30,15 @@ void set_steps(World& world, std::size_t a, std::size_t b, int steps) {
     world.steps[a][b] = world.steps[b][a] = steps;
 }
 
-/// Within a tenth of the unit, and so far apart that rounding the ends to whole numbers leaves the
-/// order.
+/// Lengths differ from the unit by at most an eighth, and from one another by more than rounding
+/// the ends to whole numbers changes.
 double length(const World& world, std::size_t a, std::size_t b) {
     return unit_length * (1 + world.steps[a][b] / 280.0);
 }
 
 constexpr int top = 32;
 
-/// At 28, 24, ... 8: between them is room for three of another cell.
+/// Assigns 28, 24, ... 8, which leaves room for three edges of another cell between them.
 void order_edges_of_first_cell(World& world, const Order& order) {
     int steps = top;
     for (const std::size_t e : order) {
@@ -45,8 +46,8 @@ void order_edges_of_first_cell(World& world, const Order& order) {
     }
 }
 
-/// Gives lengths to the edges of a cell that have none, each a step below the one before, from
-/// `highest` down. (These are not compared with any but the edges of their own cell.)
+/// Assigns lengths to the edges of a cell that have none, each a step below the previous one, from
+/// `highest` down. (These are compared only with the edges of their own cell.)
 void order_edges(World& world, const Cell& cell, const Order& order, int highest) {
     int steps = highest;
     for (const std::size_t e : order) {
@@ -57,13 +58,13 @@ void order_edges(World& world, const Cell& cell, const Order& order, int highest
     }
 }
 
-/// The same for a cell at the edge 01: what is longer than this edge stands above it.
+/// The same for a cell at the edge 01, whose longer edges are placed above this edge.
 void order_edges_at_edge(World& world, const Cell& cell, const Order& order) {
     const auto place = static_cast<int>(std::ranges::find(order, 0U) - order.begin());
     order_edges(world, cell, order, world.steps[0][1] + place + 1);
 }
 
-/// The corners named so that the edges descend: first to second, first to third, second to third.
+/// Names the corners so that the edges first-second, first-third, second-third descend.
 Face with_descending_edges(const World& world, Face face) {
     const auto& [a, b, c] = face;
     std::ranges::sort(face);
@@ -85,8 +86,8 @@ Point cross(const Point& u, const Point& v) {
 }
 Point unit(const Point& v) { return plus({}, 1 / std::sqrt(dot(v, v)), v); }
 
-/// The point of this number, at its distances from the vertices a, in the origin, and b, on the x
-/// axis; in the half plane that is at this angle to the one with z = 0 and y > 0.
+/// The point with this number, from its distances to the vertices a, at the origin, and b, on the x
+/// axis; it lies in the half plane at this angle to the one with z = 0 and y > 0.
 Point beside(const World& world, std::size_t a, std::size_t b, std::size_t number, double angle) {
     const double ab = length(world, a, b);
     const double from_a = length(world, a, number);
@@ -96,8 +97,8 @@ Point beside(const World& world, std::size_t a, std::size_t b, std::size_t numbe
     return {x, from_axis * std::cos(angle), from_axis * std::sin(angle)};
 }
 
-/// The point of this number, at its distances from the corners of a face, which are given; on the
-/// side that the corners go round anticlockwise, seen from there.
+/// The point with this number, from its distances to the given corners of a face, on the side from
+/// which they appear anticlockwise.
 Point over(const World& world, const Face& face, const std::array<Point, 3>& corners,
            std::size_t number) {
     const Point& origin = corners[0];
@@ -125,8 +126,8 @@ Point over(const World& world, const Face& face, std::size_t number) {
     return over(world, face, {points[face[0]], points[face[1]], points[face[2]]}, number);
 }
 
-/// With its first corner in the origin, the second on the x axis, and the third beside it. No point
-/// is below z = 0, or, but for the first, at x = 0 or before.
+/// Places the first corner at the origin, the second on the x axis, and the third at z = 0. No
+/// point has z < 0; only the first has x <= 0.
 std::array<Point, 4> by_itself(const World& world, const Cell& cell) {
     const auto& [a, b, c, d] = cell;
     const Point second{length(world, a, b), 0, 0};
@@ -141,7 +142,7 @@ void add_first(World& world, const Cell& cell, const Order& order) {
     for (const Point& p : by_itself(world, cell)) world.points.push_back(p);
 }
 
-/// Above all others, or below.
+/// Placed above the other cells, or below them.
 void add_apart(World& world, const Cell& cell, const Order& order) {
     order_edges(world, cell, order, top);
     const double height = (world.cells.size() == 1 ? 2.5 : -2.5) * unit_length;
@@ -150,7 +151,7 @@ void add_apart(World& world, const Cell& cell, const Order& order) {
     }
 }
 
-/// The second cell has x < 0 where the first has x > 0, and the third z < 0.
+/// The second cell has x < 0 where the first has x > 0; the third has z < 0.
 void add_at_vertex(World& world, const Cell& cell, const Order& order) {
     order_edges(world, cell, order, top);
     const bool is_second = world.cells.size() == 1;
@@ -161,8 +162,8 @@ void add_at_vertex(World& world, const Cell& cell, const Order& order) {
     }
 }
 
-/// A third of a turn from the cell before. (Where two faces meet at an edge, there are some 70
-/// degrees between them.)
+/// Rotated by a third of a turn from the previous cell. (The angle between two faces at an edge is
+/// about 70 degrees.)
 void add_at_edge(World& world, const Cell& cell, const Order& order) {
     order_edges_at_edge(world, cell, order);
     const double angle = static_cast<double>(world.cells.size()) * 2 * std::numbers::pi / 3;

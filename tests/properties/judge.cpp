@@ -18,8 +18,8 @@ unsigned cpu_seconds() {
     return seconds != nullptr ? static_cast<unsigned>(std::stoul(seconds)) : 120;
 }
 
-/// Either signal ends the program. 0: no more of that. Processor time, since on a machine that has
-/// other work to do a case may take many times as long by the clock.
+/// Starts both timers; either signal ends the program, and 0 stops them. Processor time, because on
+/// a loaded machine a case may take many times as long by the clock.
 void end_after(unsigned seconds) {
     const itimerval timer{.it_interval = {}, .it_value = {static_cast<time_t>(seconds), 0}};
     ::setitimer(ITIMER_PROF, &timer, nullptr);
@@ -30,7 +30,7 @@ void end_after(unsigned seconds) {
 
 std::string judge(const Law& law, const Case& c) {
     const std::string name = running_name(law.name);
-    write_finding({law.name, "the program died, or waited for ever", c, test::world().size()},
+    write_finding({law.name, "the program crashed or blocked", c, test::world().size()},
                   found_folder(), name);
     end_after(cpu_seconds());
     std::string fault;

@@ -5,90 +5,90 @@
 
 #include "properties/case.hpp"
 
-/// What must hold of every refinement, and of every history. Each law looks at a case and says what
-/// of it does not hold, or nothing. They are judged within lead(), on the first rank.
+/// Laws of every refinement and every history. Each judges a case and returns a description of the
+/// fault, or an empty string. Laws are judged within lead(), on the first rank.
 namespace octetra::properties {
 
-/// Both engines: the same bits, or the same words of refusal. What they make, the exact verifier
-/// finds valid and the one that was asked for.
+/// Both engines produce the same bits or the same refusal. The exact verifier finds their mesh
+/// valid, and the requested one.
 [[nodiscard]] std::string fault_of_equality(const Case& c);
 
-/// With vertices, cells and corners numbered otherwise: the same mesh; and where corners keep their
-/// places, the same children in the same order.
+/// Renumbering vertices, cells and corners yields the same mesh, and, if corners keep their
+/// positions, the same children in the same order.
 [[nodiscard]] std::string fault_of_numbering(const Case& c);
 
-/// Scaled by a power of two or moved by whole numbers: the same, scaled or moved, number by number.
-/// Mirrored, where no two edges of a cell tie: the same, mirrored. For cases drawn `exact`.
+/// A case scaled by a power of two or translated by whole numbers yields the mesh scaled or
+/// translated, number by number; a mirrored case, if no two edges of a cell tie, the mirrored mesh.
+/// For `exact` cases.
 [[nodiscard]] std::string fault_of_geometry(const Case& c);
 
-/// The edges that are bisected are those that the marked cells mark and those that follow from
-/// them: none too few, none that could be left out; closing them again adds nothing; more marked
-/// cells never bisect fewer edges.
+/// The bisected edges are exactly those that the marked cells mark and those that follow by
+/// closure; closing them again adds nothing; more marked cells never bisect fewer edges.
 [[nodiscard]] std::string fault_of_closure(const Case& c);
 
-/// Level by level, through files of either format that all ranks write and the first one reads: the
-/// file that the reference's one run yields, byte by byte.
+/// Refining level by level, through files of either format that all ranks write and the first one
+/// reads, yields the file of one run of the reference, byte by byte.
 [[nodiscard]] std::string fault_of_files(const Case& c);
 
-/// Counts of cells and vertices follow from the bisected edges, the Euler characteristic stays, and
-/// every marked cell is bisected as its scheme says.
+/// The numbers of cells and vertices follow from the bisected edges, the Euler characteristic is
+/// preserved, and every marked cell is bisected as its scheme requires.
 [[nodiscard]] std::string fault_of_counts(const Case& c);
 
-// Of histories, which have steps:
+// Laws of histories, which have steps:
 
-/// After each step the ranks' mesh is the reference's, bit by bit, and so are the numbers that each
-/// rank tells; or both refuse the step in the same words.
+/// After each step the mesh of the ranks equals that of the reference, bit by bit, and so do the
+/// numbers that each rank reports; or both refuse the step with the same message.
 [[nodiscard]] std::string fault_of_steps(const Case& c);
 
-/// After each step, what ranks say of who else has their vertices, edges and faces, who owns them
-/// and which numbers they have is what all cells show.
+/// After each step the sharers, owners and numbers of vertices, edges and faces that ranks report
+/// agree with those computed from all cells.
 [[nodiscard]] std::string fault_of_sharers(const Case& c);
 
-/// Values on vertices and cells go along with every step: a midpoint has the mean of its ends, and
-/// a cell the share of its root's value that it has of its volume; sums stay. For cases drawn
-/// `exact`.
+/// Values on vertices and cells are transferred by every step: a midpoint has the mean of its ends,
+/// and a cell a fraction of its root's value in proportion to its volume; sums are preserved. For
+/// `exact` cases.
 [[nodiscard]] std::string fault_of_values(const Case& c);
 
-/// With cells moved before every step to ranks drawn at random, nothing is different, nor is the
-/// checkpoint in the end, byte by byte.
+/// Migrating cells to random ranks before every step changes neither the meshes nor the final
+/// checkpoint, byte by byte.
 [[nodiscard]] std::string fault_of_moving(const Case& c);
 
-/// With vertices, cells and corners numbered otherwise, each step makes the same mesh.
+/// Renumbering vertices, cells and corners yields the same mesh at each step.
 [[nodiscard]] std::string fault_of_numbering_in_steps(const Case& c);
 
-/// Coarsening all cells until nothing changes gives the input, each time by a step at least.
+/// Repeatedly coarsening all cells yields the input, and each call takes back at least one step.
 [[nodiscard]] std::string fault_of_the_way_back(const Case& c);
 
-/// Cells that are not marked are still there after a coarsening: as meshes say, and Adaptations.
+/// Cells that are not marked survive a coarsening, according to meshes and to Adaptations.
 [[nodiscard]] std::string fault_of_survivors(const Case& c);
 
-/// No coarsening takes a cell back by more than one generation, as meshes say, and Adaptations; and
-/// the coarser mesh is refined by the one before, and is a valid refinement of the input. For cases
-/// drawn `exact`.
+/// No coarsening takes a cell back by more than one generation, according to meshes and to
+/// Adaptations; the previous mesh refines the coarser one, which is a valid refinement of the
+/// input. For `exact` cases.
 [[nodiscard]] std::string fault_of_generations(const Case& c);
 
-/// The volume stays as it is, exactly. For cases drawn `exact`.
+/// The volume is preserved exactly. For `exact` cases.
 [[nodiscard]] std::string fault_of_volumes(const Case& c);
 
-/// Saving and loading on another number of ranks changes nothing: neither that mesh, nor what is
-/// made of it later, nor what is saved in the end, byte by byte.
+/// Saving, and loading on another number of ranks, changes neither the mesh nor later meshes nor
+/// the final checkpoint, byte by byte.
 [[nodiscard]] std::string fault_of_checkpoints(const Case& c);
 
-/// What a refinement made, coarsened: the mesh before, bit by bit; the same cells refined again:
-/// the mesh after, bit by bit.
+/// Coarsening what a refinement made yields the previous mesh, bit by bit; refining the same cells
+/// again yields the refined mesh, bit by bit.
 [[nodiscard]] std::string fault_of_refining_again(const Case& c);
 
 struct Law {
     std::string name;
     std::string (*fault)(const Case&);
-    bool exact = false;  ///< wants cases that are drawn so
+    bool exact = false;  ///< whether cases must be drawn `exact`
 };
 
-/// Of one refinement.
+/// The laws of single refinements.
 [[nodiscard]] const std::vector<Law>& laws();
 [[nodiscard]] const std::vector<Law>& history_laws();
 
-/// Of either. Throws std::out_of_range.
+/// The law of either list with this name. Throws std::out_of_range.
 [[nodiscard]] const Law& law_named(const std::string& name);
 
 }  // namespace octetra::properties

@@ -13,15 +13,15 @@
 #include "properties/simpler.hpp"
 #include "properties/team.hpp"
 
-/// Each law against random cases. RC_PARAMS="seed=..." repeats a run on as many ranks,
-/// RC_PARAMS="max_success=..." asks for more. What breaks a law is made as small as can be and
-/// written to disk with the line that replays it.
+/// Each law is tested on random cases. RC_PARAMS="seed=..." repeats a run on as many ranks,
+/// RC_PARAMS="max_success=..." sets the number of cases. A case that breaks a law is shrunk and
+/// written to disk, and the command that replays it is printed.
 namespace octetra::properties {
 
-/// For rapidcheck, which prints what it finds.
+/// Used by rapidcheck to print a case.
 static void showValue(const Case& c, std::ostream& out) { out << c.kind << ": " << size_of(c); }
 
-/// For GoogleTest.
+/// Used by GoogleTest.
 static void PrintTo(const Law& law, std::ostream* out) { *out << law.name; }
 
 namespace {
@@ -33,13 +33,13 @@ rc::Shrinkable<Case> shrinkable(Case c) {
     });
 }
 
-/// What cases a law is about.
+/// The cases of a list of laws.
 struct Cases {
     Case (*draw)(Draw& draw, int size, int ranks, bool exact);
     std::vector<std::string> (*tags)(const Case& c, int ranks);
 };
 
-/// Other ones for each law.
+/// Each law gets different cases.
 rc::Gen<Case> drawn(const Cases& cases, const Law& law) {
     return {[&](const rc::Random& random, int size) {
         Draw draw(rc::Random(random).next() ^ std::hash<std::string>{}(law.name));
@@ -47,7 +47,7 @@ rc::Gen<Case> drawn(const Cases& cases, const Law& law) {
     }};
 }
 
-/// How many of the cases had what.
+/// Counts the cases that have each tag.
 class Census {
 public:
     void count(const std::vector<std::string>& tags) {
@@ -69,7 +69,7 @@ private:
 
 void check(const Law& law, const Cases& cases) {
     Census census;
-    Finding smallest;  // rapidcheck goes on from each case that fails, so the last one it is
+    Finding smallest;  // rapidcheck continues from each case that fails, so this is the last one
     const bool holds = rc::check(law.name, [&] {
         const Case c = *drawn(cases, law);
         if (smallest.fault.empty()) census.count(cases.tags(c, test::world().size()));

@@ -11,7 +11,7 @@
 namespace octetra::properties {
 namespace {
 
-/// Where each of `count` things goes.
+/// The new position of each of `count` items.
 std::vector<std::size_t> some_order(std::size_t count, Draw& draw) {
     std::vector<std::size_t> order(count);
     std::iota(order.begin(), order.end(), 0U);
@@ -19,7 +19,7 @@ std::vector<std::size_t> some_order(std::size_t count, Draw& draw) {
     return order;
 }
 
-/// new_list[order[i]] = list[i], `each` numbers that belong together at a time.
+/// new_list[order[i]] = list[i], for groups of `each` entries.
 template <class List>
 List moved(const List& list, const std::vector<std::size_t>& order, std::size_t each = 1) {
     List result = list;
@@ -30,7 +30,7 @@ List moved(const List& list, const std::vector<std::size_t>& order, std::size_t 
     return result;
 }
 
-/// One of the twelve orders of corners that do not turn a cell over.
+/// Applies one of the twelve permutations of corners that preserve the orientation.
 void turn_corners(CellVertices& cell, Draw& draw) {
     std::swap(cell[0], cell[1]);
     std::swap(cell[2], cell[3]);
@@ -82,7 +82,7 @@ Renumbered renumbered(const Case& c, bool corners_too, Draw& draw) {
     return {std::move(r), cell_order};
 }
 
-/// For each cell of the input its children, by their corners' places, in order.
+/// For each cell of the input its children in order, by the coordinates of their corners.
 std::vector<std::vector<Corners>> children(const Outcome& outcome, std::size_t parents) {
     std::vector<std::vector<Corners>> result(parents);
     for (CellIndex c{0}; c < outcome.mesh.cells.end_index(); ++c) {

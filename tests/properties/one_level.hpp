@@ -6,7 +6,7 @@
 
 #include "properties/case.hpp"
 
-/// One level of refinement, worked out again as plainly as can be, to hold the engines against.
+/// One level of refinement, computed in the simplest way, for comparison with the engines.
 namespace octetra::properties {
 
 /// Edges by their ends, lower first.
@@ -24,13 +24,13 @@ using Edges = std::set<EdgeVertices>;
 [[nodiscard]] std::array<EdgeVertices, 4> longest_of_faces(const Mesh& mesh,
                                                            const CellVertices& cell);
 
-/// Is the cell marked at the first level?
+/// Returns whether the cell is marked at the first level.
 [[nodiscard]] bool is_marked(const Case& c, CellIndex cell);
 
 /// The edges that a marked cell marks.
 [[nodiscard]] Edges marked_by(const Case& c, CellIndex cell);
 
-/// All that follows from these edges, by the rule of faces.
+/// The closure of these edges.
 [[nodiscard]] Edges closure_of(const Mesh& mesh, Edges edges);
 
 }  // namespace octetra::properties

@@ -27,14 +27,14 @@ EdgeBits longest_of(const Order& order, EdgeBits edges) {
     return 0;
 }
 
-/// What a cell marks by itself: nothing, or what either scheme does that leaves edges out.
+/// The edges that a cell marks: none, or those of scheme 4t or 2t.
 std::array<EdgeBits, 3> marked_inside(const Order& order) {
     EdgeBits of_faces = 0;
     for (const EdgeBits face : edges_of_faces()) of_faces |= longest_of(order, face);
     return {0, of_faces, 1U << order.front()};
 }
 
-/// For each set of marked edges inside and outside, the shared edges that are marked in the end.
+/// For each set of marks inside and outside, the shared edges that are marked after closure.
 std::vector<EdgeBits> response(const Order& order, EdgeBits shared) {
     std::vector<EdgeBits> result;
     for (const EdgeBits inside : marked_inside(order)) {

@@ -19,7 +19,7 @@ TEST(OrderClasses, NumberOrdersLexicographically) {
     }
 }
 
-/// In all orders, from all edges: what the rule of faces makes of sets of edges of meshes.
+/// For all orders and all sets of edges, compares with the closure in a mesh of one cell.
 TEST(OrderClasses, CloseACellAsAMeshOfOneCellIsClosed) {
     for (std::size_t number = 0; number < order_count; ++number) {
         const Mesh mesh = world_of(one_cell(), number);
@@ -38,8 +38,8 @@ TEST(OrderClasses, CloseACellAsAMeshOfOneCellIsClosed) {
     }
 }
 
-/// A cell without neighbours has one. Of one shared edge, 01, all that is noticed is whether it is
-/// marked by scheme 2t (the longest), by 4t (the longest of a face), or by neither.
+/// A cell without neighbours has one class. With one shared edge, 01, classes differ by the least
+/// scheme that marks it: 2t (the longest edge), 4t (the longest of a face), or neither.
 TEST(OrderClasses, AreAsManyAsWasCountedByHand) {
     const auto class_sizes = [](EdgeBits shared) {
         std::vector<std::size_t> sizes;

@@ -10,7 +10,7 @@
 namespace octetra::properties {
 namespace {
 
-/// In the foreground: Ctrl-C is to end it together with us.
+/// Runs in the foreground, so that Ctrl-C ends it together with this process.
 test::Outcome run(const Finding& finding, const std::string& program, double seconds,
                   const std::filesystem::path& folder) {
     return test::run_program(
@@ -30,7 +30,7 @@ Ending replay(const Finding& finding, const std::string& program, double seconds
     ::setenv("OCTETRA_FOUND", running.c_str(), 1);
     const test::Outcome outcome = run(finding, program, seconds, folder.path());
     const bool began = std::filesystem::exists(running);
-    // What judge() writes there, it removes when it knows the verdict.
+    // judge() removes the file that it writes there as soon as the verdict is known.
     if (began && !std::filesystem::is_empty(running)) return Ending::died;
     if (began && outcome.status == 0) return Ending::held;
     if (began && outcome.out.find("[  FAILED  ]") != outcome.out.npos) return Ending::broken;

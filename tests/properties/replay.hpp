@@ -6,14 +6,14 @@
 
 namespace octetra::properties {
 
-/// How the replay of a finding ended: the law held; it was broken; or there was no verdict, as a
-/// rank died, or waited until time was up.
+/// The result of replaying a finding: the law held; it was broken; or there was no verdict, because
+/// a rank died or the time limit expired.
 enum class Ending { held, broken, died };
 
-/// Replays a finding on its ranks, by `program`, which has the tests of findings_test.cpp, in an
-/// mpirun of its own, and for `seconds` by the clock at most. The environment of this process
-/// becomes that of the program. Throws std::runtime_error, with what was printed, if the program
-/// came to no verdict without ever having begun with the case.
+/// Replays a finding on its ranks in a separate mpirun, for at most `seconds` by the clock, with
+/// `program`, which contains the tests of findings_test.cpp and inherits the environment. Throws
+/// std::runtime_error, with the output, if the program ended without a verdict before it began with
+/// the case.
 [[nodiscard]] Ending replay(const Finding& finding, const std::string& program, double seconds);
 
 }  // namespace octetra::properties

@@ -16,7 +16,7 @@ namespace {
 
 std::size_t points_of(int size) { return 5 + static_cast<std::size_t>(size) / 3; }
 
-/// The Delaunay mesh of points that `point` draws.
+/// The Delaunay mesh of `count` points drawn by `point`.
 Mesh delaunay(std::size_t count, const std::function<Point()>& point) {
     generator::Complex cloud;
     for (std::size_t i = 0; i < count; ++i) cloud.add(point());
@@ -30,7 +30,7 @@ Mesh cloud(Draw& draw, int size) {
     return delaunay(points_of(size), [&] { return Point{draw.unit(), draw.unit(), draw.unit()}; });
 }
 
-/// Many points on one sphere, many in one plane; some of them twice, which TetGen leaves out.
+/// Many points on one sphere or in one plane; some are duplicates, which TetGen omits.
 Mesh lattice_points(Draw& draw, int size) {
     const int n = 2 + size / 40;
     const auto whole = [&] { return static_cast<double>(draw.between(0, n)); };
@@ -46,7 +46,7 @@ Mesh sphere_points(Draw& draw, int size) {
     });
 }
 
-/// Smaller and smaller towards the origin.
+/// Points that become denser towards the origin.
 Mesh graded_points(Draw& draw, int size) {
     const auto near_zero = [&] { return std::pow(draw.unit(), 4) * (draw.chance(0.5) ? 1 : -1); };
     return delaunay(points_of(size), [&] { return Point{near_zero(), near_zero(), near_zero()}; });
@@ -67,7 +67,7 @@ Mesh shaken_lattice(Draw& draw, int size) {
 
 Mesh centred_lattice(Draw& /*draw*/, int size) { return generator::bcc(size < 80 ? 1 : 2); }
 
-/// A star-shaped polygon, one to three layers high, each layer a region of its own.
+/// A star-shaped polygon extruded to one to three layers, each of which is a region.
 Mesh prism(Draw& draw, int size) {
     const auto corners = static_cast<std::uint32_t>(draw.between(3, 4 + size / 20));
     const auto layers = static_cast<std::uint32_t>(draw.between(1, 3));

@@ -14,17 +14,16 @@
 #include "properties/report.hpp"
 #include "properties/simpler.hpp"
 
-/// Makes a finding smaller that ends or blocks the process that tries it, so that each step takes
-/// an mpirun of its own:
+/// Shrinks a finding that ends or blocks the process that judges it, so that each step needs a
+/// separate mpirun:
 ///
 ///     shrink_finding FILE.json RANKS SECONDS [PROGRAM]
 ///
-/// RANKS 0: as many as it was found on. It is tried on fewer, too, before all else and at the end,
-/// when the case may need fewer than it did. A step is kept if its replay ends as that of the
-/// finding does: without a verdict, whether by a signal, an abort or time that is up; or with a
-/// broken law. The smallest so far is on disk at any time, in place of the one before, so Ctrl-C
-/// loses nothing. Exit status: 0 it is as small as it gets, or time is up; 1 its law holds; 2 it
-/// cannot be tried; 130 interrupted.
+/// RANKS 0: the number of ranks on which it was found. Fewer ranks are tried first, and again at
+/// the end, when the smaller case may need fewer. A step is kept if its replay ends like that of
+/// the finding: without a verdict (signal, abort or time limit), or with a broken law. The smallest
+/// case so far replaces the previous one on disk, so Ctrl-C loses nothing. Exit status: 0 it cannot
+/// be shrunk further, or the time is up; 1 its law holds; 2 it cannot be replayed; 130 interrupted.
 namespace octetra::properties {
 namespace {
 
@@ -35,18 +34,18 @@ volatile std::sig_atomic_t interrupted = 0;
 
 extern "C" void interrupt(int /*signal*/) { interrupted = 1; }
 
-/// A small case takes milliseconds of it. One that waits is given up after that.
+/// A small case takes milliseconds. A case that takes longer than this is taken for blocked.
 constexpr const char* cpu_seconds_of_a_step = "3";
 
 struct Search {
     Finding smallest;
-    fs::path file;  ///< where it is
+    fs::path file;  ///< its present file
     std::string program;
     Clock::time_point end;
     int tried = 0;
 };
 
-/// Puts a smaller one in the place of what is on disk.
+/// Replaces the finding on disk by a smaller one.
 void keep(Search& search, Finding smaller) {
     search.smallest = std::move(smaller);
     const fs::path before = search.file;
@@ -57,7 +56,7 @@ void keep(Search& search, Finding smaller) {
 
 bool is_over(const Search& search) { return interrupted != 0 || Clock::now() >= search.end; }
 
-/// How a replay of the finding ends; nothing, if it was cut short, for then nobody knows.
+/// The result of replaying the finding; nothing if the time limit cut the replay short.
 std::optional<Ending> ending_of(const Search& search, const Finding& candidate) {
     const std::chrono::duration<double> left = search.end - Clock::now();
     if (is_over(search)) return {};
@@ -75,7 +74,7 @@ void print_size(const Case& c) {
     std::fflush(stdout);
 }
 
-/// Keeps the candidate if it ends as it should.
+/// Keeps the candidate if its replay ends as wanted.
 Trial attempt(Search& search, Ending wanted, Finding candidate) {
     const auto ending = ending_of(search, candidate);
     if (!ending) return Trial::not_made;
@@ -85,13 +84,14 @@ Trial attempt(Search& search, Ending wanted, Finding candidate) {
     return Trial::fails;
 }
 
-/// To the least number of ranks that will do. What the case gives to others they divide.
+/// Reduces to the least number of ranks that reproduces the fault. Cells of removed ranks are
+/// divided among the others.
 void take_fewer_ranks(Search& search, Ending wanted) {
     for (int ranks = 1; ranks < search.smallest.ranks; ++ranks) {
         Finding candidate = search.smallest;
         candidate.ranks = ranks;
         if (attempt(search, wanted, std::move(candidate)) != Trial::fails) continue;
-        fmt::print("on {}, too\n", counted(static_cast<std::size_t>(ranks), "rank"));
+        fmt::print("also on {}\n", counted(static_cast<std::size_t>(ranks), "rank"));
         std::fflush(stdout);
     }
 }
@@ -107,7 +107,7 @@ void take_simpler_cases(Search& search, Ending wanted) {
     });
 }
 
-/// As small as it gets, or as time allows.
+/// Shrinks until no step succeeds or the time is up.
 void shrink(Search& search, Ending wanted) {
     take_fewer_ranks(search, wanted);
     take_simpler_cases(search, wanted);
@@ -115,31 +115,30 @@ void shrink(Search& search, Ending wanted) {
     fmt::print("{} smaller cases tried: {}\n", search.tried,
                interrupted != 0  ? "interrupted"
                : is_over(search) ? "time is up"
-                                 : "it is as small as it gets");
+                                 : "it cannot be shrunk further");
 }
 
 int run(Search search) {
     if (search.smallest.ranks < 1) {
-        throw std::invalid_argument(
-            "the file does not say on how many ranks it was found: give --ranks N");
+        throw std::invalid_argument("the file has no number of ranks: pass --ranks N");
     }
     print_size(search.smallest.refinement);
     const std::string ranks = counted(static_cast<std::size_t>(search.smallest.ranks), "rank");
-    // What tried it is gone, and so it is in nobody's hands but ours.
+    // A running name may be replaced, because the process that wrote it has ended.
     if (is_running_name(search.file.stem())) keep(search, search.smallest);
     const auto ending = ending_of(search, search.smallest);
     if (!ending) {
-        fmt::print("{} before it was tried once\n",
+        fmt::print("{} before the first replay\n",
                    interrupted != 0 ? "interrupted" : "time was up");
     } else if (*ending == Ending::held) {
         fmt::print(
-            "on {} its law holds: what broke it is mended, or depends on chance.\n"
+            "on {} its law holds: the fault is fixed, or depends on timing.\n"
             "{} stays as it is.\n",
             ranks, search.file.string());
         return 1;
     } else {
         fmt::print("on {} {}\n", ranks,
-                   *ending == Ending::died ? "it dies or waits for ever" : "it breaks its law");
+                   *ending == Ending::died ? "the replay crashes or blocks" : "the law is broken");
         shrink(search, *ending);
     }
     fmt::print("{}\n", description(search.smallest, search.file));

@@ -9,14 +9,14 @@
 #include "properties/one_level.hpp"
 #include "support/run_program.hpp"
 
-/// How cases are made smaller that end the process that tries them, or leave it waiting. They are
-/// tried with laws that have such faults (faulty_laws.cpp), and whose smallest case is known.
+/// Shrinking of cases that end or block the process that judges them, with faulty laws
+/// (faulty_laws.cpp) whose smallest case is known.
 namespace octetra::properties {
 namespace {
 
 namespace fs = std::filesystem;
 
-/// 6 cells, most of them marked; that rank has some.
+/// 6 cells, most of them marked; the given rank has some.
 Case some_case(int rank = 1) {
     Case c{.kind = "a lattice", .mesh = generator::kuhn(1, 1, 1, {1, 1, 1}), .levels = 2};
     c.mesh.regions.assign(c.mesh.cells.size(), Marker{5});
@@ -40,7 +40,7 @@ protected:
         command.insert(command.end(), arguments.begin(), arguments.end());
         return test::run_program(command, folder_.path());
     }
-    /// The one that is there.
+    /// The only file of the folder.
     [[nodiscard]] fs::path kept_file() const {
         std::vector<fs::path> files;
         for (const auto& entry : fs::directory_iterator(folder_.path())) {
@@ -55,7 +55,7 @@ private:
     test::TemporaryFolder folder_;
 };
 
-/// As faulty_laws.cpp has it on two ranks.
+/// The same condition as in faulty_laws.cpp, on two ranks.
 bool is_faulty(const Case& c) {
     std::size_t marked = 0;
     for (CellIndex i{0}; i < c.mesh.cells.end_index(); ++i) marked += is_marked(c, i) ? 1U : 0U;
@@ -100,7 +100,7 @@ TEST_F(Shrinking, TakesFewerRanksBeforeItTakesFewerCells) {
     expect_smallest(kept().refinement);
 }
 
-/// On two ranks the first one would have all cells, until they are of rank 1.
+/// On two ranks the first one has all cells, until they are assigned to rank 1.
 TEST_F(Shrinking, TakesFewerRanksOnceFewerCellsAllowIt) {
     const auto file = write({"closure", "seen", some_case(2), 3}, "some");
     const auto [status, out, err] = shrink({file, "0", "200", OCTETRA_FAULTY_LAWS});
@@ -109,7 +109,7 @@ TEST_F(Shrinking, TakesFewerRanksOnceFewerCellsAllowIt) {
     expect_smallest(kept().refinement);
 }
 
-TEST_F(Shrinking, OfACaseThatEndsWithoutAVerdictGoesOnThoughTheStatusIsGood) {
+TEST_F(Shrinking, OfACaseThatEndsWithoutAVerdictContinuesDespiteStatusZero) {
     const auto [status, out, err] =
         shrink({write("files", "files-running-17"), "0", "200", OCTETRA_FAULTY_LAWS});
     EXPECT_EQ(status, 0) << out << err;
@@ -123,7 +123,7 @@ TEST_F(Shrinking, OfACaseThatBreaksItsLawEndsAtTheSmallestThatDoes) {
     expect_smallest(kept().refinement);
 }
 
-TEST_F(Shrinking, LeavesAloneWhatHolds) {
+TEST_F(Shrinking, LeavesCasesThatHoldUnchanged) {
     const auto file = write("equality", "some");
     const auto [status, out, err] = shrink({file, "1", "200", OCTETRA_TEST_PROGRAM});
     EXPECT_EQ(status, 1) << out << err;
@@ -131,8 +131,8 @@ TEST_F(Shrinking, LeavesAloneWhatHolds) {
     EXPECT_EQ(kept().refinement.mesh, some_case().mesh);
 }
 
-/// One second of processor time is what it may take.
-TEST_F(Shrinking, TakesNoCaseForOneThatWaitsBecauseTheClockRuns) {
+/// The limit is one second of processor time.
+TEST_F(Shrinking, DoesNotTakeASlowCaseForABlockedOne) {
     const auto file = write("geometry", "some");
     const auto [status, out, err] = shrink({file, "0", "200", OCTETRA_FAULTY_LAWS});
     EXPECT_EQ(status, 1) << out << err;
@@ -158,7 +158,7 @@ TEST_F(Shrinking, EndsInTimeAndKeepsTheSmallestSoFar) {
     EXPECT_FALSE(is_running_name(kept_file().stem()));
 }
 
-/// Ctrl-C reaches all that runs in the foreground, and so does what this `timeout` sends.
+/// Like Ctrl-C, the signal of `timeout` reaches all processes in the foreground.
 TEST_F(Shrinking, KeepsTheSmallestSoFarWhenInterrupted) {
     const auto file = write("numbering", "numbering-running-17");
     const auto [status, out, err] = test::run_program(

@@ -48,7 +48,7 @@ void drop_cells(Case& c, std::size_t begin, std::size_t end) {
     for (Step& step : c.steps) drop_cells(step.selection, begin, end);
 }
 
-/// Halves of all, then quarters and so on, down to single ones.
+/// Calls `visit` with halves of the range, then quarters and so on, down to single items.
 void for_each_chunk(std::size_t count, const std::function<void(std::size_t, std::size_t)>& visit) {
     for (std::size_t length = count / 2; length > 0; length /= 2) {
         for (std::size_t begin = 0; begin < count; begin += length) {
@@ -77,7 +77,7 @@ void add_fewer_criteria(Simplifications& all, const Shared& c) {
         });
         return;
     }
-    add(all, c, [](Case& r) {  // the cells that are marked at first
+    add(all, c, [](Case& r) {  // the cells marked at the first level
         Selection by_number;
         for (CellIndex i{0}; i < r.mesh.cells.end_index(); ++i) {
             if (is_marked(r, i)) by_number.cells.push_back(GlobalCell{i.value()});
@@ -135,7 +135,7 @@ bool is_valid(const Mesh& mesh) {
     return verify::verify_mesh(mesh).valid();
 }
 
-/// Coordinates with so many binary digits, if the mesh stays valid.
+/// Rounds coordinates to this number of binary digits, if the mesh stays valid.
 void round_coordinates(Case& c, int digits) {
     Mesh rounded = c.mesh;
     const auto round_one = [&](double& x) {
@@ -150,7 +150,7 @@ void round_coordinates(Case& c, int digits) {
     if (is_valid(rounded)) c.mesh = std::move(rounded);
 }
 
-/// Scaled by a power of two, so that the largest coordinate is about 1.
+/// Scales by a power of two, so that the largest coordinate is about 1.
 void add_usual_size(Simplifications& all, const Shared& c) {
     double largest = 0;
     for (const Point& p : c->mesh.points) {
@@ -202,8 +202,8 @@ Simplifications simplifications(const Case& c) {
 Case simplest(Case c, const std::function<Trial(const Case&)>& attempt) {
     Simplifications ways = simplifications(c);
     std::size_t way = 0;
-    // A simplification that failed is often followed by one like it, so the search goes on where it
-    // is; it ends when it has come round without a failure.
+    // A simplification that fails is often followed by a similar one that does, so the search
+    // continues from the current position; it ends after a full cycle without a failure.
     for (std::size_t held = 0; held < ways.size();) {
         way %= ways.size();
         Case simpler = ways[way]();

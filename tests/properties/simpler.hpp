@@ -7,16 +7,16 @@
 
 namespace octetra::properties {
 
-/// Ways to make a case simpler by one thing, the boldest first: without some cells, steps,
-/// levels, criteria, ranks, marks; with the default scheme and synchronisation; with rounder
-/// coordinates. None leads back, so trying them over and over ends. Each may be called once the
-/// case is gone.
+/// The cases that are simpler by one change, the largest change first: without some cells, steps,
+/// levels, criteria, ranks, marks; with the default scheme and synchronisation; with coordinates of
+/// fewer digits. Simplification has no cycles, so repeated application ends. The functions may
+/// outlive `c`.
 [[nodiscard]] std::vector<std::function<Case()>> simplifications(const Case& c);
 
 enum class Trial { fails, holds, not_made };
 
-/// Follows the simplifications that fail until none does, or a trial is not made: then it ends
-/// there. The last case that failed; `c`, if none did.
+/// Repeatedly follows a simplification that fails, until none does or a trial is not made. Returns
+/// the last case that failed, or `c` if none did.
 [[nodiscard]] Case simplest(Case c, const std::function<Trial(const Case&)>& attempt);
 
 }  // namespace octetra::properties

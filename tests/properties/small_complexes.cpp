@@ -36,8 +36,8 @@ std::vector<unsigned> cells_at_vertices(const Complex& complex) {
     return cells;
 }
 
-/// Adds all ways to give the vertices from `numbers.size()` on numbers that none has yet, so that
-/// each one's is that of a vertex with the cells that are wanted.
+/// Adds all bijections that extend `numbers` to the remaining vertices and preserve the set of
+/// cells of each vertex.
 void add_numberings(std::vector<std::vector<std::size_t>>& result,
                     std::vector<std::size_t>& numbers, const std::vector<unsigned>& cells,
                     const std::vector<unsigned>& wanted) {
@@ -85,7 +85,7 @@ Complex two_cells(std::size_t shared) {
 std::vector<Complex> all_small_complexes() {
     std::vector<Complex> complexes{{{0, 1, 2, 3}}};
     for (std::size_t shared = 0; shared <= 3; ++shared) complexes.push_back(two_cells(shared));
-    for (std::size_t all = 0; all <= 2; ++all) {  // 3: all at one face
+    for (std::size_t all = 0; all <= 2; ++all) {  // 3 would be all at one face
         for (std::size_t ab = 0; all + ab <= 3; ++ab) {
             for (std::size_t ac = 0; ac <= ab && all + ab + ac <= 4; ++ac) {
                 for (std::size_t bc = 0; bc <= ac; ++bc) {

@@ -6,12 +6,13 @@
 
 #include "properties/order_classes.hpp"
 
-/// The smallest meshes there are. Coordinates are whole numbers of at most 22 bits, so that worlds
-/// can stand side by side in one mesh without changing a length. Those in which the order of edges
-/// is exhausted are made in glued_cells.hpp, others in world_search.hpp.
+/// The smallest meshes. Coordinates are whole numbers of at most 22 bits, so that worlds can be
+/// placed side by side in one mesh without changing a length. Complexes whose orders of edges are
+/// exhausted are in glued_cells.hpp, the others in world_search.hpp.
 namespace octetra::properties {
 
-/// All worlds in one mesh, each so far along x from the one before, so that they do not meet.
+/// Places all worlds in one mesh, each shifted along x by `distance` from the previous one, so that
+/// they do not meet.
 [[nodiscard]] Mesh side_by_side(const std::vector<Mesh>& worlds, double distance);
 
 /// The six edges of a cell (0 to 5, as in cell_edges), longest first.

@@ -15,14 +15,13 @@
 #include "properties/worlds_equality.hpp"
 #include "support/meshes.hpp"
 
-/// The smallest meshes, exhausted: what goes wrong with three cells goes wrong in large meshes,
-/// too, and most that goes wrong there does so with three cells. All worlds of a kind are one mesh,
-/// which both engines refine and the verifier judges; a fault is shrunk to the one world that has
-/// it.
+/// The smallest meshes are tested exhaustively, because most faults of large meshes already occur
+/// with three cells. All worlds of a kind form one mesh, which both engines refine and the verifier
+/// checks; a fault is shrunk to the single world that has it.
 namespace octetra::properties {
 namespace {
 
-/// Those with the numbers first, first + step, ... below `end`.
+/// The worlds with the numbers first, first + step, ... below `end`.
 std::vector<Mesh> worlds(const WorldKind& kind, std::size_t first, std::size_t end,
                          std::size_t step) {
     std::vector<Mesh> some;
@@ -34,7 +33,7 @@ std::vector<Mesh> every(std::size_t step, const WorldKind& kind) {
     return worlds(kind, 0, count_worlds(kind), step);
 }
 
-/// In how many ways the edges of cells are ordered.
+/// The number of distinct orders of the edges.
 std::size_t count_orders(const std::vector<Mesh>& worlds) {
     std::set<std::vector<Order>> orders;
     for (const Mesh& world : worlds) {
@@ -55,7 +54,7 @@ TEST(SmallWorlds, OfOneCellInEveryOrderOfItsEdges) {
     });
 }
 
-/// The second cell marked alone is the first one marked alone of the pair the other way round.
+/// Marking only the second cell is the same as marking only the first one of the mirrored pair.
 TEST(SmallWorlds, OfTwoCellsAtAFaceInEveryPairOfOrders) {
     lead([] {
         const auto all = every(stride, two_cells_at_a_face());
@@ -64,9 +63,8 @@ TEST(SmallWorlds, OfTwoCellsAtAFaceInEveryPairOfOrders) {
     });
 }
 
-/// Worlds whose first cell has 180 orders in turn: every so-manieth; or, where OCTETRA_FIRST_CELL
-/// is a number from 1 to 180, all those of the order with that number. ./dev campaign worlds goes
-/// through them.
+/// Worlds grouped by the 180 orders of the first cell: every `step`-th; or, if OCTETRA_FIRST_CELL
+/// is a number from 1 to 180, all those with this order. ./dev campaign worlds runs all of them.
 std::vector<Mesh> worlds_by_first_cell(const WorldKind& kind, std::size_t step) {
     const char* const number = std::getenv("OCTETRA_FIRST_CELL");
     if (number == nullptr) return every(step * stride, kind);
@@ -98,8 +96,8 @@ struct Part {
     std::size_t end = 0;
 };
 
-/// All worlds up to exchange, kind by kind; a kind is cut into equal parts, none of which takes
-/// more than some minutes.
+/// All worlds up to exchange, kind by kind; a kind is divided into equal parts of at most some
+/// minutes.
 std::vector<Part> parts_up_to_exchange() {
     constexpr std::size_t most = 110'000;
     std::vector<Part> parts;
@@ -122,8 +120,8 @@ void expect_equality_of_part(const Part& part) {
     }
 }
 
-/// Some 250 of a kind. A step that has no divisor in common with their number meets all orders of
-/// each cell sooner or later.
+/// About 250 worlds of a kind. A step that is coprime to their number covers all orders of each
+/// cell.
 std::vector<Mesh> some_worlds(const WorldKind& kind) {
     const std::size_t count = count_worlds(kind);
     std::size_t step = stride * std::max<std::size_t>(1, count / 250);
@@ -131,8 +129,8 @@ std::vector<Mesh> some_worlds(const WorldKind& kind) {
     return every(step, kind);
 }
 
-/// Some of each kind; or, where OCTETRA_PART_UP_TO_EXCHANGE is a number from 1, all those of the
-/// part with that number. ./dev campaign worlds goes through them.
+/// Some worlds of each kind; or, if OCTETRA_PART_UP_TO_EXCHANGE is a number from 1, all those of
+/// this part. ./dev campaign worlds runs all parts.
 TEST(SmallWorlds, OfEightMoreComplexesInEveryOrderOfTheirEdges) {
     const char* const number = std::getenv("OCTETRA_PART_UP_TO_EXCHANGE");
     lead([&] {
@@ -148,10 +146,10 @@ TEST(SmallWorlds, OfEightMoreComplexesInEveryOrderOfTheirEdges) {
     });
 }
 
-/// Which ./dev campaign worlds calls 206 to 261.
+/// These are parts 206 to 261 of ./dev campaign worlds.
 TEST(SmallWorlds, UpToExchangeAreFiftySixParts) { EXPECT_EQ(parts_up_to_exchange().size(), 56U); }
 
-/// Six cells round an edge, once for each way to cut them between as many ranks.
+/// Six cells round an edge, once for each way to partition them.
 Case rings(const Mesh& ring, std::size_t ranks) {
     std::size_t ways = 1;
     for (std::size_t cell = 0; cell < 6; ++cell) ways *= ranks;
@@ -166,8 +164,8 @@ Case rings(const Mesh& ring, std::size_t ranks) {
 
 class Rings : public testing::TestWithParam<double> {};
 
-/// Between as many ranks as there are, up to three, for each one of the six cells marked.
-TEST_P(Rings, OfSixCellsCutInAllWaysYieldTheSame) {
+/// On up to three ranks, with each one of the six cells marked.
+TEST_P(Rings, OfSixCellsWithAllPartitionsYieldTheSame) {
     lead([] {
         const auto ranks = static_cast<std::size_t>(std::min(3, test::world().size()));
         Case c = rings(test::shaken_kuhn(1, GetParam(), 3), ranks);

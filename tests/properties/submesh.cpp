@@ -6,7 +6,7 @@
 namespace octetra::properties {
 namespace {
 
-/// The sides of the cells, of three vertices or two, each with its vertices ascending.
+/// The faces or edges of the cells, each with its vertices ascending.
 template <std::size_t N, class Positions>
 std::set<std::array<VertexIndex, N>> sides(const Mesh& mesh, const Positions& positions) {
     std::set<std::array<VertexIndex, N>> result;
@@ -37,7 +37,7 @@ void keep_tagged(IndexVector<I, std::array<VertexIndex, N>>& list, IndexVector<I
     if (!markers.empty()) markers.resize(kept.value());
 }
 
-/// Drops the vertices of no cell, and numbers the others anew.
+/// Removes the vertices that belong to no cell, and renumbers the others.
 void drop_unused_vertices(Mesh& mesh) {
     IndexVector<VertexIndex, VertexIndex> number(mesh.points.size(), VertexIndex::none());
     for (const CellVertices& cell : mesh.cells) {

@@ -6,8 +6,8 @@
 
 namespace octetra::properties {
 
-/// The cells that are marked in `keep`, with the vertices, tagged facets and edges that they have.
-/// All keep their order.
+/// The cells marked in `keep`, with their vertices, tagged facets and tagged edges, in the same
+/// order.
 [[nodiscard]] Mesh submesh(const Mesh& mesh, const std::vector<char>& keep);
 
 }  // namespace octetra::properties

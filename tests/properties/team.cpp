@@ -14,8 +14,8 @@ namespace {
 
 using distributed::Communicator;
 
-/// What the first rank asks for: a refinement, to be collected, or written where there is a file;
-/// or a history, where there is a folder.
+/// A request of the first rank: a refinement, to be collected or, if there is a file, to be
+/// written; or a history, if there is a folder.
 struct Order {
     Case refinement;
     std::string file;
@@ -38,8 +38,8 @@ std::vector<int> folded(std::vector<int> cell_to_rank) {
     return cell_to_rank;
 }
 
-/// What kind of level each rank makes depends on the case: as suits it, or always a full sweep with
-/// all edges numbered or local ones only, or an incremental one. None of it may show.
+/// The kind of level of each rank depends on the case: automatic, always a full sweep with all
+/// edges numbered or with the local edge set, or always incremental. Results must not depend on it.
 distributed::Tuning tuning_of(std::uint64_t seed) {
     const std::uint64_t turn = (seed + static_cast<std::uint64_t>(test::world().rank())) % 4;
     if (turn == 0) return {};
@@ -47,7 +47,7 @@ distributed::Tuning tuning_of(std::uint64_t seed) {
     return {.incremental_below = turn == 3 ? always : 0, .local_below = turn == 2 ? always : 0};
 }
 
-/// Collective. If ranks do not agree whether it can be done, all get to know that instead.
+/// Collective. If only some ranks refuse, the outcome on all ranks reports this disagreement.
 Outcome carry_out(const Order& order) {
     const Communicator& world = test::world();
     const Case& c = order.refinement;

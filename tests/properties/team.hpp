@@ -10,33 +10,34 @@
 #include "properties/case.hpp"
 #include "properties/histories/adapt_together.hpp"
 
-/// Laws are judged on the first rank alone. When it wants a case refined by all ranks, it tells the
-/// others, who wait for that. So draws, verdicts and shrinking need no agreement: there is one
-/// mind.
+/// Laws are judged on the first rank alone. It sends each case to be refined to the other ranks,
+/// which wait for requests. So draws, verdicts and shrinking need no agreement between ranks.
 namespace octetra::properties {
 
-/// A refinement, or the words in which it was refused.
+/// A refined mesh, or the message of its refusal.
 struct Outcome {
     Mesh mesh;
     RefinementMaps maps;
     std::string error;
 };
 
-/// Collective. The first rank does the work; meanwhile the others refine whatever it asks for.
+/// Collective. The first rank performs the work; meanwhile the others serve its requests.
 void lead(const std::function<void()>& work);
 
-// Of the first rank, within lead():
+// To be called on the first rank, within lead():
 
-/// By the distributed engine, on all ranks.
+/// Refines with the distributed engine, on all ranks.
 [[nodiscard]] Outcome refined_by_all(const Case& c);
 
-/// The same, written to a file by all ranks. The words in which that was refused, or nothing.
+/// Refines on all ranks and writes the result to a file by all ranks. Returns the message of
+/// refusal, or an empty string.
 [[nodiscard]] std::string write_refined_by_all(const Case& c, const std::filesystem::path& file);
 
-/// All steps of a history, by the distributed engine, on as many ranks as each step says.
+/// Makes all steps of a history with the distributed engine, on as many ranks as each step
+/// requires.
 [[nodiscard]] Adapted adapted_by_all(const Case& c);
 
-/// By the serial reference. Of histories, see adapted_by_reference().
+/// Refines with the serial reference. For histories see adapted_by_reference().
 [[nodiscard]] Outcome refined_by_reference(const Case& c);
 
 }  // namespace octetra::properties

@@ -26,8 +26,7 @@ Points anywhere(std::size_t count, Draw& draw) {
     return points;
 }
 
-/// One point or all of them, by up to a random power of two; what leaves the cube comes in again on
-/// the other side.
+/// Moves one or all points by up to a random power of two; coordinates wrap around in the cube.
 Points moved(Points points, Draw& draw) {
     const std::size_t most = extent >> draw.below(16);
     const auto move = [&](double& x) {
@@ -45,7 +44,8 @@ Points moved(Points points, Draw& draw) {
     return points;
 }
 
-/// Now and then begins anew; else moves one of those found, half of the time one of the latest.
+/// Sometimes draws new points; else moves those of a previous world, half of the time of a recent
+/// one.
 Points next_try(const std::vector<Points>& found, std::size_t vertices, Draw& draw) {
     constexpr std::size_t latest = 300;
     if (found.empty() || draw.below(64) == 0) return anywhere(vertices, draw);
@@ -55,8 +55,8 @@ Points next_try(const std::vector<Points>& found, std::size_t vertices, Draw& dr
 
 using Cell = std::array<std::size_t, 4>;
 
-/// Does a plane through these three points have all of the others that are a's on one side, and all
-/// that are b's on the other?
+/// Returns whether the plane through these three points has all remaining points of a on one side
+/// and all of b on the other.
 bool tells_apart(const Points& points, const std::vector<std::size_t>& plane, const Cell& a,
                  const Cell& b) {
     int side_of_a = 0;
@@ -72,7 +72,7 @@ bool tells_apart(const Points& points, const std::vector<std::size_t>& plane, co
     return true;
 }
 
-/// Do two cells have nothing in common but their common corners and what these span? Tries the
+/// Returns whether two cells have nothing in common but the span of their common corners. Tries the
 /// planes through all common corners and as many others as make three.
 bool are_apart(const Points& points, const Cell& a, const Cell& b) {
     std::vector<std::size_t> common;

@@ -7,21 +7,22 @@
 
 #include "properties/combinations.hpp"
 
-/// Finds corners for a complex so that its cells have all combinations of classes of orders, by
-/// wandering: the corners of a world found before are moved at random, by much or by little, and a
-/// world that has anything new is kept, and moved in its turn. The same draws everywhere.
+/// Finds corners of a complex so that its cells have all combinations of classes of orders, by a
+/// random walk: the corners of a previous world are moved at random, by a large or small amount,
+/// and a world with a new combination is kept and moved in turn. Draws are the same on all
+/// platforms.
 namespace octetra::properties {
 
-/// The corners of worlds, each of which has a combination that those before do not have: by whole
-/// numbers below 2^20, valid, and without ties within a cell. Ends when so many combinations of
-/// each kind were met, or when so many moves in a row brought nothing new. Those of the third kind
-/// are looked for unless none is asked for.
+/// Returns the corners of worlds, each of which has a combination that previous ones do not have.
+/// They are whole numbers below 2^20, valid, and without ties within a cell. Ends when `goal` is
+/// reached for each kind, or after `patience` successive moves without a new combination.
+/// Combinations of the third kind are sought unless their goal is 0.
 [[nodiscard]] std::vector<std::vector<Point>> find_worlds(const Complex& complex,
                                                           const CombinationCounts& goal,
                                                           std::size_t patience);
 
-/// Is this a valid mesh? False also of some whose cells are told apart by no plane but one through
-/// four corners or more.
+/// Returns whether this is a valid mesh. Also false for some valid meshes whose cells are separated
+/// only by planes through four corners or more.
 [[nodiscard]] bool is_valid(const std::vector<Point>& points, const Complex& complex);
 
 }  // namespace octetra::properties

@@ -23,8 +23,8 @@ bool is_found_valid(const Complex& complex, const std::vector<Point>& points) {
     return verify::verify_mesh(test::mesh_of(points, complex)).valid();
 }
 
-/// Of random corners 2^20 apart, none four of which are to be expected in a plane.
-TEST(WorldSearch, TakesForValidWhatTheVerifierDoes) {
+/// Random corners in a cube of 2^20: no four are expected in a plane.
+TEST(WorldSearch, AgreesWithTheVerifierOnRandomCorners) {
     Draw draw(1);
     for (const Complex& complex : all_small_complexes()) {
         for (int i = 0; i < 1000; ++i) {
@@ -34,8 +34,8 @@ TEST(WorldSearch, TakesForValidWhatTheVerifierDoes) {
     }
 }
 
-/// Of corners 8 apart, many of which lie in a plane.
-TEST(WorldSearch, TakesNothingForValidThatTheVerifierDoesNot) {
+/// Random corners in a cube of 8: many lie in a plane.
+TEST(WorldSearch, AcceptsNothingThatTheVerifierRefuses) {
     Draw draw(1);
     std::size_t valid = 0;
     for (const Complex& complex : all_small_complexes()) {

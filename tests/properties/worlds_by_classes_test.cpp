@@ -15,13 +15,13 @@
 #include "properties/worlds_equality.hpp"
 #include "support/meshes.hpp"
 
-/// The complexes of two and three cells whose edges have more orders than can all be tried. They
-/// are exhausted by what passes between cells (order_classes.hpp).
+/// The complexes of two and three cells whose edges have too many orders to try all. The tests
+/// exhaust the influence between cells instead (order_classes.hpp).
 namespace octetra::properties {
 namespace {
 
-/// All but those that small_worlds_test.cpp has in all orders: one cell, two at an edge, two at a
-/// face, three in a row.
+/// All complexes except those that small_worlds_test.cpp exhausts in all orders: one cell, two at
+/// an edge, two at a face, three in a row.
 std::vector<Complex> complexes_by_classes() {
     std::vector<Complex> complexes = all_small_complexes();
     for (const Complex& other :
@@ -36,7 +36,7 @@ TEST(SmallWorlds, AreOfTwentyNineComplexes) {
     EXPECT_EQ(complexes_by_classes().size(), 2U + 23U);
 }
 
-/// How many combinations of each kind must be met in complexes that do not have all, or not within
+/// Required combinations of each kind for complexes in which not all exist or can be found in
 /// reasonable time.
 using Known = std::map<Complex, CombinationCounts>;
 
@@ -60,7 +60,7 @@ CombinationCounts to_be_met(const Complex& complex, const Known& known) {
     return place == known.end() ? count_combinations(complex) : place->second;
 }
 
-/// Worlds that were found on the way to a goal, and have what is to be met.
+/// Worlds found on the way to a goal, which must have the required combinations.
 std::vector<Mesh> worlds_that_meet(const CombinationCounts& least, const CombinationCounts& goal,
                                    const Complex& complex) {
     constexpr std::size_t patience = 2'000'000;
@@ -74,11 +74,11 @@ std::vector<Mesh> worlds_that_meet(const CombinationCounts& least, const Combina
     return worlds;
 }
 
-/// Each order of each cell, and each combination of classes; of the worlds that have them every
-/// fifth.
+/// Covers each order of each cell and each combination of classes; refines every fifth of the
+/// worlds found.
 TEST(SmallWorlds, OfTheOtherComplexesInAllCombinationsOfClasses) {
     lead([] {
-        std::array<std::vector<Mesh>, 4> some;  // by the number of cells
+        std::array<std::vector<Mesh>, 4> some;  // indexed by the number of cells
         for (const Complex& complex : complexes_by_classes()) {
             CombinationCounts goal = to_be_met(complex, known_of_classes);
             goal[2] = 0;
@@ -92,9 +92,9 @@ TEST(SmallWorlds, OfTheOtherComplexesInAllCombinationsOfClasses) {
     });
 }
 
-/// Each order of each cell among each combination of classes of the others, for the complex whose
-/// number, from 1, is in OCTETRA_COMPLEX, else for a small one. ./dev campaign worlds goes through
-/// them.
+/// Covers each order of each cell with each combination of classes of the others, for the complex
+/// with the number, from 1, in OCTETRA_COMPLEX, else for a small one. ./dev campaign worlds runs
+/// all of them.
 TEST(SmallWorlds, OfOneComplexInAllCombinationsOfOrdersAndClasses) {
     const char* const number = std::getenv("OCTETRA_COMPLEX");
     lead([&] {

@@ -7,21 +7,21 @@
 
 #include "properties/case.hpp"
 
-/// Holds small worlds against the law that both engines do the same, and the verifier finds it
-/// right. On the first rank, within lead(). A fault is shrunk, kept, and fails the test.
+/// Checks on small worlds that both engines agree and that the verifier accepts the result. On the
+/// first rank, within lead(). A fault is shrunk and kept, and fails the test.
 namespace octetra::properties {
 
-/// Of how many worlds one is tried; under sanitizers fewer.
+/// Every n-th world is tested; greater under sanitizers.
 constexpr std::size_t stride = OCTETRA_SMALL_WORLDS_STRIDE;
 
 void expect_equality(const Case& c);
 
-/// Worlds of as many cells each: for each scheme and each choice of cells, which is a set of bits,
-/// all worlds at once. Neighbours in a world are on different ranks.
+/// Worlds with the same number of cells: for each scheme and each choice of cells, a set of bits,
+/// tests all worlds at once. Neighbours in a world are on different ranks.
 void expect_equality_of_all(const std::string& kind, const std::vector<Mesh>& worlds,
                             const std::vector<unsigned>& choices);
 
-/// All sets of so many cells but the empty one.
+/// All nonempty sets of this number of cells.
 [[nodiscard]] std::vector<unsigned> all_choices(std::size_t cells);
 
 }  // namespace octetra::properties

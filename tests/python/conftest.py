@@ -1,5 +1,5 @@
-"""What the tests of the module have in common. All ranks run the same cases in the same order; where one
-fails, all end, as the others may be waiting for it."""
+"""Common parts of the tests of the module. All ranks run the same cases in the same order; if one
+fails, all end, because the others may be waiting for it."""
 
 import os
 import pathlib
@@ -37,7 +37,8 @@ def folder():
 
 
 def run_alone(*words):
-    """Runs a program that is none of the ranks, which MPI's variables would have it join."""
+    """Runs a program outside the communicator of the ranks, which MPI's variables would make it
+    join."""
     alone = {name: value for name, value in os.environ.items()
              if not name.startswith(("OMPI_", "PMIX_", "PMI_"))}
     done = subprocess.run([*map(str, words)], env=alone, capture_output=True, text=True,
@@ -55,7 +56,7 @@ def command(*words):
 
 @pytest.fixture
 def mpirun():
-    """What runs a program on several ranks; for tests that one rank runs alone."""
+    """The command that runs a program on several ranks; for tests that one rank runs alone."""
     return os.environ["OCTETRA_MPIRUN"]
 
 
@@ -77,7 +78,7 @@ def centroids(mesh):
 
 
 def near(mesh, radius):
-    """A boolean for each cell: is its centroid so near to the origin?"""
+    """A boolean for each cell: whether its centroid is within the radius of the origin."""
     return np.linalg.norm(centroids(mesh), axis=1) < radius
 
 

@@ -1,5 +1,6 @@
-"""run.py FILE...: these tests by pytest; 77, for ctest to call it skipped, where a package is not there.
-With --gtest_list_tests it names the cases, for tools/claims.py, which asks all test programs so."""
+"""run.py FILE...: runs these tests by pytest; exits with 77, which ctest takes for skipped, if a
+package is missing. With --gtest_list_tests it prints the names of the cases for tools/claims.py,
+like the other test programs."""
 
 import ast
 import importlib

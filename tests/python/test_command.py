@@ -1,4 +1,4 @@
-"""python3 -m octetra is the command line, from the build tree and installed; and the tutorial runs."""
+"""python3 -m octetra is the command line, from the build tree and installed; the tutorial runs."""
 
 import importlib
 import os
@@ -29,7 +29,7 @@ def test_the_command_line_is_that_of_the_program(tmp_path):
                   tmp_path / "cube.mesh"], ["verify", tmp_path / "cube.mesh", "--fast"]):
         by_module, itself = run(sys.executable, "-m", "octetra", *words), run(PROGRAM, *words)
         assert by_module.returncode == itself.returncode, words
-        if "verify" not in words:  # which tells seconds
+        if "verify" not in words:  # its output contains times
             assert (by_module.stdout, by_module.stderr) == (itself.stdout, itself.stderr), words
 
 
@@ -44,7 +44,7 @@ def test_the_command_line_runs_on_several_ranks(tmp_path, mpirun):
 
 @pytest.fixture
 def site(tmp_path):
-    """Where the module is installed, below tmp_path/prefix."""
+    """The installed module, below tmp_path/prefix."""
     run_alone("cmake", "--install", BUILD, "--prefix", tmp_path / "prefix", "--component", "python")
     found = list((tmp_path / "prefix").rglob("octetra/__init__.py"))
     assert len(found) == 1

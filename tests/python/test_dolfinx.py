@@ -1,4 +1,4 @@
-"""Meshes handed to DOLFINx and back: cells, points, tags, functions, parents."""
+"""Meshes transferred to DOLFINx and back: cells, points, tags, functions, parents."""
 
 import numpy as np
 import pytest
@@ -24,7 +24,7 @@ def composite(folder):
 
 
 def corners(domain):
-    """(cells, 4, 3): of this rank's cells, ghosts behind them."""
+    """(cells, 4, 3): corners of this rank's cells, followed by its ghosts."""
     return domain.geometry.x[domain.geometry.dofmap.array.reshape(-1, 4)]
 
 
@@ -46,7 +46,7 @@ def areas(triangles):
 
 
 def gathered(rows):
-    """All ranks' rows in one order."""
+    """The rows of all ranks, sorted."""
     rows = np.concatenate(world.allgather(rows))
     return rows[np.lexsort(rows.T)]
 
@@ -55,8 +55,9 @@ TETRAHEDRA = ufl.VectorElement("Lagrange", "tetrahedron", 1)
 
 
 def by(rank_of_cell):
-    """A partitioner; rank_of_cell(numbers) says where this rank's cells go. DOLFINx 0.5 finds what ranks share by
-    cells of neighbours, so each goes there, too, whether or not ghosts are wanted."""
+    """A partitioner; rank_of_cell(numbers) returns the ranks of this rank's cells. DOLFINx 0.5
+    finds shared entities through neighbouring cells, so each cell is also sent to the ranks of its
+    neighbours, whether or not ghosts are requested."""
     def partition(comm, ranks, dimension, cells, ghosts):
         own = np.asarray(rank_of_cell(np.arange(cells.num_nodes)), np.int32)
         rank_of = np.concatenate(comm.allgather(own))
@@ -75,12 +76,12 @@ def box(comm, rank_of_cell, n=4, **options):
 
 
 def spread(numbers):
-    """In no order that a partitioner would choose."""
+    """Unlike the choice of any partitioner."""
     return numbers * 7 % 5 % world.size
 
 
 def marked_facets(mesh):
-    """Of all ranks: vertex numbers, ascending, and the marker."""
+    """The facets of all ranks: vertex numbers, ascending, and the marker."""
     facets = np.sort(mesh.vertex_numbers[mesh.facets].astype(np.int64), axis=1)
     return gathered(np.column_stack([facets, mesh.facet_markers]))
 
@@ -123,7 +124,7 @@ def test_dolfinx_finds_as_many_edges_and_facets_as_in_a_mesh_of_its_own_making(c
     numbers, starts = composite.vertex_numbers, composite.vertex_sharing.owners
     points = np.zeros((composite.vertex_count, 3))
     points[numbers[starts == world.rank]] = composite.points[starts == world.rank]
-    points = world.allreduce(points)  # create_mesh takes them from any rank, each once
+    points = world.allreduce(points)  # create_mesh takes each from any rank, once
     points = points if world.rank == 0 else points[:0]
     theirs = create_mesh(world, numbers[composite.cells].astype(np.int64), points, ufl.Mesh(TETRAHEDRA),
                          GhostMode.none, by(lambda cells: np.full_like(cells, world.rank)))
@@ -246,7 +247,7 @@ def test_tags_of_dolfinx_become_regions_and_marked_facets():
 
 
 def facet_nodes(domain):
-    """Rows of the geometry of each facet's vertices."""
+    """Rows in the geometry of the vertices of each facet."""
     vertices = domain.topology.connectivity(3, 0).array
     node = np.empty(vertices.max(initial=-1) + 1, np.int64)
     node[vertices] = domain.geometry.dofmap.array
@@ -317,7 +318,7 @@ def test_a_function_moves_with_cells_and_may_be_a_vector(composite):
     values = od.vertex_values(u, now)
     assert values.shape == (len(composite.points), 3)
     assert np.allclose(values[:, 0], linear(composite.points.T), rtol=0, atol=1e-14)
-    composite.refine(near(composite, 0.3))  # so that ranks are uneven
+    composite.refine(near(composite, 0.3))  # so that ranks are unbalanced
     composite.coarsen(np.ones(len(composite.cells), bool))
     move = composite.migrate((composite.roots * 3 % world.size).astype(np.int32))
     after = od.to_mesh(composite)
@@ -381,7 +382,7 @@ def test_parents_are_numbered_as_in_the_mesh_that_dolfinx_made():
 
 
 def solve(domain):
-    """-laplace u = 0 with a linear function on the boundary."""
+    """Solves -laplace u = 0 with a linear function on the boundary."""
     space = fem.FunctionSpace(domain, ("Lagrange", 1))
     exact = fem.Function(space)
     exact.interpolate(linear)

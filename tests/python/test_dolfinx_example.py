@@ -31,7 +31,7 @@ def test_the_example_converges_and_refines_evenly_on_any_number_of_ranks(mpirun)
         assert most < 1.3
 
 
-def test_the_example_refines_by_dolfinx_alike(mpirun):
+def test_the_example_also_refines_by_dolfinx(mpirun):
     ours = rows(mpirun, 1, "--refine", "octetra", "--steps", 4)
     theirs = rows(mpirun, 1, "--refine", "dolfinx", "--steps", 4)
     for a, b in zip(ours, theirs):
@@ -39,7 +39,7 @@ def test_the_example_refines_by_dolfinx_alike(mpirun):
         assert a[2] == pytest.approx(b[2], rel=0.1)
 
 
-def test_the_tutorial_of_the_page_prints_what_it_says(folder, mpirun):
+def test_the_tutorial_prints_the_output_of_the_page(folder, mpirun):
     page = (source / "docs/dolfinx.md").read_text()
     program = re.search(r"^```python\n(.*?)^```$", page, re.MULTILINE | re.DOTALL)[1]
     expected = re.search(r"^\$ python3 first.py\n(.*\n)", page, re.MULTILINE)[1]

@@ -1,4 +1,4 @@
-"""What is wrong on one rank is raised on all; collective calls leave the GIL to other threads."""
+"""An error on one rank is raised on all; collective calls release the GIL for other threads."""
 
 import threading
 import time
@@ -21,7 +21,7 @@ def cells_of(mesh):
     return len(mesh.cells)
 
 
-# The last rank passes something wrong, the others do not.
+# The last rank passes a wrong argument, the others do not.
 CASES = {
     "marks of another type": lambda m: m.refine(wrong_here([0.5] * cells_of(m), [1] * cells_of(m))),
     "marks of nothing": lambda m: m.coarsen(wrong_here(object(), None)),
@@ -72,7 +72,7 @@ CASES = {
 }
 
 
-# What a call says, where it is wrong on the last rank.
+# The message of a call with a wrong argument on the last rank.
 WORDS = {
     "a number of cells below none": "max_cells: a whole number from 0; given is -1",
     "a number of cells that is a word": "max_cells: a whole number from 0; given is 'few'",
@@ -124,7 +124,7 @@ def test_values_of_two_types_do_not_move(mesh, moves):
     assert len(move.cells(np.ones(before))) == cells_of(mesh)
 
 
-# The last rank passes another kind of values, or another argument, than the others.
+# The last rank passes another type of values, or another argument, than the others.
 DIFFERENT = {
     "values of another type": lambda m: m.vertex_sharing.update_copies(
         np.ones(len(m.points), wrong_here(np.int64, float))),
@@ -258,7 +258,7 @@ def test_other_threads_run_while_a_rank_waits_in_a_collective_call(mesh, name):
 
     words = world.Dup()
     if world.rank != 0:
-        words.recv(source=0)  # comes only when rank 0 waits for this one, and has a thread to spare
+        words.recv(source=0)  # arrives only when rank 0 waits for this rank and has a free thread
         call()
     else:
         thread = threading.Thread(target=call)

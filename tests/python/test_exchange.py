@@ -1,4 +1,4 @@
-"""What ranks know of each other's vertices, edges, faces and cells; marks by estimators; verdicts."""
+"""Sharing of vertices, edges, faces and cells; marks by estimators; verdicts."""
 
 import numpy as np
 import pytest
@@ -63,7 +63,7 @@ def test_booleans_are_true_on_all_that_have_a_vertex_where_they_are_on_one(fine)
 
 
 def numbers_anywhere(mesh, vertices):
-    """The numbers in the whole mesh of these vertices of all ranks."""
+    """The global numbers of these vertices of all ranks."""
     return np.unique(np.concatenate(world.allgather(mesh.vertex_numbers[vertices])))
 
 
@@ -89,7 +89,7 @@ def test_sets_of_vertices_are_complete_on_all_ranks(fine):
         fine.vertices_of(1, dimension=7)
 
 
-def test_edges_and_faces_are_numbered_alike_on_all_ranks(fine):
+def test_edges_and_faces_are_numbered_identically_on_all_ranks(fine):
     for sides, per_cell, corners in ((fine.number_edges(), 6, 2), (fine.number_faces(), 4, 3)):
         assert sides.vertices.shape == (len(sides.numbers), corners)
         assert sides.of_cells.shape == (len(fine.cells), per_cell)
@@ -132,7 +132,7 @@ def test_signs_of_faces_say_to_which_side_their_normals_point(fine):
         leaves = -np.sign((normals(fine, of_cell) * inward).sum(axis=1))
         assert np.array_equal(leaves, faces.outward[:, f])
     both_sides = np.zeros(len(faces.vertices), np.int64)
-    np.add.at(both_sides, faces.of_cells, faces.outward)  # of two cells one sees the normal leave
+    np.add.at(both_sides, faces.of_cells, faces.outward)  # the normal leaves one of the two cells
     both_sides = faces.sharing.combine(both_sides)
     own = faces.sharing.owners == world.rank
     assert total(int(np.abs(both_sides[own]).sum())) == total(len(fine.boundary_faces()))

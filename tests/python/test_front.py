@@ -1,4 +1,5 @@
-"""examples/python/moving_front.py: the same meshes on any number of ranks, and heat that stays."""
+"""examples/python/moving_front.py: the same meshes on any number of ranks, and conservation of
+heat."""
 
 import os
 import pathlib
@@ -15,7 +16,7 @@ CYCLES = 5
 
 @pytest.fixture(scope="module")
 def runs(tmp_path_factory):
-    """{ranks: (what was printed, the folder that it wrote into)}"""
+    """{ranks: (output, folder of its files)}"""
     pytest.importorskip("matplotlib", reason="there is no matplotlib (Debian: python3-matplotlib)")
     folder = tmp_path_factory.mktemp("front")
     run_alone(PROGRAM, "generate", "kuhn", "4", "-o", folder / "cube.mesh")
@@ -53,7 +54,7 @@ def volumes_of(corners):
     return np.einsum("ij,ij->i", np.cross(b - a, c - a), d - a) / 6
 
 
-def test_heat_grows_by_what_the_front_leaves_and_cells_are_small_there(runs):
+def test_heat_grows_behind_the_front_and_cells_are_small_there(runs):
     h5py = pytest.importorskip("h5py", reason="there is no h5py (Debian: python3-h5py)")
     for said, folder in runs.values():
         assert said[-1] == "heat is conserved up to rounding"

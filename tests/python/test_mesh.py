@@ -1,4 +1,4 @@
-"""Meshes from files and arrays, and what they say of themselves."""
+"""Meshes from files and arrays, and their properties."""
 
 import gc
 import sys
@@ -57,7 +57,7 @@ def test_views_stay_as_they_are_when_the_mesh_moves_on_and_when_it_goes(mesh):
     look()
     del mesh
     gc.collect()
-    np.ones(1_000_000)  # takes the place of memory that was given back
+    np.ones(1_000_000)  # reuses released memory
     for name, array, copy in seen:
         assert np.array_equal(array, copy), name
 

@@ -42,7 +42,7 @@ def test_a_plex_has_the_points_of_the_mesh(refined):
         assert vertices.tolist() == refined.cells[c][[1, 0, 2, 3]].tolist()
 
 
-def test_a_plex_shares_what_the_mesh_shares(refined):
+def test_a_plex_has_the_sharers_of_the_mesh(refined):
     plex = to_plex(refined, world)
     points = points_of(plex)
     leaves = plex.getPointSF().getGraph()[1] if world.size > 1 else []
@@ -53,7 +53,7 @@ def test_a_plex_shares_what_the_mesh_shares(refined):
                                       refined.number_faces().count, refined.number_edges().count]
 
 
-def test_tags_are_labels_and_come_back(folder, refined):
+def test_tags_are_labels_and_are_restored(folder, refined):
     plex = to_plex(refined, faces="walls")
     assert plex.hasLabel("walls") and not plex.hasLabel("Face Sets")
     back = from_plex(plex, faces="walls")
@@ -68,7 +68,7 @@ def test_tags_are_labels_and_come_back(folder, refined):
 
 
 def gradients_and_volumes(corners):
-    """Of the linear functions that are 1 at one corner: (n, 4, 3), and (n,)."""
+    """Gradients of the linear functions that are 1 at one corner, (n, 4, 3), and volumes, (n,)."""
     edges = corners[:, 1:] - corners[:, :1]
     inverse = np.linalg.inv(edges).transpose(0, 2, 1)
     return (np.concatenate([-inverse.sum(axis=1, keepdims=True), inverse], axis=1),
@@ -109,7 +109,7 @@ def test_a_linear_function_solves_laplaces_equation_on_a_plex(refined):
     assert np.allclose(local.array[offset], exact, atol=1e-10)
 
 
-def test_the_solver_of_the_page_prints_what_the_page_shows(cube, monkeypatch, capsys):
+def test_the_solver_prints_the_output_of_the_page(cube, monkeypatch, capsys):
     source = pathlib.Path(__file__).resolve().parents[2]
     monkeypatch.syspath_prepend(source / "examples/python")
     page = (source / "docs/petsc.md").read_text()
@@ -119,7 +119,7 @@ def test_the_solver_of_the_page_prints_what_the_page_shows(cube, monkeypatch, ca
     assert capsys.readouterr().out.splitlines() == (table[:4] if world.rank == 0 else [])
 
 
-def test_what_is_no_plex_of_tetrahedra_is_refused():
+def test_other_plexes_than_of_tetrahedra_are_refused():
     with pytest.raises(TypeError):
         from_plex(3)
     flat = PETSc.DMPlex().createBoxMesh([2, 2], simplex=False, comm=world)

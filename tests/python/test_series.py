@@ -1,4 +1,4 @@
-"""Meshes one after the other in one file."""
+"""Successive meshes in one file."""
 
 import numpy as np
 import pytest
@@ -21,7 +21,7 @@ def test_bytes_are_those_of_the_command(folder, cube):
     assert (folder / "ours.vtkhdf").read_bytes() == (folder / "theirs.vtkhdf").read_bytes()
 
 
-def test_fields_go_along_and_what_not_all_steps_have_is_told(folder, mesh):
+def test_fields_are_written_and_those_missing_in_steps_are_reported(folder, mesh):
     h5py = pytest.importorskip("h5py", reason="there is no h5py (Debian: python3-h5py)")
     series = octetra.MeshSeries(str(folder / "all.vtkhdf"), world)
     volumes = octetra.quality.volume(mesh)
@@ -56,7 +56,7 @@ def raised_by_all(raised):
     return said == [said[0]] * world.size
 
 
-def test_what_is_wrong_is_raised_alike_on_all_and_the_series_goes_on(folder, mesh):
+def test_errors_are_raised_identically_on_all_ranks_and_the_series_continues(folder, mesh):
     wrong = world.rank == world.size - 1
     with pytest.raises(octetra.InputError):
         octetra.MeshSeries(folder / "all.vtu")
@@ -70,7 +70,7 @@ def test_what_is_wrong_is_raised_alike_on_all_and_the_series_goes_on(folder, mes
             with pytest.raises(octetra.InputError) as raised:
                 mesh.append_to(series, time, cell_fields=fields)
             assert raised_by_all(raised), time
-        mesh.append_to(series, 2 + world.rank)  # the first rank's counts
+        mesh.append_to(series, 2 + world.rank)  # only the argument of the first rank is used
         mesh.append_to(series, 2.5)
     assert (folder / "all.vtkhdf").exists()
 

@@ -1,4 +1,4 @@
-"""Steps, what they tell, and that the bytes are the command's."""
+"""Steps, their results, and equality with the files of the command."""
 
 import importlib
 import pathlib
@@ -39,7 +39,7 @@ def test_bytes_are_those_of_the_command(folder, cube):
     (lambda m: octetra.mark.larger_than(m, 0.001), ("--max-volume", "0.001")),
     (lambda m: octetra.mark.region(m, 2), ("--region", "2")),
 ])
-def test_criteria_mark_what_those_of_the_command_mark(folder, criterion, option):
+def test_criteria_mark_the_same_cells_as_the_command(folder, criterion, option):
     command("generate", "two-material", "-o", folder / "in.mesh")
     for scheme in ("8t", "4t", "2t"):
         mesh = octetra.read(folder / "in.mesh", partition="block")
@@ -103,7 +103,7 @@ def test_edges_are_bisected(mesh):
     assert all((new == pair).all(axis=1).any() for pair in ends)
 
 
-def test_a_step_tells_what_was_before(mesh):
+def test_a_step_returns_ancestors(mesh):
     for radius in (0.9, 0.2):
         cells, points = mesh.cells, mesh.points
         step = mesh.refine(near(mesh, radius))
@@ -139,7 +139,7 @@ def test_values_go_along_with_every_step(mesh):
         assert np.allclose(u, linear(mesh)) and u.shape == (len(mesh.points), 2)
         assert np.allclose(mass, volumes(mesh))
         assert density.dtype == np.float32 and np.all(density == 3)
-        u += 0.0  # it is the program's own
+        u += 0.0  # it belongs to the program
     with pytest.raises(ValueError):
         told.transfer_vertices(np.zeros(told.vertex_count_before + 1))
     with pytest.raises(octetra.InputError):
@@ -172,7 +172,7 @@ def test_coarsening_keeps_integrals_where_it_is_asked_to(mesh):
         mesh.transfer_conservatively(step, u)
 
 
-def test_whole_numbers_stay_what_they_are(mesh):
+def test_whole_numbers_are_preserved(mesh):
     tags, tenths = np.full(len(mesh.cells), 7, np.int32), np.full(len(mesh.cells), 0.1)
     for step in (mesh.refine, mesh.refine, mesh.coarsen):
         told = step(near(mesh, 0.6))
@@ -212,7 +212,7 @@ def test_rebalancing_evens_out_the_ranks_and_changes_no_file(folder, cube):
     assert same(folder / "moved.mesh", folder / "still.mesh")
 
 
-def test_an_even_step_gives_where_cells_went_and_what_it_did(folder, cube):
+def test_a_balanced_step_returns_migration_and_adaptation(folder, cube):
     mesh, other = octetra.read(cube), octetra.read(cube)
     marks = near(mesh, 0.5)
     points = mesh.points
@@ -224,7 +224,7 @@ def test_an_even_step_gives_where_cells_went_and_what_it_did(folder, cube):
     assert same(folder / "even.mesh", folder / "other.mesh")
 
 
-def test_cells_may_take_the_place_of_the_inputs_where_these_are_too_heavy(folder, cube):
+def test_cells_may_replace_roots_that_are_too_heavy(folder, cube):
     mesh, other = octetra.read(cube), octetra.read(cube)
     roots = total(len(mesh.roots))
     for radius in (0.9, 0.5, 0.28, 0.15, 0.08, 0.04):
@@ -251,7 +251,7 @@ def test_cells_may_take_the_place_of_the_inputs_where_these_are_too_heavy(folder
     assert same(folder / "even.octetra", folder / "other.octetra")
 
 
-def test_a_mesh_is_saved_with_fields_and_goes_on(folder, mesh):
+def test_a_mesh_is_saved_with_fields_and_continues(folder, mesh):
     mesh.refine(near(mesh, 0.5))
     u, q = mesh.points[:, 0].copy(), centroids(mesh).astype(np.float32)
     mesh.save(folder / "state.octetra", vertex_fields={"u": u}, cell_fields={"q": q})

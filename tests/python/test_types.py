@@ -1,5 +1,6 @@
-"""The type stubs are those of what is there: by stubtest, which cannot see the parameters of compiled
-functions, and by the signatures that pybind11 puts into their docstrings; and uses of them check."""
+"""The type stubs agree with the module: checked by stubtest, which cannot see the parameters of
+compiled functions, and with the signatures that pybind11 puts into their docstrings; mypy checks
+uses of them."""
 
 import ast
 import importlib.util
@@ -24,11 +25,11 @@ def run(*words, cwd):
 
 def test_stubs_are_of_what_is_there(tmp_path):
     allowed = tmp_path / "allowed.txt"
-    # Few classes have a constructor; that which pybind11 gives the others says so. What octetra.petsc
-    # imports is not its own.
+    # Few classes have a constructor; that which pybind11 adds to the others raises an error. The
+    # imports of octetra.petsc are not its own.
     names = [r"octetra\.(\w+\.)?\w+\.__init__", r"octetra\.petsc\.NamedTuple"]
     if (package / "dolfinx.py").exists() and importlib.util.find_spec("dolfinx") is None:
-        names.append(r"octetra\.dolfinx")  # built with DOLFINx's headers, and there is nothing to import
+        names.append(r"octetra\.dolfinx")  # built with headers only: nothing to import
     allowed.write_text("\n".join(names) + "\n")
     run(sys.executable, "-m", "mypy.stubtest", "octetra", "--allowlist", str(allowed),
         "--ignore-unused-allowlist", cwd=tmp_path)
@@ -85,7 +86,7 @@ def parameters_of_stub(args):
 
 
 def parameters_of_docstring(doc):
-    """From `name(self: Mesh, marks: object = None, *, scheme: str = '8t') -> ...`."""
+    """The parameters in `name(self: Mesh, marks: object = None, *, scheme: str = '8t') -> ...`."""
     inside = re.match(r"\w+\((.*)\) -> .*", doc.splitlines()[0])[1]
     inside = re.sub(r"\[[^]]*\]", "", re.sub(r"\[[^][]*\]", "", inside))
     found, only_keyword = [], False

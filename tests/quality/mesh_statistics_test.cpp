@@ -111,8 +111,8 @@ TEST(Shape, DihedralAnglesOfTheSommervilleTetrahedronAre60To90) {
     expect_angles(sommerville, 60, 90);
 }
 
-TEST(Shape, DihedralAnglesStandInTheOrderOfTheEdges) {
-    // Of the cube corner, edges 01, 02, 03 lie on the axes.
+TEST(Shape, DihedralAnglesAreInTheOrderOfTheEdges) {
+    // The edges 01, 02, 03 of the cube corner lie on the axes.
     const auto angles = dihedral_angles(cube_corner);
     for (std::size_t k = 0; k < 3; ++k) EXPECT_NEAR(angles[k], 90, tolerance * 180);
     const double steep = degrees(std::acos(std::sqrt(1.0 / 3)));
@@ -170,7 +170,7 @@ TEST(Shape, TriangleAnglesAndAreaAreThoseOfARightTriangle) {
     EXPECT_NEAR(angles[2], degrees(std::atan(3.0 / 4)), tolerance * 180);
 }
 
-TEST(CompensatedSum, KeepsWhatALargeTermWouldSwallow) {
+TEST(CompensatedSum, KeepsDigitsThatALargeTermWouldAbsorb) {
     CompensatedSum sum;
     for (const double term : {1.0, 1e100, 1.0, -1e100}) sum.add(term);
     EXPECT_EQ(sum.value(), 2);
@@ -214,7 +214,7 @@ TEST(Histogram, ABoundBelongsToTheBinThatItBegins) {
                 ElementsAre(2, 1, 0, 0, 0, 0, 2, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 1));
 }
 
-TEST(Histogram, WhatIsOutsideOrNotANumberGoesToAnEnd) {
+TEST(Histogram, ValuesOutsideAndNansAreCountedAtAnEnd) {
     Histogram histogram(0, 1, 2);
     for (const double value : {-3.0, std::nan(""), 7.0, HUGE_VAL}) histogram.add(value);
     EXPECT_THAT(histogram.counts, ElementsAre(2, 2));
@@ -233,7 +233,7 @@ TEST(Measure, AnEmptyMeshHasNothing) {
     EXPECT_THAT(s.eta_histogram.counts, Each(0));
 }
 
-TEST(Measure, VerticesWithoutCellsAreUnusedAndCountForNothingElse) {
+TEST(Measure, VerticesWithoutCellsAreUnusedAndHaveNoOtherEffect) {
     Mesh mesh = mesh_of(kuhn);
     mesh.points.push_back({100, 100, 100});
     mesh.points.push_back({-100, 0, 0});
@@ -264,7 +264,7 @@ TEST(Measure, OneCellIsABall) {
     EXPECT_DOUBLE_EQ(s.edge_length->max, std::sqrt(3.0));
 }
 
-/// What the test expects of two cells that share a part of their boundary.
+/// Expected statistics of two cells that share a part of their boundary.
 struct Pair {
     const char* name;
     Mesh mesh;

@@ -10,11 +10,11 @@
 #include "support/meshes.hpp"
 #include "support/refinement.hpp"
 
-/// One real cell in all its 24 vertex orders, under all 64 selections of its edges.
+/// One cell in all its 24 vertex orders, with all 64 selections of its edges.
 namespace octetra::reference {
 namespace {
 
-/// The pieces of a cell whose edges `marked` (pairs of corner positions in `corners`) are marked.
+/// The children of a cell; `selection` marks its edges, pairs of corner positions in `corners`.
 Mesh bisected(const std::array<Point, 4>& corners, std::array<std::size_t, 4> order,
               unsigned selection) {
     Mesh mesh;
@@ -43,7 +43,7 @@ Mesh bisected(const std::array<Point, 4>& corners, std::array<std::size_t, 4> or
 
 class OneCell : public testing::TestWithParam<std::array<Point, 4>> {};
 
-TEST_P(OneCell, IsBisectedAlikeInEveryVertexOrder) {
+TEST_P(OneCell, IsBisectedIdenticallyInEveryVertexOrder) {
     for (unsigned selection = 0; selection < 64; ++selection) {
         std::array<std::size_t, 4> order{0, 1, 2, 3};
         const auto expected = test::geometry(bisected(GetParam(), order, selection));
@@ -81,7 +81,7 @@ INSTANTIATE_TEST_SUITE_P(Shapes, OneCell,
                                          test::cube_corner, test::sommerville_corners,
                                          test::tie_free_corners, test::type_o_corners));
 
-TEST(Bisection, Child1KeepsTheEndAtTheLowerPositionAndMidpointsTakeTheLeaversPlace) {
+TEST(Bisection, Child1KeepsTheEndAtTheLowerPositionAndMidpointsReplaceTheOther) {
     const Mesh mesh = test::one_cell(test::tie_free_corners);
     const EdgeTable table = number_edges(mesh);
     EdgeToMidpoint midpoints(6, VertexIndex::none());

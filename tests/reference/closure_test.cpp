@@ -54,8 +54,9 @@ TEST_P(Closure, IsMonotone) {
 }
 
 TEST_P(Closure, IsMinimal) {
-    // Any closed set that contains the selection contains the closure: so taking one edge out of it
-    // that was not marked must leave a set that is not closed, or else the closure was not least.
+    // Any closed set that contains the selection contains the closure. Hence removing from it one
+    // edge that was not marked must leave a set that is not closed; otherwise the closure was not
+    // minimal.
     for (EdgeIndex e{0}; e < closed.end_index(); ++e) {
         if (closed[e] == 0 || few[e] != 0) continue;
         EdgeSet without = closed;

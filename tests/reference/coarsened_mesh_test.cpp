@@ -8,7 +8,7 @@
 #include "support/conformity.hpp"
 #include "support/nesting.hpp"
 
-/// What a mesh is like after coarsening, beside the one before.
+/// Properties of a mesh after coarsening, compared with the mesh before.
 namespace octetra::reference {
 namespace {
 
@@ -30,7 +30,7 @@ protected:
     }
 };
 
-/// Corners that ascend, and the region tag.
+/// The ascending corners, and the region tag.
 std::pair<Corners, Marker> place_of(const Mesh& mesh, CellIndex c) {
     Corners corners = test::corners_of(mesh, c);
     std::ranges::sort(corners, std::less<>{});
@@ -48,7 +48,7 @@ TEST_P(CoarsenedMesh, HasEveryCellThatWasNotMarked) {
     }
 }
 
-/// Of those facets or edges that have an unmarked cell.
+/// For facets or edges that have an unmarked cell.
 template <class I, std::size_t N>
 void expect_tags_stay(const Mesh& old, const CellMarks& marked, const Mesh& coarser,
                       IndexVector<I, std::array<VertexIndex, N>> Mesh::*list,
@@ -80,7 +80,7 @@ TEST_P(CoarsenedMesh, HasTheTaggedFacetsAndEdgesOfCellsThatWereNotMarked) {
     }
 }
 
-/// What each vertex has: its marker and its two attributes.
+/// The marker and the two attributes of each vertex.
 using Tags = std::map<Point, std::tuple<Marker, double, double>>;
 
 Tags tags_of(const Mesh& mesh) {

@@ -3,14 +3,13 @@
 #include "reference/random_history.hpp"
 #include "support/coarsening.hpp"
 
-/// What coarsening makes of a history. What the mesh is then like stands in
-/// coarsened_mesh_test.cpp.
+/// Coarsening of histories. Properties of the resulting mesh are tested in coarsened_mesh_test.cpp.
 namespace octetra::reference {
 namespace {
 
 class RandomHistory : public testing::TestWithParam<std::uint64_t> {};
 
-/// The maps of a mesh that was refined once more.
+/// The composition of the maps with those of one more refinement.
 RefinementMaps followed_by(const RefinementMaps& maps, const RefinementMaps& last) {
     RefinementMaps both = maps;
     both.cell_to_parent.clear();
@@ -43,7 +42,7 @@ TEST_P(RandomHistory, IsReplayedAsRefinementMadeItStepByStep) {
     }
 }
 
-TEST_P(RandomHistory, GoesOnFromACoarserMeshAsRefinementDoes) {
+TEST_P(RandomHistory, ContinuesFromACoarserMeshLikeRefinement) {
     for (const Call& call : random_calls(random_input(GetParam()), GetParam())) {
         if (call.coarsens || call.after == call.before) continue;
         const auto before = replay(call.before);
@@ -78,14 +77,14 @@ TEST_P(Coarsening, LeavesTheVerticesThatTheRulesForceAndNoOther) {
     }
 }
 
-TEST_P(Coarsening, OfAllCellsAgainAndAgainEndsInTheInput) {
+TEST_P(Coarsening, OfAllCellsRepeatedlyRestoresTheInput) {
     for (const Call& call : random_coarsenings(GetParam())) {
         History history = call.before;
         while (!history.steps.empty()) {
             const std::size_t steps = history.steps.size();
             const Refinement present = replay(history).back();
             history = coarsened(history, marked_cells(present, {.all = true}));
-            ASSERT_LT(history.steps.size(), steps);  // nothing needs what the last step made
+            ASSERT_LT(history.steps.size(), steps);  // nothing depends on the last step
         }
         EXPECT_EQ(history.input, call.before.input);
         EXPECT_EQ(replay(history).back().mesh, call.before.input);
@@ -100,7 +99,7 @@ TEST_P(Coarsening, OfNoCellChangesNothing) {
     }
 }
 
-TEST_P(Coarsening, OfFewerCellsLetsGoOfNothingMore) {
+TEST_P(Coarsening, OfFewerCellsRemovesNoAdditionalVertices) {
     std::mt19937_64 random(GetParam());
     for (const Call& call : random_coarsenings(GetParam())) {
         CellMarks fewer = call.marked;
@@ -130,17 +129,18 @@ TEST_P(Coarsening, OfTheCellsThatAStepMadeTakesItBack) {
 INSTANTIATE_TEST_SUITE_P(Seeds, RandomHistory, testing::Range<std::uint64_t>(0, 6));
 INSTANTIATE_TEST_SUITE_P(Seeds, Coarsening, testing::Range<std::uint64_t>(0, 12));
 
-/// How many of the midpoints go, and in which ways.
+/// Counts the kinds of coarsening that occur.
 struct Census {
     int calls = 0;
-    int all_stays = 0;       ///< though cells are marked
+    int all_stays = 0;       ///< although cells are marked
     int part_of_a_step = 0;  ///< a step loses some edges and keeps others
     int several_steps = 0;   ///< lose edges
-    int closure_adds = 0;    ///< rule (b) keeps what rule (a) does not
+    int closure_adds = 0;    ///< rule (b) keeps edges that rule (a) does not
     int later_steps = 0;     ///< a step that has a later one loses edges
 };
 
-/// How many edges of each step are struck. Steps that are empty are gone, so points tell them.
+/// The number of edges that each step loses. Empty steps are removed, so edges are identified by
+/// points.
 std::vector<std::size_t> struck(const Call& call) {
     const auto left = test::points_of(replay(call.after).back().mesh);
     const auto meshes = replay(call.before);

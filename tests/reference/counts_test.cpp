@@ -8,7 +8,7 @@
 #include "support/meshes.hpp"
 #include "support/refinement.hpp"
 
-/// Counts of whole meshes, against closed forms, identities and published figures.
+/// Counts of whole meshes, compared with closed forms, identities and published figures.
 namespace octetra::reference {
 namespace {
 
@@ -121,7 +121,7 @@ TEST(Counts, ApproachTheLimitsOfUniformRefinement) {
     EXPECT_NEAR(2 * edges / vertices, 14, 1);
 }
 
-TEST(Numbering, GoesOnFromWhereTheInputBegins) {
+TEST(Numbering, ContinuesTheIndexBaseOfTheInput) {
     Mesh mesh = test::one_cell(test::tie_free_corners);
     mesh.index_base = 1;
     const Refinement fine = refine(mesh, everything, Scheme::eight, 2);

@@ -70,13 +70,13 @@ TEST(CanonicalOrder, KeepsInputVerticesAndSortsTheMidpointsOfALevelByTheirEnds) 
     EXPECT_EQ(v, fine.mesh.points.end_index());
 }
 
-TEST(CanonicalOrder, PutsChildrenWhereTheirParentStood) {
+TEST(CanonicalOrder, PutsChildrenAtThePositionOfTheirParent) {
     const Mesh mesh = test::shaken_kuhn(3, 0.3, 6);
     const Refinement fine = refine(mesh, {.random = RandomShare{0.3, 5}}, Scheme::eight, 3);
     EXPECT_TRUE(std::ranges::is_sorted(fine.maps.cell_to_parent));
 }
 
-TEST(Selection, OfListedCellsGoesOnToTheirDescendants) {
+TEST(Selection, OfListedCellsIncludesTheirDescendants) {
     const Mesh mesh = test::shaken_kuhn(2, 0.2, 6);
     const Refinement fine = refine(mesh, {.cells = {GlobalCell{3}}}, Scheme::eight, 2);
     EXPECT_GE(std::ranges::count(fine.maps.cell_to_parent, CellIndex{3}), 64);

@@ -50,7 +50,7 @@ TEST(Exactness, MidpointsOfDyadicEdgesAreExact) {
     EXPECT_EQ(v, fine.mesh.points.end_index());
 }
 
-/// A unit corner of side 2^52: its coordinates have no room for halves below 1.
+/// A corner of a cube with coordinates near 2^52, where halves of 1 are not representable.
 Mesh cell_of_side(double side) {
     const double far = 0x1p52;
     return test::one_cell({{{far, far, far},
@@ -60,7 +60,7 @@ Mesh cell_of_side(double side) {
 }
 
 TEST(Rounding, ThatWouldFlattenAChildIsReportedByCellAndLevel) {
-    // One step of the grid: the midpoints round to an end (to even).
+    // One grid step: midpoints round to an end (to even).
     EXPECT_THAT(test::thrown_by<InputError>(
                     [] { (void)refine(cell_of_side(1), {.all = true}, Scheme::eight, 1); }),
                 AllOf(HasSubstr("cell 0, level 1"), HasSubstr("flat")));
@@ -93,7 +93,7 @@ TEST(Rounding, AtALaterLevelNamesTheCellOfTheInput) {
 }
 
 TEST(Rounding, ThatWouldInvertAChildIsReported) {
-    // A sliver one grid step thick, whose midpoints' rounding carries a vertex through a face.
+    // A sliver one grid step thick: the rounding of its midpoints moves a vertex through a face.
     std::size_t inverted = 0;
     std::size_t refused = 0;
     for (int i = 0; i < 256; ++i) {
@@ -120,7 +120,7 @@ TEST(Rounding, ThatWouldInvertAChildIsReported) {
     EXPECT_GT(inverted, 0U);
 }
 
-/// A cell whose coordinates are 2^52 and this much more: it has no room for halves.
+/// A cell moved by 2^52, where only whole numbers are representable.
 std::array<Point, 4> far_out(std::array<Point, 4> corners) {
     for (Point& p : corners) p = {0x1p52 + p.x, 0x1p52 + p.y, 0x1p52 + p.z};
     return corners;
@@ -142,7 +142,7 @@ struct RefinedSliver {
         history = refined(history, {0, 0, 0, 0, 0, 0, 0, 0, true}, Scheme::eight);
         children = replay(history).back().mesh.cells.size() - 8;
     }
-    /// Marks of some of the sliver's children, as bits, and of all that the first step made or not.
+    /// Marks some of the sliver's children, as bits, and all or none of the first step's.
     [[nodiscard]] CellMarks marks(unsigned of_sliver, bool of_other) const {
         CellMarks marks(8, static_cast<char>(of_other));
         for (std::size_t i = 0; i < children; ++i) {
@@ -156,21 +156,21 @@ struct RefinedSliver {
     }
 };
 
-TEST(Rounding, ThatSpoilsALargerCellIsReportedWhenCoarseningIsReplayed) {
-    // Eight children are positively oriented, and so is the cell. Without one of the midpoints
-    // there are larger children, which are not: what rounding added is missing.
+TEST(Rounding, ThatInvalidatesALargerCellIsReportedWhenCoarseningIsReplayed) {
+    // The eight children and the cell are positively oriented. Without one of the midpoints there
+    // are larger children, which are not, because the displacement by rounding is missing.
     const RefinedSliver inverted(far_out({{{5, 7, 0}, {13, 21, 0}, {63, 51, 3}, {22, 62, 1}}}));
     ASSERT_EQ(inverted.children, 8U);
     EXPECT_THAT(inverted.refusal_of(inverted.marks(0b0011'1100, false)),
                 AllOf(HasSubstr("cell 1, level 2"), HasSubstr("inverted")));
-    EXPECT_THAT(inverted.refusal_of(inverted.marks(0b0011'1100, true)),  // and the first step goes
+    EXPECT_THAT(inverted.refusal_of(inverted.marks(0b0011'1100, true)),  // the first step is undone
                 AllOf(HasSubstr("cell 1, level 1"), HasSubstr("inverted")));
 
     const RefinedSliver flat(far_out({{{57, 47, 2}, {56, 42, 2}, {25, 36, 3}, {20, 54, 0}}}));
     ASSERT_EQ(flat.children, 8U);
     EXPECT_THAT(flat.refusal_of(flat.marks(0b0000'1100, false)),
                 AllOf(HasSubstr("cell 1, level 2"), HasSubstr("flat")));
-    // The cell as a whole can come back.
+    // The cell as a whole can be restored.
     EXPECT_EQ(replay(coarsened(flat.history, flat.marks(0xFF, true))).back().mesh,
               flat.history.input);
 }

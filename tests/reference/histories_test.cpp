@@ -4,7 +4,7 @@
 
 #include "support/meshes.hpp"
 
-/// Counts of meshes that were refined and coarsened, by a program that knows nothing of this one.
+/// Counts of refined and coarsened meshes, computed by an independent program.
 namespace octetra::reference {
 namespace {
 
@@ -17,7 +17,7 @@ void PrintTo(const Counts& counts, std::ostream* out) {
     *out << counts.cells << " / " << counts.vertices;
 }
 
-/// 4 x 4 x 4 bricks in the unit cube, six cells in each: a ring round its diagonal.
+/// 4 x 4 x 4 bricks in the unit cube, with six cells each: a ring round its diagonal.
 Mesh bricks() {
     // Bit 0 of a corner's number is set at the high end of x, bit 1 of y, bit 2 of z.
     constexpr std::array<std::array<std::size_t, 4>, 6> cells_of_brick{

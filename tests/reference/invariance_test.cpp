@@ -9,7 +9,7 @@
 #include "support/refinement.hpp"
 #include "support/tagged_meshes.hpp"
 
-/// Numbers are names only: renumbering the input renumbers the result and changes nothing else.
+/// Numbering has no influence: renumbering the input renumbers the result and changes nothing else.
 namespace octetra::reference {
 namespace {
 

@@ -11,7 +11,7 @@
 #include "support/meshes.hpp"
 #include "support/refinement.hpp"
 
-/// What cells, facets, edges and vertices carry along.
+/// Data of cells, facets, edges and vertices, transferred by refinement.
 namespace octetra::reference {
 namespace {
 
@@ -91,7 +91,7 @@ double smallest_angle(const Mesh& mesh, const FacetVertices& f) {
 
 TEST(Facets, KeepHalfOfTheSmallestAngleOfTheFaceTheyDescendFrom) {
     // Rosenberg & Stenger, "A lower bound on the angles of triangles constructed by bisecting the
-    // longest side", Math. Comp. 29 (1975). Each facet has a marker of its own here.
+    // longest side", Math. Comp. 29 (1975). Here each facet has its own marker.
     for (const std::uint64_t seed : {1U, 2U, 3U}) {
         Mesh mesh = test::shaken_kuhn(2, 0.45, seed);
         test::list_boundary(mesh);
@@ -121,7 +121,7 @@ TEST(Edges, GiveTheirMarkersToTheirHalves) {
     EXPECT_EQ(fine.edge_markers, (IndexVector<EdgeIndex, Marker>{8, 8, 9}));
 }
 
-TEST(Vertices, AtMidpointsTakeTheEdgesMarkerElseTheSmallestOfTheFacetsElseZero) {
+TEST(Vertices, AtMidpointsHaveTheEdgesMarkerElseTheSmallestOfTheFacetsElseZero) {
     Mesh mesh = test::one_cell(test::tie_free_corners);
     const auto vertex = [](std::size_t v) { return VertexIndex{v}; };
     mesh.point_markers = {1, 1, 1, 1};

@@ -13,9 +13,9 @@
 
 #include "bisect.hpp"
 
-/// Every way that one tetrahedron can be bisected: all 720 orders of its six edges by length, all
+/// All bisections of one tetrahedron: all 720 orders of its six edges by length, and all
 /// selections. The figures are those of Plaza & Carey, "Local refinement of simplicial grids based
-/// on the skeleton", and of an exact enumeration made without this code.
+/// on the skeleton", and of an independent exact enumeration.
 namespace octetra::reference {
 namespace {
 
@@ -35,7 +35,7 @@ struct Case {
     EdgeSubset marked;
     std::array<std::size_t, 4> face_longest;
     LengthOrder order;
-    std::vector<Tetrahedron> children;  // as the recursion orders them and their vertices
+    std::vector<Tetrahedron> children;  // in the order of the recursion, as are their vertices
     Triangulation triangulation;
 };
 
@@ -107,7 +107,7 @@ const std::vector<Case>& all_cases() {
     return cases;
 }
 
-/// The vertex that a rotation or reflection of the tetrahedron takes vertex v to.
+/// The image of vertex v under a rotation or reflection of the tetrahedron.
 int moved(int v, const std::array<int, 4>& corners) {
     if (v < 4) return corners[static_cast<std::size_t>(v)];
     const auto& [i, j] = cell_edges[static_cast<std::size_t>(v - 4)];
@@ -144,8 +144,8 @@ std::vector<std::array<int, 4>> symmetries(bool with_reflections) {
     return result;
 }
 
-/// How many classes there are among the refined cases for each number of marked edges 1..6, where
-/// the symmetries take a (triangulation, remark) to equal ones.
+/// The number of classes of refined cases for each number of marked edges 1..6, where symmetries
+/// map a pair (triangulation, remark) to equivalent ones.
 std::array<int, 6> classes(bool with_reflections, auto&& remark_of, auto&& moved_remark) {
     using Remarked = std::pair<Triangulation, int>;
     std::array<std::set<Remarked>, 6> representatives;
@@ -172,9 +172,9 @@ constexpr auto no_remark = [](const Case&) { return 0; };
 constexpr auto same_remark = [](int remark, const auto&) { return remark; };
 
 TEST(Patterns, ThereAre684CasesBySelectionLongestEdgesOfTheFacesAndLongestEdge) {
-    // Where two opposite edges are each the longest of two faces (3 ways, 18 selections each),
-    // either can be the longest of the cell: 54 cases more than the longest edges of the faces tell
-    // apart.
+    // If two opposite edges are each the longest of two faces (3 arrangements, 18 selections each),
+    // either can be the longest of the cell: 54 cases more than the longest edges of the faces
+    // distinguish.
     std::set<std::pair<unsigned long, std::array<std::size_t, 4>>> by_faces;
     std::set<std::tuple<unsigned long, std::array<std::size_t, 4>, std::size_t>> cases;
     for (const Case& c : all_cases()) {
@@ -226,7 +226,8 @@ TEST(Patterns, HaveOneChildMoreThanEdgesAndAnotherIfLongestAndOppositeAreSelecte
     }
 }
 
-/// Six times the volume, with corners and midpoints of the unit corner doubled to integers.
+/// Twice six times the volume, where corners and midpoints of the unit corner are doubled to
+/// integers.
 int doubled_volume(const Tetrahedron& cell) {
     const auto position = [](int v) -> std::array<int, 3> {
         constexpr std::array<std::array<int, 3>, 4> corner{
@@ -301,9 +302,9 @@ std::set<Triangle> trace(const Triangulation& triangulation, std::size_t f) {
 }
 
 TEST(Patterns, OfTwoCellsThatAgreeOnAFaceMeetThereWhateverTheRest) {
-    // Two cells that share a face agree on its marked edges and on its longest. If the trace on a
-    // face is a function of these, then all pairs of patterns conform. It is the function that
-    // bisects the triangle by itself, which is how tagged facets are refined.
+    // Two cells that share a face agree on its marked edges and on its longest edge. If the trace
+    // on a face is a function of these, then all pairs of patterns conform. It must also be the
+    // bisection of the triangle alone, by which tagged facets are refined.
     std::size_t compared = 0;
     for (const Case& c : all_cases()) {
         for (std::size_t f = 0; f < 4; ++f) {

@@ -10,11 +10,11 @@
 #include "support/meshes.hpp"
 #include "support/tagged_meshes.hpp"
 
-/// Small meshes that are refined and coarsened at random. Cells are marked by where they are, so
-/// that other numbers make no difference.
+/// Small meshes that are refined and coarsened at random. Cells are marked by their coordinates, so
+/// that numbering has no influence.
 namespace octetra::reference {
 
-/// All points of all meshes below, times this, are integers of less than 40 bits.
+/// All points of these meshes, multiplied by this scale, are integers of less than 40 bits.
 inline constexpr double random_history_scale = 0x1p36;
 
 /// A call of refined() or of coarsened().
@@ -26,7 +26,7 @@ struct Call {
     History after;
 };
 
-/// A lattice full of ties, a shaken one, or a shell, with tags and attributes.
+/// A lattice full of ties, a perturbed lattice, or a shell, with tags and attributes.
 inline Mesh random_input(std::uint64_t seed) {
     Mesh mesh = test::tagged(seed % 3 == 0   ? test::kuhn(2, 2, 1)
                              : seed % 3 == 1 ? test::shaken_kuhn(2, 0.25, seed)
@@ -39,7 +39,7 @@ inline Mesh random_input(std::uint64_t seed) {
     return mesh;
 }
 
-/// About so many of its cells.
+/// Selects about this number of cells.
 inline Selection about(double count, const Mesh& mesh, std::uint64_t seed) {
     const double share = std::clamp(count / static_cast<double>(mesh.cells.size()), 0.0, 1.0);
     return {.random = RandomShare{share, seed}};
@@ -71,7 +71,7 @@ inline Selection random_cells_to_coarsen(const Mesh& present, std::mt19937_64& r
         return {.spheres = {{points[VertexIndex{random() % points.size()}], 0.25 + up_to(1)}}};
     }
     const auto cells = static_cast<double>(present.cells.size());
-    const std::uint64_t seed = random();  // first, whatever order a compiler has for arguments
+    const std::uint64_t seed = random();  // argument evaluation is unordered
     return about(cells - 1 - up_to(0.1 * cells), present, seed);
 }
 
@@ -97,7 +97,7 @@ inline std::vector<Call> random_calls(const Mesh& input, std::uint64_t seed) {
     return calls;
 }
 
-/// Those that coarsen.
+/// The calls that coarsen.
 inline std::vector<Call> random_coarsenings(std::uint64_t seed) {
     std::vector<Call> calls = random_calls(random_input(seed), seed);
     std::erase_if(calls, [](const Call& call) { return !call.coarsens; });

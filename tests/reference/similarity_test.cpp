@@ -12,8 +12,8 @@
 #include "support/meshes.hpp"
 #include "support/refinement.hpp"
 
-/// How many shapes uniform 8T-LE makes: similarity classes by exact integers, mirror images counted
-/// as one.
+/// The number of shapes that uniform 8T-LE makes: similarity classes by exact integers; mirror
+/// images count as one.
 namespace octetra::reference {
 namespace {
 
@@ -21,8 +21,8 @@ using testing::ElementsAre;
 
 constexpr int deepest = 6;
 
-/// The squared edge lengths 01 02 03 12 13 23 with the common factor taken out, in that order of
-/// the corners for which they come lexicographically first.
+/// The squared edge lengths 01 02 03 12 13 23 divided by their common factor, for the order of the
+/// corners for which they are lexicographically first.
 using Shape = std::array<std::int64_t, 6>;
 
 Shape shape_of(const Corners& corners) {
@@ -65,7 +65,7 @@ double eta(const Corners& corners) {
 }
 
 struct Census {
-    std::vector<std::size_t> new_classes;  ///< at each level from 0, up to the last one with any
+    std::vector<std::size_t> new_classes;  ///< at each level, up to the last with any
     std::vector<double> least_eta;         ///< at each level
 };
 

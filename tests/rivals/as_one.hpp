@@ -9,10 +9,10 @@
 #include "distributed/world.hpp"
 #include "rivals/ranks/terminal_edges_on_ranks.hpp"
 
-/// What ranks have, put together.
+/// Gathers the parts of all ranks.
 namespace octetra::rivals {
 
-/// Collective. On every rank the whole mesh, and whether all copies of a vertex have the same bits.
+/// Collective. The whole mesh on every rank, and whether all copies of a vertex have the same bits.
 struct AsOne {
     Mesh mesh;
     std::vector<std::uint64_t> roots;
@@ -32,7 +32,7 @@ inline AsOne as_one(const PartOfMesh& part) {
     const auto regions = test::of_all<Marker>(part.mesh.regions);
     AsOne whole;
     std::map<std::uint64_t, Point> point_of_number;
-    std::multimap<std::uint64_t, std::pair<CellVertices, Marker>> cells_of_root;  // stay in order
+    std::multimap<std::uint64_t, std::pair<CellVertices, Marker>> cells_of_root;  // in order
     for (std::size_t r = 0; r < points.size(); ++r) {
         for (std::size_t v = 0; v < points[r].size(); ++v) {
             const auto [at, _] = point_of_number.try_emplace(numbers[r][v], points[r][v]);
@@ -57,7 +57,7 @@ inline AsOne as_one(const PartOfMesh& part) {
     return whole;
 }
 
-/// Parts 0 to `parts` - 1, of which some may be empty.
+/// Random parts 0 to `parts` - 1, some of which may be empty.
 inline std::vector<int> random_parts(std::size_t cells, std::size_t parts, std::uint64_t seed) {
     std::mt19937_64 random(seed);
     std::vector<int> part_of_cell(cells);

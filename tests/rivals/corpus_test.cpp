@@ -8,7 +8,7 @@
 #include "support/manifest.hpp"
 #include "support/meshes.hpp"
 
-/// The exact judge of refinements by midpoints accepts what is made of the corpus.
+/// The exact verifier of refinements by midpoints accepts the refinements of the corpus.
 namespace octetra::rivals {
 namespace {
 
@@ -18,7 +18,7 @@ std::vector<test::CorpusEntry> entries_with_files() {
     return entries;
 }
 
-/// Points, cells and regions alone: nothing else is carried along.
+/// Only points, cells and regions: other data are not transferred.
 Mesh bare(const Mesh& mesh) {
     Mesh result;
     result.points = mesh.points;
@@ -48,7 +48,7 @@ TEST_P(Corpus, IsRefinedValidly) {
         volume({mesh.points[mesh.cells.front()[0]], mesh.points[mesh.cells.front()[1]],
                 mesh.points[mesh.cells.front()[2]], mesh.points[mesh.cells.front()[3]]}) /
         4;
-    if (*smaller.volume == 0) smaller = some;  // too small for binary64
+    if (*smaller.volume == 0) smaller = some;  // underflows in binary64
     for (const Goal& goal : {Goal{}, some, smaller}) {
         try {
             TerminalEdgeBisection bisection(mesh);

@@ -13,7 +13,7 @@
 #include "support/meshes.hpp"
 #include "support/thrown.hpp"
 
-/// However many ranks there are, and whatever the parts, the mesh is the serial one, bit by bit.
+/// The mesh equals the serial one, bit by bit, for any number of ranks and any partition.
 namespace octetra::rivals {
 namespace {
 
@@ -39,7 +39,7 @@ void expect_same(const PartOfMesh& part, const TerminalEdgeMesh& serial) {
                                    [](CellIndex root) { return std::uint64_t{root.value()}; }));
 }
 
-/// What it throws, or "".
+/// The message that it throws, or "".
 std::string refusal_of(auto&& call) {
     try {
         call();
@@ -49,9 +49,10 @@ std::string refusal_of(auto&& call) {
     return {};
 }
 
-constexpr std::size_t most_cells = 30'000;  // of which more would take long and show the same
+constexpr std::size_t most_cells = 30'000;  // larger meshes take long and add no coverage
 
-/// One goal after the other, on ranks as by one; or both throw the same.
+/// Refines towards successive goals on ranks and serially; both must agree, or throw the same
+/// message.
 void expect_same_by_all(const Mesh& mesh, const std::vector<Goal>& goals, std::uint64_t seed) {
     TerminalEdgeBisection serial(mesh);
     PartOfMesh part = part_of(mesh, parts_of_cells(mesh, seed), test::world().rank());
@@ -73,7 +74,7 @@ Corners first_cell(const Mesh& mesh) {
     return {mesh.points[a], mesh.points[b], mesh.points[c], mesh.points[d]};
 }
 
-/// Once, to smaller volumes, to shorter edges; of all cells, or of some.
+/// Once, to smaller volumes, to shorter edges; for all cells, or for some.
 std::vector<std::vector<Goal>> goals_of(const Mesh& mesh, std::uint64_t seed) {
     const Corners corners = first_cell(mesh);
     std::vector<std::uint8_t> some(mesh.cells.size(), 0);
@@ -129,13 +130,13 @@ std::vector<test::CorpusEntry> entries_of_files() {
 INSTANTIATE_TEST_SUITE_P(Of, CorpusOnRanks, testing::ValuesIn(entries_of_files()),
                          test::corpus_name);
 
-/// Three cells at a face, which no rank sees alone.
+/// Three cells at a face, which no rank has together.
 TEST(FaceOfThree, IsRefusedByAllRanks) {
     Mesh mesh = test::mesh_of({{0, 0, 0}, {4, 0, 0}, {2, 3, 0}, {2, 1, 1}, {2, 1, -1}, {2, 1, 2}},
                               {{0, 1, 2, 3}, {0, 2, 1, 4}, {0, 1, 2, 5}});
     const int ranks = test::world().size();
     const std::vector<int> parts{0, 1 % ranks, 2 % ranks};
-    if (ranks == 2) return;  // two are neighbours on one rank, and nothing is seen of the third
+    if (ranks == 2) return;  // two are neighbours on one rank, and the third is not known there
     EXPECT_EQ(test::thrown_by<InputError>([&] {
                   TerminalEdgesOnRanks(test::world(), part_of(mesh, parts, test::world().rank()),
                                        mesh.points.size());

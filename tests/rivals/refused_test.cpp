@@ -12,7 +12,7 @@
 #include "support/meshes.hpp"
 #include "support/thrown.hpp"
 
-/// What cannot be done is told, and nothing runs for ever.
+/// Impossible requests are reported, and every run ends.
 namespace octetra::rivals {
 namespace {
 
@@ -51,7 +51,7 @@ TEST(Refused, AreCellsBeyondTheirNumberThatIsAllowed) {
 TEST(Refused, AreMidpointsThatRoundingMakesUseless) {
     const Mesh mesh = read_mesh(test::corpus_folder() / "meshes/no-room-for-midpoints.ele");
     EXPECT_THAT(refusal(mesh, {}), testing::HasSubstr("would flatten or invert"));
-    const Mesh cube = test::kuhn(1, 1, 1);  // until there is no room any more
+    const Mesh cube = test::kuhn(1, 1, 1);  // until coordinates have no more bits
     Mesh far = cube;
     for (Point& p : far.points) p = {p.x + 0x1p50, p.y + 0x1p50, p.z + 0x1p50};
     EXPECT_THAT(refusal(far, {.volume = 1e-9}), testing::HasSubstr("would flatten or invert"));

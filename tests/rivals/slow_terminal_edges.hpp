@@ -12,14 +12,14 @@
 
 #include "support/refinement.hpp"
 
-/// Terminal-edge bisection word by word: paths are searched for anew in every round, in a map of
-/// all edges, and nothing is kept.
+/// Terminal-edge bisection implemented literally: paths are searched anew in every round, in a map
+/// of all edges, and nothing is stored.
 namespace octetra::test {
 
 class SlowTerminalEdges {
 public:
-    /// Is a cell with these corners, a descendant of this cell of the input, to be cut? The last is
-    /// whether it is that cell itself.
+    /// Returns whether to bisect a cell with these corners, a descendant of this cell of the input;
+    /// the last argument is true for the cell of the input itself.
     using IsToBeCut = std::function<bool(const Corners&, CellIndex root, bool is_input)>;
 
     SlowTerminalEdges(const Mesh& mesh, IsToBeCut is_to_be_cut)
@@ -27,8 +27,8 @@ public:
         for (CellIndex c{0}; c < mesh.cells.end_index(); ++c) root_.push_back(c);
     }
 
-    /// All terminal edges at the ends of the targets' paths, until there are none. Of each round
-    /// the number of edges.
+    /// Bisects all terminal edges at the ends of the targets' paths in rounds, until there are
+    /// none. Returns the number of edges of each round.
     std::vector<std::uint64_t> in_rounds() {
         std::vector<std::uint64_t> rounds;
         for (auto edges = terminal_edges(); !edges.empty(); edges = terminal_edges()) {
@@ -37,7 +37,7 @@ public:
         }
         return rounds;
     }
-    /// One of them at a time, any.
+    /// Bisects one random terminal edge at a time.
     void one_by_one(std::uint64_t seed) {
         std::mt19937_64 random(seed);
         for (auto edges = terminal_edges(); !edges.empty(); edges = terminal_edges()) {

@@ -12,8 +12,8 @@
 #include "support/meshes.hpp"
 #include "support/tagged_meshes.hpp"
 
-/// The result is what the words of the method say, however edges are taken in turn and cells are
-/// numbered; it is a refinement, and nothing is cut that need not be.
+/// The result follows the definition of the method for any order of bisections and any numbering;
+/// it is a refinement, and no unnecessary edge is bisected.
 namespace octetra::rivals {
 namespace {
 
@@ -47,7 +47,7 @@ SlowTerminalEdges::IsToBeCut in_words(const Goal& goal) {
     };
 }
 
-/// Once, to smaller volumes, to shorter edges, or both; all cells, or some.
+/// Once, to smaller volumes, to shorter edges, or both; for all cells, or for some.
 std::vector<Goal> goals_of(const Mesh& mesh, double part, std::uint64_t seed) {
     double square = 0;
     double largest = 0;
@@ -101,7 +101,7 @@ std::vector<Mesh> small_meshes(std::uint64_t seed) {
 
 class TerminalEdges : public testing::TestWithParam<std::uint64_t> {};
 
-TEST_P(TerminalEdges, AreBisectedInTheRoundsAndToTheMeshThatWordsSay) {
+TEST_P(TerminalEdges, AreBisectedInTheRoundsAndToTheMeshOfTheDefinition) {
     for (const Mesh& mesh : small_meshes(GetParam())) {
         for (const Goal& goal : goals_of(mesh, 0.45, GetParam())) {
             expect_same_as_words(mesh, goal, GetParam());
@@ -144,7 +144,7 @@ TEST_P(TerminalEdges, MayBeBisectedTowardsOneGoalAfterTheOther) {
 
 INSTANTIATE_TEST_SUITE_P(Seeds, TerminalEdges, testing::Range<std::uint64_t>(0, 4));
 
-/// Cells of integer coordinates, by the order of their edges: one for each of the 720.
+/// Cells with integer coordinates, one for each of the 720 orders of edges.
 std::map<std::array<std::size_t, 6>, Mesh> cells_of_all_orders() {
     std::map<std::array<std::size_t, 6>, Mesh> cells;
     std::mt19937_64 random(1);
@@ -168,7 +168,7 @@ std::map<std::array<std::size_t, 6>, Mesh> cells_of_all_orders() {
     return cells;
 }
 
-/// Their volumes, as integers, add up to the cell's.
+/// The volumes of the children of each cell, as integers, sum to that of the cell.
 void expect_same_volume(const Mesh& fine, const Mesh& coarse, double scale) {
     const auto sum = [&](const Mesh& mesh) {
         test::Int128 volume = 0;
@@ -182,7 +182,7 @@ void expect_same_volume(const Mesh& fine, const Mesh& coarse, double scale) {
     EXPECT_TRUE(sum(fine) == sum(coarse));
 }
 
-TEST(OneCell, OfAnyOrderOfItsEdgesIsCutAsWordsSay) {
+TEST(OneCell, OfAnyOrderOfItsEdgesIsBisectedByDefinition) {
     for (const auto& [order, mesh] : cells_of_all_orders()) {
         const double whole = volume(test::corners_of(mesh, CellIndex{0}));
         for (const Goal& goal : {Goal{}, Goal{.volume = whole / 8}, Goal{.longest_edge = 130}}) {
@@ -210,8 +210,8 @@ TEST(Lattice, KeepsItsVolumeExactlyAndItsRegionsAndOrder) {
     }
 }
 
-/// What becomes of a cell: itself, or the halves at its longest edge, in turn; `at` is the number
-/// of the next cell of the result.
+/// Checks the descendants of a cell: itself, or recursively the halves at its longest edge; `at` is
+/// the index of the next cell of the result.
 void expect_halves(const Mesh& fine, const Corners& cell, CellIndex& at) {
     ASSERT_LT(at, fine.cells.end_index());
     if (test::corners_of(fine, at) == cell) {
@@ -236,7 +236,7 @@ void expect_halves(const Mesh& fine, const Corners& cell, CellIndex& at) {
     expect_halves(fine, half, at);
 }
 
-/// Midpoints stand level by level, in each by the ends of their edges.
+/// Midpoints are sorted by level, and within a level by the ends of their edges.
 void expect_levels(const RefinementMaps& maps) {
     std::vector<std::pair<std::size_t, EdgeVertices>> keys;
     const auto level = [&](VertexIndex v) {
@@ -263,7 +263,7 @@ TEST(Order, IsThatOfHalvesAndOfLevelsOfMidpoints) {
     }
 }
 
-/// Every cell has an edge of its own that only longer ones come before, up to the largest cell's.
+/// Every cell has an edge of its own that only longer edges precede, up to the largest cell's.
 TEST(Shell, IsCutFromItsEndInAsManyRoundsAsItHasCells) {
     constexpr std::size_t count = 40;
     Goal goal;

@@ -5,11 +5,11 @@
 #include "rivals/as_one.hpp"
 #include "support/meshes.hpp"
 
-/// Ranks say what they must, and no more.
+/// Ranks send the necessary messages and no others.
 namespace octetra::rivals {
 namespace {
 
-/// Collective. What all ranks together said.
+/// Collective. The traffic of all ranks together.
 Traffic traffic_of(const Mesh& mesh, const Goal& goal, const std::vector<int>& part_of_cell) {
     const auto& world = test::world();
     PartOfMesh part = part_of(mesh, part_of_cell, world.rank());
@@ -37,7 +37,7 @@ Mesh two_cells_at_their_longest_edge() {
                          {{0, 1, 2, 3}, {0, 1, 2, 4}});
 }
 
-/// Each says that nothing is in its way, and so that it wants it; then both bisect.
+/// Each announces that it is ready to bisect the edge; then both bisect.
 TEST(Traffic, OfTwoCellsThatShareTheirLongestEdgeIsAMessageEach) {
     if (test::world().size() == 1) return;
     const auto told = traffic_of(two_cells_at_their_longest_edge(), {}, {0, 1});
@@ -49,8 +49,8 @@ TEST(Traffic, OfTwoCellsThatShareTheirLongestEdgeIsAMessageEach) {
     EXPECT_EQ(told.shared_edges_bisected, 2U);
 }
 
-/// If one alone is a target, the other learns of it, and then says that it is ready.
-TEST(Traffic, OfTwoCellsOfWhichOneIsATargetComesInTurn) {
+/// If only one cell is a target, the other rank is notified, and then announces that it is ready.
+TEST(Traffic, OfTwoCellsOfWhichOneIsATargetIsARequestAndAReply) {
     if (test::world().size() == 1) return;
     const auto told = traffic_of(two_cells_at_their_longest_edge(), {.targets = {1, 0}}, {0, 1});
     EXPECT_EQ(told.rounds, 2U);
@@ -59,8 +59,8 @@ TEST(Traffic, OfTwoCellsOfWhichOneIsATargetComesInTurn) {
     EXPECT_EQ(told.ready, 2U);
 }
 
-/// Every cell of the shell waits for the next: a path that goes from rank to rank as often as the
-/// border does, there and back.
+/// Every cell of the shell waits for the next: the path crosses the border between the ranks in
+/// both directions, as often as the shell does.
 TEST(Traffic, FollowsAPathFromRankToRank) {
     const auto ranks = static_cast<std::size_t>(test::world().size());
     constexpr std::size_t cells = 40;
@@ -82,7 +82,7 @@ TEST(Traffic, FollowsAPathFromRankToRank) {
     EXPECT_LE(often.rounds, 3 * cells);
     EXPECT_LE(seldom.rounds, 6 * ranks);
     EXPECT_GE(often.ready, cells);
-    if (ranks == 2) {  // of which one often has a cell in its own way, too
+    if (ranks == 2) {  // one of which often has a cell in its own way, too
         EXPECT_GT(often.asked, cells / 2);
     }
 }

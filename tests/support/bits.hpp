@@ -8,7 +8,7 @@
 
 namespace octetra::test {
 
-/// The coordinates as bit patterns: equal exactly if every bit is (so -0.0 is not 0.0).
+/// The coordinates as bit patterns, equal only if all bits are (-0.0 differs from 0.0).
 inline std::vector<std::uint64_t> bits(const Mesh& mesh) {
     std::vector<std::uint64_t> result;
     for (const Point& p : mesh.points) {

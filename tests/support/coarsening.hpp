@@ -11,7 +11,7 @@
 
 #include "support/refinement.hpp"
 
-/// The rules of coarsening once more, on points instead of numbers.
+/// The rules of coarsening, implemented again on points instead of numbers.
 namespace octetra::test {
 
 /// An edge by its end points, the smaller first.
@@ -45,7 +45,8 @@ inline std::vector<FaceEdges> faces_of(const Mesh& mesh) {
     return faces;
 }
 
-/// Has every face of the mesh that has one of the edges its longest among them?
+/// Returns whether every face of the mesh that has one of the edges has its longest edge among
+/// them.
 inline bool is_closed(const Mesh& mesh, const std::vector<EdgeVertices>& edges) {
     const std::set<PointPair> set = segments(mesh, edges);
     return std::ranges::all_of(faces_of(mesh), [&](const FaceEdges& face) {
@@ -66,8 +67,7 @@ inline void add_corners_of_cells_at(const std::set<PointPair>& edges, const Mesh
     }
 }
 
-/// Rule (b) of coarsened() within one step: from midpoint to midpoint along longer and longer
-/// edges.
+/// Rule (b) of coarsened() within one step: follows midpoints along longer and longer edges.
 inline void add_midpoints_of_longest(const std::set<PointPair>& bisected, const Mesh& before,
                                      std::set<Point>& points) {
     std::map<PointPair, std::vector<PointPair>> to_longest;
@@ -88,11 +88,11 @@ inline void add_midpoints_of_longest(const std::set<PointPair>& bisected, const 
     }
 }
 
-/// What vertices coarsened() must keep, by their points, and no more than these. Midpoints must be
+/// The points of the vertices that coarsened() must keep, and of no others. Midpoints must be
 /// exact.
 struct RequiredPoints {
     std::set<Point> by_cells;  ///< rule (a)
-    std::set<Point> all;       ///< and what rule (b) adds
+    std::set<Point> all;       ///< and those added by rule (b)
 };
 
 inline RequiredPoints points_that_stay(const reference::History& history,

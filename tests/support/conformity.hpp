@@ -12,15 +12,15 @@ namespace octetra::test {
 struct FaceCensus {
     std::size_t faces = 0;
     std::size_t boundary_faces = 0;
-    std::size_t faults = 0;  ///< faces in more than two cells, or in two with equal orientation
+    std::size_t faults = 0;  ///< faces of more than two cells, or of two with equal orientation
 };
 
-/// Counts the faces of the cells. A mesh whose cells conform has no faults, and as many boundary
-/// faces as its boundary is tiled by; a hanging vertex shows as too many.
+/// Counts the faces of the cells. A conforming mesh has no faults, and its boundary faces tile the
+/// boundary; a hanging vertex adds faces to their count.
 inline FaceCensus count_faces(const Mesh& mesh) {
     struct Face {
         std::array<VertexIndex, 3> sorted;
-        bool even = false;  // is the outward order an even permutation of the sorted one?
+        bool even = false;  // whether the outward order is an even permutation of the sorted one
         auto operator<=>(const Face&) const = default;
     };
     // Outward-facing vertex orders of the four faces of a positively oriented cell.

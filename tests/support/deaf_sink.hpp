@@ -8,7 +8,7 @@
 
 namespace octetra::test {
 
-/// Hears a mesh, and keeps nothing of it.
+/// Discards a mesh.
 class DeafSink final : public MeshSink {
 public:
     void expect_points(std::uint64_t, std::size_t, bool) override {}

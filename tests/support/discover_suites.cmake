@@ -1,8 +1,8 @@
-# Writes a file for ctest: of a program of GoogleTest's the suites that a filter leaves, each a test. To start a
-# process for every case would take longer than most cases do.
+# Writes a file for ctest with one test for each suite of a GoogleTest program that a filter
+# selects. Starting a process for every case would take longer than most cases do.
 #   cmake -D PROGRAM=... -D PREFIX=... -D FILTER=... -D TIER=... -D OUTPUT=... -P discover_suites.cmake
-# They are called <prefix><suite>, and <prefix><suite>.<tier> in the tiers above quick. Each writes <prefix><suite>.xml into OUTPUT's
-# folder: how many cases there were, and what became of them.
+# Tests are named <prefix><suite>, and <prefix><suite>.<tier> in the tiers above quick. Each writes
+# <prefix><suite>.xml, with the number and results of its cases, to the folder of OUTPUT.
 
 execute_process(COMMAND ${PROGRAM} --gtest_list_tests --gtest_filter=${FILTER}
                 OUTPUT_VARIABLE listed COMMAND_ERROR_IS_FATAL ANY)

@@ -10,7 +10,7 @@
 
 namespace {
 
-/// Empty: no disk is full.
+/// Empty if no disk is full.
 std::string full_beginning;
 
 bool is_on_full_disk(int file) {
@@ -23,7 +23,7 @@ bool is_on_full_disk(int file) {
 
 }  // namespace
 
-/// Takes the place of the C library's function in the whole program.
+/// Replaces the C library's function in the whole program.
 ssize_t pwrite(int file, const void* data, size_t size, off_t position) {
     if (is_on_full_disk(file)) {
         errno = ENOSPC;

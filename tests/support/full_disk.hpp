@@ -4,8 +4,8 @@
 
 namespace octetra::test {
 
-/// While one of these lives, writing to files whose names begin with `beginning` fails as on a full
-/// disk, for programs that are linked with full_disk.cpp. One at a time.
+/// During the lifetime of an object, writing to files whose names begin with `beginning` fails as
+/// on a full disk, in programs that are linked with full_disk.cpp. At most one may exist.
 class FullDisk {
 public:
     explicit FullDisk(std::string beginning);

@@ -9,10 +9,10 @@
 
 namespace octetra::test {
 
-/// While an object of this class lives, the floating-point environment is as unlike the default one
-/// as the system lets it be: results are rounded upwards, subnormal numbers are taken for 0, as in
-/// programs that are linked with -ffast-math, and all exceptions trap but that of inexact results,
-/// which the C++ standard library raises in its containers.
+/// During the lifetime of an object the floating-point environment differs from the default one as
+/// far as the system permits: results are rounded upwards, subnormal numbers are flushed to 0, as
+/// in programs linked with -ffast-math, and all exceptions trap except that for inexact results,
+/// which the containers of the C++ standard library raise.
 class HostileArithmetic {
 public:
     HostileArithmetic() {
@@ -32,7 +32,7 @@ public:
     HostileArithmetic(HostileArithmetic&&) = delete;
     HostileArithmetic& operator=(HostileArithmetic&&) = delete;
 
-    /// Is the environment still the same?
+    /// Returns whether the environment is unchanged.
     [[nodiscard]] static bool is_in_force() {
         bool is = std::fegetround() == FE_UPWARD;
 #ifdef __SSE2__
@@ -48,12 +48,12 @@ public:
 
 private:
     static constexpr int trapped = FE_ALL_EXCEPT & ~FE_INEXACT;
-    static constexpr unsigned flush_to_zero = 0x8040;  // of results and of operands
+    static constexpr unsigned flush_to_zero = 0x8040;  // for results and operands
 
     std::fenv_t before_{};
 };
 
-/// Returns the result of `work` in such an environment, which `work` must not change.
+/// Returns the result of `work` in such an environment, which `work` must preserve.
 auto in_hostile_arithmetic(auto&& work) {
     bool is_left = false;
     auto result = [&] {

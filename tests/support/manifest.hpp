@@ -34,7 +34,7 @@ inline std::vector<CorpusEntry> corpus_entries(const std::string& list) {
     return result;
 }
 
-/// Of the meshes one of each: some are there in several formats.
+/// One entry for each mesh; some meshes exist in several formats.
 inline std::vector<CorpusEntry> different_meshes() {
     std::vector<CorpusEntry> entries = corpus_entries("meshes");
     std::erase_if(entries, [](const CorpusEntry& entry) {
@@ -44,7 +44,7 @@ inline std::vector<CorpusEntry> different_meshes() {
     return entries;
 }
 
-/// Of these those that are not there for how their file is written, but for what mesh is in it.
+/// Removes the entries that test the syntax of files rather than their mesh.
 inline std::vector<CorpusEntry> without_odd_files(std::vector<CorpusEntry> entries) {
     std::erase_if(entries, [](const CorpusEntry& entry) {
         const auto& tags = entry.content["tags"];
@@ -53,7 +53,7 @@ inline std::vector<CorpusEntry> without_odd_files(std::vector<CorpusEntry> entri
     return entries;
 }
 
-/// A test's name from an entry's.
+/// The name of the test for an entry.
 inline std::string corpus_name(const testing::TestParamInfo<CorpusEntry>& test_case) {
     std::string name = test_case.param.content["name"];
     for (char& c : name) {

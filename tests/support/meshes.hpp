@@ -11,10 +11,10 @@
 #include <octetra/core/mesh.hpp>
 #include <octetra/core/orientation.hpp>
 
-/// Meshes that tests make by themselves, so that they do not lean on the generator.
+/// Meshes that tests construct without the generator.
 namespace octetra::test {
 
-/// A mesh of the given points and cells; cells that come inverted are turned round.
+/// A mesh of these points and cells; the orientation of inverted cells is corrected.
 inline Mesh mesh_of(const std::vector<Point>& points,
                     const std::vector<std::array<std::size_t, 4>>& cells) {
     Mesh mesh;
@@ -32,7 +32,7 @@ inline Mesh one_cell(const std::array<Point, 4>& corners) {
     return mesh_of({corners.begin(), corners.end()}, {{0, 1, 2, 3}});
 }
 
-/// One with the least and the largest coordinates that there are, and some that take all digits.
+/// A cell with the least and the greatest permitted coordinates, and some with full mantissas.
 inline Mesh extreme_cell() {
     const double largest = std::nextafter(coordinate_limit, 0.0);
     constexpr double smallest = std::numeric_limits<double>::denorm_min();
@@ -60,7 +60,7 @@ inline Mesh kuhn(std::size_t nx, std::size_t ny, std::size_t nz, double side = 1
             for (std::size_t i = 0; i < nx; ++i) {
                 const std::size_t low = i * stride[0] + j * stride[1] + k * stride[2];
                 std::array<std::size_t, 3> axis{0, 1, 2};
-                do {  // one cell for each way from the low corner to the high one
+                do {  // one cell for each path from the low corner to the high one
                     const std::size_t second = low + stride[axis[0]];
                     const std::size_t third = second + stride[axis[1]];
                     cells.push_back({low, second, third, third + stride[axis[2]]});
@@ -72,7 +72,7 @@ inline Mesh kuhn(std::size_t nx, std::size_t ny, std::size_t nz, double side = 1
 }
 
 /// The same lattice with every vertex moved at random by up to `amount` of the side, on a grid of
-/// 2^-20: no ties to speak of, and coordinates that stay exact through many levels.
+/// 2^-20: hardly any ties, and coordinates that stay exact through many levels.
 inline Mesh shaken_kuhn(std::size_t n, double amount, std::uint64_t seed) {
     Mesh mesh = kuhn(n, n, n);
     std::mt19937_64 random(seed);
@@ -86,9 +86,8 @@ inline Mesh shaken_kuhn(std::size_t n, double amount, std::uint64_t seed) {
     return mesh;
 }
 
-/// Cells that grow as they wind round an axis like the chambers of a shell, each with a face of the
-/// next, in no order: what marks an edge of the smallest marks edges of all, one after the
-/// other.
+/// Cells that grow along a spiral like the chambers of a shell, each with a face of the next, in
+/// random order: marking an edge of the smallest propagates through all cells, one after the other.
 inline Mesh shell(std::size_t cell_count, std::uint64_t seed) {
     std::vector<Point> points;
     Point next{1, 0.25, -0.125};
@@ -102,7 +101,7 @@ inline Mesh shell(std::size_t cell_count, std::uint64_t seed) {
     return mesh_of(points, cells);
 }
 
-/// Lists every boundary face as a facet and gives it a marker: 1 + its number modulo 5.
+/// Lists every boundary face as a facet with the marker 1 + its number modulo 5.
 inline void list_boundary(Mesh& mesh) {
     std::vector<std::pair<std::array<VertexIndex, 3>, FacetVertices>> faces;
     for (const CellVertices& cell : mesh.cells) {
@@ -123,7 +122,7 @@ inline void list_boundary(Mesh& mesh) {
     }
 }
 
-/// Removes the vertices that no cell has, which dropping cells leaves behind, and all tags.
+/// Removes all tags, and the vertices that belong to no cell.
 inline void drop_unused(Mesh& mesh) {
     std::vector<char> used(mesh.points.size(), 0);
     for (const CellVertices& cell : mesh.cells) {
@@ -141,7 +140,7 @@ inline void drop_unused(Mesh& mesh) {
     mesh = kept;
 }
 
-/// The regular tetrahedron and its like, by integer coordinates.
+/// The regular tetrahedron and other shapes with integer coordinates.
 inline const std::array<Point, 4> regular_corners{
     {{1, 1, 1}, {1, -1, -1}, {-1, 1, -1}, {-1, -1, 1}}};
 inline const std::array<Point, 4> kuhn_corners{{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {1, 1, 1}}};

@@ -48,7 +48,7 @@ using octetra::test::collective;
 using octetra::test::message;
 using octetra::test::timed;
 
-// Those of MPI that the engine calls and that take time.
+// The MPI functions that the engine calls and that take time.
 
 int MPI_Isend(const void* buffer, int count, MPI_Datatype type, int receiver, int tag,
               MPI_Comm comm, MPI_Request* request) {

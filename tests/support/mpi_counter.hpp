@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <string_view>
 
-/// What this process asks of MPI, counted where it asks: mpi_counter.cpp stands between the program
-/// and MPI (the profiling interface, PMPI), and knows nothing of the engine's own counting.
+/// Counts the MPI calls of this process: mpi_counter.cpp wraps MPI through the profiling interface,
+/// PMPI, independently of the engine's own counts.
 namespace octetra::test {
 
 struct MpiCounts {
@@ -22,7 +22,7 @@ inline constexpr std::array<std::string_view, 14> counted_calls{
     "MPI_Waitall", "MPI_Testall", "MPI_Test",      "MPI_Ibarrier",  "MPI_Allreduce",
     "MPI_Exscan",  "MPI_Bcast",   "MPI_Allgather", "MPI_Allgatherv"};
 
-/// Since the program began.
+/// Counts since the start of the program.
 [[nodiscard]] MpiCounts mpi_counts();
 
 }  // namespace octetra::test

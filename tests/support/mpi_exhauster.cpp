@@ -1,6 +1,6 @@
 /// To be preloaded (LD_PRELOAD) into a program under mpirun: at reduction number
-/// OCTETRA_EXHAUST_AT, from 1, all ranks are out of memory, as nearly at the same time as can be.
-/// It stands between the program and MPI (the profiling interface, PMPI).
+/// OCTETRA_EXHAUST_AT, from 1, all ranks run out of memory at nearly the same time. Wraps MPI
+/// through the profiling interface, PMPI.
 
 #include <mpi.h>
 

@@ -1,7 +1,7 @@
 /// To be preloaded (LD_PRELOAD) into a program under mpirun: rank OCTETRA_KILL_RANK kills itself at
-/// its call number OCTETRA_KILL_AT, from 1, of those of MPI that send, wait or are collective, and
-/// are as many however long others take. With 0 it lives, and says on stderr how many calls it
-/// made. It stands between the program and MPI (the profiling interface, PMPI).
+/// its MPI call number OCTETRA_KILL_AT, from 1. Only calls that send, wait or are collective count,
+/// so that the number does not depend on timing. With 0 the rank is not killed, and reports its
+/// number of calls on stderr. Wraps MPI through the profiling interface, PMPI.
 
 #include <mpi.h>
 

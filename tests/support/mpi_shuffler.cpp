@@ -13,7 +13,8 @@
 namespace octetra::test {
 namespace {
 
-/// A send that the program believes to be under way. Its buffer stays until the program has waited.
+/// A send that the program takes for started. Its buffer remains valid until the program has
+/// waited.
 struct HeldSend {
     const void* buffer;
     int count;
@@ -32,7 +33,7 @@ public:
         held_.push_back(send);
     }
 
-    /// Lets one message go: the oldest to a random receiver.
+    /// Releases one message: the oldest to a random receiver.
     void release_one() {
         if (held_.empty()) return;
         const int receiver = held_[random() % held_.size()].receiver;
@@ -55,7 +56,7 @@ public:
         under_way_.clear();
     }
 
-    /// Lets one message go, and says whether none is held or under way.
+    /// Releases one message. Returns whether none is held or incomplete.
     bool go_on() {
         release_one();
         int are_over = 0;
@@ -65,7 +66,7 @@ public:
         return are_over != 0 && held_.empty();
     }
 
-    /// Mostly not; else up to a tenth of a millisecond, rarely a whole one.
+    /// Usually returns at once; else sleeps up to 0.1 ms, rarely up to 1 ms.
     void maybe_sleep() {
         const auto lot = random() % 64;
         if (lot > 4) return;
@@ -101,7 +102,7 @@ Shuffler& shuffler() {
     return only;
 }
 
-/// From whom a message may come, in random order.
+/// The possible senders of a message, in random order.
 std::vector<int> candidates(int sender, MPI_Comm comm) {
     if (sender != MPI_ANY_SOURCE) return {sender};
     int size = 0;
@@ -114,7 +115,7 @@ std::vector<int> candidates(int sender, MPI_Comm comm) {
     return ranks;
 }
 
-/// Everybody must have what he waits for before all meet.
+/// Completes all sends before a collective call, because other ranks may wait for them.
 void meet() {
     shuffler().maybe_sleep();
     shuffler().finish_all();
@@ -136,7 +137,7 @@ using octetra::test::shuffler;
 int MPI_Isend(const void* buffer, int count, MPI_Datatype type, int receiver, int tag,
               MPI_Comm comm, MPI_Request* request) {
     shuffler().hold({buffer, count, type, receiver, tag, comm, false, 0});
-    *request = MPI_REQUEST_NULL;  // MPI_Waitall is caught, too, and waits for all that are held
+    *request = MPI_REQUEST_NULL;  // MPI_Waitall is wrapped, too, and waits for all held sends
     return MPI_SUCCESS;
 }
 

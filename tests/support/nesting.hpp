@@ -7,11 +7,11 @@
 
 #include "support/refinement.hpp"
 
-/// Which cells lie in which, decided exactly. Corners times `scale` must be integers of at most 40
-/// bits.
+/// Exact tests of which cells contain which. Corners multiplied by `scale` must be integers of at
+/// most 40 bits.
 namespace octetra::test {
 
-/// Does the point lie in the cell or on its boundary?
+/// Returns whether the point lies in the cell or on its boundary.
 inline bool contains(const Corners& cell, const Point& point, double scale) {
     for (std::size_t k = 0; k < 4; ++k) {
         Corners with_point = cell;
@@ -31,8 +31,8 @@ inline bool contains(const Corners& cell, const Corners& other, double scale) {
     return std::ranges::all_of(other, [&](const Point& p) { return contains(cell, p, scale); });
 }
 
-/// For each cell of `fine`, the cells of `coarse` that it lies in, of those of the same root: both
-/// are refinements of one mesh.
+/// For each cell of `fine`, the cells of `coarse` with the same root that contain it: both are
+/// refinements of one mesh.
 inline IndexVector<CellIndex, std::vector<CellIndex>> cells_around(
     const reference::Refinement& fine, const reference::Refinement& coarse, double scale) {
     std::vector<std::vector<CellIndex>> of_root;
@@ -51,7 +51,8 @@ inline IndexVector<CellIndex, std::vector<CellIndex>> cells_around(
     return around;
 }
 
-/// Lies each cell of `fine` in just one of `coarse`, and do they fill it?
+/// Returns whether each cell of `fine` lies in exactly one cell of `coarse`, and whether they fill
+/// it.
 inline bool refines(const reference::Refinement& fine, const reference::Refinement& coarse,
                     double scale) {
     const auto around = cells_around(fine, coarse, scale);
@@ -66,8 +67,8 @@ inline bool refines(const reference::Refinement& fine, const reference::Refineme
     return true;
 }
 
-/// For each cell of the last of these meshes, each made of the one before, the cell that was cut to
-/// make it; where none was, itself. Children stand where their parent stood, and fill it.
+/// For each cell of the last of these successive meshes, the cell whose bisection made it; itself
+/// if there is none. Children replace their parent in the order of cells, and fill it.
 inline std::vector<Corners> parents(const std::vector<reference::Refinement>& meshes,
                                     double scale) {
     std::vector<Corners> parent;

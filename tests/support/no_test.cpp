@@ -1,1 +1,1 @@
-// A target with precompiled headers needs something to compile.
+// A target with precompiled headers needs a source file.

@@ -1,4 +1,4 @@
-"""What tests of the program that are written in Python have in common."""
+"""Common parts of the tests of the program in Python."""
 import pathlib
 import subprocess
 import sys
@@ -9,7 +9,7 @@ octetra = sys.argv[1]
 
 
 class ProgramCase(unittest.TestCase):
-    """The program in a folder of its own, `self.path`."""
+    """Runs the program in a temporary folder, `self.path`."""
 
     def setUp(self):
         self.folder = tempfile.TemporaryDirectory()

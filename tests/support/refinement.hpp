@@ -19,7 +19,7 @@ inline Corners corners_of(const Mesh& mesh, CellIndex c) {
     return corners;
 }
 
-/// Has any cell two edges of the same length, as the edge order computes it?
+/// Returns whether any cell has two edges of the same length, as computed by the edge order.
 inline bool has_ties(const Mesh& mesh) {
     for (CellIndex c{0}; c < mesh.cells.end_index(); ++c) {
         const Corners corners = corners_of(mesh, c);
@@ -32,8 +32,8 @@ inline bool has_ties(const Mesh& mesh) {
     return false;
 }
 
-/// The cells by where their corners are, whatever the numbering: each as its corners ascending, all
-/// ascending, with the region tag.
+/// The cells by the coordinates of their corners, independent of numbering: each with ascending
+/// corners and its region tag, all ascending.
 inline std::vector<std::pair<Corners, Marker>> geometry(const Mesh& mesh) {
     std::vector<std::pair<Corners, Marker>> cells;
     for (CellIndex c{0}; c < mesh.cells.end_index(); ++c) {
@@ -63,8 +63,8 @@ std::vector<std::pair<std::array<Point, N>, Marker>> geometry(
 
 __extension__ using Int128 = __int128;
 
-/// Six times a cell's volume in units of scale^-3, as an integer. Its corners times `scale` must be
-/// integers of at most 40 bits.
+/// Six times the volume of a cell in units of scale^-3, as an integer. Its corners multiplied by
+/// `scale` must be integers of at most 40 bits.
 inline Int128 exact_volume(const Corners& corners, double scale) {
     std::array<std::array<Int128, 3>, 4> p;
     for (std::size_t i = 0; i < 4; ++i) {
@@ -81,7 +81,7 @@ inline Int128 exact_volume(const Corners& corners, double scale) {
            m[0][2] * (m[1][0] * m[2][1] - m[1][1] * m[2][0]);
 }
 
-/// For each edge of the mesh the number of cells at it.
+/// For each edge of the mesh the number of its cells.
 inline std::map<EdgeVertices, std::size_t> cells_at_edges(const Mesh& mesh) {
     std::map<EdgeVertices, std::size_t> cells;
     for (const CellVertices& cell : mesh.cells) {

@@ -1,6 +1,6 @@
-/// To be preloaded (LD_PRELOAD) into a program: after each of its calls of rename() but the last of
-/// OCTETRA_RENAMES it gets SIGTERM; instead of the one numbered OCTETRA_KILLED_AT_RENAME, from 1,
-/// SIGKILL.
+/// To be preloaded (LD_PRELOAD) into a program: sends it SIGTERM after each of its OCTETRA_RENAMES
+/// calls of rename() except the last; and SIGKILL in place of the call numbered
+/// OCTETRA_KILLED_AT_RENAME, from 1.
 
 #include <fcntl.h>
 #include <stdio.h>

@@ -16,12 +16,12 @@
 namespace octetra::test {
 
 struct Outcome {
-    int status = -1;  ///< exit status; 128 + the signal if one ended it
+    int status = -1;  ///< exit status, or 128 + the number of the signal that ended it
     std::string out;
     std::string err;
 };
 
-/// Runs a program in a folder, its output caught.
+/// Runs a program in a folder and captures its output.
 inline Outcome run_program(const std::vector<std::string>& command,
                            const std::filesystem::path& folder) {
     const TemporaryFolder caught;
@@ -45,7 +45,7 @@ inline Outcome run_program(const std::vector<std::string>& command,
             content_of(caught / "out"), content_of(caught / "err")};
 }
 
-/// Splits at blanks: enough for the command lines of tests.
+/// Splits at blanks, which suffices for the command lines of tests.
 inline std::vector<std::string> words(const std::string& line) {
     std::istringstream in(line);
     std::vector<std::string> result;

@@ -11,8 +11,7 @@
 
 namespace octetra::test {
 
-/// Gives a checkpoint that was tampered with hashes that are right again, as far as its table makes
-/// sense.
+/// Corrects the hashes of a checkpoint that was modified, as far as its table is consistent.
 inline void seal(std::string& file) {
     CheckpointTrailer trailer;
     if (file.size() < sizeof(CheckpointHeader) + sizeof trailer) return;

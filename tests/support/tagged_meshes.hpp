@@ -9,10 +9,10 @@
 
 #include "support/meshes.hpp"
 
-/// Meshes with tags of all kinds, and the same meshes by other numbers.
+/// Meshes with tags of all kinds, and the same meshes renumbered.
 namespace octetra::test {
 
-/// Regions, facets on the boundary, some edges, and a marker for each vertex.
+/// Adds regions, facets on the boundary, some edges, and a marker for each vertex.
 inline Mesh tagged(Mesh mesh) {
     list_boundary(mesh);
     for (CellIndex c{0}; c < mesh.cells.end_index(); ++c) {
@@ -45,7 +45,8 @@ inline std::vector<std::size_t> shuffled(std::size_t count, std::mt19937_64& ran
     return order;
 }
 
-/// Vertices, cells, facets and the corners of each in another order. (Attributes stay as they are.)
+/// Renumbers vertices, cells and facets, and permutes the corners of each. (Attributes are not
+/// permuted.)
 inline Mesh renumbered(Mesh mesh, std::uint64_t seed) {
     std::mt19937_64 random(seed);
     const auto vertex_order = shuffled(mesh.points.size(), random);

@@ -14,7 +14,7 @@ inline void write_file(const std::filesystem::path& path, std::string_view conte
     std::ofstream(path, std::ios::binary) << content;
 }
 
-/// A folder of its own for one test, gone with it.
+/// A folder for one test, removed by the destructor.
 class TemporaryFolder {
 public:
     TemporaryFolder() {

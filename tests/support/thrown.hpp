@@ -6,7 +6,7 @@
 
 namespace octetra::test {
 
-/// The message of the Error that `call` throws; a failed expectation if it throws none.
+/// Returns the message of the Error that `call` throws; fails the test if it throws none.
 template <class Error>
 std::string thrown_by(auto&& call) {
     try {

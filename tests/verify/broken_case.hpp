@@ -8,13 +8,13 @@
 #include <octetra/core/index.hpp>
 #include <octetra/verify/verify.hpp>
 
-/// What tables of broken meshes are written with.
+/// Helpers of the tables of broken meshes.
 namespace octetra::verify {
 
 constexpr VertexIndex vertex(std::size_t i) { return VertexIndex{i}; }
 constexpr CellIndex cell(std::size_t i) { return CellIndex{i}; }
 
-/// Of a case with a code that is to be reported, and a word on how the mesh was broken.
+/// The name of a case from its expected code and a word about the fault.
 template <class Case>
 std::string name_of(const testing::TestParamInfo<Case>& info) {
     return std::string(name(info.param.code)) + "_" + info.param.how;

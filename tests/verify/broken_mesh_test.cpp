@@ -14,7 +14,7 @@
 #include "verify/together.hpp"
 #include "verify/verdicts.hpp"
 
-/// One broken mesh for each code of a mesh, that is reported with this code and no other.
+/// One broken mesh for each code of verify_mesh(), which must report this code and no other.
 namespace octetra::verify {
 namespace {
 
@@ -30,7 +30,7 @@ struct MeshCase {
 };
 void PrintTo(const MeshCase& c, std::ostream* out) { *out << name(c.code); }
 
-/// A case that breaks two_cubes().
+/// A case that modifies two_cubes().
 MeshCase of_two_cubes(Code code, const std::string& how, const std::function<void(Mesh&)>& breaks) {
     return {code, how, [breaks] {
                 Mesh mesh = two_cubes();
@@ -44,7 +44,7 @@ class BrokenMesh : public testing::TestWithParam<MeshCase> {};
 TEST_P(BrokenMesh, IsReportedWithItsCodeAndNoOther) {
     ASSERT_EQ(codes_of(verify_mesh(two_cubes())), "");
     const Mesh mesh = GetParam().make();
-    // Lists of unequal length cannot be shared out.
+    // Lists of unequal length cannot be distributed.
     const bool in_one_memory = GetParam().code == Code::list_length;
     const Verdict verdict = in_one_memory ? verify_mesh(mesh) : test::judged_by_all(mesh);
     EXPECT_EQ(codes_of(verdict), name(GetParam().code));
@@ -165,7 +165,7 @@ const std::vector<MeshCase> broken_meshes{
                               {{0, 1, 2, 4}, {0, 2, 3, 4}, {0, 1, 3, 5}, {1, 2, 3, 5}});
      }},
     {Code::boundary_crosses, "cell_among_others_by_their_vertices",
-     [] {  // every second corner of the cube in the middle
+     [] {  // every second corner of the middle cube
          Mesh mesh = test::kuhn(3, 3, 3);
          const auto at = [](std::size_t x, std::size_t y, std::size_t z) {
              return vertex(x + 4 * y + 16 * z);
@@ -205,7 +205,7 @@ const std::vector<MeshCase> broken_meshes{
 };
 INSTANTIATE_TEST_SUITE_P(, BrokenMesh, testing::ValuesIn(broken_meshes), name_of<MeshCase>);
 
-/// Also inside a cell, and at the place of another vertex.
+/// Also inside a cell, and at the coordinates of another vertex.
 TEST(Vertices, OfNoCellAreNotedAndKeepNoCheckFromRunning) {
     Mesh mesh = test::kuhn(2, 1, 1);
     const auto point = [&](std::size_t i) { return mesh.points[mesh.cells[cell(0)][i]]; };

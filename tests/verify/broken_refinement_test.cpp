@@ -15,14 +15,14 @@
 #include "verify/together.hpp"
 #include "verify/verdicts.hpp"
 
-/// One broken refinement for each code of a refinement, that is reported with this code and no
+/// One broken refinement for each code of verify_refinement(), which must report this code and no
 /// other.
 namespace octetra::verify {
 namespace {
 
 using test::codes_of;
 
-/// Four cubes in a row with all that can be tagged tagged.
+/// Four cubes in a row with tags on all kinds of entities.
 Mesh tagged_cubes() {
     Mesh mesh = test::kuhn(4, 1, 1);
     test::list_boundary(mesh);
@@ -39,7 +39,7 @@ Mesh tagged_cubes() {
     return mesh;
 }
 
-/// The cells near one corner, twice.
+/// The cells near one corner, in two levels.
 const Request request{
     .selection = {.spheres = {{{0, 0, 0}, 1}}}, .scheme = Scheme::eight, .levels = 2};
 
@@ -48,7 +48,7 @@ struct Refined {
     reference::Refinement fine =
         reference::refine(coarse, request.selection, request.scheme, request.levels);
     VerifyOptions options{.request = request};
-    bool claims = true;  ///< maps and request, which say more than that it is a refinement
+    bool claims = true;  ///< maps and request, which claim more than a refinement
 
     [[nodiscard]] Verdict judge() {
         options.maps = claims ? &fine.maps : nullptr;
@@ -75,7 +75,7 @@ TEST_P(BrokenRefinement, IsReportedWithItsCodeAndNoOther) {
     EXPECT_FALSE(verdict.violations.empty());
 }
 
-/// The first cell of the fine mesh that is one of the coarse mesh, and the first that is not.
+/// The first cell of the fine mesh that belongs to the coarse mesh, and the first that does not.
 CellIndex kept_cell(const Refined& r) {
     for (CellIndex c{0}; c < r.fine.mesh.cells.end_index(); ++c) {
         const auto in_coarse =
@@ -85,13 +85,13 @@ CellIndex kept_cell(const Refined& r) {
     return CellIndex::none();
 }
 
-/// Leaves nothing but points and cells, and what is claimed of them.
+/// Removes everything but points, cells and claims.
 void forget_tags(Refined& r) {
     for (Mesh* m : {&r.coarse, &r.fine.mesh}) *m = Mesh{.points = m->points, .cells = m->cells};
     r.claims = false;
 }
 
-/// The first midpoint that lies inside the solid.
+/// The first midpoint inside the solid.
 VertexIndex inner_midpoint(const Refined& r) {
     for (VertexIndex v = r.fine.maps.first_midpoint; v < r.fine.mesh.points.end_index(); ++v) {
         const Point& p = r.fine.mesh.points[v];
@@ -266,7 +266,7 @@ TEST(Facets, ThatConflictInTheCoarseMeshEndTheJudgementThere) {
     EXPECT_EQ(verdict.violations[0].entities[0].mesh, Which::coarse);
 }
 
-/// Of a check that was made, how it ended.
+/// The status of a check that was made.
 Status status_of(const Verdict& verdict, std::string_view check) {
     const auto at = std::find_if(verdict.checks.begin(), verdict.checks.end(),
                                  [&](const Check& c) { return c.name == check; });
@@ -291,7 +291,7 @@ TEST(Tags, ThatAreZeroThroughoutMayBeLeftOut) {
     EXPECT_EQ(status_of(verdict, "vertex markers"), Status::passed);
 }
 
-TEST(Tags, ThatTheCoarseMeshHasNotAreNotJudged) {
+TEST(Tags, ThatTheCoarseMeshDoesNotHaveAreNotChecked) {
     Refined r;
     r.coarse = Mesh{.points = r.coarse.points, .cells = r.coarse.cells};
     const Verdict verdict = r.judge();
@@ -302,7 +302,7 @@ TEST(Tags, ThatTheCoarseMeshHasNotAreNotJudged) {
     }
 }
 
-TEST(Tags, AttributesMayBeLostToAFormatWithoutAPlaceForThem) {
+TEST(Tags, AttributesMayBeLostInAFormatThatCannotStoreThem) {
     Refined r;
     r.fine.mesh.attributes_per_point = 0;
     r.fine.mesh.point_attributes.clear();
@@ -312,7 +312,7 @@ TEST(Tags, AttributesMayBeLostToAFormatWithoutAPlaceForThem) {
     EXPECT_EQ(status_of(verdict, "attributes"), Status::skipped);
 }
 
-TEST(Tags, VertexMarkersMayBeLostToAFormatWithoutAPlaceForThem) {
+TEST(Tags, VertexMarkersMayBeLostInAFormatThatCannotStoreThem) {
     Refined r;
     r.coarse.point_markers.assign(r.coarse.points.size(), 7);
     r.fine.mesh.point_markers.clear();

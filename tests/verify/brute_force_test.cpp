@@ -10,7 +10,7 @@
 #include "verify/mutations.hpp"
 #include "verify/verdicts.hpp"
 
-/// The certificate against the definition: every pair of cells looked at, in integers.
+/// Compares the certificate with the definition: every pair of cells is inspected, in integers.
 namespace octetra::verify {
 namespace {
 
@@ -40,7 +40,8 @@ Tetrahedron tetrahedron(const Mesh& mesh, const CellVertices& cell) {
     return t;
 }
 
-/// Normals of planes that may separate two tetrahedra: of their faces, and along edges of both.
+/// Normals of candidate separating planes of two tetrahedra: those of faces, and those along edges
+/// of both.
 std::vector<Vector> candidate_normals(const Tetrahedron& s, const Tetrahedron& t) {
     std::vector<Vector> normals;
     for (const Tetrahedron* one : {&s, &t}) {
@@ -56,8 +57,8 @@ std::vector<Vector> candidate_normals(const Tetrahedron& s, const Tetrahedron& t
     return normals;
 }
 
-/// Two convex bodies have disjoint interiors if and only if some plane has them on different sides,
-/// and for polyhedra there is one among the candidates.
+/// Two convex bodies have disjoint interiors if and only if some plane separates them; for
+/// polyhedra one of the candidates does.
 bool interiors_are_disjoint(const Tetrahedron& s, const Tetrahedron& t) {
     for (const Vector& n : candidate_normals(s, t)) {
         if (n == Vector{0, 0, 0}) continue;
@@ -89,19 +90,19 @@ bool holds(const Tetrahedron& t, const Vector& p) {
     return true;
 }
 
-/// Do two closed segments meet?
+/// Returns whether two closed segments meet.
 bool segments_meet(const Vector& p, const Vector& q, const Vector& a, const Vector& b) {
     const Vector n = cross(minus(q, p), minus(b, a));
     if (n == Vector{0, 0, 0}) return false;  // parallel: then an end of one lies on the other
     if (dot(n, minus(a, p)) != 0) return false;
-    // In the plane with this normal: each has its ends on different sides of the other.
+    // In the plane with this normal: the ends of each are on different sides of the other.
     const auto turn = [&](const Vector& u, const Vector& v, const Vector& w) {
         return sign(dot(n, cross(minus(v, u), minus(w, u))));
     };
     return turn(p, q, a) * turn(p, q, b) <= 0 && turn(a, b, p) * turn(a, b, q) <= 0;
 }
 
-/// Does an edge pass through a triangle from one side to the other?
+/// Returns whether an edge passes through a triangle from one side to the other.
 bool pierces(const Vector& p, const Vector& q, const std::array<Vector, 3>& t) {
     if (side(t[0], t[1], t[2], p) * side(t[0], t[1], t[2], q) >= 0) return false;
     const int ab = side(p, q, t[0], t[1]);
@@ -114,8 +115,9 @@ bool has(const CellVertices& cell, VertexIndex v) {
     return std::find(cell.begin(), cell.end(), v) != cell.end();
 }
 
-/// Two cells: no vertex of one in the other unless they share it, no edge of one through an edge or
-/// face of the other that shares no vertex with it, interiors disjoint.
+/// Returns whether two cells conform: no vertex of one lies in the other unless they share it, no
+/// edge of one passes through an edge or face of the other that shares no vertex with it, and
+/// interiors are disjoint.
 bool conform(const Mesh& mesh, const CellVertices& c, const CellVertices& d) {
     const Tetrahedron s = tetrahedron(mesh, c);
     const Tetrahedron t = tetrahedron(mesh, d);
@@ -137,7 +139,7 @@ bool conform(const Mesh& mesh, const CellVertices& c, const CellVertices& d) {
     return interiors_are_disjoint(s, t);
 }
 
-/// Valid by looking at all vertices, cells and pairs.
+/// Returns whether the mesh is valid, from all vertices, cells and pairs.
 bool is_valid_by_brute_force(const Mesh& mesh) {
     std::vector<char> used(mesh.points.size(), 0);
     for (const CellVertices& cell : mesh.cells) {
@@ -161,7 +163,7 @@ bool is_valid_by_brute_force(const Mesh& mesh) {
     return true;
 }
 
-/// A cell between any four vertices, in the place of as many others as one would think it touches.
+/// Appends a cell between any four vertices, in most cases one that crosses others.
 void append_random_cell(Mesh& mesh, std::mt19937_64& random) {
     CellVertices cell;
     for (VertexIndex& v : cell) v = VertexIndex{random() % mesh.points.size()};
@@ -177,8 +179,8 @@ void append_random_cell(Mesh& mesh, std::mt19937_64& random) {
     mesh.cells.push_back(cell);
 }
 
-/// Breaks a mesh in a way drawn at random, or leaves it as it is. Coordinates stay
-/// small integers or, by one bisection after the other, eighths.
+/// Modifies a mesh at random, or not at all. Coordinates stay small integers or, by successive
+/// bisection, eighths.
 void mutate(Mesh& mesh, std::mt19937_64& random) {
     const auto below = [&](std::size_t n) { return static_cast<std::size_t>(random() % n); };
     const VertexIndex v{below(mesh.points.size())};
@@ -207,7 +209,7 @@ TEST(BruteForce, AgreesWithTheCertificateOnValidAndBrokenMeshes) {
     int valid = 0;
     int broken = 0;
     for (int round = 0; round < 1500; ++round) {
-        // A side of 4 leaves room for halves, and for moves that break nothing.
+        // A side of 4 leaves room for halves, and for moves that preserve validity.
         Mesh mesh = round % 2 == 0 ? test::kuhn(2, 2, 1, 4) : test::kuhn(1, 1, 1, 4);
         const std::size_t mutations = 1 + random() % 3;
         for (std::size_t i = 0; i < mutations; ++i) mutate(mesh, random);
@@ -221,7 +223,7 @@ TEST(BruteForce, AgreesWithTheCertificateOnValidAndBrokenMeshes) {
     EXPECT_GT(broken, 400);
 }
 
-/// Two cells anywhere: they may cross without a vertex of one in the other.
+/// Two arbitrary cells, which may cross without a vertex of one in the other.
 TEST(BruteForce, AgreesWithTheCertificateOnTwoCellsAnywhere) {
     std::mt19937_64 random(7);
     int crossing = 0;
@@ -234,7 +236,7 @@ TEST(BruteForce, AgreesWithTheCertificateOnTwoCellsAnywhere) {
             const double y = coordinate();
             points.push_back({x, y, coordinate()});
         }
-        // With 4 to 8 different vertices, the cells may share some.
+        // With 4 to 8 distinct vertices the cells may share some.
         const std::size_t shared = random() % 4;
         Mesh mesh =
             test::mesh_of(points, {{0, 1, 2, 3}, {4 - shared, 5 - shared, 6 - shared, 7 - shared}});

@@ -8,7 +8,7 @@
 #include "verify/together.hpp"
 #include "verify/verdicts.hpp"
 
-/// What is left after coarsening is a refinement of the input like any other.
+/// The mesh after coarsening is a refinement of the input.
 namespace octetra::verify {
 namespace {
 
@@ -21,7 +21,7 @@ Selection ball(double y, double radius) { return {.spheres = {{{0.5, y, 1}, radi
 
 class Coarsened : public testing::TestWithParam<double> {
 protected:
-    /// Two cubes a side, with their boundary tagged, and refined in three balls, each in the other.
+    /// Two cubes a side, with a tagged boundary, refined in three nested balls.
     [[nodiscard]] static History refined_thrice() {
         History history{test::shaken_kuhn(2, GetParam(), 5), {}};
         test::list_boundary(history.input);
@@ -34,7 +34,7 @@ protected:
     }
 };
 
-TEST_P(Coarsened, IsAValidRefinementOfTheInputAndRefinedByWhatItWas) {
+TEST_P(Coarsened, IsAValidRefinementOfTheInputAndRefinedByThePreviousMesh) {
     History history = refined_thrice();
     const Mesh input = history.input;
     Refinement before = reference::replay(history).back();
@@ -44,8 +44,8 @@ TEST_P(Coarsened, IsAValidRefinementOfTheInputAndRefinedByWhatItWas) {
         ASSERT_LT(coarser.mesh.cells.size(), before.mesh.cells.size());
         EXPECT_EQ(codes_of(test::judged_by_all(coarser.mesh)), "");
         EXPECT_EQ(codes_of(test::judged_by_all(input, coarser.mesh, {.maps = &coarser.maps})), "");
-        // The old cells halve the new ones, but not always by their longest edges, which alone
-        // bounds angles.
+        // The old cells halve the new ones, but not always at their longest edges, for which alone
+        // angles are bounded.
         EXPECT_THAT(codes_of(test::judged_by_all(coarser.mesh, before.mesh)),
                     AnyOf("", "face_angle_too_small"));
         before = coarser;

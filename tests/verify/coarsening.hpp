@@ -8,11 +8,11 @@
 #include <octetra/reference/history.hpp>
 #include <octetra/verify/verify_coarsening.hpp>
 
-/// Histories of the reference, as the verifier is told of them, and other coarser meshes than the
-/// reference makes.
+/// Histories of the reference in the verifier's form, and coarser meshes that the reference does
+/// not make.
 namespace octetra::test {
 
-/// A mesh of the input and its steps: the last one.
+/// The mesh after the last step of a history.
 inline Mesh mesh_of_history(const reference::History& history) {
     return reference::replay(history).back().mesh;
 }
@@ -36,7 +36,7 @@ inline verify::StepCuts cuts_of(const reference::History& history) {
     return steps;
 }
 
-/// These cells may go, whatever is where.
+/// A request to coarsen exactly these cells.
 inline verify::CoarseningRequest request_of(const reference::CellMarks& may_go) {
     verify::CoarseningRequest request;
     for (CellIndex c{0}; c < may_go.end_index(); ++c) {
@@ -45,7 +45,7 @@ inline verify::CoarseningRequest request_of(const reference::CellMarks& may_go) 
     return request;
 }
 
-/// Which vertices a history has left of those of another one, by the numbers of that.
+/// For each vertex of the history before, whether it is left in the one after.
 inline std::vector<char> left_by(const reference::History& after,
                                  const reference::History& before) {
     const Mesh coarser = mesh_of_history(after);
@@ -55,7 +55,7 @@ inline std::vector<char> left_by(const reference::History& after,
     return stays;
 }
 
-/// A history without the midpoints that do not stay, whatever rules that breaks. No edge of a later
+/// The history without the midpoints that do not stay, even against the rules. No edge of a later
 /// step may need them.
 inline reference::History with_only(const std::vector<char>& stays,
                                     const reference::History& history) {
@@ -87,7 +87,7 @@ inline std::vector<int> steps_of_vertices(const reference::History& history) {
     return steps;
 }
 
-/// The midpoints that no later step has built upon: no cell at them has a vertex of one.
+/// The midpoints on which no later step depends: no cell at them has a later vertex.
 inline std::vector<std::size_t> midpoints_on_top(const reference::History& history) {
     const std::vector<int> step = steps_of_vertices(history);
     std::vector<char> on_top(step.size(), 1);

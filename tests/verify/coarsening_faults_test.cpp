@@ -6,7 +6,7 @@
 #include "verify/coarsening.hpp"
 #include "verify/verdicts.hpp"
 
-/// Each way in which what is left after coarsening can be wrong, and what is said of it.
+/// Each kind of wrong coarsened mesh, and the message about it.
 namespace octetra::verify {
 namespace {
 
@@ -32,8 +32,8 @@ std::vector<Call> coarsenings_of_all_seeds() {
     return calls;
 }
 
-/// May this midpoint be struck, so that the mesh is another, but still one? Of the last step any
-/// may; of others what leaves the step closed.
+/// Returns whether this midpoint can be removed so that the result is another valid mesh: any
+/// midpoint of the last step; of other steps those that leave the step closed.
 bool can_be_struck(std::size_t v, const History& history) {
     const auto step = static_cast<std::size_t>(test::steps_of_vertices(history)[v]);
     if (step == history.steps.size()) return true;
@@ -44,7 +44,7 @@ bool can_be_struck(std::size_t v, const History& history) {
     return test::is_closed(reference::replay(history)[step - 1].mesh, edges);
 }
 
-TEST(CoarseningFaults, OneVertexTooManyGoneIsRefused) {
+TEST(CoarseningFaults, OneMissingVertexIsRefused) {
     int tried = 0;
     for (const Call& call : coarsenings_of_all_seeds()) {
         std::size_t nth = 0;
@@ -62,7 +62,7 @@ TEST(CoarseningFaults, OneVertexTooManyGoneIsRefused) {
     EXPECT_GT(tried, 100);
 }
 
-TEST(CoarseningFaults, OneVertexTooFewGoneIsRefused) {
+TEST(CoarseningFaults, OneSuperfluousVertexIsRefused) {
     int tried = 0;
     for (const Call& call : coarsenings_of_all_seeds()) {
         std::vector<char> stays = test::left_by(call.after, call.before);
@@ -81,7 +81,7 @@ TEST(CoarseningFaults, OneVertexTooFewGoneIsRefused) {
     EXPECT_GT(tried, 100);
 }
 
-/// What rule (a) alone would keep: the last step is then not closed.
+/// The vertices that rule (a) alone requires: the last step is then not closed.
 TEST(CoarseningFaults, WithoutClosureIsRefused) {
     int tried = 0;
     for (const Call& call : coarsenings_of_all_seeds()) {
@@ -124,7 +124,7 @@ TEST(CoarseningFaults, CellsThatGoBackTwoStepsAreRefused) {
     EXPECT_EQ(codes_of(twice), "");
 }
 
-/// Two cells that look like halves of one, and are the input.
+/// Two cells that resemble halves of one, but are the input.
 TEST(CoarseningFaults, CellsLargerThanThoseOfTheInputAreRefusedAtAnyLevel) {
     const auto& [a, b, c, d] = test::tie_free_corners;
     const Mesh input = test::mesh_of({a, b, c, d, midpoint(a, b)}, {{0, 4, 2, 3}, {4, 1, 2, 3}});
@@ -144,8 +144,8 @@ TEST(CoarseningFaults, NothingIsRefusedUnlessNothingWasThere) {
     EXPECT_EQ(codes_of(verify_coarsening({}, {}, all, {})), "");
 }
 
-/// The midpoint of an edge that is not the longest of its faces: a cell of which one half goes
-/// across cells of the mesh before.
+/// The midpoint of an edge that is not the longest of its faces: one half of the bisected cell
+/// crosses cells of the previous mesh.
 TEST(CoarseningFaults, CellsThatAreNoUnionsAreRefused) {
     const Mesh input = test::one_cell(test::tie_free_corners);
     const History before = refined({input, {}}, CellMarks(1, 1), Scheme::eight);
@@ -175,9 +175,9 @@ TEST(CoarseningFaults, VerticesThatTheMeshBeforeHasNotAreRefused) {
               other.steps[0].size() - before.steps[0].size());
 }
 
-/// A flat cell abcd is bisected at the three edges of its base abc, and two pieces again at the
-/// line from a to the middle of bc. Without that last midpoint, which lies between those of ab and
-/// of ac, too, two cells that meet at the line between these fill the same space.
+/// A flat cell abcd is bisected at the three edges of its base abc, and two children again at the
+/// line from a to the middle of bc. Without this last midpoint, which also lies between those of ab
+/// and of ac, two cells that meet at the line between these overlap.
 TEST(CoarseningFaults, AnotherPatternIsRefused) {
     const std::array<Point, 4> corners{{{0, 0, 0}, {48, -32, 0}, {44, 32, 0}, {31, 0, 2}}};
     const Mesh input = test::one_cell(corners);
@@ -213,7 +213,8 @@ TEST(CoarseningFaults, AnotherPatternIsRefused) {
     }
     const Mesh wrong = test::mesh_of({right.points.begin(), right.points.end()}, cells);
 
-    // Cells of less than a quarter may go, also at the second level, when there are none.
+    // Cells of less than a quarter of the volume are marked, also at the second level, where there
+    // are none.
     CoarseningRequest request{{.max_volume = octetra::volume({a, b, c, d}) / 4.5}, true, 2};
     const StepCuts cuts = test::cuts_of(twice);
     EXPECT_EQ(codes_of(verify_coarsening(input, cuts, request, right)), "");
@@ -224,7 +225,7 @@ TEST(CoarseningFaults, AnotherPatternIsRefused) {
               "not_tiled too_many_generations");
 }
 
-/// The first of a code.
+/// The first violation with this code.
 Violation violation_of(const Verdict& verdict, Code code) {
     for (const Violation& violation : verdict.violations) {
         if (violation.code == code) return violation;

@@ -13,7 +13,7 @@
 #include "verify/coarsening.hpp"
 #include "verify/verdicts.hpp"
 
-/// What the rules leave passes. What is refused stands in coarsening_faults_test.cpp.
+/// Meshes coarsened according to the rules pass. Refusals are in coarsening_faults_test.cpp.
 namespace octetra::verify {
 namespace {
 
@@ -51,9 +51,9 @@ TEST_P(Coarsening, OfStepsThatAreRepeatedMakesTheMeshAndItsCells) {
     }
 }
 
-/// The rules are of the meshes before the steps; what reads them off the present cells must come to
+/// The rules refer to the meshes before the steps; their evaluation on the present cells must keep
 /// the same vertices.
-TEST_P(Coarsening, KeepsByThePresentCellsWhatItKeepsByThoseBeforeEachStep) {
+TEST_P(Coarsening, KeepsTheSameVerticesByPresentCellsAsByThoseBeforeEachStep) {
     for (const Call& call : reference::random_coarsenings(GetParam())) {
         const Lineage lineage = lineage_of(call.before.input, test::cuts_of(call.before));
         const Reasons reasons = reasons_to_stay(lineage, lineage.cells.present,
@@ -71,9 +71,9 @@ TEST_P(Coarsening, KeepsByThePresentCellsWhatItKeepsByThoseBeforeEachStep) {
     }
 }
 
-TEST_P(Coarsening, IsFoundByPlaceWhereItsNumbersAreOthers) {
+TEST_P(Coarsening, IsMatchedByCoordinatesAfterRenumbering) {
     for (Call call : reference::random_coarsenings(GetParam())) {
-        call.before.input.attributes_per_point = 0;  // renumbered() leaves them where they are
+        call.before.input.attributes_per_point = 0;  // renumbered() does not permute them
         call.before.input.point_attributes.clear();
         const Mesh after = mesh_of_history(coarsened(call.before, call.marked));
         const Verdict verdict =
@@ -83,7 +83,7 @@ TEST_P(Coarsening, IsFoundByPlaceWhereItsNumbersAreOthers) {
     }
 }
 
-/// As often as is asked for, by criteria that judge the coarser mesh afresh.
+/// Repeated as often as requested, with criteria evaluated anew on each coarser mesh.
 TEST_P(Coarsening, OfSeveralLevelsIsValidWithSoManyAndNotWithFewer) {
     std::mt19937_64 random(GetParam());
     for (const Call& call : reference::random_coarsenings(GetParam())) {
@@ -112,7 +112,7 @@ TEST_P(Coarsening, OfSeveralLevelsIsValidWithSoManyAndNotWithFewer) {
 
 INSTANTIATE_TEST_SUITE_P(Seeds, Coarsening, testing::Range<std::uint64_t>(0, 12));
 
-/// All that can be left of a small mesh, each judged by all marks that there can be of its cells.
+/// Judges all possible coarsened meshes of a small mesh with all possible marks.
 void expect_right_ones_alone(const History& before) {
     const std::size_t cells = mesh_of_history(before).cells.size();
     ASSERT_LE(cells, 10U);
@@ -135,7 +135,7 @@ void expect_right_ones_alone(const History& before) {
     }
 }
 
-TEST(CoarseningOfSmallMeshes, IsValidExactlyWhereItIsWhatTheReferenceLeaves) {
+TEST(CoarseningOfSmallMeshes, IsValidExactlyIfItEqualsTheReference) {
     for (std::uint64_t seed = 0; seed < 6; ++seed) {
         SCOPED_TRACE(seed);
         std::mt19937_64 random(seed);
@@ -150,9 +150,9 @@ TEST(CoarseningOfSmallMeshes, IsValidExactlyWhereItIsWhatTheReferenceLeaves) {
     }
 }
 
-/// Midpoints of opposite edges are joined, but the edges lie in no common face: neither needs the
-/// other.
-TEST(CoarseningOfSmallMeshes, LetsTheMidpointOfAnOppositeEdgeGoAlone) {
+/// Midpoints of opposite edges are joined, but the edges lie in no common face: neither midpoint
+/// requires the other.
+TEST(CoarseningOfSmallMeshes, RemovesTheMidpointOfAnOppositeEdgeAlone) {
     // Two cells at a face. The longest edge of the first is opposite that of the second.
     const Mesh input =
         test::mesh_of({{-0.25, 0, 0}, {2, 0, 0}, {1, 1, 1}, {1, 1, -1}, {2.5, 1.5, 0}},
@@ -173,8 +173,8 @@ Mesh with_last_two_exchanged(Mesh mesh) {
     return mesh;
 }
 
-/// Vertices at one place are told apart by their numbers; or, where these are others, those that
-/// stay are found first.
+/// Coincident vertices are distinguished by their numbers; or, after renumbering, those that stay
+/// are matched first.
 TEST(CoarseningAtACrack, OfOneSideIsValid) {
     const Mesh input = test::mesh_of(
         {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, -1}},

@@ -21,7 +21,7 @@ Mesh tagged() {
     return mesh;
 }
 
-/// The last vertex first, the cells backwards, corners turned without turning the cell over.
+/// Reverses vertices and cells, and rotates corners without changing the orientation.
 Mesh renumbered(const Mesh& mesh) {
     Mesh result = mesh;
     const auto last = static_cast<std::uint32_t>(mesh.points.size() - 1);
@@ -50,7 +50,7 @@ TEST(Compare, FindsAMeshIdenticalToItself) {
     EXPECT_EQ(compare({}, {}).likeness, Likeness::identical);
 }
 
-TEST(Compare, SaysWhereOnlyTheFirstNumberDiffers) {
+TEST(Compare, ReportsIfOnlyTheIndexBaseDiffers) {
     const Mesh mesh = test::kuhn(1, 1, 1);
     Mesh other = mesh;
     other.index_base = 1;
@@ -84,7 +84,7 @@ struct Change {
     std::function<void(Mesh&)> make;
 };
 
-TEST(Compare, NamesWhatDiffersByItsPlace) {
+TEST(Compare, NamesDifferencesByCoordinates) {
     const std::vector<Change> changes{
         {"vertex", [](Mesh& m) { test::shift_by_an_ulp(m, VertexIndex{4}); }},
         {"vertex", [](Mesh& m) { m.point_markers[VertexIndex{4}] = 1; }},
@@ -156,8 +156,8 @@ TEST(Compare, FindsAttributesThatAreNoNumbersEqual) {
     EXPECT_EQ(compare(mesh, moved).likeness, Likeness::different);
 }
 
-/// Two cells that share three places: at one face, or at a crack, by vertices of their own.
-TEST(Compare, TellsACrackFromAFace) {
+/// Two cells with three coincident corners: at one face, or at a crack with separate vertices.
+TEST(Compare, DistinguishesACrackFromAFace) {
     const std::vector<Point> points{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1},
                                     {0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, -1}};
     const Mesh crack = test::mesh_of(points, {{0, 1, 2, 3}, {4, 5, 6, 7}});

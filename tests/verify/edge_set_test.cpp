@@ -38,7 +38,7 @@ TEST(EdgeSet, HasEveryEdgeOfTheCellsOnce) {
     expect_every_edge_once(test::kuhn(3, 2, 4));
 }
 
-/// 497,664 edges of cells: several times more than come in one turn.
+/// 497,664 edges of cells, several times the number processed in one block.
 TEST(EdgeSet, HasThemOnceWhereItIsMadeInTurns) { expect_every_edge_once(test::kuhn(24, 24, 24)); }
 
 }  // namespace

@@ -12,7 +12,7 @@
 #include "verify/together.hpp"
 #include "verify/verdicts.hpp"
 
-/// Angles, and decisions about them, against what is known of some shapes.
+/// Angles, and decisions about them, compared with known values of some shapes.
 namespace octetra::verify {
 namespace {
 
@@ -42,7 +42,8 @@ TEST(Angles, AreThoseOfKnownShapes) {
         EXPECT_NEAR(verdict.angles->max_dihedral, shape.max_dihedral, 1e-12);
         EXPECT_NEAR(verdict.angles->min_eta, std::cbrt(shape.eta_cubed), 1e-15);
     }
-    // A corner of a cube is an eighth of the whole; the regular one's is 3 acos(1/3) - pi.
+    // The corner of a cube is an eighth of the full angle; that of the regular tetrahedron is 3
+    // acos(1/3) - pi.
     const Verdict corner = test::judged_by_all(test::one_cell(test::regular_corners));
     EXPECT_NEAR(corner.angles->min_solid, 3 * std::acos(1.0 / 3) - M_PI, 1e-14);
 }
@@ -64,7 +65,7 @@ TEST(Angles, AreComparedExactlyAlsoWhereTheyAreEqual) {
     EXPECT_TRUE(is_under(test::kuhn_corners, 180));
 }
 
-/// A factor that leaves shapes as they are, and lets no product of coordinates fit 53 bits.
+/// A factor that preserves shapes and makes products of coordinates exceed 53 bits.
 constexpr double awkward = 0x1p27 + 1;
 
 TEST(Angles, TakeExactArithmeticOnlyWhereTheyMust) {
@@ -82,14 +83,14 @@ TEST(Angles, TakeExactArithmeticOnlyWhereTheyMust) {
 
 TEST(FaceAngles, OfAnEquilateralTriangleMayBeHalvedAndNoMore) {
     Arithmetic arithmetic;
-    const double h = std::sqrt(3.0);  // rounded down: the apex is a little low
+    const double h = std::sqrt(3.0);  // rounded down: the apex is slightly low
     const std::array<Point, 3> whole{{{0, 0, 0}, {2, 0, 0}, {1, h, 0}}};
     const std::array<Point, 3> half{{{0, 0, 0}, {1, 0, 0}, {1, h, 0}}};
     const std::array<Point, 3> less{{{0, 0, 0}, {0.99, 0, 0}, {1, h, 0}}};
     EXPECT_TRUE(exact::keeps_half_of_smallest_angle(whole, whole, arithmetic));
     EXPECT_FALSE(exact::keeps_half_of_smallest_angle(less, half, arithmetic) &&
                  exact::keeps_half_of_smallest_angle(less, whole, arithmetic));
-    // The apex angle of an isosceles triangle is exactly halved by its height.
+    // The height of an isosceles triangle halves its apex angle exactly.
     constexpr double a = awkward;
     const std::array<Point, 3> isosceles{{{-a, 0, 0}, {a, 0, 0}, {0, 7 * a, 0}}};
     const std::array<Point, 3> exact_half{{{0, 0, 0}, {a, 0, 0}, {0, 7 * a, 0}}};
@@ -100,7 +101,8 @@ TEST(FaceAngles, OfAnEquilateralTriangleMayBeHalvedAndNoMore) {
     EXPECT_EQ(arithmetic.exact, exact_before + 2);
 }
 
-/// Near each cell of a lattice are vertices in the plane of one of its faces and beyond another.
+/// Each cell of a lattice has vertices in its neighbourhood that lie in the plane of one of its
+/// faces and beyond another.
 TEST(Vertices, ThatAreClearlyBeyondAFaceTakeNoExactArithmeticForTheOthers) {
     Mesh lattice = test::kuhn(3, 3, 3);
     for (Point& p : lattice.points) {
@@ -108,13 +110,14 @@ TEST(Vertices, ThatAreClearlyBeyondAFaceTakeNoExactArithmeticForTheOthers) {
     }
     const Verdict verdict = test::judged_by_all(lattice, lattice);
     EXPECT_TRUE(verdict.valid());
-    // The volume of each cell and the area of each boundary face are added up exactly.
+    // The volume of each cell and the area of each boundary face are summed exactly.
     EXPECT_EQ(verdict.arithmetic.exact, lattice.cells.size() + 108);
 }
 
-/// Half of a smallest angle is 30 degrees at most, so neither a right angle nor one of 45 or 60
-/// degrees needs rational numbers, though intervals cannot tell the sign of a cosine of 0.
-TEST(FaceAngles, AreTakenForLargeEnoughByIntervalsFrom30DegreesUp) {
+/// Half of a smallest angle is at most 30 degrees, so neither a right angle nor one of 45 or 60
+/// degrees needs rational arithmetic, although intervals cannot determine the sign of a cosine of
+/// 0.
+TEST(FaceAngles, AreAcceptedByIntervalsFrom30DegreesUp) {
     constexpr double a = awkward;
     const Point o{0.3 * a, 0.7 * a, -0.9 * a};
     const auto at = [&](double x, double y) { return Point{o.x + x * a, o.y + y * a, o.z}; };
@@ -181,7 +184,7 @@ TEST(Facts, CountSingularEdgesAndVertices) {
     EXPECT_EQ(at_a_vertex.singular_vertices, 1U);
 }
 
-TEST(Fast, LeavesOutWhatTakesASearchInSpace) {
+TEST(Fast, OmitsChecksThatNeedASearchInSpace) {
     const Mesh coarse = test::kuhn(2, 1, 1);
     const Mesh fine = reference::refine(coarse, {.all = true}, Scheme::eight, 1).mesh;
     const Verdict verdict = test::judged_by_all(coarse, fine, {.fast = true});
@@ -194,14 +197,14 @@ TEST(Fast, LeavesOutWhatTakesASearchInSpace) {
     }
 }
 
-TEST(Notes, SayThatThereAreNoCells) {
+TEST(Notes, ReportThatThereAreNoCells) {
     const Check check = test::judged_by_all(Mesh{}).checks[1];
     EXPECT_EQ(check.name, "well-formed");
     EXPECT_EQ(check.note, "there are no cells to check");
     EXPECT_EQ(test::judged_by_all(test::kuhn(1, 1, 1)).checks[1].note, "");
 }
 
-TEST(Notes, OfSkippedChecksNameWhatHasFailed) {
+TEST(Notes, OfSkippedChecksNameTheFailedOnes) {
     const auto why_not_crossings = [](const Mesh& mesh) {
         const Verdict verdict = test::judged_by_all(mesh);
         EXPECT_EQ(verdict.checks.back().name, "boundary crossings");
@@ -238,8 +241,8 @@ TEST(Notes, OfSkippedSumsAndDescentNameTheChecksThatFailed) {
     EXPECT_EQ(why_not("sums by tag", wrong), "orientation failed");
 }
 
-/// Of each process what it does: from 0 on, and never back within a check.
-TEST(Progress, IsToldOfEveryCheckThatRuns) {
+/// Each process reports its work, from 0 and monotonically within a check.
+TEST(Progress, IsReportedForEveryCheckThatRuns) {
     const Mesh coarse = test::kuhn(6, 6, 6);
     const Mesh fine = reference::refine(coarse, {.all = true}, Scheme::eight, 1).mesh;
     std::vector<std::string> told;

@@ -8,15 +8,14 @@
 
 #include "support/meshes.hpp"
 
-/// Meshes of about n cells with one edge or one vertex in common, their coordinates on a grid of
-/// 2^-20.
+/// Meshes of about n cells with one common edge or vertex, with coordinates on a grid of 2^-20.
 namespace octetra::test {
 
 inline double on_grid(double x) { return std::round(x * 0x1p20) * 0x1p-20; }
 inline Point on_grid(double x, double y, double z) { return {on_grid(x), on_grid(y), on_grid(z)}; }
 
-/// Cells around the edge from (0, 0, -1) to (0, 0, 1), so much of a turn; each every-th is left
-/// out. (0: none.)
+/// Cells around the edge from (0, 0, -1) to (0, 0, 1), over this fraction of a turn; every
+/// `every`-th is omitted. (0: none.)
 inline Mesh cells_around_edge(std::size_t n, double turns, std::size_t every) {
     const bool closed = turns == 1;
     std::vector<Point> points{{0, 0, -1}, {0, 0, 1}};
@@ -49,8 +48,8 @@ inline Mesh rough_cells_around_edge(std::size_t n) {
     return mesh;
 }
 
-/// A sphere of triangles joined with a point within; those below `lowest`, and each every-th, are
-/// left out. (0: none.)
+/// A triangulated sphere joined with an inner point; triangles below `lowest`, and every
+/// `every`-th, are omitted. (0: none.)
 inline Mesh cells_at_vertex(std::size_t n, double lowest, std::size_t every) {
     const auto rings = static_cast<std::size_t>(std::sqrt(static_cast<double>(n) / 4)) + 1;
     const std::size_t segments = 2 * rings;
@@ -80,7 +79,7 @@ inline Mesh cells_at_vertex(std::size_t n, double lowest, std::size_t every) {
         append(1, at(1, k), at(1, k + 1));
         append(points.size() - 1, at(rings - 1, k), at(rings - 1, k + 1));
         for (std::size_t i = 1; i + 1 < rings; ++i) {
-            // Odd rings are ahead by half a segment.
+            // Odd rings are shifted by half a segment.
             const std::size_t ahead = i % 2 == 0 ? 0 : 1;
             append(at(i, k), at(i, k + 1), at(i + 1, k + ahead));
             append(at(i + 1, k), at(i + 1, k + 1), at(i, k + 1 - ahead));
@@ -91,7 +90,7 @@ inline Mesh cells_at_vertex(std::size_t n, double lowest, std::size_t every) {
     return mesh;
 }
 
-/// A square of triangles joined with a point close above it.
+/// A triangulated square joined with a point close above it.
 inline Mesh flat_cone(std::size_t n) {
     const auto side = static_cast<std::size_t>(std::sqrt(static_cast<double>(n) / 2));
     std::vector<Point> points{{0.5, 0.5, 0x1p-10}};

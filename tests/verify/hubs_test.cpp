@@ -16,7 +16,7 @@
 #include "verify/together.hpp"
 #include "verify/verdicts.hpp"
 
-/// Many cells around one edge or at one vertex: all pairs of these have boxes that meet.
+/// Many cells around one edge or at one vertex, whose boxes all intersect pairwise.
 namespace octetra::verify {
 namespace {
 
@@ -30,7 +30,7 @@ double n_log_n(const Mesh& mesh) {
     return n * std::log2(n);
 }
 
-/// How much of the mesh, in sum, the verifier looks at to find it valid.
+/// The total work of the verifier for a valid mesh.
 double effort_of_validity(const Mesh& mesh) {
     const Verdict verdict = verify_mesh(mesh);
     EXPECT_EQ(codes_of(verdict), "");
@@ -38,8 +38,7 @@ double effort_of_validity(const Mesh& mesh) {
                                verdict.arithmetic.exact);
 }
 
-/// Eight times as many cells take a little more than eight times as much looking, and not 64 times
-/// as much.
+/// Eight times as many cells take slightly more than eight times the work, and not 64 times.
 void expect_n_log_n(const Mesh& small, const Mesh& large, double most) {
     const double effort = effort_of_validity(large);
     EXPECT_LT(effort / effort_of_validity(small), 1.5 * n_log_n(large) / n_log_n(small));
@@ -50,15 +49,15 @@ TEST_P(HubTest, IsSearchedInProportionToItsCellsAndTheirLogarithm) {
     expect_n_log_n(GetParam().make(2000), GetParam().make(16000), 100);
 }
 
-/// Where things are slender in all directions and of all lengths, more of them are side by side:
-/// with eight times as many, less than 8^1.5 = 22.6 times as much looking.
+/// For slender cells of all lengths and directions the work grows faster: eight times as many cells
+/// take less than 8^1.5 = 22.6 times the work.
 void expect_far_less_than_the_square(const Mesh& small, const Mesh& large) {
     const double effort = effort_of_validity(large);
     EXPECT_LT(effort / effort_of_validity(small), 22.6);
     EXPECT_LT(effort, 200 * n_log_n(large));
 }
 
-/// Then most cells are not at the hub, and many are slender as seen from there.
+/// After refinement most cells are not at the hub, and many are slender as seen from it.
 TEST_P(HubTest, RefinedIsSearchedInFarLessThanTheSquareOfItsCells) {
     const auto refined = [&](std::size_t cells) {
         return reference::refine(GetParam().make(cells), {.all = true}, Scheme::eight, 1).mesh;
@@ -66,14 +65,15 @@ TEST_P(HubTest, RefinedIsSearchedInFarLessThanTheSquareOfItsCells) {
     expect_far_less_than_the_square(refined(500), refined(4000));
 }
 
-/// The other corners have all angles about the axis, and at one angle all directions: so directions
+/// The other corners have all angles about the axis, and all directions at each angle: directions
 /// alone would leave about the square root of all edges for each face.
 TEST(RoughHub, IsSearchedInProportionToItsCellsAndTheirLogarithm) {
     using test::rough_cells_around_edge;
     expect_n_log_n(rough_cells_around_edge(2000), rough_cells_around_edge(16000), 100);
 }
 
-/// Then the axis has vertices within, and those beyond the next one are seen along it.
+/// After refinement the axis has inner vertices, from which the more distant ones are seen along
+/// the axis.
 TEST(RoughHub, RefinedAtRandomIsSearchedInProportionToItsCellsAndTheirLogarithm) {
     const auto refined = [](std::size_t cells) {
         return reference::refine(test::rough_cells_around_edge(cells),
@@ -83,7 +83,7 @@ TEST(RoughHub, RefinedAtRandomIsSearchedInProportionToItsCellsAndTheirLogarithm)
     expect_n_log_n(refined(500), refined(4000), 100);
 }
 
-TEST_P(HubTest, AndItsRefinementAreJudgedValidByAnyNumberOfProcesses) {
+TEST_P(HubTest, AndItsRefinementAreValidByAnyNumberOfProcesses) {
     const Mesh coarse = GetParam().make(OCTETRA_SANITIZED ? 160 : 400);
     EXPECT_EQ(codes_of(test::judged_by_all(coarse)), "");
     const Mesh fine = reference::refine(coarse, {.all = true}, Scheme::eight, 1).mesh;
@@ -91,8 +91,7 @@ TEST_P(HubTest, AndItsRefinementAreJudgedValidByAnyNumberOfProcesses) {
     EXPECT_EQ(codes_of(test::judged_by_all(fine)), "");
 }
 
-/// A face of a cell without volume may be a line, which has nothing to cross. (CGAL's predicates
-/// assert that.)
+/// A face of a cell without volume may be a line, which CGAL's predicates reject by assertion.
 void drop_flat_cells(Mesh& mesh) {
     std::vector<CellVertices> kept;
     Arithmetic arithmetic;
@@ -106,8 +105,8 @@ void drop_flat_cells(Mesh& mesh) {
     for (const CellVertices& cell : kept) mesh.cells.push_back(cell);
 }
 
-/// What is found in space where a vertex of so many edges is a hub. (Of a mesh that need not be
-/// right in itself: what hangs and what crosses is well-defined all the same.)
+/// The geometric violations found if vertices with this many edges are treated as hubs. The mesh
+/// may be invalid: hanging vertices and intersections are defined all the same.
 std::vector<Violation> found_in_space(const Mesh& mesh, std::uint32_t many) {
     Findings findings(std::numeric_limits<std::size_t>::max());
     JudgedMesh judged = judged_whole(mesh, Which::fine);
@@ -132,7 +131,7 @@ void expect_same_with_hubs(const Mesh& mesh, std::string_view what) {
     }
 }
 
-/// Moves a vertex: a little, far, to another vertex, to the middle of two or three others, or along
+/// Moves a vertex: slightly, far, to another vertex, to the middle of two or three others, or along
 /// a line through two.
 void move_at_random(Mesh& mesh, std::mt19937_64& random) {
     const auto any = [&] { return VertexIndex{random() % mesh.points.size()}; };
@@ -153,13 +152,13 @@ void move_at_random(Mesh& mesh, std::mt19937_64& random) {
     }
 }
 
-TEST(Hubs, ChangeNothingOfWhatIsFound) {
+TEST(Hubs, DoNotAffectTheFindings) {
     std::mt19937_64 random(815);
     int broken = 0;
     for (std::size_t round = 0; round < (OCTETRA_SANITIZED ? 200U : 2000U); ++round) {
         const Hub& hub = test::hubs[round % test::hubs.size()];
         Mesh mesh = round % 3 == 0 ? test::kuhn(2, 1, 1) : hub.make(8 + random() % 24);
-        if (round % 4 == 1) {  // a hub's edge has vertices within then
+        if (round % 4 == 1) {  // so that the edge of a hub has inner vertices
             mesh =
                 reference::refine(mesh, {.random = RandomShare{0.1, round}}, Scheme::two, 1).mesh;
         }
@@ -176,8 +175,8 @@ Direction direction_of(Vector v) {
     return {times(v, 1 / length), few_roundings};
 }
 
-/// Rays in all directions, some of which are almost those of the axis, to both sides; so are some
-/// of the common directions.
+/// Rays in all directions, some of them, and some of the common directions, nearly parallel or
+/// antiparallel to the axis.
 TEST(AxialView, MeetsWhateverHasADirectionInCommon) {
     std::mt19937_64 random(2718);
     std::uniform_real_distribution<double> number(-1, 1);
@@ -204,7 +203,7 @@ TEST(AxialView, MeetsWhateverHasADirectionInCommon) {
             }
             return direction_of(sum);
         };
-        /// So that s is between r and the result.
+        /// A direction such that s lies between r and it.
         const auto beyond = [&](const Direction& r, const Direction& s) {
             const double share = std::abs(number(random));
             Vector difference{};
@@ -214,7 +213,7 @@ TEST(AxialView, MeetsWhateverHasADirectionInCommon) {
         const AxialView view(axis);
         const std::array entity{ray(), ray()};
         const Bounds bounds = view.bounds_of_entity(entity);
-        // On a side of the cone, or within: `middle` is between two rays, and the common direction
+        // On a side of the cone, or inside: `middle` is between two rays, and the common direction
         // between `middle` and the third.
         const Direction common = combined(entity[0], entity[1]);
         const Direction first = ray();
@@ -230,9 +229,9 @@ TEST(AxialView, MeetsWhateverHasADirectionInCommon) {
     EXPECT_GT(apart, 1000U);
 }
 
-/// Cells anywhere, large and small, that share nothing or much: what they have in common with a hub
-/// is seen from it in all directions.
-TEST(Hubs, ChangeNothingOfWhatIsFoundAmongCellsAnywhere) {
+/// Arbitrary cells, large and small, with few or many common vertices: intersections with a hub
+/// occur in all directions.
+TEST(Hubs, DoNotAffectTheFindingsAmongArbitraryCells) {
     std::mt19937_64 random(4711);
     std::size_t found = 0;
     for (int round = 0; round < (OCTETRA_SANITIZED ? 300 : 3000); ++round) {
@@ -259,8 +258,8 @@ TEST(Hubs, ChangeNothingOfWhatIsFoundAmongCellsAnywhere) {
     EXPECT_GT(found, OCTETRA_SANITIZED ? 2'000U : 20'000U);
 }
 
-/// A cell at one end of the edge, which is seen best along the edge: the faces at its corner take
-/// more of the sphere than of the circle round the edge. The other end lies on one of these faces.
+/// A cell at one end of the edge is found best along the edge: the faces at its corner cover more
+/// of the sphere than of the circle round the edge. The other end lies on one of these faces.
 TEST(Hubs, ShowAnEndOfAnEdgeOnACellThatHasTheOtherEnd) {
     Mesh mesh = test::mesh_of(
         {{0, 0, 0},
@@ -281,7 +280,7 @@ TEST(Hubs, ShowAnEndOfAnEdgeOnACellThatHasTheOtherEnd) {
     }));
 }
 
-TEST(Hubs, ChangeNothingOfWhatIsFoundAtAnyScale) {
+TEST(Hubs, DoNotAffectTheFindingsAtAnyScale) {
     std::mt19937_64 random(99);
     for (std::size_t round = 0; round < (OCTETRA_SANITIZED ? 20U : 200U); ++round) {
         Mesh mesh = test::hubs[round % test::hubs.size()].make(24);
@@ -295,7 +294,7 @@ TEST(Hubs, ChangeNothingOfWhatIsFoundAtAnyScale) {
                      std::ldexp(p.z, exponent)};
             }
             ASSERT_NO_FATAL_FAILURE(expect_same_with_hubs(scaled, fmt::format("round {}", round)));
-            if (exponent > -1040) {  // there bits are lost
+            if (exponent > -1040) {  // below, bits are lost
                 EXPECT_EQ(found_in_space(scaled, 4).size(), expected.size());
             }
         }

@@ -9,13 +9,13 @@
 
 #include <octetra/core/mesh.hpp>
 
-/// Ways to break a mesh, for the verifier to find. Each changes one thing, and leaves the lists
-/// that go with it (tags, markers) consistent.
+/// Modifications that break a mesh, for tests of the verifier. Each changes one thing, and keeps
+/// the related lists (tags, markers) consistent.
 namespace octetra::test {
 
 inline void move_vertex(Mesh& mesh, VertexIndex v, const Point& to) { mesh.points[v] = to; }
 
-/// By one unit in the last place of x, outward.
+/// Moves by one unit in the last place of x, outward.
 inline void shift_by_an_ulp(Mesh& mesh, VertexIndex v) {
     double& x = mesh.points[v].x;
     x = std::nextafter(x, std::numeric_limits<double>::infinity());
@@ -38,10 +38,10 @@ inline void append_cell(Mesh& mesh, const CellVertices& cell, CellIndex like) {
 
 inline void duplicate_cell(Mesh& mesh, CellIndex c) { append_cell(mesh, mesh.cells[c], c); }
 
-/// Turns a cell over.
+/// Inverts a cell.
 inline void flip_cell(Mesh& mesh, CellIndex c) { std::swap(mesh.cells[c][2], mesh.cells[c][3]); }
 
-/// Gives a cell another vertex in the place of one of its own.
+/// Replaces one vertex of a cell.
 inline void replace_corner(Mesh& mesh, CellIndex c, std::size_t corner, VertexIndex v) {
     mesh.cells[c][corner] = v;
 }
@@ -53,7 +53,7 @@ inline VertexIndex append_vertex(Mesh& mesh, const Point& p) {
     return v;
 }
 
-/// Makes two vertices of one: the cell `c` gets a vertex of its own at the same place.
+/// Duplicates a vertex: the cell `c` gets its own copy at the same coordinates.
 inline void unmerge_vertex(Mesh& mesh, CellIndex c, std::size_t corner) {
     const VertexIndex old = mesh.cells[c][corner];
     const VertexIndex copy = append_vertex(mesh, mesh.points[old]);
@@ -65,7 +65,7 @@ inline void unmerge_vertex(Mesh& mesh, CellIndex c, std::size_t corner) {
     mesh.cells[c][corner] = copy;
 }
 
-/// Bisects one cell at an edge, and no other at this edge.
+/// Bisects one cell at an edge, and no other cell at this edge.
 inline void bisect_alone(Mesh& mesh, CellIndex c, std::size_t edge) {
     const auto [i, j] = cell_edges[edge];
     const CellVertices cell = mesh.cells[c];
@@ -92,8 +92,8 @@ inline void bisect_edge(Mesh& mesh, VertexIndex a, VertexIndex b) {
     }
 }
 
-/// Puts two cells that came of one bisection together again: those that have `m` and, besides, the
-/// same two vertices and one end each of the edge a b. False if there are no such two.
+/// Merges two cells that a bisection made: those that have `m`, the same two further vertices, and
+/// one end each of the edge a b. Returns false if there are none.
 inline bool merge_two_cells(Mesh& mesh, VertexIndex m, VertexIndex a, VertexIndex b) {
     const auto position = [](const CellVertices& cell, VertexIndex v) {
         return static_cast<std::size_t>(std::find(cell.begin(), cell.end(), v) - cell.begin());

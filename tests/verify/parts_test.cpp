@@ -17,11 +17,11 @@
 #include "verify/together.hpp"
 #include "verify/verdicts.hpp"
 
-/// What each process is given of a mesh that several judge.
+/// The parts of a mesh that the processes of a group judge.
 namespace octetra::verify {
 namespace {
 
-/// So long that its ends do not see each other.
+/// So long that the boxes of its ends do not interact.
 Mesh bar() {
     Mesh mesh = test::kuhn(24, 1, 1);
     test::list_boundary(mesh);
@@ -64,7 +64,7 @@ TEST_P(PartsTest, OwnEveryVertexAndCellOnce) {
     EXPECT_EQ(owners_of_cell, std::vector<int>(mesh.cells.size(), 1));
 }
 
-TEST_P(PartsTest, AreWhatTheWholeMeshHasInItsOrder) {
+TEST_P(PartsTest, AreSubsetsOfTheWholeMeshInItsOrder) {
     const Mesh mesh = bar();
     for_each_part(GetParam(), mesh, [&](const MeshPart& part, const Domain&) {
         const Mesh& seen = part.mesh;
@@ -118,7 +118,7 @@ TEST(Parts, SeeNoMoreThanTheirNeighbourhood) {
             parts_of(verify::share_out(mesh, group), verify::share_out(fine, group), group);
         most = std::max(most.load(), parts.fine.mesh.cells.size());
     });
-    // A quarter, and on each side two cubes of 48 fine cells each and those that touch them.
+    // A quarter, and on each side two cubes of 48 fine cells each and the cells that touch them.
     EXPECT_LE(most, fine.cells.size() / 4 + 6 * 48);
 }
 
@@ -127,8 +127,8 @@ TEST(Parts, OfAMeshWithFewerCellsThanProcesses) {
     EXPECT_EQ(test::codes_of(test::judged_by_all(Mesh{})), "");
 }
 
-/// Where parts do not see each other, the verdict is the same as that of one process alone.
-TEST(Parts, AreJudgedAsTheWholeWhateverIsBroken) {
+/// The verdict is that of one process alone, also between parts that do not interact.
+TEST(Parts, AreJudgedLikeTheWholeForAnyFault) {
     const Mesh coarse = bar();
     const Request request{.selection = {.cells = {GlobalCell{7}, GlobalCell{70}, GlobalCell{130}}},
                           .levels = 2};

@@ -12,12 +12,12 @@
 #include "verify/together.hpp"
 #include "verify/verdicts.hpp"
 
-/// Random changes of a refined mesh: none may pass unless the mesh is the same after it.
-/// RC_PARAMS="seed=..." repeats a failure, RC_PARAMS="max_success=..." asks for more.
+/// Random changes of a refined mesh: none may pass unless the mesh is unchanged.
+/// RC_PARAMS="seed=..." repeats a failure, RC_PARAMS="max_success=..." sets the number of cases.
 namespace octetra::verify {
 namespace {
 
-/// A mesh refined with all its claims.
+/// A refined mesh with all its claims.
 struct Case {
     Mesh coarse;
     Request request;
@@ -39,7 +39,7 @@ Case make_case(int kind, std::uint64_t seed) {
     return c;
 }
 
-/// One change, drawn by rapidcheck. Its name.
+/// Makes one change, drawn by rapidcheck. Returns its name.
 std::string mutate(Mesh& mesh) {
     const auto below = [](std::size_t n) { return *rc::gen::inRange<std::size_t>(0, n); };
     const VertexIndex v{below(mesh.points.size())};
@@ -80,7 +80,7 @@ std::string mutate(Mesh& mesh) {
         }
         case 14: mesh.point_markers[v] = *rc::gen::inRange(0, 6); return "vertex marker";
         case 15: std::swap(mesh.cells[c], mesh.cells[d]); return "swap cells";
-        default: {  // two vertices become one
+        default: {  // merges two vertices
             for (CellVertices& cell : mesh.cells) {
                 std::replace(cell.begin(), cell.end(), v, w);
             }

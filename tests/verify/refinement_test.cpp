@@ -22,7 +22,7 @@
 #include "verify/together.hpp"
 #include "verify/verdicts.hpp"
 
-/// What is right passes, whoever made it and however it is numbered.
+/// Valid refinements pass, independently of their origin and numbering.
 namespace octetra::verify {
 namespace {
 
@@ -39,7 +39,7 @@ std::vector<test::CorpusEntry> entries_with_files() {
 
 class CorpusRefinement : public testing::TestWithParam<test::CorpusEntry> {
 protected:
-    static inline std::size_t judged = 0;  // meshes
+    static inline std::size_t judged = 0;  // number of meshes
 };
 
 TEST_P(CorpusRefinement, IsValidAndTheOneThatWasAskedFor) {
@@ -56,7 +56,7 @@ TEST_P(CorpusRefinement, IsValidAndTheOneThatWasAskedFor) {
                 } catch (const InputError&) {
                     continue;  // rounding
                 }
-                // By so many meshes as there are here each size comes up with all of the rest.
+                // With this many meshes each group size is combined with all other parameters.
                 const int together = test::all_group_sizes[judged++ % test::all_group_sizes.size()];
                 const Verdict verdict = test::judged_by_all(
                     coarse, fine.mesh,
@@ -82,7 +82,7 @@ TEST(Refinement, IsValidThroughThreeLevelsOfShakenLattices) {
             reference::refine(coarse, request.selection, request.scheme, request.levels).mesh;
         const Verdict verdict = test::judged_by_all(coarse, fine, {.request = request});
         EXPECT_EQ(codes_of(verdict), "");
-        EXPECT_EQ(verdict.facts.rounding_bound, 0);  // on a grid that has room for the halves
+        EXPECT_EQ(verdict.facts.rounding_bound, 0);  // on a grid that can represent the halves
         EXPECT_EQ(codes_of(test::judged_by_all(fine)), "");
     }
 }
@@ -118,8 +118,8 @@ TEST(Refinement, IsFoundFromGeometryHoweverItIsNumbered) {
     }
 }
 
-/// Cuts every cell into eight at all its midpoints, four of them round a diagonal of the octahedron
-/// that is left: what others call red refinement (Bey).
+/// Cuts every cell into eight at all its midpoints, four of them round a diagonal of the remaining
+/// octahedron: red refinement (Bey).
 Mesh red_refined(const Mesh& coarse, std::size_t diagonal) {
     Mesh fine{.points = coarse.points};
     std::map<EdgeVertices, VertexIndex> midpoints;
@@ -179,7 +179,7 @@ TEST(Refinement, OfAnotherMeshIsRefused) {
 }
 
 /// Two triangulations of one cube, both valid, neither a refinement of the other.
-TEST(Refinement, OfTheSameSolidOtherwiseCutIsRefused) {
+TEST(Refinement, OfAnotherTriangulationOfTheSolidIsRefused) {
     const Mesh coarse = test::kuhn(1, 1, 1);
     Mesh mirrored = coarse;
     for (Point& p : mirrored.points) p.x = 1 - p.x;
@@ -188,8 +188,7 @@ TEST(Refinement, OfTheSameSolidOtherwiseCutIsRefused) {
     EXPECT_EQ(codes_of(test::judged_by_all(coarse, mirrored)), "not_tiled");
 }
 
-/// At a crack, vertices of different cells lie at one place, and the two sides are refined each by
-/// itself.
+/// At a crack, vertices of different cells coincide, and the two sides are refined independently.
 TEST(Refinement, MayBeFinerOnOneSideOfACrack) {
     const Mesh coarse = test::mesh_of(
         {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, -1}},
@@ -205,8 +204,8 @@ TEST(Refinement, MayBeFinerOnOneSideOfACrack) {
     EXPECT_FALSE(test::judged_by_all(coarse, closed).valid());
 }
 
-/// A lattice slit half through: the edges from the slit's tip to its two sides lie in one place,
-/// too.
+/// A lattice with a slit half through: the edges from the tip of the slit to its two sides coincide
+/// as well.
 Mesh lattice_with_slit() {
     Mesh coarse = test::kuhn(2, 2, 2);
     std::map<VertexIndex, VertexIndex> upper;  // of the slit's vertices, those of the cells above
@@ -264,9 +263,9 @@ TEST(Refinement, MayInheritVerticesOfNoCellWithANote) {
     }
 }
 
-/// Two cells whose edges cross in their middles, which pass for a coarse mesh. Bisected by one
-/// vertex there, they hang together, which no coarse cells do.
-TEST(Refinement, MayNotJoinWhatOnlyCrosses) {
+/// Two cells whose edges cross in their middles, which are accepted as a coarse mesh. Bisected at
+/// one common vertex there, they are joined, which coarse cells never are.
+TEST(Refinement, MayNotJoinCellsThatOnlyCross) {
     const Mesh coarse = test::mesh_of({{0, 0, 0},
                                        {4, 0, 0},
                                        {2, -1, 3},
@@ -288,9 +287,9 @@ TEST(Refinement, MayNotJoinWhatOnlyCrosses) {
     EXPECT_EQ(codes_of(test::judged_by_all(coarse, apart)), "coincident_vertices");
 }
 
-/// Two cells of the coarse mesh have corners of their own at one place, half way along the edge of
-/// a third cell. What the coarse mesh may have there, the fine one may not add to.
-TEST(Refinement, MayNotUseThePlaceOfACoarseVertex) {
+/// Two cells of the coarse mesh have separate corners at one point, half way along the edge of a
+/// third cell. The coarse mesh may have this, but the fine mesh must not add to it.
+TEST(Refinement, MayNotCoincideWithACoarseVertex) {
     const Mesh coarse = test::mesh_of({{0, 0, 0},
                                        {4, 0, 0},
                                        {2, -1, 3},
@@ -329,8 +328,8 @@ TEST(Refinement, IsJudgedAtAllMagnitudes) {
     }
 }
 
-/// Where volumes are less than the least number, bounds on them still bound something.
-TEST(Refinement, IsJudgedWhereWhatRoundingMovesIsLessThanAnyNumber) {
+/// Bounds on volumes remain valid if the volumes underflow.
+TEST(Refinement, IsJudgedWhereTheVolumeMovedByRoundingUnderflows) {
     for (const double scale : {1e-103, 1e-120, 1e-160}) {
         Mesh coarse = test::shaken_kuhn(2, 0.3, 4);
         for (Point& p : coarse.points) p = {p.x * scale, p.y * scale, p.z * scale};
@@ -341,7 +340,7 @@ TEST(Refinement, IsJudgedWhereWhatRoundingMovesIsLessThanAnyNumber) {
     }
 }
 
-TEST(Refinement, BoundsWhatRoundingHasMoved) {
+TEST(Refinement, BoundsTheDisplacementByRounding) {
     Mesh coarse = test::kuhn(1, 1, 1);
     for (Point& p : coarse.points) p = {p.x / 3 + 1000, p.y / 7, p.z / 11};
     const Mesh fine = reference::refine(coarse, {.all = true}, Scheme::eight, 3).mesh;

@@ -12,8 +12,8 @@
 #include "verify/together.hpp"
 #include "verify/verdicts.hpp"
 
-/// The same mesh with all coordinates multiplied by a power of two: nothing that is judged changes,
-/// nor by which arithmetic, nor any figure of shape.
+/// The same mesh with all coordinates multiplied by a power of two: neither verdicts, nor the
+/// arithmetic that they take, nor figures of shape change.
 namespace octetra::verify {
 namespace {
 
@@ -72,7 +72,7 @@ TEST(Scales, ChangeNeitherVerdictsNorTheArithmeticTheyTakeNorShapes) {
     }
 }
 
-/// Integers times the smallest number, and nearly as large as there are.
+/// Integers times the smallest double, and integers scaled nearly to the largest one.
 TEST(Scales, MayBeThoseOfTheSmallestAndTheLargestNumbers) {
     const Mesh coarse = test::kuhn(2, 2, 1, 8);
     const Mesh fine = reference::refine(coarse, {.all = true}, Scheme::eight, 1).mesh;
@@ -85,10 +85,9 @@ TEST(Scales, MayBeThoseOfTheSmallestAndTheLargestNumbers) {
     }
 }
 
-/// A difference of two of these coordinates is more than the largest number.
-/// Half way between the ends of an edge of one unit another vertex may lie, by rounding, which is
-/// no midpoint; the verifier must not lose itself in looking for what such midpoints would have
-/// cut.
+/// Rounding may place another vertex half way between the ends of an edge of one unit that is not
+/// its midpoint; the verifier must not search endlessly for the cells that such midpoints would
+/// have cut.
 TEST(Scales, OfEdgesThatNoNumberHalvesAreJudgedToo) {
     const Mesh mesh =
         test::mesh_of({{-1, -1, -1}, {1, -1, -1}, {-1, 1, -1}, {-1, -1, 1}, {1, 1, 1}},
@@ -106,6 +105,7 @@ TEST(Scales, OfEdgesThatNoNumberHalvesAreJudgedToo) {
     }
 }
 
+/// The difference of two of these coordinates overflows.
 TEST(Scales, OfShapesAreNoHindranceWhereDifferencesOverflow) {
     std::array<Point, 4> corners = test::regular_corners;
     for (Point& p : corners) p = times(p, 1023);
@@ -115,7 +115,8 @@ TEST(Scales, OfShapesAreNoHindranceWhereDifferencesOverflow) {
     EXPECT_NEAR(verdict.angles->min_dihedral, std::acos(1.0 / 3) * 180 / M_PI, 1e-9);
 }
 
-/// The largest coordinate cannot come near 1 without the smallest vanishing, and all depends on it.
+/// Scaling the largest coordinate to about 1 would make the smallest vanish, on which the result
+/// depends.
 TEST(Scales, MayBeMixedWithinOneCell) {
     constexpr double large = 0x1p1000;
     constexpr double small = 0x1p-1074;
@@ -131,13 +132,13 @@ TEST(Scales, MayBeMixedWithinOneCell) {
     }
     EXPECT_EQ(exact::orientation(o, b, o, d, arithmetic), 0);
 
-    // The segment ends in the triangle, or the smallest number before it.
+    // The segment ends in the triangle, or by the smallest double before it.
     const std::array<Point, 3> triangle{{{0, -large, -large}, {0, large, -large}, {0, 0, large}}};
     EXPECT_TRUE(exact::meet({Point{large, 0, 0}, Point{0, 0, 0}}, triangle, arithmetic));
     EXPECT_FALSE(exact::meet({Point{large, 0, 0}, Point{small, 0, 0}}, triangle, arithmetic));
 
     const exact::AngleLimit limit(45);
-    // Between the planes z = 0 and y = z, and a little less.
+    // Between the planes z = 0 and y = z, and slightly less.
     const auto is_under = [&](double z) {
         return limit.exceeds_dihedral({0, 0, 0}, {large, 0, 0}, {0, small, 0}, {0, 4 * small, z},
                                       arithmetic);

@@ -17,7 +17,7 @@
 #include "verify/together.hpp"
 #include "verify/verdicts.hpp"
 
-/// Sums of volumes and areas, which descent implies: a wrong descent must show in them.
+/// Sums of volumes and areas, which descent implies: a wrong descent must appear in them.
 namespace octetra::verify {
 namespace {
 
@@ -157,8 +157,9 @@ TEST(SumsOfRoundedMeshes, ByTagAreBoundedAtAllMagnitudes) {
     }
 }
 
-/// A face's smallest angle is halved but for the rounding of a midpoint, and then halved again.
-TEST(FaceAnglesOfRoundedMeshes, AreJudgedAlikeAtAllMagnitudes) {
+/// The smallest angle of a face is halved except for the rounding of a midpoint, and then halved
+/// again.
+TEST(FaceAnglesOfRoundedMeshes, AreJudgedIdenticallyAtAllMagnitudes) {
     const Mesh coarse =
         test::one_cell({{{1 + 0x1p-52, 0, 0}, {1.5, 0, 0}, {1.25, 3, 0}, {1.25, 1, 2}}});
     Mesh halved = coarse;

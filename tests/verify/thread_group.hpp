@@ -11,8 +11,8 @@
 
 namespace octetra::test {
 
-/// Where so many threads wait for each other, again and again. (std::barrier of libstdc++ 12 now
-/// and then wakes nobody.)
+/// A reusable barrier for this number of threads. (std::barrier of libstdc++ 12 sometimes fails to
+/// wake the waiting threads.)
 class Barrier {
 public:
     explicit Barrier(int size) : size_(size) {}
@@ -37,7 +37,7 @@ private:
     std::uint64_t turn_ = 0;
 };
 
-/// Threads in place of processes, for what knows of others by ProcessGroup alone.
+/// A ProcessGroup of threads in place of processes.
 class ThreadGroup final : public ProcessGroup {
 public:
     struct Board {
@@ -66,7 +66,7 @@ private:
     int rank_;
 };
 
-/// Runs work(group) on so many threads.
+/// Runs work(group) on this number of threads.
 inline void run_together(int size, const std::function<void(const ProcessGroup&)>& work) {
     ThreadGroup::Board board(size);
     std::vector<std::thread> threads;

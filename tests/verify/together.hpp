@@ -27,7 +27,8 @@ inline std::string text_of(const std::optional<verify::AngleFigures>& angles) {
                        angles->min_eta);
 }
 
-/// All of a verdict that must not depend on who judges: all but seconds and arithmetic.
+/// Everything of a verdict that must not depend on the number of processes: all but times and
+/// arithmetic.
 inline std::string text_of(const verify::Verdict& verdict) {
     std::string text;
     for (const verify::Check& check : verdict.checks) {
@@ -81,7 +82,8 @@ inline void expect_same_verdict_together(
     }
 }
 
-/// The verdict of this process alone; and expects that of 2, 3 and 7 together to be the same.
+/// Returns the verdict of this process alone; checks that those of groups of 2, 3 and 7 are the
+/// same.
 inline verify::Verdict judged_by_all(const Mesh& mesh, const verify::VerifyOptions& options = {}) {
     const verify::Verdict alone = verify_mesh(mesh, options);
     expect_same_verdict_together(alone, [&](const ProcessGroup& group) {

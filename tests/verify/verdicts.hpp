@@ -7,7 +7,7 @@
 
 namespace octetra::test {
 
-/// The codes of a verdict, as a sentence: what a failed expectation shows.
+/// The codes of a verdict, joined for messages of failed expectations.
 inline std::string codes_of(const verify::Verdict& verdict) {
     std::string codes;
     for (std::size_t code = 0; code < verify::code_count; ++code) {

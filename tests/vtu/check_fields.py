@@ -1,12 +1,12 @@
 #!/usr/bin/python3
-"""Holds the fields that VTK finds in files against those that tools/read_checkpoint.py finds in a
+"""Compares the fields that VTK finds in files with those that tools/read_checkpoint.py finds in a
 checkpoint of the same mesh.
 
 usage: check_fields.py TOOLS STATE.octetra FILE...
 
-A field has its own name, or, where an array of the mesh has that, `_field` behind it; in .vtkhdf files
-with | for /. Exit status: 0 all files have all fields with the same values; 1 one has not, which is
-said.
+A field has its own name, followed by `_field` if an array of the mesh has this name; in .vtkhdf
+files | replaces /. Exit status: 0 all files have all fields with the same values; 1 a file has not,
+which is reported.
 """
 import sys
 from pathlib import Path
@@ -20,14 +20,14 @@ import check_vtu  # noqa: E402
 import read_checkpoint  # noqa: E402
 
 def array_of(path, data, name):
-    """Not the mesh's own, which comes first."""
+    """The name of the field's array, which differs from those of the mesh's own arrays."""
     if path.endswith(".vtkhdf"):
         name = name.replace("/", "|")
     return data.GetArray(name + "_field") or data.GetArray(name)
 
 
 def places_of_cells(grid, numbers, cells):
-    """Of each cell of the grid, its number in the checkpoint."""
+    """For each cell of the grid, its number in the checkpoint."""
     number_of = {tuple(sorted(cell)): c for c, cell in enumerate(cells.tolist())}
     return [number_of[tuple(sorted(numbers[cell].tolist()))] for cell in check_vtu.connectivity(grid)]
 
@@ -37,7 +37,7 @@ def differences(path, cells, on_vertices, on_cells):
     if complaints:
         return complaints
     if path.endswith(".pvtu"):
-        # The least number of all is the one that the mesh begins with.
+        # Numbers are relative to the least one, which is the index base of the mesh.
         numbers = vtk_to_numpy(grid.GetPointData().GetArray("vertex"))
         numbers = numbers - numbers.min()
         rows = {"vertices": numbers, "cells": places_of_cells(grid, numbers, cells)}

@@ -1,24 +1,24 @@
 #!/usr/bin/python3
-"""Reads a .vtu, .pvtu or .vtkhdf file with VTK, not with Octetra, and prints what VTK found in it, as JSON.
+"""Reads a .vtu, .pvtu or .vtkhdf file with VTK, independently of Octetra, and prints its contents as JSON.
 
-    points, cells     how many
-    cell_types        {VTK cell type number: how many cells}; a tetrahedron is 10
+    points, cells     their numbers
+    cell_types        {VTK cell type number: number of cells}; a tetrahedron is 10
     signed_volume     the sum over all tetrahedra, correctly rounded from the volumes of each
     min_signed_volume the smallest of them, or null; negative for an inverted cell
     point_data,       [{name, type, components, range}, ...] in the file's order; range has one
     cell_data         [smallest, largest] for each component, or is null for an array without values
-    global_ids        which of the points' arrays numbers them in the whole mesh, or null
+    global_ids        the name of the point array with global numbers, or null
     coordinates_type  of the points: "double" unless the writer lost precision
 
---values prints the arrays instead, in the order of their names, each a line of the name and a line of
-its values, reals as hexadecimal floats. --points prints the coordinates, one vertex a line, as hexadecimal floats; --cells the
-vertex numbers of each cell, one cell a line. Both are exact, to be compared as text. --by-number
-prints, of a file whose points have a number in the whole mesh as point data `vertex`, a line "p
-number x y z marker" for each different point, and for each cell a line "c number number number number",
-in ascending order of the lines.
+--values prints the arrays instead, sorted by name: for each array a line with its name and a line
+with its values, reals as hexadecimal floats. --points prints the coordinates, one vertex per line,
+as hexadecimal floats; --cells prints the vertex numbers, one cell per line. Both are exact, to be
+compared as text. --by-number requires global numbers of the points in the point data `vertex`; it
+prints a line "p number x y z marker" for each distinct point, and a line "c number number number
+number" for each cell, in ascending order of the lines.
 
-Exit status: 0 read without any complaint; 1 VTK complained, or a cell names a vertex that is not
-there; 2 bad usage.
+Exit status: 0 read without any message; 1 VTK reported an error, or a cell has a vertex number out
+of range; 2 wrong usage.
 """
 
 import argparse
@@ -35,7 +35,7 @@ from vtkmodules.vtkIOXML import vtkXMLPUnstructuredGridReader, vtkXMLUnstructure
 
 
 def read(path):
-    """The grid of the file, and all that VTK complained of meanwhile."""
+    """Returns the grid of the file, and the messages of VTK."""
     complaints = []
 
     def note(source, event, text):
@@ -50,14 +50,14 @@ def read(path):
     readers = {".vtu": vtkXMLUnstructuredGridReader, ".pvtu": vtkXMLPUnstructuredGridReader, ".vtkhdf": vtkHDFReader}
     extension = os.path.splitext(path)[1]
     reader = readers[extension]()
-    # The parser and the reader's other parts complain on their own, through the output window;
-    # the reader itself to those who observe it.
+    # The parser and other parts of the reader report errors through the output window; the reader
+    # itself reports them to observers.
     for event in ("ErrorEvent", "WarningEvent"):
         reader.AddObserver(event, note)
     if not os.path.isfile(path):
         return None, [f"{path}: no such file"]
     if not reader.CanReadFile(path):
-        return None, [f"{path}: VTK does not take it for a {extension} file"]
+        return None, [f"{path}: VTK does not recognise it as a {extension} file"]
     reader.SetFileName(path)
     reader.Update()
     if reader.GetErrorCode() != 0:
@@ -76,7 +76,7 @@ def connectivity(grid):
 
 
 def strays(grid):
-    """A complaint about the first cell that names a vertex which is not there. (VTK has none.)"""
+    """Returns a message about the first cell with a vertex number out of range. (VTK gives none.)"""
     last = grid.GetNumberOfPoints() - 1
     for i, vertices in enumerate(connectivity(grid)):
         if min(vertices) < 0 or max(vertices) > last:
@@ -91,7 +91,7 @@ def coordinates(grid):
 
 
 def by_number(grid):
-    """The mesh that pieces make up, as lines."""
+    """The mesh that the pieces form, as lines."""
     numbers = memoryview(grid.GetPointData().GetArray("vertex")).tolist()
     marker = grid.GetPointData().GetArray("marker")
     markers = memoryview(marker).tolist() if marker else [None] * len(numbers)
@@ -137,11 +137,11 @@ def name_of(array):
 
 
 def values(data):
-    """The arrays as lines, whatever their order in the file."""
+    """The arrays as lines, independent of their order in the file."""
     lines = []
     found = [data.GetArray(i) for i in range(data.GetNumberOfArrays())]
     for array in sorted(found, key=lambda array: array.GetName()):
-        # Of two types of 64 bits one reader takes this, the other that.
+        # Of two equivalent 64-bit types the readers choose different ones.
         lines.append(f"{array.GetName()} {array.GetDataTypeSize()} {array.GetNumberOfComponents()}")
         rows = memoryview(array).tolist()
         flat = [x for row in rows for x in (row if isinstance(row, list) else [row])]
@@ -172,8 +172,8 @@ def main():
     what = parser.add_mutually_exclusive_group()
     what.add_argument("--points", action="store_true", help="coordinates, as hexadecimal floats")
     what.add_argument("--cells", action="store_true", help="vertex numbers of the cells")
-    what.add_argument("--values", action="store_true", help="of the arrays of points and cells")
-    what.add_argument("--by-number", action="store_true", help="by the numbers in the whole mesh")
+    what.add_argument("--values", action="store_true", help="values of the arrays of points and cells")
+    what.add_argument("--by-number", action="store_true", help="points and cells by global numbers")
     options = parser.parse_args()
 
     grid, complaints = read(options.file)

@@ -1,6 +1,6 @@
 /// Reads an XDMF file with DOLFINx, on any number of ranks: `dolfinx_reader FILE.xdmf GRID...`.
-/// Each rank writes what it finds into `found.RANK`: for each cell, and for each entity that has a
-/// tag, a line with the grid's name, the tag, and the corners' coordinates.
+/// Each rank writes its part to `found.RANK`: for each cell, and for each tagged entity, a line
+/// with the name of the grid, the tag, and the coordinates of the corners.
 
 #include <mpi.h>
 

@@ -1,8 +1,9 @@
-"""Holds the .xdmf files that the program writes, and the .h5 beside them, against other readers of them.
+"""Compares the .xdmf files written by the program, and the .h5 files beside them, with what other
+readers find in them.
 
 usage: xdmf_files_test.py OCTETRA SOURCES h5py|meshio|dolfinx DOLFINX_READER
 
-Ends in 77 where the reader is not installed.
+Exits with 77 if the reader is not installed.
 """
 import importlib
 import pathlib
@@ -60,7 +61,7 @@ class Case(unittest.TestCase):
 
 
 class ByH5py(Case):
-    """Goes from the XML to the datasets, as its readers do."""
+    """Follows the XML to the datasets, like readers of the format."""
 
     def grids(self, name):
         root = ElementTree.parse(self.path / name).getroot()
@@ -103,7 +104,7 @@ class ByH5py(Case):
             self.octetra(*REFINE, "--fields", "m.sol", "-o", "a.xdmf", ranks=ranks)
             self.assertEqual([(self.path / name).read_bytes() for name in ("a.xdmf", "a.h5")], files)
 
-    def test_finds_no_grid_of_what_there_is_not(self):
+    def test_finds_no_grid_of_missing_entities(self):
         self.octetra("generate", "kuhn", "2", "-o", "k.mesh")
         text = (self.path / "k.mesh").read_text()
         (self.path / "k.mesh").write_text(text[:text.index("Triangles")] + "End\n")
@@ -125,7 +126,7 @@ class ByH5py(Case):
 
 class ByMeshio(Case):
     def test_finds_points_cells_and_fields(self):
-        """It reads one grid."""
+        """meshio reads one grid."""
         tree = ElementTree.parse(self.path / "a.xdmf")
         domain = tree.getroot().find("Domain")
         for grid in list(domain)[1:]:
@@ -140,7 +141,7 @@ class ByMeshio(Case):
 
 class ByDolfinx(Case):
     def of_places(self, name, tagged):
-        """Of each entity its tag and corners."""
+        """The tag and corners of each entity."""
         points = [tuple(row[:3]) for row in self.expected["Vertices"]]
         return sorted((tag if tagged else 0, *sorted(points[v] for v in vertices))
                       for vertices, tag in zip(self.vertices(name), self.tags(name)))
@@ -169,7 +170,7 @@ if reader == "dolfinx":
 else:
     try:
         globals()[reader] = importlib.import_module(reader)
-        importlib.import_module("h5py")  # which meshio asks for when it meets a .h5
+        importlib.import_module("h5py")  # which meshio requires for .h5 files
     except ImportError as error:
         print(f"skipped: there is no module {error.name}")
         sys.exit(77)

@@ -3,7 +3,7 @@
 # shellcheck shell=bash
 source "$root/tools/dev/common.sh"
 
-# What makes a page of its own of what it measures.
+# The options whose measurements have a page of their own.
 page='' others=()
 for argument in "$@"; do
     case $argument in
@@ -21,9 +21,9 @@ if [[ $page ]]; then
     exec python3 "$page" measure --build "$root/build/release" "$@"
 fi
 
-# A full run goes into bench/, to be committed; a quick one says nothing about speed.
+# A full run writes to bench/, to be committed; a quick one does not measure speed.
 sections=(build bench) peers='' output=bench
-# A mistake is told before minutes of building.
+# Wrong arguments are reported before the build, which takes minutes.
 if command -v python3 >/dev/null; then python3 bench/run --list "$@" >/dev/null || exit 2; fi
 for argument in "$@"; do
     if [[ $argument == --list ]]; then exec python3 bench/run "$@"; fi

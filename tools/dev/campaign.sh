@@ -32,5 +32,5 @@ turn faults --moments 10 --minutes $((minutes / 10))
 turn fuzz --minutes $((minutes * 3 / 10))
 turn worlds --minutes $((minutes / 10))
 turn mutants --minutes $((minutes * 3 / 10))
-if ((${#failed[@]} > 0)); then die "something was found by: ${failed[*]}"; fi
-say "nothing was found"
+if ((${#failed[@]} > 0)); then die "findings by: ${failed[*]}"; fi
+say "no findings"

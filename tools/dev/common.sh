@@ -1,11 +1,11 @@
-# What the verbs of ./dev share: messages, packages and building. They are started by ./dev, which exports
-# `root`, where the checkout is, and `caller_folder`, where its user is.
+# Common functions of the verbs of ./dev: messages, packages and building. ./dev runs the verbs and
+# exports `root`, the path of the checkout, and `caller_folder`, the current folder of the user.
 # shellcheck shell=bash
 
 set -euo pipefail
 cd -P -- "${root:?this is started by ./dev}"
 
-export LC_ALL=C.UTF-8  # what tools print is parsed
+export LC_ALL=C.UTF-8  # the output of tools is parsed
 jobs=${OCTETRA_JOBS:-$(nproc 2>/dev/null || getconf _NPROCESSORS_ONLN)}
 
 bold='' plain=''
@@ -22,19 +22,20 @@ die() {
 }
 bad_usage() { die "$1; ./dev lists the verbs" 2; }
 
-# Ctrl-C ends all that runs, and nothing is said of results.
-go_on=''  # how to, after an interruption
-forget_unfinished() { :; }  # a verb may have something to remove then
+# Ctrl-C ends all processes, and no results are printed.
+go_on=''  # how to continue after an interruption
+forget_unfinished() { :; }  # verbs may replace this to remove files
 interrupted() {
     trap - INT TERM
-    jobs -p | xargs -r kill 2>/dev/null || true  # bash keeps Ctrl-C from what is in the background
+    jobs -p | xargs -r kill 2>/dev/null || true  # bash shields background processes from Ctrl-C
     forget_unfinished
     printf '\ndev: interrupted%s\n' "$go_on" >&2
     exit 130
 }
 trap interrupted INT TERM
 
-# step NAME COMMAND...: runs it under a headline, says how long it took, returns its exit status.
+# step NAME COMMAND...: runs the command under a headline, prints its duration, and returns its exit
+# status.
 step() {
     local name=$1 status=0 begin=$SECONDS
     shift
@@ -48,15 +49,16 @@ step() {
     return "$status"
 }
 
-# run COMMAND...: shows and runs it; what fails ends the verb.
+# run COMMAND...: prints and runs the command; a failure ends the verb.
 run() {
     say "${bold}\$ $*$plain"
     "$@" || die "stopped: this command failed, with exit status $?"
 }
 
-whole_number() { [[ $1 =~ ^[1-9][0-9]{0,14}$ ]]; }  # from 1 on
+whole_number() { [[ $1 =~ ^[1-9][0-9]{0,14}$ ]]; }  # at least 1
 
-# take_numbers WHAT NAMES ARGUMENT...: options that take a whole number, each into the variable of its name.
+# take_numbers WHAT NAMES ARGUMENT...: parses options with whole numbers into variables of the same
+# names.
 take_numbers() {
     local what=$1 names=" $2 "
     shift 2
@@ -92,7 +94,7 @@ packages_of() {
 
 missing_packages() {
     local package installed
-    # dpkg-query complains about every package it has never heard of; those are missing, too.
+    # dpkg-query reports an error for unknown packages, which are missing as well.
     # shellcheck disable=SC2016  # the variables are dpkg-query's
     installed=$(packages_of "$@" | xargs dpkg-query -W -f '${Package}=${db:Status-Status}\n' 2>/dev/null) || true
     for package in $(packages_of "$@"); do
@@ -102,17 +104,17 @@ missing_packages() {
 
 has_apt() { [[ -x /usr/bin/apt-get && -x /usr/bin/dpkg-query ]]; }
 
-# on_if_installed SECTION: what to set an option to that needs these packages.
+# on_if_installed SECTION: prints the value of an option that requires these packages.
 on_if_installed() {
     if has_apt && [[ -z $(missing_packages "$1") ]]; then say ON; else say OFF; fi
 }
 
-# need SECTION...: installs what is missing, or tells what to do and exits.
+# need SECTION...: installs missing packages, or prints how to install them and exits.
 need() {
     local packages as_root=()
     if [[ -n ${OCTETRA_NO_INSTALL:-} ]]; then return; fi
     if ! has_apt; then
-        say "There is no apt here. What Debian calls the following is taken to be installed:"
+        say "apt is not available. The equivalents of these Debian packages are assumed to be installed:"
         say "    $(packages_of "$@" | xargs)"
         return
     fi
@@ -134,10 +136,10 @@ need() {
         die "the packages could not be installed" 2
 }
 
-# Called by need(), whose `as_root` it sees.
+# Called by need(), whose local variable `as_root` it uses.
 install() {
-    # Someone else's broken package source need not keep us from installing from Debian's.
-    apt_get update || say "apt-get update failed; going on with the package lists as they are"
+    # A broken third-party package source must not prevent installation from Debian's.
+    apt_get update || say "apt-get update failed; continuing with the existing package lists"
     apt_get install -y --no-install-recommends "$@"
 }
 apt_get() {
@@ -147,23 +149,23 @@ apt_get() {
 
 # ---- building ------------------------------------------------------------------------------------
 
-# A build folder remembers absolute paths. In a checkout that was moved or copied they lead to
+# A build folder contains absolute paths. In a checkout that was moved or copied they refer to
 # another tree, or to none.
 discard_if_moved() {
     local cache=build/$1/CMakeCache.txt
     if [[ -e $cache ]] && ! { grep -qxF "CMAKE_HOME_DIRECTORY:INTERNAL=$root" "$cache" &&
         grep -qxF "CMAKE_CACHEFILE_DIR:INTERNAL=$root/build/$1" "$cache"; }; then
-        say "build/$1 was made for another folder; starting afresh"
+        say "build/$1 was configured for another folder; building from scratch"
         rm -rf "build/$1"
     fi
 }
 
-# What root has built, an ordinary user cannot build on.
+# An ordinary user cannot continue a build made by root.
 check_writable() {
     local path
     for path in "$@"; do
         if [[ -e $path && ! -w $path ]]; then
-            die "$path is not writable (made by root?): remove it with the rights that made it" 2
+            die "$path is not writable (created by root?): remove it as the user who created it" 2
         fi
     done
 }
@@ -172,7 +174,7 @@ check_writable() {
 configure() {
     local folder=$1 preset=$2
     shift 2
-    mkdir -p build || die "there is no place for build/ here" 2
+    mkdir -p build || die "build/ cannot be created in this folder" 2
     check_writable build "build/$folder" "build/$folder/CMakeCache.txt" "build/$folder/.ninja_log"
     discard_if_moved "$folder"
     step "configure $folder" cmake --preset "$preset" -B "build/$folder" "$@"

@@ -2,7 +2,7 @@
 # shellcheck shell=bash
 source "$root/tools/dev/common.sh"
 
-# The demo, command by command.
+# The commands of the demo.
 demo_commands() {
     run octetra generate gear -o demo/gear.1.ele
     run octetra convert demo/gear.1.ele demo/gear.vtu
@@ -15,13 +15,13 @@ demo_commands() {
     say
     say "before: $(in_short demo/gear.1.ele)"
     say "after:  $(in_short demo/fine.1.ele)"
-    say "The files written on 1, 2, 3 and 4 ranks and by the reference have the same bytes."
+    say "The files written on 1, 2, 3 and 4 ranks and by the reference are identical."
     say "For ParaView: $root/demo/gear.vtu and $root/demo/fine.vtu"
     if [[ -e demo/picture.png ]]; then say "The picture:  $root/demo/picture.png"; fi
     say "A report on more meshes, ranks and partitions: ./dev equivalence --quick"
 }
 
-# in_short MESH: what `octetra info` says of it, in one line.
+# in_short MESH: summarises the output of `octetra info` in one line.
 in_short() {
     octetra info "$1" | awk '
         /^  vertices / { vertices = $2 }
@@ -49,10 +49,10 @@ demo_of_ranks() {
         done
         run cmp "demo/fine.1.$extension" "demo/reference.1.$extension"
     done
-    say "the same bytes"
+    say "identical"
 }
 
-# A picture needs VTK and an X server. The demo is good without one.
+# A picture requires VTK and an X server. The demo works without it.
 draw_demo() {
     local picture=(tools/render.py demo/gear.vtu demo/fine.vtu -o demo/picture.png --view "1,-0.25,1.2")
     rm -f demo/picture.png
@@ -60,11 +60,11 @@ draw_demo() {
         { [[ -n ${DISPLAY:-} ]] || command -v Xvfb >/dev/null; }; then
         say "${bold}\$ ${picture[*]}$plain"
         if "${picture[@]}"; then return; fi
-        say "There is no picture, for the reason above; the meshes are complete."
+        say "The picture could not be drawn, for the reason above; the meshes are complete."
     else
         say
-        say "For a picture of both meshes as well, install $(packages_of picture | xargs | sed 's/ / and /'),"
-        say "then ./dev demo again."
+        say "For a picture of both meshes, install $(packages_of picture | xargs | sed 's/ / and /'),"
+        say "then run ./dev demo again."
     fi
 }
 

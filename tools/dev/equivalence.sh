@@ -2,12 +2,12 @@
 # shellcheck shell=bash
 source "$root/tools/dev/common.sh"
 
-# What is less than a whole report does not take the place of one.
+# A partial report does not replace a complete one.
 output=equivalence
 if [[ " $* " == *' --quick '* || " $* " == *' --only'* ]]; then output=equivalence/part; fi
 status=0 answer=(/usr/bin/python3 tools/equivalence --octetra build/demo/cli/octetra -o "$output" "$@")
 need build report
-cases=$("${answer[@]}" --list) || exit 2  # a slip in an option need not wait for the build
+cases=$("${answer[@]}" --list) || exit 2  # reports wrong options before the build
 if [[ " $* " == *' --list '* ]]; then
     say "$cases"
     exit
@@ -15,7 +15,7 @@ fi
 configure demo release -DOCTETRA_TESTS=OFF -DOCTETRA_BENCH=OFF
 build demo
 check_writable equivalence
-# Its status is the answer: 1 where anything differs.
+# The exit status is the result: 1 if anything differs.
 step "equivalence" "${answer[@]}" || status=$?
 if ((status <= 1)); then say "The report: $root/$output/index.html"; fi
 exit "$status"

@@ -2,8 +2,8 @@
 # shellcheck shell=bash
 source "$root/tools/dev/common.sh"
 
-# The C++ files of the checkout, ended by NUL. Without git, or in a copy that is no repository: all
-# but what building leaves behind.
+# The C++ files of the checkout, separated by NUL. Without git, or in a copy that is no repository,
+# all files except build products.
 sources() {
     if [[ -e .git ]] && git ls-files >/dev/null 2>&1; then
         git ls-files -z --cached --others --exclude-standard -- '*.cpp' '*.hpp' |

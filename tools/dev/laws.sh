@@ -1,4 +1,4 @@
-# What holds random cases against the laws of tests/properties/, and what is done with what they find.
+# Tests random cases against the laws of tests/properties/, and handles findings.
 # shellcheck shell=bash
 
 build_laws() {
@@ -8,14 +8,15 @@ build_laws() {
         --target test_properties shrink_finding mpi_shuffler
 }
 
-# shrink FILE RANKS SECONDS: makes a kept case smaller; RANKS 0: on as many as it was found on.
+# shrink FILE RANKS SECONDS: shrinks a kept case; RANKS 0: on the number of ranks on which it was
+# found.
 shrink() {
-    say "making $1 smaller, for at most $3 seconds"
+    say "shrinking $1, for at most $3 seconds"
     build/release/tests/properties/shrink_finding "$@"
 }
 
-# The laws keep what they find there, and what they try just now. What is being tried at an interruption is
-# no finding.
+# The laws keep their findings there, and the case that is being judged. The latter is no finding
+# after an interruption.
 try_laws() {
     export OCTETRA_FOUND=$root/corpus/regression
     laws_since=$root/build/laws-since
@@ -25,7 +26,8 @@ try_laws() {
     }
 }
 
-# What ended a rank, or left one waiting, is on disk as it was drawn; what another run tries is, too.
+# A case that ended a rank or blocked it is on disk as it was drawn; so are the cases that other
+# runs are judging.
 shrink_what_died() {
     local file process
     for file in corpus/regression/*-running-*.json; do

@@ -3,15 +3,16 @@
 
 regex=''  # names of the tests to run; empty: all
 passed=0 failed=0 skipped=0
-tests=0  # how many ctest ran
+tests=0  # number of tests run by ctest
 
 # check NAME COMMAND...: a step that counts as one test.
 check() {
     if step "$@"; then ((++passed)); else ((++failed)); fi
 }
 
-# count_tests REPORT CTEST-STATUS: counts from the JUnit report, because the summary of ctest counts skipped
-# tests as passed. Tests that neither passed nor were skipped have failed, including those that could not be started.
+# count_tests REPORT CTEST-STATUS: counts from the JUnit report, because the summary of ctest counts
+# skipped tests as passed. Tests that neither passed nor were skipped have failed, including those
+# that could not be started.
 count_tests() {
     local line all=0 good=0 left_out=0 bad
     if [[ -e $1 ]]; then
@@ -33,7 +34,7 @@ count_tests() {
     ran=$((good + bad))
 }
 
-# count_cases: a suite is one test to ctest; the cases in its report count instead.
+# count_cases: ctest regards a suite as one test; the cases in its report are counted instead.
 count_cases() {
     local cases failures skips
     while read -r cases failures skips; do
@@ -48,7 +49,7 @@ count_cases() {
         /<\/testsuites>/ { print cases, failures, skips }' {} +)
 }
 
-# run_ctest FOLDER: the tests there, or those whose name matches $regex.
+# run_ctest FOLDER: runs the tests of this build, or those whose names match $regex.
 run_ctest() {
     local folder=$1 report=$root/build/$1/ctest.xml status=0 ran=0 which=()
     if [[ -n $regex ]]; then which=(--tests-regex "$regex"); fi
@@ -58,7 +59,7 @@ run_ctest() {
         --output-junit "$report" "${which[@]}" || status=$?
     count_tests "$report" "$status"
     tests=$((tests + ran))
-    # ctest hides the output of tests that passed; their notes are shown.
+    # ctest hides the output of tests that passed; their notes are printed here.
     sed -n 's/^dev note: /note: /p' "build/$folder/Testing/Temporary/LastTest.log" 2>/dev/null || true
     if ((ran == 0)); then
         if [[ -n $regex ]]; then
@@ -81,7 +82,7 @@ build_and_test() {
     run_ctest "$folder"
 }
 
-# One case of a program of GoogleTest, PROGRAM.SUITE.CASE. ctest knows suites only.
+# Runs one case of a GoogleTest program, PROGRAM.SUITE.CASE. ctest knows only suites.
 run_case() {
     local program suite_and_case
     program=$(find "build/$1/tests" -maxdepth 2 -type f -name "test_${2%%.*}" 2>/dev/null)
@@ -114,14 +115,14 @@ keep_files_in_memory() {
     fi
 }
 
-# Other versions of clang-format format otherwise.
+# Other versions of clang-format produce other results.
 check_formatting() {
     if clang-format --version 2>/dev/null | grep -q 'version 14\.'; then
         check "formatting" "$root/dev" format --check
     else
-        say "formatting not checked: that takes clang-format 14"
+        say "formatting not checked: this requires clang-format 14"
     fi
 }
 
-# The packages of every test, with what optional parts need.
+# Installs the packages of all tests, with those of optional components.
 need_test_packages() { need build test adapters readers format; }

@@ -1,11 +1,12 @@
 #!/usr/bin/python3
-"""Refines many meshes by the serial reference and on 1 to 4 ranks, compares the bytes, has the
-results verified, and writes a report: index.html, equivalence.json and equivalence.md.
+"""Refines many meshes by the serial reference and on 1 to 4 ranks, compares the bytes, verifies the
+results, and writes a report: index.html, equivalence.json and equivalence.md.
 
-    python3 tools/equivalence --octetra build/release/cli/octetra -o equivalence
+python3 tools/equivalence --octetra build/release/cli/octetra -o equivalence
 
-Needs Python's standard library alone, and mpirun; pictures of meshes need python3-vtk9 and xvfb.
-Status 0: all is identical and valid; 1: something is not; 2: the report could not be made.
+Requires only Python's standard library and mpirun; pictures of meshes require python3-vtk9 and
+xvfb. Exit status: 0 all results are identical and valid; 1 some are not; 2 the report could not be
+made.
 """
 
 import argparse
@@ -30,17 +31,17 @@ from summary import totals
 
 def parse_command_line():
     parser = argparse.ArgumentParser(prog="equivalence", description=__doc__.split("\n\n")[0])
-    parser.add_argument("--octetra", metavar="PROGRAM", default="octetra", help="[octetra, in the PATH; by ./dev: what it builds]")
-    parser.add_argument("-o", "--output", metavar="FOLDER", default="equivalence", help="[equivalence; by ./dev with --quick or --only: equivalence/part]")
+    parser.add_argument("--octetra", metavar="PROGRAM", default="octetra", help="[octetra, in the PATH; with ./dev: its build]")
+    parser.add_argument("-o", "--output", metavar="FOLDER", default="equivalence", help="[equivalence; with ./dev and --quick or --only: equivalence/part]")
     parser.add_argument("--quick", action="store_true", help="a few small cases and a loop, every run once")
-    parser.add_argument("--only", metavar="WORDS", help="only cases with this in their name, and "
-                        "those that they follow")
-    parser.add_argument("--list", action="store_true", help="run nothing: name the cases")
-    parser.add_argument("--no-pictures", action="store_true", help="leave pictures of meshes out")
+    parser.add_argument("--only", metavar="WORDS", help="only cases whose name contains this, and "
+                        "those on which they depend")
+    parser.add_argument("--list", action="store_true", help="run nothing; list the cases")
+    parser.add_argument("--no-pictures", action="store_true", help="omit pictures of meshes")
     parser.add_argument("--bench", metavar="FILE.json", default=bench_section.RESULTS,
-                        help="results of ./dev bench, which the page draws if they are there")
-    parser.add_argument("--from", dest="old", metavar="FILE.json", help="run nothing: make the "
-                        "pages of an older report anew, in the folder where it stands")
+                        help="results of ./dev bench, which are plotted if the file exists")
+    parser.add_argument("--from", dest="old", metavar="FILE.json", help="run nothing; generate the "
+                        "pages of an older report again, in its folder")
     return parser.parse_args()
 
 
@@ -50,7 +51,7 @@ def chosen_cases(options):
     cases = all_cases.quick() if options.quick else [*all_cases.in_full(), *all_cases.corpus()]
     wanted = [case for case in cases if options.only in case.name]
     names = {case.name for case in wanted}
-    for case in reversed(cases):  # a case stands behind the one that it follows
+    for case in reversed(cases):  # a case follows the one that it continues
         if case.name in names and case.after:
             names.add(case.after)
     if not names and not chosen_loops(options):

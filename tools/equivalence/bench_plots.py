@@ -1,4 +1,4 @@
-"""The plots of bench/results.json: how cost grows, and DOLFINx beside octetra."""
+"""The plots of bench/results.json: growth of cost, and DOLFINx compared with octetra."""
 
 from html import escape
 
@@ -8,7 +8,7 @@ from words import count, seconds, size
 
 
 def short(number):
-    """10000 as 10 k; marks of axes are round."""
+    """10000 as 10 k; marks of axes are round numbers."""
     for unit, name in ((1e9, " G"), (1e6, " M"), (1e3, " k")):
         if number >= unit:
             return f"{number / unit:g}{name}"
@@ -21,7 +21,7 @@ def short_seconds(value):
 
 
 def curve(frame, points, kind, hints):
-    """A line through points (x, y), with a hint at each."""
+    """A line through points (x, y), with a tooltip at each."""
     places = [(frame.x_of(x), frame.y_of(y)) for x, y in points]
     frame.parts.append(path(places, f"curve {kind}"))
     frame.parts += [f'<circle cx="{x:.1f}" cy="{y:.1f}" r="4" class="dot {kind}">'
@@ -30,9 +30,10 @@ def curve(frame, points, kind, hints):
 
 
 def plot(points, x, y, kind, words, x_marks=None, plain_x=False, proportion=False):
-    """One curve of points[x], points[y]. `words`: what the axes are called (`x`, `y`), and how
-    numbers on them are written (`x_words`, `y_words`) and in hints (`x_hint`, `y_hint`).
-    `proportion` adds a dashed line through the last point: what grows in proportion is parallel."""
+    """One curve of points[x], points[y]. `words`: the titles of the axes (`x`, `y`), and the
+    formats of their numbers (`x_words`, `y_words`) and of those in tooltips (`x_hint`, `y_hint`).
+    `proportion` adds a dashed line through the last point, to which proportional growth is
+    parallel."""
     pairs = [(point[x], point[y]) for point in points]
     frame = LogFrame([a for a, _ in pairs], [b for _, b in pairs], x_marks, plain_x)
     frame.axes(words["x"], words["y"], words["x_words"], words["y_words"])
@@ -44,7 +45,7 @@ def plot(points, x, y, kind, words, x_marks=None, plain_x=False, proportion=Fals
 
 
 def in_proportion(frame, last):
-    """From the last point down to an edge of the frame, by as much in x as in y."""
+    """A line from the last point down to an edge of the frame, with slope 1."""
     x, y = last
     factor = min(x / frame.x_marks[0], y / frame.y_marks[0])
     return [(frame.x_of(x / factor), frame.y_of(y / factor)), (frame.x_of(x), frame.y_of(y))]
@@ -78,7 +79,7 @@ def time_by_ranks(points):
 
 
 def bytes_by_ranks(points):
-    """One rank sends none, which has no logarithm."""
+    """One rank sends no bytes, which have no logarithm."""
     sending = [point for point in points if point["bytes"] > 0]
     return plot(sending, "ranks", "bytes", "seconds",
                 {**RANKS, **BYTES, "y": "bytes sent, all ranks"},
@@ -91,8 +92,8 @@ def time_by_level(points):
 
 
 def speeds(points):
-    """Bars for cells of the result a second, named; octetra's are of one colour, others of
-    another."""
+    """Labelled bars for cells of the result per second; octetra's have one colour, others another
+    one."""
     rates = [point["cells_a_second"] * 1e-6 for point in points]
     frame = Frame(530, 280, max(rates))
     frame.y_axis("")

@@ -9,27 +9,27 @@ from machine import ROOT, is_busy, known
 
 RESULTS = os.path.join(ROOT, "bench", "results.json")
 
-# What is drawn of the points of a case, and what is said of it.
+# The plots of the points of a case, and their captions.
 DRAWN = {
     "with cells": [
-        (plots.time_by_cells, "Uniform refinement on one rank, into memory that the system has "
-         "yet to hand out; dashed: what would grow in proportion."),
-        (plots.memory_by_cells, "The most memory of that process, the dashed line likewise."),
+        (plots.time_by_cells, "Uniform refinement on one rank, into memory that the process has "
+         "not used before; dashed: proportional growth."),
+        (plots.memory_by_cells, "Peak memory of that process; dashed: proportional growth."),
     ],
     "with cells, memory at hand": [
-        (plots.time_by_cells, "The same in memory that the process has written to before."),
+        (plots.time_by_cells, "The same in memory that the process has written before."),
     ],
     "with ranks": [
-        (plots.time_by_ranks, "One mesh, a tenth of its cells chosen, on more and more ranks, "
-         "which take turns on the cores: seconds of the processor, waiting included."),
-        (plots.bytes_by_ranks, "Messages of that run: bytes that all ranks send together."),
+        (plots.time_by_ranks, "One mesh, a tenth of its cells marked, on increasing numbers of ranks, "
+         "which share the cores: processor seconds, including waiting."),
+        (plots.bytes_by_ranks, "Messages of that run: bytes sent by all ranks."),
     ],
     "around a point": [
         (plots.time_by_level, "Level by level around one point of a large mesh. The first "
-         "looks at every cell; later ones at what changes, unless an array has to move to grow."),
+         "processes every cell; later ones process only changes, unless an array must be reallocated."),
     ],
     "beside DOLFINx, uniform": [(plots.speeds, "Everything refined, beside DOLFINx.")],
-    "beside DOLFINx, sphere": [(plots.speeds, "The third level in a sphere, beside DOLFINx.")],
+    "beside DOLFINx, sphere": [(plots.speeds, "The third level in a sphere, compared with DOLFINx.")],
 }
 
 
@@ -52,13 +52,13 @@ def figures(results):
 
 
 def section(results):
-    """HTML; nothing where nothing was measured."""
+    """HTML; an empty string without measurements."""
     drawn = "".join(figures(results)) if results else ""
     if not drawn:
         return ""
     machine = results["machine"]
-    loud = " Other programs ran at the same time, so seconds are no measure."
-    return ("<h2>How cost grows</h2><p>Not measured with this report, but by "
+    loud = " Other programs ran at the same time, so times are unreliable."
+    return ("<h2>Growth of cost</h2><p>Not measured with this report, but by "
             f"<code>./dev bench</code>: {escape(' · '.join(known(machine)))}."
             f"{loud if is_busy(machine) else ''}</p>"
             f'<div class="plots">{drawn}</div>')

@@ -1,4 +1,5 @@
-"""The section of the page that says what the long campaigns found, as the pages that are kept with them tell it."""
+"""The section of the page about the results of the long campaigns, taken from the pages that
+describe them."""
 
 import os
 import re
@@ -12,14 +13,14 @@ FAULTS = os.path.join(ROOT, "docs", "parallel.md")
 
 
 def paragraph(path, begins):
-    """The one that begins so, without Markdown's marks."""
+    """The paragraph with this beginning, without Markdown's marks."""
     with open(path, encoding="utf-8") as file:
         found = next(block for block in file.read().split("\n\n") if block.startswith(begins))
     return escape(re.sub(r"[`*]", "", " ".join(found.split())))
 
 
 def fault_rows():
-    """Command, and moments of each kind of fault."""
+    """For each command, the number of moments for each kind of fault."""
     with open(FAULTS, encoding="utf-8") as file:
         lines = file.read().split("| command | killed |")[1].split("\n\n")[0].splitlines()[2:]
     return [[re.sub("`", "", words.strip()) for words in line.strip("|").split("|")] for line in lines]
@@ -27,7 +28,7 @@ def fault_rows():
 
 def section():
     rows = [row(cell(escape(name), "words"), *map(cell, moments)) for name, *moments in fault_rows()]
-    return ("<h2>Under attack</h2><p>Not measured with this report, but by <code>./dev campaign fuzz</code> and "
+    return ("<h2>Long campaigns</h2><p>Not measured with this report, but by <code>./dev campaign fuzz</code> and "
             f"<code>./dev campaign faults</code>.</p><p>{paragraph(HISTORIES, 'The laws of histories were held')}</p>"
             f"<p>{paragraph(FAULTS, '`./dev campaign faults` tests how failures end')}</p>"
             + table(heads("command", "killed", "a file fails", "no memory"), rows, "Moments of faults"))

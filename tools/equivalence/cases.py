@@ -1,4 +1,4 @@
-"""What is refined: the cases of the report."""
+"""The cases of the report."""
 
 import json
 import os
@@ -11,20 +11,20 @@ CORPUS = os.path.join(ROOT, "corpus")
 
 @dataclass(frozen=True)
 class Case:
-    """One refinement of one mesh. The mesh is what `octetra generate` makes of the words of
-    `generate`, or else a `file`, or else what the case named in `after` refined."""
+    """One refinement of one mesh: the mesh that `octetra generate` makes from `generate`, or a
+    `file`, or the result of the case named in `after`."""
     name: str
     about: str
     group: str
-    refine: str  # the criteria and levels, as for octetra refine and octetra verify
+    refine: str  # criteria and levels, as for octetra refine and octetra verify
     generate: str = ""
     file: str = ""
     after: str = ""
     output: str = "refined.ele"
     repeats: int = 1  # of each run; all are compared, and times are medians
-    gateway_ranks: tuple = (2, 3, 4)  # on how many ranks it is run by the gateway, too
+    gateway_ranks: tuple = (2, 3, 4)  # numbers of ranks for runs with the gateway
     scaling: bool = False  # whether its times are plotted over the number of ranks
-    view: list = field(default_factory=list)  # for a picture: what tools/render.py is told
+    view: list = field(default_factory=list)  # options of tools/render.py for a picture
 
 
 SMALL_GEAR = "gear --teeth 5 --thickness 0.32 --bore 0.25 --edge 0.3"
@@ -62,8 +62,8 @@ PAPER_LARGE = [
          "--random 0.018 --seed 1", after="paper, large, 2nd", repeats=3, scaling=True),
 ]
 
-# What the paper reports: (vertices, cells), from one refinement to the next. It prints a vertex
-# count for 235,941 cells that cannot be right, and for 770,882 cells none; None stands for both.
+# The counts that the paper reports, (vertices, cells), from one refinement to the next. Its vertex
+# count for 235,941 cells cannot be right, and for 770,882 cells it has none; None represents both.
 PAPER_COUNTS = [
     ("paper, small, 1st", (527, 1803), (3387, 13506)),
     ("paper, small, 2nd", (3387, 13506), (23351, 99121)),
@@ -74,7 +74,7 @@ PAPER_COUNTS = [
 
 
 def seeds():
-    """Delaunay meshes of random points, cells at random, every scheme."""
+    """Delaunay meshes of random points, random cells, and every scheme."""
     schemes = ["8t", "4t", "2t"]
     return [Case(f"seed {seed}", f"800 random points, a twentieth of the cells, scheme {scheme}",
                  "seeds", f"--random 0.05 --seed {seed} --scheme {scheme} --levels 2",
@@ -83,7 +83,7 @@ def seeds():
 
 
 def corpus():
-    """Every mesh of corpus/manifest.json: the small ones, made by hand, are refined all over."""
+    """Every mesh of corpus/manifest.json; the small hand-made ones are refined uniformly."""
     with open(os.path.join(CORPUS, "manifest.json"), encoding="utf-8") as file:
         return [of_manifest(entry) for entry in json.load(file)["meshes"]]
 
@@ -98,7 +98,7 @@ def of_manifest(entry):
 
 
 def standard():
-    """The corpus by the gateway on 4 ranks only; with every other way to run it in tests/distributed/."""
+    """The corpus with the gateway on 4 ranks only; tests/distributed/ runs all combinations."""
     by_fewer_runs = [replace(case, gateway_ranks=(4,)) for case in corpus()]
     return [*in_full(), *by_fewer_runs]
 
@@ -108,6 +108,6 @@ def in_full():
 
 
 def quick():
-    """Some seconds' worth: every run once."""
+    """Cases of a few seconds: every run once."""
     chosen = [GEAR, INCLUSION, PAPER_SMALL[0], seeds()[1]]
     return [replace(case, repeats=1) for case in chosen]

@@ -1,4 +1,4 @@
-"""Charts as SVG elements for the page, which gives the classes their colours (page.css)."""
+"""Charts as SVG elements; page.css defines the colours of the classes."""
 
 from html import escape
 
@@ -12,7 +12,7 @@ def line(x1, y1, x2, y2, kind):
 
 
 def bar(x, top, width, height, kind, hint=""):
-    """A rectangle; the hint is shown when the pointer rests on it."""
+    """A rectangle with a tooltip."""
     title = f"<title>{escape(hint)}</title>" if hint else ""
     return (f'<rect x="{x:.1f}" y="{top:.1f}" width="{width:.1f}" height="{max(height, 0):.1f}" '
             f'class="{kind}">{title}</rect>')
@@ -24,7 +24,7 @@ def path(points, kind):
 
 
 def round_steps(highest, about=4):
-    """From 0 to at least `highest`, evenly spaced by 1, 2, 2.5 or 5 times a power of ten."""
+    """Marks from 0 to at least `highest`, at intervals of 1, 2, 2.5 or 5 times a power of ten."""
     if highest <= 0:
         return [0.0, 1.0]
     rough = highest / about
@@ -41,7 +41,7 @@ def round_steps(highest, about=4):
 
 
 class Frame:
-    """The area of a chart between its axes: what is drawn goes to `parts`. The y axis goes from 0
+    """The area of a chart between its axes; `parts` collects its elements. The y axis ranges from 0
     to a round number that is at least `highest`."""
 
     def __init__(self, width, height, highest, left=52, top=26, bottom=40, right=18):
@@ -55,7 +55,7 @@ class Frame:
         return self.bottom - (self.bottom - self.top) * value / self.steps[-1]
 
     def x(self, share):
-        """The place of a share, 0 to 1, of the width between the axes."""
+        """The position of a fraction, 0 to 1, of the width between the axes."""
         return self.left + (self.right - self.left) * share
 
     def y_axis(self, unit):
@@ -69,14 +69,14 @@ class Frame:
         self.parts.append(text((self.left + self.right) / 2, self.height - 6, words))
 
     def svg(self, label):
-        """`label` says what the chart shows to those who cannot see it."""
+        """`label` describes the chart for screen readers."""
         return (f'<svg viewBox="0 0 {self.width} {self.height}" role="img" '
                 f'aria-label="{escape(label)}" width="{self.width}">'
                 + "".join(self.parts) + "</svg>")
 
 
 def legend(entries):
-    """A line of coloured squares with words; entries are (class, words)."""
+    """A line of coloured squares with labels; entries are (class, label)."""
     keys = "".join(f'<span><svg viewBox="0 0 10 10" class="key"><rect width="10" height="10" '
                    f'class="{kind}"/></svg>{escape(words)}</span>' for kind, words in entries)
     return f'<p class="legend">{keys}</p>'

@@ -1,4 +1,4 @@
-"""Are the files that two runs wrote the same, byte by byte?"""
+"""Compares the files of two runs byte by byte."""
 
 import hashlib
 import os
@@ -7,8 +7,8 @@ BLOCK = 1 << 20
 
 
 def first_difference(path_a, path_b):
-    """The offset, from 0, of the first byte that differs, or where one file ends and the other does
-    not; None if the files are the same."""
+    """The offset, from 0, of the first difference, or of the end of the shorter file; None if the
+    files are equal."""
     offset = 0
     with open(path_a, "rb") as a, open(path_b, "rb") as b:
         while True:
@@ -22,7 +22,8 @@ def first_difference(path_a, path_b):
 
 
 def differences(expected, found):
-    """What differs between the files of two folders, a line for each that does; [] if nothing."""
+    """The differences between the files of two folders, one line for each file; [] if there are
+    none."""
     names_expected, names_found = set(os.listdir(expected)), set(os.listdir(found))
     lines = [f"{name} is missing" for name in sorted(names_expected - names_found)]
     lines += [f"{name} is too many" for name in sorted(names_found - names_expected)]
@@ -34,7 +35,7 @@ def differences(expected, found):
 
 
 def fingerprints(folder):
-    """Of each file its size and SHA-256."""
+    """The size and SHA-256 of each file."""
     result = {}
     for name in sorted(os.listdir(folder)):
         with open(os.path.join(folder, name), "rb") as file:

@@ -1,4 +1,4 @@
-"""A chart whose axes are logarithms, so that powers are straight lines; the x axis may be plain."""
+"""A chart with logarithmic axes, on which powers are straight lines; the x axis may be linear."""
 
 import math
 
@@ -6,8 +6,8 @@ from charts import Frame, line, text
 
 
 def steps(lowest, highest):
-    """Powers of ten from at most `lowest` to at least `highest`; where that is no more than two of
-    them apart, also 2 and 5 times those, as far as needed."""
+    """Powers of ten from at most `lowest` to at least `highest`; if there are at most two decades,
+    also 2 and 5 times those as needed."""
     low, high = math.floor(math.log10(lowest) + 1e-9), math.ceil(math.log10(highest) - 1e-9)
     if high - low > 2:
         return [10.0 ** power for power in range(low, high + 1)]
@@ -24,7 +24,7 @@ def place(value, marks):
 
 
 class LogFrame(Frame):
-    """`x_marks` are where the x axis has words; without them, round steps."""
+    """`x_marks` are the labelled marks of the x axis; without them, round steps."""
 
     def __init__(self, xs, ys, x_marks=None, plain_x=False):
         super().__init__(530, 280, 1, left=66)
@@ -46,7 +46,7 @@ class LogFrame(Frame):
         return self.bottom - (self.bottom - self.top) * place(value, self.y_marks)
 
     def axes(self, x_title, y_unit, x_words, y_words):
-        """`x_words` and `y_words` say how a mark is written."""
+        """`x_words` and `y_words` format the marks."""
         for mark in self.y_marks:
             self.parts.append(line(self.left, self.y_of(mark), self.right, self.y_of(mark), "grid"))
             self.parts.append(text(self.left - 6, self.y_of(mark) + 4, y_words(mark), "end"))

@@ -1,4 +1,4 @@
-"""What the page says of loops of steps."""
+"""The section of the page about loops of steps."""
 
 from html import escape
 
@@ -14,9 +14,9 @@ def name_of_run(run):
 def faults(loop):
     lines = [f"{name_of_run(run)}: {fault}" for run in loop["runs"] for fault in run["differences"]]
     if not loop["input_comes_back"]:
-        lines.append("coarsening all does not end in the input")
+        lines.append("coarsening all cells does not restore the input")
     if not loop["valid"]:
-        lines.append("verification: the finest mesh is no refinement of the input")
+        lines.append("verification: the finest mesh is not a refinement of the input")
     return lines
 
 
@@ -47,7 +47,8 @@ def loop_row(loop):
 
 
 def balance_chart(loop, ranks):
-    """Most over mean cells of the ranks, before and after each step `rebalance`."""
+    """The ratio of the maximum to the mean number of cells of the ranks, before and after each step
+    `rebalance`."""
     turns = figures_of(loop, ranks)["rebalanced"]
     frame = Frame(530, 230, max(before for before, _ in turns))
     frame.y_axis("most/mean")
@@ -60,7 +61,7 @@ def balance_chart(loop, ranks):
         frame.parts.append(text(left + wide / 2, frame.bottom + 16, str(number + 1)))
     frame.parts.append(line(frame.left, frame.y(1), frame.right, frame.y(1), "even"))
     frame.x_title("step rebalance")
-    return frame.svg(f"Most over mean cells of {ranks} ranks, before and after each step rebalance")
+    return frame.svg(f"Maximum over mean number of cells of {ranks} ranks, before and after each step rebalance")
 
 
 def commands(loop):
@@ -81,10 +82,10 @@ def section(loops):
                      "</figcaption></figure>" for loop, ranks in drawn)
     scripts = "".join(f"<details><summary>{escape(loop['name'])}</summary><pre>{escape(commands(loop))}</pre></details>"
                       for loop in loops)
-    return ("<h2>Loops</h2><p>Refined, coarsened and rebalanced again and again, as a solver does. The mesh after every "
-            "step is compared with the serial reference's, byte by byte: on 1 to 4 ranks, and stopped halfway, saved, "
-            "and gone on with on other ranks. In the end all is coarsened, and the input comes back, bit by bit.</p>"
+    return ("<h2>Loops</h2><p>Meshes are repeatedly refined, coarsened and rebalanced, as by a solver. The mesh after every "
+            "step is compared with the serial reference's, byte by byte: on 1 to 4 ranks, and after saving halfway and "
+            "continuing on another number of ranks. Finally all cells are coarsened, which restores the input, bit by bit.</p>"
             + table(head, map(loop_row, loops), "loops of steps")
-            + ("<h3>Cells of the fullest rank, over the mean</h3>" + legend([("before", "before"), ("after", "after")])
+            + ("<h3>Maximum number of cells of a rank, over the mean</h3>" + legend([("before", "before"), ("after", "after")])
                + f"<div class=plots>{charts}</div>" if drawn else "")
             + scripts)

@@ -1,5 +1,6 @@
-"""Scripts of steps, as a solver's loop takes them: by the serial reference, on 1 to 4 ranks, and stopped
-halfway and gone on with on other ranks. Every mesh between is compared, byte by byte."""
+"""Scripts of steps as in a solver's loop: by the serial reference, on 1 to 4 ranks, and interrupted
+halfway and continued on another number of ranks. All intermediate meshes are compared byte by byte.
+"""
 
 import os
 import re
@@ -10,8 +11,8 @@ from measure import load, remove
 from running import Failure, must, own_message, run
 
 RANKS = (1, 2, 3, 4)
-RESTARTS = ((1, 3), (4, 2), (3, 1))  # on so many ranks, then on so many
-END = "coarsen --all --levels 50"  # of every loop: the input comes back
+RESTARTS = ((1, 3), (4, 2), (3, 1))  # numbers of ranks before and after the interruption
+END = "coarsen --all --levels 50"  # the end of every loop, which restores the input
 
 
 @dataclass(frozen=True)
@@ -23,7 +24,7 @@ class Loop:
 
 
 def front(cycles):
-    """A ball that moves along a diagonal: what is fine goes where the ball is not any more."""
+    """A ball that moves along a diagonal: the mesh is coarsened where the ball has left."""
     steps = []
     for k in range(cycles):
         at = 0.2 + 0.6 * k / (cycles - 1)
@@ -55,7 +56,7 @@ def quick():
 
 
 def script_of(steps, first):
-    """With a mesh written after each step; they are counted from `first`."""
+    """The steps, with a mesh written after each; they are numbered from `first`."""
     lines = []
     for number, step in enumerate(steps, start=first):
         lines += [step, f"write step{number:02}.mesh"]
@@ -83,7 +84,8 @@ def held_against_reference(place, folder, outcome):
 
 
 def evenness(said):
-    """Most over mean cells of the ranks when a step `rebalance` begins, and when it ends."""
+    """The ratio of the maximum to the mean number of cells of the ranks, before and after each step
+    `rebalance`."""
     found = re.findall(r"rebalanced, .*most/mean cells ([\d.]+)(?: to ([\d.]+))?", said)
     return [(float(before), float(after or before)) for before, after in found]
 
@@ -104,7 +106,7 @@ def on_ranks(loop, mesh, place, ranks):
 
 
 def restarted(loop, mesh, place, before, after):
-    """Stopped halfway, and gone on with from a checkpoint on other ranks."""
+    """Interrupted halfway, and continued from a checkpoint on another number of ranks."""
     folder, half = new_folder(place, "parallel"), len(loop.steps) // 2
     outcome = adapt(place, folder, mesh, loop.steps[:half], 1, "state.octetra", ["mpirun", "-n", str(before)], [])
     if outcome.status == 0:
@@ -116,7 +118,7 @@ def restarted(loop, mesh, place, before, after):
 
 
 def verdict_of(mesh, place, name):
-    """Whether the verifier finds a mesh of the reference's to be a refinement of the input."""
+    """Returns whether the verifier accepts a mesh of the reference as a refinement of the input."""
     outcome = run([place.octetra, "verify", mesh, os.path.join("reference", name)], place.folder)
     if outcome.status not in (0, 1):
         raise Failure(f"octetra verify ended with status {outcome.status}:\n{outcome.err.strip()}")
@@ -124,7 +126,7 @@ def verdict_of(mesh, place, name):
 
 
 def cells_of(path):
-    """Of a Medit text file that octetra has written."""
+    """The number of cells in a Medit text file written by octetra."""
     with open(path, encoding="utf-8") as file:
         for line in file:
             if line.strip() == "Tetrahedra":
@@ -133,7 +135,7 @@ def cells_of(path):
 
 
 def measure_loop(loop, place):
-    """All of a loop, as it stands in the report's JSON."""
+    """The results of a loop, as an entry of the report's JSON."""
     mesh = os.path.join(place.folder, "input.mesh")
     must([place.octetra, "generate", *loop.generate.split(), "--quiet", "-o", mesh], place.folder)
     folder = new_folder(place, "reference")

@@ -1,4 +1,4 @@
-"""Where and when it was measured, and what."""
+"""Time, machine and program of a measurement."""
 
 import datetime
 import os
@@ -22,7 +22,7 @@ def first_match(path, pattern):
 
 
 def first_line(command):
-    """What a command prints first; None where it fails or is not there."""
+    """The first line of a command's output; None if it fails or does not exist."""
     try:
         done = subprocess.run(command, capture_output=True, text=True, check=False)
     except OSError:
@@ -32,18 +32,19 @@ def first_line(command):
 
 
 def processor_times():
-    """Of all cores together since the system began: at work, and in all. None where /proc is not."""
+    """Busy and total time of all cores together since the system was started. None without /proc."""
     line = first_match("/proc/stat", r"^cpu +(.*)$")
     if line is None:
         return None
-    # user, nice, system, idle, waiting for disks, interrupts; guests are in the first two.
+    # user, nice, system, idle, waiting for disks, interrupts; guests are contained in the first
+    # two.
     times = [int(time) for time in line.split()[:8]]
     return sum(times) - times[3] - times[4], sum(times)
 
 
 def busy_cores(seconds=0.5):
-    """How many cores other programs keep busy, on average from now on for a moment. (The load that
-    the system tells is that of the last minute, in which this may have been built.)"""
+    """The average number of cores that other programs use during the next moment. (The system's
+    load average covers the last minute, which may include the build.)"""
     before = processor_times()
     if before is None:
         return os.getloadavg()[0]
@@ -53,8 +54,8 @@ def busy_cores(seconds=0.5):
 
 
 def describe(octetra):
-    """The machine as it is now. What is not known is None. `load` is how many cores others keep
-    busy, before anything is run here."""
+    """The present state of the machine; None for unknown values. `load` is the number of cores used
+    by others before the first run."""
     memory = first_match("/proc/meminfo", r"^MemTotal: +(\d+) kB")
     return {
         "processor": first_match("/proc/cpuinfo", r"^model name\s*: (.*)$") or platform.machine(),
@@ -70,7 +71,7 @@ def describe(octetra):
 
 
 def known(machine):
-    """What is known of it, in words: when, which commit, where, built by what."""
+    """The known values in words: date, commit, machine, compiler."""
     told = [machine["date"], f"commit {machine['commit']}" if machine["commit"] else None,
             plural(machine["cores"], "core") + " of " + machine["processor"],
             size(machine["memory_bytes"]) + " of memory" if machine.get("memory_bytes") else None,
@@ -80,5 +81,5 @@ def known(machine):
 
 
 def is_busy(machine):
-    """Did other programs keep so many cores busy that seconds are no measure?"""
+    """Returns whether other programs used so many cores that times are unreliable."""
     return machine["load"] >= 0.5 * machine["cores"]

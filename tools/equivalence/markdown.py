@@ -42,7 +42,7 @@ def loop_lines(loops):
     if not loops:
         return []
     lines = ["", "Loops of steps; the mesh after every step is compared.", "",
-             "| loop | steps | cells, at most | same bytes, restarts too | input comes back | exact verification "
+             "| loop | steps | maximum of cells | identical, also after restarts | input restored | exact verification "
              "| reference | 1 rank | 2 ranks |", "|---|---:|---:|---:|---|---|---:|---:|---:|"]
     for loop in loops:
         right = sum(run["identical"] for run in loop["runs"])

@@ -1,5 +1,5 @@
-"""Runs one case: by the serial reference, then on 1 to 4 ranks by both synchronisations; compares
-the bytes, has the reference's result verified, and gathers the figures."""
+"""Runs one case: by the serial reference, then on 1 to 4 ranks with both synchronisations; compares
+the bytes, verifies the result of the reference, and collects the figures."""
 
 import json
 import os
@@ -17,10 +17,10 @@ NOT_REFINING = {"read", "partition", "distribute", "number vertices", "write", "
 
 @dataclass(frozen=True)
 class Place:
-    """Where a case is worked on."""
+    """The environment of a case."""
     octetra: str  # the program
     folder: str  # of this case
-    others: dict  # the folders of the cases before, by name
+    others: dict  # folders of the previous cases, by name
 
 
 def load(path):
@@ -63,7 +63,8 @@ def remove(path):
 
 
 def phases_of(profile):
-    """Seconds of each phase, over all levels, the mean of ranks; in the order of the run."""
+    """Seconds of each phase, summed over all levels and averaged over ranks, in the order of the
+    run."""
     phases = {}
     for entry in profile["phases"]:
         sums = phases.setdefault(entry["phase"], {"computing": 0.0, "communicating": 0.0})
@@ -78,7 +79,7 @@ def refining_seconds(profile):
 
 
 def synchronisation(profile):
-    """What the rounds of synchronisation took, over all levels."""
+    """The cost of the rounds of synchronisation, over all levels."""
     entries = [e for e in profile["phases"] if e["phase"] == "synchronise"]
     return {"rounds": sum(e["rounds"]["max"] for e in entries),
             "messages": sum(e["messages"]["sum"] for e in entries),
@@ -92,12 +93,12 @@ def median_phases(profiles):
 
 
 def spread_of(seconds):
-    """How many times as long as the fastest the slowest took."""
+    """The ratio of the slowest to the fastest time."""
     return max(seconds) / min(seconds) if min(seconds) > 0 else 1
 
 
 def figures(profiles):
-    """Of the repetitions of a run: times are medians; the rest is the same every time."""
+    """The figures of repeated runs: times are medians; other figures are the same in every run."""
     last = profiles[-1]
     return {
         "seconds": statistics.median(p["seconds"]["max"] for p in profiles),
@@ -116,8 +117,8 @@ def figures(profiles):
 
 
 def by_reference(case, mesh, place):
-    """The serial reference, which all others are held against. Where it refuses a mesh (midpoints
-    that rounding would spoil), so must they."""
+    """The serial reference, with which all other runs are compared. If it refuses a mesh (because
+    rounding would invert cells), they must refuse it as well."""
     outcomes = [refine(case, mesh, place, "reference", [], ["--engine", "reference"])
                 for _ in range(case.repeats)]
     outcome, profile = outcomes[-1]
@@ -132,7 +133,7 @@ def by_reference(case, mesh, place):
 
 
 def held_against(reference, outcome, place):
-    """What of one parallel run is not as the reference has it, a line each; [] if nothing."""
+    """The differences of a parallel run from the reference, one line each; [] if there are none."""
     if outcome.status != reference["status"]:
         return [f"status {outcome.status} instead of {reference['status']}: "
                 f"{own_message(outcome) or outcome.err.strip()[-200:]}"]
@@ -143,7 +144,7 @@ def held_against(reference, outcome, place):
 
 
 def in_other_words(case, place):
-    """How far meshes differ whose bytes do: what octetra compare says last."""
+    """The degree of difference of meshes whose bytes differ: the last line of octetra compare."""
     outcome = run([place.octetra, "compare", os.path.join("reference", case.output),
                    os.path.join("parallel", case.output)], place.folder)
     said = outcome.out.strip().splitlines() or outcome.err.strip().splitlines()
@@ -151,7 +152,7 @@ def in_other_words(case, place):
 
 
 def in_parallel(case, mesh, reference, place, ranks, sync):
-    """One repetition of one run: the lines of what differs, and the profile."""
+    """One repetition of one run: the differences, and the profile."""
     outcome, profile = refine(case, mesh, place, "parallel", ["mpirun", "-n", str(ranks)],
                               ["--sync", sync])
     lines = held_against(reference, outcome, place)
@@ -161,13 +162,13 @@ def in_parallel(case, mesh, reference, place, ranks, sync):
 
 
 def runs_of(case):
-    """One rank has nobody to synchronise with."""
+    """One rank needs no synchronisation."""
     by_gateway = [(ranks, "gateway") for ranks in case.gateway_ranks]
     return sorted([*((ranks, "neighbour") for ranks in RANKS), *by_gateway], key=lambda run: run[0])
 
 
 def parallel_runs(case, mesh, reference, place):
-    """All runs, repeated in turns so that a busy moment of the machine does not meet one alone."""
+    """All runs; repetitions alternate, so that a period of load does not affect a single run."""
     runs = runs_of(case)
     lines = {key: [] for key in runs}
     profiles = {key: [] for key in runs}
@@ -187,7 +188,7 @@ def parallel_runs(case, mesh, reference, place):
 
 
 def verified(case, mesh, place):
-    """The verdict on the reference's result, and so on all that have the same bytes."""
+    """The verdict on the reference's result, and thereby on all identical files."""
     report = os.path.join(place.folder, "verdict.json")
     outcome = run([place.octetra, "verify", mesh, os.path.join("reference", case.output),
                    *case.refine.split(), "--maps", os.path.join("reference", "maps.txt"),
@@ -201,7 +202,7 @@ def verified(case, mesh, place):
 
 
 def measured(mesh, place):
-    """What octetra info says of a mesh."""
+    """The statistics of a mesh by octetra info."""
     info = json.loads(must([place.octetra, "info", mesh, "--json"], place.folder))
     kept = ("volume", "dihedral_angle", "dihedral_histogram", "eta", "eta_histogram")
     return {"vertices": info["counts"]["vertices"], "cells": info["counts"]["cells"],
@@ -209,7 +210,7 @@ def measured(mesh, place):
 
 
 def measure(case, place):
-    """All of a case, as it stands in the report's JSON."""
+    """The results of a case, as an entry of the report's JSON."""
     mesh = coarse_mesh(case, place)
     reference = by_reference(case, mesh, place)
     refused = reference["status"] != 0

@@ -1,4 +1,4 @@
-"""The report as one HTML file that needs nothing beside it."""
+"""The report as a single HTML file."""
 
 import base64
 import os
@@ -31,7 +31,7 @@ def details(summary, content, kind=""):
 
 
 def answer(total):
-    """One sentence, and in which colour."""
+    """The result in one sentence, with its colour."""
     runs = plural(total["runs"], "run")
     cases = plural(total["cases"], "case")
     if total["differing"]:
@@ -46,39 +46,40 @@ def verdict(total):
     kind, sentence = answer(total)
     judged = total["refined"] + total["loops"]
     valid = judged - len(total["invalid"])
-    refused = (f" {plural(total['refused'], 'mesh/meshes')} refused, for midpoints that rounding "
-               "would spoil, by all." if total["refused"] else "")
+    refused = (f" {plural(total['refused'], 'mesh/meshes')} refused by all runs, because "
+               "rounding of midpoints would invert cells." if total["refused"] else "")
     return (f'<div class="verdict {kind}"><b>{escape(sentence)}</b>'
-            f"{plural(total['repeats'], 'run')} among them only for timing. "
-            f"{size(total['bytes'])} of files compared, of both synchronisations, up to {count(total['most_cells'])} cells. "
+            f"{plural(total['repeats'], 'run')} of these only for timing. "
+            f"{size(total['bytes'])} of files compared, from both synchronisations, with up to {count(total['most_cells'])} cells. "
             f"{count(valid)} of {plural(judged, 'refined mesh/meshes')} found valid by a verifier that shares with the "
             "engines only the mesh, its file formats and the order of edges. Of its decisions "
-            f"{count(total['filtered'])} were certain by floating point with a bound on its error, and "
-            f"{count(total['exact'])} needed exact numbers.{refused}</div>")
+            f"{count(total['filtered'])} were made by floating point with an error bound, and "
+            f"{count(total['exact'])} required exact arithmetic.{refused}</div>")
 
 
 WORDS = {
     "reference": "the serial implementation; it shares only the mesh, its file formats and the order of edges with the "
-                 "distributed one, which is run on 1 to 4 ranks",
-    "rank": "a process under mpirun, with a part of the mesh; parts are cut by <code>rcb</code>, the default",
+                 "distributed engine, which is run on 1 to 4 ranks",
+    "rank": "a process under mpirun, with a part of the mesh; the partition is <code>rcb</code>, the default",
     "scheme 8t, 4t, 2t": "a marked cell marks all six of its edges, the longest of each face, or its longest",
-    "closure": "marking the longest edge of every face with a marked edge, until nothing changes; the paths that this "
-               "takes through the mesh are the paper's LEPP, and those inside a part its local LEPP",
-    "neighbour, gateway": "who tells whom about marks on edges that ranks share: each rank those that share them, or "
-                          "all the first rank, which passes them on (<code>--sync</code>)",
-    "rounds": "how often ranks tell each other what they have marked, over all levels",
+    "closure": "marking the longest edge of every face with a marked edge, until nothing changes; its propagation paths "
+               "are the paper's LEPP, and those inside a part its local LEPP",
+    "neighbour, gateway": "the exchange of marks on shared edges: directly between the sharers, or through the first "
+                          "rank, which collects them and passes them on (<code>--sync</code>)",
+    "rounds": "the number of exchanges of newly marked edges between ranks, over all levels",
     "messages and bytes": "in the table of cases those of synchronisation; in the table of a case's runs all messages of "
-                          "the run, those that distribute the mesh and collect it for writing among them",
-    "parent maps": "a file (<code>--maps</code>) that says which cell, facet and edge of the input each of the result "
-                   "came from",
-    "8T-LE": "among the verifier's checks: that what was cut is the closure of what the scheme marks, and how",
+                          "the run, including those that distribute the mesh and collect it for writing",
+    "parent maps": "a file (<code>--maps</code>) with the root, in the input, of each cell, facet and edge of the "
+                   "result",
+    "8T-LE": "a check of the verifier: the bisected edges are the closure of those that the scheme marks, and cells are "
+             "cut by the right pattern",
     "η": "the mean ratio of a cell: 1 for a regular tetrahedron, 0 for a flat one",
 }
 
 
 def words_section():
     rows = "".join(f"<dt>{word}</dt><dd>{meaning}</dd>" for word, meaning in WORDS.items())
-    return details("<b>Words of this page</b>", f"<dl>{rows}</dl>")
+    return details("<b>Terms of this page</b>", f"<dl>{rows}</dl>")
 
 
 def where(report):
@@ -87,16 +88,16 @@ def where(report):
 
 
 def load_notice(machine):
-    """Times that were taken beside other work mislead, so they are not shown without a word."""
+    """A warning if times were measured on a loaded machine."""
     if not is_busy(machine):
         return ""
-    return (f'<p class="notice"><b>Times on this page are no measure.</b> When the report began, '
-            f"other programs kept {machine['load']:.1f} of {plural(machine['cores'], 'core')} busy. "
+    return (f'<p class="notice"><b>Times on this page are unreliable.</b> When the report was started, '
+            f"other programs used {machine['load']:.1f} of {plural(machine['cores'], 'core')}. "
             "Bytes, rounds and messages do not depend on that.</p>")
 
 
 def faults(case):
-    """What is wrong with a case, a line each."""
+    """The faults of a case, one line each."""
     lines = [f"{where_run(run)}: {line}" for run in case["runs"] for line in run["differences"]]
     if not case["valid"]:
         lines += [f"verification: {code}, {plural(number, 'time')}"
@@ -108,14 +109,14 @@ def faults_section(cases, loops):
     found = ([(case, line) for case in cases for line in faults(case)]
              + [(loop, line) for loop in loops for line in loop_section.faults(loop)])
     items = [f"<li><b>{escape(case['name'])}</b>, {escape(line)}</li>" for case, line in found]
-    return f"<h2>What is wrong</h2><ul>{''.join(items)}</ul>" if items else ""
+    return f"<h2>Faults</h2><ul>{''.join(items)}</ul>" if items else ""
 
 
 # --- sections
 
 
 def in_front(cases):
-    """The cases that are shown first: all but those of the corpus, if there are others."""
+    """The cases that are shown first: all but those of the corpus, unless there are no others."""
     return [case for case in cases if case["group"] != "corpus"] or cases
 
 
@@ -123,13 +124,13 @@ def cases_section(cases):
     shown = in_front(cases)
     corpus = [case for case in cases if case not in shown]
     html = ("<h2>Cases</h2><p>Each is refined by the serial reference, then by the parallel engine "
-            "on 1, 2, 3 and 4 ranks, with both ways to synchronise (meshes of the corpus by the gateway on 4 ranks only); "
-            "then every file, parent maps too, is compared byte by byte.</p>" + cases_table(shown))
+            "on 1, 2, 3 and 4 ranks, with both synchronisations (meshes of the corpus with the gateway on 4 ranks only); "
+            "then every file, including parent maps, is compared byte by byte.</p>" + cases_table(shown))
     if corpus:
         right = sum(case["identical"] and case["valid"] for case in corpus)
-        html += details(f"<b>The corpus</b>: {plural(len(corpus), 'mesh/meshes')}, made for "
-                        f"trouble (ties, slivers, odd files); {right} of them "
-                        "identical, and valid or refused by all. Those from files are refined by "
+        html += details(f"<b>The corpus</b>: {plural(len(corpus), 'mesh/meshes')}, chosen for "
+                        f"difficult cases (ties, slivers, unusual files); {right} of them "
+                        "identical, and valid or refused by all runs. Meshes from files are refined by "
                         "<code>--all --levels 2</code>, the others by <code>--random 0.1 --levels 2</code>",
                         cases_table(corpus))
     return html
@@ -147,24 +148,24 @@ def picture_section(report, folder):
         html += figure(f'<img alt="{escape(case["name"])} before and after" '
                        f'src="data:image/png;base64,{data}">',
                        f"<b>{escape(case['name'])}</b>: {escape(case['about'])}. Before and after, "
-                       "on 4 ranks; colours are ranks.")
+                       "on 4 ranks, coloured by rank.")
     if not html:
         return ""
-    return f"<h2>Meshes and who has which part</h2><div class=pictures>{html}</div>"
+    return f"<h2>Meshes and their partition</h2><div class=pictures>{html}</div>"
 
 
 def paper_section(cases):
     if not paper_rows(cases):
         return ""
-    return ("<h2>Beside the paper</h2><p>M. Balman, <i>Tetrahedral Mesh Refinement in Distributed "
-            "Environments</i>, refines meshes of these sizes. <b>Its meshes are not these</b>, and "
-            "were not to be had: ours are gears of nearly as many vertices and cells, and as many "
-            "cells are marked, at random, as make them grow about as much. So the counts of cells "
-            "are near because they were made so; times cannot be compared, as the paper "
+    return ("<h2>Comparison with the paper</h2><p>M. Balman, <i>Tetrahedral Mesh Refinement in Distributed "
+            "Environments</i>, refines meshes of these sizes. <b>These are other meshes</b>, because "
+            "the paper's are not available: gears of nearly the same numbers of vertices and cells, in which "
+            "the number of random marks is chosen for about the same growth. Hence the counts of cells "
+            "agree by construction; times cannot be compared, because the paper "
             "tabulates none.</p>" + paper_table(cases) +
-            '<p class="faint">The paper\'s vertices for 235,941 cells are left out, as they do not go with its other '
-            "figures; for 770,882 cells it has none. From which mesh it came to the last is not said; here it "
-            "follows the one before.</p>")
+            '<p class="faint">The paper\'s vertices for 235,941 cells are omitted, because they contradict its other '
+            "figures; for 770,882 cells it has none. It does not state from which mesh the last one was refined; here "
+            "it is the previous one.</p>")
 
 
 def angle_figures(case):
@@ -183,7 +184,7 @@ def angles_section(cases):
     if not shown:
         return ""
     pairs = ["<div class=plots>" + angle_figures(case) + "</div>" for case in shown]
-    return ("<h2>Shapes of cells</h2><p>Share of all dihedral angles, and of all cells, in each "
+    return ("<h2>Shapes of cells</h2><p>Fraction of all dihedral angles, and of all cells, in each "
             "bin.</p>" + legend([("before", "before"), ("after", "after")]) + "".join(pairs[:2])
             + (details(f"{plural(len(pairs) - 2, 'more case')}", "".join(pairs[2:]))
                if len(pairs) > 2 else ""))
@@ -201,16 +202,15 @@ def balance_section(cases):
     if not shown:
         return ""
     blocks = [balance_figures(case) for case in shown]
-    return ("<h2>Cells of each rank</h2><p>Parts are cut before refinement, so that ranks are about "
-            "even in what their cells are expected to become; before a level cells move where a rank would have far too "
-            "many.</p>"
+    return ("<h2>Cells of each rank</h2><p>The mesh is partitioned before refinement by the predicted number of "
+            "cells; before a level cells are migrated if a rank would have far too many.</p>"
             + legend([("before", "before"), ("after", "after")])
             + "".join(blocks[:1]) + (details(f"{plural(len(blocks) - 1, 'more case')}",
                                              "".join(blocks[1:])) if len(blocks) > 1 else ""))
 
 
 def timed_cases(cases):
-    """The cases made for it, and where there are none, the largest."""
+    """The cases made for scaling or, if there are none, the largest."""
     refined = [case for case in cases if case["after"] and plots.neighbour_runs(case)]
     return ([case for case in refined if case["scaling"]]
             or sorted(refined, key=lambda case: case["after"]["cells"])[-1:])
@@ -220,14 +220,14 @@ def time_section(cases, cores):
     if not cases:
         return ""
     repeats = cases[0]["runs"][0]["repeats"]
-    of = f"Medians of {repeats} runs" if repeats > 1 else "Of one run"
+    of = f"Medians of {repeats} runs" if repeats > 1 else "One run"
     charts = [figure(plots.phases(case),
                      f"<b>{escape(case['name'])}</b>, {count(case['before']['cells'])} to "
                      f"{count(case['after']['cells'])} cells: every step on 1, 2, 3 and 4 ranks, "
                      "as in the paper's Figure 10.") for case in cases]
-    return ("<h2>Where the time goes</h2><p>Seconds by the wall clock, the mean of ranks; "
-            f"communicating is mostly waiting. {of}. This machine has {plural(cores, 'core')}: "
-            "more ranks than that take turns on them, so their times say nothing about scaling.</p>"
+    return ("<h2>Time of the steps</h2><p>Wall-clock seconds, averaged over ranks; "
+            f"communicating is mostly waiting. {of}. This machine has {plural(cores, 'core')}, which "
+            "more ranks must share, so that their times do not show scaling.</p>"
             + legend([("computing", "computing"), ("communicating", "communicating")])
             + "".join(charts))
 
@@ -237,8 +237,8 @@ def scaling_figure(case, cores):
     return figure(plots.scaling(case, cores),
                   f"<b>{escape(case['name'])}</b>, {count(case['after']['cells'])} cells: on one "
                   f"rank refinement takes {seconds(one['refining_seconds'])} of "
-                  f"{seconds(one['seconds'])}. Medians of {plural(case['runs'][0]['repeats'], 'run')}, of which the slowest "
-                  f"takes up to {max(run_of(case, ranks).get('refining_spread', 1) for ranks in (1, 2, 3, 4)):.2f} times the fastest.")
+                  f"{seconds(one['seconds'])}. Medians of {plural(case['runs'][0]['repeats'], 'run')}; the slowest "
+                  f"takes up to {max(run_of(case, ranks).get('refining_spread', 1) for ranks in (1, 2, 3, 4)):.2f} times as long as the fastest.")
 
 
 def scaling_section(cases, cores):
@@ -247,9 +247,9 @@ def scaling_section(cases, cores):
         return ""
     return ("<h2>Strong scaling</h2>"
             + legend([("refining_seconds", "refinement itself"),
-                      ("seconds", "the whole run: reading, partition and writing too")])
-            + '<p class="faint">Speed against one rank; dashed: as many times as fast as there are '
-            "ranks.</p><div class=plots>"
+                      ("seconds", "the whole run, with reading, partition and writing")])
+            + '<p class="faint">Speedup over one rank; dashed: ideal speedup'
+            ".</p><div class=plots>"
             + "".join(scaling_figure(case, cores) for case in cases) + "</div>")
 
 
@@ -272,31 +272,31 @@ def case_details(case):
     html = f"<pre>{escape(commands(case))}</pre>" + runs_table(case)
     if case["verdict"] is None:
         message = case["reference"]["message"]
-        html += f"<p>All say: <code>{escape(message)}</code></p>"
+        html += f"<p>Message of all runs: <code>{escape(message)}</code></p>"
         return details(escape(case["name"]), html)
     arithmetic = case["verdict"]["arithmetic"]
     html += (files_table(case) + checks_table(case["verdict"]) +
              f'<p class="faint">Verified in {seconds(case["verdict"]["seconds"])}: '
-             f"{count(arithmetic['filtered'])} decisions by floating point with a bound on its "
-             f"error, {count(arithmetic['exact'])} by exact numbers.</p>")
+             f"{count(arithmetic['filtered'])} decisions by floating point with an error bound, "
+             f"{count(arithmetic['exact'])} by exact arithmetic.</p>")
     return details(escape(case["name"]), html)
 
 
 def runs_section(cases):
     return "<h2>Every run</h2>" + details(
-        "commands, runs, fingerprints of the files, and the verifier's checks, case by case",
+        "commands, runs, hashes of the files, and checks of the verifier, by case",
         "".join(map(case_details, cases)), "appendix")
 
 
 def page(report, folder, benchmarks=None):
-    """The whole page; pictures are taken from `folder`. `benchmarks`: what ./dev bench found, if it
-    was run."""
+    """The whole page; pictures are read from `folder`. `benchmarks`: results of ./dev bench, if
+    there are any."""
     cases, machine, loops = report["cases"], report["machine"], report.get("loops", [])
     timed, cores = timed_cases(cases), machine["cores"]
     with open(STYLE, encoding="utf-8") as file:
         style = file.read()
     body = ('<p class="faint">Octetra: equivalence report</p>'
-            f"<h1>Does refinement give the same bytes everywhere?</h1>{where(report)}"
+            f"<h1>Is the result of refinement identical in all runs?</h1>{where(report)}"
             + verdict(totals(report)) + faults_section(cases, loops) + load_notice(machine) + words_section()
             + cases_section(cases) + loop_section.section(loops) + picture_section(report, folder) + paper_section(cases)
             + angles_section(cases) + balance_section(cases) + time_section(timed, cores)

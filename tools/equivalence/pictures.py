@@ -8,11 +8,11 @@ from running import must, run
 
 RENDER = os.path.join(ROOT, "tools", "render.py")
 RANKS = 4
-NOTHING = ["--random", "0", "--seed", "1"]  # chooses no cell: the mesh as it was, shared out
+NOTHING = ["--random", "0", "--seed", "1"]  # selects no cell: the distributed input
 
 
 def pieces(case, mesh, place, criteria, name):
-    """A mesh as the ranks have it, in pieces."""
+    """A mesh as distributed over the ranks, in pieces."""
     path = os.path.join(place.folder, name)
     must(["mpirun", "-n", str(RANKS), place.octetra, "refine", mesh, *criteria, "--quiet",
           "-o", path], place.folder)
@@ -20,8 +20,8 @@ def pieces(case, mesh, place, criteria, name):
 
 
 def draw(case, place, output):
-    """Draws the mesh before and after into `output`, a .png. Returns why there is no picture, and
-    "" if there is one."""
+    """Draws the mesh before and after into `output`, a .png. Returns the reason if there is no
+    picture, otherwise ""."""
     mesh = coarse_mesh(case, place)
     before = pieces(case, mesh, place, NOTHING, "before.pvtu")
     after = pieces(case, mesh, place, case.refine.split(), "after.pvtu")

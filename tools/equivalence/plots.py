@@ -1,9 +1,9 @@
-"""The plots of the report, drawn from what was measured."""
+"""The plots of the report."""
 
 from charts import Frame, bar, line, path, text
 from words import count, seconds
 
-# The steps of the paper's algorithm, and the phases of a profile that each consists of.
+# The steps of the paper's algorithm, and the phases of a profile that constitute each.
 STEPS = [
     ("partition,|distribute", ("partition", "distribute", "interfaces")),
     ("select,|local LEPP", ("number edges", "select", "closure")),
@@ -21,7 +21,7 @@ def shares(histogram):
 
 
 def outline(frame, values):
-    """The steps over the bins of a histogram, as points."""
+    """The outline of a histogram, as points."""
     points = [(frame.x(0), frame.y(0))]
     for i, value in enumerate(values):
         points += [(frame.x(i / len(values)), frame.y(value)),
@@ -30,8 +30,8 @@ def outline(frame, values):
 
 
 def histogram(before, after, title, unit, marks):
-    """Two histograms with the same bins over each other, in per cent; `marks` are the numbers to
-    write below the axis."""
+    """Two histograms with the same bins, superimposed, in per cent; `marks` are the labels of the
+    axis."""
     old, new = shares(before), shares(after)
     frame = Frame(530, 250, max(old + new))
     frame.y_axis("%")
@@ -59,7 +59,7 @@ def mean_ratios(case):
 
 
 def cells_per_rank(cells_of_rank):
-    """Bars for the cells of each rank, before and after; the line is the even share."""
+    """Bars for the cells of each rank, before and after; the line is the mean."""
     first, last = cells_of_rank[0], cells_of_rank[-1]
     ranks = len(last)
     of_first, of_last = ([100 * c / sum(level) for c in level] for level in (first, last))
@@ -77,7 +77,7 @@ def cells_per_rank(cells_of_rank):
     even = frame.y(100 / ranks)
     frame.parts.append(line(frame.left, even, frame.right, even, "even"))
     frame.x_title("rank")
-    return frame.svg(f"Share of the cells of each of {ranks} ranks, before and after")
+    return frame.svg(f"Fraction of the cells on each of {ranks} ranks, before and after")
 
 
 def neighbour_runs(case):
@@ -85,14 +85,14 @@ def neighbour_runs(case):
 
 
 def step_seconds(run, phases):
-    """What a run spent computing and communicating in these phases."""
+    """Seconds that a run spent computing and communicating in these phases."""
     found = [run["figures"]["phases"][phase] for phase in phases
              if phase in run["figures"]["phases"]]
     return (sum(f["computing"] for f in found), sum(f["communicating"] for f in found))
 
 
 def phases(case):
-    """Like the paper's Figure 10: for each step, a bar for each number of ranks, computing below
+    """As in the paper's Figure 10: for each step, a bar for each number of ranks, computing below
     communicating."""
     runs = neighbour_runs(case)
     heights = [[step_seconds(run, of) for run in runs] for _, of in STEPS]
@@ -128,7 +128,7 @@ def phase_bars(frame, left, wide, height, of_second, hint):
 
 
 def scaling(case, cores):
-    """Speed against one rank; where ranks outnumber the cores, the ground is shaded."""
+    """Speedup over one rank; the background is shaded where ranks outnumber the cores."""
     runs = neighbour_runs(case)
     most = max(run["ranks"] for run in runs)
     curves = [(key, [(run["ranks"], runs[0]["figures"][key] / run["figures"][key])
@@ -153,4 +153,4 @@ def scaling(case, cores):
     for n in range(1, most + 1):
         frame.parts.append(text(x(n), frame.bottom + 16, str(n)))
     frame.x_title("ranks")
-    return frame.svg("Speed against one rank, over the number of ranks")
+    return frame.svg("Speedup over one rank, by number of ranks")

@@ -1,4 +1,4 @@
-"""Runs programs and says what came of it."""
+"""Runs programs and returns their outcomes."""
 
 import os
 import pathlib
@@ -6,7 +6,7 @@ import subprocess
 import time
 from dataclasses import dataclass
 
-TIMEOUT = 600  # seconds; a run that hangs is a failure, not a wait for ever
+TIMEOUT = 600  # seconds; a run that takes longer has failed
 TOO_LONG = 124  # the status of such a run
 
 SETTINGS = pathlib.Path(__file__).resolve().parent.parent / "mpi.env"
@@ -22,15 +22,15 @@ MPI_ENVIRONMENT = mpi_environment()
 
 
 class Failure(Exception):
-    """The report cannot be made, for this reason."""
+    """The report cannot be made, for the given reason."""
 
 
 @dataclass(frozen=True)
 class Outcome:
-    status: int  # of the process; TOO_LONG if it was ended for that
+    status: int  # of the process; TOO_LONG if it exceeded TIMEOUT
     out: str
     err: str
-    seconds: float  # by the wall clock, start of processes included
+    seconds: float  # by the wall clock, including the start of processes
 
 
 def run(command, folder, timeout=TIMEOUT):
@@ -52,7 +52,7 @@ def run(command, folder, timeout=TIMEOUT):
 
 
 def end(process):
-    """An mpirun that is asked to end ends its ranks; one that is killed may leave them behind."""
+    """mpirun ends its ranks on SIGTERM; on SIGKILL it may leave them running."""
     process.terminate()
     try:
         process.communicate(timeout=10)
@@ -62,12 +62,12 @@ def end(process):
 
 
 def must(command, folder):
-    """Runs a command that the report cannot do without; returns what it printed."""
+    """Runs a command that the report requires; returns its output."""
     return printed(command, run(command, folder))
 
 
 def printed(command, outcome):
-    """What it printed; raises Failure if it failed."""
+    """Returns the output; raises Failure if the command failed."""
     if outcome.status != 0:
         raise Failure(f"'{' '.join(map(str, command))}' ended with status {outcome.status}:\n"
                       f"{outcome.err.strip()}")
@@ -75,7 +75,7 @@ def printed(command, outcome):
 
 
 def own_message(outcome):
-    """The line in which octetra says why it failed, without what mpirun adds; empty if none."""
+    """The error message of octetra, without the output of mpirun; empty if there is none."""
     for line in outcome.err.splitlines():
         if line.startswith("octetra: ") and not line.startswith("octetra: note: "):
             return line

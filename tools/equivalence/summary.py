@@ -1,10 +1,10 @@
-"""What all cases together come to."""
+"""Totals over all cases."""
 
 from cases import PAPER_COUNTS
 
 
 def totals(report):
-    """Counts over all cases and loops; `good` is the answer of the report."""
+    """Counts over all cases and loops; `good` is the result of the report."""
     cases, loops = report["cases"], report.get("loops", [])
     refined = [case for case in cases if case["after"]]
     runs = [run for case in cases for run in case["runs"]]
@@ -31,14 +31,14 @@ def totals(report):
 
 
 def run_of(case, ranks, sync="neighbour"):
-    """The figures of a run; None where it has none."""
+    """The figures of a run; None if there are none."""
     return next((run["figures"] for run in case["runs"]
                  if (run["ranks"], run["sync"]) == (ranks, sync)), None)
 
 
 def paper_rows(cases):
-    """The paper's refinements beside ours: (case, paper before, paper after), the counts of the
-    paper as (vertices, cells), None where it has none."""
+    """The paper's refinements beside ours: (case, paper before, paper after); the paper's counts
+    are (vertices, cells), with None for missing ones."""
     by_name = {case["name"]: case for case in cases}
     return [(by_name[name], before, after) for name, before, after in PAPER_COUNTS
             if name in by_name]

@@ -17,14 +17,14 @@ def row(*cells):
 
 
 def table(head, rows, label, kind=""):
-    """Wide tables scroll by themselves."""
+    """Wide tables scroll separately."""
     return (f'<div class="wide"><table class="{kind}" aria-label="{escape(label)}">'
             f"<thead>{head}</thead><tbody>"
             + "".join(rows) + "</tbody></table></div>")
 
 
 def heads(*names):
-    """The first over words, the others over numbers."""
+    """The first heading is that of words, the others those of numbers."""
     return "<tr>" + "".join(f"<th{'' if i == 0 else ' class=number'}>{name}</th>"
                             for i, name in enumerate(names)) + "</tr>"
 
@@ -83,7 +83,7 @@ def cases_table(cases):
 
 
 def counts(vertices_and_cells):
-    """As in "527 / 1,803"; a dash where the paper has no number, or none that can be right."""
+    """As in "527 / 1,803"; a dash if the paper has no count, or a wrong one."""
     return " / ".join("–" if n is None else count(n) for n in vertices_and_cells)
 
 
@@ -130,7 +130,7 @@ def run_row(run):
 
 def runs_table(case):
     head = heads("run", "same", "time", "of it refining", "rounds", "all messages · bytes",
-                 "most memory of a rank")
+                 "peak memory of a rank")
     return table(head, [run_row(run) for run in case["runs"]], f"Runs of {case['name']}")
 
 

@@ -1,4 +1,4 @@
-"""A display for VTK, which draws through X only."""
+"""A display for VTK, which draws only through X."""
 
 import contextlib
 import ctypes
@@ -10,7 +10,7 @@ from rendering.failure import Failure
 
 
 def can_open_display():
-    """Tried beforehand, for VTK aborts where it cannot."""
+    """Tests the display, because VTK aborts if it cannot be opened."""
     if not os.environ.get("DISPLAY"):
         return False
     x11 = ctypes.CDLL("libX11.so.6")
@@ -20,13 +20,13 @@ def can_open_display():
 
 @contextlib.contextmanager
 def display():
-    """Debian's VTK draws through X only. An X server in memory (Xvfb) of our own is the same on
-    every machine, so it is preferred to the display that the user may have."""
+    """Debian's VTK draws only through X. A separate X server in memory (Xvfb) is the same on every
+    machine, and is therefore preferred to the user's display."""
     xvfb = shutil.which("Xvfb")
     if xvfb is None:
         if not can_open_display():
-            raise Failure("VTK needs an X server to draw, and DISPLAY names none.\n"
-                          "On Debian: apt-get install xvfb; it is then started by itself.")
+            raise Failure("VTK requires an X server for drawing, and DISPLAY is not set to one.\n"
+                          "On Debian: apt-get install xvfb; it is then started automatically.")
         yield
         return
     read_end, write_end = os.pipe()
@@ -36,9 +36,9 @@ def display():
     try:
         os.close(write_end)
         with os.fdopen(read_end) as ready:
-            number = ready.readline().strip()  # once it is ready; nothing if it failed
+            number = ready.readline().strip()  # the number, once it is ready; empty if it failed
         if not number:
-            raise Failure("Xvfb, the X server that VTK would draw with, did not start")
+            raise Failure("Xvfb, the X server for VTK, did not start")
         os.environ["DISPLAY"] = f":{number}"
         yield
     finally:

@@ -1,5 +1,5 @@
-"""How the parts of render.py end it."""
+"""Reports failures of the parts of render.py."""
 
 
 class Failure(Exception):
-    """What the user is told before the program ends."""
+    """A message that is printed before the program ends."""

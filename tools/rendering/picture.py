@@ -13,9 +13,9 @@ import vtkmodules.vtkRenderingOpenGL2  # noqa: F401  (draws the rest)
 from rendering.failure import Failure
 from rendering.surfaces import quality_colours
 
-SUPERSAMPLING = 2  # the picture is drawn this many times larger, then shrunk
+SUPERSAMPLING = 2  # the picture is drawn larger by this factor, then shrunk
 CAPTION_SHARE = 0.09  # of the height
-BAR_SHARE = 0.13  # of the height, where there is a colour bar
+BAR_SHARE = 0.13  # of the height, if there is a colour bar
 
 WHITE = (1.0, 1.0, 1.0)
 INK = (0.13, 0.15, 0.2)
@@ -76,7 +76,7 @@ def colour_bar(font_size):
 
 
 def light(towards, intensity):
-    """Shines from a direction that goes with the camera: x to the right, y up, z to the eye."""
+    """A light whose direction is fixed relative to the camera: x to the right, y up, z to the eye."""
     lamp = vtkLight()
     lamp.SetLightTypeToCameraLight()
     lamp.SetPosition(towards)
@@ -111,7 +111,8 @@ def unit(v):
 
 
 def view_direction(options):
-    """From the mesh to the eye: as asked, else half from above, on the open side of a clip."""
+    """The direction from the mesh to the eye: the requested one, else from obliquely above, on the
+    open side of a clip."""
     if options.view:
         return unit(options.view)
     towards_eye = [0.6, -1.0, 0.55]
@@ -121,7 +122,7 @@ def view_direction(options):
 
 
 def aim(camera, surfaces, aspect, towards_eye):
-    """Sees the surfaces as large as they fit, in parallel projection."""
+    """Fits the surfaces into the picture, in parallel projection."""
     right = unit(cross((0, 0, 1), towards_eye))
     axes = (right, cross(towards_eye, right), towards_eye)  # of the picture: x, y, to the eye
     points = [surface.GetPoint(i) for surface in surfaces
@@ -145,7 +146,7 @@ def union_of(bounds):
 
 
 def draw(surfaces, captions, bounds, options, color):
-    """The picture as VTK image data, drawn without a visible window."""
+    """Returns the picture as VTK image data, drawn without a visible window."""
     width, height = (SUPERSAMPLING * side for side in options.size)
     window = vtkRenderWindow()
     window.SetOffScreenRendering(True)

@@ -14,8 +14,9 @@ from vtkmodules.vtkRenderingCore import vtkColorTransferFunction
 from rendering.failure import Failure
 
 OUTSIDE = (168, 192, 216)  # faces of the mesh's own surface
-INSIDE = (240, 205, 142)  # faces that a clip laid open
-# Told apart by most eyes, also in grey (after Okabe and Ito), and light enough for dark edges.
+INSIDE = (240, 205, 142)  # faces exposed by a clip
+# Distinguishable for most people, also in grey (after Okabe and Ito), and light enough for dark
+# edges.
 PALETTE = [(134, 187, 222), (240, 190, 110), (120, 198, 164), (222, 150, 182), (244, 230, 130),
            (190, 190, 190), (226, 140, 100), (150, 160, 214)]
 QUALITY_COLOURS = [(0.0, 0.55, 0.10, 0.16), (0.25, 0.84, 0.38, 0.27), (0.5, 0.97, 0.76, 0.46),
@@ -58,7 +59,7 @@ def with_quality(grid):
 
 
 def add_numbers(attributes, name, count):
-    """Gives every point or cell its number as an attribute, which filters then pass on."""
+    """Adds the number of every point or cell as an attribute, which filters preserve."""
     array = vtkIdTypeArray()
     array.SetName(name)
     array.SetNumberOfTuples(count)
@@ -68,7 +69,7 @@ def add_numbers(attributes, name, count):
 
 
 def crinkle_clip(grid, clip):
-    """Whole cells: those that the plane passes through stay."""
+    """Removes whole cells; those that the plane intersects stay."""
     plane = vtkPlane()
     plane.SetOrigin(clip[:3])
     plane.SetNormal(clip[3:])
@@ -89,7 +90,7 @@ def surface_of(grid):
 
 
 def triangles(surface):
-    """The vertex numbers of each triangle, as in the whole mesh, in ascending order."""
+    """The vertex numbers of each triangle in the whole mesh, in ascending order."""
     vertices = surface.GetPointData().GetArray("vertex")
     corners = memoryview(surface.GetPolys().GetConnectivityArray()).tolist()
     names = [vertices.GetValue(p) for p in corners]
@@ -98,7 +99,7 @@ def triangles(surface):
 
 
 def scattered(number):
-    """A light colour that differs between neighbouring numbers, the same at every call."""
+    """A light colour that differs between adjacent numbers, and is the same in every call."""
     mixed = (number * 0x9E3779B97F4A7C15) & 0xFFFFFFFFFFFFFFFF
     base = PALETTE[(mixed >> 40) % len(PALETTE)]
     lightness = 0.82 + 0.18 * ((mixed >> 20) % 256) / 255

@@ -14,14 +14,15 @@ namespace {
 template <std::size_t N>
 using Numbers = std::array<std::uint64_t, N>;  // of vertices, ascending
 
-/// A cell of this part that has an edge or a face, and the vertices in the order of their numbers.
+/// A cell of this part that has an edge or a face, and its vertices in the order of their numbers.
 template <std::size_t N>
 struct Place {
     CellIndex cell;
     std::array<VertexIndex, N> vertices;
 };
 
-/// All that lie at the boundary of this part; an edge with all its cells that have faces there.
+/// The edges and faces at the boundary of this part; for an edge all its cells that have boundary
+/// faces at it.
 struct PartBoundary {
     std::map<Numbers<2>, std::vector<Place<2>>> edges;
     std::map<Numbers<3>, std::vector<Place<3>>> faces;
@@ -58,7 +59,7 @@ PartBoundary boundary_of(const CellGraph& graph,
     return boundary;
 }
 
-/// Collective. For each entry, in order, the other ranks that have one by the same numbers.
+/// Collective. For each entry, in order, the other ranks that have an entry with the same numbers.
 template <std::size_t N>
 std::vector<std::vector<int>> others_of(const ProcessGroup& ranks,
                                         const std::map<Numbers<N>, std::vector<Place<N>>>& places,
@@ -77,7 +78,7 @@ std::vector<std::vector<int>> others_of(const ProcessGroup& ranks,
             if (list.size() > most_ranks) throw InputError("three cells have a face in common");
         }
     });
-    std::vector<std::vector<int>> answers(size);  // how many, and which
+    std::vector<std::vector<int>> answers(size);  // their number, and the ranks
     for (std::size_t r = 0; r < size; ++r) {
         for (const auto& numbers : questions[r]) {
             const std::vector<int>& list = ranks_of.at(numbers);

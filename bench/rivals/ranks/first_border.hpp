@@ -8,10 +8,10 @@
 
 namespace octetra::rivals {
 
-/// Collective. What the ranks' parts have in common, by the vertices' numbers in the whole mesh: of
-/// each edge and face at the boundary of a part a rank that its numbers determine hears which
-/// others have it. The graph comes to know the rows around shared edges. Throws InputError on all
-/// ranks where parts have more than two cells at a face.
+/// Collective. Finds the entities that parts share by the global numbers of their vertices: a
+/// rendezvous rank notifies the sharers of each edge and face at the boundary of a part. Adds the
+/// rows around shared edges to the graph. Throws InputError on all ranks if a face has more than
+/// two cells.
 [[nodiscard]] Border first_border(const ProcessGroup& ranks, CellGraph& graph,
                                   const IndexVector<VertexIndex, std::uint64_t>& vertex_numbers);
 

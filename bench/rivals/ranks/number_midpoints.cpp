@@ -11,12 +11,12 @@ namespace {
 
 using Ends = std::array<std::uint64_t, 2>;
 
-/// Collective. The numbers of the midpoints of edges, from `first` on in the order of their ends,
-/// and `first` becomes the one after the last.
+/// Collective. Returns the numbers of the midpoints of edges, from `first` in the order of their
+/// ends, and advances `first` behind the last.
 std::vector<std::uint64_t> numbers_of(const ProcessGroup& ranks, const std::vector<Ends>& edges,
                                       std::uint64_t& first) {
     const auto size = static_cast<std::size_t>(ranks.size());
-    const std::uint64_t block = (first + size - 1) / size;  // rank by rank, of the lower ends
+    const std::uint64_t block = (first + size - 1) / size;  // lower ends per rank
     std::vector<std::vector<Ends>> asked(size);
     for (const Ends& ends : edges) asked[ends[0] / block].push_back(ends);
     const auto questions = all_to_all(ranks, asked);

@@ -8,9 +8,9 @@
 
 namespace octetra::rivals {
 
-/// Collective. Gives this rank's midpoints the numbers that TerminalEdgeMesh says, level by level:
-/// a rank that the ends of an edge determine numbers its midpoint, whoever has it. Appended to the
-/// numbers of the input's vertices, of which the whole mesh has so many.
+/// Collective. Appends to `vertex_numbers` the numbers of this rank's midpoints as defined by
+/// TerminalEdgeMesh, level by level. A rendezvous rank determined by the ends of an edge numbers
+/// its midpoint. The whole mesh has `input_points` vertices of the input.
 void number_midpoints(const ProcessGroup& ranks, std::uint64_t input_points,
                       const std::vector<EdgeVertices>& midpoint_to_edge,
                       IndexVector<VertexIndex, std::uint64_t>& numbers);

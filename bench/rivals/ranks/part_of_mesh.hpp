@@ -7,15 +7,14 @@
 
 namespace octetra::rivals {
 
-/// What one rank has of a mesh: whole cells and their vertices, and what numbers these have in the
-/// whole mesh.
+/// A rank's part of a mesh: cells with their vertices, and the global numbers of these vertices.
 struct PartOfMesh {
     Mesh mesh;  ///< points, cells and regions
     IndexVector<VertexIndex, std::uint64_t> vertex_numbers;
-    IndexVector<CellIndex, std::uint64_t> roots;  ///< of the input's cells that cells descend from
+    IndexVector<CellIndex, std::uint64_t> roots;  ///< global numbers of the cells' roots
 };
 
-/// The cells of this part, in their order. Vertices of no cell are the first part's.
+/// Returns the cells of this part, in their order. Vertices of no cell belong to the first part.
 [[nodiscard]] PartOfMesh part_of(const Mesh& whole, const std::vector<int>& part_of_cell, int part);
 
 }  // namespace octetra::rivals

@@ -10,10 +10,10 @@
 #include <octetra/core/error.hpp>
 #include <octetra/core/process_group.hpp>
 
-/// What ranks tell each other, in terms of vectors. Both functions are collective.
+/// Communication between ranks in terms of vectors. Both functions are collective.
 namespace octetra::rivals {
 
-/// to_each[r] goes to rank r; the result's [r] came from there.
+/// Sends to_each[r] to rank r; element r of the result was received from rank r.
 template <class T>
 std::vector<std::vector<T>> all_to_all(const ProcessGroup& ranks,
                                        const std::vector<std::vector<T>>& to_each) {
@@ -31,8 +31,8 @@ std::vector<std::vector<T>> all_to_all(const ProcessGroup& ranks,
     return from_each;
 }
 
-/// Runs `work`, in which nothing is collective, on every rank. An InputError that one throws is
-/// thrown on all; of several, that of the lowest rank.
+/// Runs `work`, which must not be collective, on every rank. Throws the InputError of the lowest
+/// rank that failed on all ranks.
 inline void on_each(const ProcessGroup& ranks, const std::function<void()>& work) {
     std::string failure;
     try {

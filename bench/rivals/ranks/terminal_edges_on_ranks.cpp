@@ -16,25 +16,25 @@
 namespace octetra::rivals {
 namespace {
 
-/// What a message says of an edge that sender and receiver have.
+/// A message about an edge shared by sender and receiver.
 struct Word {
     std::uint32_t code = 0;
 
     Word() = default;
     Word(std::uint32_t number, bool is_ready) : code(number << 1U | (is_ready ? 1U : 0U)) {}
     [[nodiscard]] std::uint32_t number() const { return code >> 1U; }
-    [[nodiscard]] bool is_ready() const { return (code & 1U) != 0; }  // or only wanted
+    [[nodiscard]] bool is_ready() const { return (code & 1U) != 0; }  // otherwise only wanted
 };
 
 using Words = std::vector<std::vector<Word>>;  // for each rank, or from it
 
-/// One goal of one rank.
+/// The progress of one rank towards one goal.
 class Rank {
 public:
     Rank(const ProcessGroup& ranks, Cutting& cutting, Border& border)
         : ranks_(&ranks), cutting_(&cutting), border_(&border) {}
 
-    /// What was told, and then all that can be done without the others.
+    /// Applies received messages, and then does everything that needs no communication.
     void work(const Words& told) {
         hear(told);
         for (const SharedEdgeIndex e : std::exchange(agreed_, {})) {
@@ -50,7 +50,7 @@ public:
         }
     }
 
-    /// Whoever is ready wants it as well, so one word will do.
+    /// Readiness implies that the rank wants the edge, so one message suffices.
     Words speak() {
         Words words(static_cast<std::size_t>(ranks_->size()));
         std::vector<WantedEdges::Edge> ready;

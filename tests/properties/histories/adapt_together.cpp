@@ -33,12 +33,12 @@ using distributed::StepOptions;
 /// A byte for each cell of this rank.
 using Marks = std::vector<std::uint8_t>;
 
-/// What was marked for a refinement, of the cells before it.
+/// The cells marked for a refinement, in the numbering before it.
 struct Marked {
     Marks cells;
     Scheme scheme = Scheme::eight;
-    std::vector<std::uint32_t> parents;  ///< of each cell after it, the one before
-    Marks made;                          ///< the cells after it that were not there before
+    std::vector<std::uint32_t> parents;  ///< for each cell after it, the cell before
+    Marks made;                          ///< the cells that the refinement made
 };
 
 Marks marked_by(const Selection& selection, const AdaptiveMesh& mesh, const Pasts& pasts) {
@@ -72,8 +72,8 @@ std::vector<EdgeVertices> edges_of(const AdaptiveMesh& mesh, const Marks& marks)
     return edges;
 }
 
-/// For each root of this process a rank that only the turn and the root decide: now and then all
-/// that there are, else the first few.
+/// Maps each root of this process to a rank that depends only on the turn and the root: among all
+/// ranks, or among the first few.
 std::vector<int> drawn_ranks(const AdaptiveMesh& mesh, std::uint64_t turn) {
     const auto ranks = static_cast<std::size_t>(mesh.processes().size());
     const std::size_t used = 1 + Draw(turn).below(ranks);
@@ -84,7 +84,7 @@ std::vector<int> drawn_ranks(const AdaptiveMesh& mesh, std::uint64_t turn) {
     return rank_of_root;
 }
 
-/// A rank's part of the mesh that a history makes; nothing on ranks that have none of it.
+/// A rank's part of the mesh of a history; nothing on ranks without a part.
 class Part {
 public:
     explicit Part(const Case& c) : case_(&c) {
@@ -100,7 +100,7 @@ public:
     [[nodiscard]] const CarriedValues& values() const { return values_; }
     [[nodiscard]] const std::string& fault() const { return fault_; }
 
-    /// Did it change anything?
+    /// Returns whether the step changed the mesh.
     bool make(const Step& step, std::uint64_t turn) {
         const auto last = std::exchange(last_, {});
         const auto taken_back = std::exchange(taken_back_, {});
@@ -133,7 +133,7 @@ public:
             for (auto& field : fields_of(values_)) fields.push_back(std::move(field));
             mesh_->save(file, fields);
         }
-        (void)test::world().sum(0);  // those that have no part wait for the file
+        (void)test::world().sum(0);  // ranks without a part wait for the file
         mesh_.reset();
         const distributed::Communicator group = first_ranks(ranks);
         if (test::world().rank() >= std::min(ranks, test::world().size())) return;
@@ -144,7 +144,7 @@ public:
         values_ = values_of(fields);
     }
 
-    /// Writes the mesh, and goes on with what is read, by the ranks that have a part.
+    /// Writes the mesh, and continues with the mesh that is read from the file.
     void rewrite(const std::filesystem::path& folder, const Format& format, std::uint64_t turn) {
         last_.reset();
         taken_back_.reset();
@@ -156,7 +156,7 @@ public:
     }
 
 private:
-    /// A mesh that nothing was done to.
+    /// Starts with a mesh to which no step has been applied.
     void begin(AdaptiveMesh mesh, const std::vector<CellVertices>& input) {
         mesh_ = std::make_unique<AdaptiveMesh>(std::move(mesh));
         pasts_ = first_pasts(*mesh_, input);
@@ -171,7 +171,7 @@ private:
 
     [[nodiscard]] Marks none() const { return Marks(mesh_->cells().size(), 0); }
 
-    /// What an Adaptation tells must be of the cells that there are.
+    /// Checks that the values of an Adaptation match the present cells.
     void take(Pasts pasts, CarriedValues values) {
         pasts_ = std::move(pasts);
         values_ = std::move(values);
@@ -182,7 +182,7 @@ private:
 
     void take(const Migration& move) { take(moved(pasts_, move), moved(std::move(values_), move)); }
 
-    /// By the selection, where it is given; else by bytes, a list or, where that is the same,
+    /// Refines by the selection, if there is one; else by bytes, a list or, where it is equivalent,
     /// edges.
     Adaptation refined_by(const Marks& marks, const StepOptions& options,
                           const Selection* selection, std::uint64_t turn) {
@@ -244,11 +244,12 @@ private:
     Pasts pasts_;
     CarriedValues values_;
     std::string fault_;
-    std::optional<Marked> last_;        ///< if the step before refined
-    std::optional<Marked> taken_back_;  ///< if the step before took that back
+    std::optional<Marked> last_;        ///< if the previous step refined
+    std::optional<Marked> taken_back_;  ///< if the previous step took that back
 };
 
-/// Collective among the mesh's processes. Adds what the first one sees of the mesh after a step.
+/// Collective among the mesh's processes. Adds the first rank's observations of the mesh after a
+/// step.
 void look_at(const Part& part, bool at_sharers_too, Stage& stage, Adapted& adapted) {
     const AdaptiveMesh& mesh = *part.mesh();
     stage.mesh = mesh.collect();
@@ -260,7 +261,7 @@ void look_at(const Part& part, bool at_sharers_too, Stage& stage, Adapted& adapt
     adapted.values.push_back(of_the_whole(part.values(), mesh, stage.mesh));
 }
 
-/// Collective. On the first rank, what some rank says.
+/// Collective. On the first rank, a message that some rank has, or an empty string.
 std::string of_any(const std::string& words) {
     for (const auto& said : test::world().gather(std::vector<char>(words.begin(), words.end()))) {
         if (!said.empty()) return {said.begin(), said.end()};
@@ -289,7 +290,7 @@ Adapted adapt_together(const Case& c, const std::filesystem::path& folder) {
                 stage.refusal = error.what();
             }
         }
-        // What they share is looked at now and then: it takes longer than the step.
+        // Sharers are checked only sometimes: this takes longer than the step.
         if (part.mesh() != nullptr) look_at(part, turn % 4 == 0, stage, adapted);
         adapted.stages.push_back(std::move(stage));
     }

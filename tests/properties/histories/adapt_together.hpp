@@ -9,21 +9,21 @@
 
 namespace octetra::properties {
 
-/// The history of a case as all ranks have made it: what the first one knows of it.
+/// The history of a case as made by all ranks, as far as the first rank knows it.
 struct Adapted {
-    std::vector<Stage> stages;        ///< of each step
+    std::vector<Stage> stages;        ///< after each step
     std::vector<WholeValues> values;  ///< after each step
-    std::string checkpoint;           ///< the bytes of the last one that a step saved
-    /// Where numbers that a rank told were not those of the whole mesh.
+    std::string checkpoint;           ///< contents of the last checkpoint that a step saved
+    /// Describes numbers of a rank that differ from those of the whole mesh.
     std::string fault_of_numbers;
-    /// Where ranks were wrong about what they share.
+    /// Describes sharers that a rank reported wrongly.
     std::string fault_of_sharers;
-    /// Where an Adaptation told of cells that went back though they should not have.
+    /// Describes cells that an Adaptation coarsened against the rules.
     std::string fault_of_pasts;
 };
 
-/// Collective. `c` is the same on all ranks but for the mesh and `cell_to_rank`, which the first
-/// one alone has; files go into the folder.
+/// Collective. `c` is the same on all ranks except for the mesh and `cell_to_rank`, which only the
+/// first rank has; files are written to the folder.
 [[nodiscard]] Adapted adapt_together(const Case& c, const std::filesystem::path& folder);
 
 }  // namespace octetra::properties

@@ -73,10 +73,10 @@ std::vector<double> whole_of_cells(const AdaptiveMesh& mesh, const std::vector<d
 std::string fault_on_vertices(const RefinementMaps& maps, const std::vector<double>& values) {
     const std::size_t first = maps.first_midpoint.value();
     if (values.size() != first + maps.midpoint_to_edge.size()) {
-        return "there are not as many values as vertices";
+        return "the numbers of values and vertices differ";
     }
     for (std::size_t v = 0; v < first; ++v) {
-        // A vertex of no cell may be on no rank, and has no value then.
+        // A vertex of no cell may be on no rank; it has no value then.
         if (!std::isnan(values[v]) && values[v] != value_of_input_vertex(v)) {
             return "a vertex of the input has lost its value";
         }
@@ -84,7 +84,7 @@ std::string fault_on_vertices(const RefinementMaps& maps, const std::vector<doub
     for (std::size_t i = 0; i < maps.midpoint_to_edge.size(); ++i) {
         const auto [a, b] = maps.midpoint_to_edge[i];
         if (values[first + i] != (values[a.value()] + values[b.value()]) / 2) {
-            return "a midpoint has not the mean of its ends";
+            return "a midpoint does not have the mean of its ends";
         }
     }
     return {};
@@ -102,12 +102,12 @@ std::string fault_on_cells(const Mesh& mesh, const RefinementMaps& maps, const M
         if (static_cast<double>(whole_parts) != parts ||
             test::exact_volume(test::corners_of(mesh, c), scale) * whole_parts !=
                 test::exact_volume(test::corners_of(input, root), scale)) {
-            return "a cell has another share of its root's value than of its volume";
+            return "the value of a cell is not proportional to its volume";
         }
         sums[root.value()] += value;
     }
     for (std::size_t root = 0; root < sums.size(); ++root) {
-        if (sums[root] != value_of_root(root)) return "the sum over a root's cells is another";
+        if (sums[root] != value_of_root(root)) return "the sum over a root's cells has changed";
     }
     return {};
 }

@@ -8,16 +8,17 @@
 #include "support/nesting.hpp"
 #include "verify/verdicts.hpp"
 
-/// The laws that look at the mesh before a step and the one after it.
+/// The laws that compare the meshes before and after a step.
 namespace octetra::properties {
 namespace {
 
-/// By the ranks and by the reference, which has the history and the marks to it.
+/// A history made by the ranks and by the reference, which has the meshes and the marks of each
+/// step.
 struct Both {
     Adapted adapted;
     ReferenceHistory reference;
     std::vector<std::size_t> coarsenings;  ///< the steps that made a coarser mesh
-    std::string fault;                     ///< if the meshes are not even the same
+    std::string fault;                     ///< set if the meshes differ
 };
 
 Both by_both(const Case& c) {
@@ -38,7 +39,7 @@ const Mesh& mesh_before(const Case& c, const Both& both, std::size_t step) {
     return step == 0 ? c.mesh : both.adapted.stages[step - 1].mesh;
 }
 
-/// Of all cells, of which each must have some; else nothing.
+/// The volume of all cells; nothing unless each cell has a positive volume.
 std::optional<test::Int128> exact_volume(const Mesh& mesh) {
     test::Int128 sum = 0;
     for (CellIndex c{0}; c < mesh.cells.end_index(); ++c) {
@@ -92,7 +93,7 @@ std::string fault_of_volumes(const Case& c) {
     const auto expected = exact_volume(c.mesh);
     const Adapted adapted = adapted_by_all(c);
     for (const Stage& stage : adapted.stages) {
-        if (exact_volume(stage.mesh) != expected) return "the volume is another";
+        if (exact_volume(stage.mesh) != expected) return "the volume has changed";
     }
     return {};
 }

@@ -18,7 +18,7 @@ Selection share(double fraction, Draw& draw) {
     return {.random = RandomShare{std::min(fraction, 1.0), draw.any()}};
 }
 
-/// Some one to three of a mesh of about so many cells.
+/// Selects about one to three cells of a mesh of this size.
 Selection few_cells(std::size_t cell_count, Draw& draw) {
     return share(draw.between(1, 3) / static_cast<double>(cell_count), draw);
 }
@@ -30,13 +30,13 @@ Selection any_cells(const Mesh& input, Draw& draw) {
     return selection;
 }
 
-/// Mostly sparse: who refines all is soon at the end.
+/// Mostly sparse, because refining all cells soon reaches the maximum size.
 Selection cells_to_refine(const Mesh& input, std::size_t cell_count, Draw& draw) {
     if (draw.chance(0.6)) return few_cells(cell_count, draw);
     return any_cells(input, draw);
 }
 
-/// Mostly many: where few may go, none does.
+/// Mostly many, because few marks seldom allow any coarsening.
 Selection cells_to_coarsen(const Mesh& input, Draw& draw) {
     switch (draw.below(8)) {
         case 0: return {.all = true};
@@ -56,7 +56,8 @@ Step refinement(const Mesh& input, std::size_t cell_count, Draw& draw) {
             .scheme = schemes[draw.below(3)]};
 }
 
-/// A cell hardly thicker than numbers are apart, where only whole numbers are left.
+/// A cell hardly thicker than the spacing of floating-point numbers, at a distance where only whole
+/// numbers are representable.
 Mesh far_out_sliver(Draw& draw) {
     while (true) {
         Corners p;
@@ -74,8 +75,8 @@ Mesh far_out_sliver(Draw& draw) {
     }
 }
 
-/// Where a cell could be cut into eight, but not into fewer: mostly, the coarsening of some of its
-/// pieces is refused for rounding.
+/// A cell that could be cut into eight but not into fewer: usually the coarsening of some of its
+/// children is refused because of rounding.
 Case draw_sliver(Draw& draw, int ranks) {
     Case c{.kind = "a far-out sliver"};
     c.cell_to_rank = {draw.between(0, ranks - 1)};
@@ -97,7 +98,7 @@ Case draw_start(Draw& draw, int size, int ranks, bool exact) {
     c.levels = 1;
     const std::size_t cells = c.mesh.cells.size();
     if (draw.chance(0.4) && 8 * cells < most_cells_of_a_history) {
-        // Of a mesh this large, the ranks may go through what changes alone.
+        // In a mesh of this size ranks may use the incremental level.
         c.steps = {{.action = Action::refine, .selection = {.all = true}},
                    {.action = Action::refine, .selection = few_cells(8 * cells, draw)}};
     } else {

@@ -15,7 +15,8 @@ std::string in_step(std::size_t k, const std::string& fault) {
 }
 
 std::string difference(const Stage& found, const Stage& expected) {
-    // Of a step that would make too many cells, the reference says the beginning alone.
+    // For a step that would make too many cells, the reference states only the beginning of the
+    // message.
     if (found.refusal.empty() != expected.refusal.empty() ||
         !found.refusal.starts_with(expected.refusal)) {
         return "refused as '" + found.refusal + "', not as '" + expected.refusal + "'";
@@ -23,12 +24,12 @@ std::string difference(const Stage& found, const Stage& expected) {
     if (!(found.mesh.cells == expected.mesh.cells)) return "the cells differ";
     if (test::bits(found.mesh) != test::bits(expected.mesh)) return "the points differ";
     if (!(found.mesh == expected.mesh)) return "tags, markers or attributes differ";
-    if (found.changed != expected.changed) return "only one says that it changed anything";
+    if (found.changed != expected.changed) return "only one engine reports a change";
     return {};
 }
 
 std::string first_difference(const std::vector<Stage>& found, const std::vector<Stage>& expected) {
-    if (found.size() != expected.size()) return "there are not as many stages";
+    if (found.size() != expected.size()) return "the numbers of stages differ";
     for (std::size_t k = 0; k < found.size(); ++k) {
         const std::string fault = difference(found[k], expected[k]);
         if (!fault.empty()) return in_step(k, fault);
@@ -71,7 +72,7 @@ std::string fault_of_values(const Case& c) {
 
 std::string fault_of_moving(const Case& c) {
     Case resting = c;
-    // Where cells have moved it is not known any more what the step before made.
+    // After migration the result of the previous step is no longer known.
     std::erase_if(resting.steps, [](const Step& step) {
         return step.action == Action::take_back || step.action == Action::again;
     });
@@ -108,7 +109,7 @@ std::string fault_of_the_way_back(const Case& drawn) {
     const auto refinements = std::ranges::count_if(c.steps, [](const Step& step) {
         return step.action == Action::refine || step.action == Action::again;
     });
-    // Each call takes back one refinement at least, and the last one nothing.
+    // Each call takes back at least one refinement, and the last call nothing.
     Case there_and_back = c;
     there_and_back.steps.insert(there_and_back.steps.end(),
                                 static_cast<std::size_t>(refinements) + 1,
@@ -129,7 +130,7 @@ std::string fault_of_the_way_back(const Case& drawn) {
 
 std::string fault_of_checkpoints(const Case& c) {
     Case with = c;
-    // When a mesh is loaded it is not known any more what the step before made.
+    // After loading the result of the previous step is no longer known.
     std::erase_if(with.steps, [](const Step& step) {
         return step.action == Action::take_back || step.action == Action::again;
     });
@@ -157,7 +158,7 @@ std::string fault_of_checkpoints(const Case& c) {
     const std::string fault = first_difference(others, never_stopped.stages);
     if (!fault.empty()) return "without stopping: " + fault;
     if (stopped.checkpoint != never_stopped.checkpoint) {
-        return "without stopping the checkpoint in the end has other bytes";
+        return "the final checkpoint differs without stopping";
     }
     return {};
 }

@@ -15,12 +15,12 @@ namespace {
 /// More than any history refines.
 constexpr std::size_t most_generations = 16;
 
-/// The first one counts.
+/// Only the first fault is kept.
 void note(std::string* fault, const char* words) {
     if (fault->empty()) *fault = words;
 }
 
-/// The past of what a cell has become by merging, which undoes its last halvings.
+/// The past of the cell that results when merging undoes the last `halvings` halvings.
 Past back_by(const Past& past, int halvings, std::string* fault) {
     if (halvings == 0) return past;
     const int left = past.halvings.back() - halvings;
@@ -77,12 +77,13 @@ Pasts coarsened(const Pasts& pasts, const Adaptation& step, std::span<const std:
         const int halvings = step.cells.halvings()[c];
         if (may_go[c] == 0 && halvings != 0) note(fault, "a cell that was not marked is gone");
         const Past past = back_by(pasts[c], halvings, fault);
-        if (filled[whole] > 0 && after[whole] != past) note(fault, "a cell is made of strangers");
+        if (filled[whole] > 0 && after[whole] != past)
+            note(fault, "a cell is merged from unrelated cells");
         after[whole] = past;
         filled[whole] += std::ldexp(1.0, -halvings);
     }
     for (const double share : filled) {
-        if (share != 1) note(fault, "the pieces of a cell do not fill it");
+        if (share != 1) note(fault, "the children of a cell do not fill it");
     }
     return after;
 }

@@ -8,40 +8,41 @@
 #include <octetra/distributed/adaptive_mesh.hpp>
 #include <octetra/distributed/field.hpp>
 
-/// Where the cells of a process have come from, as the Adaptations of its steps tell: to hold them
-/// against one another.
+/// The ancestry of the cells of a process, as reported by the Adaptations of its steps, to be
+/// checked for consistency.
 namespace octetra::properties {
 
 struct Past {
     std::uint64_t root = 0;  ///< cell of the input
-    /// How often the root was halved for the cells that were cut to make this one, and last for
-    /// itself: ascending, from 0.
+    /// For each ancestor of the cell, and last for the cell, the number of halvings from the root:
+    /// ascending, from 0.
     std::vector<int> halvings{0};
 
     friend bool operator==(const Past&, const Past&) = default;
 };
 
-/// Of each cell of a process, by local number.
+/// For each cell of a process, by local index.
 using Pasts = std::vector<Past>;
 
-/// Of a mesh that nothing was done to, whose cells in the order of the input are `input`.
+/// The pasts of a mesh to which no step has been applied; `input` lists the cells in the order of
+/// the input.
 [[nodiscard]] Pasts first_pasts(const distributed::AdaptiveMesh& mesh,
                                 const std::vector<CellVertices>& input);
 
 [[nodiscard]] Pasts refined(const Pasts& pasts, const distributed::Adaptation& step);
 
-/// `fault`, if it is empty, gets what the step should not have done to cells that `may_go` marks or
-/// does not: one that is not marked is gone, one is back by more than one generation, or cells are
-/// not the pieces of what they have become.
+/// Sets `fault`, if it is empty, where the step contradicts `may_go`: an unmarked cell is gone, a
+/// cell was coarsened by more than one generation, or cells are not descendants of the cell they
+/// became.
 [[nodiscard]] Pasts coarsened(const Pasts& pasts, const distributed::Adaptation& step,
                               std::span<const std::uint8_t> may_go, std::string* fault);
 
-/// Collective. Of the cells as they are after they have moved.
+/// Collective. The pasts of the cells after migration.
 [[nodiscard]] Pasts moved(const Pasts& pasts, const distributed::Migration& move);
 
-/// To save with the mesh.
+/// Fields to be saved with the mesh.
 [[nodiscard]] std::vector<distributed::Field> fields_of(const Pasts& pasts);
-/// The first two.
+/// The inverse of fields_of(), from the first two fields.
 [[nodiscard]] Pasts pasts_of(const std::vector<distributed::Field>& fields);
 
 }  // namespace octetra::properties

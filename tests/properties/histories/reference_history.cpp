@@ -15,15 +15,15 @@ using reference::CellMarks;
 using reference::History;
 using reference::Refinement;
 
-/// What was marked for a refinement.
+/// The marks of a refinement.
 struct MarkedBefore {
     CellMarks cells;
     Scheme scheme = Scheme::eight;
     std::size_t points_before = 0;
 };
 
-/// Throws InputError, its words beginning as those of an engine that is asked for so many cells at
-/// most, if the mesh would have more.
+/// Throws InputError if the mesh would exceed the maximum size; the message begins like that of an
+/// engine with this limit.
 void check_size(const Refinement& present, const CellMarks& marked, Scheme scheme,
                 std::size_t step) {
     Selection selection;
@@ -35,7 +35,7 @@ void check_size(const Refinement& present, const CellMarks& marked, Scheme schem
     } catch (const InputError& error) {
         const std::string words = error.what();
         const std::string_view level = "level 1";
-        if (!words.starts_with(level)) return;  // rounding, which replay() will find, too
+        if (!words.starts_with(level)) return;  // rounding, which replay() reports as well
         throw InputError("level " + std::to_string(step) + words.substr(level.size()));
     }
 }
@@ -73,7 +73,7 @@ private:
         if (step.action == Action::again && taken_back_) marked = taken_back_->cells;
         if (step.action == Action::take_back && last_) {
             for (CellIndex c{0}; c < marked.end_index(); ++c) {
-                // Each piece of a cell that was cut has a midpoint.
+                // Each child of a cell that was cut has a midpoint.
                 marked[c] = std::ranges::any_of(present_.mesh.cells[c], [&](VertexIndex v) {
                     return v.value() >= last_->points_before;
                 });
@@ -109,8 +109,8 @@ private:
 
     History history_;
     Refinement present_;
-    std::optional<MarkedBefore> last_;        ///< if the step before refined
-    std::optional<MarkedBefore> taken_back_;  ///< if the step before took that back
+    std::optional<MarkedBefore> last_;        ///< if the previous step refined
+    std::optional<MarkedBefore> taken_back_;  ///< if the previous step took that back
 };
 
 }  // namespace

@@ -13,15 +13,15 @@ namespace octetra::properties {
 struct Stage {
     Mesh mesh;
     bool changed = false;
-    std::string refusal;  ///< the words, if the step was refused: the mesh is as it was
+    std::string refusal;  ///< the message, if the step was refused; the mesh is then unchanged
 };
 
-/// The history of a case as the reference sees it. Of each step:
+/// The history of a case as made by the reference. Each vector is indexed by step.
 struct ReferenceHistory {
     std::vector<Stage> stages;
     std::vector<reference::History> before;
-    std::vector<reference::CellMarks> marked;  ///< cells that were to be refined, or may go
-    std::vector<RefinementMaps> maps;          ///< of the mesh after it, from its input
+    std::vector<reference::CellMarks> marked;  ///< cells to be refined, or to be removed
+    std::vector<RefinementMaps> maps;          ///< from the input to the mesh after the step
 };
 
 [[nodiscard]] ReferenceHistory adapted_by_reference(const Case& c);

@@ -6,7 +6,7 @@
 
 #include <octetra/core/files/mesh_files.hpp>
 
-/// Formats that a history writes its mesh in, to go on with what is read.
+/// Formats in which a history writes its mesh, to continue with the mesh that is read.
 namespace octetra::properties {
 
 struct Format {
@@ -21,7 +21,7 @@ inline const std::string simplest_format = "medit text";
 /// Throws std::out_of_range.
 [[nodiscard]] const Format& format_named(const std::string& name);
 
-/// What one process by itself writes and reads again.
+/// Writes the mesh and reads it again, on one process.
 [[nodiscard]] Mesh rewritten(const Mesh& mesh, const Format& format);
 
 }  // namespace octetra::properties

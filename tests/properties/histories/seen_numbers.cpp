@@ -22,7 +22,7 @@ struct SeenVertex {
 };
 using SeenCell = std::array<std::uint64_t, 4>;
 
-/// Of all processes, on the first one.
+/// The entries of all processes, on the first one.
 template <class T>
 std::vector<T> joined(const distributed::Communicator& processes, const std::vector<T>& own) {
     std::vector<T> all;
@@ -63,7 +63,7 @@ std::string fault_of_seen_numbers(const distributed::AdaptiveMesh& mesh, const M
     if (most != whole.points.size()) return "there are not as many vertices as a rank says";
     for (const auto& [v, bits] : vertices) {
         if (v >= most || bits != bits_of(whole.points[VertexIndex{v}])) {
-            return "a vertex on a rank is not the one of its number";
+            return "a vertex on a rank has a wrong number";
         }
     }
     auto expected = cells_of(whole);

@@ -6,8 +6,8 @@
 
 namespace octetra::properties {
 
-/// Collective among the mesh's processes. On the first one, whose `whole` is the mesh as it was
-/// collected: what processes say wrongly of numbers, points and cells of theirs, or nothing.
+/// Collective among the mesh's processes. On the first one, whose `whole` is the collected mesh:
+/// describes numbers, points or cells that a process reports wrongly. Empty if there are none.
 [[nodiscard]] std::string fault_of_seen_numbers(const distributed::AdaptiveMesh& mesh,
                                                 const Mesh& whole);
 

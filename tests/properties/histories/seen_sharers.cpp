@@ -17,11 +17,11 @@ using distributed::Sharing;
 
 namespace {
 
-/// A vertex, edge or face by the global numbers of its vertices, ascending; 0 behind them.
+/// A vertex, edge or face by the global numbers of its vertices, ascending, padded with 0.
 using Entity = std::array<std::uint64_t, 3>;
 using EntitySet = std::set<Entity>;
 
-/// What a process says of an entity that it has.
+/// A process's report on an entity that it has.
 struct Said {
     Entity entity;
     std::uint64_t number;
@@ -29,7 +29,7 @@ struct Said {
     std::vector<int> sharers;
 };
 
-/// What it says that it shares with another one, in their order.
+/// A process's list of the entities that it shares with another rank, in its order.
 struct SaidShared {
     int rank;
     std::vector<Entity> entities, owned, received;
@@ -41,7 +41,7 @@ struct OfProcess {
     std::vector<SaidShared> shared;
 };
 
-/// Words of 64 bits, to be sent and taken apart again.
+/// A message of 64-bit words.
 class Letter {
 public:
     Letter() = default;
@@ -77,8 +77,8 @@ Entity entity_of(const AdaptiveMesh& mesh, const auto& vertices) {
     return entity;
 }
 
-/// What this process has of a kind, and says of it. `entities` by their local numbers, and
-/// `numbers`.
+/// The entities of one kind on this process, with its report on them. `entities` and `numbers` are
+/// indexed locally.
 template <class I>
 Letter letter_of(const std::vector<Entity>& entities, const std::vector<std::uint64_t>& numbers,
                  const Sharing<I>& sharing, const EntitySet& has) {
@@ -125,7 +125,7 @@ OfProcess opened(Letter letter) {
     return process;
 }
 
-/// What they say of single entities.
+/// Checks the reports on single entities.
 std::string fault_of_said(const std::vector<OfProcess>& processes) {
     std::map<Entity, std::vector<int>> ranks_of;
     for (std::size_t r = 0; r < processes.size(); ++r) {
@@ -135,24 +135,24 @@ std::string fault_of_said(const std::vector<OfProcess>& processes) {
     std::map<Entity, std::pair<std::uint64_t, int>> number_and_owner;
     for (std::size_t r = 0; r < processes.size(); ++r) {
         if (processes[r].said.size() != processes[r].has.size())
-            return "a rank lists too many or few";
+            return "an interface of a rank has a wrong length";
         for (const Said& said : processes[r].said) {
             const auto found = ranks_of.find(said.entity);
-            if (found == ranks_of.end()) return "a rank has what no cell has";
+            if (found == ranks_of.end()) return "a rank has an entity of no cell";
             std::vector<int> others = found->second;
             if (std::erase(others, static_cast<int>(r)) != 1)
-                return "a rank has what none of its cells has";
-            if (said.sharers != others) return "a rank is wrong about who else has something";
+                return "a rank has an entity of none of its cells";
+            if (said.sharers != others) return "a rank reports wrong sharers";
             if (std::ranges::find(found->second, said.owner) == found->second.end()) {
-                return "the owner of something does not have it";
+                return "the owner of an entity does not have it";
             }
             const std::pair told(said.number, said.owner);
             if (number_and_owner.emplace(said.entity, told).first->second != told) {
-                return "two ranks have different numbers, or owners, of the same";
+                return "two ranks report different numbers or owners of an entity";
             }
         }
     }
-    std::uint64_t next = 0;  // by the numbers of vertices, which are those of the whole mesh
+    std::uint64_t next = 0;  // ascending by vertex numbers, which are those of the whole mesh
     for (const auto& [entity, told] : number_and_owner) {
         const bool is_vertex = entity[1] == 0 && entity[2] == 0;
         if (!is_vertex && told.first != next++) return "numbers do not follow those of vertices";
@@ -160,7 +160,7 @@ std::string fault_of_said(const std::vector<OfProcess>& processes) {
     return {};
 }
 
-/// What they say of pairs of ranks.
+/// Checks the lists of pairs of ranks.
 std::string fault_of_shared(const std::vector<OfProcess>& processes) {
     for (std::size_t r = 0; r < processes.size(); ++r) {
         std::size_t shared_with_any = 0;
@@ -168,27 +168,27 @@ std::string fault_of_shared(const std::vector<OfProcess>& processes) {
             const auto& other = processes.at(static_cast<std::size_t>(here.rank));
             const auto there =
                 std::ranges::find(other.shared, static_cast<int>(r), &SaidShared::rank);
-            if (there == other.shared.end()) return "a rank shares with one that does not with it";
+            if (there == other.shared.end()) return "an interface exists on one rank only";
             if (there->entities != here.entities || there->received != here.owned) {
-                return "two ranks list in different orders what they share";
+                return "two ranks list an interface in different orders";
             }
             EntitySet common;
             std::ranges::set_intersection(processes[r].has, other.has,
                                           std::inserter(common, common.end()));
             if (EntitySet(here.entities.begin(), here.entities.end()) != common ||
                 here.entities.size() != common.size()) {
-                return "what two ranks share is not all that both have";
+                return "an interface does not contain all common entities";
             }
             shared_with_any += common.size();
         }
         std::size_t expected = 0;
         for (const Said& said : processes[r].said) expected += said.sharers.size();
-        if (shared_with_any != expected) return "a rank misses one that it shares with";
+        if (shared_with_any != expected) return "a rank has no interface with a sharer";
     }
     return {};
 }
 
-/// Collective. On the first process, the fault.
+/// Collective. Returns the fault on the first process.
 std::string judged(const Communicator& group, const Letter& letter) {
     std::vector<OfProcess> processes;
     for (const auto& words : group.gather(letter.words())) {
@@ -205,7 +205,7 @@ std::string fault_of_vertices(const AdaptiveMesh& mesh) {
         entities.push_back(entity_of(mesh, std::array{VertexIndex{v}}));
         numbers.push_back(entities.back()[0]);
     }
-    // Vertices of no cell are on some rank, too.
+    // Vertices of no cell are on some rank as well.
     const EntitySet has(entities.begin(), entities.end());
     return judged(mesh.processes(), letter_of(entities, numbers, mesh.vertex_sharing(), has));
 }

@@ -6,10 +6,9 @@
 
 namespace octetra::properties {
 
-/// Collective among the mesh's processes. On the first one, what they say wrongly of vertices,
-/// edges and faces: who else has them, who owns them, which number they have, and in which order
-/// two processes list what they share; held against what all cells of all processes show. Nothing
-/// if all is right.
+/// Collective among the mesh's processes. Compares the sharers, owner, number and order in the
+/// interface that processes report for each vertex, edge and face with those computed from all
+/// cells. Returns the first fault on the first process; empty if there is none.
 [[nodiscard]] std::string fault_of_seen_sharers(const distributed::AdaptiveMesh& mesh);
 
 }  // namespace octetra::properties

@@ -8,7 +8,7 @@
 namespace octetra::properties {
 namespace {
 
-/// All, then halves and so on, down to single ones.
+/// All items but a chunk: chunks are all, halves and so on, down to single items.
 template <class T>
 std::vector<std::vector<T>> without_chunks(const std::vector<T>& items) {
     std::vector<std::vector<T>> results;

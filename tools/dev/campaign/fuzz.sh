@@ -3,8 +3,9 @@
 source "$root/tools/dev/common.sh"
 source "$root/tools/dev/laws.sh"
 
-# fuzz_for MINUTES SEED: rounds of random cases, each with the next seed, on 1 to 5 ranks in turn and now and
-# then on 7, every other with messages late and in disorder, until the time is over or a law is broken.
+# fuzz_for MINUTES SEED: rounds of random cases, each with the next seed, on 1 to 5 ranks in turn
+# and sometimes on 7, every other round with delayed and reordered messages, until the time is up or
+# a law is broken.
 fuzz_for() {
     local end=$((SECONDS + 60 * $1)) seed=$2 round=0 ranks weather weather_options
     local -r ranks_in_turn=(1 2 3 4 5 2 3 7)
@@ -23,7 +24,7 @@ fuzz_for() {
         RC_PARAMS="seed=$seed max_success=$cases" tests/support/mpirun.sh "$ranks" "${weather_options[@]}" \
             build/release/tests/properties/test_properties --gtest_brief=1 --gtest_filter='*Laws.*' || {
             shrink_what_died
-            say "A law was broken. What broke it is in corpus/regression/; ./dev test replays it."
+            say "A law was broken. The case is in corpus/regression/; ./dev test replays it."
             return 1
         }
         ((++round, ++seed))

@@ -1,4 +1,5 @@
-# ./dev campaign mutants [--minutes M] [--from NAME] [NAME...]: deliberate faults, and whether the tests notice
+# ./dev campaign mutants [--minutes M] [--from NAME] [NAME...]: checks that the tests detect
+# deliberate faults
 # shellcheck shell=bash
 source "$root/tools/dev/common.sh"
 

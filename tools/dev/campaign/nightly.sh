@@ -1,10 +1,10 @@
-# ./dev campaign nightly: every test with both builds, and what only a release has to pass
+# ./dev campaign nightly: all tests with both builds, and checks that only a release must pass
 # shellcheck shell=bash
 source "$root/tools/dev/common.sh"
 source "$root/tools/dev/testing.sh"
 
 if (($# > 0)); then bad_usage "campaign nightly takes no arguments"; fi
-export OCTETRA_EVERY_RANK_COUNT=1  # comparisons of the command line are made on every number of ranks
+export OCTETRA_EVERY_RANK_COUNT=1  # the command line is compared on all numbers of ranks
 need_test_packages
 need sanitizers valgrind
 if build_and_test release release nightly "-DOCTETRA_BENCH=$(on_if_installed bench)" \

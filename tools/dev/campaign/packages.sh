@@ -2,7 +2,7 @@
 # shellcheck shell=bash
 source "$root/tools/dev/common.sh"
 
-# Where the tools are missing there is nothing to find, and the test has said so.
+# If tools are missing, the test reports it, and this is no failure.
 packages_commands() {
     local status=0
     PYTHONDONTWRITEBYTECODE=1 python3 tests/package/debian_test.py "$root" build/packages "$minutes" || status=$?

@@ -2,8 +2,8 @@
 # shellcheck shell=bash
 source "$root/tools/dev/common.sh"
 
-# A small refinement on two ranks. What Open MPI and PMIx are known for is suppressed; leaks, of which
-# they have many, are not looked for.
+# A small refinement on two ranks. Known reports about Open MPI and PMIx are suppressed; leaks, of
+# which they have many, are not checked.
 valgrind_commands() {
     local extension fine=(coarse.1.ele --sphere "0,0,0,0.8" --levels 2 --quiet -o)
     run octetra generate kuhn 2 -o coarse.1.ele

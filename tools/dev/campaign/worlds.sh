@@ -4,9 +4,10 @@ source "$root/tools/dev/common.sh"
 source "$root/tools/dev/laws.sh"
 
 readonly world_parts=262
-# worlds_of_part N: in part 1 to 180 the first cell has the order of its edges with that number; parts 181 to
-# 205 are the complexes by classes of orders; parts 206 to 261 are those of them whose orders are few enough to
-# have all, cut into pieces. The first of these counts them, too. Part 262 refines and coarsens.
+# worlds_of_part N: in parts 1 to 180 the first cell has the order of its edges with that number;
+# parts 181 to 205 are the complexes by classes of orders; parts 206 to 261 are divisions of the
+# complexes with few enough orders to test all, and part 206 also counts these. Part 262 refines and
+# coarsens.
 worlds_of_part() {
     local filter='SmallWorlds.OfTwoCellsAtAnEdge*:SmallWorlds.OfThreeCellsInARow*'
     if (($1 <= 180)); then
@@ -28,7 +29,7 @@ worlds_of_part() {
     exec build/release/tests/properties/test_properties --gtest_brief=1 --gtest_filter="$filter"
 }
 
-# One of those that worlds_for has begun.
+# Waits for one of the parts started by worlds_for.
 await_part() {
     local process status=0
     wait -n -p process || status=$?
@@ -41,12 +42,12 @@ await_part() {
     fi
 }
 
-# worlds_for MINUTES FIRST: from this part on, until the time is over, all have had their turn, or a fault is
-# found.
+# worlds_for MINUTES FIRST: runs the parts from FIRST until the time is up, all are done, or a fault
+# is found.
 worlds_for() {
     local -r end=$((SECONDS + 60 * $1))
     local number=$2 running=0 found=0
-    local -A part_of=()  # the process with that number
+    local -A part_of=()  # indexed by process id
     try_laws
     while ((number <= world_parts && SECONDS < end && !found)); do
         say "${bold}part $number of $world_parts$plain"
@@ -59,14 +60,14 @@ worlds_for() {
     while ((running > 0)); do await_part; done
     if ((found)); then
         shrink_what_died
-        say "A fault was found: see above. Meshes that show one are in corpus/regression/; ./dev test replays them."
+        say "A fault was found: see above. The meshes are in corpus/regression/; ./dev test replays them."
         return 1
     fi
-    say "parts $2 to $((number - 1)) of $world_parts, and no fault"
+    say "parts $2 to $((number - 1)) of $world_parts: no fault"
 }
 
 minutes=180 from=1
 take_numbers worlds "minutes from" "$@"
-if ((from > world_parts)); then bad_usage "worlds: there are $world_parts parts, and no number $from"; fi
+if ((from > world_parts)); then bad_usage "worlds: there are only $world_parts parts: $from"; fi
 build_laws
 step "small worlds, parts begun within $minutes min" worlds_for "$minutes" "$from"

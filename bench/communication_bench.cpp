@@ -46,7 +46,7 @@ std::uint64_t interface_edges_of(const distributed::DistributedMesh& mesh) {
 
 Figures measure(const distributed::Communicator& world, std::size_t n, double share, Scheme scheme,
                 Synchronisation synchronisation) {
-    const Mesh lattice = world.is_first() ? test::shaken_kuhn(n, 0.2, 1) : Mesh{};
+    const Mesh lattice = world.is_first() ? test::perturbed_kuhn(n, 0.2, 1) : Mesh{};
     std::vector<int> cell_to_rank;
     if (world.is_first()) {
         cell_to_rank = distributed::partition_cells(lattice, world.size(),

@@ -8,7 +8,7 @@
 
 #include <octetra/core/files/mesh_files.hpp>
 
-#include "support/deaf_sink.hpp"
+#include "support/discarding_sink.hpp"
 #include "support/meshes.hpp"
 #include "support/temporary_folder.hpp"
 
@@ -77,7 +77,7 @@ void stream_file(benchmark::State& state, const std::string& name,
     const test::TemporaryFolder folder;
     (void)write_mesh(large_mesh(), folder / name, options);
     for ([[maybe_unused]] auto _ : state) {
-        test::DeafSink sink;
+        test::DiscardingSink sink;
         stream_mesh(folder / name, sink);
     }
     set_rate(state, folder.path());

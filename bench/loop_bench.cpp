@@ -225,8 +225,8 @@ void measure_small(const Communicator& world, const Input& input, std::size_t cu
     const auto before = world.sum(mesh.cells().size());
     Selection selection;
     selection.spheres.push_back(ball(cubes, 8 * marked, 4));
-    const std::vector<std::uint8_t> may_go = bytes_of(marks_of(selection, mesh), mesh);
-    const double seconds = seconds_of(world, [&] { (void)mesh.coarsen(may_go); });
+    const std::vector<std::uint8_t> may_coarsen = bytes_of(marks_of(selection, mesh), mesh);
+    const double seconds = seconds_of(world, [&] { (void)mesh.coarsen(may_coarsen); });
     const auto cells = world.sum(mesh.cells().size());
     if (world.is_first()) {
         fmt::print("{} cells fewer by coarsening: {:.2f} ms\n", before - cells, 1e3 * seconds);

@@ -144,7 +144,7 @@ void print_level(int number, const ordered_json& level) {
 }
 
 void measure(const Communicator& world, const Options& options) {
-    if (options.at_hand_megabytes > 0) keep_memory_at_hand(options.at_hand_megabytes << 20U);
+    if (options.at_hand_megabytes > 0) reserve_memory(options.at_hand_megabytes << 20U);
     const Communicator group = options.apart ? Communicator() : world;
     Mesh input = group.is_first() ? mesh_of(options.mesh) : Mesh{};
     std::vector<int> parts;

@@ -235,7 +235,7 @@ ordered_json by_levels(const Communicator& world, const Mesh& mesh, const Goal& 
     const double setup = processor_seconds() - begin;
     distributed::SynchronisationCounts told;
     std::uint64_t levels = 0;
-    for (bool goes_on = true; goes_on;) {
+    for (bool continues = true; continues;) {
         const double at = processor_seconds();
         const auto marks = marks_of(adapted, goal);
         const double marked = processor_seconds();
@@ -244,7 +244,7 @@ ordered_json by_levels(const Communicator& world, const Mesh& mesh, const Goal& 
         marking += marked - at;
         told += step.synchronisation;
         levels += step.changed ? 1 : 0;
-        goes_on = step.changed && (goal.volume || goal.longest_edge);
+        continues = step.changed && (goal.volume || goal.longest_edge);
     }
     std::vector<std::uint32_t> roots = adapted.root_of_cells();
     for (std::uint32_t& root : roots) root = static_cast<std::uint32_t>(adapted.roots()[root]);

@@ -40,7 +40,7 @@ void count(const distributed::Communicator& world, const Mesh& input, double sha
 
 Mesh mesh_of_argument(const std::string& argument) {
     const bool is_number = argument.find_first_not_of("0123456789") == std::string::npos;
-    return is_number ? test::shaken_kuhn(std::stoul(argument), 0.2, 1) : read_mesh(argument);
+    return is_number ? test::perturbed_kuhn(std::stoul(argument), 0.2, 1) : read_mesh(argument);
 }
 
 void count_all(const distributed::Communicator& world, const std::string& argument) {

@@ -59,7 +59,7 @@ void pass_bytes(const Communicator& world, const fs::path& path, std::uint64_t s
 }
 
 /// In windows of the same length as those of the writers of binary files.
-void bring_slices(MeshSource& mesh) {
+void redistribute_slices(MeshSource& mesh) {
     constexpr std::uint64_t length = std::uint64_t{1} << 15U;
     const auto ranks = static_cast<std::uint64_t>(mesh.group().size());
     const auto bring = [&](std::uint64_t count, const auto& slice_of) {
@@ -148,7 +148,7 @@ void measure(const Communicator& world, const fs::path& mesh, const fs::path& fo
             });
         }
         const std::uint64_t size = table.largest();
-        table.note("slices", size, [&] { bring_slices(fine.whole()); });
+        table.note("slices", size, [&] { redistribute_slices(fine.whole()); });
         table.write("bytes", [&](const fs::path& path) { pass_bytes(world, path, size, true); });
         table.read("bytes", [&](const fs::path& path) { pass_bytes(world, path, size, false); });
     }

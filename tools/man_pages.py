@@ -33,7 +33,7 @@ def names_below(text):
     return re.findall(r"^  (\S+)", listed.split("\n\n")[0], re.MULTILINE)
 
 
-def as_it_stands(text):
+def verbatim(text):
     """Lines that troff neither joins nor interprets as requests."""
     escaped = text.strip("\n").replace("\\", "\\e").replace("-", "\\-")
     return ".nf\n" + "\n".join(f"\\&{line}" for line in escaped.splitlines()) + "\n.fi\n"
@@ -53,12 +53,12 @@ def sections_of(name, text, names, shapes):
     rest = re.sub(r"^( +-\w),(--)", r"\1, \2", rest, flags=re.MULTILINE)
     included = f"[NAME]\n{name} \\- {summary[0].lower() + summary[1:]}\n"
     if shapes:
-        included += "[SHAPES]\n" + as_it_stands("\n".join(shapes))
+        included += "[SHAPES]\n" + verbatim("\n".join(shapes))
     if status:
         statuses = status.removeprefix("Exit status:").strip().replace("\n", " ").split("; ")
         included += "[EXIT STATUS]\n" + "\n.br\n".join(words.rstrip(".") for words in statuses) + "\n"
     if example:
-        included += "[EXAMPLES]\n" + as_it_stands(example.partition("\n")[2])
+        included += "[EXAMPLES]\n" + verbatim(example.partition("\n")[2])
     return rest, included + "[SEE ALSO]\n" + see_also(name, names)
 
 

@@ -38,19 +38,19 @@ class Edges:
         ends = {edge for cell in cells for edge in itertools.combinations(cell, 2)}
         self.number = {edge: n for n, edge in enumerate(sorted(ends, key=order))}
         self.of_cells = [tuple(self.number[edge] for edge in itertools.combinations(cell, 2)) for cell in cells]
-        self.longest_beside = [set() for _ in self.number]  # for each edge, in its faces
+        self.longest_at_edges = [set() for _ in self.number]  # for each edge, in its faces
         faces = {face for cell in cells for face in itertools.combinations(cell, 3)}
         for face in faces:
             of_face = sorted(self.number[edge] for edge in itertools.combinations(face, 2))
             for edge in of_face[:2]:
-                self.longest_beside[edge].add(of_face[2])
+                self.longest_at_edges[edge].add(of_face[2])
 
 
 def closure(edges, marked):
     """Returns all marked edges, and the number of sweeps that marked any."""
     new, sweeps = set(marked), 0
     closed = set(new)
-    while new := {e for edge in new for e in edges.longest_beside[edge]} - closed:
+    while new := {e for edge in new for e in edges.longest_at_edges[edge]} - closed:
         closed |= new
         sweeps += 1
     return closed, sweeps

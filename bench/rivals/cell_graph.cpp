@@ -193,9 +193,9 @@ void CellGraph::halve(const StarCell& at, VertexIndex midpoint) {
 
 /// Connects the halves of two adjacent cells across the face on this side.
 void CellGraph::join_halves(const StarCell& at, CellIndex second, std::uint8_t side,
-                            const StarCell& beside, CellIndex second_beside) {
-    cells[half(at, second, at.a)].neighbours[side] = half(beside, second_beside, beside.a);
-    cells[half(at, second, at.b)].neighbours[side] = half(beside, second_beside, beside.b);
+                            const StarCell& beside, CellIndex second_neighbour) {
+    cells[half(at, second, at.a)].neighbours[side] = half(beside, second_neighbour, beside.a);
+    cells[half(at, second, at.b)].neighbours[side] = half(beside, second_neighbour, beside.b);
 }
 
 }  // namespace octetra::rivals

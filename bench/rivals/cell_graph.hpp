@@ -98,7 +98,7 @@ private:
     void halve_rows(const Star& star, const EdgeVertices& edge, VertexIndex midpoint);
     void halve(const StarCell& at, VertexIndex midpoint);
     void join_halves(const StarCell& at, CellIndex second, std::uint8_t side,
-                     const StarCell& beside, CellIndex second_beside);
+                     const StarCell& beside, CellIndex second_neighbour);
 };
 
 }  // namespace octetra::rivals

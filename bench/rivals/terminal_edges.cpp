@@ -5,7 +5,7 @@
 #include <numeric>
 #include <stdexcept>
 
-#include "rivals/cutting.hpp"
+#include "rivals/refinement_state.hpp"
 #include "rivals/vertex_levels.hpp"
 
 namespace octetra::rivals {
@@ -42,7 +42,7 @@ struct TerminalEdgeBisection::State {
     explicit State(const Mesh& mesh)
         : cutting(CellGraph(mesh)), regions(mesh.regions), index_base(mesh.index_base) {}
 
-    Cutting cutting;
+    RefinementState cutting;
     IndexVector<CellIndex, Marker> regions;
     std::uint32_t index_base;
     std::vector<WantedEdges::Edge> terminal;  // of one round
@@ -54,7 +54,7 @@ TerminalEdgeBisection::TerminalEdgeBisection(const Mesh& mesh)
 TerminalEdgeBisection::~TerminalEdgeBisection() = default;
 
 Rounds TerminalEdgeBisection::refine(const Goal& goal, std::size_t max_cells) {
-    Cutting& cutting = state_->cutting;
+    RefinementState& cutting = state_->cutting;
     auto& terminal = state_->terminal;
     cutting.begin(goal, max_cells);
     const std::size_t before = cell_count();

@@ -40,13 +40,13 @@ void WantedEdges::want_shared(SharedEdgeIndex e) {
 void WantedEdges::add(const EdgeVertices& ends, CellIndex c, SharedEdgeIndex shared) {
     if (shared != not_shared) border_->edge(shared).is_wanted = true;
     const std::uint32_t edge = put({.ends = ends, .cell = c, .shared = shared});
-    for (const StarCell& at : star_.cells) meet(edge, at.cell);
+    for (const StarCell& at : star_.cells) relate(edge, at.cell);
     check(edge);
 }
 
 /// Relates a wanted edge to a cell around it: it is the cell's longest edge, or the cell is in its
 /// way.
-void WantedEdges::meet(std::uint32_t edge, CellIndex c) {
+void WantedEdges::relate(std::uint32_t edge, CellIndex c) {
     if (ascending(graph_->longest_edge_of(c)) == edges_[edge].ends) {
         graph_->cells[c].longest_is_wanted = true;
         return;
@@ -60,7 +60,7 @@ void WantedEdges::check(std::uint32_t edge) {
     (edges_[edge].shared == not_shared ? terminal_ : ready_).push_back(edge);
 }
 
-void WantedEdges::pass_on(CellIndex one, CellIndex other) {
+void WantedEdges::update_waiters(CellIndex one, CellIndex other) {
     std::uint32_t w = std::exchange(graph_->cells[one].first_waiter, no_waiter);
     while (w != no_waiter) {
         const Waiter waiter = waiters_[w];
@@ -71,7 +71,7 @@ void WantedEdges::pass_on(CellIndex one, CellIndex other) {
         const auto [a, b] = edges_[waiter.edge].ends;
         for (const CellIndex child : {one, other}) {
             const CellVertices& vertices = graph_->cells[child].vertices;
-            if (has(vertices, a) && has(vertices, b)) meet(waiter.edge, child);
+            if (has(vertices, a) && has(vertices, b)) relate(waiter.edge, child);
         }
         check(waiter.edge);
     }

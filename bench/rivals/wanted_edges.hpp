@@ -33,7 +33,7 @@ public:
     void want(CellIndex c) { to_want_.push_back(c); }
     /// Updates the edges that wait for a cell after it was cut into these two, the first of which
     /// keeps its index and list. To be called for all cells of a star before follow_paths().
-    void pass_on(CellIndex one, CellIndex other);
+    void update_waiters(CellIndex one, CellIndex other);
     void follow_paths();
     /// Notes that another rank wants an edge shared with this one.
     void want_shared(SharedEdgeIndex e);
@@ -55,7 +55,7 @@ private:
 
     void want_now(CellIndex c);
     void add(const EdgeVertices& ends, CellIndex c, SharedEdgeIndex shared);
-    void meet(std::uint32_t edge, CellIndex c);
+    void relate(std::uint32_t edge, CellIndex c);
     void wait_for(CellIndex c, std::uint32_t edge);
     void check(std::uint32_t edge);
     std::uint32_t put(const Edge& edge);

@@ -8,7 +8,7 @@ PATIENCE = 1200  # seconds for a program that sometimes hangs, and otherwise tak
 RUN, HAND_OVER, PLEX = "bench/python/adaptive_run.py", "bench/python/hand_over.py", "bench/peers/peer_dmplex"
 
 
-def ranks_word(ranks):
+def ranks_text(ranks):
     return name_of("", ranks)[2:]
 
 
@@ -29,7 +29,7 @@ def run_figures(lines):
     cells = [level["cells"] for level in lines[name_of("octetra", 1)][0]["levels"]]
     made = [Figure("steps of both", steps, ""), Figure("cells in the end", cells[steps - 1], "")]
     for ranks in RANKS:
-        of, words = {p: lines[name_of(p, ranks)] for p in ("octetra", "DOLFINx")}, ranks_word(ranks)
+        of, words = {p: lines[name_of(p, ranks)] for p in ("octetra", "DOLFINx")}, ranks_text(ranks)
         of = {program: cut(of_run, steps) for program, of_run in of.items()}
         ours, theirs = (total(of[program], "seconds") for program in ("octetra", "DOLFINx"))
         last = [median(of[program], "levels", -1, "seconds") for program in ("octetra", "DOLFINx")]
@@ -41,7 +41,7 @@ def run_figures(lines):
         made += [Figure(f"all else, {program}, {words}", total(of[program], "other_seconds"), "s")
                  for program in of]
     for step in range(steps):
-        made += [Figure(f"step {step + 1}, {cells[step]:,} cells: speed against DOLFINx, {ranks_word(ranks)}",
+        made += [Figure(f"step {step + 1}, {cells[step]:,} cells: speed against DOLFINx, {ranks_text(ranks)}",
                         median(lines[name_of("DOLFINx", ranks)], "levels", step, "seconds")
                         / median(lines[name_of("octetra", ranks)], "levels", step, "seconds"), "times")
                  for ranks in RANKS]
@@ -80,7 +80,7 @@ def run_in_dolfinx(cubes, steps):
 def hand_over_figures(lines):
     made = []
     for ranks in RANKS:
-        of_run, words = lines[ranks_word(ranks)], ranks_word(ranks)
+        of_run, words = lines[ranks_text(ranks)], ranks_text(ranks)
         create = median(of_run, "ways", "create_mesh, no ghosts", "seconds")
         made += [Figure(f"cells, {words}", of_run[0]["cells"], ""),
                  Figure(f"create_mesh of DOLFINx, {words}", create, "s")]
@@ -94,7 +94,7 @@ def hand_over_figures(lines):
 def hand_over_to_dolfinx(cubes):
     """Each run is the minimum of five."""
     return Case("handing a mesh to DOLFINx", [
-        script(ranks_word(ranks), HAND_OVER, str(cubes), ranks, PATIENCE) for ranks in RANKS],
+        script(ranks_text(ranks), HAND_OVER, str(cubes), ranks, PATIENCE) for ranks in RANKS],
         hand_over_figures, at_most=1)
 
 
@@ -104,7 +104,7 @@ def hand_over_to_dolfinx(cubes):
 def plex_figures(lines):
     made = []
     for ranks in RANKS:
-        of_run, words = lines[ranks_word(ranks)], ranks_word(ranks)
+        of_run, words = lines[ranks_text(ranks)], ranks_text(ranks)
         for level, first in enumerate(of_run[0]["dmplex"]):
             at = f"{first['cells']:,} cells"
             theirs = median(of_run, "dmplex", level, "seconds")
@@ -131,5 +131,5 @@ def other_cells_of_plex(lines):
 
 def beside_dmplex(cubes, levels, seconds):
     return Case("beside DMPlex, which refines all cells or none", [
-        driver(ranks_word(ranks), PLEX, f"{cubes} {levels} {seconds}", ranks, patience=PATIENCE)
+        driver(ranks_text(ranks), PLEX, f"{cubes} {levels} {seconds}", ranks, patience=PATIENCE)
         for ranks in RANKS], plex_figures, wrong=other_cells_of_plex, at_most=1)

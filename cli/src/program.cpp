@@ -47,7 +47,7 @@ void handle_signals() {
 /// Returns the memory of large freed arrays to the system immediately, because the peak matters if
 /// ranks share a machine. Small blocks are kept for reuse: page faults and clearing of pages would
 /// otherwise take as long as a step of a loop.
-void give_back_freed_memory() {
+void configure_allocator() {
 #ifdef __GLIBC__
     constexpr int large = 32 << 20;
     mallopt(M_MMAP_THRESHOLD, large);
@@ -56,16 +56,16 @@ void give_back_freed_memory() {
 }
 
 int fail(Status status, std::string_view what, const distributed::Communicator& world) {
-    if (world.is_first()) tell("{}", what);
+    if (world.is_first()) print_message("{}", what);
     return static_cast<int>(status);
 }
 
 /// Reports an error of this process alone, for which other processes may be waiting.
-int fail_alone(std::string_view what, const distributed::MpiSession& session) {
+int fail_on_one_rank(std::string_view what, const distributed::MpiSession& session) {
     constexpr auto status = static_cast<int>(Status::system_failed);
     const distributed::Communicator& world = session.world();
     if (world.size() == 1) return fail(Status::system_failed, what, world);
-    if (session.is_first_to_fail()) tell("rank {}: {}", world.rank(), what);
+    if (session.is_first_to_fail()) print_message("rank {}: {}", world.rank(), what);
     distributed::MpiSession::abort(status);
 }
 
@@ -104,7 +104,7 @@ int parse_and_run(int argc, char** argv, const distributed::Communicator& world)
     auto status = Status::done;
     try {
         program.parse(argc, argv);
-    } catch (const AnswerIsNo&) {
+    } catch (const NegativeAnswer&) {
         status = Status::no;
     } catch (const CLI::Success& help_or_version) {
         if (world.is_first()) program.exit(help_or_version);
@@ -120,9 +120,9 @@ int parse_and_run(int argc, char** argv, const distributed::Communicator& world)
 }  // namespace
 
 int run(int argc, char** argv) {
-    hold_closed_streams();
+    reserve_closed_streams();
     handle_signals();
-    give_back_freed_memory();
+    configure_allocator();
     const distributed::MpiSession session(&argc, &argv);
     const distributed::Communicator& world = session.world();
     try {
@@ -135,9 +135,9 @@ int run(int argc, char** argv) {
         return fail(Status::system_failed, world.size() == 1 ? "out of memory" : error.what(),
                     world);
     } catch (const std::bad_alloc&) {
-        return fail_alone("out of memory", session);
+        return fail_on_one_rank("out of memory", session);
     } catch (const std::exception& error) {  // filesystem_error ...
-        return fail_alone(error.what(), session);
+        return fail_on_one_rank(error.what(), session);
     }
 }
 

@@ -28,7 +28,7 @@ void print_to(std::FILE* stream, std::string_view text) {
 
 }  // namespace
 
-void hold_closed_streams() {
+void reserve_closed_streams() {
     for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
         if (!is_closed(stream)) continue;
         // Opened in the wrong mode, so that reading or writing fails as with a closed stream.

@@ -13,7 +13,7 @@ namespace octetra::cli {
 
 /// Must be called before any file is opened. Reserves the descriptors of closed standard streams:
 /// otherwise the first file opened would receive the descriptor of stdout, and results in it.
-void hold_closed_streams();
+void reserve_closed_streams();
 
 /// Prints the text unmodified.
 void print_text(std::string_view text);
@@ -33,7 +33,7 @@ void print_error_line(std::string_view message);
 /// Prints a message to stderr in a single write and line: "octetra: ...". Control characters, which
 /// file names may contain, are shown as \x0a. Short messages allocate no memory.
 template <class... Values>
-void tell(fmt::format_string<const Values&...> format, const Values&... values) {
+void print_message(fmt::format_string<const Values&...> format, const Values&... values) {
     fmt::memory_buffer message;
     fmt::format_to(std::back_inserter(message), format, values...);
     print_error_line({message.data(), message.size()});

@@ -58,7 +58,7 @@ std::size_t distance(std::string_view a, std::string_view b) {
 
 /// Returns the closest of these names, if it is close enough to be a misspelling, or an empty
 /// string.
-std::string meant_by(std::string_view word, const std::vector<std::string>& names) {
+std::string closest_name(std::string_view word, const std::vector<std::string>& names) {
     constexpr std::size_t most = 2;
     std::string best;
     std::size_t least = std::min(most, word.size() / 2) + 1;
@@ -78,7 +78,7 @@ bool is_option(std::string_view word) {
 }
 
 /// Returns whether the command is the program, not a subcommand or a step of a script.
-bool is_octetra(const CLI::App& app) {
+bool is_program(const CLI::App& app) {
     return app.get_parent() == nullptr && app.get_require_subcommand_min() > 0;
 }
 
@@ -90,7 +90,7 @@ std::string unknown_option(const Innermost& command, std::string_view word) {
         }
     }
     const std::string_view name = word.substr(0, word.find('='));
-    const std::string has_none = is_octetra(*command.app)
+    const std::string has_none = is_program(*command.app)
                                      ? "there is no option"
                                      : command.app->get_name() + " has no option";
     return fmt::format("{} {}{}", has_none, name, did_you_mean(name, names));
@@ -102,7 +102,7 @@ std::string unknown_subcommand(const Innermost& command, const std::string& word
         names.push_back(subcommand->get_name());
     }
     const std::string is_none =
-        is_octetra(*command.app)
+        is_program(*command.app)
             ? fmt::format("'{}' is not one of {}", word, fmt::join(names, ", "))
             : fmt::format("{} takes one of {}, not '{}'", command.app->get_name(),
                           fmt::join(names, ", "), word);
@@ -135,7 +135,7 @@ std::string both_names(const CLI::App& command, const std::string& name) {
 }
 
 /// Rewords CLI11's messages on missing options and wrong numbers of values.
-std::string in_plain_words(const CLI::App& command, std::string_view said) {
+std::string reworded(const CLI::App& command, std::string_view said) {
     if (const std::string name = between(said, "", " is required"); name.starts_with("--")) {
         return both_names(command, name) + " is required";
     }
@@ -156,7 +156,7 @@ std::string in_plain_words(const CLI::App& command, std::string_view said) {
 
 /// Returns the message for an option that took the name of another as its value, or an empty
 /// string.
-std::string taken_for_a_value(const CLI::App& command) {
+std::string option_as_value(const CLI::App& command) {
     for (const CLI::Option* option : command.get_options()) {
         for (const std::string& word : option->results()) {
             const std::string name = word.substr(0, word.find('='));
@@ -170,14 +170,14 @@ std::string taken_for_a_value(const CLI::App& command) {
 
 /// CLI11 lists unaccepted words in reverse order, and requests a subcommand even if there is an
 /// unknown word in its place.
-std::string what_is_wrong(const Innermost& command, const CLI::ParseError& error) {
-    if (std::string what = taken_for_a_value(*command.app); !what.empty()) return what;
+std::string usage_problem(const Innermost& command, const CLI::ParseError& error) {
+    if (std::string what = option_as_value(*command.app); !what.empty()) return what;
     const std::vector<std::string> words = words_left(*command.app);
     const bool lacks_subcommand = command.app->get_require_subcommand_min() > 0;
     const bool has_extras = dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr;
     const bool lacks_something = dynamic_cast<const CLI::RequiredError*>(&error) != nullptr;
     if (words.empty() || !(lacks_subcommand || has_extras || lacks_something)) {
-        return in_plain_words(*command.app, error.what());
+        return reworded(*command.app, error.what());
     }
     if (lacks_subcommand) {
         return is_option(words.front()) ? unknown_option(command, words.front())
@@ -186,23 +186,23 @@ std::string what_is_wrong(const Innermost& command, const CLI::ParseError& error
     const auto option = std::ranges::find_if(words, is_option);
     if (option != words.end()) return unknown_option(command, *option);
     return has_extras ? unexpected_word(command, words.front())
-                      : in_plain_words(*command.app, error.what());
+                      : reworded(*command.app, error.what());
 }
 
 }  // namespace
 
 std::string did_you_mean(std::string_view word, const std::vector<std::string>& names) {
-    const std::string meant = meant_by(word, names);
+    const std::string meant = closest_name(word, names);
     return meant.empty() ? std::string() : fmt::format("; did you mean {}?", meant);
 }
 
 std::string usage_fault(const CLI::App& program, const CLI::ParseError& error) {
-    return what_is_wrong(innermost(program), error);
+    return usage_problem(innermost(program), error);
 }
 
 std::string usage_error(const CLI::App& program, const CLI::ParseError& error) {
     const Innermost command = innermost(program);
-    const std::string what = what_is_wrong(command, error);
+    const std::string what = usage_problem(command, error);
     return fmt::format("{}{} {} --help", what, what.ends_with('?') ? " See" : "; see",
                        command.name);
 }

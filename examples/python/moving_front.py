@@ -56,10 +56,10 @@ def follow(mesh, heat, x, seconds):
         while changes:
             marks = marked(mesh, x)
             with timed(seconds, what):
-                told = step(marks)
+                adaptation = step(marks)
             with timed(seconds, "transfer"):
-                heat = told.transfer_cells(heat, how="divided")
-            changes = told.changed
+                heat = adaptation.transfer_cells(heat, how="divided")
+            changes = adaptation.changed
     with timed(seconds, "rebalance"):
         move = mesh.rebalance()
     with timed(seconds, "transfer"):

@@ -23,11 +23,11 @@ def refine_to_the_front(mesh, steps):
     for step in range(1, steps + 1):
         middles = mesh.points[mesh.cells].mean(axis=1)
         widths = np.cbrt(octetra.quality.volume(mesh))
-        told = mesh.refine(front(middles) < widths)
+        adaptation = mesh.refine(front(middles) < widths)
         cells = mesh.count_cells()  # collective
         if mesh.rank == 0:
             print(f"step {step}: {cells:,} cells, {mesh.vertex_count:,} vertices")
-        if not told.changed:
+        if not adaptation.changed:
             break
 
 

@@ -83,7 +83,7 @@ void check_child(const CellVertices& child, const Mesh& fine, CellIndex parent, 
 /// built.
 void check_allowed(const Mesh& mesh, const EdgeTable& table, const EdgeToMidpoint& midpoints,
                    std::size_t max_cells, int level) {
-    if (max_cells == any_number) return;
+    if (max_cells == unlimited) return;
     std::size_t count = 0;
     for (const auto& cell : mesh.cells) count += pieces_of(cell, mesh, table, midpoints).size();
     if (count <= max_cells || count == mesh.cells.size()) return;

@@ -69,7 +69,7 @@ template <std::size_t N>
 /// tagged edges of the mesh. Throws as refine() does; `level` is used in the message.
 [[nodiscard]] Refinement bisect_mesh(const Refinement& coarse,
                                      const std::vector<EdgeVertices>& edges, int level,
-                                     std::size_t max_cells = any_number);
+                                     std::size_t max_cells = unlimited);
 
 /// Returns the mesh with the identity maps.
 [[nodiscard]] Refinement unrefined(const Mesh& mesh);

@@ -25,15 +25,15 @@ struct Step {
 };
 
 /// Implements rule (a) of coarsened().
-VertexSet vertices_that_must_stay(const Mesh& input, const Mesh& present, const CellMarks& may_go,
-                                  const std::vector<Step>& steps) {
+VertexSet vertices_to_keep(const Mesh& input, const Mesh& present, const CellMarks& may_coarsen,
+                           const std::vector<Step>& steps) {
     VertexSet kept(present.points.size(), false);
     std::fill_n(kept.begin(), input.points.size(), true);
     const auto keep = [&](const CellVertices& cell) {
         for (const VertexIndex v : cell) kept[v] = true;
     };
     for (CellIndex c{0}; c < present.cells.end_index(); ++c) {
-        if (may_go[c] == 0) keep(present.cells[c]);
+        if (may_coarsen[c] == 0) keep(present.cells[c]);
     }
     for (const Step& step : steps) {
         for (CellIndex c{0}; c < step.mesh->cells.end_index(); ++c) {
@@ -45,13 +45,13 @@ VertexSet vertices_that_must_stay(const Mesh& input, const Mesh& present, const 
 
 /// Implements rule (b) of coarsened(), the rule of closure, within each step.
 void keep_closed(const Step& step, VertexSet& kept) {
-    EdgeSet stays(step.table.edges.size(), false);
-    for (EdgeIndex e{0}; e < stays.end_index(); ++e) {
-        stays[e] = !step.midpoints[e].is_none() && kept[step.midpoints[e]] != 0;
+    EdgeSet kept_edges(step.table.edges.size(), false);
+    for (EdgeIndex e{0}; e < kept_edges.end_index(); ++e) {
+        kept_edges[e] = !step.midpoints[e].is_none() && kept[step.midpoints[e]] != 0;
     }
-    stays = close(stays, *step.mesh, step.table);
-    for (EdgeIndex e{0}; e < stays.end_index(); ++e) {
-        if (stays[e] != 0) kept[step.midpoints[e]] = true;
+    kept_edges = close(kept_edges, *step.mesh, step.table);
+    for (EdgeIndex e{0}; e < kept_edges.end_index(); ++e) {
+        if (kept_edges[e] != 0) kept[step.midpoints[e]] = true;
     }
 }
 
@@ -81,14 +81,14 @@ History without(const History& history, const VertexSet& kept) {
 
 }  // namespace
 
-History coarsened(const History& history, const CellMarks& may_go) {
+History coarsened(const History& history, const CellMarks& may_coarsen) {
     const StandardArithmetic standard;
     const std::vector<Refinement> meshes = replay(history);
     std::vector<Step> steps;
     for (std::size_t t = 0; t < history.steps.size(); ++t) {
         steps.push_back({&meshes[t].mesh, &history.steps[t]});
     }
-    VertexSet kept = vertices_that_must_stay(history.input, meshes.back().mesh, may_go, steps);
+    VertexSet kept = vertices_to_keep(history.input, meshes.back().mesh, may_coarsen, steps);
     for (const Step& step : steps) keep_closed(step, kept);
     return without(history, kept);
 }

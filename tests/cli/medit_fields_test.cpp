@@ -27,7 +27,7 @@ using test::TemporaryFolder;
 using testing::HasSubstr;
 
 /// A linear function on vertices, which is exact at midpoints.
-std::vector<double> by_place(const AdaptiveMesh& mesh) {
+std::vector<double> values_by_coordinates(const AdaptiveMesh& mesh) {
     std::vector<double> values;
     for (const Point& p : mesh.points()) {
         for (const double factor : {8.0, -16.0, 0.5}) values.push_back(factor * p.x + 4 * p.z);
@@ -45,8 +45,9 @@ protected:
         for (std::size_t c = 0; c < mesh.cells().size(); ++c) {
             numbers.push_back(static_cast<double>(c) / 7);
         }
-        const std::vector<Field> fields{{"sol_1", FieldOn::vertices, 3, by_place(mesh)},
-                                        {"sol_1", FieldOn::cells, 1, numbers}};
+        const std::vector<Field> fields{
+            {"sol_1", FieldOn::vertices, 3, values_by_coordinates(mesh)},
+            {"sol_1", FieldOn::cells, 1, numbers}};
         EXPECT_EQ(mesh.write(folder / "m.mesh", fields), "");
         EXPECT_EQ(mesh.write(folder / "m.meshb", fields), "");
     }
@@ -100,7 +101,7 @@ TEST_F(MeditFields, AreMeansAtMidpointsAndTheParentsOnCells) {
     const AdaptiveMesh mesh = AdaptiveMesh::read(Communicator(), folder / "fine.mesh");
     const std::vector<Field> fields = mesh.read_fields(folder / "fine.sol");
     ASSERT_EQ(fields.size(), 2U);
-    EXPECT_EQ(std::get<0>(fields[0].values), by_place(mesh));
+    EXPECT_EQ(std::get<0>(fields[0].values), values_by_coordinates(mesh));
     std::ifstream maps(folder / "p.txt");
     std::string word;
     std::size_t count = 0;
@@ -160,7 +161,7 @@ TEST_F(MeditFields, AreReadByTheNumbersOfAMeshThatWasRefined) {
     std::vector<double> corners;
     for (const CellVertices& cell : mesh.cells())
         corners.push_back(mesh.points()[cell[1].value()].x);
-    const std::vector<Field> fields{{"sol_1", FieldOn::vertices, 3, by_place(mesh)},
+    const std::vector<Field> fields{{"sol_1", FieldOn::vertices, 3, values_by_coordinates(mesh)},
                                     {"sol_1", FieldOn::cells, 1, corners}};
     (void)mesh.write(folder / "t.mesh", fields);
     EXPECT_EQ(mesh.read_fields(folder / "t.sol"), fields);

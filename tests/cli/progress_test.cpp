@@ -18,7 +18,7 @@ using namespace std::chrono_literals;
 /// Runs `octetra ARGUMENTS` at a terminal and repeatedly stops it, so that its current check takes
 /// more than a second. Returns the output on the terminal. Messages on stderr may be sent to a file
 /// instead.
-std::string seen_at_a_slow_terminal(const std::string& arguments,
+std::string output_at_slow_terminal(const std::string& arguments,
                                     const std::filesystem::path& folder,
                                     const std::string& file_for_stderr = "") {
     int terminal = -1;
@@ -63,7 +63,7 @@ const std::string generate_mesh =
 TEST(VerifyProgress, IsShownAtATerminalWhereACheckTakesLongerThanASecond) {
     const test::TemporaryFolder folder;
     ASSERT_EQ(test::octetra(generate_mesh, folder).status, 0);
-    const std::string seen = seen_at_a_slow_terminal("verify mesh.ele", folder.path());
+    const std::string seen = output_at_slow_terminal("verify mesh.ele", folder.path());
     EXPECT_NE(seen.find(" %"), std::string::npos) << seen;
     EXPECT_NE(seen.find("mesh.ele: valid"), std::string::npos) << seen;
 }
@@ -71,7 +71,7 @@ TEST(VerifyProgress, IsShownAtATerminalWhereACheckTakesLongerThanASecond) {
 TEST(VerifyProgress, IsNotShownInFiles) {
     const test::TemporaryFolder folder;
     ASSERT_EQ(test::octetra(generate_mesh, folder).status, 0);
-    const std::string seen = seen_at_a_slow_terminal("verify mesh.ele", folder.path(), "errors");
+    const std::string seen = output_at_slow_terminal("verify mesh.ele", folder.path(), "errors");
     EXPECT_EQ(seen.find(" %"), std::string::npos) << seen;
     EXPECT_EQ(test::content_of(folder / "errors"), "");
 }

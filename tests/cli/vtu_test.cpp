@@ -74,7 +74,7 @@ TEST(Vtu, HoldsEveryBitOfTheCoordinatesAndEveryCell) {
 
 TEST(Vtu, InPiecesIsTheWholeMeshForVtk) {
     const TemporaryFolder folder;
-    Mesh mesh = test::shaken_kuhn(4, 0.2, 1);
+    Mesh mesh = test::perturbed_kuhn(4, 0.2, 1);
     mesh.index_base = 1;
     test::list_boundary(mesh);
     for (std::size_t v = 0; v < mesh.points.size(); ++v) {
@@ -184,7 +184,7 @@ void expect_same_for_vtk(const std::string& a, const std::string& b,
 
 TEST(Vtkhdf, HasTheSameContentsForVtkAsTheVtu) {
     const TemporaryFolder folder;
-    Mesh mesh = test::shaken_kuhn(6, 0.2, 1);
+    Mesh mesh = test::perturbed_kuhn(6, 0.2, 1);
     mesh.index_base = 1;
     mesh.attributes_per_point = 2;
     for (std::size_t v = 0; v < mesh.points.size(); ++v) {

@@ -11,7 +11,7 @@
 #include <octetra/core/files/mesh_files.hpp>
 #include <octetra/core/repeated_cells.hpp>
 
-#include "core/stretches.hpp"
+#include "core/mesh_shares.hpp"
 #include "support/meshes.hpp"
 #include "support/temporary_folder.hpp"
 #include "support/thrown.hpp"
@@ -53,7 +53,7 @@ void expect_same_pair(const Mesh& mesh) {
 std::string refusal(const Mesh& mesh, const std::string& name, const ReadOptions& options = {}) {
     const TemporaryFolder folder;
     (void)write_mesh(mesh, folder / name);
-    test::expect_right_stretches(folder / name);
+    test::expect_correct_shares(folder / name);
     const std::string message =
         test::thrown_by<InputError>([&] { (void)read_mesh(folder / name, options); });
     return message.substr(std::min(message.size(), folder.path().native().size() + 1));

@@ -8,9 +8,9 @@
 #include <octetra/core/error.hpp>
 #include <octetra/core/files/mesh_files.hpp>
 
+#include "core/mesh_shares.hpp"
 #include "core/meshb_files.hpp"
-#include "core/stretches.hpp"
-#include "support/deaf_sink.hpp"
+#include "support/discarding_sink.hpp"
 #include "support/meshes.hpp"
 #include "support/temporary_folder.hpp"
 #include "support/thrown.hpp"
@@ -19,7 +19,7 @@
 namespace octetra {
 namespace {
 
-using test::DeafSink;
+using test::DiscardingSink;
 using test::MeshbFile;
 using test::TemporaryFolder;
 using testing::ElementsAre;
@@ -35,7 +35,7 @@ MeshbFile listed_cell(int version = 2, bool swapped = false) {
 Mesh read_file(const std::string& name, const std::string& content) {
     const TemporaryFolder folder;
     const auto file = folder.write(name, content);
-    test::expect_right_stretches(file);
+    test::expect_correct_shares(file);
     return read_mesh(file);
 }
 
@@ -87,7 +87,7 @@ TEST(Features, AreReadBackAsTheyWereWritten) {
     for (const std::string name : {"a.mesh", "a.meshb"}) {
         EXPECT_EQ(write_mesh(featured_cell(), folder / name), "");
         EXPECT_EQ(read_mesh(folder / name), featured_cell()) << name;
-        test::expect_right_stretches(folder / name);
+        test::expect_correct_shares(folder / name);
     }
     EXPECT_THAT(
         test::content_of(folder / "a.mesh"),
@@ -114,7 +114,7 @@ TEST(Features, OfAMeshInManySlicesAreReadBack) {
     for (const std::string name : {"a.mesh", "a.meshb"}) {
         (void)write_mesh(mesh, folder / name);
         EXPECT_TRUE(read_mesh(folder / name) == mesh) << name;
-        test::expect_right_stretches(folder / name);
+        test::expect_correct_shares(folder / name);
     }
 }
 
@@ -194,13 +194,13 @@ TEST(Features, AreRefusedWithTheSameMessageWhereAMeshIsStreamed) {
         early.insert(early.find("Vertices"), section);
         for (const std::string& text : {head_of_text + section, early}) {
             const auto file = folder.write("m.mesh", text + "End\n");
-            DeafSink sink;
+            DiscardingSink sink;
             EXPECT_EQ(test::thrown_by<InputError>([&] { stream_mesh(file, sink); }),
                       test::thrown_by<InputError>([&] { (void)read_mesh(file); }));
         }
     }
     const auto good = folder.write("m.mesh", head_of_text + "Corners\n1\n4\nEnd\n");
-    DeafSink sink;
+    DiscardingSink sink;
     EXPECT_NO_THROW(stream_mesh(good, sink));
 }
 

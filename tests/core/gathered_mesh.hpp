@@ -11,7 +11,7 @@
 namespace octetra::test {
 
 /// Assembles the blocks of a mesh, and checks the guarantees of MeshSink.
-class GatheredMesh : public MeshSink {
+class CollectingSink : public MeshSink {
 public:
     Mesh mesh;
     std::size_t stretches = 0;
@@ -27,7 +27,7 @@ public:
                      std::span<const Marker> markers) override {
         check(points_, points.size(), markers.size());
         EXPECT_EQ(attributes.size(), points.size() * mesh.attributes_per_point);
-        EXPECT_LE(attributes.size(), longest_stretch);
+        EXPECT_LE(attributes.size(), max_batch_size);
         add(mesh.points, points);
         add(mesh.point_attributes, attributes);
         add(mesh.point_markers, markers);
@@ -97,7 +97,7 @@ private:
     void check(Kind& kind, std::size_t count, std::size_t markers) {
         EXPECT_FALSE(is_finished);
         EXPECT_GE(count, 1U);
-        EXPECT_LE(count, longest_stretch);
+        EXPECT_LE(count, max_batch_size);
         EXPECT_LE(count, kind.left);
         EXPECT_EQ(markers, kind.has_markers ? count : 0);
         kind.left -= count;

@@ -10,7 +10,7 @@
 
 #include <octetra/core/files/mesh_files.hpp>
 
-#include "core/stretches.hpp"
+#include "core/mesh_shares.hpp"
 #include "support/temporary_folder.hpp"
 
 /// Fragments of Gmsh files, which tests combine into valid and invalid files.
@@ -110,7 +110,7 @@ struct GmshRead {
 inline GmshRead read_gmsh(const std::string& content) {
     const TemporaryFolder folder;
     const auto file = folder.write("m.msh", content);
-    expect_right_stretches(file);
+    expect_correct_shares(file);
     GmshRead read;
     read.mesh = read_mesh(file, {.note = [&](const auto& n) { read.notes.push_back(n); }});
     return read;

@@ -13,7 +13,7 @@
 #include <octetra/core/files/mesh_files.hpp>
 
 #include "core/gmsh_files.hpp"
-#include "core/stretches.hpp"
+#include "core/mesh_shares.hpp"
 #include "support/bits.hpp"
 #include "support/meshes.hpp"
 #include "support/temporary_folder.hpp"
@@ -37,7 +37,7 @@ std::string kind_of(const MshFormat& format) {
 
 /// A mesh with everything that these files can contain.
 Mesh rich_mesh() {
-    Mesh mesh = test::shaken_kuhn(3, 0.2, 3);
+    Mesh mesh = test::perturbed_kuhn(3, 0.2, 3);
     test::list_boundary(mesh);
     mesh.index_base = 1;
     mesh.group_names = {{3, 1, "rock # 1"},
@@ -58,7 +58,7 @@ Mesh rich_mesh() {
 Mesh through_file(const Mesh& mesh, const MshFormat& format) {
     const TemporaryFolder folder;
     (void)write_mesh(mesh, folder / "a.msh", {.msh = format});
-    test::expect_right_stretches(folder / "a.msh");
+    test::expect_correct_shares(folder / "a.msh");
     return read_mesh(folder / "a.msh");
 }
 
@@ -209,7 +209,7 @@ TEST(GmshWriter, AssignsUntaggedElementsToAReservedGroupIfOthersAreTagged) {
         const TemporaryFolder folder;
         (void)write_mesh(written, folder / "a.msh", {.msh = format});
         EXPECT_EQ(read_mesh(folder / "a.msh"), written) << kind_of(format);
-        test::expect_right_stretches(folder / "a.msh");
+        test::expect_correct_shares(folder / "a.msh");
         return content_of(folder / "a.msh");
     };
     Mesh mixed = mesh;

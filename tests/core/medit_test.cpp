@@ -10,7 +10,7 @@
 #include <octetra/core/error.hpp>
 #include <octetra/core/files/mesh_files.hpp>
 
-#include "core/stretches.hpp"
+#include "core/mesh_shares.hpp"
 #include "support/temporary_folder.hpp"
 #include "support/thrown.hpp"
 
@@ -29,7 +29,7 @@ const std::string good = head + vertices + cells + "End\n";
 Mesh read_medit_text(const std::string& text, const ReadOptions& options = {}) {
     const TemporaryFolder folder;
     const auto file = folder.write("m.mesh", text);
-    test::expect_right_stretches(file);
+    test::expect_correct_shares(file);
     return read_mesh(file, options);
 }
 

@@ -24,7 +24,7 @@ namespace octetra {
 namespace {
 
 namespace fs = std::filesystem;
-using Gathered = test::GatheredMesh;
+using Gathered = test::CollectingSink;
 using test::TemporaryFolder;
 using testing::HasSubstr;
 
@@ -58,9 +58,9 @@ void expect_streamed_as_read(const fs::path& file, Gathered& gathered) {
     EXPECT_EQ(gathered.is_finished, read.error.empty());
     if (!read.error.empty()) return;
     EXPECT_EQ(test::bits(streamed.mesh), test::bits(read.mesh));
-    Mesh heard = read.mesh;
-    heard.features = {};  // sinks do not receive them
-    EXPECT_EQ(streamed.mesh, heard);
+    Mesh received = read.mesh;
+    received.features = {};  // sinks do not receive them
+    EXPECT_EQ(streamed.mesh, received);
     EXPECT_EQ(streamed.notes, read.notes);
 }
 
@@ -160,7 +160,7 @@ TEST(StreamedMesh, IsTheOneReadForRandomMeshesInAnyOrderOfSections) {
     constexpr std::uint64_t first_seed = 1;
     for (std::uint64_t seed = first_seed; seed < first_seed + 12; ++seed) {
         SCOPED_TRACE(testing::Message() << "seed " << seed);
-        const std::size_t size = seed % 3 == 0 ? MeshSink::longest_stretch : 20;
+        const std::size_t size = seed % 3 == 0 ? MeshSink::max_batch_size : 20;
         const TemporaryFolder folder;
         const Mesh mesh = random_mesh(seed, size);
         (void)write_mesh(mesh, folder / "a.ele");
@@ -180,7 +180,7 @@ TEST(StreamedMesh, IsTheOneReadForRandomMeshesInAnyOrderOfSections) {
 }
 
 TEST(StreamedMesh, IsDeliveredInFullBlocks) {
-    constexpr std::size_t longest = MeshSink::longest_stretch;
+    constexpr std::size_t longest = MeshSink::max_batch_size;
     Mesh mesh = test::one_cell(test::regular_corners);
     mesh.cells.resize(2 * longest + 1, mesh.cells.front());
     mesh.facets.resize(2 * longest, {VertexIndex{0}, VertexIndex{1}, VertexIndex{2}});
@@ -202,7 +202,7 @@ TEST(StreamedMesh, IsDeliveredInFullBlocks) {
 }
 
 TEST(StreamedMesh, HasTheMarkersOfWhichOnlyTheFirstIsNotZero) {
-    constexpr std::size_t several = MeshSink::longest_stretch + 1;
+    constexpr std::size_t several = MeshSink::max_batch_size + 1;
     Mesh mesh = test::one_cell(test::regular_corners);
     mesh.cells.resize(several, mesh.cells.front());
     mesh.points.resize(several);
@@ -218,7 +218,7 @@ TEST(StreamedMesh, HasTheMarkersOfWhichOnlyTheFirstIsNotZero) {
 }
 
 TEST(StreamedMesh, HasAdjacentCellsAtEachFaceIfAtTheFirst) {
-    constexpr std::size_t longest = MeshSink::longest_stretch;
+    constexpr std::size_t longest = MeshSink::max_batch_size;
     const TemporaryFolder folder;
     (void)write_mesh(test::one_cell(test::regular_corners), folder / "a.ele");
     std::string faces = std::to_string(longest + 1) + " 1\n";
@@ -242,7 +242,7 @@ std::string medit_cells(std::size_t count, std::size_t place, const std::string&
 }
 
 TEST(StreamedMesh, StopsBeforeAVertexThatThereIsNotAndNamesItsLine) {
-    constexpr std::size_t longest = MeshSink::longest_stretch;
+    constexpr std::size_t longest = MeshSink::max_batch_size;
     const TemporaryFolder folder;
     for (const bool vertices_first : {true, false}) {
         for (const std::string bad : {"1 2 5 9 0", "1 2\n5 9 0"}) {
@@ -257,7 +257,7 @@ TEST(StreamedMesh, StopsBeforeAVertexThatThereIsNotAndNamesItsLine) {
 }
 
 TEST(StreamedMesh, OfABinaryFileStopsBeforeAVertexThatThereIsNot) {
-    constexpr std::size_t longest = MeshSink::longest_stretch;
+    constexpr std::size_t longest = MeshSink::max_batch_size;
     const TemporaryFolder folder;
     for (const bool vertices_first : {true, false}) {
         test::MeshbFile meshb;
@@ -298,7 +298,7 @@ TEST(StreamedMesh, DeliversWholeBlocksOfATruncatedFile) {
     const fs::path cut = folder.write("a.ele", whole.substr(0, whole.find("\n20000 ")));
     Gathered gathered;
     expect_streamed_as_read(cut, gathered);
-    EXPECT_EQ(gathered.mesh.cells.size(), MeshSink::longest_stretch);
+    EXPECT_EQ(gathered.mesh.cells.size(), MeshSink::max_batch_size);
 }
 
 TEST(StreamedMesh, IsNotedOnceThoughItsFileIsReadTwice) {
@@ -309,9 +309,9 @@ TEST(StreamedMesh, IsNotedOnceThoughItsFileIsReadTwice) {
 }
 
 /// Modifies a file while it is being read.
-class Meddler : public Gathered {
+class ModifyingSink : public Gathered {
 public:
-    Meddler(fs::path file, std::string from, std::string to)
+    ModifyingSink(fs::path file, std::string from, std::string to)
         : file_(std::move(file)), from_(std::move(from)), to_(std::move(to)) {}
 
     void expect_points(std::uint64_t count, std::size_t attributes, bool has_markers) override {
@@ -336,7 +336,7 @@ TEST(StreamedMesh, MayNotLoseVerticesBetweenTwoReadings) {
         padding += "# what fills more than one buffer of the reader ...\n";
     text.insert(text.find("Vertices"), padding);
     const fs::path file = folder.write("a.mesh", text);
-    Meddler meddler(file, "Vertices\n4\n", "Vertices\n3\n");
+    ModifyingSink meddler(file, "Vertices\n4\n", "Vertices\n3\n");
     EXPECT_THAT(test::thrown_by<InputError>([&] { stream_mesh(file, meddler); }),
                 HasSubstr("the file has changed while it was read"));
     EXPECT_FALSE(meddler.is_finished);
@@ -351,7 +351,7 @@ TEST(StreamedMesh, MayNotGainElementsBetweenTwoReadings) {
     const fs::path file =
         folder.write("a.msh", "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n" + nodes + padding +
                                   "$Elements\n2\n1 4 0 1 2 3 4\n2 2 2 1 1 1 2 3\n$EndElements\n");
-    Meddler meddler(file, "2 2 2 1 1 1 2 3\n", "2 4 1 1 1 2 3 4\n");
+    ModifyingSink meddler(file, "2 2 2 1 1 1 2 3\n", "2 4 1 1 1 2 3 4\n");
     EXPECT_THAT(test::thrown_by<InputError>([&] { stream_mesh(file, meddler); }),
                 HasSubstr("the file has changed while it was read"));
     EXPECT_FALSE(meddler.is_finished);

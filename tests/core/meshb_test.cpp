@@ -12,8 +12,8 @@
 #include <octetra/core/error.hpp>
 #include <octetra/core/files/mesh_files.hpp>
 
+#include "core/mesh_shares.hpp"
 #include "core/meshb_files.hpp"
-#include "core/stretches.hpp"
 #include "files/medit/medit.hpp"
 #include "support/bits.hpp"
 #include "support/meshes.hpp"
@@ -39,7 +39,7 @@ MeshbFile corner(int version = 2) { return std::move(meshb_start(version).corner
 Mesh read_bytes(const std::string& bytes, const ReadOptions& options = {}) {
     const TemporaryFolder folder;
     const auto file = folder.write("m.meshb", bytes);
-    test::expect_right_stretches(file);
+    test::expect_correct_shares(file);
     return read_mesh(file, options);
 }
 
@@ -345,7 +345,7 @@ TEST(MeshbVersion, IsTheLowestThatHoldsTheMesh) {
 }
 
 Mesh mesh_with_tags() {
-    Mesh mesh = test::shaken_kuhn(5, 0.2, 3);
+    Mesh mesh = test::perturbed_kuhn(5, 0.2, 3);
     test::list_boundary(mesh);
     mesh.regions.resize(mesh.cells.size());
     mesh.edges.append({mesh.cells.front()[0], mesh.cells.front()[1]});
@@ -424,7 +424,7 @@ TEST(MeshbReader, MakesAMeshOrARefusalOfWhateverIsThere) {
         } catch (const InputError& error) {
             EXPECT_THAT(error.what(), testing::StartsWith(file.native() + ": at byte "));
         }
-        test::expect_right_stretches(file);
+        test::expect_correct_shares(file);
         if (HasFailure()) FAIL() << "turn " << turn;
     }
     EXPECT_GT(meshes, 0);

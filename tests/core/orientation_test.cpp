@@ -156,7 +156,7 @@ bool is_sure_of(const Point& a, const Point& b, const Point& c, const Point& d) 
 }
 
 TEST(PositiveFilter, IsSureOfAllCellsOfAMeshThatAreNotNearlyFlat) {
-    const Mesh mesh = test::shaken_kuhn(6, 0.2, 3);
+    const Mesh mesh = test::perturbed_kuhn(6, 0.2, 3);
     PositiveFilter filter;
     filter.add(std::span(mesh.points).first(5));
     filter.add(std::span(mesh.points).subspan(5));

@@ -19,7 +19,7 @@ using test::TemporaryFolder;
 
 /// A mesh with everything that files can contain.
 Mesh rich_mesh() {
-    Mesh mesh = test::shaken_kuhn(2, 0.2, 3);
+    Mesh mesh = test::perturbed_kuhn(2, 0.2, 3);
     test::list_boundary(mesh);
     for (CellIndex c{0}; c < mesh.cells.end_index(); ++c) {
         mesh.regions.append(static_cast<Marker>(c.value() % 3) - 1);

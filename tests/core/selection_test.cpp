@@ -70,7 +70,7 @@ TEST(Selection, CriteriaAddUp) {
 }
 
 TEST(Selection, AtRandomTakesAboutItsShare) {
-    const Mesh mesh = test::shaken_kuhn(10, 0.1, 5);
+    const Mesh mesh = test::perturbed_kuhn(10, 0.1, 5);
     for (const double share : {0.0, 0.01, 0.3, 0.9, 1.0}) {
         const Selection selection{.random = RandomShare{share, 17}};
         const auto marked = std::ranges::count_if(mesh.cells, [&](const CellVertices& cell) {

@@ -17,7 +17,7 @@
 #include <octetra/core/files/lists.hpp>
 #include <octetra/core/files/mesh_files.hpp>
 
-#include "core/stretches.hpp"
+#include "core/mesh_shares.hpp"
 #include "support/temporary_folder.hpp"
 #include "support/thrown.hpp"
 
@@ -43,7 +43,7 @@ Mesh read_files(const Files& files, const ReadOptions& options = {}) {
     (void)folder.write("m.ele", files.ele);
     if (!files.face.empty()) (void)folder.write("m.face", files.face);
     if (!files.edge.empty()) (void)folder.write("m.edge", files.edge);
-    test::expect_right_stretches(folder / "m.ele");
+    test::expect_correct_shares(folder / "m.ele");
     return read_mesh(folder / "m.ele", options);
 }
 

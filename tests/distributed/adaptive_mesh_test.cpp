@@ -22,7 +22,7 @@
 
 #include "distributed/adaptive_steps.hpp"
 #include "distributed/marked_mesh.hpp"
-#include "distributed/seen_mesh.hpp"
+#include "distributed/observed_mesh.hpp"
 #include "distributed/world.hpp"
 #include "support/meshes.hpp"
 #include "support/temporary_folder.hpp"
@@ -49,9 +49,9 @@ INSTANTIATE_TEST_SUITE_P(Parts, AdaptiveMeshIn, testing::Values(Partition{}, in_
                          [](const auto& i) { return fmt::format("{}", i.index); });
 
 TEST_P(AdaptiveMeshIn, EqualsTheReferenceAfterEveryStep) {
-    const Mesh mesh = test::marked(test::shaken_kuhn(6, 0.2, 3), 3);
+    const Mesh mesh = test::marked(test::perturbed_kuhn(6, 0.2, 3), 3);
     for (const Scheme scheme : {Scheme::eight, Scheme::four, Scheme::two}) {
-        AdaptiveMesh adapted = shared_out(mesh, GetParam());
+        AdaptiveMesh adapted = distributed_mesh(mesh, GetParam());
         for (std::size_t k = 0; k < steps.size(); ++k) {
             const Adaptation step =
                 k % 2 == 0 ? adapted.refine(marks_of(adapted, steps[k]), {.scheme = scheme})
@@ -68,7 +68,7 @@ TEST_P(AdaptiveMeshIn, EqualsTheReferenceAfterEveryStep) {
 }
 
 TEST(AdaptiveMesh, FindsASingleMarkAtAnyPosition) {
-    const Mesh mesh = test::shaken_kuhn(6, 0.2, 3);
+    const Mesh mesh = test::perturbed_kuhn(6, 0.2, 3);
     const auto ranks = partition_cells(mesh, test::world().size(), in_blocks);
     const AdaptiveMesh input = AdaptiveMesh::distribute(test::world(), mesh, ranks);
     const std::size_t most = test::world().max(input.cells().size());
@@ -88,7 +88,7 @@ TEST(AdaptiveMesh, FindsASingleMarkAtAnyPosition) {
 }
 
 TEST_P(AdaptiveMeshIn, WritesTheFilesOfTheWholeMesh) {
-    AdaptiveMesh mesh = shared_out(test::shaken_kuhn(3, 0.2, 3), GetParam());
+    AdaptiveMesh mesh = distributed_mesh(test::perturbed_kuhn(3, 0.2, 3), GetParam());
     std::optional<test::TemporaryFolder> folder;  // one folder for all processes
     std::string path;
     if (test::world().is_first()) {
@@ -112,7 +112,7 @@ TEST_P(AdaptiveMeshIn, WritesTheFilesOfTheWholeMesh) {
 }
 
 TEST_P(AdaptiveMeshIn, KnowsOfEveryVertexItsNumberItsSharersAndItsOwner) {
-    AdaptiveMesh mesh = shared_out(test::shaken_kuhn(3, 0.2, 1), GetParam());
+    AdaptiveMesh mesh = distributed_mesh(test::perturbed_kuhn(3, 0.2, 1), GetParam());
     for (const Selection& selection : steps) {
         (void)mesh.refine(selection);
         struct Vertex {
@@ -136,11 +136,11 @@ TEST_P(AdaptiveMeshIn, KnowsOfEveryVertexItsNumberItsSharersAndItsOwner) {
         EXPECT_EQ(ranks.rbegin()->first + 1, ranks.size());
 
         // A process's report of an owner and of the interface with this process.
-        struct Said {
+        struct OwnerReport {
             std::uint64_t number;
             int owner;
         };
-        std::vector<Said> said;
+        std::vector<OwnerReport> said;
         const Sharing<VertexIndex>& sharing = mesh.vertex_sharing();
         for (std::size_t v = 0; v < own.size(); ++v) {
             std::vector<int> expected = ranks[own[v].number];
@@ -176,7 +176,8 @@ TEST_P(AdaptiveMeshIn, KnowsOfEveryVertexItsNumberItsSharersAndItsOwner) {
 }
 
 TEST_P(AdaptiveMeshIn, ReturnsTheAncestorOfEachCellFacetAndEdge) {
-    AdaptiveMesh mesh = shared_out(test::marked(test::shaken_kuhn(3, 0.2, 2), 2), GetParam());
+    AdaptiveMesh mesh =
+        distributed_mesh(test::marked(test::perturbed_kuhn(3, 0.2, 2), 2), GetParam());
     for (const Selection& selection : steps) {
         const std::vector<CellVertices> cells(mesh.cells().begin(), mesh.cells().end());
         const std::vector<FacetVertices> facets(mesh.facets().begin(), mesh.facets().end());
@@ -202,13 +203,13 @@ TEST_P(AdaptiveMeshIn, ReturnsTheAncestorOfEachCellFacetAndEdge) {
             ASSERT_EQ(entity_transfer.count_before(), before.size());
             ASSERT_EQ(entity_transfer.count(), after.size());
             std::vector<double> shares(before.size(), 0);
-            std::vector<char> is_told(after.size(), 0);
+            std::vector<char> is_reported(after.size(), 0);
             const auto parents = entity_transfer.parents();
             entity_transfer.for_each_new(
                 [&](std::size_t number, std::size_t whole, unsigned halvings) {
                     EXPECT_EQ(parents[number], whole);
-                    EXPECT_EQ(is_told[number], 0);
-                    is_told[number] = 1;
+                    EXPECT_EQ(is_reported[number], 0);
+                    is_reported[number] = 1;
                     shares[whole] += 1.0 / (1U << halvings);
                 });
             for (std::size_t i = 0; i < after.size(); ++i) {
@@ -221,7 +222,7 @@ TEST_P(AdaptiveMeshIn, ReturnsTheAncestorOfEachCellFacetAndEdge) {
                     const auto [a, b] = step.new_vertex_ends.at(v.value() - vertex_count);
                     return is_corner(a) && is_corner(b);
                 }));
-                EXPECT_TRUE(is_told[i] != 0 || after[i] == before[i]);
+                EXPECT_TRUE(is_reported[i] != 0 || after[i] == before[i]);
                 EXPECT_EQ(markers_after[i], markers_before[parents[i]]);
             }
             for (const double share : shares) EXPECT_TRUE(share == 1 || share == 0) << share;
@@ -240,7 +241,7 @@ struct Material {
 };
 
 TEST_P(AdaptiveMeshIn, TransfersLinearFunctionsExactlyAndKeepsSums) {
-    AdaptiveMesh mesh = shared_out(test::shaken_kuhn(3, 0.2, 4), GetParam());
+    AdaptiveMesh mesh = distributed_mesh(test::perturbed_kuhn(3, 0.2, 4), GetParam());
     const auto linear = [&] {
         std::vector<double> values;
         for (const auto& [x, y, z] : mesh.points()) {
@@ -284,9 +285,9 @@ TEST_P(AdaptiveMeshIn, TransfersLinearFunctionsExactlyAndKeepsSums) {
 TEST_P(AdaptiveMeshIn, BisectsMarkedEdgesAndWhatClosureAdds) {
     // Lists the longest edges of marked cells on all processes that have them; scheme 2t marks
     // exactly these.
-    const Mesh whole = test::shaken_kuhn(3, 0.2, 6);
+    const Mesh whole = test::perturbed_kuhn(3, 0.2, 6);
     for (const Selection& selection : {steps[0], steps[2]}) {
-        AdaptiveMesh by_edges = shared_out(whole, GetParam());
+        AdaptiveMesh by_edges = distributed_mesh(whole, GetParam());
         std::vector<EdgeVertices> longest;
         for (std::size_t c = 0; c < by_edges.cells().size(); ++c) {
             if (!marks(selection, corners_of(by_edges, c), 0, GlobalCell{0})) continue;
@@ -310,7 +311,7 @@ TEST_P(AdaptiveMeshIn, BisectsMarkedEdgesAndWhatClosureAdds) {
 }
 
 TEST_P(AdaptiveMeshIn, ExchangesValuesOfSharedVertices) {
-    AdaptiveMesh mesh = shared_out(test::shaken_kuhn(3, 0.2, 1), GetParam());
+    AdaptiveMesh mesh = distributed_mesh(test::perturbed_kuhn(3, 0.2, 1), GetParam());
     (void)mesh.refine(steps[2]);
     const Sharing<VertexIndex>& sharing = mesh.vertex_sharing();
     const std::size_t count = mesh.points().size();
@@ -412,15 +413,15 @@ TEST(AdaptiveMesh, HasSharersAlsoWherePartsTouchInOneVertexOrEdgeOnly) {
 }
 
 TEST_P(AdaptiveMeshIn, IsVerifiedWithoutBeingCollectedOrChanged) {
-    Mesh coarse = test::shaken_kuhn(3, 0.2, 2);
+    Mesh coarse = test::perturbed_kuhn(3, 0.2, 2);
     test::list_boundary(coarse);
-    AdaptiveMesh mesh = shared_out(coarse, GetParam());
+    AdaptiveMesh mesh = distributed_mesh(coarse, GetParam());
     const Selection selection = steps[0];
     (void)mesh.refine(selection);
     CanonicalMesh fine = mesh.canonical();
     const auto verdict = verify::verify_refinement(
-        verify::share_out(coarse, test::world()), verify::slice_of(fine.whole()), test::world(),
-        {.request = verify::Request{selection, Scheme::eight, 1}});
+        verify::distribute_slices(coarse, test::world()), verify::slice_of(fine.whole()),
+        test::world(), {.request = verify::Request{selection, Scheme::eight, 1}});
     EXPECT_TRUE(verdict.valid());
     (void)mesh.refine(Selection{.all = true});  // further steps are possible
 }

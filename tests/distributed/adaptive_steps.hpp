@@ -13,7 +13,7 @@
 /// Common parts of the tests of AdaptiveMesh.
 namespace octetra::distributed {
 
-inline AdaptiveMesh shared_out(const Mesh& mesh, const Partition& partition) {
+inline AdaptiveMesh distributed_mesh(const Mesh& mesh, const Partition& partition) {
     return AdaptiveMesh::distribute(test::world(), mesh,
                                     partition_cells(mesh, test::world().size(), partition));
 }

@@ -47,7 +47,8 @@ void adapt(AdaptiveMesh& mesh, std::uint64_t seed, int steps) {
 /// Its lists of points, cells and cuts extend over several blocks.
 Mesh input_of(std::uint64_t seed) { return test::featured(test::marked_lattice(16, seed), seed); }
 
-AdaptiveMesh shared_out(const Communicator& processes, Mesh mesh, const std::string& partition) {
+AdaptiveMesh distributed_mesh(const Communicator& processes, Mesh mesh,
+                              const std::string& partition) {
     std::vector<int> parts = partition_cells(mesh, processes.size(), parse_partition(partition));
     return AdaptiveMesh::distribute(processes, std::move(mesh), parts);
 }
@@ -82,11 +83,11 @@ class Checkpoint : public testing::TestWithParam<std::uint64_t> {};
 
 TEST_P(Checkpoint, IsTheSameBytesOnAnyNumberOfRanks) {
     const test::SharedFolder folder;
-    AdaptiveMesh mesh = shared_out(world(), input_of(GetParam()), "random:3");
+    AdaptiveMesh mesh = distributed_mesh(world(), input_of(GetParam()), "random:3");
     adapt(mesh, GetParam(), 5);
     mesh.save(folder / "together.octetra", fields_of(mesh));
     world().on_first([&] {
-        AdaptiveMesh alone = shared_out(Communicator(), input_of(GetParam()), "block");
+        AdaptiveMesh alone = distributed_mesh(Communicator(), input_of(GetParam()), "block");
         adapt(alone, GetParam(), 5);
         alone.save(folder / "alone.octetra", fields_of(alone));
         EXPECT_EQ(test::content_of(folder / "together.octetra"),
@@ -96,7 +97,7 @@ TEST_P(Checkpoint, IsTheSameBytesOnAnyNumberOfRanks) {
 
 TEST_P(Checkpoint, RestoresTheMeshWithAnyPartition) {
     const test::SharedFolder folder;
-    AdaptiveMesh mesh = shared_out(world(), input_of(GetParam()), "block");
+    AdaptiveMesh mesh = distributed_mesh(world(), input_of(GetParam()), "block");
     adapt(mesh, GetParam(), 5);
     mesh.save(folder / "state.octetra", fields_of(mesh));
     const Mesh expected = mesh.collect();
@@ -111,7 +112,7 @@ TEST_P(Checkpoint, RestoresTheMeshWithAnyPartition) {
 
 TEST_P(Checkpoint, ContinuesLikeTheSavedMesh) {
     const test::SharedFolder folder;
-    AdaptiveMesh mesh = shared_out(world(), input_of(GetParam()), "random:5");
+    AdaptiveMesh mesh = distributed_mesh(world(), input_of(GetParam()), "random:5");
     adapt(mesh, GetParam(), 4);
     mesh.save(folder / "state.octetra");
     AdaptiveMesh loaded = AdaptiveMesh::load(world(), folder / "state.octetra");
@@ -127,7 +128,7 @@ TEST_P(Checkpoint, ContinuesLikeTheSavedMesh) {
 TEST_P(Checkpoint, HasTheReferencesInputAndSteps) {
     const test::SharedFolder folder;
     const Mesh input = test::featured(test::marked_lattice(4, GetParam()), GetParam());
-    AdaptiveMesh mesh = shared_out(world(), input, "random:3");
+    AdaptiveMesh mesh = distributed_mesh(world(), input, "random:3");
     reference::History history{input, {}};
     for (std::uint64_t k = 0; k < 3; ++k) {
         const Selection selection = some(0.1, GetParam() + k);
@@ -155,7 +156,7 @@ INSTANTIATE_TEST_SUITE_P(Seeds, Checkpoint, testing::Range<std::uint64_t>(0, 2))
 TEST(CheckpointOfAMeshThatIsTheInput, HasNoSteps) {
     const test::SharedFolder folder;
     const Mesh input = input_of(1);
-    shared_out(world(), input, "block").save(folder / "input.octetra");
+    distributed_mesh(world(), input, "block").save(folder / "input.octetra");
     EXPECT_EQ(read_checkpoint_facts(folder / "input.octetra").state, std::nullopt);
     const AdaptiveMesh loaded = AdaptiveMesh::load(world(), folder / "input.octetra");
     EXPECT_TRUE(loaded.collect() == input || !world().is_first());
@@ -163,7 +164,7 @@ TEST(CheckpointOfAMeshThatIsTheInput, HasNoSteps) {
 
 TEST(CheckpointOfCellsThatAreCutSideBySide, IsLoaded) {
     const test::SharedFolder folder;
-    AdaptiveMesh mesh = shared_out(world(), test::marked_lattice(8, 1), "block");
+    AdaptiveMesh mesh = distributed_mesh(world(), test::marked_lattice(8, 1), "block");
     for (const double x : {1.0, 1.2, 4.0}) {
         (void)mesh.refine({.spheres = {{{x, 2, 3}, 0.8}}});
         mesh.save(folder / "state.octetra");
@@ -176,7 +177,7 @@ TEST(CheckpointOfAMeshWithVerticesOfNoCell, KeepsThem) {
     const test::SharedFolder folder;
     Mesh input = test::kuhn(2, 2, 2);
     for (const double x : {7.0, 8.0}) input.points.append({x, 0, 0});
-    AdaptiveMesh mesh = shared_out(world(), input, "block");
+    AdaptiveMesh mesh = distributed_mesh(world(), input, "block");
     (void)mesh.refine({.all = true});
     mesh.save(folder / "state.octetra");
     const AdaptiveMesh loaded = AdaptiveMesh::load(world(), folder / "state.octetra");
@@ -217,7 +218,8 @@ bool is_refused(const std::filesystem::path& path) {
 
 TEST(InventedCheckpoint, IsReadOrRefusedByAllRanks) {
     const test::SharedFolder folder;
-    AdaptiveMesh mesh = shared_out(world(), test::featured(test::marked_lattice(2, 1), 1), "block");
+    AdaptiveMesh mesh =
+        distributed_mesh(world(), test::featured(test::marked_lattice(2, 1), 1), "block");
     for (const std::uint64_t seed : {1U, 2U, 3U}) (void)mesh.refine(some(0.1, seed));
     mesh.save(folder / "good.octetra");
     EXPECT_FALSE(is_refused(folder / "good.octetra"));
@@ -242,7 +244,8 @@ TEST(InventedCheckpoint, IsReadOrRefusedByAllRanks) {
 /// Each rank has only its share of the cuts, but all three figures of a step depend on all cuts.
 TEST(CheckpointWithWrongFiguresOfAStep, IsRefusedIdenticallyByAllRanks) {
     const test::SharedFolder folder;
-    AdaptiveMesh mesh = shared_out(world(), test::marked_lattice(12, 1), "block");  // some blocks
+    AdaptiveMesh mesh =
+        distributed_mesh(world(), test::marked_lattice(12, 1), "block");  // some blocks
     for (const std::uint64_t seed : {1U, 2U}) (void)mesh.refine(some(0.1, seed));
     mesh.save(folder / "good.octetra");
     EXPECT_FALSE(is_refused(folder / "good.octetra"));
@@ -268,7 +271,7 @@ TEST(CheckpointWithWrongFiguresOfAStep, IsRefusedIdenticallyByAllRanks) {
 TEST(CheckpointWithATaggedSideOfNoCell, IsRefusedIdenticallyByAllRanks) {
     const test::SharedFolder folder;
     Mesh whole = test::marked_lattice(12, 1);
-    AdaptiveMesh mesh = shared_out(world(), whole, "block");
+    AdaptiveMesh mesh = distributed_mesh(world(), whole, "block");
     mesh.save(folder / "good.octetra");
     const std::uint64_t vertices = whole.points.size();
     for (const bool is_edge : {true, false}) {
@@ -299,7 +302,7 @@ TEST(CheckpointWithATaggedSideOfNoCell, IsRefusedIdenticallyByAllRanks) {
 
 TEST(CheckpointFields, ThatDoNotFitAreRefusedOnAllRanksAndNothingIsWritten) {
     const test::SharedFolder folder;
-    const AdaptiveMesh mesh = shared_out(world(), test::kuhn(4, 4, 4), "block");
+    const AdaptiveMesh mesh = distributed_mesh(world(), test::kuhn(4, 4, 4), "block");
     std::vector<Field> fields = fields_of(mesh);
     const bool is_last = world().rank() == world().size() - 1;
     if (is_last) std::get<std::vector<double>>(fields[0].values).push_back(0);

@@ -55,7 +55,7 @@ class Coarsening : public testing::TestWithParam<std::uint64_t> {};
 TEST_P(Coarsening, IsTheReferencesStepByStep) {
     std::mt19937_64 random(GetParam());
     const bool has_ties = GetParam() % 2 == 0;
-    const Mesh lattice = has_ties ? test::kuhn(3, 3, 3) : test::shaken_kuhn(3, 0.2, GetParam());
+    const Mesh lattice = has_ties ? test::kuhn(3, 3, 3) : test::perturbed_kuhn(3, 0.2, GetParam());
     Both both(test::marked(lattice, 1), GetParam());
     constexpr std::array<Scheme, 3> schemes{Scheme::eight, Scheme::four, Scheme::two};
     for (int step = 0; step < 8; ++step) {
@@ -80,7 +80,7 @@ TEST_P(Coarsening, IsTheReferencesStepByStep) {
 /// date.
 TEST_P(Coarsening, OfFewCellsRepeatedlyEqualsTheReference) {
     std::mt19937_64 random(GetParam());
-    Both both(test::marked(test::shaken_kuhn(3, 0.2, GetParam()), 1), GetParam());
+    Both both(test::marked(test::perturbed_kuhn(3, 0.2, GetParam()), 1), GetParam());
     const Tuning incremental{.incremental_below = 2, .roots_below = 1};
     both.refine({.random = RandomShare{0.2, GetParam()}}, Scheme::eight, {.incremental_below = 0});
     both.refine({.spheres = {{{1.5, 1.5, 1.5}, 0.3}}}, Scheme::eight, incremental);
@@ -101,7 +101,7 @@ TEST_P(Coarsening, OfFewCellsRepeatedlyEqualsTheReference) {
 }
 
 TEST_P(Coarsening, OfAllRepeatedlyRestoresTheInput) {
-    const Mesh mesh = test::marked(test::shaken_kuhn(2, 0.2, GetParam()), 1);
+    const Mesh mesh = test::marked(test::perturbed_kuhn(2, 0.2, GetParam()), 1);
     Both both(mesh, GetParam());
     for (std::uint64_t step = 0; step < 3; ++step) {
         both.refine({.random = RandomShare{0.2, GetParam() + step}}, Scheme::eight, {});
@@ -123,7 +123,7 @@ TEST_P(CoarseningOfSmallMeshes, OfAllButFewCellsEqualsTheReference) {
     const int trials = test::world().size() > 3 ? 2 : 20;
     for (int trial = 0; trial < trials; ++trial) {
         const Mesh lattice =
-            trial % 2 == 0 ? test::kuhn(2, 1, 1) : test::shaken_kuhn(2, 0.2, random());
+            trial % 2 == 0 ? test::kuhn(2, 1, 1) : test::perturbed_kuhn(2, 0.2, random());
         Both both(lattice, random());
         for (int step = 0; step < 3; ++step) {
             both.refine({.random = RandomShare{0.08, random()}}, Scheme::eight, {});

@@ -11,8 +11,8 @@
 #include <octetra/distributed/partition.hpp>
 
 #include "distributed/marked_mesh.hpp"
+#include "distributed/observed_mesh.hpp"
 #include "distributed/reference_steps.hpp"
-#include "distributed/seen_mesh.hpp"
 #include "distributed/world.hpp"
 #include "support/meshes.hpp"
 #include "support/refinement.hpp"
@@ -21,7 +21,7 @@
 namespace octetra::distributed {
 namespace {
 
-AdaptiveMesh shared_out(const Mesh& mesh, const std::string& partition) {
+AdaptiveMesh distributed_mesh(const Mesh& mesh, const std::string& partition) {
     return AdaptiveMesh::distribute(
         test::world(), mesh,
         partition_cells(mesh, test::world().size(), parse_partition(partition)));
@@ -44,8 +44,8 @@ std::vector<std::pair<bool, Selection>> random_steps(std::uint64_t seed) {
 }
 
 TEST_P(CoarseningMesh, IsTheReferencesOnEveryPartition) {
-    const Mesh input = test::marked(test::shaken_kuhn(4, 0.2, GetParam()), 1);
-    AdaptiveMesh mesh = shared_out(input, GetParam() % 2 == 0 ? "block" : "random:3");
+    const Mesh input = test::marked(test::perturbed_kuhn(4, 0.2, GetParam()), 1);
+    AdaptiveMesh mesh = distributed_mesh(input, GetParam() % 2 == 0 ? "block" : "random:3");
     test::ReferenceSteps reference(input);
     for (const auto& [refines, selection] : random_steps(GetParam())) {
         const Adaptation step = refines ? mesh.refine(selection) : mesh.coarsen(selection);
@@ -70,19 +70,19 @@ TEST_P(CoarseningMesh, IsTheReferencesOnEveryPartition) {
 
 /// The data that the mesh reports for each vertex and cell, keyed by coordinates.
 TEST_P(CoarseningMesh, HasNumbersSharersAndOwnersOfAMeshThatWasNeverFiner) {
-    const Mesh input = test::marked(test::shaken_kuhn(3, 0.2, GetParam()), 1);
-    AdaptiveMesh mesh = shared_out(input, "random:5");
+    const Mesh input = test::marked(test::perturbed_kuhn(3, 0.2, GetParam()), 1);
+    AdaptiveMesh mesh = distributed_mesh(input, "random:5");
     (void)mesh.refine(some(0.1, GetParam()));
-    const test::SeenMesh before(mesh);
+    const test::ObservedMesh before(mesh);
     (void)mesh.refine(some(0.3, GetParam() + 1));
     for (int k = 0; k < 2; ++k) (void)mesh.coarsen({.all = true});
     (void)mesh.refine(some(0.1, GetParam()));
-    EXPECT_TRUE(before == test::SeenMesh(mesh));
+    EXPECT_TRUE(before == test::ObservedMesh(mesh));
 }
 
 TEST_P(CoarseningMesh, KeepsValuesOfVerticesAndComputesThoseOfCellsFromTheirChildren) {
-    const Mesh input = test::marked(test::shaken_kuhn(3, 0.2, GetParam()), 1);
-    AdaptiveMesh mesh = shared_out(input, "random:5");
+    const Mesh input = test::marked(test::perturbed_kuhn(3, 0.2, GetParam()), 1);
+    AdaptiveMesh mesh = distributed_mesh(input, "random:5");
     for (const std::uint64_t k : {0U, 1U, 2U}) (void)mesh.refine(some(0.02, GetParam() + k));
     const auto cell_volume = [&](std::size_t c) {
         Corners corners;
@@ -160,7 +160,7 @@ TEST(MergedValue, IsTheCommonValueOfAllChildrenOrElseTheirMeanInAnyOrder) {
 }
 
 TEST_P(CoarseningMesh, KeepsWholeNumbersCommonToAllChildren) {
-    AdaptiveMesh mesh = shared_out(test::shaken_kuhn(3, 0.2, GetParam()), "random:5");
+    AdaptiveMesh mesh = distributed_mesh(test::perturbed_kuhn(3, 0.2, GetParam()), "random:5");
     std::vector<int> tag(mesh.cells().size(), 7);
     std::vector<double> tenth(mesh.cells().size(), 0.1);
     for (const std::uint64_t k : {0U, 1U}) {
@@ -179,8 +179,8 @@ TEST_P(CoarseningMesh, KeepsWholeNumbersCommonToAllChildren) {
 }
 
 TEST_P(CoarseningMesh, MapsEveryFacetAndTaggedEdgeToItsSuccessor) {
-    const Mesh input = test::marked(test::shaken_kuhn(3, 0.2, GetParam()), 1);
-    AdaptiveMesh mesh = shared_out(input, "random:5");
+    const Mesh input = test::marked(test::perturbed_kuhn(3, 0.2, GetParam()), 1);
+    AdaptiveMesh mesh = distributed_mesh(input, "random:5");
     for (const std::uint64_t k : {0U, 1U, 2U}) (void)mesh.refine(some(0.02, GetParam() + k));
     const std::vector<Point> points(mesh.points().begin(), mesh.points().end());
     const std::vector<FacetVertices> facets(mesh.facets().begin(), mesh.facets().end());
@@ -215,12 +215,12 @@ TEST_P(CoarseningMesh, MapsEveryFacetAndTaggedEdgeToItsSuccessor) {
 INSTANTIATE_TEST_SUITE_P(Seeds, CoarseningMesh, testing::Range<std::uint64_t>(0, 8));
 
 TEST(CoarseningByWrongMarks, IsRefusedOnAllProcessesAndChangesNothing) {
-    AdaptiveMesh mesh = shared_out(test::shaken_kuhn(3, 0.2, 1), "block");
+    AdaptiveMesh mesh = distributed_mesh(test::perturbed_kuhn(3, 0.2, 1), "block");
     (void)mesh.refine(some(0.1, 1));
-    const test::SeenMesh before(mesh);
+    const test::ObservedMesh before(mesh);
     std::vector<std::uint8_t> marks(mesh.cells().size() + (test::world().is_first() ? 1 : 0), 1);
     EXPECT_THROW((void)mesh.coarsen(marks), InputError);
-    EXPECT_TRUE(before == test::SeenMesh(mesh));
+    EXPECT_TRUE(before == test::ObservedMesh(mesh));
 }
 
 }  // namespace

@@ -23,7 +23,7 @@ protected:
 
     /// Starts a process that takes the lock, lives for a while, and reports by its exit status
     /// whether it was the first. Returns when it holds the lock.
-    [[nodiscard]] pid_t start_a_holder(std::chrono::milliseconds life) const {
+    [[nodiscard]] pid_t start_holder(std::chrono::milliseconds life) const {
         std::array<int, 2> ends{};
         EXPECT_EQ(::pipe(ends.data()), 0);
         const pid_t child = ::fork();
@@ -50,7 +50,7 @@ bool was_first(pid_t child) {
 }
 
 TEST_F(CommonLock, IsAcquiredOnceAlsoAfterItsHolderHasEnded) {
-    const pid_t holder = start_a_holder(std::chrono::milliseconds(0));
+    const pid_t holder = start_holder(std::chrono::milliseconds(0));
     EXPECT_TRUE(was_first(holder));
     const int lock = open();
     EXPECT_FALSE(try_claim(lock));
@@ -58,7 +58,7 @@ TEST_F(CommonLock, IsAcquiredOnceAlsoAfterItsHolderHasEnded) {
 }
 
 TEST_F(CommonLock, BlocksOthersUntilItsHolderHasEnded) {
-    const pid_t holder = start_a_holder(std::chrono::milliseconds(200));
+    const pid_t holder = start_holder(std::chrono::milliseconds(200));
     const auto start = std::chrono::steady_clock::now();
     const int lock = open();
     EXPECT_FALSE(try_claim(lock));

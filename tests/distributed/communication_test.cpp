@@ -57,7 +57,7 @@ LevelFigures refine_once(DistributedMesh& mesh, const Selection& selection, Sche
 }
 
 DistributedMesh distributed_lattice(std::size_t n, const Partition& partition) {
-    const Mesh mesh = test::shaken_kuhn(n, 0.2, 5);
+    const Mesh mesh = test::perturbed_kuhn(n, 0.2, 5);
     return distribute(test::world(), mesh, partition_cells(mesh, test::world().size(), partition));
 }
 
@@ -229,7 +229,7 @@ TEST(Communication, OfReadingBlocksOfGmshTakesNoMoreCallsOfAllWithMoreProcesses)
     if (world.size() < 3) GTEST_SKIP() << "there are no two groups";
     const test::SharedFolder folder;
     const std::filesystem::path file = folder / "m.msh";
-    world.on_first([&] { (void)write_mesh(test::shaken_kuhn(3, 0.2, 1), file); });
+    world.on_first([&] { (void)write_mesh(test::perturbed_kuhn(3, 0.2, 1), file); });
     const auto calls_of_all = [&](const Communicator& group) {
         const test::MpiCounts before = test::mpi_counts();
         EXPECT_TRUE(read_mesh_share(file, group).has_value());

@@ -44,7 +44,7 @@ std::array<Complex, 2> integrals(const AdaptiveMesh& mesh, const std::vector<Com
 
 /// A mesh after three steps; coarsening removes vertices of some of them.
 AdaptiveMesh fine_mesh(PartitionMethod method) {
-    const Mesh input = test::shaken_kuhn(3, 0.2, 2);
+    const Mesh input = test::perturbed_kuhn(3, 0.2, 2);
     AdaptiveMesh mesh = AdaptiveMesh::distribute(
         test::world(), input,
         partition_cells(input, test::world().size(), {.method = method, .seed = 3}));
@@ -75,9 +75,9 @@ TEST(ConservativeTransfer, KeepsTheIntegralWhereTheInterpolantChangesIt) {
             const std::vector<Complex> before = rough(mesh);
             std::array<std::array<Complex, 2>, 2> expected{};
             for (std::size_t k = 0; k < 2; ++k) expected[k] = integrals(mesh, before, 2, k);
-            const Selection may_go =
+            const Selection may_coarsen =
                 share < 0.1 ? steps[0] : Selection{.random = RandomShare{share, 4}};
-            const Adaptation step = mesh.coarsen(may_go);
+            const Adaptation step = mesh.coarsen(may_coarsen);
             ASSERT_TRUE(step.is_coarser());
             const auto after = transfer_conservatively(mesh, step, before, 2);
             const auto interpolated = step.transfer_vertices(before, 2);

@@ -80,7 +80,7 @@ protected:
 
 TEST_P(Equality, OnAShakenLatticeWithEverythingMarked) {
     expect_equal_by_every_partition(
-        marked(test::shaken_kuhn(3, 0.3, 5), 1),
+        marked(test::perturbed_kuhn(3, 0.3, 5), 1),
         {{.random = RandomShare{0.1, 3}}, {.spheres = {{{1, 1, 1}, 0.6}}}, {.regions = {2}}});
 }
 
@@ -177,7 +177,7 @@ TEST(Rounding, OfTheSmallestNumbersThereAreIsRefusedToo) {
 /// The limit equals the final count, and is then reduced by one, which refuses the level that
 /// exceeds it.
 TEST(MostCells, AreCountedBeforeALevelIsMadeAndRefusedWithTheMessageOfTheReference) {
-    const Mesh mesh = marked(test::shaken_kuhn(5, 0.3, 5), 1);
+    const Mesh mesh = marked(test::perturbed_kuhn(5, 0.3, 5), 1);
     const Selection selection{.spheres = {{{0, 0, 0}, 1.1}}};
     const std::size_t most = reference::refine(mesh, selection, Scheme::eight, 3).mesh.cells.size();
     for (const Partition& partition : partitions_that_differ()) {

@@ -79,37 +79,38 @@ Marks fraction_of(const Indicators& all, double fraction) {
 // ---------------------------------------------------------------------------------------
 
 /// The process of each cell.
-using Deal = std::vector<int>;
+using CellRanks = std::vector<int>;
 
-Deal at_random(std::size_t cells, std::uint64_t seed) {
+CellRanks at_random(std::size_t cells, std::uint64_t seed) {
     std::mt19937_64 random(seed);
-    Deal deal(cells);
+    CellRanks cell_to_rank(cells);
     const auto size = static_cast<std::uint64_t>(test::world().size());
-    std::ranges::generate(deal, [&] { return static_cast<int>(random() % size); });
-    return deal;
+    std::ranges::generate(cell_to_rank, [&] { return static_cast<int>(random() % size); });
+    return cell_to_rank;
 }
 
-Deal all_to(int rank, std::size_t cells) { return Deal(cells, rank); }
+CellRanks all_to(int rank, std::size_t cells) { return CellRanks(cells, rank); }
 
 /// Cells in blocks of numbers; every other process has none.
-Deal in_blocks(std::size_t cells) {
+CellRanks in_blocks(std::size_t cells) {
     const std::size_t with_cells = static_cast<std::size_t>(test::world().size() + 1) / 2;
-    Deal deal(cells);
+    CellRanks cell_to_rank(cells);
     for (std::size_t c = 0; c < cells; ++c) {
-        deal[c] = 2 * static_cast<int>(c * with_cells / cells);
+        cell_to_rank[c] = 2 * static_cast<int>(c * with_cells / cells);
     }
-    return deal;
+    return cell_to_rank;
 }
 
 using Mark = std::vector<std::uint8_t> (*)(const Communicator&, std::span<const double>, double);
 
 /// Collective. The marks of all cells, when they are dealt in this way.
-Marks marked_by_all(Mark mark, const Indicators& all, const Deal& deal, double parameter) {
+Marks marked_by_all(Mark mark, const Indicators& all, const CellRanks& cell_to_rank,
+                    double parameter) {
     const Communicator& world = test::world();
     Indicators own;
     std::vector<std::size_t> cells;
     for (std::size_t c = 0; c < all.size(); ++c) {
-        if (deal[c] != world.rank()) continue;
+        if (cell_to_rank[c] != world.rank()) continue;
         own.push_back(all[c]);
         cells.push_back(c);
     }
@@ -174,8 +175,9 @@ std::vector<Drawn> indicators_of_all_sorts() {
 TEST(EstimatorMarks, AreThoseOfOneProcessForAnyPartition) {
     for (const auto& [name, indicators] : indicators_of_all_sorts()) {
         const std::size_t count = indicators.size();
-        const std::vector<Deal> deals{at_random(count, 1), at_random(count, 2), in_blocks(count),
-                                      all_to(test::world().size() - 1, count)};
+        const std::vector<CellRanks> deals{at_random(count, 1), at_random(count, 2),
+                                           in_blocks(count),
+                                           all_to(test::world().size() - 1, count)};
         std::size_t next = 0;
         for (const double parameter : {0.5, 0.1, 0.8, 1.0, 1e-300, least}) {
             for (const Way& way : ways) {
@@ -203,8 +205,8 @@ TEST(EstimatorMarks, CompareSumsToTheLastBit) {
     Marks expected(indicators.size(), 0);
     std::fill_n(expected.begin(), 1000, std::uint8_t{1});
     for (std::uint64_t seed = 0; seed < 5; ++seed) {
-        const Deal deal = at_random(indicators.size(), seed);
-        EXPECT_EQ(marked_by_all(mark_bulk, indicators, deal, 0.5), expected);
+        const CellRanks cell_to_rank = at_random(indicators.size(), seed);
+        EXPECT_EQ(marked_by_all(mark_bulk, indicators, cell_to_rank, 0.5), expected);
     }
     double& last = indicators.back();
     last = std::nextafter(last, 2);
@@ -347,7 +349,7 @@ Indicators indicators_of(std::span<const Point> points, std::span<const CellVert
 }
 
 TEST(EstimatorMarks, LeadASolversLoopToTheMeshOfTheReference) {
-    const Mesh whole = test::shaken_kuhn(3, 0, 1);
+    const Mesh whole = test::perturbed_kuhn(3, 0, 1);
     const Partition dealt{.method = PartitionMethod::random, .seed = 3};
     for (const Way& way : ways) {
         AdaptiveMesh mesh = AdaptiveMesh::distribute(

@@ -13,7 +13,7 @@
 #include <octetra/reference/refine.hpp>
 
 #include "distributed/moving_mesh.hpp"
-#include "distributed/seen_mesh.hpp"
+#include "distributed/observed_mesh.hpp"
 #include "distributed/shared_folder.hpp"
 #include "support/refinement.hpp"
 #include "support/thrown.hpp"
@@ -69,7 +69,7 @@ TEST_P(EvenSteps, OfManyLevelsAreThoseOfTheReference) {
 /// Values on cells and vertices are transferred by the migration and then by the step.
 TEST_P(EvenSteps, TransferValues) {
     std::mt19937_64 random(GetParam());
-    AdaptiveMesh mesh = shared_out(input_of(GetParam()), "block");
+    AdaptiveMesh mesh = distributed_mesh(input_of(GetParam()), "block");
     const auto roots_of_cells = [&] {
         std::vector<std::uint64_t> roots;
         for (const std::uint32_t r : mesh.root_of_cells()) roots.push_back(mesh.roots()[r]);
@@ -99,8 +99,8 @@ INSTANTIATE_TEST_SUITE_P(Seeds, EvenSteps, testing::Range<std::uint64_t>(0, 6));
 constexpr Sphere ball{{1, 1, 1}, 2.0};
 
 TEST(EvenStep, LeavesProcessesEvenThatWouldNotBe) {
-    AdaptiveMesh evenly = shared_out(test::shaken_kuhn(10, 0.2, 1), "block");
-    AdaptiveMesh plainly = shared_out(test::shaken_kuhn(10, 0.2, 1), "block");
+    AdaptiveMesh evenly = distributed_mesh(test::perturbed_kuhn(10, 0.2, 1), "block");
+    AdaptiveMesh plainly = distributed_mesh(test::perturbed_kuhn(10, 0.2, 1), "block");
     for (int k = 0; k < 3; ++k) {
         const auto done = evenly.refine_evenly({.spheres = {ball}}, {.most_over_mean = 1.1});
         const Adaptation plain = plainly.refine({.spheres = {ball}});
@@ -114,7 +114,7 @@ TEST(EvenStep, LeavesProcessesEvenThatWouldNotBe) {
 
 TEST(EvenStep, MovesWhereItPaysOnly) {
     const BalanceOptions paying{.most_over_mean = 1.1, .only_if_it_pays = true};
-    AdaptiveMesh mesh = shared_out(test::shaken_kuhn(10, 0.2, 1), "block");
+    AdaptiveMesh mesh = distributed_mesh(test::perturbed_kuhn(10, 0.2, 1), "block");
     // A slight imbalance does not justify migrating many cells.
     EXPECT_FALSE(mesh.refine_evenly({.spheres = {{{1, 1, 1}, 1.0}}}, paying).move.changed());
     // One process would get eight times its cells, and the others none.
@@ -128,8 +128,8 @@ TEST(EvenStep, MovesWhereItPaysOnly) {
 /// If a single root dominates, no partition is better, and the level that was undone is repeated.
 TEST(EvenStep, ThatNoOtherSharesHelpIsAPlainOne) {
     const Selection corner{.spheres = {{{3, 0, 0}, 0.8}}};
-    AdaptiveMesh evenly = shared_out(test::shaken_kuhn(3, 0.2, 1), "block");
-    AdaptiveMesh plainly = shared_out(test::shaken_kuhn(3, 0.2, 1), "block");
+    AdaptiveMesh evenly = distributed_mesh(test::perturbed_kuhn(3, 0.2, 1), "block");
+    AdaptiveMesh plainly = distributed_mesh(test::perturbed_kuhn(3, 0.2, 1), "block");
     int undone = 0;
     for (std::uint64_t k = 0; k < 12; ++k) {
         const Selection selection = k < 5 ? corner : some(0.0002, k);
@@ -151,25 +151,25 @@ TEST(EvenStep, ThatIsRefusedLeavesTheMeshAsItWas) {
         .boxes = {{{0x1p52, 0x1p52, 0x1p52}, {0x1p52 + 9, 0x1p52 + 9, 0x1p52 + 9}}}};
     const bool is_last = test::world().rank() == test::world().size() - 1;
     for (const bool lean : {false, true}) {
-        AdaptiveMesh mesh = shared_out(whole, "block");
+        AdaptiveMesh mesh = distributed_mesh(whole, "block");
         bool is_refused = false;
         for (int k = 0; k < 6 && !is_refused; ++k) {
-            const test::SeenMesh before(mesh);
+            const test::ObservedMesh before(mesh);
             EXPECT_THROW((void)mesh.refine_evenly(corner, always, {.max_cells = 10}), InputError);
             EXPECT_THROW((void)mesh.refine_evenly(corner, {.most_over_mean = 0.9}), InputError);
             if (test::world().size() > 1) {
                 EXPECT_THROW((void)mesh.refine_evenly(corner, {.only_if_it_pays = is_last}),
                              InputError);
             }
-            EXPECT_TRUE(before == test::SeenMesh(mesh));
+            EXPECT_TRUE(before == test::ObservedMesh(mesh));
             try {
                 if (lean) (void)mesh.refine(corner);
                 if (!lean) (void)mesh.refine_evenly(corner, always);
             } catch (const InputError& error) {
                 EXPECT_THAT(error.what(), testing::HasSubstr("midpoints"));
-                EXPECT_TRUE(before == test::SeenMesh(mesh));
+                EXPECT_TRUE(before == test::ObservedMesh(mesh));
                 EXPECT_THROW((void)mesh.refine_evenly(corner, always), InputError);
-                EXPECT_TRUE(before == test::SeenMesh(mesh));
+                EXPECT_TRUE(before == test::ObservedMesh(mesh));
                 is_refused = true;
             }
         }

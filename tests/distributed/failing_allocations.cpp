@@ -6,13 +6,13 @@
 
 using octetra::test::allocations_left;
 using octetra::test::never;
-using octetra::test::refuses_one_alone;
+using octetra::test::refuses_only_one;
 
 namespace {
 
 void* allocate(std::size_t size) {
     if (allocations_left == 0) {
-        if (refuses_one_alone) allocations_left = never;
+        if (refuses_only_one) allocations_left = never;
         throw std::bad_alloc();
     }
     if (allocations_left > 0) --allocations_left;

@@ -15,7 +15,7 @@
 
 #include "distributed/failing_allocations.hpp"
 #include "distributed/marked_mesh.hpp"
-#include "distributed/seen_mesh.hpp"
+#include "distributed/observed_mesh.hpp"
 #include "distributed/shared_folder.hpp"
 #include "distributed/world.hpp"
 
@@ -25,8 +25,8 @@ namespace octetra::distributed {
 namespace {
 
 using test::allocations_left;
-using test::done_with;
 using test::never;
+using test::try_work;
 
 /// Few cells, and those left unordered by that; many, so that the canonical order is restored; and
 /// all.
@@ -39,9 +39,9 @@ const std::vector<Selection> steps{
 
 /// The mesh before this step.
 AdaptiveMesh before_step(std::size_t step) {
-    Mesh whole = test::marked(test::shaken_kuhn(5, 0.2, 1), 1);
-    test::mark_alike(whole.facets, whole.facet_markers);
-    test::mark_alike(whole.edges, whole.edge_markers);
+    Mesh whole = test::marked(test::perturbed_kuhn(5, 0.2, 1), 1);
+    test::mark_duplicates(whole.facets, whole.facet_markers);
+    test::mark_duplicates(whole.edges, whole.edge_markers);
     const Partition in_blocks{.method = PartitionMethod::block};
     AdaptiveMesh mesh = AdaptiveMesh::distribute(
         test::world(), whole, partition_cells(whole, test::world().size(), in_blocks));
@@ -53,20 +53,20 @@ AdaptiveMesh before_step(std::size_t step) {
 /// checks each time that the mesh is unchanged, until the work is completed on all. Returns the
 /// number of refused allocations on all processes. If there are many, allocations soon after a
 /// refused one are skipped.
-std::uint64_t let_each_fail(std::size_t step, auto&& prepare) {
+std::uint64_t fail_each_allocation_of_step(std::size_t step, auto&& prepare) {
     const Communicator& world = test::world();
     long failures = 0;
     for (int rank = 0; rank < world.size(); ++rank) {
         AdaptiveMesh mesh = before_step(step);
         auto work = prepare(mesh);
-        const test::SeenMesh before(mesh);
+        const test::ObservedMesh before(mesh);
         for (long allocations = 0;; allocations += 1 + allocations / 100) {
-            const bool done = done_with(allocations, rank, work);
+            const bool done = try_work(allocations, rank, work);
             const auto done_on = static_cast<int>(world.sum(done ? 1 : 0));
             EXPECT_EQ(done_on, done ? world.size() : 0) << allocations;
             if (done_on > 0) break;
             ++failures;
-            EXPECT_TRUE(before == test::SeenMesh(mesh))
+            EXPECT_TRUE(before == test::ObservedMesh(mesh))
                 << "rank " << rank << ", after " << allocations;
         }
     }
@@ -76,17 +76,19 @@ std::uint64_t let_each_fail(std::size_t step, auto&& prepare) {
 TEST(FailingAllocations, OfAStepLeaveTheMeshAsItWasOnAllProcesses) {
     for (std::size_t step = 0; step < steps.size(); ++step) {
         for (const auto synchronisation : {Synchronisation::neighbour, Synchronisation::gateway}) {
-            const std::uint64_t failures = let_each_fail(step, [&](AdaptiveMesh& mesh) {
-                return
-                    [&] { (void)mesh.refine(steps[step], {.synchronisation = synchronisation}); };
-            });
+            const std::uint64_t failures =
+                fail_each_allocation_of_step(step, [&](AdaptiveMesh& mesh) {
+                    return [&] {
+                        (void)mesh.refine(steps[step], {.synchronisation = synchronisation});
+                    };
+                });
             EXPECT_GE(failures, 20U);
         }
     }
 }
 
 TEST(FailingAllocations, OfAStepBySoManyMarkedEdgesLeaveTheMeshAsItWas) {
-    const std::uint64_t failures = let_each_fail(1, [&](AdaptiveMesh& mesh) {
+    const std::uint64_t failures = fail_each_allocation_of_step(1, [&](AdaptiveMesh& mesh) {
         std::vector<EdgeVertices> edges;
         for (const CellVertices& cell : mesh.cells()) edges.push_back({cell[3], cell[0]});
         return [edges, &mesh] { (void)mesh.refine_edges(edges); };
@@ -97,16 +99,16 @@ TEST(FailingAllocations, OfAStepBySoManyMarkedEdgesLeaveTheMeshAsItWas) {
 /// Few and many cells, by the incremental and the full algorithm; checks that some allocations were
 /// refused.
 TEST(FailingAllocations, OfCoarseningLeaveTheMeshAsItWasOnAllProcesses) {
-    for (const Selection& may_go : {steps[0], steps[3]}) {
-        const std::uint64_t failures = let_each_fail(
-            2, [&](AdaptiveMesh& mesh) { return [&] { (void)mesh.coarsen(may_go); }; });
+    for (const Selection& may_coarsen : {steps[0], steps[3]}) {
+        const std::uint64_t failures = fail_each_allocation_of_step(
+            2, [&](AdaptiveMesh& mesh) { return [&] { (void)mesh.coarsen(may_coarsen); }; });
         EXPECT_GE(failures, 50U);
     }
 }
 
 TEST(FailingAllocations, OfMovingCellsLeaveTheMeshAsItWasOnAllProcesses) {
     const int size = test::world().size();
-    const std::uint64_t failures = let_each_fail(3, [&](AdaptiveMesh& mesh) {
+    const std::uint64_t failures = fail_each_allocation_of_step(3, [&](AdaptiveMesh& mesh) {
         std::vector<int> ranks;
         for (const std::uint64_t root : mesh.roots())
             ranks.push_back(static_cast<int>(root) % size);
@@ -116,7 +118,7 @@ TEST(FailingAllocations, OfMovingCellsLeaveTheMeshAsItWasOnAllProcesses) {
 }
 
 TEST(FailingAllocations, OfRebalancingLeaveTheMeshAsItWasOnAllProcesses) {
-    const std::uint64_t failures = let_each_fail(3, [&](AdaptiveMesh& mesh) {
+    const std::uint64_t failures = fail_each_allocation_of_step(3, [&](AdaptiveMesh& mesh) {
         return [&] { (void)mesh.rebalance({.most_over_mean = 1}); };
     });
     EXPECT_TRUE(failures >= 300 || test::world().size() == 1);
@@ -124,7 +126,7 @@ TEST(FailingAllocations, OfRebalancingLeaveTheMeshAsItWasOnAllProcesses) {
 
 TEST(FailingAllocations, OfAStepBeforeWhichCellsMoveLeaveTheMeshAsItWas) {
     for (const std::size_t step : {1U, 2U}) {
-        const std::uint64_t failures = let_each_fail(step, [&](AdaptiveMesh& mesh) {
+        const std::uint64_t failures = fail_each_allocation_of_step(step, [&](AdaptiveMesh& mesh) {
             return [&] { (void)mesh.refine_evenly(steps[step], {.most_over_mean = 1}); };
         });
         EXPECT_TRUE(failures >= 300 || test::world().size() == 1);
@@ -133,7 +135,7 @@ TEST(FailingAllocations, OfAStepBeforeWhichCellsMoveLeaveTheMeshAsItWas) {
 
 TEST(FailingAllocations, OfAStepBeforeWhichCellsBecomeRootsLeaveTheMeshAsItWas) {
     constexpr BalanceOptions forgetting{.most_over_mean = 1, .may_forget_history = true};
-    const std::uint64_t failures = let_each_fail(2, [&](AdaptiveMesh& mesh) {
+    const std::uint64_t failures = fail_each_allocation_of_step(2, [&](AdaptiveMesh& mesh) {
         return [&] { (void)mesh.refine_evenly(steps[2], forgetting); };
     });
     EXPECT_TRUE(failures >= 250 || test::world().size() == 1);
@@ -143,7 +145,7 @@ TEST(FailingAllocations, OfAStepBeforeWhichCellsBecomeRootsLeaveTheMeshAsItWas) 
 /// facet then migrates to another rank than the first of these cells.
 TEST(FailingAllocations, OfRecallingHistoryLeaveTheMeshUnchanged) {
     constexpr BalanceOptions forgetting{.most_over_mean = 1, .may_forget_history = true};
-    const std::uint64_t failures = let_each_fail(2, [&](AdaptiveMesh& mesh) {
+    const std::uint64_t failures = fail_each_allocation_of_step(2, [&](AdaptiveMesh& mesh) {
         const test::SharedFolder folder;
         mesh.save(folder / "a.octetra");
         mesh = AdaptiveMesh::load(test::world(), folder / "a.octetra",
@@ -157,7 +159,7 @@ TEST(FailingAllocations, OfRecallingHistoryLeaveTheMeshUnchanged) {
 
 /// A DistributedMesh, which is wrapped in an AdaptiveMesh for the migration.
 TEST(FailingAllocations, OfALevelBeforeWhichCellsMoveLeaveTheMeshAsItWas) {
-    const Mesh whole = test::marked(test::shaken_kuhn(4, 0.2, 1), 1);
+    const Mesh whole = test::marked(test::perturbed_kuhn(4, 0.2, 1), 1);
     const Partition in_blocks{.method = PartitionMethod::block};
     const auto parts = partition_cells(whole, test::world().size(), in_blocks);
     for (int rank = 0; rank < test::world().size(); ++rank) {
@@ -168,7 +170,7 @@ TEST(FailingAllocations, OfALevelBeforeWhichCellsMoveLeaveTheMeshAsItWas) {
                 refine(mesh, steps[1], {.balance = BalanceOptions{.most_over_mean = 1}});
             };
             const std::size_t cells = mesh.cells.size();
-            const bool done = done_with(allocations, rank, level);
+            const bool done = try_work(allocations, rank, level);
             ASSERT_EQ(test::world().sum(done ? 1 : 0), done ? test::world().size() : 0);
             EXPECT_TRUE(done || mesh.cells.size() == cells) << allocations;
             if (!done) refine(mesh, steps[1], {});
@@ -183,7 +185,7 @@ TEST(FailingAllocations, OfALevelBeforeWhichCellsMoveLeaveTheMeshAsItWas) {
 
 TEST(FailingAllocations, OfTransferringValuesAreThrownOnAllProcesses) {
     const int size = test::world().size();
-    const std::uint64_t failures = let_each_fail(1, [&](AdaptiveMesh& mesh) {
+    const std::uint64_t failures = fail_each_allocation_of_step(1, [&](AdaptiveMesh& mesh) {
         const std::vector<double> values(mesh.cells().size(), 1);
         ValueLists<int> lists;
         for (std::size_t v = 0; v < mesh.points().size(); ++v) {
@@ -208,7 +210,7 @@ TEST(FailingAllocations, OfTransferringValuesAreThrownOnAllProcesses) {
 }
 
 TEST(FailingAllocations, OfAnExchangeAreThrownOnAllProcesses) {
-    const std::uint64_t failures = let_each_fail(1, [&](AdaptiveMesh& mesh) {
+    const std::uint64_t failures = fail_each_allocation_of_step(1, [&](AdaptiveMesh& mesh) {
         std::vector<double> values(mesh.points().size(), 1);
         std::vector<double> of_cells(mesh.cells().size(), 1);
         GhostLayer ghosts = mesh.ghosts(GhostsBy::vertex);
@@ -222,7 +224,7 @@ TEST(FailingAllocations, OfAnExchangeAreThrownOnAllProcesses) {
 }
 
 TEST(FailingAllocations, OfMarkingByIndicatorsAreThrownOnAllProcesses) {
-    const std::uint64_t failures = let_each_fail(1, [&](AdaptiveMesh& mesh) {
+    const std::uint64_t failures = fail_each_allocation_of_step(1, [&](AdaptiveMesh& mesh) {
         std::vector<double> indicators(mesh.cells().size(), 0.1);
         return [indicators, &mesh] {
             (void)mark_bulk(mesh.processes(), indicators, 0.5);
@@ -235,7 +237,7 @@ TEST(FailingAllocations, OfMarkingByIndicatorsAreThrownOnAllProcesses) {
 
 /// A small mesh, whose saving needs few allocations.
 AdaptiveMesh to_save() {
-    const Mesh whole = test::marked(test::shaken_kuhn(3, 0.2, 1), 1);
+    const Mesh whole = test::marked(test::perturbed_kuhn(3, 0.2, 1), 1);
     const Partition in_blocks{.method = PartitionMethod::block};
     AdaptiveMesh mesh = AdaptiveMesh::distribute(
         test::world(), whole, partition_cells(whole, test::world().size(), in_blocks));
@@ -264,7 +266,7 @@ TEST(FailingAllocations, OfSavingLeaveTheMeshAndTheOldFileUnchanged) {
         {"n", FieldOn::cells, 1, std::vector<std::int32_t>(mesh.cells().size(), 7)}};
     mesh.save(folder / "good.octetra", fields);
     const std::string good = test::content_of(folder / "good.octetra");
-    const test::SeenMesh before(mesh);
+    const test::ObservedMesh before(mesh);
     long failures = 0;
     for (const std::string old : {"none", "old"}) {
         for (int rank = 0; rank < world.size(); ++rank) {
@@ -272,7 +274,7 @@ TEST(FailingAllocations, OfSavingLeaveTheMeshAndTheOldFileUnchanged) {
             if (world.is_first() && old != "none") std::ofstream(place) << old;
             for (long allocations = 0;; ++allocations) {
                 (void)world.max(0);  // all have inspected the folder
-                const bool done = done_with(allocations, rank, [&] { mesh.save(place, fields); });
+                const bool done = try_work(allocations, rank, [&] { mesh.save(place, fields); });
                 const std::uint64_t done_on = world.sum(done ? 1 : 0);
                 ASSERT_EQ(done_on, done ? static_cast<std::uint64_t>(world.size()) : 0U);
                 ASSERT_TRUE(content_if_there(place) == (done ? good : old)) << allocations;
@@ -280,7 +282,7 @@ TEST(FailingAllocations, OfSavingLeaveTheMeshAndTheOldFileUnchanged) {
                 if (done) break;
                 ++failures;
             }
-            EXPECT_TRUE(before == test::SeenMesh(mesh)) << "rank " << rank;
+            EXPECT_TRUE(before == test::ObservedMesh(mesh)) << "rank " << rank;
         }
     }
     EXPECT_GE(failures, 300);

@@ -29,9 +29,9 @@ namespace octetra::distributed {
 namespace {
 
 using test::allocations_left;
-using test::done_with;
-using test::let_each_fail_anew;
+using test::fail_each_allocation;
 using test::never;
+using test::try_work;
 
 /// As used by the verifier and the readers of files, without agreement on failures by the caller.
 TEST(FailingAllocations, OfAnExchangeBetweenProcessesOfAnyKindAreThrownOnAll) {
@@ -43,7 +43,7 @@ TEST(FailingAllocations, OfAnExchangeBetweenProcessesOfAnyKindAreThrownOnAll) {
             std::vector<ProcessGroup::Bytes> to_each(size, ProcessGroup::Bytes(100));
             std::vector<ProcessGroup::Bytes> come;
             const bool done =
-                done_with(allocations, rank, [&] { come = group.exchange(std::move(to_each)); });
+                try_work(allocations, rank, [&] { come = group.exchange(std::move(to_each)); });
             ASSERT_EQ(world.sum(done ? 1 : 0), done ? size : 0) << rank << ' ' << allocations;
             if (!done) continue;
             for (const ProcessGroup::Bytes& bytes : come) EXPECT_EQ(bytes.size(), 100U);
@@ -61,7 +61,7 @@ TEST(FailingAllocations, OfAllToAllExchangesAreThrownOnAll) {
             ProcessGroup::Bytes bytes(100 * static_cast<std::size_t>(world.rank()));
             std::vector<ProcessGroup::Bytes> come;
             const bool done =
-                done_with(allocations, rank, [&] { come = world.of_all(std::move(bytes)); });
+                try_work(allocations, rank, [&] { come = world.of_all(std::move(bytes)); });
             ASSERT_EQ(world.sum(done ? 1 : 0), done ? size : 0) << rank << ' ' << allocations;
             if (!done) continue;
             for (std::size_t r = 0; r < size; ++r) EXPECT_EQ(come[r].size(), 100 * r);
@@ -74,7 +74,7 @@ TEST(FailingAllocations, OfAllToAllExchangesAreThrownOnAll) {
 TEST(FailingAllocations, OfABroadcastAreThrownOnAllProcesses) {
     const Communicator& world = test::world();
     std::vector<int> values(world.is_first() ? 1000 : 0, 7);
-    const std::uint64_t failures = let_each_fail_anew([&] {
+    const std::uint64_t failures = fail_each_allocation([&] {
         if (!world.is_first()) std::vector<int>().swap(values);
         world.broadcast(values);
     });
@@ -85,7 +85,7 @@ TEST(FailingAllocations, OfABroadcastAreThrownOnAllProcesses) {
 TEST(FailingAllocations, OfReadingAFileTogetherAreThrownOnAllProcesses) {
     if (test::world().size() == 1) return;  // a single process reads without exchanges
     const test::SharedFolder folder;
-    Mesh mesh = test::marked(test::shaken_kuhn(2, 0.2, 1), 1);
+    Mesh mesh = test::marked(test::perturbed_kuhn(2, 0.2, 1), 1);
     for (Marker& marker : mesh.facet_markers) marker = 3;
     for (Marker& marker : mesh.edge_markers) marker = 4;
     for (const std::string name : {"m.ele", "m.mesh"}) {
@@ -97,14 +97,14 @@ TEST(FailingAllocations, OfReadingAFileTogetherAreThrownOnAllProcesses) {
         };
         const ReadPartsOptions options{.read = {}, .on_facts = {}, .weigh = weigh};
         test::world().on_first([&] { (void)write_mesh(mesh, file); });
-        const std::uint64_t failures = let_each_fail_anew(
+        const std::uint64_t failures = fail_each_allocation(
             [&] { (void)read_parts(test::world(), file, by_coordinates, options); });
         EXPECT_GE(failures, 100U);
     }
 }
 
 Mesh mesh_with_markers() {
-    Mesh whole = test::marked(test::shaken_kuhn(2, 0.2, 1), 1);
+    Mesh whole = test::marked(test::perturbed_kuhn(2, 0.2, 1), 1);
     for (Marker& marker : whole.facet_markers) marker = 3;
     for (Marker& marker : whole.edge_markers) marker = 4;
     return whole;
@@ -120,7 +120,7 @@ TEST(FailingAllocations, OfLoadingACheckpointAreThrownOnAllProcesses) {
     mesh.save(file);
     const CheckpointReader reader(file);
     const Partition by_coordinates{.method = PartitionMethod::rcb};
-    const std::uint64_t failures = let_each_fail_anew([&] {
+    const std::uint64_t failures = fail_each_allocation([&] {
         LoadedPart part = load_part(test::world(), reader, file, by_coordinates);
         (void)distribute_parts(test::world(), std::move(part.input));
     });
@@ -141,7 +141,7 @@ TEST(FailingAllocations, OfLoadingAMeshAndFieldsAreThrownOnAllProcesses) {
     mesh.save(file, saved);
     const Partition by_coordinates{.method = PartitionMethod::rcb};
     std::vector<Field> fields;
-    const std::uint64_t failures = let_each_fail_anew([&] {
+    const std::uint64_t failures = fail_each_allocation([&] {
         fields.clear();
         (void)AdaptiveMesh::load(test::world(), file, by_coordinates, &fields);
     });
@@ -151,7 +151,7 @@ TEST(FailingAllocations, OfLoadingAMeshAndFieldsAreThrownOnAllProcesses) {
 
 /// For a `.pvtu` each process writes its part, with the markers and values on which all agree.
 TEST(FailingAllocations, OfAPieceToWriteAreThrownOnAllProcesses) {
-    const Mesh whole = test::marked(test::shaken_kuhn(2, 0.2, 1), 1);
+    const Mesh whole = test::marked(test::perturbed_kuhn(2, 0.2, 1), 1);
     const Partition in_blocks{.method = PartitionMethod::block};
     const DistributedMesh mesh =
         distribute(test::world(), whole, partition_cells(whole, test::world().size(), in_blocks));
@@ -161,7 +161,7 @@ TEST(FailingAllocations, OfAPieceToWriteAreThrownOnAllProcesses) {
     const std::vector<Field> fields{
         {"u", FieldOn::vertices, 2, std::vector<double>(2 * mesh.points.size(), 1.5)},
         {"n", FieldOn::cells, 1, std::vector<std::int32_t>(mesh.cells.size(), 7)}};
-    const std::uint64_t failures = let_each_fail_anew([&] {
+    const std::uint64_t failures = fail_each_allocation([&] {
         OwnPiece piece(mesh, slices.lists(), slices.numbers(), slices.facts());
         piece.add(fields, sharing);
     });
@@ -174,8 +174,9 @@ TEST(FailingAllocations, OfTheProcessThatReadsForTheVerifierAreThrownOnAll) {
     const Communicator& world = test::world();
     const test::SharedFolder folder;
     const std::filesystem::path file = folder / "m.mesh";
-    world.on_first([&] { (void)write_mesh(test::marked(test::shaken_kuhn(2, 0.2, 1), 1), file); });
-    test::refuses_one_alone = true;
+    world.on_first(
+        [&] { (void)write_mesh(test::marked(test::perturbed_kuhn(2, 0.2, 1), 1), file); });
+    test::refuses_only_one = true;
     std::uint64_t failures = 0;
     for (long allocations = 1;; ++allocations) {  // the first is needed to send at all
         if (world.is_first()) allocations_left = allocations;
@@ -195,7 +196,7 @@ TEST(FailingAllocations, OfTheProcessThatReadsForTheVerifierAreThrownOnAll) {
         }
         if (!was_refused) break;
     }
-    test::refuses_one_alone = false;
+    test::refuses_only_one = false;
     EXPECT_GE(failures, 10U);
 }
 
@@ -208,7 +209,7 @@ TEST(FailingAllocations, OfAReceiverOfLongMessagesBlockNoProcess) {
     }
     for (int rank = 0; rank < world.size(); ++rank) {
         for (long allocations = 0;; ++allocations) {
-            const bool done = done_with(allocations, rank, [&] {
+            const bool done = try_work(allocations, rank, [&] {
                 for (const auto& inbox : world.all_to_all(outboxes)) {
                     EXPECT_TRUE(inbox.empty() || inbox.front() + inbox.back() == 14U);
                 }

@@ -44,7 +44,7 @@ TEST(FailureOfMetis, IsThrownOnAllProcessesAndRaisesNoSignal) {
     const Communicator& world = test::world();
     if (world.size() == 1) GTEST_SKIP() << "one process is not partitioned";
     const test::SharedFolder folder;
-    world.on_first([&] { (void)write_mesh(test::shaken_kuhn(4, 0.2, 1), folder / "m.mesh"); });
+    world.on_first([&] { (void)write_mesh(test::perturbed_kuhn(4, 0.2, 1), folder / "m.mesh"); });
     auto* const before = std::signal(SIGTERM, count_signal);
     for (const std::string method : {"lepp", "dual"}) {
         const auto read = [&] {

@@ -29,7 +29,7 @@ DistributedMesh refined(const Mesh& mesh, const std::string& partition, const Se
 
 /// Collective. The slices of all windows, concatenated on the first process.
 template <class T>
-std::vector<T> put_together(std::uint64_t count, std::uint64_t slice_length, auto&& slice_of) {
+std::vector<T> concatenated(std::uint64_t count, std::uint64_t slice_length, auto&& slice_of) {
     std::vector<T> all;
     const std::uint64_t stride = slice_length * static_cast<std::uint64_t>(world().size());
     for (Window window{0, slice_length, count}; window.begin < count; window.begin += stride) {
@@ -46,7 +46,7 @@ void expect_slices(MeshSource& slices, std::uint64_t length, const Collected& wh
     const MeshFacts& f = slices.facts();
     const auto expect = [&]<class T>(std::uint64_t count,
                                      std::span<const T> (MeshSource::*slice)(const Window&)) {
-        const auto found = put_together<T>(
+        const auto found = concatenated<T>(
             count, length, [&](const Window& window) { return (slices.*slice)(window); });
         if (world().is_first()) {
             EXPECT_TRUE(std::ranges::equal(found, (expected.*slice)(whole_window(count))))
@@ -70,7 +70,7 @@ void expect_slices(MeshSource& slices, std::uint64_t length, const Collected& wh
 TEST(Slices, OfEveryLengthMakeUpTheWholeMesh) {
     const Selection selection{.random = RandomShare{0.1, 3}};
     for (const std::string partition : {"lepp", "random:1"}) {
-        const Mesh mesh = test::marked(test::shaken_kuhn(2, 0.3, 5), 1);
+        const Mesh mesh = test::marked(test::perturbed_kuhn(2, 0.3, 5), 1);
         const reference::Refinement expected = reference::refine(mesh, selection, Scheme::eight, 2);
         const Collected whole{expected.mesh, expected.maps};
         CanonicalMesh fine(refined(mesh, partition, selection, 2));
@@ -85,7 +85,7 @@ TEST(Slices, OfEveryLengthMakeUpTheWholeMesh) {
 /// Collective. Slices of `length` entities that are as far apart as possible, concatenated on the
 /// first process.
 template <class T>
-std::vector<T> put_stretches_together(std::uint64_t count, std::uint64_t length, auto&& slice_of) {
+std::vector<T> concatenated_ranges(std::uint64_t count, std::uint64_t length, auto&& slice_of) {
     const auto ranks = static_cast<std::uint64_t>(world().size());
     const std::uint64_t share = (count + ranks - 1) / ranks;
     std::vector<T> own;
@@ -100,7 +100,7 @@ std::vector<T> put_stretches_together(std::uint64_t count, std::uint64_t length,
 }
 
 TEST(Slices, ThatAreFarApartMakeUpTheWholeMesh) {
-    const Mesh mesh = test::marked(test::shaken_kuhn(2, 0.3, 5), 1);
+    const Mesh mesh = test::marked(test::perturbed_kuhn(2, 0.3, 5), 1);
     const Selection selection{.random = RandomShare{0.1, 3}};
     const reference::Refinement expected = reference::refine(mesh, selection, Scheme::eight, 2);
     for (const std::string partition : {"block", "random:1"}) {
@@ -108,9 +108,9 @@ TEST(Slices, ThatAreFarApartMakeUpTheWholeMesh) {
         const std::uint64_t count = fine.facts().cells;
         WholeMesh whole(expected.mesh, &expected.maps);
         for (const std::uint64_t length : {std::uint64_t{7}, std::uint64_t{64}, count}) {
-            const auto cells = put_stretches_together<VertexNumbers<4>>(
+            const auto cells = concatenated_ranges<VertexNumbers<4>>(
                 count, length, [&](const Window& window) { return fine.whole().cells(window); });
-            const auto regions = put_stretches_together<Marker>(
+            const auto regions = concatenated_ranges<Marker>(
                 count, length, [&](const Window& window) { return fine.whole().regions(window); });
             if (!world().is_first()) continue;
             EXPECT_TRUE(std::ranges::equal(cells, whole.cells(whole_window(count)))) << length;
@@ -121,7 +121,7 @@ TEST(Slices, ThatAreFarApartMakeUpTheWholeMesh) {
 
 /// The number of digits is known without requesting the vertices.
 TEST(Slices, KnowHowManyDigitsTheirVerticesHave) {
-    const Mesh mesh = test::marked(test::shaken_kuhn(3, 0.3, 5), 1);
+    const Mesh mesh = test::marked(test::perturbed_kuhn(3, 0.3, 5), 1);
     CanonicalMesh fine(refined(mesh, "random:1", {.random = RandomShare{0.2, 3}}, 2));
     MeshSource& slices = fine.whole();
     const auto expect = [&](std::uint64_t count, auto digits, auto digits_one_by_one) {
@@ -167,7 +167,7 @@ DistributedMesh behind(std::uint64_t vertices, const Mesh& mesh) {
 TEST(Slices, NumberVerticesBeyond32Bits) {
     if (world().size() == 1) return;  // a single process numbers its vertices from 0
     constexpr std::uint64_t far = std::uint64_t{1} << 33U;
-    const Mesh mesh = test::marked(test::shaken_kuhn(2, 0.3, 5), 1);
+    const Mesh mesh = test::marked(test::perturbed_kuhn(2, 0.3, 5), 1);
     CanonicalMesh near(behind(0, mesh));
     CanonicalMesh beyond(behind(far, mesh));
     const MeshFacts& f = near.facts();
@@ -228,7 +228,7 @@ protected:
 };
 
 TEST_P(FilesOfAllRanks, AreTheReferencesOfAMeshWithEverythingMarked) {
-    expect_equal_files(test::featured(test::marked(test::shaken_kuhn(3, 0.3, 5), 1), 1),
+    expect_equal_files(test::featured(test::marked(test::perturbed_kuhn(3, 0.3, 5), 1), 1),
                        {.random = RandomShare{0.1, 3}}, 2);
 }
 

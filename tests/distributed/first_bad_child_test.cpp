@@ -87,7 +87,7 @@ protected:
     const Tuning tuning{.incremental_below = std::get<2>(GetParam())};
 
     /// Checks the message of both engines, on all ranks, with several partitions.
-    void expect_words(const Mesh& mesh, const std::string& words) const {
+    void expect_message(const Mesh& mesh, const std::string& words) const {
         Selection every;
         for (std::size_t c = 0; c < mesh.cells.size(); ++c) every.cells.push_back(GlobalCell{c});
         EXPECT_THAT(test::thrown_by<InputError>(
@@ -111,10 +111,10 @@ TEST_P(FirstBadChild, IsReportedAsFlatOrInverted) {
     const Mesh inverted_first = spoiled_cell(-1, 0, scheme, levels);
     const std::string place = "cell 1, level " + std::to_string(levels);
     const std::string makes = ": bisection would make a child that is ";
-    expect_words(moved(in_a_row({good, flat_first, inverted_first, good}), far_out),
-                 place + makes + "flat");
-    expect_words(moved(in_a_row({good, inverted_first, flat_first, good}), far_out),
-                 place + makes + "inverted");
+    expect_message(moved(in_a_row({good, flat_first, inverted_first, good}), far_out),
+                   place + makes + "flat");
+    expect_message(moved(in_a_row({good, inverted_first, flat_first, good}), far_out),
+                   place + makes + "inverted");
 }
 
 INSTANTIATE_TEST_SUITE_P(SchemesLevelsWays, FirstBadChild,

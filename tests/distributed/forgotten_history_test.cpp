@@ -11,7 +11,7 @@
 #include <octetra/reference/refine.hpp>
 
 #include "distributed/moving_mesh.hpp"
-#include "distributed/seen_mesh.hpp"
+#include "distributed/observed_mesh.hpp"
 #include "distributed/shared_folder.hpp"
 #include "support/refinement.hpp"
 
@@ -27,7 +27,7 @@ constexpr BalanceOptions forgetting{.most_over_mean = 1, .may_forget_history = t
 constexpr std::size_t cubes = 1;
 
 /// 20 steps that approach a corner, which few cells of the input contain.
-std::vector<Selection> to_a_corner() {
+std::vector<Selection> approaching_steps() {
     std::vector<Selection> steps;
     double radius = 0.9;
     for (int k = 0; k < 20; ++k, radius *= 0.55)
@@ -59,7 +59,7 @@ TEST_P(ForgottenHistory, ChangesNoStepAndNoFile) {
 }
 
 TEST_P(ForgottenHistory, IsNotInACheckpointWhichContinuesIdentically) {
-    AdaptiveMesh mesh = shared_out(input_of(GetParam(), cubes), "block");
+    AdaptiveMesh mesh = distributed_mesh(input_of(GetParam(), cubes), "block");
     for (std::uint64_t k = 0; k < 4; ++k) {
         (void)mesh.refine_evenly(some(0.3, GetParam() + k), forgetting);
     }
@@ -151,7 +151,7 @@ TEST_P(ForgottenHistory, IsRecalledWithLaterRefinement) {
 
 /// This takes back only the levels above the forgotten history.
 TEST_P(ForgottenHistory, IsRecalledAfterCoarseningThatEndedWithIt) {
-    AdaptiveMesh mesh = shared_out(input_of(GetParam(), cubes), "block");
+    AdaptiveMesh mesh = distributed_mesh(input_of(GetParam(), cubes), "block");
     const Mesh input = mesh.collect();
     for (std::uint64_t k = 0; k < 5; ++k) {
         (void)mesh.refine_evenly(some(0.3, GetParam() + k), forgetting);
@@ -169,9 +169,9 @@ TEST_P(ForgottenHistory, IsRecalledAfterCoarseningThatEndedWithIt) {
 INSTANTIATE_TEST_SUITE_P(Seeds, ForgottenHistory, testing::Range<std::uint64_t>(0, 4));
 
 TEST(ForgottenHistory, BalancesProcessesWhereFewRootsHaveMostCells) {
-    AdaptiveMesh forgetful = shared_out(test::kuhn(2, 2, 2, 1.0 / 2), "block");
-    AdaptiveMesh faithful = shared_out(test::kuhn(2, 2, 2, 1.0 / 2), "block");
-    for (const Selection& selection : to_a_corner()) {
+    AdaptiveMesh forgetful = distributed_mesh(test::kuhn(2, 2, 2, 1.0 / 2), "block");
+    AdaptiveMesh faithful = distributed_mesh(test::kuhn(2, 2, 2, 1.0 / 2), "block");
+    for (const Selection& selection : approaching_steps()) {
         (void)forgetful.refine_evenly(selection,
                                       {.most_over_mean = 1.1, .may_forget_history = true});
         (void)faithful.refine_evenly(selection, {.most_over_mean = 1.1});
@@ -185,12 +185,12 @@ TEST(ForgottenHistory, BalancesProcessesWhereFewRootsHaveMostCells) {
 /// No single level justifies migration, but all levels together do. Processes become unbalanced
 /// between migrations, so the criterion is the accumulated time of the slowest process.
 TEST(ForgottenHistory, MigratesCellsWhenAccumulatedWaitingJustifiesIt) {
-    AdaptiveMesh mesh = shared_out(test::kuhn(2, 2, 2, 1.0 / 2), "block");
-    AdaptiveMesh unmoved = shared_out(test::kuhn(2, 2, 2, 1.0 / 2), "block");
+    AdaptiveMesh mesh = distributed_mesh(test::kuhn(2, 2, 2, 1.0 / 2), "block");
+    AdaptiveMesh unmoved = distributed_mesh(test::kuhn(2, 2, 2, 1.0 / 2), "block");
     int moves = 0;
     std::uint64_t time = 0;
     std::uint64_t time_unmoved = 0;
-    for (const Selection& selection : to_a_corner()) {
+    for (const Selection& selection : approaching_steps()) {
         const auto done = mesh.refine_evenly(
             selection,
             {.most_over_mean = 1.1, .only_if_it_pays = true, .may_forget_history = true});
@@ -206,7 +206,7 @@ TEST(ForgottenHistory, MigratesCellsWhenAccumulatedWaitingJustifiesIt) {
 
 /// Repeatedly marking all cells ends at the mesh whose cells are the roots.
 TEST(ForgottenHistory, IsWhereCoarseningEnds) {
-    AdaptiveMesh mesh = shared_out(input_of(1, cubes), "block");
+    AdaptiveMesh mesh = distributed_mesh(input_of(1, cubes), "block");
     Mesh last = mesh.collect();  // before its history was forgotten
     bool has_forgotten = false;
     for (std::uint64_t k = 0; k < 6; ++k) {
@@ -230,16 +230,16 @@ TEST(ForgottenHistory, IsThereStillAfterAStepThatIsRefused) {
     for (Point& p : whole.points) p = {p.x + 0x1p52, p.y + 0x1p52, p.z + 0x1p52};
     const Selection corner{
         .boxes = {{{0x1p52, 0x1p52, 0x1p52}, {0x1p52 + 9, 0x1p52 + 9, 0x1p52 + 9}}}};
-    AdaptiveMesh mesh = shared_out(whole, "block");
+    AdaptiveMesh mesh = distributed_mesh(whole, "block");
     bool is_refused = false;
     for (int k = 0; k < 6 && !is_refused; ++k) {
-        const test::SeenMesh before(mesh);
+        const test::ObservedMesh before(mesh);
         const std::vector<std::uint64_t> roots(mesh.roots().begin(), mesh.roots().end());
         try {
             if (k < 2) (void)mesh.refine(corner);
             if (k >= 2) (void)mesh.refine_evenly(corner, forgetting);
         } catch (const InputError&) {
-            EXPECT_TRUE(before == test::SeenMesh(mesh));
+            EXPECT_TRUE(before == test::ObservedMesh(mesh));
             EXPECT_TRUE(std::ranges::equal(roots, mesh.roots()));
             is_refused = true;
         }

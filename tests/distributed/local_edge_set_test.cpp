@@ -31,7 +31,7 @@ MarkedCells marked(std::vector<CellIndex> cells) {
 
 /// Checks that all cells at an edge of these cells have numbered edges, if is_surrounded() returns
 /// true.
-void expect_to_know_what_surrounds(const DistributedMesh& mesh, const LocalEdgeSet& edges) {
+void expect_surroundings_to_be_numbered(const DistributedMesh& mesh, const LocalEdgeSet& edges) {
     const EdgeNumbering& numbering = edges.numbering();
     std::vector<std::uint8_t> has_edges(mesh.cells.size(), 0);
     for (std::size_t k = 0; k < numbering.cell_count(); ++k)
@@ -71,7 +71,7 @@ TEST(LocalEdgeSet, AreThoseOfTheCellsWithinTwoEdgesThenTwiceAsFarAndThenAll) {
             }
         }
         EXPECT_EQ(farthest, reach);
-        expect_to_know_what_surrounds(mesh, edges);
+        expect_surroundings_to_be_numbered(mesh, edges);
         edges.widen();
     }
     EXPECT_EQ(edges.numbering().cell_count(), mesh.cells.size())
@@ -84,7 +84,7 @@ TEST(LocalEdgeSet, AreAllWhereThatIsHalfOfTheCells) {
     for (std::size_t c = 0; c < mesh.cells.size() / 2; ++c) half.emplace_back(c);
     const LocalEdgeSet edges(mesh, marked(half), default_share);
     EXPECT_EQ(edges.numbering().cell_count(), mesh.cells.size());
-    expect_to_know_what_surrounds(mesh, edges);
+    expect_surroundings_to_be_numbered(mesh, edges);
 }
 
 TEST(LocalEdgeSet, BecomeAllWhereTwiceAsFarIsTooMany) {
@@ -94,7 +94,7 @@ TEST(LocalEdgeSet, BecomeAllWhereTwiceAsFarIsTooMany) {
     EXPECT_LT(edges.numbering().cell_count(), mesh.cells.size());
     edges.widen();
     EXPECT_EQ(edges.numbering().cell_count(), mesh.cells.size());
-    expect_to_know_what_surrounds(mesh, edges);
+    expect_surroundings_to_be_numbered(mesh, edges);
 }
 
 TEST(LocalEdgeSet, IncludeEdgesSharedWithOtherRanks) {
@@ -104,7 +104,7 @@ TEST(LocalEdgeSet, IncludeEdgesSharedWithOtherRanks) {
     LocalEdgeSet edges(mesh, marked({CellIndex{0}}), default_share);
     const EdgeIndex other{edges.numbering().end_index().value() - 1U};
     EXPECT_NE(edges.numbering().find(last[0], last[1]), other);
-    expect_to_know_what_surrounds(mesh, edges);
+    expect_surroundings_to_be_numbered(mesh, edges);
 }
 
 }  // namespace

@@ -40,8 +40,8 @@ inline Mesh marked(Mesh mesh, std::uint64_t seed) {
 
 /// Gives duplicates the marker of the first occurrence, as in files.
 template <class I, std::size_t N>
-void mark_alike(const IndexVector<I, std::array<VertexIndex, N>>& list,
-                IndexVector<I, Marker>& markers) {
+void mark_duplicates(const IndexVector<I, std::array<VertexIndex, N>>& list,
+                     IndexVector<I, Marker>& markers) {
     std::map<std::array<VertexIndex, N>, Marker> known;
     for (I i{0}; i < list.end_index(); ++i) {
         auto key = list[i];
@@ -65,15 +65,15 @@ inline Mesh featured(Mesh mesh, std::uint64_t seed) {
 
 /// A lattice with everything that a file can describe.
 inline Mesh marked_lattice(std::size_t n, std::uint64_t seed) {
-    Mesh mesh = marked(shaken_kuhn(n, 0.2, seed), seed);
-    mark_alike(mesh.facets, mesh.facet_markers);
-    mark_alike(mesh.edges, mesh.edge_markers);
+    Mesh mesh = marked(perturbed_kuhn(n, 0.2, seed), seed);
+    mark_duplicates(mesh.facets, mesh.facet_markers);
+    mark_duplicates(mesh.edges, mesh.edge_markers);
     return mesh;
 }
 
 /// A mesh with everything that a file can contain; duplicates have the same marker.
 inline Mesh full_mesh(std::size_t n, std::uint32_t index_base) {
-    Mesh mesh = marked(shaken_kuhn(n, 0.2, 1), index_base);
+    Mesh mesh = marked(perturbed_kuhn(n, 0.2, 1), index_base);
     for (Marker& marker : mesh.facet_markers) marker = 3;
     for (Marker& marker : mesh.edge_markers) marker = -4;
     return mesh;

@@ -78,7 +78,9 @@ MeshPart part_of(const Mesh& mesh, const std::function<int(CellIndex)>& rank_of,
 }
 
 /// Every process has cells.
-int dealt_out(CellIndex c) { return static_cast<int>(c.value() * 5 % 13) % test::world().size(); }
+int rank_of_cell(CellIndex c) {
+    return static_cast<int>(c.value() * 5 % 13) % test::world().size();
+}
 
 /// Facets and edges are numbered in the order of the ranks that have them, and hence not as in
 /// `mesh`.
@@ -102,8 +104,8 @@ Mesh without_repeated(Mesh mesh) {
 }
 
 TEST(MeshPart, WithCellNumbersMakesTheMeshThatAFileWouldHave) {
-    const Mesh mesh = without_repeated(test::marked(test::shaken_kuhn(3, 0.2, 1), 1));
-    AdaptiveMesh parts = AdaptiveMesh::from_parts(test::world(), part_of(mesh, dealt_out, true));
+    const Mesh mesh = without_repeated(test::marked(test::perturbed_kuhn(3, 0.2, 1), 1));
+    AdaptiveMesh parts = AdaptiveMesh::from_parts(test::world(), part_of(mesh, rank_of_cell, true));
     Mesh expected = mesh;
     for (const Selection& selection :
          {Selection{.random = RandomShare{0.2, 1}}, Selection{.all = true}}) {
@@ -156,7 +158,7 @@ TEST(MeshPart, KeepsVerticesOfNoCellOnOneProcess) {
     Mesh mesh = test::kuhn(1, 1, 1);
     mesh.points.push_back({5, 5, 5});  // number 8, which is not a multiple of 3
     mesh.points.push_back({6, 6, 6});  // number 9, which all processes list
-    MeshPart part = part_of(mesh, dealt_out, true);
+    MeshPart part = part_of(mesh, rank_of_cell, true);
     if (test::world().rank() == test::world().size() - 1) {
         part.vertex_numbers.push_back(8);
         part.points.push_back({5, 5, 5});
@@ -171,7 +173,7 @@ TEST(MeshPart, KeepsVerticesOfNoCellOnOneProcess) {
 /// The message, the same on all processes, after the last one has spoiled its part.
 std::string refused(const std::function<void(MeshPart&)>& spoil) {
     const Mesh mesh = without_repeated(test::marked(test::kuhn(3, 3, 3), 1));
-    MeshPart part = part_of(mesh, dealt_out, true);
+    MeshPart part = part_of(mesh, rank_of_cell, true);
     if (test::world().rank() == test::world().size() - 1) spoil(part);
     return test::thrown_by<InputError>(
         [&] { (void)AdaptiveMesh::from_parts(test::world(), std::move(part)); });

@@ -11,7 +11,7 @@
 #include <octetra/reference/history.hpp>
 
 #include "distributed/moving_mesh.hpp"
-#include "distributed/seen_mesh.hpp"
+#include "distributed/observed_mesh.hpp"
 #include "distributed/shared_folder.hpp"
 #include "distributed/world.hpp"
 #include "support/refinement.hpp"
@@ -93,7 +93,7 @@ TEST_P(MigratingMesh, IsAsIfItsCellsHadBeenThereFromTheBeginning) {
     const Targets targets = random_targets(random);
     std::vector<int> parts;
     for (std::uint64_t c = 0; c < input.cells.size(); ++c) parts.push_back(targets.of(c));
-    AdaptiveMesh moved = shared_out(input, "random:1");
+    AdaptiveMesh moved = distributed_mesh(input, "random:1");
     AdaptiveMesh there = AdaptiveMesh::distribute(world(), input, parts);
     for (AdaptiveMesh* mesh : {&moved, &there}) {
         for (const std::uint64_t k : {0U, 1U, 2U, 3U}) {
@@ -102,12 +102,12 @@ TEST_P(MigratingMesh, IsAsIfItsCellsHadBeenThereFromTheBeginning) {
         (void)mesh->coarsen(some(0.8, GetParam()));
     }
     EXPECT_EQ(moved.migrate(targets.of(moved.roots())).changed(), world().size() > 1);
-    const test::SeenMesh a(moved);
-    const test::SeenMesh b(there);
+    const test::ObservedMesh a(moved);
+    const test::ObservedMesh b(there);
     EXPECT_EQ(std::ranges::equal(moved.roots(), there.roots()), true);
     EXPECT_EQ(sorted(a.cells), sorted(b.cells));
     // The vertex of no cell has not moved.
-    const auto has_lone = [](const test::SeenMesh& seen) {
+    const auto has_lone = [](const test::ObservedMesh& seen) {
         return std::ranges::find(seen.points, Point{9, 9, 9}) != seen.points.end();
     };
     if (has_lone(a) == has_lone(b)) {
@@ -131,13 +131,13 @@ TEST_P(MigratingMesh, IsAsIfItsCellsHadBeenThereFromTheBeginning) {
 }
 
 /// Values that identify the cell or vertex that they belong to.
-struct Told {
+struct IdentifyingValues {
     std::vector<Point> corners_of_cells;  ///< four for each cell
     std::vector<Point> of_vertices;
     ValueLists<std::uint64_t> lists_of_cells;
     ValueLists<std::uint8_t> lists_of_vertices;
 
-    explicit Told(const AdaptiveMesh& mesh) {
+    explicit IdentifyingValues(const AdaptiveMesh& mesh) {
         const auto number = [&](VertexIndex v) {
             return static_cast<std::uint64_t>(mesh.vertex_numbers()[v.value()]);
         };
@@ -155,28 +155,28 @@ struct Told {
             lists_of_vertices.begin.push_back(lists_of_vertices.values.size());
         }
     }
-    friend bool operator==(const Told&, const Told&) = default;
+    friend bool operator==(const IdentifyingValues&, const IdentifyingValues&) = default;
 };
 
 TEST_P(MigratingMesh, TransfersTheValuesOfCellsAndVertices) {
     std::mt19937_64 random(GetParam());
-    AdaptiveMesh mesh = shared_out(input_of(GetParam()), "random:1");
+    AdaptiveMesh mesh = distributed_mesh(input_of(GetParam()), "random:1");
     for (int k = 0; k < 6; ++k) {
         (void)mesh.refine(some(k % 2 == 0 ? 0.02 : 0.002, random()));
-        Told told(mesh);
+        IdentifyingValues migrated(mesh);
         const Migration migration = mesh.migrate(random_targets(random).of(mesh.roots()));
-        told.corners_of_cells = migration.cells(std::move(told.corners_of_cells), 4);
-        told.of_vertices = migration.vertices(std::move(told.of_vertices));
-        told.lists_of_cells = migration.cells(std::move(told.lists_of_cells));
-        told.lists_of_vertices = migration.vertices(std::move(told.lists_of_vertices));
-        EXPECT_EQ(told == Told(mesh), true);
+        migrated.corners_of_cells = migration.cells(std::move(migrated.corners_of_cells), 4);
+        migrated.of_vertices = migration.vertices(std::move(migrated.of_vertices));
+        migrated.lists_of_cells = migration.cells(std::move(migrated.lists_of_cells));
+        migrated.lists_of_vertices = migration.vertices(std::move(migrated.lists_of_vertices));
+        EXPECT_EQ(migrated == IdentifyingValues(mesh), true);
         EXPECT_TRUE(migration.cells(std::vector<double>(), 0).empty());
     }
 }
 
 TEST_P(MigratingMesh, RefusesValuesThatDoNotFitItOnAllProcesses) {
     std::mt19937_64 random(GetParam());
-    AdaptiveMesh mesh = shared_out(input_of(GetParam()), "random:1");
+    AdaptiveMesh mesh = distributed_mesh(input_of(GetParam()), "random:1");
     (void)mesh.refine(some(0.1, GetParam()));
     const std::vector<int> targets = random_targets(random).of(mesh.roots());
     const std::vector<int> here(mesh.roots().size(), world().rank());
@@ -196,7 +196,7 @@ TEST_P(MigratingMesh, RefusesValuesThatDoNotFitItOnAllProcesses) {
 TEST_P(MigratingMesh, RefusesValuesOfAnotherSizeOnOneProcess) {
     if (world().size() == 1) GTEST_SKIP() << "one process has no other to differ from";
     std::mt19937_64 random(GetParam());
-    AdaptiveMesh mesh = shared_out(input_of(GetParam()), "random:1");
+    AdaptiveMesh mesh = distributed_mesh(input_of(GetParam()), "random:1");
     (void)mesh.refine(some(0.1, GetParam()));
     const std::vector<int> targets = random_targets(random).of(mesh.roots());
     const std::vector<int> here(mesh.roots().size(), world().rank());
@@ -225,9 +225,9 @@ TEST_P(MigratingMesh, RefusesValuesOfAnotherSizeOnOneProcess) {
 INSTANTIATE_TEST_SUITE_P(Seeds, MigratingMesh, testing::Range<std::uint64_t>(0, 6));
 
 TEST(MigratingToInvalidRanks, IsRefusedOnAllProcessesAndChangesNothing) {
-    AdaptiveMesh mesh = shared_out(input_of(1), "block");
+    AdaptiveMesh mesh = distributed_mesh(input_of(1), "block");
     (void)mesh.refine(some(0.1, 1));
-    const test::SeenMesh before(mesh);
+    const test::ObservedMesh before(mesh);
     std::vector<int> ranks(mesh.roots().size(), 0);
     if (!ranks.empty() && world().rank() == world().size() - 1) ranks.back() = world().size();
     EXPECT_THROW((void)mesh.migrate(ranks), InputError);
@@ -238,7 +238,7 @@ TEST(MigratingToInvalidRanks, IsRefusedOnAllProcessesAndChangesNothing) {
         EXPECT_THROW((void)mesh.rebalance({.most_over_mean = limit}), InputError);
     }
     EXPECT_THROW((void)mesh.rebalance({.most_over_mean = 0.5}), InputError);
-    EXPECT_TRUE(before == test::SeenMesh(mesh));
+    EXPECT_TRUE(before == test::ObservedMesh(mesh));
 }
 
 TEST(DistributingMesh, RefusesWhatIsNotARankForEachCell) {
@@ -256,7 +256,7 @@ TEST(DistributingMesh, RefusesWhatIsNotARankForEachCell) {
 }
 
 TEST(RebalancingMesh, WithABallRefinedIsEvenAndNotMovedAgain) {
-    AdaptiveMesh mesh = shared_out(test::shaken_kuhn(8, 0.2, 1), "block");
+    AdaptiveMesh mesh = distributed_mesh(test::perturbed_kuhn(8, 0.2, 1), "block");
     for (int k = 0; k < 3; ++k) (void)mesh.refine({.spheres = {{{1, 1, 1}, 2.0}}});
     const Mesh before = mesh.collect();
     const double uneven = most_over_mean(mesh);
@@ -269,7 +269,7 @@ TEST(RebalancingMesh, WithABallRefinedIsEvenAndNotMovedAgain) {
 
 /// A few roots with many levels each are partitioned badly by coordinates alone.
 TEST(RebalancingMesh, OfFewHeavyRootsIsEvenWhereTheyLetIt) {
-    AdaptiveMesh mesh = shared_out(test::shaken_kuhn(2, 0.2, 1), "block");
+    AdaptiveMesh mesh = distributed_mesh(test::perturbed_kuhn(2, 0.2, 1), "block");
     for (int k = 0; k < 4; ++k) (void)mesh.refine({.spheres = {{{1, 1, 1}, 0.9}}});
     const Mesh before = mesh.collect();
     (void)mesh.rebalance({.most_over_mean = 1.02});
@@ -278,7 +278,7 @@ TEST(RebalancingMesh, OfFewHeavyRootsIsEvenWhereTheyLetIt) {
 }
 
 TEST(RebalancingMesh, LeavesMostCellsWhereTheyAre) {
-    AdaptiveMesh mesh = shared_out(test::shaken_kuhn(8, 0.2, 1), "block");
+    AdaptiveMesh mesh = distributed_mesh(test::perturbed_kuhn(8, 0.2, 1), "block");
     (void)mesh.refine({.spheres = {{{1, 1, 1}, 3.0}}});
     (void)mesh.rebalance({.most_over_mean = 1});
     (void)mesh.refine({.spheres = {{{1, 1, 1}, 3.0}}});
@@ -291,7 +291,7 @@ TEST(RebalancingMesh, LeavesMostCellsWhereTheyAre) {
 
 TEST(RebalancingMesh, DoesNothingWhereNothingMendsIt) {
     AdaptiveMesh mesh =
-        shared_out(test::one_cell({{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}}), "block");
+        distributed_mesh(test::one_cell({{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}}), "block");
     (void)mesh.refine({.all = true});
     EXPECT_FALSE(mesh.rebalance().changed());
     EXPECT_EQ(world().sum(mesh.cells().size()), 8U);

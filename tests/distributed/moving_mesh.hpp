@@ -33,7 +33,7 @@ inline Mesh input_of(std::uint64_t seed, std::size_t cubes = 4) {
     return test::featured(std::move(mesh), seed);
 }
 
-inline AdaptiveMesh shared_out(Mesh mesh, const std::string& partition) {
+inline AdaptiveMesh distributed_mesh(Mesh mesh, const std::string& partition) {
     std::vector<int> parts =
         partition_cells(mesh, test::world().size(), parse_partition(partition));
     return AdaptiveMesh::distribute(test::world(), std::move(mesh), parts);
@@ -46,8 +46,8 @@ struct MovingAndResting {
     test::ReferenceSteps reference;
 
     explicit MovingAndResting(std::uint64_t seed, std::size_t cubes = 4)
-        : moving(shared_out(input_of(seed, cubes), "random:" + std::to_string(seed))),
-          resting(shared_out(input_of(seed, cubes), "block")),
+        : moving(distributed_mesh(input_of(seed, cubes), "random:" + std::to_string(seed))),
+          resting(distributed_mesh(input_of(seed, cubes), "block")),
           reference(input_of(seed, cubes)) {}
 
     /// Collective. Compares both copies with the reference after they have made the step.

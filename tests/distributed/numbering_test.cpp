@@ -26,7 +26,7 @@ std::vector<AdaptiveMesh> numbered_meshes() {
     std::vector<AdaptiveMesh> meshes;
     for (const PartitionMethod method : {PartitionMethod::block, PartitionMethod::random}) {
         AdaptiveMesh& mesh = meshes.emplace_back(
-            shared_out(test::marked_lattice(3, 1), {.method = method, .seed = 3}));
+            distributed_mesh(test::marked_lattice(3, 1), {.method = method, .seed = 3}));
         (void)mesh.refine(Selection{.random = RandomShare{0.3, 5}});
         (void)mesh.rebalance({.most_over_mean = 1});
         (void)mesh.refine(steps[0]);
@@ -60,7 +60,7 @@ std::array<Point, 3> points_of(const AdaptiveMesh& mesh, const FacetVertices& fa
 }
 
 /// Returns whether the normal of this face points away from its cell.
-bool leaves_behind(const AdaptiveMesh& mesh, const FacetVertices& face, VertexIndex opposite) {
+bool points_away_from(const AdaptiveMesh& mesh, const FacetVertices& face, VertexIndex opposite) {
     const auto& [a, b, c] = points_of(mesh, face);
     return orientation(a, b, c, mesh.points()[opposite.value()]) < 0;
 }
@@ -80,7 +80,7 @@ TEST(Orientation, OfBoundaryFacesIsOutward) {
         for (const auto& [number, face] : mesh.boundary()) {
             const CellVertices& cell = mesh.cells()[number.value()];
             const FacetVertices corners = outward_face(cell, face);
-            EXPECT_TRUE(leaves_behind(mesh, corners, cell[face]));
+            EXPECT_TRUE(points_away_from(mesh, corners, cell[face]));
             const auto& [a, b, c] = points_of(mesh, corners);
             flux += (a.x * (b.y * c.z - b.z * c.y) + a.y * (b.z * c.x - b.x * c.z) +
                      a.z * (b.x * c.y - b.y * c.x)) /
@@ -114,8 +114,8 @@ TEST(Orientation, OfTaggedFacetsIsOutwardOnTheBoundaryAndAscendingInside) {
             } else {
                 const auto& [c, face] = found->second;
                 const VertexIndex opposite = mesh.cells()[c.value()][face];
-                EXPECT_TRUE(leaves_behind(mesh, oriented[f], opposite));
-                ++kinds[leaves_behind(mesh, mesh.facets()[f], opposite) ? 1 : 2];
+                EXPECT_TRUE(points_away_from(mesh, oriented[f], opposite));
+                ++kinds[points_away_from(mesh, mesh.facets()[f], opposite) ? 1 : 2];
             }
         }
         test::world().sum(kinds);
@@ -136,7 +136,7 @@ TEST(Orientation, OfEdgesAndFacesIsTheSameOnAllProcesses) {
             const CellVertices& cell = mesh.cells()[c.value()];
             for (std::size_t f = 0; f < 4; ++f) {
                 EXPECT_EQ(points_outward(cell, f),
-                          leaves_behind(mesh, faces.vertices[faces.of_cell[c][f]], cell[f]));
+                          points_away_from(mesh, faces.vertices[faces.of_cell[c][f]], cell[f]));
             }
         }
     }

@@ -26,7 +26,7 @@ namespace {
 using testing::HasSubstr;
 
 TEST(Partition, OfEveryMethodAssignsAPartToEachCell) {
-    const Mesh mesh = test::shaken_kuhn(4, 0.2, 1);
+    const Mesh mesh = test::perturbed_kuhn(4, 0.2, 1);
     for (const std::string method : {"lepp", "dual", "block", "random:3"}) {
         for (const int parts : {1, 2, 5, 400}) {
             const auto part = partition_cells(mesh, parts, parse_partition(method));
@@ -53,7 +53,7 @@ TEST(Partition, LeavesSignalHandlersAsTheyWere) {
     mine.sa_flags = SA_RESTART;
     struct sigaction before {};
     ASSERT_EQ(::sigaction(SIGTERM, &mine, &before), 0);
-    (void)partition_cells(test::shaken_kuhn(4, 0.2, 1), 5, parse_partition("lepp"));
+    (void)partition_cells(test::perturbed_kuhn(4, 0.2, 1), 5, parse_partition("lepp"));
     struct sigaction after {};
     EXPECT_EQ(::sigaction(SIGTERM, &before, &after), 0);
     EXPECT_EQ(after.sa_handler, ignore_signal);
@@ -113,7 +113,7 @@ TEST(PartitionStatistics, CountCutsOfACubeOfSixCellsByHand) {
 }
 
 TEST(Partition, OfTheLeppGraphCutsFewerPropagationStepsThanBlocksOrLots) {
-    const Mesh mesh = test::shaken_kuhn(8, 0.2, 1);
+    const Mesh mesh = test::perturbed_kuhn(8, 0.2, 1);
     const auto cut = [&](const std::string& method) {
         const auto part = partition_cells(mesh, 4, parse_partition(method));
         return measure_partition(mesh, part, 4).cut_longest_edge_links;
@@ -170,7 +170,7 @@ Mesh shuffled(Mesh mesh) {
 
 TEST(PartitionStatistics, AgreeWithALookAtEveryPairOfCells) {
     for (const Mesh& mesh :
-         {shuffled(test::shaken_kuhn(4, 0.2, 1)), test::kuhn(3, 3, 3), wheel(40)}) {
+         {shuffled(test::perturbed_kuhn(4, 0.2, 1)), test::kuhn(3, 3, 3), wheel(40)}) {
         constexpr int parts = 5;
         auto part = partition_cells(mesh, parts - 1, parse_partition("random:2"));  // one is empty
         PartitionStatistics expected{.cells_of_part = std::vector<std::uint64_t>(parts),
@@ -248,7 +248,7 @@ void expect_links(const Mesh& mesh, const CellGraph& graph, std::int32_t face, s
 
 TEST(CellGraph, OfFacesHasALinkForEveryInnerFace) {
     for (const Mesh& mesh :
-         {shuffled(test::shaken_kuhn(3, 0.2, 1)), test::kuhn(2, 3, 2), wheel(9)}) {
+         {shuffled(test::perturbed_kuhn(3, 0.2, 1)), test::kuhn(2, 3, 2), wheel(9)}) {
         const CellGraph graph = face_dual_graph(mesh, {});
         EXPECT_EQ(graph.node_weights.size(), mesh.cells.size());
         expect_links(mesh, graph, 1, 0);
@@ -257,7 +257,7 @@ TEST(CellGraph, OfFacesHasALinkForEveryInnerFace) {
 
 TEST(CellGraph, OfPathsWeighsFacesMoreThatHaveALongestEdge) {
     for (const Mesh& mesh :
-         {shuffled(test::shaken_kuhn(3, 0.2, 1)), test::kuhn(2, 3, 2), wheel(9)}) {
+         {shuffled(test::perturbed_kuhn(3, 0.2, 1)), test::kuhn(2, 3, 2), wheel(9)}) {
         for (const std::int64_t most : {0, 1, 3, 100}) {
             expect_links(mesh, lepp_graph(mesh, {}, most), 1, 1);
         }
@@ -265,7 +265,7 @@ TEST(CellGraph, OfPathsWeighsFacesMoreThatHaveALongestEdge) {
 }
 
 TEST(CellGraph, HasOneNodeForCellsWithTheSameLongestEdge) {
-    const Mesh mesh = shuffled(test::shaken_kuhn(4, 0.2, 1));
+    const Mesh mesh = shuffled(test::perturbed_kuhn(4, 0.2, 1));
     constexpr std::int64_t most = 8;
     const CellGraph graph = lepp_graph(mesh, {}, most);
     std::map<EdgeVertices, std::vector<std::int32_t>> nodes;

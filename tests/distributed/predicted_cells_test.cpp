@@ -110,7 +110,7 @@ TEST(PredictedCells, OfABoxCountTheCellsInside) {
 
 TEST(PredictedCells, OfASphereAreCloseToTheResultOfRefinement) {
     for (const std::uint32_t seed : {1U, 2U, 3U}) {
-        const Mesh mesh = test::shaken_kuhn(8, 0.2, seed);
+        const Mesh mesh = test::perturbed_kuhn(8, 0.2, seed);
         for (const double radius : {0.9, 1.7, 3.0}) {
             const Selection selection = ball({2, 2, 3}, radius);
             const auto predicted = predicted_cells(mesh, selection, Scheme::eight, 3);
@@ -155,7 +155,7 @@ TEST(PredictedCells, ByLotAreEquallyManyBesideThoseOfOtherCriteria) {
 }
 
 TEST(Weights, MakePartsEqualInTheirSums) {
-    const Mesh mesh = test::shaken_kuhn(10, 0.2, 1);
+    const Mesh mesh = test::perturbed_kuhn(10, 0.2, 1);
     for (const int levels : {1, 4}) {
         const auto weights = predicted_cells(mesh, ball({2, 2, 2}, 1.8), Scheme::eight, levels);
         ASSERT_GT(std::ranges::max(weights), 1);
@@ -180,7 +180,7 @@ std::vector<int> cells_of_parts(const std::vector<int>& part, int parts) {
 }
 
 TEST(Weights, OfAnyMagnitudeCountByTheirRatios) {
-    const Mesh mesh = test::shaken_kuhn(8, 0.2, 1);
+    const Mesh mesh = test::perturbed_kuhn(8, 0.2, 1);
     std::vector<float> weights(mesh.cells.size());
     for (std::size_t c = 0; c < weights.size(); ++c) weights[c] = c % 3 == 0 ? 5 : 1;
     const auto expected = partition_cells(mesh, 4, parse_partition("lepp"), weights);
@@ -198,7 +198,7 @@ TEST(Weights, OfAnyMagnitudeCountByTheirRatios) {
 
 /// METIS alone leaves parts empty here, and prints a warning on standard output.
 TEST(Weights, OfAFewCellsThatOutweighAllOthersSpreadThemAndLeaveNoPartEmpty) {
-    const Mesh mesh = test::shaken_kuhn(12, 0.2, 1);
+    const Mesh mesh = test::perturbed_kuhn(12, 0.2, 1);
     for (const int heavy : {1, 2, 3, 10, 30}) {
         std::vector<float> weights(mesh.cells.size(), 1);
         for (int h = 0; h < heavy; ++h) weights[static_cast<std::size_t>(5000 + h)] = 262144;
@@ -231,7 +231,7 @@ TEST(Weights, AreRefusedUnlessThereIsAPositiveAndFiniteOneForEachCell) {
 }
 
 TEST(Weights, AreThoseOfTheNodesAndOfNoneTooMuchButOfSingleCells) {
-    const Mesh mesh = test::shaken_kuhn(5, 0.2, 1);
+    const Mesh mesh = test::perturbed_kuhn(5, 0.2, 1);
     std::vector<float> of_cells(mesh.cells.size());
     for (std::size_t c = 0; c < of_cells.size(); ++c) of_cells[c] = c % 7 == 0 ? 100 : 2;
     const CellWeights weights(of_cells, 2);

@@ -34,7 +34,7 @@ test::MpiCounts counted_since(const test::MpiCounts& before) {
 
 /// The parallel work of a run of the program.
 SynchronisationCounts run(const Communicator& processes, Synchronisation synchronisation) {
-    const Mesh mesh = test::shaken_kuhn(4, 0.3, 5);
+    const Mesh mesh = test::perturbed_kuhn(4, 0.3, 5);
     const auto parts = in_phase(processes, "partition",
                                 [&] { return partition_cells(mesh, processes.size(), {}); });
     DistributedMesh part = distribute(processes, mesh, parts);

@@ -29,7 +29,7 @@ bool is_odd() { return world().rank() == world().size() - 1; }
 
 /// Collective. The message of the InputError thrown by the work, which must be the same on all
 /// processes.
-std::string words_of(const std::function<void()>& work) {
+std::string message_of(const std::function<void()>& work) {
     const auto words = test::thrown_by<InputError>(work);
     const auto all = test::of_all(std::vector<char>(words.begin(), words.end()));
     for (const auto& one : all) EXPECT_EQ(std::string(one.begin(), one.end()), words);
@@ -39,7 +39,7 @@ std::string words_of(const std::function<void()>& work) {
 /// Distributed in blocks, or all on the first process, where nothing is exchanged.
 std::vector<AdaptiveMesh> meshes() {
     std::vector<AdaptiveMesh> all;
-    const Mesh mesh = test::marked(test::shaken_kuhn(3, 0.2, 1), 1);
+    const Mesh mesh = test::marked(test::perturbed_kuhn(3, 0.2, 1), 1);
     const Partition in_blocks{.method = PartitionMethod::block};
     for (const auto& ranks : {partition_cells(mesh, world().size(), in_blocks),
                               std::vector<int>(mesh.cells.size(), 0)}) {
@@ -68,17 +68,17 @@ TEST_F(RefusedArguments, AreValuesWithAnotherNumberOfComponents) {
         const std::string expected = starting("kind of the values is 512 of double for each ");
         const auto& sharing = mesh.vertex_sharing();
         const std::size_t count = mesh.points().size();
-        EXPECT_TRUE(words_of([&] {
+        EXPECT_TRUE(message_of([&] {
                         update_copies(world(), sharing, count, values, components);
                     }).starts_with(expected));
-        EXPECT_TRUE(words_of([&] {
+        EXPECT_TRUE(message_of([&] {
                         combine_everywhere(world(), sharing, count, values, std::plus<>(),
                                            components);
                     }).starts_with(expected));
         EXPECT_EQ(values, before);
         const GhostLayer layer = mesh.ghosts(GhostsBy::vertex);
         const std::vector<double> of_cells(mesh.cells().size() * components);
-        EXPECT_TRUE(words_of([&] {
+        EXPECT_TRUE(message_of([&] {
                         (void)layer.values(world(), of_cells, components);
                     }).starts_with(expected));
     }
@@ -92,22 +92,22 @@ TEST_F(RefusedArguments, AreValuesOfAnotherType) {
             return is_odd() ? work(integers) : work(reals);
         };
         const std::string expected = starting("kind of the values is 1 of long for each ");
-        EXPECT_TRUE(words_of([&] {
+        EXPECT_TRUE(message_of([&] {
                         with_some(mesh.points().size(), [&](auto& values) {
                             update_copies(world(), mesh.vertex_sharing(), values.size(), values);
                         });
                     }).starts_with(expected));
         const GhostLayer layer = mesh.ghosts(GhostsBy::face);
-        EXPECT_TRUE(words_of([&] {
+        EXPECT_TRUE(message_of([&] {
                         with_some(mesh.cells().size(),
                                   [&](auto& values) { (void)layer.values(world(), values); });
                     }).starts_with(expected));
         const Migration unmoved(world(), 5, 5);
-        EXPECT_TRUE(words_of([&] {
+        EXPECT_TRUE(message_of([&] {
                         with_some(5, [&](auto& values) { (void)unmoved.cells(values); });
                     }).starts_with(expected));
         const std::vector<double> five(5);
-        EXPECT_TRUE(words_of([&] {
+        EXPECT_TRUE(message_of([&] {
                         (void)(is_odd() ? unmoved.cells(five) : unmoved.vertices(five));
                     }).starts_with(starting("kind of the values is 1 of double for each ")));
     }
@@ -119,7 +119,7 @@ TEST_F(RefusedArguments, AreCombinationsByAnotherOperation) {
         const auto combine = [&](auto operation) {
             combine_everywhere(world(), mesh.vertex_sharing(), values.size(), values, operation);
         };
-        const std::string words = words_of([&] {
+        const std::string words = message_of([&] {
             if (is_odd()) {
                 combine(std::minus<int>());
             } else {
@@ -140,20 +140,21 @@ TEST_F(RefusedArguments, AreSharersOfTheMeshAsItWas) {
     const Sharing<VertexIndex>& sharing = is_odd() ? before : mesh.vertex_sharing();
     std::vector<int> values(mesh.points().size(), world().rank());
     const std::string words =
-        words_of([&] { update_copies(world(), sharing, values.size(), values); });
+        message_of([&] { update_copies(world(), sharing, values.size(), values); });
     EXPECT_NE(words.find(" bytes of values, and "), std::string::npos) << words;
     EXPECT_EQ(values, std::vector<int>(values.size(), world().rank()));
     const GhostLayer ghosts = is_odd() ? ghosts_before : mesh.ghosts(GhostsBy::vertex);
     if (is_odd()) (void)mesh.ghosts(GhostsBy::vertex);
     values.resize(is_odd() ? cells_before : mesh.cells().size());
-    EXPECT_NE(words_of([&] { (void)ghosts.values(world(), values); }).find(" bytes of values, and"),
-              std::string::npos);
+    EXPECT_NE(
+        message_of([&] { (void)ghosts.values(world(), values); }).find(" bytes of values, and"),
+        std::string::npos);
 }
 
 TEST_F(RefusedArguments, AreGhostsByAnotherRule) {
     for (const AdaptiveMesh& mesh : meshes()) {
         EXPECT_EQ(
-            words_of([&] { (void)mesh.ghosts(is_odd() ? GhostsBy::vertex : GhostsBy::face); }),
+            message_of([&] { (void)mesh.ghosts(is_odd() ? GhostsBy::vertex : GhostsBy::face); }),
             starting("argument by is vertex, and face on rank 0: all ranks must pass the same"));
     }
 }
@@ -167,17 +168,17 @@ TEST_F(RefusedArguments, AreOtherPartitions) {
     };
     const std::string expected =
         starting("partition is lepp, and rcb on rank 0: all ranks must pass the same");
-    EXPECT_EQ(words_of([&] {
+    EXPECT_EQ(message_of([&] {
                   (void)AdaptiveMesh::read(world(), folder / "a.mesh", other_than("rcb", "lepp"));
               }),
               expected);
-    EXPECT_EQ(words_of([&] {
+    EXPECT_EQ(message_of([&] {
                   (void)AdaptiveMesh::load(world(), folder / "a.octetra",
                                            other_than("rcb", "lepp"));
               }),
               expected);
     EXPECT_EQ(
-        words_of([&] {
+        message_of([&] {
             (void)AdaptiveMesh::read(world(), folder / "a.mesh",
                                      other_than("random:1", "random:2"));
         }),
@@ -189,7 +190,7 @@ TEST_F(RefusedArguments, AreOtherOptionsOfTheVerifier) {
         const auto verified_with = [&](const verify::VerifyOptions& odd) {
             const verify::VerifyOptions options = is_odd() ? odd : verify::VerifyOptions{};
             CanonicalMesh canonical = mesh.canonical();
-            return words_of([&] {
+            return message_of([&] {
                 (void)verify::verify_mesh(verify::slice_of(canonical.whole()), world(), options);
             });
         };

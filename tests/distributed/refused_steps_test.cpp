@@ -7,7 +7,7 @@
 
 #include "distributed/adaptive_steps.hpp"
 #include "distributed/marked_mesh.hpp"
-#include "distributed/seen_mesh.hpp"
+#include "distributed/observed_mesh.hpp"
 #include "distributed/world.hpp"
 #include "support/meshes.hpp"
 #include "support/thrown.hpp"
@@ -19,9 +19,10 @@ namespace {
 TEST_P(AdaptiveMeshIn, IsAsItWasAfterAStepThatIsRefused) {
     const auto& world = test::world();
     const bool is_last = world.rank() == world.size() - 1;
-    AdaptiveMesh mesh = shared_out(test::marked(test::shaken_kuhn(3, 0.2, 1), 1), GetParam());
+    AdaptiveMesh mesh =
+        distributed_mesh(test::marked(test::perturbed_kuhn(3, 0.2, 1), 1), GetParam());
     for (const Selection& selection : {steps[0], steps[2], steps[0]}) {
-        const test::SeenMesh before(mesh);
+        const test::ObservedMesh before(mesh);
         auto marks = marks_of(mesh, {.all = true});
         if (is_last) marks.push_back(1);
         const auto words = test::thrown_by<InputError>([&] { (void)mesh.refine(marks); });
@@ -49,9 +50,9 @@ TEST_P(AdaptiveMeshIn, IsAsItWasAfterAStepThatIsRefused) {
         EXPECT_EQ(refused([&] { (void)mesh.refine(negative); }), negative_radius);
         EXPECT_EQ(refused([&] { (void)mesh.refine_evenly(negative); }), negative_radius);
         EXPECT_EQ(refused([&] { (void)mesh.coarsen(negative); }), negative_radius);
-        EXPECT_TRUE(before == test::SeenMesh(mesh));
+        EXPECT_TRUE(before == test::ObservedMesh(mesh));
         EXPECT_FALSE(mesh.refine(Selection{}).changed);
-        EXPECT_TRUE(before == test::SeenMesh(mesh));
+        EXPECT_TRUE(before == test::ObservedMesh(mesh));
         (void)mesh.refine(selection);
     }
 }
@@ -59,10 +60,12 @@ TEST_P(AdaptiveMeshIn, IsAsItWasAfterAStepThatIsRefused) {
 TEST_P(AdaptiveMeshIn, IsAsItWasAfterAStepThatOneProcessCannotAskFor) {
     const auto& world = test::world();
     const bool is_last = world.rank() == world.size() - 1;
-    AdaptiveMesh mesh = shared_out(test::marked(test::shaken_kuhn(3, 0.2, 1), 1), GetParam());
-    AdaptiveMesh other = shared_out(test::marked(test::shaken_kuhn(3, 0.2, 1), 1), GetParam());
+    AdaptiveMesh mesh =
+        distributed_mesh(test::marked(test::perturbed_kuhn(3, 0.2, 1), 1), GetParam());
+    AdaptiveMesh other =
+        distributed_mesh(test::marked(test::perturbed_kuhn(3, 0.2, 1), 1), GetParam());
     for (const Selection& selection : {steps[0], Selection{.all = true}, steps[2]}) {
-        const test::SeenMesh before(mesh);
+        const test::ObservedMesh before(mesh);
         const auto marks = marks_of(mesh, selection);
         const auto request = [&](bool has_failed) {
             if (has_failed) throw InputError("nothing to mark by");
@@ -71,10 +74,10 @@ TEST_P(AdaptiveMeshIn, IsAsItWasAfterAStepThatOneProcessCannotAskFor) {
         EXPECT_EQ(test::thrown_by<InputError>(
                       [&] { (void)mesh.refine([&] { return request(is_last); }); }),
                   "nothing to mark by");
-        EXPECT_TRUE(before == test::SeenMesh(mesh));
+        EXPECT_TRUE(before == test::ObservedMesh(mesh));
         (void)mesh.refine([&] { return request(false); });
         (void)other.refine(marks, {.scheme = Scheme::four});
-        EXPECT_TRUE(test::SeenMesh(other) == test::SeenMesh(mesh));
+        EXPECT_TRUE(test::ObservedMesh(other) == test::ObservedMesh(mesh));
     }
 }
 
@@ -86,16 +89,16 @@ TEST_P(AdaptiveMeshIn, IsAsItWasAfterAStepThatRoundingForbids) {
     const Selection corner{
         .boxes = {{{0x1p52, 0x1p52, 0x1p52}, {0x1p52 + 8, 0x1p52 + 8, 0x1p52 + 8}}}};
     for (const Selection& selection : {corner, Selection{.all = true}}) {
-        AdaptiveMesh mesh = shared_out(whole, GetParam());
+        AdaptiveMesh mesh = distributed_mesh(whole, GetParam());
         int steps_taken = 0;
         while (true) {
-            const test::SeenMesh before(mesh);
+            const test::ObservedMesh before(mesh);
             try {
                 (void)mesh.refine(selection);
                 ++steps_taken;
             } catch (const InputError& error) {
                 EXPECT_THAT(error.what(), testing::HasSubstr("midpoints"));
-                EXPECT_TRUE(before == test::SeenMesh(mesh));
+                EXPECT_TRUE(before == test::ObservedMesh(mesh));
                 break;
             }
         }
@@ -105,13 +108,14 @@ TEST_P(AdaptiveMeshIn, IsAsItWasAfterAStepThatRoundingForbids) {
 
 TEST_P(AdaptiveMeshIn, IsAsItWasAfterAStepThatChangesMuchAndIsRefusedAfterOneThatChangedLittle) {
     // Incremental levels leave the lists unordered, and a full sweep needs the canonical order.
-    AdaptiveMesh mesh = shared_out(test::marked(test::shaken_kuhn(6, 0.2, 1), 1), GetParam());
+    AdaptiveMesh mesh =
+        distributed_mesh(test::marked(test::perturbed_kuhn(6, 0.2, 1), 1), GetParam());
     for (const Selection& small : {steps[0], steps[1], steps[3]}) {
         (void)mesh.refine(small);
-        const test::SeenMesh before(mesh);
+        const test::ObservedMesh before(mesh);
         const auto cells = test::world().sum(mesh.cells().size());
         EXPECT_THROW((void)mesh.refine(Selection{.all = true}, {.max_cells = cells}), InputError);
-        EXPECT_TRUE(before == test::SeenMesh(mesh));
+        EXPECT_TRUE(before == test::ObservedMesh(mesh));
     }
 }
 

@@ -53,7 +53,7 @@ class Replay : public testing::TestWithParam<std::uint64_t> {};
 
 TEST_P(Replay, OfTheStepsExtractedFromAPartReproducesItBitByBit) {
     std::mt19937_64 random(GetParam());
-    const Mesh mesh = test::marked(test::shaken_kuhn(3, 0.2, GetParam()), 1);
+    const Mesh mesh = test::marked(test::perturbed_kuhn(3, 0.2, GetParam()), 1);
     const auto ranks = partition_cells(mesh, test::world().size(),
                                        parse_partition("random:" + std::to_string(GetParam())));
     test::Loop loop(distribute(test::world(), mesh, ranks));

@@ -16,7 +16,7 @@ namespace {
 constexpr CellVertices cell{VertexIndex{0}, VertexIndex{1}, VertexIndex{2}, VertexIndex{3}};
 
 /// The corners of the cell and the midpoints of its edges, by position in the table.
-IndexVector<VertexIndex, Point> places_of(const std::array<Point, 4>& corners) {
+IndexVector<VertexIndex, Point> points_and_midpoints(const std::array<Point, 4>& corners) {
     IndexVector<VertexIndex, Point> points(corners.begin(), corners.end());
     for (const auto& [i, j] : cell_edges) points.push_back(midpoint(corners[i], corners[j]));
     return points;
@@ -68,7 +68,7 @@ TEST(RoundingMargin, IsOnlyFoundWhereAllChildrenAreSound) {
     int with_margin = 0;
     int unsound = 0;
     for (int i = 0; i < 4000; ++i) {
-        const auto points = places_of(cells.next());
+        const auto points = points_and_midpoints(cells.next());
         const bool has_margin = has_rounding_margin(points, cell);
         const bool is_sound = has_sound_children(points);
         EXPECT_TRUE(is_sound || !has_margin);
@@ -94,11 +94,11 @@ TEST(RoundingMargin, IsFoundForMostCellsOfMeshes) {
 
 TEST(RoundingMargin, IsNotClaimedWhereNumbersOverflowOrUnderflow) {
     const std::array<Point, 4> corners{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
-    ASSERT_TRUE(has_rounding_margin(places_of(corners), cell));
+    ASSERT_TRUE(has_rounding_margin(points_and_midpoints(corners), cell));
     for (const double size : {1e-320, 1e-120, 1e120, 1.7e308}) {
         auto scaled = corners;
         for (Point& p : scaled) p = {size * p.x, size * p.y, size * p.z};
-        EXPECT_FALSE(has_rounding_margin(places_of(scaled), cell)) << size;
+        EXPECT_FALSE(has_rounding_margin(points_and_midpoints(scaled), cell)) << size;
     }
 }
 

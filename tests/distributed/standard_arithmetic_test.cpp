@@ -19,7 +19,7 @@
 #include <octetra/verify/verify.hpp>
 
 #include "distributed/marked_mesh.hpp"
-#include "distributed/seen_mesh.hpp"
+#include "distributed/observed_mesh.hpp"
 #include "distributed/shared_folder.hpp"
 #include "distributed/world.hpp"
 #include "support/hostile_arithmetic.hpp"
@@ -36,9 +36,9 @@ using test::world;
 /// Numbers of all magnitudes: a vertex with subnormal coordinates, and a mesh with subnormal
 /// lengths.
 std::vector<Mesh> meshes_of_any_scale() {
-    Mesh ordinary = test::marked(test::shaken_kuhn(3, 0.2, 1), 1);
-    test::mark_alike(ordinary.facets, ordinary.facet_markers);
-    test::mark_alike(ordinary.edges, ordinary.edge_markers);
+    Mesh ordinary = test::marked(test::perturbed_kuhn(3, 0.2, 1), 1);
+    test::mark_duplicates(ordinary.facets, ordinary.facet_markers);
+    test::mark_duplicates(ordinary.edges, ordinary.edge_markers);
     Mesh tiny = ordinary;
     for (Point& p : tiny.points) p = {p.x * 0x1p-1040, p.y * 0x1p-1040, p.z * 0x1p-1040};
     ordinary.points[VertexIndex{0}] = {1e-310, -3e-310, 0};
@@ -125,7 +125,7 @@ TEST(StandardArithmetic, AdaptsMeshesIdenticallyInAnyEnvironment) {
         };
         const AdaptiveMesh expected = adapted("expected.octetra");
         const AdaptiveMesh found = in_hostile_arithmetic([&] { return adapted("found.octetra"); });
-        EXPECT_TRUE(test::SeenMesh(found) == test::SeenMesh(expected));
+        EXPECT_TRUE(test::ObservedMesh(found) == test::ObservedMesh(expected));
         if (!world().is_first()) continue;  // only the first process has the folder
         EXPECT_EQ(test::content_of(folder / "found.octetra"),
                   test::content_of(folder / "expected.octetra"));

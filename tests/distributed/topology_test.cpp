@@ -71,7 +71,7 @@ protected:
         for (const Selection& selection :
              {Selection{}, Selection{.spheres = {{{0.5, 0.5, 0.5}, 0.45}}},
               Selection{.random = RandomShare{0.3, 5}}}) {
-            const Mesh mesh = test::marked(test::shaken_kuhn(3, 0.2, 1), 1);
+            const Mesh mesh = test::marked(test::perturbed_kuhn(3, 0.2, 1), 1);
             meshes.push_back(AdaptiveMesh::distribute(
                 test::world(), mesh,
                 partition_cells(mesh, test::world().size(), {.method = GetParam(), .seed = 3})));

@@ -13,7 +13,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <octetra/dolfinx/hand_over.hpp>
+#include <octetra/dolfinx/convert.hpp>
 
 #include "distributed/marked_mesh.hpp"
 #include "distributed/world.hpp"

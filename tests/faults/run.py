@@ -52,11 +52,11 @@ KINDS = {"killed": "killed at an MPI call", "file": "a file call fails", "memory
 
 
 @dataclass
-class Tried:
+class Results:
     """The results for a command and a kind of fault."""
     calls: list = field(default_factory=list)  # calls that may fail, for each rank
     moments: int = 0
-    went_on: int = 0  # runs that succeeded in spite of the fault
+    succeeded: int = 0  # runs that succeeded in spite of the fault
     seconds: float = 0.0  # maximum until the last rank ended
     once: int = 0  # faults that did not recur
     faults: list = field(default_factory=list)
@@ -101,23 +101,23 @@ class Bench:
                                    text=True, errors="replace", start_new_session=True,
                                    env=os.environ | {"OCTETRA_SECONDS_TO_END": "1"})
         try:
-            said = process.communicate(timeout=2 * self.seconds)[1]
+            stderr_text = process.communicate(timeout=2 * self.seconds)[1]
         except subprocess.TimeoutExpired:
             os.killpg(process.pid, 9)
             return 124, process.communicate()[1], time.monotonic() - start
-        return process.returncode, said, time.monotonic() - start
+        return process.returncode, stderr_text, time.monotonic() - start
 
     def contents(self, outputs):
         return {output: (self.folder / output).read_bytes() if (self.folder / output).exists() else None
                 for output in outputs}
 
-    def strangers(self, outputs):
+    def unexpected_files(self, outputs):
         """Returns the files that are neither inputs nor outputs."""
         known = {path.name for path in self.inputs.iterdir()} | set(outputs)
         return sorted(path.name for path in self.folder.iterdir() if path.name not in known)
 
 
-def fault_of(bench, outputs, complete, kind, status, said, seconds):
+def fault_of(bench, outputs, complete, kind, status, stderr_text, seconds):
     """Describes a violation of the requirements, or returns an empty string."""
     if status == 124:
         return "does not end"
@@ -132,9 +132,9 @@ def fault_of(bench, outputs, complete, kind, status, said, seconds):
         return f"exit status {status}"
     if kind == "killed":
         return ""
-    if bench.strangers(outputs):
-        return f"leaves {' '.join(bench.strangers(outputs))}"
-    messages = re.findall(r"^octetra: (?!note: ).*", said, re.MULTILINE)
+    if bench.unexpected_files(outputs):
+        return f"leaves {' '.join(bench.unexpected_files(outputs))}"
+    messages = re.findall(r"^octetra: (?!note: ).*", stderr_text, re.MULTILINE)
     if len(messages) != 1:
         return f"prints {len(messages)} messages"
     return "" if kind != "memory" or "memory" in messages[0] else f"prints {messages[0]}"
@@ -146,35 +146,35 @@ def moments_of(calls, count):
     return [round(calls * (k + 1) / count) for k in range(count)]
 
 
-def tried(bench, arguments, outputs, kind, count):
-    result = Tried()
+def run_moments(bench, arguments, outputs, kind, count):
+    result = Results()
     for rank, share in ((0, count - count // 2), (RANKS - 1, count // 2)):
-        status, said, _ = bench.run(arguments, outputs, kind, rank, 0)
+        status, stderr_text, _ = bench.run(arguments, outputs, kind, rank, 0)
         complete = bench.contents(outputs)
-        calls = re.search(r"^calls(?: of MPI)?: (\d+)", said, re.MULTILINE)
+        calls = re.search(r"^calls(?: of MPI)?: (\d+)", stderr_text, re.MULTILINE)
         if status != 0 or not calls:
-            sys.exit(f"without a fault: octetra {arguments}: exit status {status}\n{said}")
+            sys.exit(f"without a fault: octetra {arguments}: exit status {status}\n{stderr_text}")
         result.calls.append(int(calls[1]))
         for at in moments_of(int(calls[1]), share):
             result.moments += 1
             for attempt in range(2):
-                status, said, seconds = bench.run(arguments, outputs, kind, rank, at)
-                fault = fault_of(bench, outputs, complete, kind, status, said, seconds)
+                status, stderr_text, seconds = bench.run(arguments, outputs, kind, rank, at)
+                fault = fault_of(bench, outputs, complete, kind, status, stderr_text, seconds)
                 if not fault:
                     result.once += attempt
                     break
                 words = f"octetra {arguments}: {KINDS[kind]}, rank {rank}, {at} of {calls[1]}: {fault}"
-                print(words, "\n  " + said.strip().replace("\n", "\n  "), file=sys.stderr, flush=True)
+                print(words, "\n  " + stderr_text.strip().replace("\n", "\n  "), file=sys.stderr, flush=True)
             else:
                 result.faults.append(words)
-            result.went_on += status == 0
+            result.succeeded += status == 0
             result.seconds = max(result.seconds, seconds)
     return result
 
 
 def row(name, kind, result):
     calls = " and ".join(f"{calls:,}" for calls in result.calls)
-    return (f"| {name} | {KINDS[kind]} | {calls} | {result.moments} | {result.went_on} | "
+    return (f"| {name} | {KINDS[kind]} | {calls} | {result.moments} | {result.succeeded} | "
             f"{result.seconds:.1f} | {result.once} | {len(result.faults)} |")
 
 
@@ -203,7 +203,7 @@ def main():
             if time.monotonic() > end:
                 print(f"time is up before: {name}, {KINDS[kind]}; --only TEXT starts there")
                 break
-            result = tried(bench, *COMMANDS[name], kind, chosen.moments)
+            result = run_moments(bench, *COMMANDS[name], kind, chosen.moments)
             faults += len(result.faults)
             moments += result.moments
             print(row(name, kind, result), flush=True)

@@ -103,15 +103,15 @@ void check_written_to_msh(const Mesh& mesh, const fs::path& folder, bool only_sy
 
 void check_mesh(const fs::path& path) {
     const std::optional<Mesh> mesh = read(path, {});
-    const std::optional<Mesh> as_it_stands = read(path, {.only_syntax = true});
-    const std::optional<Mesh> turned_round = read(path, {.fix_orientation = true});
+    const std::optional<Mesh> unchecked = read(path, {.only_syntax = true});
+    const std::optional<Mesh> oriented = read(path, {.fix_orientation = true});
     if (mesh) {
-        expect_same(as_it_stands, *mesh, "when only syntax is asked for");
-        expect_same(turned_round, *mesh, "when inverted cells are reversed");
+        expect_same(unchecked, *mesh, "when only syntax is asked for");
+        expect_same(oriented, *mesh, "when inverted cells are reversed");
     }
-    if (!as_it_stands) return;
-    check_written(*as_it_stands, path.parent_path(), !mesh);
-    check_written_to_msh(*as_it_stands, path.parent_path(), !mesh);
+    if (!unchecked) return;
+    check_written(*unchecked, path.parent_path(), !mesh);
+    check_written_to_msh(*unchecked, path.parent_path(), !mesh);
 }
 
 }  // namespace

@@ -32,7 +32,8 @@ public:
                 auto& values = values_.emplace_back();
                 for (std::size_t row = 0; row < list.values.size(); row += list.width()) {
                     for (std::size_t k = 0; k < components; ++k) {
-                        values.push_back(list.values[row + at + place_in_sol(k, components)]);
+                        values.push_back(
+                            list.values[row + at + sol_component_position(k, components)]);
                     }
                 }
                 at += components;
@@ -88,7 +89,7 @@ void check_values(const fs::path& path) {
     for (const std::string extension : {".sol", ".solb"}) {
         const fs::path out = path.parent_path() / ("out" + extension);
         OutputFile file(out);
-        put_sol(file, source, extension == ".solb");
+        write_sol_contents(file, source, extension == ".solb");
         file.commit();
         const std::optional<SolFields> again = read(out);
         std::vector<FieldRows> expected = found->lists;

@@ -35,7 +35,7 @@ struct Step {
 inline constexpr double exact_grid_scale = 0x1p28;
 
 /// Maximum number of cells of a history: a step that would exceed it is refused.
-inline constexpr std::size_t most_cells_of_a_history = 3000;
+inline constexpr std::size_t max_history_cells = 3000;
 
 /// One refinement or history on which laws are judged: the complete input of the judgement.
 struct Case {
@@ -54,7 +54,7 @@ struct Case {
 };
 
 /// Removes the steps that begin a new history, for laws that inspect a single input.
-[[nodiscard]] inline Case of_one_input(Case c) {
+[[nodiscard]] inline Case without_rewrites(Case c) {
     std::erase_if(c.steps, [](const Step& step) { return step.action == Action::rewrite; });
     return c;
 }

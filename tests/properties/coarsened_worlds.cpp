@@ -34,19 +34,19 @@ bool conforms(const Mesh& mesh) {
 
 }  // namespace
 
-std::string fault_of_coarsening(const History& history, const CellMarks& may_go) {
-    const History rest = reference::coarsened(history, may_go);
+std::string fault_of_coarsening(const History& history, const CellMarks& may_coarsen) {
+    const History rest = reference::coarsened(history, may_coarsen);
     const auto before = reference::replay(history);
     const auto after = reference::replay(rest);
     const Refinement& old = before.back();
     const Refinement& coarser = after.back();
     if (!are_closed(rest, after)) return "a step is not closed";
-    if (test::points_of(coarser.mesh) != test::points_that_stay(history, may_go).all) {
+    if (test::points_of(coarser.mesh) != test::points_that_stay(history, may_coarsen).all) {
         return "the rules require other vertices";
     }
-    if (!has_unmarked_cells(old.mesh, may_go, coarser.mesh)) return "a cell is gone";
+    if (!has_unmarked_cells(old.mesh, may_coarsen, coarser.mesh)) return "a cell is gone";
     if (!test::refines(old, coarser, scale)) return "the old mesh does not refine the new one";
-    if (!goes_back_by_one_generation(before, coarser, scale))
+    if (!coarsens_by_one_generation(before, coarser, scale))
         return "a cell is back by two generations";
     if (!conforms(coarser.mesh)) return "the mesh does not conform";
     return {};

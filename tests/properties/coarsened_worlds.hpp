@@ -17,7 +17,7 @@ namespace octetra::properties {
 /// the old mesh refines the new one, by at most one generation, and the new one contains the
 /// unmarked cells of the old one; the new mesh conforms.
 [[nodiscard]] std::string fault_of_coarsening(const reference::History& history,
-                                              const reference::CellMarks& may_go);
+                                              const reference::CellMarks& may_coarsen);
 
 /// Histories of one step on a mesh of one cell: one for each nonempty closed set of its edges.
 [[nodiscard]] std::vector<reference::History> histories_of_one_step(const Mesh& cell);

@@ -71,24 +71,24 @@ void hold_for_all_children(const History& history) {
     const auto midpoints = midpoints_of_children(history);
     std::set<EdgeBits> judged;
     for (unsigned chosen = 0; chosen < 1U << midpoints.size(); ++chosen) {
-        CellMarks may_go;
+        CellMarks may_coarsen;
         EdgeBits needed = 0;
         for (std::size_t child = 0; child < midpoints.size(); ++child) {
-            may_go.append(static_cast<char>(chosen >> child & 1U));
+            may_coarsen.append(static_cast<char>(chosen >> child & 1U));
             if ((chosen >> child & 1U) == 0) needed |= midpoints[child];
         }
         EdgeBits left = 0;
-        for (const auto& step : coarsened(history, may_go).steps) {
+        for (const auto& step : coarsened(history, may_coarsen).steps) {
             for (const EdgeVertices& edge : step) left |= bit_of(edge, history.input);
         }
         ASSERT_EQ(left, closed_in_cell(order, needed));
         if (!judged.insert(left).second) continue;
-        ASSERT_EQ(fault_of_coarsening(history, may_go), "");
+        ASSERT_EQ(fault_of_coarsening(history, may_coarsen), "");
     }
 }
 
 TEST(CoarsenedWorlds, OfOneCellInEveryOrderAndEveryPatternForEverySetOfItsChildren) {
-    lead([] {
+    run_on_first_rank([] {
         for_worlds(one_cell(), {}, [](const Mesh& world, Draw&) {
             for (const History& history : histories_of_one_step(world)) {
                 hold_for_all_children(history);
@@ -99,7 +99,7 @@ TEST(CoarsenedWorlds, OfOneCellInEveryOrderAndEveryPatternForEverySetOfItsChildr
 
 /// Neighbours may keep any edges of a cell, so more sets occur than its own children can cause.
 TEST(CoarsenedWorlds, OfOneCellInEveryOrderAreNestedWhateverClosedSetIsLeftOfAnother) {
-    lead([] {
+    run_on_first_rank([] {
         for_worlds(one_cell(), {}, [](const Mesh& world, Draw&) {
             const auto patterns = histories_of_one_step(world);
             for (const History& more : patterns) {
@@ -116,14 +116,14 @@ TEST(CoarsenedWorlds, OfOneCellInEveryOrderAreNestedWhateverClosedSetIsLeftOfAno
 /// Coarsens random cells, `times` times in succession.
 void coarsen_at_random(History history, std::size_t times, Draw& draw) {
     for (std::size_t i = 0; i < times; ++i) {
-        const CellMarks may_go = random_marks(history, draw);
-        ASSERT_EQ(fault_of_coarsening(history, may_go), "");
-        history = coarsened(history, may_go);
+        const CellMarks may_coarsen = random_marks(history, draw);
+        ASSERT_EQ(fault_of_coarsening(history, may_coarsen), "");
+        history = coarsened(history, may_coarsen);
     }
 }
 
 TEST(CoarsenedWorlds, OfOneCellInEveryOrderAndEveryPatternRefinedOnceMore) {
-    lead([] {
+    run_on_first_rank([] {
         for_worlds(one_cell(), {.every_day = 7}, [](const Mesh& world, Draw& draw) {
             for (const History& history : histories_of_one_step(world)) {
                 coarsen_at_random(refined_at_random(history, draw), 3, draw);
@@ -141,15 +141,16 @@ void hold_at_random(const Mesh& world, Draw& draw) {
 }
 
 TEST(CoarsenedWorlds, OfTwoCellsAtAFaceRefinedAtRandom) {
-    lead([] { for_worlds(two_cells_at_a_face(), {.every_day = 37}, hold_at_random); });
+    run_on_first_rank([] { for_worlds(two_cells_at_a_face(), {.every_day = 37}, hold_at_random); });
 }
 
 TEST(CoarsenedWorlds, OfTwoCellsAtAnEdgeRefinedAtRandom) {
-    lead([] { for_worlds(two_cells_at_an_edge(), {.every_day = 167}, hold_at_random); });
+    run_on_first_rank(
+        [] { for_worlds(two_cells_at_an_edge(), {.every_day = 167}, hold_at_random); });
 }
 
 TEST(CoarsenedWorlds, OfThreeCellsInARowRefinedAtRandom) {
-    lead([] {
+    run_on_first_rank([] {
         for_worlds(three_cells_in_a_row(), {.every_day = 11'731, .campaign = 577}, hold_at_random);
     });
 }

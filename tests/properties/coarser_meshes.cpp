@@ -24,8 +24,8 @@ bool has_unmarked_cells(const Mesh& old, const CellMarks& marked, const Mesh& co
     return true;
 }
 
-bool goes_back_by_one_generation(const std::vector<Refinement>& before, const Refinement& coarser,
-                                 double scale) {
+bool coarsens_by_one_generation(const std::vector<Refinement>& before, const Refinement& coarser,
+                                double scale) {
     const auto parents = test::parents(before, scale);
     const auto around = test::cells_around(before.back(), coarser, scale);
     for (CellIndex c{0}; c < around.end_index(); ++c) {

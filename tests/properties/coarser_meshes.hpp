@@ -15,7 +15,7 @@ namespace octetra::properties {
 /// Returns whether each cell of the coarser mesh lies in the parents of the finer cells within it,
 /// where the parent is the cell whose bisection made the finer cell. `before` is the replay of the
 /// finer history. Corners multiplied by `scale` must be integers of at most 40 bits.
-[[nodiscard]] bool goes_back_by_one_generation(const std::vector<reference::Refinement>& before,
-                                               const reference::Refinement& coarser, double scale);
+[[nodiscard]] bool coarsens_by_one_generation(const std::vector<reference::Refinement>& before,
+                                              const reference::Refinement& coarser, double scale);
 
 }  // namespace octetra::properties

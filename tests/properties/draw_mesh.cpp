@@ -164,7 +164,7 @@ void put_on_a_grid(Mesh& mesh, Draw& /*draw*/) {
     });
 }
 
-NamedMesh draw_pieces(Draw& draw, int size) {
+NamedMesh draw_components(Draw& draw, int size) {
     NamedMesh drawn = draw_shape(draw, size);
     if (draw.chance(0.1)) {
         const NamedMesh other = draw_shape(draw, size / 2);
@@ -178,8 +178,8 @@ NamedMesh draw_pieces(Draw& draw, int size) {
 }  // namespace
 
 NamedMesh draw_mesh(Draw& draw, int size) {
-    NamedMesh drawn = draw_pieces(draw, size);
-    while (!is_valid(drawn.mesh)) drawn = draw_pieces(draw, size);
+    NamedMesh drawn = draw_components(draw, size);
+    while (!is_valid(drawn.mesh)) drawn = draw_components(draw, size);
     attempt(drawn.mesh, draw, 0.2, turn);
     attempt(drawn.mesh, draw, 0.2, stretch);
     attempt(drawn.mesh, draw, 0.15, move_away);
@@ -191,7 +191,7 @@ NamedMesh draw_mesh(Draw& draw, int size) {
 
 NamedMesh draw_exact_mesh(Draw& draw, int size) {
     while (true) {
-        NamedMesh drawn = draw_pieces(draw, size);
+        NamedMesh drawn = draw_components(draw, size);
         put_on_a_grid(drawn.mesh, draw);
         if (!is_valid(drawn.mesh)) continue;
         drawn.mesh = with_marks(std::move(drawn.mesh), draw);

@@ -56,7 +56,7 @@ std::string fault_of_sharers(const Case& /*c*/) { return {}; }
 std::string fault_of_values(const Case& /*c*/) { return {}; }
 std::string fault_of_moving(const Case& /*c*/) { return {}; }
 std::string fault_of_numbering_in_steps(const Case& /*c*/) { return {}; }
-std::string fault_of_the_way_back(const Case& /*c*/) { return {}; }
+std::string fault_of_full_coarsening(const Case& /*c*/) { return {}; }
 std::string fault_of_survivors(const Case& /*c*/) { return {}; }
 std::string fault_of_generations(const Case& /*c*/) { return {}; }
 std::string fault_of_volumes(const Case& /*c*/) { return {}; }

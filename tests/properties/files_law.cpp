@@ -40,7 +40,7 @@ void fit_medit(Mesh& mesh) {
 }
 
 /// Replaces marks by number, because the intermediate file numbers cells differently.
-void mark_by_place(Selection& selection) {
+void mark_by_position(Selection& selection) {
     if (selection.cells.empty()) return;
     selection.cells.clear();
     if (!selection.random) selection.random = RandomShare{0.3, 1};
@@ -52,7 +52,7 @@ std::string fault_of_files(const Case& drawn) {
     Draw draw(drawn.seed);
     const std::string extension = draw.chance(0.5) ? ".mesh" : ".ele";
     Case c = drawn;
-    mark_by_place(c.selection);
+    mark_by_position(c.selection);
     if (extension == ".mesh") fit_medit(c.mesh);
 
     const test::TemporaryFolder folder;

@@ -26,7 +26,7 @@ std::vector<fs::path> files_of_findings() {
 class Findings : public testing::TestWithParam<fs::path> {};
 
 TEST_P(Findings, BreakTheirLawNoMore) {
-    lead([] {
+    run_on_first_rank([] {
         const Finding finding = read_finding(GetParam());
         EXPECT_EQ(judge(law_named(finding.law), finding.refinement), "");
     });

@@ -12,7 +12,7 @@ namespace {
 // ---- orders up to the names of corners ----------------------------------------------------------
 
 /// The position in the order of each of the edges 01 02 03 12 13 23.
-using PlaceOfEdge = std::array<std::size_t, 6>;
+using EdgePositions = std::array<std::size_t, 6>;
 
 /// All orders that satisfy the predicate.
 template <class Predicate>
@@ -20,7 +20,7 @@ std::vector<Order> orders(Predicate&& is_wanted) {
     std::vector<Order> result;
     Order order{0, 1, 2, 3, 4, 5};
     do {
-        PlaceOfEdge place{};
+        EdgePositions place{};
         for (std::size_t i = 0; i < 6; ++i) place[order[i]] = i;
         if (is_wanted(place)) result.push_back(order);
     } while (std::ranges::next_permutation(order).found);
@@ -28,20 +28,20 @@ std::vector<Order> orders(Predicate&& is_wanted) {
 }
 
 std::vector<Order> all_orders() {
-    return orders([](const PlaceOfEdge&) { return true; });
+    return orders([](const EdgePositions&) { return true; });
 }
 
 /// The orders in which the edges of the face 012 descend.
 std::vector<Order> orders_at_a_face() {
-    return orders([](const PlaceOfEdge& at) { return at[0] < at[1] && at[1] < at[3]; });
+    return orders([](const EdgePositions& at) { return at[0] < at[1] && at[1] < at[3]; });
 }
 
 /// The orders in which 02 is longer than 03; exchanging the corners 2 and 3 yields the others.
 std::vector<Order> orders_at_an_edge() {
-    return orders([](const PlaceOfEdge& at) { return at[1] < at[2]; });
+    return orders([](const EdgePositions& at) { return at[1] < at[2]; });
 }
 
-bool is_02_longest_of_four(const PlaceOfEdge& at) {
+bool is_02_longest_of_four(const EdgePositions& at) {
     return at[1] < at[2] && at[1] < at[3] && at[1] < at[4];
 }
 
@@ -51,43 +51,43 @@ std::vector<Order> orders_with_a_marked_edge() { return orders(is_02_longest_of_
 
 /// The orders in which the edges of the vertex 0 descend.
 std::vector<Order> orders_at_a_vertex() {
-    return orders([](const PlaceOfEdge& at) { return at[0] < at[1] && at[1] < at[2]; });
+    return orders([](const EdgePositions& at) { return at[0] < at[1] && at[1] < at[2]; });
 }
 
 /// The orders in which 01 is the longest edge, and 02 the longest of the edges that meet it.
 std::vector<Order> orders_apart() {
-    return orders([](const PlaceOfEdge& at) { return at[0] == 0 && is_02_longest_of_four(at); });
+    return orders([](const EdgePositions& at) { return at[0] == 0 && is_02_longest_of_four(at); });
 }
 
 // ---- numbers ------------------------------------------------------------------------------------
 
 /// The number of multisets of `cells` orders.
-std::size_t count_ways(std::size_t orders, std::size_t cells) {
+std::size_t count_multisets(std::size_t orders, std::size_t cells) {
     std::size_t ways = 1;
     for (std::size_t i = 0; i < cells; ++i) ways = ways * (orders + i) / (i + 1);
     return ways;
 }
 
-std::size_t count_ways(const AlikeCells& cells) {
-    return count_ways(cells.orders.size(), cells.count);
+std::size_t count_multisets(const InterchangeableCells& cells) {
+    return count_multisets(cells.orders.size(), cells.count);
 }
 
 /// Appends the multiset of orders with this number. Multisets of the first n orders precede all
 /// others: hence the last order is found first, and then the one before it, which may be equal.
-void add_orders(std::vector<Order>& result, const AlikeCells& cells, std::size_t number) {
+void add_orders(std::vector<Order>& result, const InterchangeableCells& cells, std::size_t number) {
     std::size_t last = cells.orders.size();
     for (std::size_t left = cells.count; left > 0; --left) {
-        while (count_ways(last, left) > number) --last;
+        while (count_multisets(last, left) > number) --last;
         result.push_back(cells.orders[last]);
-        number -= count_ways(last, left);
+        number -= count_multisets(last, left);
     }
 }
 
 std::vector<Order> orders_of_world(const WorldKind& kind, std::size_t number) {
     std::size_t behind = count_worlds(kind);
     std::vector<Order> result;
-    for (const AlikeCells& cells : kind.cells) {
-        behind /= count_ways(cells);
+    for (const InterchangeableCells& cells : kind.cells) {
+        behind /= count_multisets(cells);
         add_orders(result, cells, number / behind);
         number %= behind;
     }
@@ -102,10 +102,10 @@ const std::array<std::size_t, 4> first{0, 1, 2, 3};
 /// all cells. So of two cells both have theirs at 0, or the last one has it at 1; three cells
 /// likewise.
 std::vector<WorldKind> kinds_at_an_edge() {
-    const AlikeCells one{orders_with_a_marked_edge(), 1};
-    const AlikeCells two{orders_with_a_marked_edge(), 2};
-    const AlikeCells three{orders_with_a_marked_edge(), 3};
-    const AlikeCells one_apart{orders_apart(), 1};
+    const InterchangeableCells one{orders_with_a_marked_edge(), 1};
+    const InterchangeableCells two{orders_with_a_marked_edge(), 2};
+    const InterchangeableCells three{orders_with_a_marked_edge(), 3};
+    const InterchangeableCells one_apart{orders_apart(), 1};
     return {
         {"two cells at an edge, one apart", {first, {0, 1, 4, 5}, {6, 7, 8, 9}}, {two, one_apart}},
         {"two cells at an edge, one turned, one apart",
@@ -140,7 +140,7 @@ std::vector<WorldKind> make_kinds_up_to_exchange() {
 
 std::size_t count_worlds(const WorldKind& kind) {
     std::size_t count = 1;
-    for (const AlikeCells& cells : kind.cells) count *= count_ways(cells);
+    for (const InterchangeableCells& cells : kind.cells) count *= count_multisets(cells);
     return count;
 }
 

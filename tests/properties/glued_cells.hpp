@@ -16,7 +16,7 @@ namespace octetra::properties {
 
 /// Cells that take their orders from one list and are interchangeable: it does not matter which
 /// cell has which order.
-struct AlikeCells {
+struct InterchangeableCells {
     std::vector<Order> orders;
     std::size_t count = 1;
 };
@@ -25,7 +25,7 @@ struct AlikeCells {
 struct WorldKind {
     std::string name;
     Complex complex;
-    std::vector<AlikeCells> cells;
+    std::vector<InterchangeableCells> cells;
 };
 
 [[nodiscard]] std::size_t count_worlds(const WorldKind& kind);

@@ -19,15 +19,15 @@
 namespace octetra::properties {
 namespace {
 
-using Places = std::array<std::size_t, 4>;
+using CornerPermutation = std::array<std::size_t, 4>;
 
 /// For each order of a cell by number, the order after its corners are permuted.
 using NewOrders = std::vector<std::uint64_t>;
 
-NewOrders new_orders(const Places& places) {
+NewOrders new_orders(const CornerPermutation& permutation) {
     std::array<std::size_t, 6> new_edges{};
     for (std::size_t e = 0; e < 6; ++e) {
-        while (edge_of({0, 1, 2, 3}, new_edges[e]) != edge_of(places, e)) ++new_edges[e];
+        while (edge_of({0, 1, 2, 3}, new_edges[e]) != edge_of(permutation, e)) ++new_edges[e];
     }
     NewOrders result;
     Order order{0, 1, 2, 3, 4, 5};
@@ -47,19 +47,19 @@ struct Symmetry {
 };
 
 Symmetry symmetry(const Complex& complex, const std::vector<std::size_t>& numbers) {
-    static std::map<Places, NewOrders> known;
+    static std::map<CornerPermutation, NewOrders> known;
     Symmetry result;
     for (std::size_t c = 0; c < complex.size(); ++c) {
-        Places image{};
+        CornerPermutation image{};
         for (std::size_t i = 0; i < 4; ++i) image[i] = numbers[complex[c][i]];
         const auto other = std::ranges::find_if(
             complex, [&](const auto& cell) { return std::ranges::is_permutation(cell, image); });
-        Places places{};
+        CornerPermutation permutation{};
         for (std::size_t i = 0; i < 4; ++i) {
-            while ((*other)[places[i]] != image[i]) ++places[i];
+            while ((*other)[permutation[i]] != image[i]) ++permutation[i];
         }
-        if (!known.contains(places)) known[places] = new_orders(places);
-        result.orders[c] = &known[places];
+        if (!known.contains(permutation)) known[permutation] = new_orders(permutation);
+        result.orders[c] = &known[permutation];
         result.shift[c] = 10 * static_cast<unsigned>(other - complex.begin());
     }
     return result;
@@ -137,7 +137,7 @@ WorldKind without_last_cell(WorldKind kind) {
 
 /// 720^2 ways without a common face, 720 * 120 with one.
 TEST(GluedCells, OfTwoCellsUpToExchangeAreEachOnce) {
-    lead([] {
+    run_on_first_rank([] {
         const auto& kinds = kinds_up_to_exchange();
         expect_each_once({{kinds[0]}, 720 * 720});
         expect_each_once({{kinds[1]}, 720 * 720});
@@ -149,7 +149,7 @@ TEST(GluedCells, OfTwoCellsUpToExchangeAreEachOnce) {
 /// ./dev test counts one complex of six: two cells at a face and one apart. If
 /// OCTETRA_COUNT_ALL_WORLDS is set, as in part 206 of ./dev campaign worlds, all are counted.
 TEST(GluedCells, OfThreeCellsUpToExchangeAreEachOnce) {
-    lead([] {
+    run_on_first_rank([] {
         constexpr std::size_t ways = 720 * 720 * 720;
         const auto& kinds = kinds_up_to_exchange();
         expect_each_once({{kinds[5]}, 720 * 120 * 720});

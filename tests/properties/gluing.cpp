@@ -88,7 +88,8 @@ Point unit(const Point& v) { return plus({}, 1 / std::sqrt(dot(v, v)), v); }
 
 /// The point with this number, from its distances to the vertices a, at the origin, and b, on the x
 /// axis; it lies in the half plane at this angle to the one with z = 0 and y > 0.
-Point beside(const World& world, std::size_t a, std::size_t b, std::size_t number, double angle) {
+Point point_about_axis(const World& world, std::size_t a, std::size_t b, std::size_t number,
+                       double angle) {
     const double ab = length(world, a, b);
     const double from_a = length(world, a, number);
     const double from_b = length(world, b, number);
@@ -99,8 +100,8 @@ Point beside(const World& world, std::size_t a, std::size_t b, std::size_t numbe
 
 /// The point with this number, from its distances to the given corners of a face, on the side from
 /// which they appear anticlockwise.
-Point over(const World& world, const Face& face, const std::array<Point, 3>& corners,
-           std::size_t number) {
+Point point_above_face(const World& world, const Face& face, const std::array<Point, 3>& corners,
+                       std::size_t number) {
     const Point& origin = corners[0];
     const Point to_second = minus(corners[1], origin);
     const Point to_third = minus(corners[2], origin);
@@ -121,32 +122,34 @@ Point over(const World& world, const Face& face, const std::array<Point, 3>& cor
     return plus(plus(plus(origin, x, along), y, across), z, normal);
 }
 
-Point over(const World& world, const Face& face, std::size_t number) {
+Point point_above_face(const World& world, const Face& face, std::size_t number) {
     const auto& points = world.points;
-    return over(world, face, {points[face[0]], points[face[1]], points[face[2]]}, number);
+    return point_above_face(world, face, {points[face[0]], points[face[1]], points[face[2]]},
+                            number);
 }
 
 /// Places the first corner at the origin, the second on the x axis, and the third at z = 0. No
 /// point has z < 0; only the first has x <= 0.
-std::array<Point, 4> by_itself(const World& world, const Cell& cell) {
+std::array<Point, 4> placed_alone(const World& world, const Cell& cell) {
     const auto& [a, b, c, d] = cell;
     const Point second{length(world, a, b), 0, 0};
-    const Point third = beside(world, a, b, c, 0);
-    return {Point{}, second, third, over(world, {a, b, c}, {Point{}, second, third}, d)};
+    const Point third = point_about_axis(world, a, b, c, 0);
+    return {Point{}, second, third,
+            point_above_face(world, {a, b, c}, {Point{}, second, third}, d)};
 }
 
 // ---- gluing -------------------------------------------------------------------------------------
 
 void add_first(World& world, const Cell& cell, const Order& order) {
     order_edges_of_first_cell(world, order);
-    for (const Point& p : by_itself(world, cell)) world.points.push_back(p);
+    for (const Point& p : placed_alone(world, cell)) world.points.push_back(p);
 }
 
 /// Placed above the other cells, or below them.
 void add_apart(World& world, const Cell& cell, const Order& order) {
     order_edges(world, cell, order, top);
     const double height = (world.cells.size() == 1 ? 2.5 : -2.5) * unit_length;
-    for (const Point& p : by_itself(world, cell)) {
+    for (const Point& p : placed_alone(world, cell)) {
         world.points.push_back(plus(p, height, {0, 0, 1}));
     }
 }
@@ -155,7 +158,7 @@ void add_apart(World& world, const Cell& cell, const Order& order) {
 void add_at_vertex(World& world, const Cell& cell, const Order& order) {
     order_edges(world, cell, order, top);
     const bool is_second = world.cells.size() == 1;
-    const std::array<Point, 4> corners = by_itself(world, cell);
+    const std::array<Point, 4> corners = placed_alone(world, cell);
     for (std::size_t i = 1; i < 4; ++i) {
         const auto& [x, y, z] = corners[i];
         world.points.push_back(is_second ? Point{-x, -y, z} : Point{y, -z, -x});
@@ -167,15 +170,15 @@ void add_at_vertex(World& world, const Cell& cell, const Order& order) {
 void add_at_edge(World& world, const Cell& cell, const Order& order) {
     order_edges_at_edge(world, cell, order);
     const double angle = static_cast<double>(world.cells.size()) * 2 * std::numbers::pi / 3;
-    world.points.push_back(beside(world, 0, 1, cell[2], angle));
-    world.points.push_back(over(world, {0, 1, cell[2]}, cell[3]));
+    world.points.push_back(point_about_axis(world, 0, 1, cell[2], angle));
+    world.points.push_back(point_above_face(world, {0, 1, cell[2]}, cell[3]));
 }
 
 void add_at_face(World& world, Cell& cell, const Order& order) {
     const Face face{cell[0], cell[1], cell[2]};
     std::ranges::copy(with_descending_edges(world, face), cell.begin());
     order_edges(world, cell, order, top);
-    world.points.push_back(over(world, face, cell[3]));
+    world.points.push_back(point_above_face(world, face, cell[3]));
 }
 
 void add(World& world, Cell cell, const Order& order) {

@@ -22,7 +22,7 @@ const std::vector<Law>& history_laws() {
         {"values_go_along", fault_of_values, true},
         {"moving_cells_changes_nothing", fault_of_moving},
         {"no_step_depends_on_numbering", fault_of_numbering_in_steps},
-        {"coarsening_ends_in_the_input", fault_of_the_way_back},
+        {"coarsening_ends_in_the_input", fault_of_full_coarsening},
         {"saving_and_loading_change_nothing", fault_of_checkpoints},
         {"unmarked_cells_stay", fault_of_survivors},
         {"coarsening_goes_back_by_one_generation", fault_of_generations, true},

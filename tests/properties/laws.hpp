@@ -6,7 +6,7 @@
 #include "properties/case.hpp"
 
 /// Laws of every refinement and every history. Each judges a case and returns a description of the
-/// fault, or an empty string. Laws are judged within lead(), on the first rank.
+/// fault, or an empty string. Laws are judged within run_on_first_rank(), on the first rank.
 namespace octetra::properties {
 
 /// Both engines produce the same bits or the same refusal. The exact verifier finds their mesh
@@ -57,7 +57,7 @@ namespace octetra::properties {
 [[nodiscard]] std::string fault_of_numbering_in_steps(const Case& c);
 
 /// Repeatedly coarsening all cells yields the input, and each call takes back at least one step.
-[[nodiscard]] std::string fault_of_the_way_back(const Case& c);
+[[nodiscard]] std::string fault_of_full_coarsening(const Case& c);
 
 /// Cells that are not marked survive a coarsening, according to meshes and to Adaptations.
 [[nodiscard]] std::string fault_of_survivors(const Case& c);

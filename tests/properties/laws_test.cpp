@@ -90,7 +90,7 @@ class Laws : public testing::TestWithParam<Law> {
 protected:
     static void check_of(const Cases& cases, const char* parameters) {
         ::setenv("RC_PARAMS", parameters, 0);  // what the user has set stays
-        lead([&] { check(GetParam(), cases); });
+        run_on_first_rank([&] { check(GetParam(), cases); });
     }
 };
 

@@ -115,7 +115,7 @@ std::string fault_of_numbering(const Case& c) {
 }
 
 std::string fault_of_numbering_in_steps(const Case& drawn) {
-    const Case c = of_one_input(drawn);
+    const Case c = without_rewrites(drawn);
     Draw draw(c.seed);
     const Case other_case = renumbered(c, draw.chance(0.5), draw).refinement;
     const auto one = adapted_by_all(c).stages;

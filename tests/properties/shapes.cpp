@@ -62,7 +62,7 @@ Mesh lattice(Draw& draw, int size) {
 
 Mesh shaken_lattice(Draw& draw, int size) {
     const double amount = draw.chance(0.5) ? 0.2 : 0x1p-20;
-    return test::shaken_kuhn(1 + static_cast<std::size_t>(size) / 50, amount, draw.any());
+    return test::perturbed_kuhn(1 + static_cast<std::size_t>(size) / 50, amount, draw.any());
 }
 
 Mesh centred_lattice(Draw& /*draw*/, int size) { return generator::bcc(size < 80 ? 1 : 2); }

@@ -47,7 +47,7 @@ std::size_t count_orders(const std::vector<Mesh>& worlds) {
 }
 
 TEST(SmallWorlds, OfOneCellInEveryOrderOfItsEdges) {
-    lead([] {
+    run_on_first_rank([] {
         const auto all = every(1, one_cell());
         EXPECT_EQ(count_orders(all), 720U);
         expect_equality_of_all("one cell", all, {1});
@@ -56,7 +56,7 @@ TEST(SmallWorlds, OfOneCellInEveryOrderOfItsEdges) {
 
 /// Marking only the second cell is the same as marking only the first one of the mirrored pair.
 TEST(SmallWorlds, OfTwoCellsAtAFaceInEveryPairOfOrders) {
-    lead([] {
+    run_on_first_rank([] {
         const auto all = every(stride, two_cells_at_a_face());
         EXPECT_EQ(count_orders(all), all.size());
         expect_equality_of_all("two cells at a face", all, {1, 3});
@@ -74,7 +74,7 @@ std::vector<Mesh> worlds_by_first_cell(const WorldKind& kind, std::size_t step) 
 }
 
 TEST(SmallWorlds, OfTwoCellsAtAnEdgeInEveryPairOfOrders) {
-    lead([] {
+    run_on_first_rank([] {
         const auto some = worlds_by_first_cell(two_cells_at_an_edge(), 17);
         EXPECT_EQ(count_orders(some), some.size());
         expect_equality_of_all("two cells at an edge", some, {1, 3});
@@ -82,7 +82,7 @@ TEST(SmallWorlds, OfTwoCellsAtAnEdgeInEveryPairOfOrders) {
 }
 
 TEST(SmallWorlds, OfThreeCellsInARowInEveryOrderOfTheirEdges) {
-    lead([] {
+    run_on_first_rank([] {
         const auto some = worlds_by_first_cell(three_cells_in_a_row(), 577);
         EXPECT_EQ(count_orders(some), some.size());
         expect_equality_of_all("three cells in a row", some, all_choices(3));
@@ -133,7 +133,7 @@ std::vector<Mesh> some_worlds(const WorldKind& kind) {
 /// this part. ./dev campaign worlds runs all parts.
 TEST(SmallWorlds, OfEightMoreComplexesInEveryOrderOfTheirEdges) {
     const char* const number = std::getenv("OCTETRA_PART_UP_TO_EXCHANGE");
-    lead([&] {
+    run_on_first_rank([&] {
         if (number != nullptr) {
             expect_equality_of_part(parts_up_to_exchange().at(std::stoul(number) - 1));
             return;
@@ -166,9 +166,9 @@ class Rings : public testing::TestWithParam<double> {};
 
 /// On up to three ranks, with each one of the six cells marked.
 TEST_P(Rings, OfSixCellsWithAllPartitionsYieldTheSame) {
-    lead([] {
+    run_on_first_rank([] {
         const auto ranks = static_cast<std::size_t>(std::min(3, test::world().size()));
-        Case c = rings(test::shaken_kuhn(1, GetParam(), 3), ranks);
+        Case c = rings(test::perturbed_kuhn(1, GetParam(), 3), ranks);
         for (std::size_t marked = 0; marked < 6; ++marked) {
             c.selection.cells.clear();
             for (std::size_t i = marked; i < c.mesh.cells.size(); i += 6) {

@@ -16,18 +16,18 @@ using distributed::Communicator;
 
 /// A request of the first rank: a refinement, to be collected or, if there is a file, to be
 /// written; or a history, if there is a folder.
-struct Order {
+struct Request {
     Case refinement;
     std::string file;
     std::string folder;
 };
 
-void tell(const std::string& text) {
+void broadcast_text(const std::string& text) {
     std::vector<char> letters(text.begin(), text.end());
     test::world().broadcast(letters);
 }
 
-std::string hear() {
+std::string receive_text() {
     std::vector<char> letters;
     test::world().broadcast(letters);
     return {letters.begin(), letters.end()};
@@ -48,21 +48,21 @@ distributed::Tuning tuning_of(std::uint64_t seed) {
 }
 
 /// Collective. If only some ranks refuse, the outcome on all ranks reports this disagreement.
-Outcome carry_out(const Order& order) {
+Outcome carry_out(const Request& request) {
     const Communicator& world = test::world();
-    const Case& c = order.refinement;
+    const Case& c = request.refinement;
     Outcome outcome;
     try {
         distributed::DistributedMesh part =
             distributed::distribute(world, c.mesh, folded(c.cell_to_rank));
         distributed::refine(part, c.selection, {c.scheme, c.levels, c.synchronisation},
                             tuning_of(c.seed));
-        if (order.file.empty()) {
+        if (request.file.empty()) {
             auto [mesh, maps] = distributed::collect(std::move(part));
             outcome = {std::move(mesh), std::move(maps), {}};
         } else {
             distributed::CanonicalMesh canonical(std::move(part));
-            (void)distributed::write_mesh(canonical, order.file);
+            (void)distributed::write_mesh(canonical, request.file);
         }
     } catch (const InputError& error) {
         outcome = {.error = error.what()};
@@ -74,55 +74,55 @@ Outcome carry_out(const Order& order) {
     return outcome;
 }
 
-void obey() {
-    for (std::string text = hear(); !text.empty(); text = hear()) {
+void serve_requests() {
+    for (std::string text = receive_text(); !text.empty(); text = receive_text()) {
         const auto json = nlohmann::json::parse(text);
-        const Order order{case_of(json), json.at("file"), json.at("folder")};
-        if (order.folder.empty()) {
-            (void)carry_out(order);
+        const Request request{case_of(json), json.at("file"), json.at("folder")};
+        if (request.folder.empty()) {
+            (void)carry_out(request);
         } else {
-            (void)adapt_together(order.refinement, order.folder);
+            (void)adapt_together(request.refinement, request.folder);
         }
     }
 }
 
-void tell(const Order& order) {
-    Case without_mesh = order.refinement;
+void broadcast_text(const Request& request) {
+    Case without_mesh = request.refinement;
     without_mesh.mesh = {};
     without_mesh.cell_to_rank.clear();
     nlohmann::json json = json_of(without_mesh);
-    json["file"] = order.file;
-    json["folder"] = order.folder;
-    tell(json.dump());
+    json["file"] = request.file;
+    json["folder"] = request.folder;
+    broadcast_text(json.dump());
 }
 
-Outcome give(const Order& order) {
-    tell(order);
-    return carry_out(order);
+Outcome run_on_all(const Request& request) {
+    broadcast_text(request);
+    return carry_out(request);
 }
 
 }  // namespace
 
-void lead(const std::function<void()>& work) {
-    if (!test::world().is_first()) return obey();
+void run_on_first_rank(const std::function<void()>& work) {
+    if (!test::world().is_first()) return serve_requests();
     try {
         work();
     } catch (...) {
-        tell("");
+        broadcast_text("");
         throw;
     }
-    tell("");
+    broadcast_text("");
 }
 
-Outcome refined_by_all(const Case& c) { return give({c, {}, {}}); }
+Outcome refined_by_all(const Case& c) { return run_on_all({c, {}, {}}); }
 
 std::string write_refined_by_all(const Case& c, const std::filesystem::path& file) {
-    return give({c, file.string(), {}}).error;
+    return run_on_all({c, file.string(), {}}).error;
 }
 
 Adapted adapted_by_all(const Case& c) {
     const test::TemporaryFolder folder;
-    tell({c, {}, folder.path().string()});
+    broadcast_text({c, {}, folder.path().string()});
     return adapt_together(c, folder.path());
 }
 

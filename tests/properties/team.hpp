@@ -22,9 +22,9 @@ struct Outcome {
 };
 
 /// Collective. The first rank performs the work; meanwhile the others serve its requests.
-void lead(const std::function<void()>& work);
+void run_on_first_rank(const std::function<void()>& work);
 
-// To be called on the first rank, within lead():
+// To be called on the first rank, within run_on_first_rank():
 
 /// Refines with the distributed engine, on all ranks.
 [[nodiscard]] Outcome refined_by_all(const Case& c);

@@ -57,8 +57,8 @@ using Cell = std::array<std::size_t, 4>;
 
 /// Returns whether the plane through these three points has all remaining points of a on one side
 /// and all of b on the other.
-bool tells_apart(const Points& points, const std::vector<std::size_t>& plane, const Cell& a,
-                 const Cell& b) {
+bool separates(const Points& points, const std::vector<std::size_t>& plane, const Cell& a,
+               const Cell& b) {
     int side_of_a = 0;
     for (const auto& [cell, sign] : {std::pair(&a, 1), std::pair(&b, -1)}) {
         for (const std::size_t v : *cell) {
@@ -74,7 +74,7 @@ bool tells_apart(const Points& points, const std::vector<std::size_t>& plane, co
 
 /// Returns whether two cells have nothing in common but the span of their common corners. Tries the
 /// planes through all common corners and as many others as make three.
-bool are_apart(const Points& points, const Cell& a, const Cell& b) {
+bool are_separable(const Points& points, const Cell& a, const Cell& b) {
     std::vector<std::size_t> common;
     std::vector<std::size_t> others;
     for (const std::size_t v : a) {
@@ -90,7 +90,7 @@ bool are_apart(const Points& points, const Cell& a, const Cell& b) {
         for (std::size_t i = 0; i < others.size(); ++i) {
             if (is_on_plane[i] != 0) plane.push_back(others[i]);
         }
-        if (tells_apart(points, plane, a, b)) return true;
+        if (separates(points, plane, a, b)) return true;
     } while (std::ranges::next_permutation(is_on_plane).found);
     return false;
 }
@@ -108,7 +108,7 @@ bool is_valid(const std::vector<Point>& points, const Complex& complex) {
     }
     for (std::size_t i = 0; i < complex.size(); ++i) {
         for (std::size_t k = 0; k < i; ++k) {
-            if (!are_apart(points, complex[i], complex[k])) return false;
+            if (!are_separable(points, complex[i], complex[k])) return false;
         }
     }
     return true;
@@ -119,12 +119,13 @@ std::vector<std::vector<Point>> find_worlds(const Complex& complex, const Combin
     Census census = empty_census(complex, goal[2] > 0);
     std::vector<Points> found;
     Draw draw(1);
-    for (std::size_t in_vain = 0; in_vain < patience && !is_reached(goal, census); ++in_vain) {
+    for (std::size_t failed_moves = 0; failed_moves < patience && !is_reached(goal, census);
+         ++failed_moves) {
         Points points = next_try(found, vertex_count(complex), draw);
         if (!has_new(census, points) || !is_valid(points, complex)) continue;
         note(census, points);
         found.push_back(std::move(points));
-        in_vain = 0;
+        failed_moves = 0;
     }
     return found;
 }

@@ -77,7 +77,7 @@ std::vector<Mesh> worlds_that_meet(const CombinationCounts& least, const Combina
 /// Covers each order of each cell and each combination of classes; refines every fifth of the
 /// worlds found.
 TEST(SmallWorlds, OfTheOtherComplexesInAllCombinationsOfClasses) {
-    lead([] {
+    run_on_first_rank([] {
         std::array<std::vector<Mesh>, 4> some;  // indexed by the number of cells
         for (const Complex& complex : complexes_by_classes()) {
             CombinationCounts goal = to_be_met(complex, known_of_classes);
@@ -97,7 +97,7 @@ TEST(SmallWorlds, OfTheOtherComplexesInAllCombinationsOfClasses) {
 /// all of them.
 TEST(SmallWorlds, OfOneComplexInAllCombinationsOfOrdersAndClasses) {
     const char* const number = std::getenv("OCTETRA_COMPLEX");
-    lead([&] {
+    run_on_first_rank([&] {
         const Complex complex = number == nullptr
                                     ? three_cells(0, 2, 0, 0)
                                     : complexes_by_classes().at(std::stoul(number) - 1);

@@ -8,7 +8,7 @@
 #include "properties/case.hpp"
 
 /// Checks on small worlds that both engines agree and that the verifier accepts the result. On the
-/// first rank, within lead(). A fault is shrunk and kept, and fails the test.
+/// first rank, within run_on_first_rank(). A fault is shrunk and kept, and fails the test.
 namespace octetra::properties {
 
 /// Every n-th world is tested; greater under sanitizers.

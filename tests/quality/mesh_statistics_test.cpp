@@ -446,7 +446,7 @@ TEST(Measure, WithoutTagsAndMarkersThereAreNoTotals) {
 }
 
 TEST(Measure, IsTheSameInAnyFloatingPointEnvironment) {
-    Mesh mesh = test::shaken_kuhn(2, 0.2, 1);
+    Mesh mesh = test::perturbed_kuhn(2, 0.2, 1);
     mesh.points[VertexIndex{0}].x = 1e-310;
     const auto work = [&] {
         const MeshStatistics s = measure(mesh);

@@ -26,7 +26,7 @@ bool contains(const EdgeSet& large, const EdgeSet& small) {
 class Closure : public testing::TestWithParam<std::uint64_t> {
 protected:
     const Mesh mesh =
-        GetParam() % 2 == 0 ? test::kuhn(3, 3, 3) : test::shaken_kuhn(3, 0.3, GetParam());
+        GetParam() % 2 == 0 ? test::kuhn(3, 3, 3) : test::perturbed_kuhn(3, 0.3, GetParam());
     const EdgeTable table = number_edges(mesh);
     const EdgeSet few = random_edges(table, 0.02, GetParam());
     const EdgeSet closed = close(few, mesh, table);

@@ -31,7 +31,7 @@ protected:
 };
 
 /// The ascending corners, and the region tag.
-std::pair<Corners, Marker> place_of(const Mesh& mesh, CellIndex c) {
+std::pair<Corners, Marker> geometry_of(const Mesh& mesh, CellIndex c) {
     Corners corners = test::corners_of(mesh, c);
     std::ranges::sort(corners, std::less<>{});
     return {corners, mesh.regions[c]};
@@ -43,7 +43,7 @@ TEST_P(CoarsenedMesh, HasEveryCellThatWasNotMarked) {
         const Mesh& old = before.back().mesh;
         for (CellIndex c{0}; c < old.cells.end_index(); ++c) {
             if (marked[c] != 0) continue;
-            EXPECT_TRUE(std::ranges::binary_search(cells, place_of(old, c), std::less<>{}));
+            EXPECT_TRUE(std::ranges::binary_search(cells, geometry_of(old, c), std::less<>{}));
         }
     }
 }

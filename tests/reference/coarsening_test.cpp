@@ -141,7 +141,7 @@ struct Census {
 
 /// The number of edges that each step loses. Empty steps are removed, so edges are identified by
 /// points.
-std::vector<std::size_t> struck(const Call& call) {
+std::vector<std::size_t> lost_edges(const Call& call) {
     const auto left = test::points_of(replay(call.after).back().mesh);
     const auto meshes = replay(call.before);
     std::vector<std::size_t> counts;
@@ -154,7 +154,7 @@ std::vector<std::size_t> struck(const Call& call) {
 }
 
 void count(const Call& call, Census& census) {
-    const auto counts = struck(call);
+    const auto counts = lost_edges(call);
     const auto stay = test::points_that_stay(call.before, call.marked);
     bool part = false;
     for (std::size_t t = 0; t < counts.size(); ++t) {

@@ -15,7 +15,7 @@ namespace {
 const Selection everything{.all = true};
 
 TEST(Counts, OfUniformLevelsFollowTheClosedForms) {
-    Mesh mesh = test::shaken_kuhn(2, 0.2, 1);
+    Mesh mesh = test::perturbed_kuhn(2, 0.2, 1);
     const auto number = [](std::size_t n) { return static_cast<double>(n); };
     const double T = number(mesh.cells.size());
     const double V = number(mesh.points.size());
@@ -76,7 +76,7 @@ TEST(Counts, OfASphereInTheKuhnCubeAreThoseThatOtherProgramsFind) {
 TEST(Counts, OfOneLevelFollowFromTheSelectedEdges) {
     for (const std::uint64_t seed : {1U, 2U, 3U}) {
         for (const Scheme scheme : {Scheme::eight, Scheme::four, Scheme::two}) {
-            const Mesh mesh = test::shaken_kuhn(4, 0.3, seed);
+            const Mesh mesh = test::perturbed_kuhn(4, 0.3, seed);
             const Selection some{.random = RandomShare{0.05, seed}};
             const Refinement fine = refine(mesh, some, scheme, 1);
             const auto& bisected = fine.maps.midpoint_to_edge;
@@ -129,7 +129,7 @@ TEST(Numbering, ContinuesTheIndexBaseOfTheInput) {
 }
 
 TEST(Counts, StayAsTheyAreWhereNothingIsMarked) {
-    const Mesh mesh = test::shaken_kuhn(2, 0.2, 1);
+    const Mesh mesh = test::perturbed_kuhn(2, 0.2, 1);
     EXPECT_EQ(refine(mesh, {}, Scheme::eight, 3).mesh, mesh);
     EXPECT_EQ(refine(mesh, everything, Scheme::eight, 0).mesh, mesh);
     EXPECT_EQ(refine(Mesh{}, everything, Scheme::eight, 2).mesh, Mesh{});

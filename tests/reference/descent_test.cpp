@@ -15,7 +15,7 @@ namespace octetra::reference {
 namespace {
 
 TEST(Levels, InTwoRunsAreTheSameAsInOne) {
-    Mesh mesh = test::shaken_kuhn(3, 0.3, 2);
+    Mesh mesh = test::perturbed_kuhn(3, 0.3, 2);
     test::list_boundary(mesh);
     const std::vector<Selection> selections{
         {.all = true},
@@ -42,7 +42,7 @@ TEST(Levels, InTwoRunsAreTheSameAsInOne) {
 }
 
 TEST(Levels, ThroughFilesOfEveryFormatAreTheSameAsInMemory) {
-    Mesh mesh = test::shaken_kuhn(2, 0.3, 2);
+    Mesh mesh = test::perturbed_kuhn(2, 0.3, 2);
     for (Point& p : mesh.points) p = {p.x / 3, p.y / 7, p.z / 11};
     test::list_boundary(mesh);
     mesh.index_base = 1;
@@ -56,7 +56,7 @@ TEST(Levels, ThroughFilesOfEveryFormatAreTheSameAsInMemory) {
 }
 
 TEST(CanonicalOrder, KeepsInputVerticesAndSortsTheMidpointsOfALevelByTheirEnds) {
-    const Mesh mesh = test::shaken_kuhn(3, 0.3, 6);
+    const Mesh mesh = test::perturbed_kuhn(3, 0.3, 6);
     const Refinement fine = refine(mesh, {.random = RandomShare{0.3, 5}}, Scheme::eight, 1);
     EXPECT_TRUE(std::equal(mesh.points.begin(), mesh.points.end(), fine.mesh.points.begin()));
     EXPECT_TRUE(std::ranges::is_sorted(fine.maps.midpoint_to_edge));
@@ -71,20 +71,20 @@ TEST(CanonicalOrder, KeepsInputVerticesAndSortsTheMidpointsOfALevelByTheirEnds) 
 }
 
 TEST(CanonicalOrder, PutsChildrenAtThePositionOfTheirParent) {
-    const Mesh mesh = test::shaken_kuhn(3, 0.3, 6);
+    const Mesh mesh = test::perturbed_kuhn(3, 0.3, 6);
     const Refinement fine = refine(mesh, {.random = RandomShare{0.3, 5}}, Scheme::eight, 3);
     EXPECT_TRUE(std::ranges::is_sorted(fine.maps.cell_to_parent));
 }
 
 TEST(Selection, OfListedCellsIncludesTheirDescendants) {
-    const Mesh mesh = test::shaken_kuhn(2, 0.2, 6);
+    const Mesh mesh = test::perturbed_kuhn(2, 0.2, 6);
     const Refinement fine = refine(mesh, {.cells = {GlobalCell{3}}}, Scheme::eight, 2);
     EXPECT_GE(std::ranges::count(fine.maps.cell_to_parent, CellIndex{3}), 64);
     EXPECT_EQ(test::count_faces(fine.mesh).faults, 0U);
 }
 
 TEST(Selection, ByVolumeEndsWhenNoCellIsTooLarge) {
-    const Mesh mesh = test::shaken_kuhn(2, 0.2, 6);
+    const Mesh mesh = test::perturbed_kuhn(2, 0.2, 6);
     const Selection large{.max_volume = 0.01};
     const Mesh fine = refine(mesh, large, Scheme::eight, 10).mesh;
     for (CellIndex c{0}; c < fine.cells.end_index(); ++c) {

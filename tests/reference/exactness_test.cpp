@@ -19,7 +19,7 @@ using testing::AllOf;
 using testing::HasSubstr;
 
 TEST(Exactness, ChildrenFillTheirParentsExactlyOnDyadicCoordinates) {
-    const Mesh mesh = test::shaken_kuhn(3, 0.3, 9);
+    const Mesh mesh = test::perturbed_kuhn(3, 0.3, 9);
     constexpr int levels = 3;
     const double scale = std::ldexp(1, 20 + levels);
     const Refinement fine = refine(mesh, {.random = RandomShare{0.1, 1}}, Scheme::eight, levels);
@@ -35,7 +35,7 @@ TEST(Exactness, ChildrenFillTheirParentsExactlyOnDyadicCoordinates) {
 }
 
 TEST(Exactness, MidpointsOfDyadicEdgesAreExact) {
-    const Mesh mesh = test::shaken_kuhn(2, 0.3, 4);
+    const Mesh mesh = test::perturbed_kuhn(2, 0.3, 4);
     const Refinement fine = refine(mesh, {.all = true}, Scheme::eight, 2);
     VertexIndex v = fine.maps.first_midpoint;
     for (const auto& [a, b] : fine.maps.midpoint_to_edge) {
@@ -150,8 +150,8 @@ struct RefinedSliver {
         }
         return marks;
     }
-    [[nodiscard]] std::string refusal_of(const CellMarks& may_go) const {
-        const History coarser = coarsened(history, may_go);
+    [[nodiscard]] std::string refusal_of(const CellMarks& may_coarsen) const {
+        const History coarser = coarsened(history, may_coarsen);
         return test::thrown_by<InputError>([&] { (void)replay(coarser); });
     }
 };

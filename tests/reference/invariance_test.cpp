@@ -44,7 +44,7 @@ TEST_P(Invariance, UnderRenumberingOfVerticesCellsAndCorners) {
         {.max_volume = 0.17},
     };
     for (const Mesh& mesh :
-         {test::tagged(test::kuhn(3, 3, 3)), test::tagged(test::shaken_kuhn(3, 0.3, seed))}) {
+         {test::tagged(test::kuhn(3, 3, 3)), test::tagged(test::perturbed_kuhn(3, 0.3, seed))}) {
         for (const Selection& selection : selections) {
             for (const Scheme scheme : {Scheme::eight, Scheme::four, Scheme::two}) {
                 expect_same_geometry(
@@ -56,7 +56,7 @@ TEST_P(Invariance, UnderRenumberingOfVerticesCellsAndCorners) {
 }
 
 TEST_P(Invariance, UnderScalingByAPowerOfTwoAndExactTranslation) {
-    const Mesh mesh = test::tagged(test::shaken_kuhn(3, 0.3, GetParam()));
+    const Mesh mesh = test::tagged(test::perturbed_kuhn(3, 0.3, GetParam()));
     const auto transformed = [](Mesh m, double scale, const Point& shift) {
         for (Point& p : m.points) {
             p = {p.x * scale + shift.x, p.y * scale + shift.y, p.z * scale + shift.z};

@@ -16,7 +16,7 @@ namespace octetra::reference {
 namespace {
 
 TEST(Regions, GoToTheChildren) {
-    Mesh mesh = test::shaken_kuhn(2, 0.2, 1);
+    Mesh mesh = test::perturbed_kuhn(2, 0.2, 1);
     for (CellIndex c{0}; c < mesh.cells.end_index(); ++c) {
         mesh.regions.append(static_cast<Marker>(c.value() % 7) - 3);
     }
@@ -37,7 +37,7 @@ double area(const Mesh& mesh, const FacetVertices& f) {
 }
 
 TEST(Facets, AreTiledByTheBoundaryFacesOfTheRefinedMesh) {
-    Mesh mesh = test::shaken_kuhn(3, 0.3, 4);
+    Mesh mesh = test::perturbed_kuhn(3, 0.3, 4);
     test::list_boundary(mesh);
     const Mesh fine = refine(mesh, {.random = RandomShare{0.2, 1}}, Scheme::eight, 3).mesh;
     Mesh expected = fine;
@@ -93,7 +93,7 @@ TEST(Facets, KeepHalfOfTheSmallestAngleOfTheFaceTheyDescendFrom) {
     // Rosenberg & Stenger, "A lower bound on the angles of triangles constructed by bisecting the
     // longest side", Math. Comp. 29 (1975). Here each facet has its own marker.
     for (const std::uint64_t seed : {1U, 2U, 3U}) {
-        Mesh mesh = test::shaken_kuhn(2, 0.45, seed);
+        Mesh mesh = test::perturbed_kuhn(2, 0.45, seed);
         test::list_boundary(mesh);
         for (FacetIndex f{0}; f < mesh.facets.end_index(); ++f) {
             mesh.facet_markers[f] = static_cast<Marker>(f.value());

@@ -29,7 +29,7 @@ struct Call {
 /// A lattice full of ties, a perturbed lattice, or a shell, with tags and attributes.
 inline Mesh random_input(std::uint64_t seed) {
     Mesh mesh = test::tagged(seed % 3 == 0   ? test::kuhn(2, 2, 1)
-                             : seed % 3 == 1 ? test::shaken_kuhn(2, 0.25, seed)
+                             : seed % 3 == 1 ? test::perturbed_kuhn(2, 0.25, seed)
                                              : test::shell(6, seed));
     mesh.attributes_per_point = 2;
     for (const Point& p : mesh.points) {

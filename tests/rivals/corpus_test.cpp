@@ -67,7 +67,7 @@ TEST_P(Corpus, IsRefinedValidly) {
 INSTANTIATE_TEST_SUITE_P(Of, Corpus, testing::ValuesIn(entries_with_files()), test::corpus_name);
 
 TEST(ShakenLattice, IsRefinedValidlyAroundACorner) {
-    const Mesh mesh = test::shaken_kuhn(4, 0.2, 1);
+    const Mesh mesh = test::perturbed_kuhn(4, 0.2, 1);
     Goal goal;
     goal.targets.assign(mesh.cells.size(), 0);
     std::fill_n(goal.targets.begin(), 6, std::uint8_t{1});

@@ -8,7 +8,7 @@
 #include <octetra/core/files/mesh_files.hpp>
 #include <octetra/core/selection.hpp>
 
-#include "rivals/as_one.hpp"
+#include "rivals/gathered_parts.hpp"
 #include "support/manifest.hpp"
 #include "support/meshes.hpp"
 #include "support/thrown.hpp"
@@ -28,7 +28,7 @@ std::vector<int> parts_of_cells(const Mesh& mesh, std::uint64_t seed) {
 }
 
 void expect_same(const PartOfMesh& part, const TerminalEdgeMesh& serial) {
-    const AsOne whole = as_one(part);
+    const GatheredParts whole = gathered_parts(part);
     EXPECT_TRUE(whole.copies_agree);
     EXPECT_TRUE(std::ranges::equal(whole.mesh.points, serial.mesh.points, have_same_bits));
     EXPECT_TRUE(whole.mesh.cells == serial.mesh.cells);
@@ -98,8 +98,8 @@ class OnRanks : public testing::TestWithParam<std::uint64_t> {};
 
 TEST_P(OnRanks, TheMeshIsTheSerialOne) {
     const std::uint64_t seed = GetParam();
-    for (Mesh mesh : {test::kuhn(3, 3, 3), test::shaken_kuhn(3, 0.3, seed), test::shell(40, seed),
-                      test::one_cell(test::regular_corners)}) {
+    for (Mesh mesh : {test::kuhn(3, 3, 3), test::perturbed_kuhn(3, 0.3, seed),
+                      test::shell(40, seed), test::one_cell(test::regular_corners)}) {
         for (CellIndex c{0}; c < mesh.cells.end_index(); ++c) {
             mesh.regions.append(static_cast<Marker>(c.value() % 4));
         }

@@ -87,7 +87,7 @@ void expect_same_as_words(const Mesh& mesh, const Goal& goal, std::uint64_t seed
 std::vector<Mesh> small_meshes(std::uint64_t seed) {
     std::vector<Mesh> meshes{test::kuhn(1, 1, 1),
                              test::kuhn(2, 1, 2),
-                             test::shaken_kuhn(2, 0.3, seed),
+                             test::perturbed_kuhn(2, 0.3, seed),
                              test::shell(12, seed),
                              test::one_cell(test::regular_corners),
                              test::one_cell(test::cube_corner)};
@@ -112,7 +112,7 @@ TEST_P(TerminalEdges, AreBisectedInTheRoundsAndToTheMeshOfTheDefinition) {
 TEST_P(TerminalEdges, DoNotDependOnNumbers) {
     const std::uint64_t seed = GetParam();
     for (const Mesh& mesh :
-         {test::kuhn(3, 3, 3), test::shaken_kuhn(3, 0.3, seed),
+         {test::kuhn(3, 3, 3), test::perturbed_kuhn(3, 0.3, seed),
           test::one_cell(test::regular_corners), test::one_cell(test::sommerville_corners)}) {
         const Mesh tagged = test::tagged(mesh);
         const Mesh other = test::renumbered(tagged, seed);
@@ -134,7 +134,7 @@ TEST_P(TerminalEdges, DoNotDependOnNumbers) {
 }
 
 TEST_P(TerminalEdges, MayBeBisectedTowardsOneGoalAfterTheOther) {
-    const Mesh mesh = test::shaken_kuhn(3, 0.3, GetParam());
+    const Mesh mesh = test::perturbed_kuhn(3, 0.3, GetParam());
     TerminalEdgeBisection bisection(mesh);
     for (const double volume : {0.1, 0.02, 0.004}) (void)bisection.refine({.volume = volume});
     EXPECT_TRUE(test::geometry(bisection.result().mesh) ==
@@ -252,7 +252,7 @@ void expect_levels(const RefinementMaps& maps) {
 }
 
 TEST(Order, IsThatOfHalvesAndOfLevelsOfMidpoints) {
-    for (const Mesh& mesh : {test::kuhn(2, 3, 2), test::shaken_kuhn(3, 0.3, 5)}) {
+    for (const Mesh& mesh : {test::kuhn(2, 3, 2), test::perturbed_kuhn(3, 0.3, 5)}) {
         const Refined fine = refined(mesh, {.volume = 0.01});
         CellIndex at{0};
         for (CellIndex c{0}; c < mesh.cells.end_index(); ++c) {

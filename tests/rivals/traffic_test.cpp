@@ -2,7 +2,7 @@
 
 #include <octetra/core/selection.hpp>
 
-#include "rivals/as_one.hpp"
+#include "rivals/gathered_parts.hpp"
 #include "support/meshes.hpp"
 
 /// Ranks send the necessary messages and no others.

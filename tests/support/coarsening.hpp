@@ -96,14 +96,14 @@ struct RequiredPoints {
 };
 
 inline RequiredPoints points_that_stay(const reference::History& history,
-                                       const reference::CellMarks& may_go) {
+                                       const reference::CellMarks& may_coarsen) {
     const auto meshes = reference::replay(history);
     const Mesh& present = meshes.back().mesh;
     RequiredPoints stay;
     stay.by_cells = {history.input.points.begin(), history.input.points.end()};
     for (CellIndex c{0}; c < present.cells.end_index(); ++c) {
         const Corners p = corners_of(present, c);
-        if (may_go[c] == 0) stay.by_cells.insert(p.begin(), p.end());
+        if (may_coarsen[c] == 0) stay.by_cells.insert(p.begin(), p.end());
     }
     for (std::size_t t = 0; t < history.steps.size(); ++t) {
         add_corners_of_cells_at(segments(meshes[t].mesh, history.steps[t]), meshes[t].mesh,

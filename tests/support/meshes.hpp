@@ -73,7 +73,7 @@ inline Mesh kuhn(std::size_t nx, std::size_t ny, std::size_t nz, double side = 1
 
 /// The same lattice with every vertex moved at random by up to `amount` of the side, on a grid of
 /// 2^-20: hardly any ties, and coordinates that stay exact through many levels.
-inline Mesh shaken_kuhn(std::size_t n, double amount, std::uint64_t seed) {
+inline Mesh perturbed_kuhn(std::size_t n, double amount, std::uint64_t seed) {
     Mesh mesh = kuhn(n, n, n);
     std::mt19937_64 random(seed);
     constexpr double grid = 0x1p-20;

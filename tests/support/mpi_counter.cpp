@@ -62,9 +62,9 @@ int MPI_Issend(const void* buffer, int count, MPI_Datatype type, int receiver, i
                    [&] { return PMPI_Issend(buffer, count, type, receiver, tag, comm, request); });
 }
 
-int MPI_Improbe(int sender, int tag, MPI_Comm comm, int* has_come, MPI_Message* message,
+int MPI_Improbe(int sender, int tag, MPI_Comm comm, int* has_arrived, MPI_Message* message,
                 MPI_Status* status) {
-    return timed([&] { return PMPI_Improbe(sender, tag, comm, has_come, message, status); });
+    return timed([&] { return PMPI_Improbe(sender, tag, comm, has_arrived, message, status); });
 }
 
 int MPI_Mprobe(int sender, int tag, MPI_Comm comm, MPI_Message* message, MPI_Status* status) {

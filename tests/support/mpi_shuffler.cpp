@@ -43,7 +43,7 @@ public:
         last_released_ = std::max(last_released_, send->number);
         (send->is_synchronous ? PMPI_Issend : PMPI_Isend)(send->buffer, send->count, send->type,
                                                           receiver, send->tag, send->comm,
-                                                          &under_way_.emplace_back());
+                                                          &started_.emplace_back());
         held_.erase(send);
     }
 
@@ -52,26 +52,26 @@ public:
             release_one();
             maybe_sleep();
         }
-        PMPI_Waitall(static_cast<int>(under_way_.size()), under_way_.data(), MPI_STATUSES_IGNORE);
-        under_way_.clear();
+        PMPI_Waitall(static_cast<int>(started_.size()), started_.data(), MPI_STATUSES_IGNORE);
+        started_.clear();
     }
 
     /// Releases one message. Returns whether none is held or incomplete.
-    bool go_on() {
+    bool progress() {
         release_one();
-        int are_over = 0;
-        PMPI_Testall(static_cast<int>(under_way_.size()), under_way_.data(), &are_over,
+        int are_complete = 0;
+        PMPI_Testall(static_cast<int>(started_.size()), started_.data(), &are_complete,
                      MPI_STATUSES_IGNORE);
-        if (are_over != 0) under_way_.clear();
-        return are_over != 0 && held_.empty();
+        if (are_complete != 0) started_.clear();
+        return are_complete != 0 && held_.empty();
     }
 
     /// Usually returns at once; else sleeps up to 0.1 ms, rarely up to 1 ms.
     void maybe_sleep() {
-        const auto lot = random() % 64;
-        if (lot > 4) return;
+        const auto draw = random() % 64;
+        if (draw > 4) return;
         ++counts_.late_calls;
-        const auto most = lot == 0 ? 1000U : 100U;
+        const auto most = draw == 0 ? 1000U : 100U;
         std::this_thread::sleep_for(std::chrono::microseconds(random() % most));
     }
 
@@ -91,7 +91,7 @@ public:
 private:
     ShuffleCounts counts_;
     std::vector<HeldSend> held_;
-    std::vector<MPI_Request> under_way_;
+    std::vector<MPI_Request> started_;
     std::uint64_t last_released_ = 0;
     bool is_seeded_ = false;
     std::mt19937_64 random_;
@@ -116,7 +116,7 @@ std::vector<int> candidates(int sender, MPI_Comm comm) {
 }
 
 /// Completes all sends before a collective call, because other ranks may wait for them.
-void meet() {
+void complete_sends() {
     shuffler().maybe_sleep();
     shuffler().finish_all();
 }
@@ -148,12 +148,12 @@ int MPI_Issend(const void* buffer, int count, MPI_Datatype type, int receiver, i
     return MPI_SUCCESS;
 }
 
-int MPI_Improbe(int sender, int tag, MPI_Comm comm, int* has_come, MPI_Message* message,
+int MPI_Improbe(int sender, int tag, MPI_Comm comm, int* has_arrived, MPI_Message* message,
                 MPI_Status* status) {
     shuffler().maybe_sleep();
     for (const int candidate : octetra::test::candidates(sender, comm)) {
-        PMPI_Improbe(candidate, tag, comm, has_come, message, status);
-        if (*has_come != 0) break;
+        PMPI_Improbe(candidate, tag, comm, has_arrived, message, status);
+        if (*has_arrived != 0) break;
     }
     return MPI_SUCCESS;
 }
@@ -176,17 +176,17 @@ int MPI_Waitall(int count, MPI_Request* requests, MPI_Status* statuses) {
     return PMPI_Waitall(count, requests, statuses);
 }
 
-int MPI_Testall(int count, MPI_Request* requests, int* are_over, MPI_Status* statuses) {
+int MPI_Testall(int count, MPI_Request* requests, int* are_complete, MPI_Status* statuses) {
     shuffler().maybe_sleep();
-    if (!shuffler().go_on()) {
-        *are_over = 0;
+    if (!shuffler().progress()) {
+        *are_complete = 0;
         return MPI_SUCCESS;
     }
-    return PMPI_Testall(count, requests, are_over, statuses);
+    return PMPI_Testall(count, requests, are_complete, statuses);
 }
 
 int MPI_Ibarrier(MPI_Comm comm, MPI_Request* request) {
-    octetra::test::meet();
+    octetra::test::complete_sends();
     return PMPI_Ibarrier(comm, request);
 }
 
@@ -197,17 +197,17 @@ int MPI_Test(MPI_Request* request, int* is_over, MPI_Status* status) {
 
 int MPI_Allreduce(const void* mine, void* result, int count, MPI_Datatype type, MPI_Op operation,
                   MPI_Comm comm) {
-    octetra::test::meet();
+    octetra::test::complete_sends();
     return PMPI_Allreduce(mine, result, count, type, operation, comm);
 }
 
 int MPI_Exscan(const void* mine, void* result, int count, MPI_Datatype type, MPI_Op operation,
                MPI_Comm comm) {
-    octetra::test::meet();
+    octetra::test::complete_sends();
     return PMPI_Exscan(mine, result, count, type, operation, comm);
 }
 
 int MPI_Bcast(void* buffer, int count, MPI_Datatype type, int root, MPI_Comm comm) {
-    octetra::test::meet();
+    octetra::test::complete_sends();
     return PMPI_Bcast(buffer, count, type, root, comm);
 }

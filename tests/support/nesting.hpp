@@ -22,12 +22,13 @@ inline bool contains(const Corners& cell, const Point& point, double scale) {
 }
 
 inline bool contains(const Corners& cell, const Corners& other, double scale) {
-    const auto is_beside = [&](double Point::*x) {
+    const auto is_outside_range = [&](double Point::*x) {
         const auto [low, high] = std::ranges::minmax(cell, {}, x);
         const auto [other_low, other_high] = std::ranges::minmax(other, {}, x);
         return other_low.*x < low.*x || other_high.*x > high.*x;
     };
-    if (is_beside(&Point::x) || is_beside(&Point::y) || is_beside(&Point::z)) return false;
+    if (is_outside_range(&Point::x) || is_outside_range(&Point::y) || is_outside_range(&Point::z))
+        return false;
     return std::ranges::all_of(other, [&](const Point& p) { return contains(cell, p, scale); });
 }
 

@@ -46,7 +46,7 @@ TEST_P(BrokenMesh, IsReportedWithItsCodeAndNoOther) {
     const Mesh mesh = GetParam().make();
     // Lists of unequal length cannot be distributed.
     const bool in_one_memory = GetParam().code == Code::list_length;
-    const Verdict verdict = in_one_memory ? verify_mesh(mesh) : test::judged_by_all(mesh);
+    const Verdict verdict = in_one_memory ? verify_mesh(mesh) : test::verified_by_all(mesh);
     EXPECT_EQ(codes_of(verdict), name(GetParam().code));
     EXPECT_FALSE(verdict.violations.empty());
     EXPECT_FALSE(verdict.valid());
@@ -212,7 +212,7 @@ TEST(Vertices, OfNoCellAreNotedAndKeepNoCheckFromRunning) {
     mesh.points.push_back({9, 9, 9});
     mesh.points.push_back(midpoint(midpoint(point(0), point(1)), midpoint(point(2), point(3))));
     mesh.points.push_back(mesh.points[vertex(0)]);
-    const Verdict verdict = test::judged_by_all(mesh);
+    const Verdict verdict = test::verified_by_all(mesh);
     EXPECT_TRUE(verdict.valid());
     EXPECT_EQ(verdict.facts.unused_vertices, 3U);
     EXPECT_EQ(test::check_named(verdict, "vertices").note, "3 vertices belong to no cell");

@@ -53,7 +53,7 @@ struct Refined {
     [[nodiscard]] Verdict judge() {
         options.maps = claims ? &fine.maps : nullptr;
         if (!claims) options.request.reset();
-        return test::judged_by_all(coarse, fine.mesh, options);
+        return test::verified_by_all(coarse, fine.mesh, options);
     }
 };
 

@@ -23,7 +23,7 @@ class Coarsened : public testing::TestWithParam<double> {
 protected:
     /// Two cubes a side, with a tagged boundary, refined in three nested balls.
     [[nodiscard]] static History refined_thrice() {
-        History history{test::shaken_kuhn(2, GetParam(), 5), {}};
+        History history{test::perturbed_kuhn(2, GetParam(), 5), {}};
         test::list_boundary(history.input);
         for (const double radius : {1.0, 0.8, 0.5}) {
             const Refinement present = reference::replay(history).back();
@@ -42,11 +42,12 @@ TEST_P(Coarsened, IsAValidRefinementOfTheInputAndRefinedByThePreviousMesh) {
         history = reference::coarsened(history, reference::marked_cells(before, ball(y, 0.6)));
         const Refinement coarser = reference::replay(history).back();
         ASSERT_LT(coarser.mesh.cells.size(), before.mesh.cells.size());
-        EXPECT_EQ(codes_of(test::judged_by_all(coarser.mesh)), "");
-        EXPECT_EQ(codes_of(test::judged_by_all(input, coarser.mesh, {.maps = &coarser.maps})), "");
+        EXPECT_EQ(codes_of(test::verified_by_all(coarser.mesh)), "");
+        EXPECT_EQ(codes_of(test::verified_by_all(input, coarser.mesh, {.maps = &coarser.maps})),
+                  "");
         // The old cells halve the new ones, but not always at their longest edges, for which alone
         // angles are bounded.
-        EXPECT_THAT(codes_of(test::judged_by_all(coarser.mesh, before.mesh)),
+        EXPECT_THAT(codes_of(test::verified_by_all(coarser.mesh, before.mesh)),
                     AnyOf("", "face_angle_too_small"));
         before = coarser;
     }

@@ -37,17 +37,17 @@ inline verify::StepCuts cuts_of(const reference::History& history) {
 }
 
 /// A request to coarsen exactly these cells.
-inline verify::CoarseningRequest request_of(const reference::CellMarks& may_go) {
+inline verify::CoarseningRequest request_of(const reference::CellMarks& may_coarsen) {
     verify::CoarseningRequest request;
-    for (CellIndex c{0}; c < may_go.end_index(); ++c) {
-        if (may_go[c] != 0) request.may_go.cells.push_back(GlobalCell{c.value()});
+    for (CellIndex c{0}; c < may_coarsen.end_index(); ++c) {
+        if (may_coarsen[c] != 0) request.may_coarsen.cells.push_back(GlobalCell{c.value()});
     }
     return request;
 }
 
 /// For each vertex of the history before, whether it is left in the one after.
-inline std::vector<char> left_by(const reference::History& after,
-                                 const reference::History& before) {
+inline std::vector<char> remaining_vertices(const reference::History& after,
+                                            const reference::History& before) {
     const Mesh coarser = mesh_of_history(after);
     const std::set<Point> left(coarser.points.begin(), coarser.points.end());
     std::vector<char> stays;
@@ -57,8 +57,8 @@ inline std::vector<char> left_by(const reference::History& after,
 
 /// The history without the midpoints that do not stay, even against the rules. No edge of a later
 /// step may need them.
-inline reference::History with_only(const std::vector<char>& stays,
-                                    const reference::History& history) {
+inline reference::History history_with(const std::vector<char>& stays,
+                                       const reference::History& history) {
     reference::History rest{history.input, {}};
     std::vector<VertexIndex> new_number;
     std::size_t count = 0;

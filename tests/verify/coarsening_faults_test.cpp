@@ -34,7 +34,7 @@ std::vector<Call> coarsenings_of_all_seeds() {
 
 /// Returns whether this midpoint can be removed so that the result is another valid mesh: any
 /// midpoint of the last step; of other steps those that leave the step closed.
-bool can_be_struck(std::size_t v, const History& history) {
+bool is_removable(std::size_t v, const History& history) {
     const auto step = static_cast<std::size_t>(test::steps_of_vertices(history)[v]);
     if (step == history.steps.size()) return true;
     std::size_t first = history.input.points.size();
@@ -49,10 +49,10 @@ TEST(CoarseningFaults, OneMissingVertexIsRefused) {
     for (const Call& call : coarsenings_of_all_seeds()) {
         std::size_t nth = 0;
         for (const std::size_t v : test::midpoints_on_top(call.after)) {
-            if (++nth % 7 != 1 || !can_be_struck(v, call.after)) continue;
+            if (++nth % 7 != 1 || !is_removable(v, call.after)) continue;
             std::vector<char> stays(test::steps_of_vertices(call.after).size(), 1);
             stays[v] = 0;
-            const Mesh after = mesh_of_history(test::with_only(stays, call.after));
+            const Mesh after = mesh_of_history(test::history_with(stays, call.after));
             const Verdict verdict = judged(call, after);
             EXPECT_EQ(verdict.count(Code::vertex_went), 1U) << codes_of(verdict);
             EXPECT_EQ(verdict.count(Code::vertex_stayed), 0U) << codes_of(verdict);
@@ -65,12 +65,12 @@ TEST(CoarseningFaults, OneMissingVertexIsRefused) {
 TEST(CoarseningFaults, OneSuperfluousVertexIsRefused) {
     int tried = 0;
     for (const Call& call : coarsenings_of_all_seeds()) {
-        std::vector<char> stays = test::left_by(call.after, call.before);
+        std::vector<char> stays = test::remaining_vertices(call.after, call.before);
         std::size_t nth = 0;
         for (std::size_t v = 0; v < stays.size(); ++v) {
             if (stays[v] != 0 || ++nth % 4 != 1) continue;
             stays[v] = 1;
-            const Mesh after = mesh_of_history(test::with_only(stays, call.before));
+            const Mesh after = mesh_of_history(test::history_with(stays, call.before));
             stays[v] = 0;
             const Verdict verdict = judged(call, after);
             EXPECT_EQ(verdict.count(Code::vertex_stayed), 1U) << codes_of(verdict);
@@ -98,7 +98,8 @@ TEST(CoarseningFaults, WithoutClosureIsRefused) {
             stays.push_back(required.by_cells.contains(p) ? 1 : 0);
         }
         if (dropped == 0 || !in_last_step) continue;
-        const Verdict verdict = judged(call, mesh_of_history(test::with_only(stays, call.before)));
+        const Verdict verdict =
+            judged(call, mesh_of_history(test::history_with(stays, call.before)));
         EXPECT_EQ(verdict.count(Code::vertex_went), dropped) << codes_of(verdict);
         for (const Violation& violation : verdict.violations) {
             if (violation.code != Code::vertex_went) continue;
@@ -110,7 +111,7 @@ TEST(CoarseningFaults, WithoutClosureIsRefused) {
 }
 
 TEST(CoarseningFaults, CellsThatGoBackTwoStepsAreRefused) {
-    History before{test::shaken_kuhn(2, 0.2, 5), {}};
+    History before{test::perturbed_kuhn(2, 0.2, 5), {}};
     for (const double radius : {1.0, 0.5}) {
         const auto present = reference::replay(before).back();
         before = refined(before, marked_cells(present, {.spheres = {{{0.5, 0.5, 1}, radius}}}),
@@ -163,7 +164,7 @@ TEST(CoarseningFaults, CellsThatAreNoUnionsAreRefused) {
 }
 
 TEST(CoarseningFaults, VerticesThatTheMeshBeforeHasNotAreRefused) {
-    const Mesh input = test::shaken_kuhn(1, 0.2, 3);
+    const Mesh input = test::perturbed_kuhn(1, 0.2, 3);
     CellMarks first(6, 0);
     first[CellIndex{0}] = 1;
     const History before = refined({input, {}}, first, Scheme::two);
@@ -240,7 +241,7 @@ TEST(CoarseningFaults, AreExplainedByTheRule) {
     const History before = refined(once, {1, 0}, Scheme::two);
     const auto expected = [&](const CoarseningRequest& request) {
         const Verdict verdict = verify_coarsening(input, test::cuts_of(before), request, input);
-        EXPECT_EQ(verdict.count(Code::vertex_went), 1U + (request.may_go.all ? 0U : 1U));
+        EXPECT_EQ(verdict.count(Code::vertex_went), 1U + (request.may_coarsen.all ? 0U : 1U));
         const Violation violation = violation_of(verdict, Code::vertex_went);
         EXPECT_EQ(violation.entities.front().mesh, Which::before);
         EXPECT_EQ(violation.entities.front().number, 4U);

@@ -5,8 +5,8 @@
 
 #include <octetra/core/error.hpp>
 
+#include "coarsening/kept_vertices.hpp"
 #include "coarsening/lineage.hpp"
-#include "coarsening/staying.hpp"
 #include "reference/random_history.hpp"
 #include "support/coarsening.hpp"
 #include "support/thrown.hpp"
@@ -56,8 +56,8 @@ TEST_P(Coarsening, OfStepsThatAreRepeatedMakesTheMeshAndItsCells) {
 TEST_P(Coarsening, KeepsTheSameVerticesByPresentCellsAsByThoseBeforeEachStep) {
     for (const Call& call : reference::random_coarsenings(GetParam())) {
         const Lineage lineage = lineage_of(call.before.input, test::cuts_of(call.before));
-        const Reasons reasons = reasons_to_stay(lineage, lineage.cells.present,
-                                                {call.marked.begin(), call.marked.end()});
+        const Reasons reasons =
+            keep_reasons(lineage, lineage.cells.present, {call.marked.begin(), call.marked.end()});
         std::set<Point> by_cells;
         std::set<Point> all;
         for (VertexIndex v{0}; v < reasons.end_index(); ++v) {
@@ -182,11 +182,11 @@ TEST(CoarseningAtACrack, OfOneSideIsValid) {
     const History before = refined({input, {}}, CellMarks(2, 1), Scheme::eight);
     const reference::Refinement present = reference::replay(before).back();
     for (const bool first : {true, false}) {
-        CellMarks may_go;
+        CellMarks may_coarsen;
         for (const CellIndex root : present.maps.cell_to_parent) {
-            may_go.append((root == CellIndex{0}) == first ? 1 : 0);
+            may_coarsen.append((root == CellIndex{0}) == first ? 1 : 0);
         }
-        const Mesh after = mesh_of_history(coarsened(before, may_go));
+        const Mesh after = mesh_of_history(coarsened(before, may_coarsen));
         ASSERT_EQ(after.cells.size(), 9U);
         for (const bool asked_first : {true, false}) {
             const CoarseningRequest request{{.boxes = {{{0, 0, 0}, {1, 1, 1}}}}, !asked_first};

@@ -36,7 +36,7 @@ const std::vector<Shape> shapes{
 
 TEST(Angles, AreThoseOfKnownShapes) {
     for (const Shape& shape : shapes) {
-        const Verdict verdict = test::judged_by_all(test::one_cell(shape.corners));
+        const Verdict verdict = test::verified_by_all(test::one_cell(shape.corners));
         ASSERT_TRUE(verdict.angles.has_value());
         EXPECT_NEAR(verdict.angles->min_dihedral, shape.min_dihedral, 1e-12);
         EXPECT_NEAR(verdict.angles->max_dihedral, shape.max_dihedral, 1e-12);
@@ -44,12 +44,12 @@ TEST(Angles, AreThoseOfKnownShapes) {
     }
     // The corner of a cube is an eighth of the full angle; that of the regular tetrahedron is 3
     // acos(1/3) - pi.
-    const Verdict corner = test::judged_by_all(test::one_cell(test::regular_corners));
+    const Verdict corner = test::verified_by_all(test::one_cell(test::regular_corners));
     EXPECT_NEAR(corner.angles->min_solid, 3 * std::acos(1.0 / 3) - M_PI, 1e-14);
 }
 
 bool is_under(const std::array<Point, 4>& corners, double degrees) {
-    return !test::judged_by_all(test::one_cell(corners), {.min_dihedral = degrees}).valid();
+    return !test::verified_by_all(test::one_cell(corners), {.min_dihedral = degrees}).valid();
 }
 
 TEST(Angles, AreComparedExactlyAlsoWhereTheyAreEqual) {
@@ -71,7 +71,7 @@ constexpr double awkward = 0x1p27 + 1;
 TEST(Angles, TakeExactArithmeticOnlyWhereTheyMust) {
     const auto judge = [](std::array<Point, 4> corners) {
         for (Point& p : corners) p = {p.x * awkward, p.y * awkward, p.z * awkward};
-        return test::judged_by_all(test::one_cell(corners), {.min_dihedral = 45});
+        return test::verified_by_all(test::one_cell(corners), {.min_dihedral = 45});
     };
     const Verdict near = judge(test::kuhn_corners);
     const Verdict far = judge(test::regular_corners);
@@ -108,7 +108,7 @@ TEST(Vertices, ThatAreClearlyBeyondAFaceTakeNoExactArithmeticForTheOthers) {
     for (Point& p : lattice.points) {
         p = {(p.x + 0.3 * p.y) * awkward / 3, (p.y + 0.7 * p.z) * awkward / 3, p.z * awkward / 3};
     }
-    const Verdict verdict = test::judged_by_all(lattice, lattice);
+    const Verdict verdict = test::verified_by_all(lattice, lattice);
     EXPECT_TRUE(verdict.valid());
     // The volume of each cell and the area of each boundary face are summed exactly.
     EXPECT_EQ(verdict.arithmetic.exact, lattice.cells.size() + 108);
@@ -141,7 +141,7 @@ TEST(FaceAngles, AreAcceptedByIntervalsFrom30DegreesUp) {
 TEST(Depths, HaveTheKnownQualitiesOfTheTieFreeExample) {
     const Mesh coarse = test::one_cell(test::tie_free_corners);
     const Mesh fine = reference::refine(coarse, {.all = true}, Scheme::eight, 3).mesh;
-    const Verdict verdict = test::judged_by_all(coarse, fine);
+    const Verdict verdict = test::verified_by_all(coarse, fine);
     ASSERT_EQ(verdict.by_depth.size(), 1U);
     EXPECT_EQ(verdict.by_depth[0].depth, 9);
     EXPECT_EQ(verdict.by_depth[0].cells, 512U);
@@ -166,7 +166,7 @@ TEST(Orientation, IsExactWithinAFewUlpsOfAPlane) {
 }
 
 TEST(Facts, CountSingularEdgesAndVertices) {
-    const auto facts_of = [](const Mesh& mesh) { return test::judged_by_all(mesh).facts; };
+    const auto facts_of = [](const Mesh& mesh) { return test::verified_by_all(mesh).facts; };
     const Facts cube = facts_of(test::kuhn(2, 2, 2));
     EXPECT_EQ(cube.singular_edges, 0U);
     EXPECT_EQ(cube.singular_vertices, 0U);
@@ -187,7 +187,7 @@ TEST(Facts, CountSingularEdgesAndVertices) {
 TEST(Fast, OmitsChecksThatNeedASearchInSpace) {
     const Mesh coarse = test::kuhn(2, 1, 1);
     const Mesh fine = reference::refine(coarse, {.all = true}, Scheme::eight, 1).mesh;
-    const Verdict verdict = test::judged_by_all(coarse, fine, {.fast = true});
+    const Verdict verdict = test::verified_by_all(coarse, fine, {.fast = true});
     EXPECT_EQ(codes_of(verdict), "");
     for (const Check& check : verdict.checks) {
         const bool in_space = check.name == "hanging vertices" ||
@@ -198,15 +198,15 @@ TEST(Fast, OmitsChecksThatNeedASearchInSpace) {
 }
 
 TEST(Notes, ReportThatThereAreNoCells) {
-    const Check check = test::judged_by_all(Mesh{}).checks[1];
+    const Check check = test::verified_by_all(Mesh{}).checks[1];
     EXPECT_EQ(check.name, "well-formed");
     EXPECT_EQ(check.note, "there are no cells to check");
-    EXPECT_EQ(test::judged_by_all(test::kuhn(1, 1, 1)).checks[1].note, "");
+    EXPECT_EQ(test::verified_by_all(test::kuhn(1, 1, 1)).checks[1].note, "");
 }
 
 TEST(Notes, OfSkippedChecksNameTheFailedOnes) {
     const auto why_not_crossings = [](const Mesh& mesh) {
-        const Verdict verdict = test::judged_by_all(mesh);
+        const Verdict verdict = test::verified_by_all(mesh);
         EXPECT_EQ(verdict.checks.back().name, "boundary crossings");
         EXPECT_EQ(verdict.checks.back().status, Status::skipped);
         return verdict.checks.back().note;
@@ -226,7 +226,7 @@ TEST(Notes, OfSkippedSumsAndDescentNameTheChecksThatFailed) {
     coarse.point_markers.assign(coarse.points.size(), 1);
     const Mesh fine = reference::refine(coarse, {.all = true}, Scheme::eight, 1).mesh;
     const auto why_not = [&](std::string_view name, const Mesh& mesh) {
-        const Verdict verdict = test::judged_by_all(coarse, mesh);
+        const Verdict verdict = test::verified_by_all(coarse, mesh);
         const auto check = std::ranges::find(verdict.checks, name, &Check::name);
         EXPECT_EQ(check->status, Status::skipped);
         return check->note;
@@ -272,10 +272,10 @@ TEST(Progress, IsReportedForEveryCheckThatRuns) {
 TEST(Violations, AreAllCountedWhereNotAllAreKept) {
     Mesh mesh = test::kuhn(2, 2, 2);
     for (CellVertices& cell : mesh.cells) std::swap(cell[0], cell[1]);
-    const Verdict verdict = test::judged_by_all(mesh, {.kept_per_code = 3});
+    const Verdict verdict = test::verified_by_all(mesh, {.kept_per_code = 3});
     EXPECT_EQ(verdict.count(Code::inverted_cell), 48U);
     EXPECT_EQ(verdict.violations.size(), 3U);
-    EXPECT_EQ(test::judged_by_all(mesh).violations.size(), 48U);
+    EXPECT_EQ(test::verified_by_all(mesh).violations.size(), 48U);
 }
 
 }  // namespace

@@ -34,7 +34,7 @@ double n_log_n(const Mesh& mesh) {
 double effort_of_validity(const Mesh& mesh) {
     const Verdict verdict = verify_mesh(mesh);
     EXPECT_EQ(codes_of(verdict), "");
-    return static_cast<double>(verdict.looked_at + verdict.arithmetic.filtered +
+    return static_cast<double>(verdict.search_tests + verdict.arithmetic.filtered +
                                verdict.arithmetic.exact);
 }
 
@@ -85,10 +85,10 @@ TEST(RoughHub, RefinedAtRandomIsSearchedInProportionToItsCellsAndTheirLogarithm)
 
 TEST_P(HubTest, AndItsRefinementAreValidByAnyNumberOfProcesses) {
     const Mesh coarse = GetParam().make(OCTETRA_SANITIZED ? 160 : 400);
-    EXPECT_EQ(codes_of(test::judged_by_all(coarse)), "");
+    EXPECT_EQ(codes_of(test::verified_by_all(coarse)), "");
     const Mesh fine = reference::refine(coarse, {.all = true}, Scheme::eight, 1).mesh;
-    EXPECT_EQ(codes_of(test::judged_by_all(coarse, fine)), "");
-    EXPECT_EQ(codes_of(test::judged_by_all(fine)), "");
+    EXPECT_EQ(codes_of(test::verified_by_all(coarse, fine)), "");
+    EXPECT_EQ(codes_of(test::verified_by_all(fine)), "");
 }
 
 /// A face of a cell without volume may be a line, which CGAL's predicates reject by assertion.

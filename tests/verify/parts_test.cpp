@@ -37,7 +37,7 @@ Mesh bar() {
 void for_each_part(int size, const Mesh& mesh, auto&& visit) {
     std::mutex one_at_a_time;
     test::run_together(size, [&](const ProcessGroup& group) {
-        const Parts parts = part_of(verify::share_out(mesh, group), group);
+        const Parts parts = part_of(verify::distribute_slices(mesh, group), group);
         const std::scoped_lock lock(one_at_a_time);
         visit(parts.fine, parts.domain);
     });
@@ -46,7 +46,7 @@ void for_each_part(int size, const Mesh& mesh, auto&& visit) {
 class PartsTest : public testing::TestWithParam<int> {};
 
 TEST_P(PartsTest, OwnEveryVertexAndCellOnce) {
-    const Mesh mesh = test::shaken_kuhn(4, 0.2, 5);
+    const Mesh mesh = test::perturbed_kuhn(4, 0.2, 5);
     std::vector<int> owners_of_vertex(mesh.points.size(), 0);
     std::vector<int> owners_of_cell(mesh.cells.size(), 0);
     for_each_part(GetParam(), mesh, [&](const MeshPart& part, const Domain& domain) {
@@ -89,7 +89,7 @@ TEST_P(PartsTest, AreSubsetsOfTheWholeMeshInItsOrder) {
 }
 
 TEST_P(PartsTest, SeeAllCellsAtWhatTheyOwn) {
-    const Mesh mesh = test::shaken_kuhn(4, 0.2, 6);
+    const Mesh mesh = test::perturbed_kuhn(4, 0.2, 6);
     std::vector<int> cells_at(mesh.points.size(), 0);
     for (const CellVertices& cell : mesh.cells) {
         for (const VertexIndex v : cell) ++cells_at[v.value()];
@@ -114,8 +114,8 @@ TEST(Parts, SeeNoMoreThanTheirNeighbourhood) {
     const Mesh fine = reference::refine(mesh, {.all = true}, Scheme::eight, 1).mesh;
     std::atomic<std::size_t> most = 0;
     test::run_together(4, [&](const ProcessGroup& group) {
-        const Parts parts =
-            parts_of(verify::share_out(mesh, group), verify::share_out(fine, group), group);
+        const Parts parts = parts_of(verify::distribute_slices(mesh, group),
+                                     verify::distribute_slices(fine, group), group);
         most = std::max(most.load(), parts.fine.mesh.cells.size());
     });
     // A quarter, and on each side two cubes of 48 fine cells each and the cells that touch them.
@@ -123,8 +123,8 @@ TEST(Parts, SeeNoMoreThanTheirNeighbourhood) {
 }
 
 TEST(Parts, OfAMeshWithFewerCellsThanProcesses) {
-    EXPECT_EQ(test::codes_of(test::judged_by_all(test::one_cell(test::regular_corners))), "");
-    EXPECT_EQ(test::codes_of(test::judged_by_all(Mesh{})), "");
+    EXPECT_EQ(test::codes_of(test::verified_by_all(test::one_cell(test::regular_corners))), "");
+    EXPECT_EQ(test::codes_of(test::verified_by_all(Mesh{})), "");
 }
 
 /// The verdict is that of one process alone, also between parts that do not interact.
@@ -134,7 +134,7 @@ TEST(Parts, AreJudgedLikeTheWholeForAnyFault) {
                           .levels = 2};
     const auto fine = reference::refine(coarse, request.selection, request.scheme, request.levels);
     const auto judged = [&](const Mesh& mesh) {
-        return test::judged_by_all(coarse, mesh, {.request = request, .maps = &fine.maps});
+        return test::verified_by_all(coarse, mesh, {.request = request, .maps = &fine.maps});
     };
     ASSERT_EQ(test::codes_of(judged(fine.mesh)), "");
     const std::size_t cells = fine.mesh.cells.size();
@@ -159,7 +159,7 @@ TEST(Parts, AreJudgedLikeTheWholeForAnyFault) {
 TEST(Slices, AreThoseOfTheMeshWherever) {
     const Mesh mesh = bar();
     test::run_together(3, [&](const ProcessGroup& group) {
-        const MeshSlice slice = verify::share_out(group.is_first() ? mesh : Mesh{}, group);
+        const MeshSlice slice = verify::distribute_slices(group.is_first() ? mesh : Mesh{}, group);
         EXPECT_EQ(slice.totals.cells, mesh.cells.size());
         const std::uint64_t begin = slice_begin(mesh.cells.size(), group.rank(), 3);
         for (CellIndex c{0}; c < slice.lists.cells.end_index(); ++c) {
@@ -174,7 +174,7 @@ TEST(Slices, AreThoseOfTheMeshWherever) {
 
 TEST(Slices, OfAFileAreThoseOfItsMesh) {
     const test::TemporaryFolder folder;
-    Mesh mesh = test::shaken_kuhn(26, 0.1, 1);  // several rounds
+    Mesh mesh = test::perturbed_kuhn(26, 0.1, 1);  // several rounds
     test::list_boundary(mesh);
     mesh.regions.assign(mesh.cells.size(), 3);
     for (const std::string_view name : {"mesh.ele", "mesh.mesh"}) {
@@ -183,7 +183,7 @@ TEST(Slices, OfAFileAreThoseOfItsMesh) {
         for (const int size : {1, 2, 5}) {
             test::run_together(size, [&](const ProcessGroup& group) {
                 const MeshSlice read = verify::read_slice(path, {}, group);
-                MeshSlice expected = verify::share_out(mesh, group);
+                MeshSlice expected = verify::distribute_slices(mesh, group);
                 expected.lists.index_base = read.lists.index_base;
                 EXPECT_EQ(read.lists, expected.lists) << name;
                 EXPECT_EQ(read.totals.cells, mesh.cells.size());

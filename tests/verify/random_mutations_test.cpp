@@ -26,7 +26,7 @@ struct Case {
 
 Case make_case(int kind, std::uint64_t seed) {
     Case c;
-    c.coarse = kind % 2 == 0 ? test::kuhn(2, 1, 1) : test::shaken_kuhn(1, 0.2, seed % 1000);
+    c.coarse = kind % 2 == 0 ? test::kuhn(2, 1, 1) : test::perturbed_kuhn(1, 0.2, seed % 1000);
     test::list_boundary(c.coarse);
     c.coarse.regions.assign(c.coarse.cells.size(), 1);
     c.coarse.regions.front() = 2;
@@ -104,9 +104,9 @@ TEST(RandomMutations, DoNotPassUnlessTheMeshIsTheSame) {
         const int size = *rc::gen::inRange(2, 9);
         Verdict together;
         test::run_together(size, [&](const ProcessGroup& group) {
-            Verdict of_one =
-                verify_refinement(verify::share_out(c.coarse, group),
-                                  verify::share_out(mutated, group), group, {.request = c.request});
+            Verdict of_one = verify_refinement(verify::distribute_slices(c.coarse, group),
+                                               verify::distribute_slices(mutated, group), group,
+                                               {.request = c.request});
             if (group.is_first()) together = std::move(of_one);
         });
         RC_ASSERT(test::text_of(together) == test::text_of(verdict));

@@ -58,7 +58,7 @@ TEST_P(CorpusRefinement, IsValidAndTheOneThatWasAskedFor) {
                 }
                 // With this many meshes each group size is combined with all other parameters.
                 const int together = test::all_group_sizes[judged++ % test::all_group_sizes.size()];
-                const Verdict verdict = test::judged_by_all(
+                const Verdict verdict = test::verified_by_all(
                     coarse, fine.mesh,
                     {.request = Request{selection, scheme, levels}, .maps = &fine.maps},
                     {together});
@@ -76,14 +76,14 @@ INSTANTIATE_TEST_SUITE_P(, CorpusRefinement, testing::ValuesIn(entries_with_file
 
 TEST(Refinement, IsValidThroughThreeLevelsOfShakenLattices) {
     for (const std::uint64_t seed : {1U, 2U, 3U}) {
-        const Mesh coarse = test::shaken_kuhn(2, 0.2, seed);
+        const Mesh coarse = test::perturbed_kuhn(2, 0.2, seed);
         const Request request{{.random = RandomShare{0.1, seed}}, Scheme::eight, 3};
         const Mesh fine =
             reference::refine(coarse, request.selection, request.scheme, request.levels).mesh;
-        const Verdict verdict = test::judged_by_all(coarse, fine, {.request = request});
+        const Verdict verdict = test::verified_by_all(coarse, fine, {.request = request});
         EXPECT_EQ(codes_of(verdict), "");
         EXPECT_EQ(verdict.facts.rounding_bound, 0);  // on a grid that can represent the halves
-        EXPECT_EQ(codes_of(test::judged_by_all(fine)), "");
+        EXPECT_EQ(codes_of(test::verified_by_all(fine)), "");
     }
 }
 
@@ -108,12 +108,12 @@ Mesh renumbered(const Mesh& mesh, std::uint64_t seed) {
 }
 
 TEST(Refinement, IsFoundFromGeometryHoweverItIsNumbered) {
-    const Mesh coarse = test::shaken_kuhn(2, 0.2, 5);
+    const Mesh coarse = test::perturbed_kuhn(2, 0.2, 5);
     const Request request{{.spheres = {{{0, 0, 0}, 1.5}}}, Scheme::eight, 2};
     const Mesh fine = reference::refine(coarse, request.selection, request.scheme, 2).mesh;
     for (const std::uint64_t seed : {1U, 2U, 3U}) {
         const Verdict verdict =
-            test::judged_by_all(coarse, renumbered(fine, seed), {.request = request});
+            test::verified_by_all(coarse, renumbered(fine, seed), {.request = request});
         EXPECT_EQ(codes_of(verdict), "");
     }
 }
@@ -159,7 +159,7 @@ TEST(Refinement, MayCutCellsIntoEightAtOnce) {
         for (const std::size_t first : {0U, 1U, 2U}) {
             for (const std::size_t second : {0U, 1U, 2U}) {
                 const Mesh fine = red_refined(red_refined(coarse, first), second);
-                const Verdict verdict = test::judged_by_all(coarse, fine);
+                const Verdict verdict = test::verified_by_all(coarse, fine);
                 EXPECT_EQ(codes_of(verdict), "") << first << second;
                 EXPECT_EQ(verdict.facts.deepest, 6);
             }
@@ -169,13 +169,13 @@ TEST(Refinement, MayCutCellsIntoEightAtOnce) {
 
 TEST(Refinement, OfAnotherMeshIsRefused) {
     const Mesh coarse = test::kuhn(2, 1, 1);
-    EXPECT_FALSE(test::judged_by_all(coarse, test::kuhn(1, 1, 1)).valid());
-    EXPECT_FALSE(test::judged_by_all(test::kuhn(1, 1, 1), coarse).valid());
-    EXPECT_FALSE(test::judged_by_all(coarse, test::shaken_kuhn(2, 0.1, 1)).valid());
-    EXPECT_FALSE(test::judged_by_all(coarse, Mesh{}).valid());
-    EXPECT_FALSE(test::judged_by_all(Mesh{}, coarse).valid());
-    EXPECT_TRUE(test::judged_by_all(Mesh{}, Mesh{}).valid());
-    EXPECT_TRUE(test::judged_by_all(coarse, coarse).valid());
+    EXPECT_FALSE(test::verified_by_all(coarse, test::kuhn(1, 1, 1)).valid());
+    EXPECT_FALSE(test::verified_by_all(test::kuhn(1, 1, 1), coarse).valid());
+    EXPECT_FALSE(test::verified_by_all(coarse, test::perturbed_kuhn(2, 0.1, 1)).valid());
+    EXPECT_FALSE(test::verified_by_all(coarse, Mesh{}).valid());
+    EXPECT_FALSE(test::verified_by_all(Mesh{}, coarse).valid());
+    EXPECT_TRUE(test::verified_by_all(Mesh{}, Mesh{}).valid());
+    EXPECT_TRUE(test::verified_by_all(coarse, coarse).valid());
 }
 
 /// Two triangulations of one cube, both valid, neither a refinement of the other.
@@ -184,8 +184,8 @@ TEST(Refinement, OfAnotherTriangulationOfTheSolidIsRefused) {
     Mesh mirrored = coarse;
     for (Point& p : mirrored.points) p.x = 1 - p.x;
     for (CellIndex c{0}; c < mirrored.cells.end_index(); ++c) test::flip_cell(mirrored, c);
-    EXPECT_TRUE(test::judged_by_all(mirrored).valid());
-    EXPECT_EQ(codes_of(test::judged_by_all(coarse, mirrored)), "not_tiled");
+    EXPECT_TRUE(test::verified_by_all(mirrored).valid());
+    EXPECT_EQ(codes_of(test::verified_by_all(coarse, mirrored)), "not_tiled");
 }
 
 /// At a crack, vertices of different cells coincide, and the two sides are refined independently.
@@ -195,13 +195,13 @@ TEST(Refinement, MayBeFinerOnOneSideOfACrack) {
         {{0, 1, 2, 3}, {4, 5, 6, 7}});
     const Request request{{.cells = {GlobalCell{1}}}, Scheme::eight, 2};
     const Mesh fine = reference::refine(coarse, request.selection, request.scheme, 2).mesh;
-    EXPECT_EQ(codes_of(test::judged_by_all(coarse, fine, {.request = request})), "");
+    EXPECT_EQ(codes_of(test::verified_by_all(coarse, fine, {.request = request})), "");
 
     Mesh closed = fine;  // one side's corner taken for the other's
     for (CellVertices& cell : closed.cells) {
         for (VertexIndex& v : cell) v = v == VertexIndex{4} ? VertexIndex{0} : v;
     }
-    EXPECT_FALSE(test::judged_by_all(coarse, closed).valid());
+    EXPECT_FALSE(test::verified_by_all(coarse, closed).valid());
 }
 
 /// A lattice with a slit half through: the edges from the tip of the slit to its two sides coincide
@@ -228,7 +228,7 @@ TEST(Refinement, MayHaveACrackWithATip) {
     for (const Scheme scheme : schemes) {
         const Request request{{.all = true}, scheme, 2};
         const Mesh fine = reference::refine(coarse, request.selection, scheme, 2).mesh;
-        EXPECT_EQ(codes_of(test::judged_by_all(coarse, fine, {.request = request})), "");
+        EXPECT_EQ(codes_of(test::verified_by_all(coarse, fine, {.request = request})), "");
     }
 }
 
@@ -238,7 +238,7 @@ TEST(Refinement, OfACrackedMeshIsFoundFromGeometryHoweverItIsNumbered) {
     const Mesh fine = reference::refine(coarse, request.selection, request.scheme, 2).mesh;
     for (const std::uint64_t seed : {1U, 2U, 3U}) {
         const Mesh other = renumbered(fine, seed);
-        EXPECT_EQ(codes_of(test::judged_by_all(coarse, other, {.request = request})), "");
+        EXPECT_EQ(codes_of(test::verified_by_all(coarse, other, {.request = request})), "");
         Mesh closed = other;  // a vertex of one side taken for one of the other
         std::map<Point, VertexIndex> first;
         for (CellVertices& cell : closed.cells) {
@@ -255,7 +255,7 @@ TEST(Refinement, MayInheritVerticesOfNoCellWithANote) {
     const Request request{{.all = true}, Scheme::eight, 1};
     const Mesh fine = reference::refine(coarse, request.selection, request.scheme, 1).mesh;
     for (const Mesh& other : {fine, renumbered(fine, 1), renumbered(fine, 2)}) {
-        const Verdict verdict = test::judged_by_all(coarse, other, {.request = request});
+        const Verdict verdict = test::verified_by_all(coarse, other, {.request = request});
         EXPECT_EQ(codes_of(verdict), "");
         EXPECT_EQ(verdict.facts.unused_vertices, 2U);
         EXPECT_EQ(check_named(verdict, "vertices").note, "2 vertices belong to no cell");
@@ -283,8 +283,8 @@ TEST(Refinement, MayNotJoinCellsThatOnlyCross) {
         std::replace(cell.begin(), cell.end(), VertexIndex{9}, VertexIndex{8});
     }
     joined.points.pop_back();
-    EXPECT_EQ(codes_of(test::judged_by_all(coarse, joined)), "not_a_midpoint");
-    EXPECT_EQ(codes_of(test::judged_by_all(coarse, apart)), "coincident_vertices");
+    EXPECT_EQ(codes_of(test::verified_by_all(coarse, joined)), "not_a_midpoint");
+    EXPECT_EQ(codes_of(test::verified_by_all(coarse, apart)), "coincident_vertices");
 }
 
 /// Two cells of the coarse mesh have separate corners at one point, half way along the edge of a
@@ -318,23 +318,23 @@ TEST(Refinement, IsJudgedAtAllMagnitudes) {
     for (const double side : {0x1p-900, 0x1p-300, 0x1p300, 0x1p900}) {
         const Mesh coarse = test::kuhn(2, 1, 1, side);
         const Mesh fine = test::kuhn(4, 2, 2, side / 2);
-        const Verdict verdict = test::judged_by_all(coarse, fine, {.min_dihedral = 45});
+        const Verdict verdict = test::verified_by_all(coarse, fine, {.min_dihedral = 45});
         EXPECT_EQ(codes_of(verdict), "") << side;
         EXPECT_NEAR(verdict.angles->min_dihedral, 45, 1e-12);
-        EXPECT_EQ(codes_of(test::judged_by_all(fine)), "") << side;
+        EXPECT_EQ(codes_of(test::verified_by_all(fine)), "") << side;
         Mesh moved = fine;
         test::shift_by_an_ulp(moved, VertexIndex{44});  // of the far corner
-        EXPECT_FALSE(test::judged_by_all(coarse, moved).valid()) << side;
+        EXPECT_FALSE(test::verified_by_all(coarse, moved).valid()) << side;
     }
 }
 
 /// Bounds on volumes remain valid if the volumes underflow.
 TEST(Refinement, IsJudgedWhereTheVolumeMovedByRoundingUnderflows) {
     for (const double scale : {1e-103, 1e-120, 1e-160}) {
-        Mesh coarse = test::shaken_kuhn(2, 0.3, 4);
+        Mesh coarse = test::perturbed_kuhn(2, 0.3, 4);
         for (Point& p : coarse.points) p = {p.x * scale, p.y * scale, p.z * scale};
         const Mesh fine = reference::refine(coarse, {.all = true}, Scheme::eight, 2).mesh;
-        const Verdict verdict = test::judged_by_all(coarse, fine);
+        const Verdict verdict = test::verified_by_all(coarse, fine);
         EXPECT_GT(verdict.facts.rounded_midpoints, 0U);
         EXPECT_EQ(codes_of(verdict), "") << scale;
     }
@@ -344,7 +344,7 @@ TEST(Refinement, BoundsTheDisplacementByRounding) {
     Mesh coarse = test::kuhn(1, 1, 1);
     for (Point& p : coarse.points) p = {p.x / 3 + 1000, p.y / 7, p.z / 11};
     const Mesh fine = reference::refine(coarse, {.all = true}, Scheme::eight, 3).mesh;
-    const Verdict verdict = test::judged_by_all(coarse, fine);
+    const Verdict verdict = test::verified_by_all(coarse, fine);
     EXPECT_EQ(codes_of(verdict), "");
     EXPECT_GT(verdict.facts.rounded_midpoints, 0U);
     EXPECT_GT(verdict.facts.rounding_bound, 0x1p-45);  // an ulp at 1000 is 2^-43
@@ -356,7 +356,7 @@ TEST(Refinement, OfWhichAHalfIsMissingIsNotBlamedOnTheMidpoint) {
     Mesh half = reference::refine(coarse, {.all = true}, Scheme::two, 1).mesh;
     ASSERT_EQ(half.cells.size(), 2U);
     half.cells.pop_back();
-    const Verdict verdict = test::judged_by_all(coarse, half);
+    const Verdict verdict = test::verified_by_all(coarse, half);
     EXPECT_EQ(codes_of(verdict), "not_tiled");
 }
 

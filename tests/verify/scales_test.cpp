@@ -55,7 +55,7 @@ void expect_same_judgement(const Verdict& a, const Verdict& b) {
 }
 
 TEST(Scales, ChangeNeitherVerdictsNorTheArithmeticTheyTakeNorShapes) {
-    const Mesh coarse = test::shaken_kuhn(2, 0.2, 11);
+    const Mesh coarse = test::perturbed_kuhn(2, 0.2, 11);
     const Mesh fine = reference::refine(coarse, {.all = true}, Scheme::eight, 2).mesh;
     Mesh broken = fine;
     broken.points[VertexIndex{40}].x += 0.125;

@@ -29,7 +29,7 @@ struct Descended {
         (void)check_orientation(coarse, findings);
         (void)check_well_formed(fine, findings);
         (void)check_orientation(fine, findings);
-        const Places places(fine_mesh.points);
+        const PointLookup places(fine_mesh.points);
         Lines lines(fine, places);
         (void)find_coarse_vertices(coarse, fine, places, descent, findings);
         (void)check_descent(coarse, fine, lines, descent, findings);
@@ -101,9 +101,9 @@ TEST(SumsByTag, OfVolumesAndAreasAreExactAndThoseOfTheCoarseMesh) {
             EXPECT_EQ(sums[i].difference, 0);
         }
     };
-    const Verdict refined = test::judged_by_all(coarse, fine);
+    const Verdict refined = test::verified_by_all(coarse, fine);
     EXPECT_EQ(codes_of(refined), "");
-    const Verdict alone = test::judged_by_all(fine);
+    const Verdict alone = test::verified_by_all(fine);
     expect(refined.volumes, {{-2, 7.0 / 6}, {3, 5.0 / 6}}, true);
     expect(alone.volumes, {{-2, 7.0 / 6}, {3, 5.0 / 6}}, false);
     expect(refined.areas, {{4, 9.5}, {7, 0.5}}, true);
@@ -111,7 +111,7 @@ TEST(SumsByTag, OfVolumesAndAreasAreExactAndThoseOfTheCoarseMesh) {
 }
 
 TEST(SumsByTag, AreThoseOfCellsFarAwayAndOfAnyRegions) {
-    Mesh mesh = test::shaken_kuhn(3, 0.2, 6);
+    Mesh mesh = test::perturbed_kuhn(3, 0.2, 6);
     for (Point& p : mesh.points) p = {p.x + 1e6 / 3, p.y * 1e-5, p.z - 1e9 / 7};
     std::map<Marker, exact::VolumeSum> expected;
     for (CellIndex c{0}; c < mesh.cells.end_index(); ++c) {
@@ -120,7 +120,7 @@ TEST(SumsByTag, AreThoseOfCellsFarAwayAndOfAnyRegions) {
         expected[mesh.regions[c]].add(
             {mesh.points[v[0]], mesh.points[v[1]], mesh.points[v[2]], mesh.points[v[3]]});
     }
-    const auto volumes = test::judged_by_all(mesh).volumes;
+    const auto volumes = test::verified_by_all(mesh).volumes;
     ASSERT_EQ(volumes.size(), 5U);
     for (const TagSum& sum : volumes) EXPECT_EQ(sum.fine, expected[sum.tag].rounded() / 6);
 }
@@ -173,7 +173,7 @@ TEST(FaceAnglesOfRoundedMeshes, AreJudgedIdenticallyAtAllMagnitudes) {
         return std::string();
     };
     const auto judge = [&](const Mesh& fine, double factor) {
-        return test::judged_by_all(scaled(coarse, factor), scaled(fine, factor));
+        return test::verified_by_all(scaled(coarse, factor), scaled(fine, factor));
     };
     for (const double factor : {0x1p-990, 0x1p-535, 0x1p-520, 1.0, 0x1p520, 0x1p990}) {
         const Verdict right = judge(halved, factor);

@@ -13,14 +13,14 @@
 
 namespace octetra::test {
 
-inline std::string text_of(const verify::Entity& entity) {
+inline std::string verdict_text(const verify::Entity& entity) {
     std::string vertices;
     for (const VertexIndex v : entity.vertices) vertices += fmt::format(" {}", v.value());
     return fmt::format("{}/{}/{}({})", static_cast<int>(entity.kind), static_cast<int>(entity.mesh),
                        entity.number, vertices);
 }
 
-inline std::string text_of(const std::optional<verify::AngleFigures>& angles) {
+inline std::string verdict_text(const std::optional<verify::AngleFigures>& angles) {
     if (!angles) return "none";
     return fmt::format("{} at {}, {}, {}, {}", angles->min_dihedral,
                        angles->min_dihedral_at.value(), angles->max_dihedral, angles->min_solid,
@@ -29,7 +29,7 @@ inline std::string text_of(const std::optional<verify::AngleFigures>& angles) {
 
 /// Everything of a verdict that must not depend on the number of processes: all but times and
 /// arithmetic.
-inline std::string text_of(const verify::Verdict& verdict) {
+inline std::string verdict_text(const verify::Verdict& verdict) {
     std::string text;
     for (const verify::Check& check : verdict.checks) {
         text += fmt::format("{}: {} {}\n", check.name, static_cast<int>(check.status), check.note);
@@ -38,7 +38,7 @@ inline std::string text_of(const verify::Verdict& verdict) {
     for (const verify::Violation& violation : verdict.violations) {
         text += fmt::format("{}", name(violation.code));
         for (const verify::Entity& entity : violation.entities)
-            text += fmt::format(" {}", text_of(entity));
+            text += fmt::format(" {}", verdict_text(entity));
         text += fmt::format(": {}; {}\n", violation.found, violation.expected);
     }
     const verify::Facts& f = verdict.facts;
@@ -46,8 +46,8 @@ inline std::string text_of(const verify::Verdict& verdict) {
                         f.edges, f.faces, f.boundary_faces, f.singular_edges, f.singular_vertices,
                         f.unused_vertices, f.bisected_edges, f.rounded_midpoints, f.cells_kept,
                         f.deepest, f.rounding_bound);
-    text += fmt::format("angles {}\ncoarse {}\n", text_of(verdict.angles),
-                        text_of(verdict.coarse_angles));
+    text += fmt::format("angles {}\ncoarse {}\n", verdict_text(verdict.angles),
+                        verdict_text(verdict.coarse_angles));
     for (const auto* sums : {&verdict.volumes, &verdict.areas}) {
         for (const verify::TagSum& sum : *sums) {
             text +=
@@ -78,27 +78,28 @@ inline void expect_same_verdict_together(
                 ADD_FAILURE() << "another verdict on process " << group.rank();
             }
         });
-        ASSERT_EQ(text_of(first), text_of(alone));
+        ASSERT_EQ(verdict_text(first), verdict_text(alone));
     }
 }
 
 /// Returns the verdict of this process alone; checks that those of groups of 2, 3 and 7 are the
 /// same.
-inline verify::Verdict judged_by_all(const Mesh& mesh, const verify::VerifyOptions& options = {}) {
+inline verify::Verdict verified_by_all(const Mesh& mesh,
+                                       const verify::VerifyOptions& options = {}) {
     const verify::Verdict alone = verify_mesh(mesh, options);
     expect_same_verdict_together(alone, [&](const ProcessGroup& group) {
-        return verify_mesh(verify::share_out(mesh, group), group, options);
+        return verify_mesh(verify::distribute_slices(mesh, group), group, options);
     });
     return alone;
 }
 
-inline verify::Verdict judged_by_all(const Mesh& coarse, const Mesh& fine,
-                                     const verify::VerifyOptions& options = {},
-                                     const GroupSizes& sizes = all_group_sizes) {
+inline verify::Verdict verified_by_all(const Mesh& coarse, const Mesh& fine,
+                                       const verify::VerifyOptions& options = {},
+                                       const GroupSizes& sizes = all_group_sizes) {
     const verify::Verdict alone = verify_refinement(coarse, fine, options);
     const auto judge = [&](const ProcessGroup& group) {
-        return verify_refinement(verify::share_out(coarse, group), verify::share_out(fine, group),
-                                 group, options);
+        return verify_refinement(verify::distribute_slices(coarse, group),
+                                 verify::distribute_slices(fine, group), group, options);
     };
     expect_same_verdict_together(alone, judge, sizes);
     return alone;

@@ -23,13 +23,13 @@ die() {
 bad_usage() { die "$1; ./dev lists the verbs" 2; }
 
 # Ctrl-C ends all processes, and no results are printed.
-go_on=''  # how to continue after an interruption
+resume_hint=''  # how to continue after an interruption
 forget_unfinished() { :; }  # verbs may replace this to remove files
 interrupted() {
     trap - INT TERM
     jobs -p | xargs -r kill 2>/dev/null || true  # bash shields background processes from Ctrl-C
     forget_unfinished
-    printf '\ndev: interrupted%s\n' "$go_on" >&2
+    printf '\ndev: interrupted%s\n' "$resume_hint" >&2
     exit 130
 }
 trap interrupted INT TERM
@@ -55,7 +55,7 @@ run() {
     "$@" || die "stopped: this command failed, with exit status $?"
 }
 
-whole_number() { [[ $1 =~ ^[1-9][0-9]{0,14}$ ]]; }  # at least 1
+is_whole_number() { [[ $1 =~ ^[1-9][0-9]{0,14}$ ]]; }  # at least 1
 
 # take_numbers WHAT NAMES ARGUMENT...: parses options with whole numbers into variables of the same
 # names.
@@ -64,7 +64,7 @@ take_numbers() {
     shift 2
     while (($# > 0)); do
         if [[ $1 != --* || $names != *" ${1#--} "* ]]; then bad_usage "$what: no such option: $1"; fi
-        if ! whole_number "${2:-}"; then bad_usage "$what: $1 takes a whole number from 1"; fi
+        if ! is_whole_number "${2:-}"; then bad_usage "$what: $1 takes a whole number from 1"; fi
         printf -v "${1#--}" %s "$2"
         shift 2
     done

@@ -17,7 +17,7 @@ shrink() {
 
 # The laws keep their findings there, and the case that is being judged. The latter is no finding
 # after an interruption.
-try_laws() {
+run_laws() {
     export OCTETRA_FOUND=$root/corpus/regression
     laws_since=$root/build/laws-since
     touch "$laws_since"
@@ -28,7 +28,7 @@ try_laws() {
 
 # A case that ended a rank or blocked it is on disk as it was drawn; so are the cases that other
 # runs are judging.
-shrink_what_died() {
+shrink_unfinished() {
     local file process
     for file in corpus/regression/*-running-*.json; do
         process=${file##*-running-}

@@ -16,7 +16,7 @@ while (($# > 0)); do
     shift
 done
 
-keep_files_in_memory
+use_memory_for_files
 case $kind in
     --quick)
         need build test

@@ -106,7 +106,7 @@ summary() {
 
 
 # Few tests depend on a disk, and files in memory are ten times as fast.
-keep_files_in_memory() {
+use_memory_for_files() {
     if [[ -z ${TMPDIR:-} && -w /dev/shm && $(df --output=avail /dev/shm | tail -n 1) -gt 1000000 ]]; then
         TMPDIR=$(mktemp -d /dev/shm/octetra-test.XXXXXX)
         export TMPDIR

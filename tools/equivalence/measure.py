@@ -143,7 +143,7 @@ def held_against(reference, outcome, place):
                                  os.path.join(place.folder, "parallel"))
 
 
-def in_other_words(case, place):
+def difference_by_compare(case, place):
     """The degree of difference of meshes whose bytes differ: the last line of octetra compare."""
     outcome = run([place.octetra, "compare", os.path.join("reference", case.output),
                    os.path.join("parallel", case.output)], place.folder)
@@ -157,7 +157,7 @@ def in_parallel(case, mesh, reference, place, ranks, sync):
                               ["--sync", sync])
     lines = held_against(reference, outcome, place)
     if lines and outcome.status == reference["status"] == 0:
-        lines.append(in_other_words(case, place))
+        lines.append(difference_by_compare(case, place))
     return lines, profile
 
 

@@ -55,12 +55,12 @@ Colours spread(const Colours& colours, const Mesh& mesh) {
     return next;
 }
 
-Colours colours_of(const Mesh& mesh, bool tell_coincident_apart) {
+Colours colours_of(const Mesh& mesh, bool separate_coincident) {
     Colours colours;
     for (VertexIndex v{0}; v < mesh.points.end_index(); ++v) {
         colours.push_back(colour_of(mesh, v));
     }
-    for (int round = 0; tell_coincident_apart && round < 3; ++round) {
+    for (int round = 0; separate_coincident && round < 3; ++round) {
         colours = spread(colours, mesh);
     }
     return colours;
@@ -89,7 +89,7 @@ bool are_equal(const std::vector<double>& a, const std::vector<double>& b) {
 }
 
 template <std::size_t N>
-bool comes_before(const Item<N>& a, const Item<N>& b) {
+bool precedes(const Item<N>& a, const Item<N>& b) {
     if (a.corners != b.corners) return a.corners < b.corners;
     if (a.colours != b.colours) return a.colours < b.colours;
     if (a.turned != b.turned) return b.turned;
@@ -186,8 +186,8 @@ public:
     template <std::size_t N>
     void compare(std::vector<Item<N>> a, std::vector<Item<N>> b, std::string_view kind,
                  std::string_view tag) {
-        std::sort(a.begin(), a.end(), comes_before<N>);
-        std::sort(b.begin(), b.end(), comes_before<N>);
+        std::sort(a.begin(), a.end(), precedes<N>);
+        std::sort(b.begin(), b.end(), precedes<N>);
         kept_of_kind_ = 0;
         std::size_t i = 0;
         std::size_t k = 0;

@@ -27,7 +27,7 @@ void judge_remainder(const Mesh& input, const StepCuts& steps, const CoarseningR
     const Remainder rest = remainder_of(*lineage, input, request);
     VertexMatch match;
     const bool right_vertices = findings.run("vertices that stay", [&] {
-        return check_staying(*lineage, rest, after, match, findings);
+        return check_kept_vertices(*lineage, rest, after, match, findings);
     });
     const bool right_unions = findings.run("unions of cells", [&] {
         return check_unions(*lineage, request.levels, after, match, findings);

@@ -150,7 +150,7 @@ private:
     }
 
     void judge_descent(bool conforms) {
-        const Places places(fine_.mesh.points);
+        const PointLookup places(fine_.mesh.points);
         Descent descent;
         const bool none_lost = findings_.run("coarse vertices", [&] {
             return find_coarse_vertices(coarse_, fine_, places, descent, findings_);

@@ -11,7 +11,7 @@
 #include <pybind11/stl.h>
 
 #include <octetra/core/error.hpp>
-#include <octetra/dolfinx/hand_over.hpp>
+#include <octetra/dolfinx/convert.hpp>
 
 #include "arrays.hpp"
 #include "held_mesh.hpp"

@@ -68,7 +68,7 @@ std::vector<std::int64_t> markers_of_facets(
 
 /// Collective. A facet is tagged on one rank: sends the marker to its owner, and from there to all
 /// ranks that have the facet.
-void tell_all(const ::dolfinx::common::IndexMap& facets, std::vector<std::int64_t>& markers) {
+void share_markers(const ::dolfinx::common::IndexMap& facets, std::vector<std::int64_t>& markers) {
     const auto own = std::span(markers).first(static_cast<std::size_t>(facets.size_local()));
     const auto ghosts = std::span(markers).subspan(own.size());
     ::dolfinx::common::Scatterer scatterer(facets, 1);
@@ -87,7 +87,7 @@ std::optional<MarkerTags> tag_facets(const od::AdaptiveMesh& mesh, const Nodes& 
     ::dolfinx::mesh::Topology& topology = made->topology_mutable();
     topology.create_entities(2);
     auto markers = markers_of_facets(tagged, nodes.vertices.size(), *topology.connectivity(2, 0));
-    tell_all(*topology.index_map(2), markers);
+    share_markers(*topology.index_map(2), markers);
     std::vector<std::int32_t> facets;
     std::vector<Marker> values;
     for (std::size_t f = 0; f < markers.size(); ++f) {

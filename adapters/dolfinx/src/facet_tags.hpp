@@ -3,7 +3,7 @@
 #include <memory>
 #include <optional>
 
-#include <octetra/dolfinx/hand_over.hpp>
+#include <octetra/dolfinx/convert.hpp>
 
 #include "nodes.hpp"
 

@@ -17,7 +17,7 @@
 #include <octetra/core/orientation.hpp>
 #include <octetra/distributed/mesh_part.hpp>
 #include <octetra/distributed/mpi.hpp>
-#include <octetra/dolfinx/hand_over.hpp>
+#include <octetra/dolfinx/convert.hpp>
 
 namespace octetra::dolfinx {
 namespace {

@@ -78,8 +78,8 @@ void take_cells(const od::AdaptiveMesh& mesh, const od::GhostLayer& ghosts,
     nodes.ghost_cells.reserve(4 * ghosts.cells.size());
     std::size_t at = 0;
     for (std::size_t i = 0; i < inboxes.size(); ++i) {
-        for (const SentCell& come : inboxes[i]) {
-            nodes.cell_numbering.ghosts.push_back(come.cell);
+        for (const SentCell& received_cell : inboxes[i]) {
+            nodes.cell_numbering.ghosts.push_back(received_cell.cell);
             nodes.cell_numbering.owners.push_back(ghosts.exchanges[i].rank);
             for (std::size_t k = 0; k < 4; ++k) {
                 const std::size_t vertex = ghosts.cells[at][k].value();
@@ -88,8 +88,8 @@ void take_cells(const od::AdaptiveMesh& mesh, const od::GhostLayer& ghosts,
                     continue;
                 }
                 nodes.ghost_cells.push_back(static_cast<std::int32_t>(vertex));
-                numbering.ghosts[known + vertex - vertex_count] = come.nodes[k];
-                numbering.owners[known + vertex - vertex_count] = come.owners[k];
+                numbering.ghosts[known + vertex - vertex_count] = received_cell.nodes[k];
+                numbering.owners[known + vertex - vertex_count] = received_cell.owners[k];
             }
             ++at;
         }

@@ -13,7 +13,7 @@
 #include <dolfinx/mesh/cell_types.h>
 
 #include <octetra/distributed/mpi.hpp>
-#include <octetra/dolfinx/hand_over.hpp>
+#include <octetra/dolfinx/convert.hpp>
 
 #include "facet_tags.hpp"
 #include "nodes.hpp"

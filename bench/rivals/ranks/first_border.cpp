@@ -6,7 +6,7 @@
 #include <set>
 #include <vector>
 
-#include "rivals/ranks/tell.hpp"
+#include "rivals/ranks/exchange.hpp"
 
 namespace octetra::rivals {
 namespace {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <array>
 
-#include "rivals/ranks/tell.hpp"
+#include "rivals/ranks/exchange.hpp"
 #include "rivals/vertex_levels.hpp"
 
 namespace octetra::rivals {

@@ -8,35 +8,35 @@
 #include <vector>
 
 #include "rivals/border.hpp"
-#include "rivals/cutting.hpp"
+#include "rivals/ranks/exchange.hpp"
 #include "rivals/ranks/first_border.hpp"
 #include "rivals/ranks/number_midpoints.hpp"
-#include "rivals/ranks/tell.hpp"
+#include "rivals/refinement_state.hpp"
 
 namespace octetra::rivals {
 namespace {
 
 /// A message about an edge shared by sender and receiver.
-struct Word {
+struct EdgeMessage {
     std::uint32_t code = 0;
 
-    Word() = default;
-    Word(std::uint32_t number, bool is_ready) : code(number << 1U | (is_ready ? 1U : 0U)) {}
+    EdgeMessage() = default;
+    EdgeMessage(std::uint32_t number, bool is_ready) : code(number << 1U | (is_ready ? 1U : 0U)) {}
     [[nodiscard]] std::uint32_t number() const { return code >> 1U; }
     [[nodiscard]] bool is_ready() const { return (code & 1U) != 0; }  // otherwise only wanted
 };
 
-using Words = std::vector<std::vector<Word>>;  // for each rank, or from it
+using Messages = std::vector<std::vector<EdgeMessage>>;  // for each rank, or from it
 
 /// The progress of one rank towards one goal.
 class Rank {
 public:
-    Rank(const ProcessGroup& ranks, Cutting& cutting, Border& border)
+    Rank(const ProcessGroup& ranks, RefinementState& cutting, Border& border)
         : ranks_(&ranks), cutting_(&cutting), border_(&border) {}
 
     /// Applies received messages, and then does everything that needs no communication.
-    void work(const Words& told) {
-        hear(told);
+    void work(const Messages& received) {
+        apply_messages(received);
         for (const SharedEdgeIndex e : std::exchange(agreed_, {})) {
             cutting_->bisect({.ends = ascending(border_->edge(e).ends), .cell = {}, .shared = e});
             ++traffic_.shared_edges_bisected;
@@ -51,67 +51,68 @@ public:
     }
 
     /// Readiness implies that the rank wants the edge, so one message suffices.
-    Words speak() {
-        Words words(static_cast<std::size_t>(ranks_->size()));
+    Messages pending_messages() {
+        Messages messages(static_cast<std::size_t>(ranks_->size()));
         std::vector<WantedEdges::Edge> ready;
         const auto asked = cutting_->wanted().take_asked();
         cutting_->wanted().take_ready(ready);
         std::vector<SharedEdgeIndex> now_ready;
         for (const WantedEdges::Edge& edge : ready) {
-            traffic_.ready += tell(edge.shared, true, words);
+            traffic_.ready += tell(edge.shared, true, messages);
             now_ready.push_back(edge.shared);
         }
         std::ranges::sort(now_ready);
         for (const SharedEdgeIndex e : asked) {
             if (std::ranges::binary_search(now_ready, e)) continue;
-            traffic_.asked += tell(e, false, words);
+            traffic_.asked += tell(e, false, messages);
         }
-        for (const SharedEdgeIndex e : now_ready) one_more_is_ready(e);
-        for (const auto& to_rank : words) {
+        for (const SharedEdgeIndex e : now_ready) add_ready_rank(e);
+        for (const auto& to_rank : messages) {
             traffic_.messages += to_rank.empty() ? 0U : 1U;
-            traffic_.bytes += to_rank.size() * sizeof(Word);
+            traffic_.bytes += to_rank.size() * sizeof(EdgeMessage);
         }
-        return words;
+        return messages;
     }
 
     void count_round() { ++traffic_.rounds; }
     [[nodiscard]] const Traffic& traffic() const { return traffic_; }
 
 private:
-    std::size_t tell(SharedEdgeIndex e, bool is_ready, Words& words) {
+    std::size_t tell(SharedEdgeIndex e, bool is_ready, Messages& messages) {
         const auto& sharers = border_->edge(e).sharers;
         for (const auto& [n, number] : sharers) {
             const auto rank = static_cast<std::size_t>(border_->neighbours()[n]);
-            words[rank].emplace_back(number, is_ready);
+            messages[rank].emplace_back(number, is_ready);
         }
         return sharers.size();
     }
 
-    void hear(const Words& told) {
+    void apply_messages(const Messages& received) {
         for (std::uint32_t n = 0; n < border_->neighbours().size(); ++n) {
-            if (told.empty()) return;
-            for (const Word word : told[static_cast<std::size_t>(border_->neighbours()[n])]) {
-                const SharedEdgeIndex e = border_->edge_of({n, word.number()});
+            if (received.empty()) return;
+            for (const EdgeMessage message :
+                 received[static_cast<std::size_t>(border_->neighbours()[n])]) {
+                const SharedEdgeIndex e = border_->edge_of({n, message.number()});
                 cutting_->wanted().want_shared(e);
-                if (word.is_ready()) one_more_is_ready(e);
+                if (message.is_ready()) add_ready_rank(e);
             }
         }
     }
 
-    void one_more_is_ready(SharedEdgeIndex e) {
+    void add_ready_rank(SharedEdgeIndex e) {
         SharedEdge& edge = border_->edge(e);
         if (++edge.ready_ranks == edge.sharers.size() + 1) agreed_.push_back(e);
     }
 
     const ProcessGroup* ranks_;
-    Cutting* cutting_;
+    RefinementState* cutting_;
     Border* border_;
     std::vector<SharedEdgeIndex> agreed_;
     Traffic traffic_;
 };
 
-bool has_any(const Words& words) {
-    return std::ranges::any_of(words, [](const auto& of_rank) { return !of_rank.empty(); });
+bool has_any(const Messages& messages) {
+    return std::ranges::any_of(messages, [](const auto& of_rank) { return !of_rank.empty(); });
 }
 
 }  // namespace
@@ -129,7 +130,7 @@ struct TerminalEdgesOnRanks::State {
     PartOfMesh part;
     std::uint64_t vertex_count;
     std::optional<Border> border;
-    std::optional<Cutting> cutting;
+    std::optional<RefinementState> cutting;
 };
 
 TerminalEdgesOnRanks::TerminalEdgesOnRanks(const ProcessGroup& ranks, PartOfMesh part,
@@ -140,19 +141,19 @@ TerminalEdgesOnRanks::~TerminalEdgesOnRanks() = default;
 
 Traffic TerminalEdgesOnRanks::refine(const Goal& goal) {
     const ProcessGroup& ranks = *state_->ranks;
-    Cutting& cutting = *state_->cutting;
+    RefinementState& cutting = *state_->cutting;
     Rank rank(ranks, cutting, *state_->border);
-    Words told;
+    Messages received;
     on_each(ranks, [&] {
         cutting.begin(goal, std::numeric_limits<std::size_t>::max());
         rank.work({});
     });
     for (;;) {
-        const Words words = rank.speak();
-        if (ranks.sum(std::uint64_t{has_any(words) ? 1U : 0U}) == 0) break;
+        const Messages messages = rank.pending_messages();
+        if (ranks.sum(std::uint64_t{has_any(messages) ? 1U : 0U}) == 0) break;
         rank.count_round();
-        told = all_to_all(ranks, words);
-        on_each(ranks, [&] { rank.work(told); });
+        received = all_to_all(ranks, messages);
+        on_each(ranks, [&] { rank.work(received); });
     }
     if (cutting.wanted().count() > 0) throw std::logic_error("ranks wait for one another");
     return rank.traffic();

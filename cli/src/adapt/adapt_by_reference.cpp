@@ -16,7 +16,7 @@
 #include <octetra/reference/history.hpp>
 
 #include "adapt/check_files.hpp"
-#include "adapt/step_words.hpp"
+#include "adapt/step_texts.hpp"
 #include "commands/mesh_options.hpp"
 #include "commands/report_line.hpp"
 #include "commands/selection_options.hpp"
@@ -99,7 +99,7 @@ private:
                 if (!take_level()) return level - 1;
             } catch (const InputError& error) {
                 if (!was_changed) throw;
-                throw InputError(naming_the_level(error.what(), level, levels));
+                throw InputError(with_level(error.what(), level, levels));
             }
         }
         return levels;
@@ -140,14 +140,15 @@ public:
         complete(step.selection, step.typed.selection);
         const int levels = step.typed.levels;
         const int done = adapted_->refine(step.selection, step.scheme, levels);
-        return {levels_done("refined", done), idle_levels(done, levels, why_not_finer)};
+        return {levels_done("refined", done), idle_levels(done, levels, idle_refinement_reason)};
     }
     StepDone operator()(CoarsenStep step) const {
         complete(step.selection, step.typed.selection);
         const int levels = step.typed.levels;
         bool is_any = false;
         const int done = adapted_->coarsen(step.selection, step.typed.outside, levels, is_any);
-        return {levels_done("coarsened", done), idle_levels(done, levels, why_not_coarser(is_any))};
+        return {levels_done("coarsened", done),
+                idle_levels(done, levels, idle_coarsening_reason(is_any))};
     }
     StepDone operator()(const RebalanceStep&) const {
         return {"rebalanced, and no cell moved: most/mean cells 1.00", {}, false};
@@ -189,7 +190,7 @@ void refuse_what_the_reference_lacks(const AdaptationOptions& options, const Scr
 void run(AdaptedByReference& adapted, const Script& script, bool quiet, Stopwatch& watch) {
     for (const ScriptStep& step : script.steps) {
         const Mesh& mesh = adapted.mesh();
-        const std::string was = words_before(mesh.points.size(), mesh.cells.size());
+        const std::string was = sizes_before(mesh.points.size(), mesh.cells.size());
         StepDone done;
         try {
             done = std::visit(ReferenceRunner(adapted), step.step);

@@ -19,12 +19,12 @@
 #include <octetra/distributed/read_parts.hpp>
 #include <octetra/verify/verify.hpp>
 
-#include "adapt/carried_fields.hpp"
 #include "adapt/check_files.hpp"
 #include "adapt/judge_result.hpp"
 #include "adapt/maps_since.hpp"
 #include "adapt/predicted_by_steps.hpp"
 #include "adapt/run_script.hpp"
+#include "adapt/transfer_fields.hpp"
 #include "adapt/write_result.hpp"
 #include "answer.hpp"
 #include "commands/input_check.hpp"
@@ -130,7 +130,7 @@ JudgedMesh input_to_judge(const distributed::AdaptiveMesh& mesh, const Adaptatio
     if (!is_checkpoint(options.input.path)) return mesh_to_judge(mesh, options.input.path);
     Mesh input;
     mesh.processes().on_first([&] { input = read_checkpoint(options.input.path).input; });
-    verify::MeshSlice slice = verify::share_out(input, mesh.processes());
+    verify::MeshSlice slice = verify::distribute_slices(input, mesh.processes());
     const std::uint32_t index_base = slice.lists.index_base;
     return {options.input.path, index_base, std::move(slice)};
 }
@@ -207,17 +207,17 @@ void adapt(const AdaptationOptions& options, const Script& script,
     if (!options.maps.empty()) since.emplace(adaptive);
     const auto follow = [&](const distributed::Adaptation& step) {
         if (since) since->follow(step);
-        for (const std::string& dropped : carry_fields(fields, step, world)) {
+        for (const std::string& dropped : transfer_fields(fields, step, world)) {
             if (world.is_first()) note(dropped);
         }
     };
     const auto move_along = [&](const distributed::Migration& move) {
         if (since) since->follow(move);
-        carry_fields(fields, move);
+        transfer_fields(fields, move);
     };
     Series series(options.series, world);
     series.append(adaptive, fields);
-    const bool tells_origin = since.has_value() || tells_history(options.output);
+    const bool tells_origin = since.has_value() || records_origins(options.output);
     run_script(adaptive, script,
                {.input = read,
                 .has_steps = has_history,
@@ -235,7 +235,7 @@ void adapt(const AdaptationOptions& options, const Script& script,
         if (!is_valid(adaptive, std::move(coarse), options, script, read,
                       since ? &*since : nullptr)) {
             write_profile(world, options.profile, options.quiet);
-            throw AnswerIsNo{};
+            throw NegativeAnswer{};
         }
         report("verified");
     }

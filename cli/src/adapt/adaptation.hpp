@@ -36,7 +36,7 @@ struct AdaptationOptions {
 };
 
 /// Collective. `world` is measured if profiling was requested. Reads the mesh or its history, runs
-/// the steps, and verifies and writes the result. Throws AnswerIsNo if it is not valid.
+/// the steps, and verifies and writes the result. Throws NegativeAnswer if it is not valid.
 void adapt(const AdaptationOptions& options, const Script& script,
            const distributed::Communicator& world);
 

@@ -23,13 +23,13 @@ struct NumberedCell {
 };
 
 /// Returns the rendezvous rank of a cell.
-std::size_t meeting_place(const CellKey& key, std::size_t ranks) {
+std::size_t rendezvous_rank(const CellKey& key, std::size_t ranks) {
     return static_cast<std::size_t>((key[0] + key[1] + key[2] + key[3]) % ranks);
 }
 
 /// Collective. Sends all cells with their numbers to their rendezvous ranks; returns those
 /// received, sorted by key.
-std::vector<NumberedCell> bring_numbers(const distributed::AdaptiveMesh& mesh) {
+std::vector<NumberedCell> numbered_cells(const distributed::AdaptiveMesh& mesh) {
     const distributed::Communicator& world = mesh.processes();
     const auto ranks = static_cast<std::size_t>(world.size());
     distributed::CanonicalMesh canonical = mesh.canonical();
@@ -39,7 +39,7 @@ std::vector<NumberedCell> bring_numbers(const distributed::AdaptiveMesh& mesh) {
     std::uint64_t number = window.begin_of(world.rank());
     for (const VertexNumbers<4>& cell : canonical.whole().cells(window)) {
         const CellKey key = key_of(cell);
-        outboxes[meeting_place(key, ranks)].push_back({key, number++});
+        outboxes[rendezvous_rank(key, ranks)].push_back({key, number++});
     }
     std::vector<NumberedCell> all;
     for (const auto& inbox : world.all_to_all(outboxes)) {
@@ -55,23 +55,23 @@ std::vector<std::uint64_t> cell_numbers(const distributed::AdaptiveMesh& mesh) {
     const distributed::Communicator& world = mesh.processes();
     const auto ranks = static_cast<std::size_t>(world.size());
     const auto numbers = mesh.vertex_numbers();
-    std::vector<std::vector<CellKey>> questions(ranks);
-    std::vector<std::size_t> asked;
-    asked.reserve(mesh.cells().size());
+    std::vector<std::vector<CellKey>> requests(ranks);
+    std::vector<std::size_t> requested_ranks;
+    requested_ranks.reserve(mesh.cells().size());
     for (const CellVertices& cell : mesh.cells()) {
         CellKey key;
         for (std::size_t k = 0; k < 4; ++k) {
             key[k] = static_cast<std::uint64_t>(numbers[cell[k].value()]);
         }
         key = key_of(key);
-        asked.push_back(meeting_place(key, ranks));
-        questions[asked.back()].push_back(key);
+        requested_ranks.push_back(rendezvous_rank(key, ranks));
+        requests[requested_ranks.back()].push_back(key);
     }
-    const std::vector<NumberedCell> known = bring_numbers(mesh);
+    const std::vector<NumberedCell> known = numbered_cells(mesh);
     std::vector<std::vector<std::uint64_t>> answers(ranks);
-    const auto asked_here = world.all_to_all(questions);
+    const auto received_requests = world.all_to_all(requests);
     for (std::size_t rank = 0; rank < ranks; ++rank) {
-        for (const CellKey& key : asked_here[rank]) {
+        for (const CellKey& key : received_requests[rank]) {
             answers[rank].push_back(
                 std::ranges::lower_bound(known, key, {}, &NumberedCell::key)->number);
         }
@@ -79,8 +79,8 @@ std::vector<std::uint64_t> cell_numbers(const distributed::AdaptiveMesh& mesh) {
     const auto answered = world.all_to_all(answers);
     std::vector<std::size_t> next(ranks, 0);
     std::vector<std::uint64_t> of_cell;
-    of_cell.reserve(asked.size());
-    for (const std::size_t rank : asked) of_cell.push_back(answered[rank][next[rank]++]);
+    of_cell.reserve(requested_ranks.size());
+    for (const std::size_t rank : requested_ranks) of_cell.push_back(answered[rank][next[rank]++]);
     return of_cell;
 }
 

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "commands/files_apart.hpp"
+#include "commands/distinct_files.hpp"
 #include "commands/mesh_options.hpp"
 #include "script/check_script.hpp"
 
@@ -26,7 +26,7 @@ void check_files(const AdaptationOptions& options, const Script& script,
     }
     written.push_back(file_named("--series", options.series));
     written.insert(written.begin(), output_to_write("-o", options.input, options.output, ranks));
-    check_files_apart(read, written);
+    check_distinct_files(read, written);
     check_outputs_of(script, options.input, read, written, ranks);
     check_lists_of(script);
 }

@@ -15,7 +15,7 @@
 #include <octetra/distributed/profile.hpp>
 
 #include "adapt/run_steps.hpp"
-#include "adapt/step_words.hpp"
+#include "adapt/step_texts.hpp"
 #include "adapt/write_result.hpp"
 #include "commands/mesh_options.hpp"
 #include "commands/report_line.hpp"
@@ -42,7 +42,7 @@ double most_over_mean(const AdaptiveMesh& mesh) {
     return static_cast<double>(mesh.processes().max(here)) * mesh.processes().size() / all;
 }
 
-constexpr std::string_view why_not_more_even =
+constexpr std::string_view uneven_parts_reason =
     " (--series records the origin of cells at each step, so cells of the input move whole)";
 
 /// Collective. Restores the history that was discarded to move cells.
@@ -82,7 +82,7 @@ public:
         options.scheme = step.scheme;
         options.is_last = is_last_ && levels == 1;
         const int done = refine(*mesh_, step, options, balance_, followers(levels));
-        return {levels_done("refined", done), idle_levels(done, levels, why_not_finer)};
+        return {levels_done("refined", done), idle_levels(done, levels, idle_refinement_reason)};
     }
 
     StepDone operator()(CoarsenStep step) {
@@ -92,7 +92,7 @@ public:
         bool is_any_marked = false;
         const int done = coarsen(*mesh_, step, followers(levels), is_any_marked);
         return {levels_done("coarsened", done),
-                idle_levels(done, levels, why_not_coarser(is_any_marked))};
+                idle_levels(done, levels, idle_coarsening_reason(is_any_marked))};
     }
 
     StepDone operator()(const RebalanceStep&) {
@@ -102,7 +102,7 @@ public:
         if (!move.changed()) {
             const bool is_uneven = before > distributed::BalanceOptions{}.most_over_mean;
             return {fmt::format("rebalanced, and no cell moved: most/mean cells {:.2f}{}", before,
-                                is_uneven && !may_forget ? why_not_more_even : ""),
+                                is_uneven && !may_forget ? uneven_parts_reason : ""),
                     {},
                     false};
         }
@@ -114,7 +114,7 @@ public:
     }
 
     StepDone operator()(const WriteStep& step) {
-        if (tells_history(step.path)) recall_history_and_balance(*mesh_, *run_);
+        if (records_origins(step.path)) recall_history_and_balance(*mesh_, *run_);
         return {fmt::format("wrote {}", step.path), write_result(*mesh_, *run_->fields, step.path),
                 false};
     }
@@ -151,12 +151,12 @@ bool changes_cells(const ScriptStep& step) {
 void run_script(AdaptiveMesh& mesh, const Script& script, const ScriptRun& run, Stopwatch& watch) {
     Counts before = counts_of(mesh);
     bool is_refined = run.has_steps;
-    std::span<const ScriptStep> to_come(script.steps);
+    std::span<const ScriptStep> remaining_steps(script.steps);
     for (const ScriptStep& step : script.steps) {
-        to_come = to_come.subspan(1);
+        remaining_steps = remaining_steps.subspan(1);
         StepDone done;
         try {
-            const bool is_last = std::ranges::none_of(to_come, changes_cells);
+            const bool is_last = std::ranges::none_of(remaining_steps, changes_cells);
             done = std::visit(Runner(mesh, run, is_refined, is_last), step.step);
         } catch (const InputError& error) {
             throw wrong_line(script, step, error.what());
@@ -164,7 +164,7 @@ void run_script(AdaptiveMesh& mesh, const Script& script, const ScriptRun& run, 
         if (done.changes_mesh && run.on_changed) run.on_changed();
         const Counts after = counts_of(mesh);
         if (mesh.processes().is_first()) {
-            const std::string was = words_before(before.vertices, before.cells);
+            const std::string was = sizes_before(before.vertices, before.cells);
             const std::string doing =
                 script.path.empty()
                     ? done.what

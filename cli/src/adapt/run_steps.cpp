@@ -10,7 +10,7 @@
 #include <octetra/core/error.hpp>
 
 #include "adapt/marked_cells.hpp"
-#include "adapt/step_words.hpp"
+#include "adapt/step_texts.hpp"
 
 namespace octetra::cli {
 namespace {
@@ -20,19 +20,19 @@ using distributed::AdaptiveMesh;
 
 /// Runs a step. An error message contains the level counted from the input of the history; adds the
 /// level within this step.
-Adaptation naming_the_level(int level, int levels, const Followers& followers, auto&& take_step) {
+Adaptation with_level(int level, int levels, const Followers& followers, auto&& take_step) {
     try {
         return take_step();
     } catch (const InputError& error) {
         if (!followers.is_refined_before) throw;
-        throw InputError(cli::naming_the_level(error.what(), level, levels));
+        throw InputError(cli::with_level(error.what(), level, levels));
     }
 }
 
 /// Repeats a collective step, at most `levels` times, until it changes nothing.
 int repeat(AdaptiveMesh& mesh, int levels, const Followers& followers, auto&& take_step) {
     for (int level = 1; level <= levels; ++level) {
-        const Adaptation step = naming_the_level(level, levels, followers, take_step);
+        const Adaptation step = with_level(level, levels, followers, take_step);
         if (!step.changed) return level - 1;
         if (followers.on_step) followers.on_step(step);
         const std::uint64_t cells = mesh.processes().sum(mesh.cells().size());
@@ -50,7 +50,7 @@ std::vector<std::uint8_t> listed_or_none(const AdaptiveMesh& mesh,
 
 /// Collective. Returns the marks of the cells of this process that a step selects in the current
 /// mesh.
-std::vector<std::uint8_t> may_go(const AdaptiveMesh& mesh, const CoarsenStep& step) {
+std::vector<std::uint8_t> marks_to_coarsen(const AdaptiveMesh& mesh, const CoarsenStep& step) {
     std::vector<std::uint8_t> marked = listed_or_none(mesh, step.selection.cells);
     add_marked_cells(mesh, step.selection, marked);
     if (!step.typed.outside) return marked;
@@ -97,7 +97,7 @@ int refine(AdaptiveMesh& mesh, const RefineStep& step, const distributed::StepOp
 int coarsen(AdaptiveMesh& mesh, const CoarsenStep& step, const Followers& followers,
             bool& is_any_marked) {
     return repeat(mesh, step.typed.levels, followers, [&] {
-        const std::vector<std::uint8_t> marked = may_go(mesh, step);
+        const std::vector<std::uint8_t> marked = marks_to_coarsen(mesh, step);
         const bool marks_here = std::ranges::count(marked, 0) < std::ssize(marked);
         is_any_marked = mesh.processes().max(marks_here ? 1 : 0) == 1;
         return mesh.coarsen(std::span<const std::uint8_t>(marked));

@@ -32,7 +32,7 @@ void add_adapt(CLI::App& program, const distributed::Communicator& world) {
         ->add_option("--script", options->script,
                      "the steps, one per line, in order of execution; - for standard input")
         ->type_name("FILE")
-        ->check(names_a_file())
+        ->check(file_name_validator())
         ->required();
     add_output_option(*command, options->adaptation.output);
     command
@@ -40,7 +40,7 @@ void add_adapt(CLI::App& program, const distributed::Communicator& world) {
             "--series", options->adaptation.series,
             "also write MESH and the result of each step to one file for ParaView: .vtkhdf")
         ->type_name("FILE")
-        ->check(names_a_file());
+        ->check(file_name_validator());
     add_number(*command, "--max-cells", options->adaptation.max_cells, whole_numbers_from(1),
                "fail before a step that would exceed N cells")
         ->type_name("N");

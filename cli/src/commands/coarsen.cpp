@@ -46,7 +46,7 @@ void add_coarsen(CLI::App& program, const distributed::Communicator& world) {
         ->add_option("MESH", options->adaptation.input.path,
                      "the mesh with its history: .octetra, as written by refine and adapt")
         ->type_name("")
-        ->check(names_a_file())
+        ->check(file_name_validator())
         ->required();
     add_fields_option(*command, options->adaptation.input);
     add_output_option(*command, options->adaptation.output);

@@ -22,7 +22,7 @@ struct CompareOptions {
 
 bool run(const CompareOptions& options) {
     const auto comparison =
-        verify::compare(read_as_it_stands(options.a), read_as_it_stands(options.b));
+        verify::compare(read_without_checks(options.a), read_without_checks(options.b));
     print_comparison(comparison, options.a, options.b);
     return comparison.likeness == verify::Likeness::identical ||
            (!options.identical && comparison.likeness == verify::Likeness::up_to_numbering);
@@ -38,11 +38,11 @@ void add_compare(CLI::App& program, const distributed::Communicator& world) {
         "Exits with status 0 if they are the same, 1 if not, 2 if one cannot be read.");
     command->add_option("A", options->a, "a mesh")
         ->type_name("")
-        ->check(names_a_file())
+        ->check(file_name_validator())
         ->required();
     command->add_option("B", options->b, "another")
         ->type_name("")
-        ->check(names_a_file())
+        ->check(file_name_validator())
         ->required();
     command->add_flag("--identical", options->identical, "also require the same numbering");
     command->footer(
@@ -54,7 +54,7 @@ void add_compare(CLI::App& program, const distributed::Communicator& world) {
         std::vector<char> same{0};
         world.on_first([&] { same.front() = run(*options) ? 1 : 0; });
         world.broadcast(same);
-        if (same.front() == 0) throw AnswerIsNo{};
+        if (same.front() == 0) throw NegativeAnswer{};
     });
 }
 

@@ -10,13 +10,13 @@
 #include <CLI/CLI.hpp>
 #include <octetra/core/error.hpp>
 #include <octetra/core/files/checkpoint.hpp>
-#include <octetra/core/files/places.hpp>
+#include <octetra/core/files/output_paths.hpp>
 #include <octetra/distributed/adaptive_mesh.hpp>
 #include <octetra/distributed/communicator.hpp>
 
 #include "choice.hpp"
 #include "commands/commands.hpp"
-#include "commands/files_apart.hpp"
+#include "commands/distinct_files.hpp"
 #include "commands/mesh_options.hpp"
 
 namespace octetra::cli {
@@ -68,7 +68,7 @@ void convert_with_fields(const ConvertOptions& options, const WriteOptions& writ
 void convert(const ConvertOptions& options) {
     const WriteOptions writing = write_options(options);
     check_output_with_fields(options.input, options.output);
-    check_files_apart(
+    check_distinct_files(
         {mesh_named("MESH", options.input.path), file_named("--fields", options.input.fields)},
         {output_to_write("OUT", options.input, options.output)});
     if (is_checkpoint(options.input.path) || !options.input.fields.empty()) {
@@ -92,7 +92,7 @@ void add_convert(CLI::App& program, const distributed::Communicator& world) {
             "OUT", options->output,
             "the output: .ele, .mesh, .meshb, .msh, .octetra, .vtu, .pvtu, .vtkhdf or .xdmf")
         ->type_name("")
-        ->check(names_a_file())
+        ->check(file_name_validator())
         ->required();
     command
         ->add_option("--msh-format", options->msh_format,

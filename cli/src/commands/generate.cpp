@@ -9,7 +9,7 @@
 #include <CLI/CLI.hpp>
 
 #include <octetra/core/error.hpp>
-#include <octetra/core/files/places.hpp>
+#include <octetra/core/files/output_paths.hpp>
 #include <octetra/distributed/communicator.hpp>
 #include <octetra/generator/clouds.hpp>
 #include <octetra/generator/lattices.hpp>

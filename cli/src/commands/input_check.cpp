@@ -35,7 +35,7 @@ void check_input(const Mesh& mesh, const std::string& path,
     const distributed::Phase phase(world, "check");
     const verify::Verdict verdict =
         world.size() == 1 ? verify::verify_mesh(mesh)
-                          : verify::verify_mesh(verify::share_out(mesh, world), world);
+                          : verify::verify_mesh(verify::distribute_slices(mesh, world), world);
     refuse_unless_valid(verdict, {.fine = path, .fine_index_base = mesh.index_base}, world);
 }
 

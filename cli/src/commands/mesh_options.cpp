@@ -11,7 +11,7 @@
 #include <octetra/core/error.hpp>
 #include <octetra/core/files/checkpoint.hpp>
 #include <octetra/core/files/mesh_files.hpp>
-#include <octetra/core/files/places.hpp>
+#include <octetra/core/files/output_paths.hpp>
 #include <octetra/core/files/sol_files.hpp>
 
 #include "grouped.hpp"
@@ -25,7 +25,7 @@ void add_input_options(CLI::App& subcommand, InputOptions& options) {
             "MESH", options.path,
             "the mesh: .ele or .node (TetGen), .mesh or .meshb (Medit), .msh (Gmsh), .octetra")
         ->type_name("")
-        ->check(names_a_file())
+        ->check(file_name_validator())
         ->required();
     subcommand.add_flag("--fix-orientation", options.fix_orientation,
                         "reverse inverted cells instead of rejecting the mesh");
@@ -36,7 +36,7 @@ void add_fields_option(CLI::App& subcommand, InputOptions& options) {
         .add_option("--fields", options.fields,
                     "fields on MESH's vertices and cells to be transferred: .sol or .solb (Medit)")
         ->type_name("FILE")
-        ->check(names_a_file());
+        ->check(file_name_validator());
 }
 
 namespace {
@@ -45,7 +45,7 @@ namespace {
 std::optional<std::filesystem::path> fields_beside(const InputOptions& options,
                                                    const std::filesystem::path& output) {
     if (options.fields.empty() && !is_checkpoint(options.path)) return {};
-    return sol_beside(output);
+    return sol_path_for(output);
 }
 
 }  // namespace
@@ -64,7 +64,7 @@ void check_output_with_fields(const InputOptions& options, const std::filesystem
         throw InputError(
             fmt::format("--fields: {}: files of values end in .sol or .solb", options.fields));
     }
-    if (const auto beside = fields_beside(options, output)) check_place(*beside);
+    if (const auto beside = fields_beside(options, output)) check_output_path(*beside);
 }
 
 void read_fields(const distributed::AdaptiveMesh& mesh, const InputOptions& options,
@@ -85,11 +85,11 @@ void add_output_option(CLI::App& subcommand, std::string& path) {
             "-o,--output", path,
             "the output: .ele, .mesh, .meshb, .msh, .octetra, .vtu, .pvtu, .vtkhdf or .xdmf")
         ->type_name("OUT")
-        ->check(names_a_file())
+        ->check(file_name_validator())
         ->required();
 }
 
-CLI::Validator names_a_file() {
+CLI::Validator file_name_validator() {
     const auto refusal = [](const std::string& name) {
         if (name.empty()) return std::string("'' is not a file name");
         if (name.front() != '=') return std::string();
@@ -99,12 +99,13 @@ CLI::Validator names_a_file() {
 }
 
 void check_output(const std::filesystem::path& path, int ranks) {
-    is_checkpoint(path) ? check_place(path) : check_writable(path, ranks);
+    is_checkpoint(path) ? check_output_path(path) : check_writable(path, ranks);
 }
 
-bool tells_history(const std::filesystem::path& path) {
-    constexpr std::array<std::string_view, 5> silent{".node", ".ele", ".mesh", ".meshb", ".msh"};
-    return std::ranges::find(silent, path.extension()) == silent.end();
+bool records_origins(const std::filesystem::path& path) {
+    constexpr std::array<std::string_view, 5> without_origins{".node", ".ele", ".mesh", ".meshb",
+                                                              ".msh"};
+    return std::ranges::find(without_origins, path.extension()) == without_origins.end();
 }
 
 void check_side_file(std::string_view option, const std::filesystem::path& path) {
@@ -119,17 +120,17 @@ void check_side_file(std::string_view option, const std::filesystem::path& path)
         throw InputError(fmt::format("{}: {} is the name of a mesh file; choose another", option,
                                      path.native()));
     }
-    check_place(path);
+    check_output_path(path);
 }
 
 void check_series(const std::filesystem::path& path) {
     if (path.extension() != ".vtkhdf") {
         throw InputError(fmt::format("--series: {}: a series is a .vtkhdf file", path.native()));
     }
-    check_place(path);
+    check_output_path(path);
 }
 
-void note(std::string_view what) { tell("note: {}", what); }
+void note(std::string_view what) { print_message("note: {}", what); }
 
 std::string state_is_lost(const std::string& checkpoint) {
     return fmt::format(
@@ -147,14 +148,14 @@ void report_written(const Mesh& mesh, const std::string& path) {
 
 namespace {
 
-Mesh load_alone(const std::string& path) {
+Mesh load_serial(const std::string& path) {
     return distributed::AdaptiveMesh::load(distributed::Communicator(), path).collect();
 }
 
 }  // namespace
 
-Mesh read_as_it_stands(const std::string& path) {
-    if (is_checkpoint(path)) return load_alone(path);
+Mesh read_without_checks(const std::string& path) {
+    if (is_checkpoint(path)) return load_serial(path);
     return read_mesh(path, {.only_syntax = true, .note = note});
 }
 
@@ -163,7 +164,7 @@ ReadOptions read_options(const InputOptions& options) {
 }
 
 Mesh read_input(const InputOptions& options) {
-    if (is_checkpoint(options.path)) return load_alone(options.path);
+    if (is_checkpoint(options.path)) return load_serial(options.path);
     return read_mesh(options.path, read_options(options));
 }
 

@@ -12,7 +12,7 @@
 #include <octetra/distributed/adaptive_mesh.hpp>
 #include <octetra/distributed/field.hpp>
 
-#include "commands/files_apart.hpp"
+#include "commands/distinct_files.hpp"
 
 /// Options and functions common to the subcommands that read or write a mesh.
 namespace octetra::cli {
@@ -51,7 +51,7 @@ void check_output(const std::filesystem::path& path, int ranks = 1);
 
 /// Returns whether a file of this name records the origin of cells: a checkpoint, or a format that
 /// contains the parent of each cell.
-[[nodiscard]] bool tells_history(const std::filesystem::path& path);
+[[nodiscard]] bool records_origins(const std::filesystem::path& path);
 
 /// Checks in advance that an additional file (maps, parts) can be written to the path and would not
 /// replace a mesh. Throws InputError.
@@ -61,7 +61,7 @@ void check_side_file(std::string_view option, const std::filesystem::path& path)
 void check_series(const std::filesystem::path& path);
 
 /// A validator of file names: any text except "".
-[[nodiscard]] CLI::Validator names_a_file();
+[[nodiscard]] CLI::Validator file_name_validator();
 
 /// Prints a note to stderr: "octetra: note: ...".
 void note(std::string_view what);
@@ -73,7 +73,7 @@ void note(std::string_view what);
 [[nodiscard]] ReadOptions read_options(const InputOptions& options);
 [[nodiscard]] Mesh read_input(const InputOptions& options);
 /// Reads a mesh without semantic checks, for verification.
-[[nodiscard]] Mesh read_as_it_stands(const std::string& path);
+[[nodiscard]] Mesh read_without_checks(const std::string& path);
 
 /// Prints "wrote PATH: ... vertices, ... cells, ... facets" to stdout.
 void report_written(const Mesh& mesh, const std::string& path);

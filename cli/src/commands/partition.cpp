@@ -13,7 +13,7 @@
 #include <octetra/distributed/predicted_cells.hpp>
 
 #include "commands/commands.hpp"
-#include "commands/files_apart.hpp"
+#include "commands/distinct_files.hpp"
 #include "commands/mesh_options.hpp"
 #include "commands/number_options.hpp"
 #include "commands/parallel_options.hpp"
@@ -30,7 +30,8 @@ struct PartitionOptions {
     std::string method = "rcb";
     std::string output;
     RefinementOptions refinement;
-    bool says_how_refined = false;  ///< whether such options were given, even with default values
+    bool has_refinement_options =
+        false;  ///< whether such options were given, even with default values
 };
 
 void print_counts(std::string_view what, const std::vector<std::uint64_t>& counts) {
@@ -68,7 +69,7 @@ void note_empty_parts(const std::vector<std::uint64_t>& cells_of_part) {
 std::vector<float> weights_of(const Mesh& mesh, const PartitionOptions& options) {
     const SelectionOptions& typed = options.refinement.selection;
     if (!has_criterion(typed)) {
-        if (!options.says_how_refined) return {};
+        if (!options.has_refinement_options) return {};
         throw InputError(
             "partition: --levels, --scheme and --seed require a selection, as in --sphere X,Y,Z,R "
             "--levels 2");
@@ -94,7 +95,7 @@ void print_expected(const std::vector<int>& cell_to_part, const std::vector<floa
 void partition(const PartitionOptions& options) {
     const auto method = partition_named(options.method);
     if (!options.output.empty()) check_side_file("-o", options.output);
-    check_files_apart(
+    check_distinct_files(
         {mesh_named("MESH", options.input.path), file_named("--partition", method.path),
          file_named("--cells", options.refinement.selection.cells_file)},
         {file_named("-o", options.output)});
@@ -132,7 +133,7 @@ void add_partition(CLI::App& program, const distributed::Communicator& world) {
         ->add_option("-o,--output", options->output,
                      "also write the part of each cell, one per line")
         ->type_name("FILE")
-        ->check(names_a_file());
+        ->check(file_name_validator());
     add_refinement_options(
         *command, options->refinement,
         "Balance the cells expected after refinement of these cells (as for refine)");
@@ -142,7 +143,7 @@ void add_partition(CLI::App& program, const distributed::Communicator& world) {
         "  octetra partition gear.1.ele -n 4\n"
         "  octetra partition gear.1.ele -n 4 --sphere 1,0,0.15,0.4 --levels 2");
     command->callback([options, command, world] {
-        options->says_how_refined = says_how_refined(*command);
+        options->has_refinement_options = has_refinement_options(*command);
         world.on_first([&] { partition(*options); });
     });
 }

@@ -18,13 +18,13 @@ void add_profile_options(CLI::App& subcommand, ProfileOptions& options) {
         .add_option("--profile", options.profile,
                     "print times, messages and bytes of every phase, and write them as JSON")
         ->type_name("FILE")
-        ->check(names_a_file())
+        ->check(file_name_validator())
         ->group(group);
     subcommand
         .add_option("--trace", options.trace,
                     "write a timeline of all ranks, as JSON for ui.perfetto.dev")
         ->type_name("FILE")
-        ->check(names_a_file())
+        ->check(file_name_validator())
         ->group(group);
 }
 

@@ -13,7 +13,7 @@
 #include <octetra/core/files/checkpoint.hpp>
 #include <octetra/core/files/maps_files.hpp>
 #include <octetra/core/files/mesh_files.hpp>
-#include <octetra/core/files/places.hpp>
+#include <octetra/core/files/output_paths.hpp>
 #include <octetra/core/mesh_source.hpp>
 #include <octetra/distributed/canonical_mesh.hpp>
 #include <octetra/distributed/communicator.hpp>
@@ -27,7 +27,7 @@
 #include "adapt/adaptation.hpp"
 #include "answer.hpp"
 #include "commands/commands.hpp"
-#include "commands/files_apart.hpp"
+#include "commands/distinct_files.hpp"
 #include "commands/input_check.hpp"
 #include "commands/mesh_options.hpp"
 #include "commands/number_options.hpp"
@@ -54,7 +54,7 @@ Plan plan_of(const RefineOptions& options) {
 }
 
 /// Runs an engine, and prepends the name of the mesh to its errors.
-auto naming_the_mesh(const RefineOptions& options, auto&& engine) {
+auto with_mesh_name(const RefineOptions& options, auto&& engine) {
     try {
         return engine();
     } catch (const InputError& error) {
@@ -128,7 +128,7 @@ bool refine_by_reference(Plan plan, const RefineOptions& options,
     world.on_first([&] {
         const distributed::Phase phase(world, "refine");
         const int levels = options.refinement.levels;
-        fine = naming_the_mesh(options, [&] {
+        fine = with_mesh_name(options, [&] {
             return reference::refine(mesh, plan.selection, plan.scheme, levels, options.max_cells);
         });
         const bool idle = fine.mesh.cells.size() == mesh.cells.size();
@@ -194,9 +194,9 @@ bool refine_distributed(Plan plan, const RefineOptions& options,
         // The origin of cells is needed only in these cases.
         plan.balance->may_forget_history = options.maps.empty() && !options.verify &&
                                            plan.selection.cells.empty() &&
-                                           !tells_history(options.output);
+                                           !records_origins(options.output);
     }
-    naming_the_mesh(options, [&] {
+    with_mesh_name(options, [&] {
         distributed::refine(parts, plan.selection,
                             {.scheme = plan.scheme,
                              .levels = options.refinement.levels,
@@ -212,16 +212,17 @@ bool refine_distributed(Plan plan, const RefineOptions& options,
     }
     if (verify_alone) {
         const auto fine =
-            naming_the_mesh(options, [&] { return distributed::collect(std::move(parts)); });
+            with_mesh_name(options, [&] { return distributed::collect(std::move(parts)); });
         report_parts(WholeMesh(fine.mesh, &fine.maps).facts());
         return judge_and_write(coarse, fine.mesh, fine.maps, plan, options, world, watch);
     }
     auto fine =
-        naming_the_mesh(options, [&] { return distributed::CanonicalMesh(std::move(parts)); });
+        with_mesh_name(options, [&] { return distributed::CanonicalMesh(std::move(parts)); });
     report_parts(fine.facts());
     if (verify_together) {
         const distributed::Phase phase(world, "verify");
-        if (!is_valid_together(std::move(coarse_slice), fine, plan, options, world)) return false;
+        if (!is_valid_distributed(std::move(coarse_slice), fine, plan, options, world))
+            return false;
         if (world.is_first()) {
             report(options, "verified", fine.facts().vertices, fine.facts().cells, watch.lap());
         }
@@ -243,7 +244,7 @@ void check_outputs(const RefineOptions& options, const Plan& plan, int ranks) {
     for (const auto& [option, files] : beside) {
         for (const std::filesystem::path& file : files) check_side_file(option, file);
     }
-    check_files_apart(
+    check_distinct_files(
         {mesh_named("MESH", options.input.path),
          file_named("--cells", options.refinement.selection.cells_file),
          file_named("--partition", plan.partition.path)},
@@ -290,7 +291,7 @@ void refine(const RefineOptions& options, const distributed::Communicator& all) 
                           ? refine_by_reference(plan, options, world, watch)
                           : refine_distributed(plan, options, world, watch);
     write_profile(world, options.profile, options.quiet);
-    if (!done) throw AnswerIsNo{};
+    if (!done) throw NegativeAnswer{};
 }
 
 void add_engine_options(CLI::App& command, RefineOptions& options) {
@@ -322,7 +323,7 @@ void add_refine(CLI::App& program, const distributed::Communicator& world) {
         ->add_option("--maps", options->maps,
                      "also write the parent of each cell and the edge of each midpoint, as text")
         ->type_name("FILE")
-        ->check(names_a_file());
+        ->check(file_name_validator());
     add_profile_options(*refine_command, options->profile);
     refine_command->add_flag("--check", options->check,
                              "verify MESH (as octetra verify), and refine it only if it is valid");

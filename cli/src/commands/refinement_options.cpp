@@ -31,7 +31,7 @@ bool was_given(const CLI::App& subcommand, std::string_view name) {
     });
 }
 
-bool says_how_refined(const CLI::App& subcommand) {
+bool has_refinement_options(const CLI::App& subcommand) {
     return was_given(subcommand, "levels") || was_given(subcommand, "scheme") ||
            was_given(subcommand, "seed");
 }

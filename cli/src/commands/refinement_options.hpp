@@ -25,7 +25,7 @@ void add_refinement_options(CLI::App& subcommand, RefinementOptions& options,
 
 /// Returns whether --levels, --scheme or --seed was given, even with the default value. They have
 /// no meaning without a criterion.
-[[nodiscard]] bool says_how_refined(const CLI::App& subcommand);
+[[nodiscard]] bool has_refinement_options(const CLI::App& subcommand);
 
 /// Throws InputError for an unknown scheme.
 [[nodiscard]] Scheme parse_scheme(const RefinementOptions& options);

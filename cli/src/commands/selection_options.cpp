@@ -70,7 +70,7 @@ void add_selection_options(CLI::App& subcommand, SelectionOptions& options,
         .add_option("--cells", options.cells_file,
                     "cells listed in a file, with the numbers of MESH")
         ->type_name("FILE")
-        ->check(names_a_file())
+        ->check(file_name_validator())
         ->group(group);
     subcommand
         .add_option("--sphere", options.spheres, "cells with their centroid closer than R to X,Y,Z")

@@ -17,7 +17,7 @@
 
 #include "answer.hpp"
 #include "commands/commands.hpp"
-#include "commands/files_apart.hpp"
+#include "commands/distinct_files.hpp"
 #include "commands/mesh_options.hpp"
 #include "commands/number_options.hpp"
 #include "commands/refinement_options.hpp"
@@ -36,8 +36,9 @@ struct VerifyCommandOptions {
     std::string report;
     std::string maps;
     RefinementOptions refinement;
-    bool says_how_refined = false;  ///< whether such options were given, even with default values
-    bool says_scheme = false;
+    bool has_refinement_options =
+        false;  ///< whether such options were given, even with default values
+    bool has_scheme = false;
     std::string before;  ///< the checkpoint before coarsening
     bool outside = false;
 };
@@ -60,7 +61,7 @@ Coarsened coarsened_of(const VerifyCommandOptions& given) {
     if (!given.second.empty()) {
         throw InputError("verify: --coarsened-from takes one mesh, the coarsened one, not two");
     }
-    if (given.says_scheme) {
+    if (given.has_scheme) {
         throw InputError("verify: --scheme applies to refinement, not to coarsening");
     }
     const RefinementOptions& typed = given.refinement;
@@ -88,7 +89,7 @@ verify::VerifyOptions options_of(const VerifyCommandOptions& given) {
     if (given.second.empty() && !given.maps.empty()) {
         throw InputError("verify: --maps can be checked only with COARSE and REFINED");
     }
-    if (given.before.empty() && !options.request && given.says_how_refined) {
+    if (given.before.empty() && !options.request && given.has_refinement_options) {
         throw InputError(
             "verify: --levels, --scheme and --seed require a selection, as in --all --levels 2");
     }
@@ -100,12 +101,12 @@ verify::VerifyOptions options_of(const VerifyCommandOptions& given) {
 
 verify::Verdict judge(const VerifyCommandOptions& given, verify::VerifyOptions options,
                       JudgedFiles& judged) {
-    const Mesh first = read_as_it_stands(given.first);
+    const Mesh first = read_without_checks(given.first);
     if (given.second.empty()) {
         judged = {.fine = given.first, .fine_index_base = first.index_base};
         return verify_mesh(first, options);
     }
-    const Mesh second = read_as_it_stands(given.second);
+    const Mesh second = read_without_checks(given.second);
     judged = {given.second, given.first, second.index_base, first.index_base};
     if (options.request) {
         complete_selection(options.request->selection, given.refinement.selection,
@@ -140,8 +141,8 @@ void share_maps(RefinementMaps& maps, const distributed::Communicator& world) {
 }
 
 /// Collective. Every process verifies a part; none holds a whole mesh.
-verify::Verdict judge_together(const VerifyCommandOptions& given, verify::VerifyOptions options,
-                               JudgedFiles& judged, const distributed::Communicator& world) {
+verify::Verdict verify_distributed(const VerifyCommandOptions& given, verify::VerifyOptions options,
+                                   JudgedFiles& judged, const distributed::Communicator& world) {
     verify::MeshSlice first = read_slice(given.first, world);
     const std::uint32_t index_base = first.lists.index_base;
     if (given.second.empty()) {
@@ -173,25 +174,25 @@ bool run(const VerifyCommandOptions& given, const distributed::Communicator& wor
     world.on_first([&] {
         if (given.report.empty()) return;
         check_side_file("--report", given.report);
-        check_files_apart(
+        check_distinct_files(
             {mesh_named("MESH", given.first), mesh_named("REFINED", given.second),
              mesh_named("--coarsened-from", given.before), file_named("--maps", given.maps),
              file_named("--cells", given.refinement.selection.cells_file)},
             {file_named("--report", given.report)});
     });
     CheckProgress progress;
-    if (world.is_first()) options.progress = progress.listener();
+    if (world.is_first()) options.progress = progress.progress_callback();
     JudgedFiles judged;
     verify::Verdict verdict;
     if (!given.before.empty()) {
         world.on_first([&] {
-            verdict = judge_coarsened(coarsened, read_as_it_stands(given.first), given.first,
+            verdict = judge_coarsened(coarsened, read_without_checks(given.first), given.first,
                                       options, judged);
         });
     } else if (world.size() == 1) {
         verdict = judge(given, options, judged);
     } else {
-        verdict = judge_together(given, options, judged, world);
+        verdict = verify_distributed(given, options, judged, world);
     }
     progress.clear();
     world.on_first([&] {
@@ -210,12 +211,12 @@ void add_verify(CLI::App& program, const distributed::Communicator& world) {
         "Verify a mesh, or one as the refinement or coarsening of another, in exact arithmetic");
     command->add_option("MESH", options->first, "the mesh; with REFINED, the coarse mesh")
         ->type_name("")
-        ->check(names_a_file())
+        ->check(file_name_validator())
         ->required();
     command
         ->add_option("REFINED", options->second, "the mesh to be verified as a refinement of MESH")
         ->type_name("")
-        ->check(names_a_file());
+        ->check(file_name_validator());
     command->add_flag("--fast", options->fast,
                       "skip checks that need spatial searches, exact sums or angles");
     add_number<double>(*command, "--min-dihedral", options->min_dihedral, {0, 180, "0 to 180"},
@@ -223,18 +224,18 @@ void add_verify(CLI::App& program, const distributed::Communicator& world) {
         ->type_name("D");
     command->add_option("--report", options->report, "also write all findings, as JSON")
         ->type_name("FILE")
-        ->check(names_a_file());
+        ->check(file_name_validator());
     command
         ->add_option("--maps", options->maps,
                      "also check the parents and midpoints written by refine --maps")
         ->type_name("FILE")
-        ->check(names_a_file());
+        ->check(file_name_validator());
     command
         ->add_option(
             "--coarsened-from", options->before,
             "verify MESH as the result of coarsening this mesh in the cells selected below")
         ->type_name("STATE.octetra")
-        ->check(names_a_file());
+        ->check(file_name_validator());
     command->add_flag("--outside", options->outside,
                       "with --coarsened-from: select the cells that no criterion selects");
     add_refinement_options(*command, options->refinement,
@@ -254,9 +255,9 @@ void add_verify(CLI::App& program, const distributed::Communicator& world) {
         "  octetra verify coarser.octetra --coarsened-from fine.octetra --sphere 1,0,0.1,0.3\n"
         "  mpirun -n 4 octetra verify gear.1.ele fine.1.ele");
     command->callback([options, command, world] {
-        options->says_how_refined = says_how_refined(*command);
-        options->says_scheme = was_given(*command, "scheme");
-        if (!run(*options, world)) throw AnswerIsNo{};
+        options->has_refinement_options = has_refinement_options(*command);
+        options->has_scheme = was_given(*command, "scheme");
+        if (!run(*options, world)) throw NegativeAnswer{};
     });
 }
 

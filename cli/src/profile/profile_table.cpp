@@ -45,15 +45,15 @@ std::vector<ProfiledPhase> summed_over_levels(const GatheredProfile& profile) {
 }
 
 /// Formats bytes in decimal units, with about three digits.
-std::string bytes_for_people(double bytes) {
+std::string formatted_bytes(double bytes) {
     constexpr std::array<std::string_view, 5> units{"B", "kB", "MB", "GB", "TB"};
     std::size_t unit = 0;
     for (; bytes >= 999.5 && unit + 1 < units.size(); ++unit) bytes /= 1000;
     return fmt::format("{:.{}f} {}", bytes, unit > 0 && bytes < 99.95 ? 1 : 0, units[unit]);
 }
 
-std::string bytes_for_people(std::uint64_t bytes) {
-    return bytes_for_people(static_cast<double>(bytes));
+std::string formatted_bytes(std::uint64_t bytes) {
+    return formatted_bytes(static_cast<double>(bytes));
 }
 
 /// The unit of time: milliseconds for short runs.
@@ -84,11 +84,11 @@ std::string phase_line(std::string_view name, const std::vector<PhaseCounts>& of
                        times(each(of_rank, &PhaseCounts::computing_seconds), unit),
                        times(each(of_rank, &PhaseCounts::communicating_seconds), unit),
                        grouped(spread(each(of_rank, &PhaseCounts::messages)).sum),
-                       bytes_for_people(spread(each(of_rank, &PhaseCounts::bytes)).sum),
+                       formatted_bytes(spread(each(of_rank, &PhaseCounts::bytes)).sum),
                        spread(each(of_rank, &PhaseCounts::rounds)).max);
 }
 
-std::string_view name_for_people(std::string_view phase) {
+std::string_view display_name(std::string_view phase) {
     if (phase == "level") return "rest of levels";
     return phase;
 }
@@ -103,7 +103,7 @@ std::string phase_table(const GatheredProfile& profile) {
                         "min", "mean", "max", "min", "mean", "max", "messages", "bytes", "rounds");
     std::vector<PhaseCounts> total;
     for (const ProfiledPhase& phase : summed_over_levels(profile)) {
-        text += phase_line(name_for_people(phase.name), phase.of_rank, unit);
+        text += phase_line(display_name(phase.name), phase.of_rank, unit);
         add_to(total, phase);
     }
     return text + phase_line("total", total, unit);
@@ -122,7 +122,7 @@ std::string level_line(const GatheredProfile& profile, const ProfiledLevel& leve
     if (level.level == 0) return what + "\n";
     return what + fmt::format(" {:>10} {:>9} {:>6}\n",
                               grouped(spread(each(counts, &PhaseCounts::messages)).sum),
-                              bytes_for_people(spread(each(counts, &PhaseCounts::bytes)).sum),
+                              formatted_bytes(spread(each(counts, &PhaseCounts::bytes)).sum),
                               spread(each(counts, &PhaseCounts::rounds)).max);
 }
 
@@ -141,8 +141,8 @@ std::string format_profile_table(const GatheredProfile& profile) {
     const auto memory = spread(profile.peak_memory_of_rank);
     return phase_table(profile) + level_table(profile) +
            fmt::format("\npeak memory of a rank: min {}, mean {}, max {}\n",
-                       bytes_for_people(memory.min), bytes_for_people(memory.mean),
-                       bytes_for_people(memory.max)) +
+                       formatted_bytes(memory.min), formatted_bytes(memory.mean),
+                       formatted_bytes(memory.max)) +
            "Seconds are wall clock; communicating includes waiting. Reductions and broadcasts are "
            "no\n"
            "messages; the JSON file counts them.\n";

@@ -9,7 +9,7 @@
 
 #include <octetra/core/error.hpp>
 #include <octetra/core/files/lists.hpp>
-#include <octetra/core/files/places.hpp>
+#include <octetra/core/files/output_paths.hpp>
 
 #include "commands/mesh_options.hpp"
 
@@ -37,7 +37,7 @@ void check_each(const Script& script, auto&& check) {
 
 /// The output files so far, by their final paths. Avoids a quadratic number of comparisons for long
 /// scripts.
-class WrittenPlaces {
+class OutputPaths {
 public:
     struct Name {
         std::string argument;
@@ -45,11 +45,12 @@ public:
     };
 
     void add(const std::string& argument, const std::vector<std::filesystem::path>& files) {
-        for (const auto& file : files) places_.try_emplace(place_of(file), Name{argument, file});
+        for (const auto& file : files)
+            places_.try_emplace(resolved_path(file), Name{argument, file});
     }
     /// Returns the argument that already writes this file, or null.
     [[nodiscard]] const Name* find(const std::filesystem::path& file) const {
-        const auto found = places_.find(place_of(file));
+        const auto found = places_.find(resolved_path(file));
         return found == places_.end() ? nullptr : &found->second;
     }
 
@@ -73,14 +74,14 @@ std::vector<NamedFiles> files_read_by(const Script& script) {
 void check_outputs_of(const Script& script, const InputOptions& input,
                       const std::vector<NamedFiles>& read, const std::vector<NamedFiles>& written,
                       int ranks) {
-    WrittenPlaces places;
+    OutputPaths places;
     for (const NamedFiles& files : written) places.add(std::string(files.argument), files.files);
     check_each(script, [&](const ScriptStep& step) {
         const auto* write = std::get_if<WriteStep>(&step.step);
         if (write == nullptr) return;
         check_output_with_fields(input, write->path, ranks);
         const NamedFiles files = output_to_write(step.word, input, write->path, ranks);
-        check_files_apart(read, {files});
+        check_distinct_files(read, {files});
         for (const auto& file : files.files) {
             if (const auto* other = places.find(file)) {
                 refuse_same_file(other->argument, other->path, step.word, file);
@@ -91,11 +92,11 @@ void check_outputs_of(const Script& script, const InputOptions& input,
 }
 
 void check_lists_of(const Script& script) {
-    constexpr auto any_number = std::numeric_limits<std::size_t>::max();
+    constexpr auto unlimited = std::numeric_limits<std::size_t>::max();
     check_each(script, [&](const ScriptStep& step) {
         const SelectionOptions* criteria = criteria_of(step.step);
         if (criteria == nullptr || criteria->cells_file.empty()) return;
-        (void)read_cell_list(criteria->cells_file, 0, any_number);
+        (void)read_cell_list(criteria->cells_file, 0, unlimited);
     });
 }
 

@@ -4,7 +4,7 @@
 
 #include <octetra/core/mesh_source.hpp>
 
-#include "commands/files_apart.hpp"
+#include "commands/distinct_files.hpp"
 #include "commands/mesh_options.hpp"
 #include "script/read_script.hpp"
 

@@ -108,12 +108,12 @@ Step parse_save(const std::vector<std::string>& words) {
     return step;
 }
 
-struct StepWord {
+struct StepParser {
     std::string_view word;
     Step (*parse)(std::vector<std::string> options);
 };
 
-constexpr std::array<StepWord, 5> step_words{
+constexpr std::array<StepParser, 5> step_parsers{
     {{"refine", parse_refine},
      {"coarsen", parse_coarsen},
      {"rebalance", [](std::vector<std::string> words) { return parse_rebalance(words); }},
@@ -122,7 +122,7 @@ constexpr std::array<StepWord, 5> step_words{
 
 [[noreturn]] void refuse_word(const std::string& word) {
     std::vector<std::string> names;
-    for (const auto& [name, parse] : step_words) names.emplace_back(name);
+    for (const auto& [name, parse] : step_parsers) names.emplace_back(name);
     throw InputError(fmt::format("a step begins with one of {}, not '{}'{}", fmt::join(names, ", "),
                                  word, did_you_mean(word, names)));
 }
@@ -133,8 +133,8 @@ ScriptStep parse_step(std::string_view line) {
     std::vector<std::string> words = words_of(line);
     const std::string word = words.front();
     const auto* const known =
-        std::ranges::find_if(step_words, [&](const StepWord& s) { return s.word == word; });
-    if (known == step_words.end()) refuse_word(word);
+        std::ranges::find_if(step_parsers, [&](const StepParser& s) { return s.word == word; });
+    if (known == step_parsers.end()) refuse_word(word);
     words.erase(words.begin());
     return {0, word, known->parse(std::move(words))};
 }

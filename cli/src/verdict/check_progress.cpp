@@ -8,9 +8,9 @@
 
 namespace octetra::cli {
 
-verify::Progress CheckProgress::listener() {
+verify::Progress CheckProgress::progress_callback() {
     if (::isatty(STDERR_FILENO) == 0) return {};
-    return [this](std::string_view check, double share) { hear(check, share); };
+    return [this](std::string_view check, double share) { show(check, share); };
 }
 
 void CheckProgress::clear() {
@@ -19,7 +19,7 @@ void CheckProgress::clear() {
     is_shown_ = false;
 }
 
-void CheckProgress::hear(std::string_view check, double share) {
+void CheckProgress::show(std::string_view check, double share) {
     constexpr std::chrono::seconds silent{1};
     constexpr std::chrono::milliseconds between{100};
     const auto now = Clock::now();

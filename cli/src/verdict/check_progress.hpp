@@ -19,13 +19,13 @@ public:
 
     /// Returns the callback for the verifier; empty if stderr is not a terminal. Valid during the
     /// lifetime of the object.
-    [[nodiscard]] verify::Progress listener();
+    [[nodiscard]] verify::Progress progress_callback();
     void clear();
 
 private:
     using Clock = std::chrono::steady_clock;
 
-    void hear(std::string_view check, double share);
+    void show(std::string_view check, double share);
 
     std::string check_;
     Clock::time_point since_;

@@ -33,8 +33,8 @@ std::string describe(const verify::Entity& entity, const JudgedFiles& judged) {
         }
         text = fmt::format("{} ({})", kind_of(entity), text);
     }
-    constexpr std::array<std::string_view, 3> whose{"", "coarse ", "previous "};
-    return std::string(whose[static_cast<std::size_t>(entity.mesh)]) + text;
+    constexpr std::array<std::string_view, 3> mesh_prefixes{"", "coarse ", "previous "};
+    return std::string(mesh_prefixes[static_cast<std::size_t>(entity.mesh)]) + text;
 }
 
 }  // namespace octetra::cli

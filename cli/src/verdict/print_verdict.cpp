@@ -56,7 +56,7 @@ void print_violations(const Verdict& verdict, const JudgedFiles& judged) {
 }
 
 /// Prints to which files numbers refer, if the files have different index bases.
-void print_whose_numbers(const Verdict& verdict, const JudgedFiles& judged) {
+void print_index_bases(const Verdict& verdict, const JudgedFiles& judged) {
     if (verdict.valid() || judged.coarse.empty()) return;
     if (judged.fine_index_base == judged.coarse_index_base) return;
     print(
@@ -118,7 +118,7 @@ void print_facts(const Verdict& verdict, bool of_refinement) {
 void print_verdict(const Verdict& verdict, const JudgedFiles& judged) {
     print_checks(verdict);
     print_violations(verdict, judged);
-    print_whose_numbers(verdict, judged);
+    print_index_bases(verdict, judged);
     print_facts(verdict, !judged.coarse.empty());
     const bool fast = std::any_of(verdict.checks.begin(), verdict.checks.end(),
                                   [](const auto& check) { return check.note == verify::not_fast; });

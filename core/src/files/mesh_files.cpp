@@ -11,7 +11,7 @@
 
 #include <octetra/core/error.hpp>
 #include <octetra/core/files/checkpoint.hpp>
-#include <octetra/core/files/places.hpp>
+#include <octetra/core/files/output_paths.hpp>
 #include <octetra/core/files/sol_files.hpp>
 #include <octetra/core/standard_arithmetic.hpp>
 
@@ -113,14 +113,14 @@ std::vector<FieldFacts> losing_their_names(const std::vector<FieldFacts>& held) 
     std::array<std::size_t, 2> count{};
     for (const FieldFacts& field : held) {
         const std::size_t number = ++count.at(static_cast<std::size_t>(field.on));
-        if (field.name != name_in_sol(number)) losing.push_back(field);
+        if (field.name != sol_field_name(number)) losing.push_back(field);
     }
     return losing;
 }
 
 void add_lost_fields(std::string& lost, const MeshSource& mesh, const fs::path& path) {
     if (mesh.fields().empty() || can_hold_fields(path)) return;
-    const std::optional<fs::path> beside = sol_beside(path);
+    const std::optional<fs::path> beside = sol_path_for(path);
     std::vector<FieldFacts> held;
     std::vector<FieldFacts> left_out;
     for (const FieldFacts& field : mesh.fields()) {

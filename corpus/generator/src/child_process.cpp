@@ -24,7 +24,7 @@ namespace {
     throw SystemError(fmt::format("{} failed: {}", doing, std::strerror(errno)));
 }
 
-void be_silent() {
+void discard_output() {
     const int nowhere = ::open("/dev/null", O_WRONLY | O_CLOEXEC);
     if (nowhere < 0) return;
     ::dup2(nowhere, STDOUT_FILENO);
@@ -32,21 +32,21 @@ void be_silent() {
 }
 
 /// Ensures that the child is killed if the parent terminates.
-void end_with(pid_t parent) {
+void die_with_parent(pid_t parent) {
     ::prctl(PR_SET_PDEATHSIG, SIGKILL);
     if (::getppid() != parent) ::_exit(EXIT_FAILURE);  // the parent has already terminated
 }
 
 /// Resets signal handlers: those of the parent, a sanitizer's for example, would end the child with
 /// a different exit status.
-void end_by_signals() {
+void reset_signal_handlers() {
     for (const int signal : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT})
         std::signal(signal, SIG_DFL);
 }
 
-[[noreturn]] void be_child(int pipe_end, const std::function<int(ToParent&)>& work) noexcept {
-    be_silent();
-    end_by_signals();
+[[noreturn]] void run_child(int pipe_end, const std::function<int(ToParent&)>& work) noexcept {
+    discard_output();
+    reset_signal_handlers();
     const rlimit no_core_file{0, 0};
     ::setrlimit(RLIMIT_CORE, &no_core_file);
     ToParent parent(pipe_end);
@@ -125,8 +125,8 @@ ChildResult run_in_child(const std::function<int(ToParent&)>& work) {
     }
     if (process == 0) {
         ::close(read_end);
-        end_with(parent);
-        be_child(write_end, work);
+        die_with_parent(parent);
+        run_child(write_end, work);
     }
     ::close(write_end);
     return Child(process, read_end).finish();

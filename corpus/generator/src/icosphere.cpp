@@ -51,9 +51,8 @@ private:
             sum.y += weight * corners[corner].y;
             sum.z += weight * corners[corner].z;
         }
-        const double stretch = radius_ / std::sqrt(sum.x * sum.x + sum.y * sum.y + sum.z * sum.z);
-        return {centre_.x + stretch * sum.x, centre_.y + stretch * sum.y,
-                centre_.z + stretch * sum.z};
+        const double scale = radius_ / std::sqrt(sum.x * sum.x + sum.y * sum.y + sum.z * sum.z);
+        return {centre_.x + scale * sum.x, centre_.y + scale * sum.y, centre_.z + scale * sum.z};
     }
 
     Complex* complex_;

@@ -8,7 +8,7 @@
 
 #include <octetra/core/checkpoint_blocks.hpp>
 #include <octetra/core/error.hpp>
-#include <octetra/core/files/places.hpp>
+#include <octetra/core/files/output_paths.hpp>
 #include <octetra/distributed/profile.hpp>
 
 #include "history/cut_roots.hpp"
@@ -160,7 +160,7 @@ void write_checkpoint(const SavedMesh& saved, std::span<const Field> fields,
     check_sizes(*saved.mesh, fields);
     check_same(processes, fields);
     check_state(processes, *saved.state);
-    if (processes.is_first()) check_place(path);
+    if (processes.is_first()) check_output_path(path);
 
     CanonicalSlices input(*saved.input);
     const CanonicalRuns cells = canonical_runs(processes, saved.mesh->cell_ancestors);

@@ -64,10 +64,10 @@ Field field_of_rows(const FieldRows& list, const std::vector<double>& rows, std:
     values.reserve(rows.size() / width * components);
     for (std::size_t row = 0; row < rows.size(); row += width) {
         for (std::size_t k = 0; k < components; ++k) {
-            values.push_back(rows[row + first_component + place_in_sol(k, components)]);
+            values.push_back(rows[row + first_component + sol_component_position(k, components)]);
         }
     }
-    return {name_in_sol(number + 1), list.on, components, std::move(values)};
+    return {sol_field_name(number + 1), list.on, components, std::move(values)};
 }
 
 }  // namespace

@@ -61,7 +61,7 @@ std::vector<std::uint64_t> numbers_in_block(const Communicator& processes,
     for (const auto& inbox : processes.all_to_all(blocks.outboxes(numbers, std::identity{}))) {
         met.insert(met.end(), inbox.begin(), inbox.end());
     }
-    put_in_order(met);
+    sort_unique(met);
     return met;
 }
 

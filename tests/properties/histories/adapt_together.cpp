@@ -11,11 +11,11 @@
 
 #include "distributed/world.hpp"
 #include "properties/draw.hpp"
+#include "properties/histories/ancestries.hpp"
 #include "properties/histories/first_ranks.hpp"
-#include "properties/histories/pasts.hpp"
+#include "properties/histories/reported_numbers.hpp"
+#include "properties/histories/reported_sharers.hpp"
 #include "properties/histories/rewriting.hpp"
-#include "properties/histories/seen_numbers.hpp"
-#include "properties/histories/seen_sharers.hpp"
 #include "support/refinement.hpp"
 #include "support/temporary_folder.hpp"
 
@@ -41,14 +41,15 @@ struct Marked {
     Marks made;                          ///< the cells that the refinement made
 };
 
-Marks marked_by(const Selection& selection, const AdaptiveMesh& mesh, const Pasts& pasts) {
+Marks marked_by(const Selection& selection, const AdaptiveMesh& mesh,
+                const Ancestries& ancestries) {
     const std::vector<Marker> regions = mesh.regions();
     Marks marked(mesh.cells().size(), 0);
     for (std::size_t c = 0; c < marked.size(); ++c) {
         Corners corners;
         for (std::size_t k = 0; k < 4; ++k) corners[k] = mesh.points()[mesh.cells()[c][k].value()];
         const Marker region = regions.empty() ? 0 : regions[c];
-        marked[c] = marks(selection, corners, region, GlobalCell{pasts[c].root}) ? 1 : 0;
+        marked[c] = marks(selection, corners, region, GlobalCell{ancestries[c].root}) ? 1 : 0;
     }
     return marked;
 }
@@ -106,10 +107,10 @@ public:
         const auto taken_back = std::exchange(taken_back_, {});
         switch (step.action) {
             case Action::refine:
-                return refine(marked_by(step.selection, *mesh_, pasts_), step.scheme,
+                return refine(marked_by(step.selection, *mesh_, ancestries_), step.scheme,
                               turn % 3 == 0 ? &step.selection : nullptr, turn);
             case Action::coarsen:
-                return coarsen(marked_by(step.selection, *mesh_, pasts_),
+                return coarsen(marked_by(step.selection, *mesh_, ancestries_),
                                turn % 3 == 0 ? &step.selection : nullptr, turn)
                     .changed;
             case Action::take_back:
@@ -129,7 +130,7 @@ public:
         last_.reset();
         taken_back_.reset();
         if (mesh_) {
-            std::vector<distributed::Field> fields = fields_of(pasts_);
+            std::vector<distributed::Field> fields = fields_of(ancestries_);
             for (auto& field : fields_of(values_)) fields.push_back(std::move(field));
             mesh_->save(file, fields);
         }
@@ -140,7 +141,7 @@ public:
         std::vector<distributed::Field> fields;
         mesh_ = std::make_unique<AdaptiveMesh>(
             AdaptiveMesh::load(group, file, drawn_partition(turn), &fields));
-        pasts_ = pasts_of(fields);
+        ancestries_ = ancestries_of(fields);
         values_ = values_of(fields);
     }
 
@@ -159,8 +160,8 @@ private:
     /// Starts with a mesh to which no step has been applied.
     void begin(AdaptiveMesh mesh, const std::vector<CellVertices>& input) {
         mesh_ = std::make_unique<AdaptiveMesh>(std::move(mesh));
-        pasts_ = first_pasts(*mesh_, input);
-        values_ = first_values(*mesh_, pasts_);
+        ancestries_ = initial_ancestries(*mesh_, input);
+        values_ = first_values(*mesh_, ancestries_);
     }
 
     static Partition drawn_partition(std::uint64_t turn) {
@@ -172,15 +173,17 @@ private:
     [[nodiscard]] Marks none() const { return Marks(mesh_->cells().size(), 0); }
 
     /// Checks that the values of an Adaptation match the present cells.
-    void take(Pasts pasts, CarriedValues values) {
-        pasts_ = std::move(pasts);
+    void take(Ancestries ancestries, CarriedValues values) {
+        ancestries_ = std::move(ancestries);
         values_ = std::move(values);
-        if (pasts_.size() == mesh_->cells().size()) return;
+        if (ancestries_.size() == mesh_->cells().size()) return;
         if (fault_.empty()) fault_ = "a step told of another number of cells than there are";
-        pasts_.resize(mesh_->cells().size());
+        ancestries_.resize(mesh_->cells().size());
     }
 
-    void take(const Migration& move) { take(moved(pasts_, move), moved(std::move(values_), move)); }
+    void take(const Migration& move) {
+        take(moved(ancestries_, move), moved(std::move(values_), move));
+    }
 
     /// Refines by the selection, if there is one; else by bytes, a list or, where it is equivalent,
     /// edges.
@@ -197,7 +200,7 @@ private:
     bool refine(Marks marks, Scheme scheme, const Selection* selection, std::uint64_t turn) {
         const StepOptions options{.scheme = scheme,
                                   .synchronisation = case_->synchronisation,
-                                  .max_cells = most_cells_of_a_history};
+                                  .max_cells = max_history_cells};
         Adaptation step;
         if (turn % 7 == 0) {
             constexpr distributed::BalanceOptions balance{.most_over_mean = 1.1};
@@ -205,7 +208,7 @@ private:
                                 ? mesh_->refine_evenly(*selection, balance, options)
                                 : mesh_->refine_evenly(marks, balance, options);
             marks = even.move.cells(std::move(marks));
-            pasts_ = moved(pasts_, even.move);
+            ancestries_ = moved(ancestries_, even.move);
             values_ = moved(std::move(values_), even.move);
             step = std::move(even.step);
         } else {
@@ -215,16 +218,17 @@ private:
         step.cells.for_each_new([&](std::size_t number, std::size_t, unsigned halvings) {
             if (halvings > 0) last.made[number] = 1;
         });
-        take(refined(pasts_, step), after_step(std::move(values_), step));
+        take(refined(ancestries_, step), after_step(std::move(values_), step));
         last_ = std::move(last);
         return step.changed;
     }
 
-    Adaptation coarsen(const Marks& may_go, const Selection* selection, std::uint64_t turn) {
+    Adaptation coarsen(const Marks& may_coarsen, const Selection* selection, std::uint64_t turn) {
         Adaptation step = selection != nullptr ? mesh_->coarsen(*selection)
-                          : turn % 3 == 1      ? mesh_->coarsen(may_go)
-                                               : mesh_->coarsen(listed(may_go));
-        take(coarsened(pasts_, step, may_go, &fault_), after_step(std::move(values_), step));
+                          : turn % 3 == 1      ? mesh_->coarsen(may_coarsen)
+                                               : mesh_->coarsen(listed(may_coarsen));
+        take(coarsened(ancestries_, step, may_coarsen, &fault_),
+             after_step(std::move(values_), step));
         return step;
     }
 
@@ -241,7 +245,7 @@ private:
 
     const Case* case_;
     std::unique_ptr<AdaptiveMesh> mesh_;
-    Pasts pasts_;
+    Ancestries ancestries_;
     CarriedValues values_;
     std::string fault_;
     std::optional<Marked> last_;        ///< if the previous step refined
@@ -250,19 +254,19 @@ private:
 
 /// Collective among the mesh's processes. Adds the first rank's observations of the mesh after a
 /// step.
-void look_at(const Part& part, bool at_sharers_too, Stage& stage, Adapted& adapted) {
+void observe(const Part& part, bool at_sharers_too, Stage& stage, Adapted& adapted) {
     const AdaptiveMesh& mesh = *part.mesh();
     stage.mesh = mesh.collect();
     const auto note = [](std::string& first, const std::string& fault) {
         if (first.empty()) first = fault;
     };
-    note(adapted.fault_of_numbers, fault_of_seen_numbers(mesh, stage.mesh));
-    if (at_sharers_too) note(adapted.fault_of_sharers, fault_of_seen_sharers(mesh));
-    adapted.values.push_back(of_the_whole(part.values(), mesh, stage.mesh));
+    note(adapted.fault_of_numbers, fault_of_reported_numbers(mesh, stage.mesh));
+    if (at_sharers_too) note(adapted.fault_of_sharers, fault_of_reported_sharers(mesh));
+    adapted.values.push_back(gather_values(part.values(), mesh, stage.mesh));
 }
 
 /// Collective. On the first rank, a message that some rank has, or an empty string.
-std::string of_any(const std::string& words) {
+std::string any_message(const std::string& words) {
     for (const auto& said : test::world().gather(std::vector<char>(words.begin(), words.end()))) {
         if (!said.empty()) return {said.begin(), said.end()};
     }
@@ -291,10 +295,10 @@ Adapted adapt_together(const Case& c, const std::filesystem::path& folder) {
             }
         }
         // Sharers are checked only sometimes: this takes longer than the step.
-        if (part.mesh() != nullptr) look_at(part, turn % 4 == 0, stage, adapted);
+        if (part.mesh() != nullptr) observe(part, turn % 4 == 0, stage, adapted);
         adapted.stages.push_back(std::move(stage));
     }
-    adapted.fault_of_pasts = of_any(part.fault());
+    adapted.fault_of_ancestries = any_message(part.fault());
     return adapted;
 }
 

@@ -19,7 +19,7 @@ struct Adapted {
     /// Describes sharers that a rank reported wrongly.
     std::string fault_of_sharers;
     /// Describes cells that an Adaptation coarsened against the rules.
-    std::string fault_of_pasts;
+    std::string fault_of_ancestries;
 };
 
 /// Collective. `c` is the same on all ranks except for the mesh and `cell_to_rank`, which only the

@@ -19,19 +19,19 @@ namespace {
 /// A cell of the whole mesh, by the numbers of its vertices.
 using CellNumbers = std::array<std::uint64_t, 4>;
 
-struct OfVertex {
+struct VertexValue {
     std::uint64_t vertex;
     double value;
 };
 
-struct OfCell {
+struct CellValue {
     CellNumbers cell;
     double value;
 };
 
 std::vector<double> whole_of_vertices(const AdaptiveMesh& mesh, const std::vector<double>& values,
                                       std::size_t count, std::string* fault) {
-    std::vector<OfVertex> own;
+    std::vector<VertexValue> own;
     for (std::size_t v = 0; v < values.size(); ++v) {
         own.push_back({static_cast<std::uint64_t>(mesh.vertex_numbers()[v]), values[v]});
     }
@@ -49,9 +49,9 @@ std::vector<double> whole_of_vertices(const AdaptiveMesh& mesh, const std::vecto
 
 std::vector<double> whole_of_cells(const AdaptiveMesh& mesh, const std::vector<double>& values,
                                    const Mesh& whole) {
-    std::vector<OfCell> own;
+    std::vector<CellValue> own;
     for (std::size_t c = 0; c < values.size(); ++c) {
-        OfCell& of_cell = own.emplace_back(OfCell{.cell = {}, .value = values[c]});
+        CellValue& of_cell = own.emplace_back(CellValue{.cell = {}, .value = values[c]});
         std::ranges::transform(mesh.cells()[c], of_cell.cell.begin(), [&](VertexIndex v) {
             return static_cast<std::uint64_t>(mesh.vertex_numbers()[v.value()]);
         });
@@ -122,12 +122,12 @@ double value_of_root(std::uint64_t root) {
     return static_cast<double>(1 + root * 2'654'435'761U % 61U);
 }
 
-CarriedValues first_values(const AdaptiveMesh& mesh, const Pasts& pasts) {
+CarriedValues first_values(const AdaptiveMesh& mesh, const Ancestries& ancestries) {
     CarriedValues values;
     for (const distributed::GlobalVertex number : mesh.vertex_numbers()) {
         values.of_vertices.push_back(value_of_input_vertex(static_cast<std::uint64_t>(number)));
     }
-    for (const Past& past : pasts) values.of_cells.push_back(value_of_root(past.root));
+    for (const Ancestry& past : ancestries) values.of_cells.push_back(value_of_root(past.root));
     return values;
 }
 
@@ -153,7 +153,8 @@ CarriedValues values_of(const std::vector<Field>& fields) {
             std::get<std::vector<double>>(fields.at(end - 1).values)};
 }
 
-WholeValues of_the_whole(const CarriedValues& values, const AdaptiveMesh& mesh, const Mesh& whole) {
+WholeValues gather_values(const CarriedValues& values, const AdaptiveMesh& mesh,
+                          const Mesh& whole) {
     WholeValues all;
     all.of_vertices = whole_of_vertices(mesh, values.of_vertices, whole.points.size(), &all.fault);
     all.of_cells = whole_of_cells(mesh, values.of_cells, whole);

@@ -8,7 +8,7 @@
 #include <octetra/distributed/adaptive_mesh.hpp>
 #include <octetra/distributed/field.hpp>
 
-#include "properties/histories/pasts.hpp"
+#include "properties/histories/ancestries.hpp"
 
 /// Values of a program on vertices and cells, transferred through the steps of a history.
 namespace octetra::properties {
@@ -24,7 +24,8 @@ struct CarriedValues {
 [[nodiscard]] double value_of_root(std::uint64_t root);
 
 /// The values of a mesh to which no step has been applied.
-[[nodiscard]] CarriedValues first_values(const distributed::AdaptiveMesh& mesh, const Pasts& pasts);
+[[nodiscard]] CarriedValues first_values(const distributed::AdaptiveMesh& mesh,
+                                         const Ancestries& ancestries);
 [[nodiscard]] CarriedValues after_step(CarriedValues values, const distributed::Adaptation& step);
 /// Collective.
 [[nodiscard]] CarriedValues moved(CarriedValues values, const distributed::Migration& move);
@@ -43,8 +44,8 @@ struct WholeValues {
 
 /// Collective among the mesh's processes. Returns the values on the first one, whose `whole` is the
 /// collected mesh; nothing on the others.
-[[nodiscard]] WholeValues of_the_whole(const CarriedValues& values,
-                                       const distributed::AdaptiveMesh& mesh, const Mesh& whole);
+[[nodiscard]] WholeValues gather_values(const CarriedValues& values,
+                                        const distributed::AdaptiveMesh& mesh, const Mesh& whole);
 
 /// On the first rank: describes a wrong value on a mesh that descends from this input, or returns
 /// an empty string. Midpoints have the mean of their ends. A cell has a fraction of its root's

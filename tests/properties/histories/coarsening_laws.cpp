@@ -62,11 +62,11 @@ std::string fault_of_survivors(const Case& c) {
             return "a cell that was not marked is not in the coarser mesh";
         }
     }
-    return both.adapted.fault_of_pasts;
+    return both.adapted.fault_of_ancestries;
 }
 
 std::string fault_of_generations(const Case& drawn) {
-    const Case c = of_one_input(drawn);
+    const Case c = without_rewrites(drawn);
     const Both both = by_both(c);
     if (!both.fault.empty()) return both.fault;
     for (const std::size_t k : both.coarsenings) {
@@ -77,7 +77,7 @@ std::string fault_of_generations(const Case& drawn) {
         if (!test::refines(before.back(), coarser, exact_grid_scale)) {
             return "the coarser mesh is not refined by the one before";
         }
-        if (!goes_back_by_one_generation(before, coarser, exact_grid_scale)) {
+        if (!coarsens_by_one_generation(before, coarser, exact_grid_scale)) {
             return "a cell of the coarser mesh is back by two generations";
         }
     }
@@ -86,7 +86,7 @@ std::string fault_of_generations(const Case& drawn) {
         const auto verdict = verify::verify_refinement(c.mesh, coarser);
         if (!verdict.valid()) return "the verifier finds: " + test::codes_of(verdict);
     }
-    return both.adapted.fault_of_pasts;
+    return both.adapted.fault_of_ancestries;
 }
 
 std::string fault_of_volumes(const Case& c) {

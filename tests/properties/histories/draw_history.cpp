@@ -97,7 +97,7 @@ Case draw_start(Draw& draw, int size, int ranks, bool exact) {
     c.scheme = Scheme::eight;
     c.levels = 1;
     const std::size_t cells = c.mesh.cells.size();
-    if (draw.chance(0.4) && 8 * cells < most_cells_of_a_history) {
+    if (draw.chance(0.4) && 8 * cells < max_history_cells) {
         // In a mesh of this size ranks may use the incremental level.
         c.steps = {{.action = Action::refine, .selection = {.all = true}},
                    {.action = Action::refine, .selection = few_cells(8 * cells, draw)}};

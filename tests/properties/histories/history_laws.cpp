@@ -104,8 +104,8 @@ std::string fault_of_moving(const Case& c) {
                : "without moving the checkpoint in the end has other bytes";
 }
 
-std::string fault_of_the_way_back(const Case& drawn) {
-    const Case c = of_one_input(drawn);
+std::string fault_of_full_coarsening(const Case& drawn) {
+    const Case c = without_rewrites(drawn);
     const auto refinements = std::ranges::count_if(c.steps, [](const Step& step) {
         return step.action == Action::refine || step.action == Action::again;
     });

@@ -31,7 +31,7 @@ void check_size(const Refinement& present, const CellMarks& marked, Scheme schem
         if (marked[c] != 0) selection.cells.push_back(GlobalCell{c.value()});
     }
     try {
-        (void)reference::refine(present.mesh, selection, scheme, 1, most_cells_of_a_history);
+        (void)reference::refine(present.mesh, selection, scheme, 1, max_history_cells);
     } catch (const InputError& error) {
         const std::string words = error.what();
         const std::string_view level = "level 1";

@@ -7,23 +7,23 @@ source "$root/tools/dev/laws.sh"
 # and sometimes on 7, every other round with delayed and reordered messages, until the time is up or
 # a law is broken.
 fuzz_for() {
-    local end=$((SECONDS + 60 * $1)) seed=$2 round=0 ranks weather weather_options
+    local end=$((SECONDS + 60 * $1)) seed=$2 round=0 ranks delays delay_options
     local -r ranks_in_turn=(1 2 3 4 5 2 3 7)
     local -r cases=60 laws=$(build/release/tests/properties/test_properties --gtest_filter='*Laws.*' \
         --gtest_list_tests | grep -c '^  ')
-    try_laws
+    run_laws
     while ((SECONDS < end)); do
         ranks=${ranks_in_turn[round % 8]}
-        weather='' weather_options=()
+        delays='' delay_options=()
         if ((ranks > 1 && round / 8 % 2 == 1)); then
-            weather=', messages in disorder'
-            weather_options=(-x "LD_PRELOAD=$PWD/build/release/tests/properties/libmpi_shuffler.so"
+            delays=', messages in disorder'
+            delay_options=(-x "LD_PRELOAD=$PWD/build/release/tests/properties/libmpi_shuffler.so"
                 -x "OCTETRA_SHUFFLE_SEED=$seed")
         fi
-        say "${bold}round $((round + 1)): seed $seed, $ranks ranks$weather$plain"
-        RC_PARAMS="seed=$seed max_success=$cases" tests/support/mpirun.sh "$ranks" "${weather_options[@]}" \
+        say "${bold}round $((round + 1)): seed $seed, $ranks ranks$delays$plain"
+        RC_PARAMS="seed=$seed max_success=$cases" tests/support/mpirun.sh "$ranks" "${delay_options[@]}" \
             build/release/tests/properties/test_properties --gtest_brief=1 --gtest_filter='*Laws.*' || {
-            shrink_what_died
+            shrink_unfinished
             say "A law was broken. The case is in corpus/regression/; ./dev test replays it."
             return 1
         }

@@ -5,7 +5,7 @@ source "$root/tools/dev/laws.sh"
 
 file='' ranks=0 minutes=2
 while (($# > 0)); do
-    if [[ $1 =~ ^--(ranks|minutes)$ ]] && ! whole_number "${2:-}"; then
+    if [[ $1 =~ ^--(ranks|minutes)$ ]] && ! is_whole_number "${2:-}"; then
         bad_usage "shrink: $1 takes a whole number from 1"
     fi
     case $1 in

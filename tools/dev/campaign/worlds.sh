@@ -48,18 +48,18 @@ worlds_for() {
     local -r end=$((SECONDS + 60 * $1))
     local number=$2 running=0 found=0
     local -A part_of=()  # indexed by process id
-    try_laws
+    run_laws
     while ((number <= world_parts && SECONDS < end && !found)); do
         say "${bold}part $number of $world_parts$plain"
         worlds_of_part "$number" &
         part_of[$!]=$number
         ((++number, ++running))
-        go_on="; --from $((number - running)) goes on"
+        resume_hint="; --from $((number - running)) goes on"
         if ((running == jobs)); then await_part; fi
     done
     while ((running > 0)); do await_part; done
     if ((found)); then
-        shrink_what_died
+        shrink_unfinished
         say "A fault was found: see above. The meshes are in corpus/regression/; ./dev test replays them."
         return 1
     fi

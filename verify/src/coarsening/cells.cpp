@@ -64,7 +64,7 @@ struct BeforeMesh {
     }
 
     Mesh mesh;
-    Places places;
+    PointLookup places;
     JudgedMesh judged = judged_whole(mesh, Which::before);
 };
 
@@ -84,7 +84,7 @@ std::string check_unions(const Lineage& lineage, int levels, const Mesh& after,
         if (before.judged.cells.contains(*cell)) continue;
         if (!divider.divide_cell(*cell)) {
             findings.add(Code::cell_not_before, [&]() -> Findings::Description {
-                return {{entity(c), entity(divider.stuck(), Which::before)},
+                return {{entity(c), entity(divider.undivided(), Which::before)},
                         "no cells of the mesh before fill this piece of it",
                         "one of its cells, or a union of them"};
             });

@@ -4,8 +4,8 @@
 
 #include <octetra/core/mesh.hpp>
 
+#include "coarsening/kept_vertices.hpp"
 #include "coarsening/lineage.hpp"
-#include "coarsening/staying.hpp"
 #include "findings/findings.hpp"
 
 /// Checks of a coarsened mesh. Each adds its violations to the findings and returns its note. They
@@ -18,8 +18,8 @@ using VertexMatch = IndexVector<VertexIndex, VertexIndex>;
 /// Checks that the vertices of the mesh after are those that are kept. Fills `match`: by number, if
 /// the vertices are exactly those kept, in order; otherwise by coordinates, with preference for
 /// kept vertices.
-std::string check_staying(const Lineage& lineage, const Remainder& rest, const Mesh& after,
-                          VertexMatch& match, Findings& findings);
+std::string check_kept_vertices(const Lineage& lineage, const Remainder& rest, const Mesh& after,
+                                VertexMatch& match, Findings& findings);
 
 /// Checks that each cell of the mesh after is a cell of the mesh before, or can be divided into
 /// such cells by bisections at vertices of the mesh before, or into eight; and that it is at most

@@ -1,21 +1,21 @@
 #include <fmt/format.h>
 
 #include "coarsening/checks.hpp"
-#include "lookup/places.hpp"
+#include "lookup/point_lookup.hpp"
 
 namespace octetra::verify {
 namespace {
 
 using Why = Reason::Why;
 
-bool stays(const Remainder& rest, VertexIndex v) { return rest.reasons[v].why != Why::none; }
+bool is_kept(const Remainder& rest, VertexIndex v) { return rest.reasons[v].why != Why::none; }
 
 /// Returns false unless the vertices of the mesh after are exactly the kept ones, in order.
 bool match_by_number(const Lineage& lineage, const Remainder& rest, const Mesh& after,
                      VertexMatch& match) {
     VertexIndex w{0};
     for (VertexIndex v{0}; v < lineage.points.end_index(); ++v) {
-        if (!stays(rest, v)) continue;
+        if (!is_kept(rest, v)) continue;
         if (w == after.points.end_index() || after.points[w] != lineage.points[v]) return false;
         match[w] = v;
         ++w;
@@ -25,19 +25,19 @@ bool match_by_number(const Lineage& lineage, const Remainder& rest, const Mesh& 
 
 void match_by_place(const Lineage& lineage, const Remainder& rest, const Mesh& after,
                     VertexMatch& match) {
-    const Places places(lineage.points);
+    const PointLookup places(lineage.points);
     VertexSet taken(lineage.points.size(), 0);
     for (VertexIndex w{0}; w < after.points.end_index(); ++w) {
         VertexIndex& v = match[w];
         const auto is_free = [&](VertexIndex x) { return taken[x] == 0; };
         v = places.find(after.points[w],
-                        [&](VertexIndex x) { return is_free(x) && stays(rest, x); });
+                        [&](VertexIndex x) { return is_free(x) && is_kept(rest, x); });
         if (v.is_none()) v = places.find(after.points[w], is_free);
         if (!v.is_none()) taken[v] = 1;
     }
 }
 
-void report_gone(VertexIndex v, const Reason& reason, Findings& findings) {
+void report_removed(VertexIndex v, const Reason& reason, Findings& findings) {
     findings.add(Code::vertex_went, [&]() -> Findings::Description {
         Findings::Description description{{entity(v, Which::before)}, "gone", {}};
         std::string& expected = description.expected;
@@ -78,15 +78,15 @@ void report_found(VertexIndex w, VertexIndex v, const Lineage& lineage, Findings
 
 }  // namespace
 
-std::string check_staying(const Lineage& lineage, const Remainder& rest, const Mesh& after,
-                          VertexMatch& match, Findings& findings) {
+std::string check_kept_vertices(const Lineage& lineage, const Remainder& rest, const Mesh& after,
+                                VertexMatch& match, Findings& findings) {
     match.assign(after.points.size(), VertexIndex::none());
     const bool by_number = match_by_number(lineage, rest, after, match);
     if (!by_number) match_by_place(lineage, rest, after, match);
     VertexSet found(lineage.points.size(), 0);
     for (VertexIndex w{0}; w < match.end_index(); ++w) {
         const VertexIndex v = match[w];
-        if (v.is_none() || !stays(rest, v)) {
+        if (v.is_none() || !is_kept(rest, v)) {
             report_found(w, v, lineage, findings);
         } else {
             found[v] = 1;
@@ -94,10 +94,10 @@ std::string check_staying(const Lineage& lineage, const Remainder& rest, const M
     }
     std::size_t went = 0;
     for (VertexIndex v{0}; v < found.end_index(); ++v) {
-        if (!stays(rest, v)) {
+        if (!is_kept(rest, v)) {
             ++went;
         } else if (found[v] == 0 && lineage.step[v] > 0) {  // for the input: lost_vertex
-            report_gone(v, rest.reasons[v], findings);
+            report_removed(v, rest.reasons[v], findings);
         }
     }
     return fmt::format("{} of {} are gone, found by {}", went, lineage.points.size(),

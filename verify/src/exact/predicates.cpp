@@ -26,8 +26,8 @@ typename K::Point_3 point(const Point& p) {
 
 /// Returns nothing, and counts nothing, if intervals do not decide. Precondition: rounding is
 /// upward.
-std::optional<int> clear_orientation(const Point& a, const Point& b, const Point& c, const Point& d,
-                                     Arithmetic& arithmetic) {
+std::optional<int> certain_orientation(const Point& a, const Point& b, const Point& c,
+                                       const Point& d, Arithmetic& arithmetic) {
     const auto sign = Intervals::Orientation_3()(point<Intervals>(a), point<Intervals>(b),
                                                  point<Intervals>(c), point<Intervals>(d));
     if (!CGAL::is_certain(sign)) return std::nullopt;
@@ -47,21 +47,21 @@ int orientation_near_one(const Point& a, const Point& b, const Point& c, const P
                          Arithmetic& arithmetic) {
     {
         const CGAL::Protect_FPU_rounding<true> upward;
-        if (const auto sign = clear_orientation(a, b, c, d, arithmetic)) return *sign;
+        if (const auto sign = certain_orientation(a, b, c, d, arithmetic)) return *sign;
     }
     return rational_orientation(a, b, c, d, arithmetic);
 }
 
 /// Returns whether the line of the segment passes two sides of the triangle on different sides.
 /// This also decides if an end of the segment lies in the plane. Precondition: rounding is upward.
-bool line_clearly_misses(const std::array<Point, 2>& segment,
-                         const std::array<Point, 3>& triangle) {
-    Arithmetic counted_as_one;
+bool line_certainly_misses(const std::array<Point, 2>& segment,
+                           const std::array<Point, 3>& triangle) {
+    Arithmetic ignored_counts;
     bool passes_left = false;
     bool passes_right = false;
     for (std::size_t k = 0; k < 3; ++k) {
-        const auto sign = clear_orientation(segment[0], segment[1], triangle[k],
-                                            triangle[(k + 1) % 3], counted_as_one);
+        const auto sign = certain_orientation(segment[0], segment[1], triangle[k],
+                                              triangle[(k + 1) % 3], ignored_counts);
         passes_left = passes_left || sign == 1;
         passes_right = passes_right || sign == -1;
     }
@@ -81,8 +81,8 @@ std::size_t best_axis(const std::array<Point, 3>& t) {
 /// Returns whether, in the projection along an axis, a line through a side of one separates the
 /// two. This decides most coplanar pairs, for which volumes do not. Precondition: rounding is
 /// upward.
-bool are_clearly_apart_as_seen(const std::array<Point, 2>& segment,
-                               const std::array<Point, 3>& triangle) {
+bool are_separated_in_projection(const std::array<Point, 2>& segment,
+                                 const std::array<Point, 3>& triangle) {
     const std::size_t axis = best_axis(triangle);
     const auto seen = [axis](const Point& p) -> Intervals::Point_2 {
         if (axis == 0) return {p.y, p.z};
@@ -121,7 +121,7 @@ int faces_touched_near_one(std::array<Point, 4> corners, const Point& p, Arithme
     {
         const CGAL::Protect_FPU_rounding<true> upward;
         for (std::size_t k = 0; k < 4; ++k) {
-            signs[k] = with_p_as_corner(k, clear_orientation);
+            signs[k] = with_p_as_corner(k, certain_orientation);
             if (signs[k] == -1) return -1;
         }
     }
@@ -142,14 +142,14 @@ bool meet_near_one(const std::array<Point, 2>& segment, const std::array<Point, 
     std::optional<int> clear_side_q;
     {
         const CGAL::Protect_FPU_rounding<true> upward;
-        clear_side_p = clear_orientation(a, b, c, p, arithmetic);
-        clear_side_q = clear_orientation(a, b, c, q, arithmetic);
+        clear_side_p = certain_orientation(a, b, c, p, arithmetic);
+        clear_side_q = certain_orientation(a, b, c, q, arithmetic);
         const std::optional<int> sides = clear_side_p && clear_side_q
                                              ? std::optional(*clear_side_p * *clear_side_q)
                                              : std::nullopt;
         if (sides == 1) return false;
-        if (sides != -1 && (line_clearly_misses(segment, triangle) ||
-                            are_clearly_apart_as_seen(segment, triangle))) {
+        if (sides != -1 && (line_certainly_misses(segment, triangle) ||
+                            are_separated_in_projection(segment, triangle))) {
             ++arithmetic.filtered;
             return false;
         }

@@ -83,7 +83,7 @@ void join(Verdict& a, Verdict b) {
     join(a.by_depth, b.by_depth);
     a.arithmetic.filtered += b.arithmetic.filtered;
     a.arithmetic.exact += b.arithmetic.exact;
-    a.looked_at += b.looked_at;
+    a.search_tests += b.search_tests;
     std::move(b.violations.begin(), b.violations.end(), std::back_inserter(a.violations));
 }
 
@@ -95,7 +95,7 @@ void pack_or_unpack(Stream& stream, auto& verdict) {
     stream(verdict.coarse_angles);
     stream.list(verdict.by_depth);
     stream(verdict.arithmetic);
-    stream(verdict.looked_at);
+    stream(verdict.search_tests);
 }
 
 ProcessGroup::Bytes packed(const Verdict& verdict, bool with_violations) {
@@ -143,7 +143,7 @@ Verdict unpacked(const ProcessGroup::Bytes& bytes) {
 
 }  // namespace
 
-void Findings::call_as_in_whole(Entity& entity) const {
+void Findings::use_global_numbers(Entity& entity) const {
     const Numbers& called = numbers(entity.mesh);
     for (VertexIndex& v : entity.vertices) v = called.of(v);
     if (!entity.vertices.empty()) return;

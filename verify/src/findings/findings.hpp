@@ -43,7 +43,7 @@ public:
         ++count_;
         ++verdict_.counts[static_cast<std::size_t>(code)];
         Description description = describe();
-        for (Entity& entity : description.entities) call_as_in_whole(entity);
+        for (Entity& entity : description.entities) use_global_numbers(entity);
         keep({code, std::move(description.entities), std::move(description.found),
               std::move(description.expected)});
     }
@@ -54,7 +54,7 @@ public:
         const std::uint64_t before = count_;
         const auto start = std::chrono::steady_clock::now();
         running_ = name;
-        tell_progress(0);
+        report_progress(0);
         std::string note = check();
         const bool clean = sum(*group_, count_ - before) == 0;
         const std::chrono::duration<double> passed = std::chrono::steady_clock::now() - start;
@@ -65,7 +65,7 @@ public:
     }
 
     /// Reports the completed fraction of the running check.
-    void tell_progress(double share) const {
+    void report_progress(double share) const {
         if (progress_) progress_(running_, share);
     }
 
@@ -94,7 +94,7 @@ public:
     [[nodiscard]] Arithmetic& arithmetic() { return verdict_.arithmetic; }
 
 private:
-    void call_as_in_whole(Entity& entity) const;
+    void use_global_numbers(Entity& entity) const;
     void keep(Violation violation);
     void drop_surplus(std::vector<Violation>& violations) const;
 
@@ -115,7 +115,7 @@ public:
 
     void operator()() {
         if (++done_ % steps_per_report != 0) return;
-        findings_->tell_progress(
+        findings_->report_progress(
             done_ < total_ ? static_cast<double>(done_) / static_cast<double>(total_) : 1);
     }
 

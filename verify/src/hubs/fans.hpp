@@ -45,14 +45,14 @@ public:
 
     /// Calls visit(entity) for each entity that may have a point in common with a vertex, edge or
     /// face, except for entities at a hub that this contains. Adds the number of boxes tested to
-    /// `looked_at`.
+    /// `search_tests`.
     template <std::size_t M>
-    void for_each_near(const std::array<VertexIndex, M>& vertices, std::uint64_t& looked_at,
+    void for_each_near(const std::array<VertexIndex, M>& vertices, std::uint64_t& search_tests,
                        auto&& visit) const {
         static_assert(M <= 3);
         const Bounds box = bounds_of_vertices(vertices);
         boxes_.for_each_meeting(box, [&](std::uint32_t number) {
-            ++looked_at;
+            ++search_tests;
             const Fan& fan = fans_[number];
             const auto is_of_apex = [&](VertexIndex v) { return fan.apex.has(v); };
             if (fan.at_apex && std::any_of(vertices.begin(), vertices.end(), is_of_apex)) return;
@@ -66,12 +66,12 @@ public:
             if (fan.axial) {
                 const auto wanted = fan.axial->wanted(rays);
                 const auto meets = [&](const Bounds& b) { return wanted.meets(b); };
-                fan.directions.for_each_meeting(Counting<decltype(meets)>(meets, &looked_at),
+                fan.directions.for_each_meeting(Counting<decltype(meets)>(meets, &search_tests),
                                                 visit_if_close);
             } else {
                 const Cone cone(rays);
                 const auto meets = [&](const Bounds& b) { return !cone.misses(b); };
-                fan.directions.for_each_meeting(Counting<decltype(meets)>(meets, &looked_at),
+                fan.directions.for_each_meeting(Counting<decltype(meets)>(meets, &search_tests),
                                                 visit_if_close);
             }
         });
@@ -81,11 +81,11 @@ private:
     template <class Meets>
     struct Counting {
         Meets may_meet;
-        std::uint64_t* looked_at;
+        std::uint64_t* search_tests;
 
-        Counting(Meets test, std::uint64_t* count) : may_meet(test), looked_at(count) {}
+        Counting(Meets test, std::uint64_t* count) : may_meet(test), search_tests(count) {}
         [[nodiscard]] bool meets(const Bounds& directions) const {
-            ++*looked_at;
+            ++*search_tests;
             return may_meet(directions);
         }
     };

@@ -100,7 +100,7 @@ void Hubs::find_near_hubs(const JudgedMesh& judged) {
     for (int distance = 1; distance <= reach; ++distance) {
         const std::vector<NearHubs> before = near_;
         bool changed = false;
-        const auto tell = [&](VertexIndex from, VertexIndex to) {
+        const auto add_near_hub = [&](VertexIndex from, VertexIndex to) {
             for (const VertexIndex hub : before[from.value()]) {
                 if (hub.is_none()) return;
                 NearHubs& known = near_[to.value()];
@@ -113,8 +113,8 @@ void Hubs::find_near_hubs(const JudgedMesh& judged) {
             }
         };
         judged.edges.for_each([&](const EdgeVertices& edge) {
-            tell(edge[0], edge[1]);
-            tell(edge[1], edge[0]);
+            add_near_hub(edge[0], edge[1]);
+            add_near_hub(edge[1], edge[0]);
         });
         if (!changed) return;
     }

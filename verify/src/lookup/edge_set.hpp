@@ -26,7 +26,7 @@ public:
             ++room[lower(edge)];
             ++total;
         });
-        const std::uint64_t most = std::max(total / turns, least_turn);
+        const std::uint64_t most = std::max(total / pass_count, min_pass_size);
         for (std::size_t first = 0; first < vertex_count;) {
             std::size_t last = first;
             std::uint64_t count = 0;
@@ -57,8 +57,8 @@ public:
     }
 
 private:
-    static constexpr std::uint64_t turns = 8;
-    static constexpr std::uint64_t least_turn = 1U << 16U;
+    static constexpr std::uint64_t pass_count = 8;
+    static constexpr std::uint64_t min_pass_size = 1U << 16U;
 
     static std::ptrdiff_t offset(std::uint64_t i) { return static_cast<std::ptrdiff_t>(i); }
     static std::uint32_t lower(const EdgeVertices& edge) {

@@ -283,16 +283,16 @@ private:
 }  // namespace
 
 void measure_sums(const JudgedMesh& judged, Findings& findings) {
-    const auto nothing_to_judge = [](const TagSum&, const exact::NumberSum&, Bound) {};
+    const auto no_check = [](const TagSum&, const exact::NumberSum&, Bound) {};
     Verdict& verdict = findings.verdict();
     std::vector<Term> terms;
     append_borders_of_regions(judged, true, terms);
     verdict.volumes = sum_up(totals_of<Volume>(std::move(terms), {}, judged, judged),
-                             Volume::multiple, false, findings.group(), nothing_to_judge);
+                             Volume::multiple, false, findings.group(), no_check);
     terms.clear();
     append_facets(judged, terms);
     verdict.areas = sum_up(totals_of<Area>(std::move(terms), {}, judged, judged), Area::multiple,
-                           false, findings.group(), nothing_to_judge);
+                           false, findings.group(), no_check);
 }
 
 std::string check_sums(const JudgedMesh& coarse, const JudgedMesh& fine, const Descent& descent,

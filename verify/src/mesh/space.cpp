@@ -45,7 +45,7 @@ public:
         if (cells.empty()) return;
         for (const VertexIndex v : vertices_) {
             step();
-            cells.for_each_near(std::array{v}, looked_at(), [&](const Fans<4>::Entity& cell) {
+            cells.for_each_near(std::array{v}, search_tests(), [&](const Fans<4>::Entity& cell) {
                 judge(v, CellIndex{cell.number});
             });
         }
@@ -53,7 +53,7 @@ public:
 
 private:
     void judge(VertexIndex v, CellIndex c) {
-        ++looked_at();
+        ++search_tests();
         const CellVertices& cell = mesh_.cells[c];
         if (std::find(cell.begin(), cell.end(), v) != cell.end()) return;
         const int touched =
@@ -73,7 +73,7 @@ private:
                       });
     }
 
-    [[nodiscard]] std::uint64_t& looked_at() { return findings_.verdict().looked_at; }
+    [[nodiscard]] std::uint64_t& search_tests() { return findings_.verdict().search_tests; }
 
     const JudgedMesh& judged_;
     const Mesh& mesh_;
@@ -170,7 +170,7 @@ private:
         const Fans<2> boundary_edges(mesh_.points, hubs_, std::move(boundary));
         const Fans<2> inner_edges(mesh_.points, hubs_, std::move(inner));
         const auto look_for = [&](const Fans<2>& edges, const FacetVertices& face) {
-            edges.for_each_near(face, looked_at(),
+            edges.for_each_near(face, search_tests(),
                                 [&](const Fans<2>::Entity& edge) { judge(edge.vertices, face); });
         };
         for (const FacetVertices& face : faces_) {
@@ -195,7 +195,7 @@ private:
         const Fans<3> boundary_faces(mesh_.points, hubs_, std::move(boundary));
         const Fans<3> inner_faces(mesh_.points, hubs_, std::move(inner));
         const auto look_for = [&](const Fans<3>& faces, const EdgeVertices& edge) {
-            faces.for_each_near(edge, looked_at(),
+            faces.for_each_near(edge, search_tests(),
                                 [&](const Fans<3>::Entity& face) { judge(edge, face.vertices); });
         };
         judged_.edges.for_each([&](const EdgeVertices& edge) {
@@ -207,7 +207,7 @@ private:
         }
     }
 
-    [[nodiscard]] std::uint64_t& looked_at() { return findings_.verdict().looked_at; }
+    [[nodiscard]] std::uint64_t& search_tests() { return findings_.verdict().search_tests; }
 
     template <std::size_t N>
     [[nodiscard]] std::array<Point, N> places(const std::array<VertexIndex, N>& vertices) const {
@@ -225,7 +225,7 @@ private:
     }
 
     void judge(const EdgeVertices& edge, const FacetVertices& face) {
-        ++looked_at();
+        ++search_tests();
         for (const VertexIndex v : face) {
             if (v == edge[0] || v == edge[1]) return;
         }

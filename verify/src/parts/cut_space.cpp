@@ -8,27 +8,28 @@
 namespace octetra::verify {
 namespace {
 
-using Place = std::array<double, 3>;
+using Coordinates = std::array<double, 3>;
 
 /// The maximum number of points sampled on each process.
 constexpr std::size_t most_samples = 4096;
 
-std::vector<Place> samples_of_all(const std::vector<Point>& places, const ProcessGroup& group) {
-    std::vector<Place> samples;
+std::vector<Coordinates> samples_of_all(const std::vector<Point>& places,
+                                        const ProcessGroup& group) {
+    std::vector<Coordinates> samples;
     const std::size_t stride = places.size() / most_samples + 1;
     for (std::size_t i = 0; i < places.size(); i += stride) {
         samples.push_back({places[i].x, places[i].y, places[i].z});
     }
-    std::vector<Place> all;
+    std::vector<Coordinates> all;
     for (const auto& of_one : share_with_all(group, samples)) {
         all.insert(all.end(), of_one.begin(), of_one.end());
     }
     return all;
 }
 
-std::size_t longest_side(std::span<const Place> places) {
+std::size_t longest_side(std::span<const Coordinates> places) {
     Bounds bounds;
-    for (const Place& p : places) bounds.take(Point{p[0], p[1], p[2]});
+    for (const Coordinates& p : places) bounds.take(Point{p[0], p[1], p[2]});
     std::size_t axis = 0;
     // Halved first, since the difference could overflow.
     const auto side = [&](std::size_t k) { return bounds.high[k] / 2 - bounds.low[k] / 2; };
@@ -38,7 +39,7 @@ std::size_t longest_side(std::span<const Place> places) {
 
 /// Divides `whole` between the processes of `domains` by recursive bisection, in proportion to the
 /// points.
-void cut(const Domain& whole, std::span<Place> places, std::span<Domain> domains) {
+void cut(const Domain& whole, std::span<Coordinates> places, std::span<Domain> domains) {
     if (domains.size() == 1) {
         domains.front() = whole;
         return;
@@ -51,8 +52,9 @@ void cut(const Domain& whole, std::span<Place> places, std::span<Domain> domains
     if (!places.empty()) {
         lower_places = places.size() * lower_domains / domains.size();
         const auto middle = places.begin() + static_cast<std::ptrdiff_t>(lower_places);
-        std::nth_element(places.begin(), middle, places.end(),
-                         [&](const Place& p, const Place& q) { return p[axis] < q[axis]; });
+        std::nth_element(
+            places.begin(), middle, places.end(),
+            [&](const Coordinates& p, const Coordinates& q) { return p[axis] < q[axis]; });
         low.high[axis] = high.low[axis] = (*middle)[axis];
     } else {
         low.high[axis] = high.low[axis] = whole.low[axis];  // the lower part is empty
@@ -68,7 +70,7 @@ std::vector<Domain> cut_space(const std::vector<Point>& places, const ProcessGro
     if (group.size() == 1) return domains;
     Domain everything;
     everything.is_everything = false;
-    std::vector<Place> samples = samples_of_all(places, group);
+    std::vector<Coordinates> samples = samples_of_all(places, group);
     cut(everything, samples, domains);
     return domains;
 }

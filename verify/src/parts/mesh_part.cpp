@@ -154,7 +154,7 @@ void append_vertices(const std::vector<Record<N>>& records, std::vector<std::uin
 }
 
 /// Collective. Returns the part of a mesh in this process's view.
-MeshPart see(const LocatedSlice& from, const Views& views, const ProcessGroup& group) {
+MeshPart part_in_view(const LocatedSlice& from, const Views& views, const ProcessGroup& group) {
     const Mesh& lists = from.lists();
     const Totals& totals = from.slice().totals;
     const auto cells = deliver(lists.cells, lists.regions, totals.cells, from, views, group);
@@ -200,7 +200,7 @@ Parts part_of(MeshSlice mesh, const ProcessGroup& group) {
     const auto domains = cut_space(located.places_of_cells(), group);
     const auto boxes = closed_boxes(domains, bounds);
     Parts parts;
-    parts.fine = see(located, Views(boxes), group);
+    parts.fine = part_in_view(located, Views(boxes), group);
     parts.domain = own(domains, group);
     return parts;
 }
@@ -241,8 +241,8 @@ Parts parts_of(MeshSlice coarse, MeshSlice fine, const ProcessGroup& group) {
 
     std::vector<Bounds> fine_views = boxes;
     for (std::size_t r = 0; r < boxes.size(); ++r) fine_views[r].take(parts.coarse_in_view[r]);
-    parts.coarse = see(located_coarse, views, group);
-    parts.fine = see(located_fine, Views(fine_views), group);
+    parts.coarse = part_in_view(located_coarse, views, group);
+    parts.fine = part_in_view(located_fine, Views(fine_views), group);
     parts.domain = own(domains, group);
     return parts;
 }

@@ -41,7 +41,7 @@ void check_countable(const MeshFacts& facts) {
 
 }  // namespace
 
-MeshSlice share_out(const Mesh& mesh, const ProcessGroup& group) {
+MeshSlice distribute_slices(const Mesh& mesh, const ProcessGroup& group) {
     struct Head {
         Totals totals;
         std::uint64_t attributes_per_point;

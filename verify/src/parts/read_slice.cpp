@@ -155,7 +155,7 @@ public:
     }
     void send_error(Item item, const std::string& what) {
         for (Packer& pack : to_each_) pack.bytes().clear();  // an item may be incomplete
-        hand_on(packed([&](Packer& pack) {
+        forward_round(packed([&](Packer& pack) {
             pack(item);
             pack.list(what);
         }));
@@ -169,21 +169,21 @@ private:
 
     struct Progress {
         std::uint64_t count = 0;
-        std::uint64_t heard = 0;
+        std::uint64_t received = 0;
     };
 
     /// Calls pack_some(packer, begin, count) for each process that owns some of the next n
     /// entities.
     void share(Progress& progress, std::size_t n, auto&& pack_some) {
         const Window slices = slices_of(progress.count, group_.size());
-        const std::uint64_t end = progress.heard + n;
-        for (std::uint64_t at = progress.heard; at < end;) {
+        const std::uint64_t end = progress.received + n;
+        for (std::uint64_t at = progress.received; at < end;) {
             const auto rank = static_cast<int>(at / slices.slice_length);
             const std::uint64_t stop = std::min(end, slices.end_of(rank));
-            pack_some(to_each_[static_cast<std::size_t>(rank)], at - progress.heard, stop - at);
+            pack_some(to_each_[static_cast<std::size_t>(rank)], at - progress.received, stop - at);
             at = stop;
         }
-        progress.heard = end;
+        progress.received = end;
         std::size_t bytes = 0;
         for (Packer& pack : to_each_) bytes += pack.bytes().size();
         if (bytes >= bytes_of_a_round) {
@@ -205,7 +205,7 @@ private:
     void send(auto&& pack_last) {
         std::vector<ProcessGroup::Bytes> outboxes = packed(pack_last);
         (void)own_.take(std::exchange(outboxes.front(), {}));
-        hand_on(std::move(outboxes));
+        forward_round(std::move(outboxes));
     }
     [[nodiscard]] std::vector<ProcessGroup::Bytes> packed(auto&& pack_last) {
         std::vector<ProcessGroup::Bytes> outboxes;
@@ -216,7 +216,7 @@ private:
         }
         return outboxes;
     }
-    void hand_on(std::vector<ProcessGroup::Bytes> outboxes) {
+    void forward_round(std::vector<ProcessGroup::Bytes> outboxes) {
         is_exchanging_ = true;
         (void)group_.exchange(std::move(outboxes));
         is_exchanging_ = false;
@@ -231,8 +231,8 @@ private:
 };
 
 /// Runs the first process's side. Errors are thrown on all processes.
-void read_and_hand_on(const std::filesystem::path& path, const ReadOptions& options,
-                      const ProcessGroup& group, Receiver& own) {
+void read_and_distribute(const std::filesystem::path& path, const ReadOptions& options,
+                         const ProcessGroup& group, Receiver& own) {
     Distributor distributor(group, own);
     std::string what;
     Item ended = Item::end;
@@ -264,7 +264,7 @@ MeshSlice read_slice(const std::filesystem::path& path, const ReadOptions& optio
     const StandardArithmetic standard;
     Receiver receiver;
     if (group.is_first()) {
-        read_and_hand_on(path, options, group, receiver);
+        read_and_distribute(path, options, group, receiver);
     } else {
         const auto nothing = [&] {
             return std::vector<ProcessGroup::Bytes>(static_cast<std::size_t>(group.size()));

@@ -82,8 +82,8 @@ CellDivider::CellDivider(const JudgedMesh& coarse, const JudgedMesh& fine, Lines
 bool CellDivider::divide_cell(const CellVertices& vertices) {
     leaves_.clear();
     splits_.clear();
-    stuck_ = {};
-    stuck_leaves_ = 0;
+    undivided_ = {};
+    undivided_leaves_ = 0;
     return divide({vertices});
 }
 
@@ -106,13 +106,13 @@ bool CellDivider::divide(const Piece& piece) {
     }
     CellVertices ascending = piece.vertices;
     std::sort(ascending.begin(), ascending.end());
-    if (piece.depth < most_depth && budget_-- > 0 && hopeless_.count(ascending) == 0) {
+    if (piece.depth < most_depth && budget_-- > 0 && indivisible_.count(ascending) == 0) {
         if (bisect(piece) || cut_into_eight(piece)) return true;
-        hopeless_.insert(ascending);
+        indivisible_.insert(ascending);
     }
-    if (stuck_leaves_ == 0 || leaves_.size() + 1 > stuck_leaves_) {
-        stuck_ = piece.vertices;
-        stuck_leaves_ = leaves_.size() + 1;
+    if (undivided_leaves_ == 0 || leaves_.size() + 1 > undivided_leaves_) {
+        undivided_ = piece.vertices;
+        undivided_leaves_ = leaves_.size() + 1;
     }
     return false;
 }

@@ -47,7 +47,7 @@ public:
     [[nodiscard]] const std::vector<Leaf>& leaves() const { return leaves_; }
     [[nodiscard]] const std::vector<Split>& splits() const { return splits_; }
     /// Returns the piece that could not be divided in the attempt that found the most fine cells.
-    [[nodiscard]] const CellVertices& stuck() const { return stuck_; }
+    [[nodiscard]] const CellVertices& undivided() const { return undivided_; }
 
 private:
     /// An edge of a piece, and the vertex that may have bisected it.
@@ -71,10 +71,10 @@ private:
     std::vector<Split> splits_;
     /// Pieces known to be indivisible, with ascending vertices. A correct mesh has few: only where
     /// edges are so short that midpoints are rounded to other vertices.
-    std::set<CellVertices> hopeless_;
+    std::set<CellVertices> indivisible_;
     std::int64_t budget_ = 0;  ///< remaining number of pieces to divide: bounds the search
-    CellVertices stuck_;
-    std::size_t stuck_leaves_ = 0;
+    CellVertices undivided_;
+    std::size_t undivided_leaves_ = 0;
 };
 
 }  // namespace octetra::verify

@@ -36,14 +36,14 @@ bool are_first_vertices(const JudgedMesh& coarse, const JudgedMesh& fine,
 /// rounded centroid lies outside, can make the descent fail, but never pass.
 class SidesOfCracks {
 public:
-    SidesOfCracks(const JudgedMesh& coarse, const JudgedMesh& fine, const Places& places,
+    SidesOfCracks(const JudgedMesh& coarse, const JudgedMesh& fine, const PointLookup& places,
                   Findings& findings)
         : coarse_(coarse),
           fine_(fine),
           places_(places),
           findings_(findings),
           cell_at_(coarse.mesh.points.size(), CellIndex::none()) {
-        find_crowded_places();
+        find_coincident_points();
         if (fine_cells_at_.empty()) return;
         const auto take_fine = [&](VertexIndex w, CellIndex c) {
             if (const auto at = fine_cells_at_.find(w); at != fine_cells_at_.end()) {
@@ -74,7 +74,7 @@ public:
     }
 
 private:
-    void find_crowded_places() {
+    void find_coincident_points() {
         for (const Point& p : coarse_.mesh.points) {
             std::vector<VertexIndex> there;
             (void)places_.find(p, [&](VertexIndex w) {
@@ -108,7 +108,7 @@ private:
 
     const JudgedMesh& coarse_;
     const JudgedMesh& fine_;
-    const Places& places_;
+    const PointLookup& places_;
     Findings& findings_;
     IndexVector<VertexIndex, CellIndex> cell_at_;  ///< a cell of each coarse vertex
     /// The cells at each fine vertex that coincides with other vertices.
@@ -118,7 +118,7 @@ private:
 }  // namespace
 
 std::string find_coarse_vertices(const JudgedMesh& coarse, const JudgedMesh& fine,
-                                 const Places& places, Descent& descent, Findings& findings) {
+                                 const PointLookup& places, Descent& descent, Findings& findings) {
     const auto& coarse_points = coarse.mesh.points;
     const auto& fine_points = fine.mesh.points;
     const bool same_numbers = are_first_vertices(coarse, fine, findings);

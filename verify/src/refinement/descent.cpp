@@ -68,7 +68,7 @@ public:
 
     std::string run() {
         CellDivider divider(coarse_, fine_, lines_);
-        std::vector<std::pair<CellIndex, CellVertices>> stuck;
+        std::vector<std::pair<CellIndex, CellVertices>> undivided;
         Steps step(findings_, coarse_.mesh.cells.size());
         for (CellIndex c{0}; c < coarse_.mesh.cells.end_index(); ++c) {
             step();
@@ -80,11 +80,11 @@ public:
                 for (const Leaf& leaf : divider.leaves()) take(leaf, c);
                 if (own && divider.leaves().size() == 1) ++findings_.facts().cells_kept;
             } else {
-                stuck.emplace_back(c, divider.stuck());
+                undivided.emplace_back(c, divider.undivided());
             }
         }
-        for (const auto& [c, piece] : stuck) explain(c, piece);
-        if (!any(findings_.group(), !stuck.empty())) report_orphans();
+        for (const auto& [c, piece] : undivided) explain(c, piece);
+        if (!any(findings_.group(), !undivided.empty())) report_orphans();
         return fmt::format("every cell by bisections from its parent, at most {}",
                            greatest(findings_.group(), findings_.facts().deepest));
     }
@@ -156,9 +156,9 @@ private:
 
     /// Reports why a coarse cell cannot be divided: the last piece has an edge that needs a
     /// midpoint but only has a vertex close to it; otherwise the piece itself.
-    void explain(CellIndex c, const CellVertices& stuck) {
+    void explain(CellIndex c, const CellVertices& undivided) {
         for (const auto& [i, j] : cell_edges) {
-            const EdgeVertices edge{stuck[i], stuck[j]};
+            const EdgeVertices edge{undivided[i], undivided[j]};
             if (lines_.is_line(edge[0], edge[1])) continue;
             const VertexIndex near = misplaced_vertex_near(edge);
             if (near.is_none()) continue;
@@ -170,7 +170,7 @@ private:
         }
         if (!owns(c)) return;
         findings_.add(Code::not_tiled, [&]() -> Findings::Description {
-            return {{entity(c, Which::coarse), entity(stuck)},
+            return {{entity(c, Which::coarse), entity(undivided)},
                     "no fine cells fill this piece of it",
                     "fine cells created from it by bisection"};
         });

@@ -9,7 +9,7 @@
 #include <octetra/verify/verify.hpp>
 
 #include "findings/findings.hpp"
-#include "lookup/places.hpp"
+#include "lookup/point_lookup.hpp"
 #include "mesh/judged_mesh.hpp"
 #include "refinement/lines.hpp"
 
@@ -45,7 +45,7 @@ struct Descent {
 /// are the coarse ones, otherwise by coordinates; if several fine vertices coincide there, by the
 /// cells that contain them.
 std::string find_coarse_vertices(const JudgedMesh& coarse, const JudgedMesh& fine,
-                                 const Places& places, Descent& descent, Findings& findings);
+                                 const PointLookup& places, Descent& descent, Findings& findings);
 
 /// Divides every coarse cell at midpoints until the pieces are fine cells, and checks that every
 /// fine cell occurs exactly once.

@@ -7,7 +7,7 @@ constexpr std::uint32_t no_midpoint = EdgeTable::absent - 1;
 
 }  // namespace
 
-Lines::Lines(const JudgedMesh& fine, const Places& places)
+Lines::Lines(const JudgedMesh& fine, const PointLookup& places)
     : mesh_(&fine.mesh),
       places_(&places),
       whole_(2 * fine.mesh.cells.size()),

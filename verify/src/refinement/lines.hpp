@@ -1,7 +1,7 @@
 #pragma once
 
 #include "lookup/edge_table.hpp"
-#include "lookup/places.hpp"
+#include "lookup/point_lookup.hpp"
 #include "mesh/judged_mesh.hpp"
 
 namespace octetra::verify {
@@ -14,7 +14,7 @@ namespace octetra::verify {
 /// line, there was no such edge.
 class Lines {
 public:
-    Lines(const JudgedMesh& fine, const Places& places);
+    Lines(const JudgedMesh& fine, const PointLookup& places);
 
     [[nodiscard]] bool is_whole(VertexIndex a, VertexIndex b) const {
         return whole_.find(a, b) != EdgeTable::absent;
@@ -30,7 +30,7 @@ public:
 
 private:
     const Mesh* mesh_;
-    const Places* places_;
+    const PointLookup* places_;
     EdgeTable whole_;      ///< edges of the fine mesh
     EdgeTable midpoints_;  ///< results of midpoint() so far; no_midpoint for none()
     std::vector<char> halves_;

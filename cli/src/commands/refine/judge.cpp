@@ -49,8 +49,9 @@ bool is_valid(const Mesh& coarse, const Mesh& fine, const RefinementMaps& maps, 
     return verdict.valid();
 }
 
-bool is_valid_together(verify::MeshSlice coarse, distributed::CanonicalMesh& fine, const Plan& plan,
-                       const RefineOptions& options, const distributed::Communicator& world) {
+bool is_valid_distributed(verify::MeshSlice coarse, distributed::CanonicalMesh& fine,
+                          const Plan& plan, const RefineOptions& options,
+                          const distributed::Communicator& world) {
     RefinementMaps maps;
     if (!options.maps.empty()) maps = maps_of_all(fine.whole(), world);
     const auto verdict = verify::verify_refinement(

@@ -16,8 +16,8 @@ namespace octetra::cli {
                             const Plan& plan, const RefineOptions& options);
 
 /// Collective. As above, for a distributed mesh; no process holds the whole mesh.
-[[nodiscard]] bool is_valid_together(verify::MeshSlice coarse, distributed::CanonicalMesh& fine,
-                                     const Plan& plan, const RefineOptions& options,
-                                     const distributed::Communicator& world);
+[[nodiscard]] bool is_valid_distributed(verify::MeshSlice coarse, distributed::CanonicalMesh& fine,
+                                        const Plan& plan, const RefineOptions& options,
+                                        const distributed::Communicator& world);
 
 }  // namespace octetra::cli

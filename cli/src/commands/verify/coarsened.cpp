@@ -13,7 +13,7 @@ verify::Verdict judge_coarsened(const Coarsened& asked, const Mesh& after, const
                                 const verify::VerifyOptions& options, JudgedFiles& judged) {
     const Checkpoint before = read_checkpoint(asked.before);
     verify::CoarseningRequest request{asked.selection, asked.typed.outside, asked.typed.levels};
-    complete_selection(request.may_go, asked.typed.selection,
+    complete_selection(request.may_coarsen, asked.typed.selection,
                        {!before.input.regions.empty(), before.input.index_base,
                         before.facts.cells_now, SharedGroupNames(before.facts.group_names)});
     judged = {.fine = name,

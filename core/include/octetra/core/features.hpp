@@ -71,7 +71,7 @@ using FeatureCounts = PerFeature<std::uint64_t>;
 }
 
 /// Sorts the numbers and removes duplicates.
-inline void put_in_order(std::vector<std::uint64_t>& numbers) {
+inline void sort_unique(std::vector<std::uint64_t>& numbers) {
     std::ranges::sort(numbers);
     numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
 }

@@ -26,7 +26,8 @@ struct FieldRows {
     std::vector<std::size_t> components;  ///< of each field
     std::uint64_t count = 0;              ///< number of rows in the file
     std::uint64_t first = 0;              ///< number of this process's first row
-    std::vector<double> values;           ///< its rows in the order of the file; see place_in_sol()
+    std::vector<double>
+        values;  ///< its rows in the order of the file; see sol_component_position()
 
     [[nodiscard]] std::size_t width() const {
         return std::accumulate(components.begin(), components.end(), std::size_t{0});

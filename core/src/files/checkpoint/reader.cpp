@@ -183,17 +183,17 @@ std::vector<std::vector<CutRun>> CheckpointReader::read_cuts(std::uint64_t block
             steps[t].push_back({0, cells});
             continue;
         }
-        std::uint64_t told = 0;
+        std::uint64_t covered = 0;
         std::uint64_t made = 0;
         for (CutReader reader(rest.first(size)); !reader.at_end();) {
             const CutRun run = reader.next();
-            if (run.count == 0 || run.count > cells - told) refuse(t);
-            told += run.count;
+            if (run.count == 0 || run.count > cells - covered) refuse(t);
+            covered += run.count;
             made += run.count * child_count_of(run.cut);
             if (run.cut != 0) found[t].cells_cut += run.count;
             steps[t].push_back(run);
         }
-        if (told != cells || made > facts().cells_now) refuse(t);
+        if (covered != cells || made > facts().cells_now) refuse(t);
         rest = rest.subspan(size);
         cells = made;
     }

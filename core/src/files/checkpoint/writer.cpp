@@ -42,8 +42,9 @@ struct CheckpointWriter::Parts {
     OutputFile file;
     std::vector<BlockEntry> own;  ///< the blocks written by this process
 
-    Parts(const std::filesystem::path& path, const ProcessGroup& processes, CheckpointFacts told)
-        : group(&processes), facts(std::move(told)), file(path, processes) {
+    Parts(const std::filesystem::path& path, const ProcessGroup& processes,
+          CheckpointFacts initial_facts)
+        : group(&processes), facts(std::move(initial_facts)), file(path, processes) {
         const CheckpointHeader header;
         if (group->is_first()) file.put_bytes(&header, sizeof header);
         file.end_turn();

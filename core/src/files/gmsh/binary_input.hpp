@@ -77,7 +77,7 @@ public:
 
     /// Returns the next bytes without consuming them, or null if fewer remain or `size` exceeds the
     /// length of any row; pass() consumes them.
-    [[nodiscard]] const std::byte* at_hand(std::size_t size) {
+    [[nodiscard]] const std::byte* peek(std::size_t size) {
         constexpr std::size_t longest_row = 1U << 12U;
         if (size > longest_row || size > reader_->remaining()) return nullptr;
         return reader_->peek_bytes(size, {});
@@ -94,12 +94,12 @@ public:
         reader_->fail(what, place);
     }
     [[nodiscard]] std::string place() const { return reader_->path().native(); }
-    [[nodiscard]] std::uint64_t end_place() const { return reader_->position(); }
+    [[nodiscard]] std::uint64_t end_position() const { return reader_->position(); }
     static constexpr bool has_lines = false;
 
     /// For random access to rows: the position of the next byte, and a seek.
     [[nodiscard]] std::uint64_t here() const { return reader_->position(); }
-    void go_to(std::uint64_t byte) { reader_->seek(byte); }
+    void seek(std::uint64_t byte) { reader_->seek(byte); }
     void end_rows() const {}
 
 private:

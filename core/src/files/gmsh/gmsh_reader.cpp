@@ -10,7 +10,7 @@
 #include "files/gmsh/entity_groups.hpp"
 #include "files/gmsh/format_line.hpp"
 #include "files/gmsh/gmsh.hpp"
-#include "files/gmsh/left_out.hpp"
+#include "files/gmsh/ignored.hpp"
 #include "files/gmsh/mesh_intake.hpp"
 #include "files/gmsh/section_order.hpp"
 #include "files/gmsh/sections_2.hpp"
@@ -45,9 +45,9 @@ public:
         }
         order_.end([this](const std::string& what) { in_->fail(what); });
         intake_.check(
-            Input::has_lines, in_->end_place(),
+            Input::has_lines, in_->end_position(),
             [this](const std::string& what, std::uint64_t place) { in_->fail_at(what, place); });
-        tell_of_entities(groups_.in_several(), path.native(), options_->note);
+        note_entities_in_several_groups(groups_.in_several(), path.native(), options_->note);
         intake_.add_notes(path.native());
         return intake_.counts();
     }

@@ -325,7 +325,7 @@ private:
 };
 
 /// Throws InputError if a number does not fit into the 32 bits of binary files of version 2.
-void refuse_what_is_too_large(const MeshFacts& facts, const std::filesystem::path& path) {
+void check_entity_counts(const MeshFacts& facts, const std::filesystem::path& path) {
     constexpr std::uint64_t most = std::numeric_limits<std::int32_t>::max();
     if (facts.vertices <= most && facts.cells + facts.facets + facts.edges <= most) return;
     throw InputError(
@@ -334,7 +334,7 @@ void refuse_what_is_too_large(const MeshFacts& facts, const std::filesystem::pat
                     path.native(), most));
 }
 
-std::string what_is_lost(const MeshFacts& facts, bool has_negative_markers) {
+std::string unsupported_data(const MeshFacts& facts, bool has_negative_markers) {
     std::string lost;
     const auto add = [&](std::string_view what) {
         lost += lost.empty() ? "" : "; ";
@@ -355,12 +355,12 @@ std::string what_is_lost(const MeshFacts& facts, bool has_negative_markers) {
 
 std::string write_gmsh(MeshSource& mesh, const std::filesystem::path& path,
                        const MshFormat& format) {
-    if (format.is_2 && !format.is_text) refuse_what_is_too_large(mesh.facts(), path);
+    if (format.is_2 && !format.is_text) check_entity_counts(mesh.facts(), path);
     OutputFile out(path, mesh.group());
     GmshFile file(out, mesh, format);
     file.write();
     out.commit();
-    return what_is_lost(mesh.facts(), file.has_negative_markers());
+    return unsupported_data(mesh.facts(), file.has_negative_markers());
 }
 
 }  // namespace octetra

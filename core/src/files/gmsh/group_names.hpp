@@ -46,7 +46,7 @@ template <class Input>
 std::uint64_t read_group_names(Input& in, std::vector<GroupName>& names, UntaggedGroups& untagged) {
     const std::uint64_t count = in.count_line("the number of names");
     in.check_count(count, 3, 4, "names");
-    std::uint64_t left_out = 0;
+    std::uint64_t ignored = 0;
     std::vector<std::pair<std::int32_t, Marker>> groups;
     for (std::uint64_t i = 0; i < count; ++i) {
         auto group = parse_group_name(in.line("the name of a group"));
@@ -57,14 +57,14 @@ std::uint64_t read_group_names(Input& in, std::vector<GroupName>& names, Untagge
         if (group->name == untagged_group_name) {
             untagged.add(group->dimension, group->tag);
         } else if (group->name.empty() || !is_name(group->name)) {
-            ++left_out;
+            ++ignored;
         } else {
             names.push_back(std::move(*group));
         }
     }
     std::ranges::sort(groups);
     const auto twice = std::ranges::adjacent_find(groups);
-    if (twice == groups.end()) return left_out;
+    if (twice == groups.end()) return ignored;
     in.fail(fmt::format("group {} of dimension {} has two names", twice->second, twice->first));
 }
 

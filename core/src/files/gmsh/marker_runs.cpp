@@ -18,7 +18,7 @@ struct SliceEnds {
 };
 
 template <class T>
-std::vector<std::vector<T>> lists_of_all(const ProcessGroup& group, const std::vector<T>& list) {
+std::vector<std::vector<T>> gather_lists(const ProcessGroup& group, const std::vector<T>& list) {
     ProcessGroup::Bytes bytes(list.size() * sizeof(T));
     if (!list.empty()) std::memcpy(bytes.data(), list.data(), bytes.size());
     std::vector<std::vector<T>> lists;
@@ -49,7 +49,7 @@ public:
         std::vector<SliceEnds> ends;
         if (!runs.empty()) ends.push_back({runs.size(), runs.front(), runs.back()});
         int rank = 0;
-        for (const std::vector<SliceEnds>& of_rank : lists_of_all(*group_, ends)) {
+        for (const std::vector<SliceEnds>& of_rank : gather_lists(*group_, ends)) {
             const bool is_own = rank++ == group_->rank();
             for (const SliceEnds& slice : of_rank) join(slice, is_own, runs);
         }
@@ -62,13 +62,13 @@ public:
 
 private:
     void join(const SliceEnds& slice, bool is_own, const std::vector<MarkerRun>& runs) {
-        const bool goes_on = open_.length > 0 && open_.marker == slice.first.marker;
-        found_.count += slice.runs - (goes_on ? 1 : 0);
-        if (goes_on) open_.length += slice.first.length;
-        if (goes_on && slice.runs == 1) return;
+        const bool continues = open_.length > 0 && open_.marker == slice.first.marker;
+        found_.count += slice.runs - (continues ? 1 : 0);
+        if (continues) open_.length += slice.first.length;
+        if (continues && slice.runs == 1) return;
         close();
         if (is_own) {
-            found_.here.insert(found_.here.end(), std::next(runs.begin(), goes_on ? 1 : 0),
+            found_.here.insert(found_.here.end(), std::next(runs.begin(), continues ? 1 : 0),
                                runs.end());
         }
         open_ = slice.last;
@@ -88,7 +88,8 @@ private:
 };
 
 /// Collective. Returns the distinct markers of all processes, ascending.
-std::vector<Marker> markers_of_all(const ProcessGroup& group, const std::vector<MarkerRun>& runs) {
+std::vector<Marker> distinct_markers(const ProcessGroup& group,
+                                     const std::vector<MarkerRun>& runs) {
     const auto make_set = [](std::vector<Marker>& markers) {
         std::ranges::sort(markers);
         markers.erase(std::unique(markers.begin(), markers.end()), markers.end());
@@ -97,7 +98,7 @@ std::vector<Marker> markers_of_all(const ProcessGroup& group, const std::vector<
     for (const MarkerRun& run : runs) markers.push_back(run.marker);
     make_set(markers);
     std::vector<Marker> all;
-    for (const auto& of_rank : lists_of_all(group, markers)) {
+    for (const auto& of_rank : gather_lists(group, markers)) {
         all.insert(all.end(), of_rank.begin(), of_rank.end());
     }
     make_set(all);
@@ -123,7 +124,7 @@ MarkerRuns find_marker_runs(std::uint64_t count, const ProcessGroup& group,
     JoinedRuns joined(group);
     joined.add(runs);
     MarkerRuns found = joined.take();
-    found.markers = markers_of_all(group, found.here);
+    found.markers = distinct_markers(group, found.here);
     return found;
 }
 

@@ -48,17 +48,17 @@ void MeshIntake::make_room(const EntityKind<I, N>& kind, std::uint64_t count) {
 }
 
 template <class I, std::size_t N>
-WrongRow MeshIntake::take(const EntityKind<I, N>& kind,
+RowError MeshIntake::take(const EntityKind<I, N>& kind,
                           std::span<const std::array<std::uint64_t, N>> rows, Marker marker,
                           std::uint64_t place, std::uint64_t step) {
     std::array<std::array<VertexIndex, N>, most_at_once> room;
     const auto vertices = std::span(room).first(rows.size());
-    const WrongRow missing = find_nodes(rows, vertices);
+    const RowError missing = find_nodes(rows, vertices);
     const auto found = missing.what.empty() ? vertices : vertices.first(missing.row);
     Taken& of_kind = taken(kind);
     if (!options_->only_syntax) {
         if constexpr (N > 2) {
-            if (const WrongRow wrong = check_entities(found); !wrong.what.empty()) return wrong;
+            if (const RowError wrong = check_entities(found); !wrong.what.empty()) return wrong;
         }
         of_kind.places.add(place, step, found.size());
     }
@@ -75,7 +75,7 @@ WrongRow MeshIntake::take(const EntityKind<I, N>& kind,
 
 /// Finds the vertices of the rows, up to the first row that refers to a missing node.
 template <std::size_t N>
-WrongRow MeshIntake::find_nodes(std::span<const std::array<std::uint64_t, N>> rows,
+RowError MeshIntake::find_nodes(std::span<const std::array<std::uint64_t, N>> rows,
                                 std::span<std::array<VertexIndex, N>> found) {
     for (std::size_t i = 0; i < rows.size(); ++i) {
         const std::uint64_t* tag = rows[i].data();
@@ -91,14 +91,14 @@ WrongRow MeshIntake::find_nodes(std::span<const std::array<std::uint64_t, N>> ro
     return {};
 }
 
-WrongRow MeshIntake::check_entities(std::span<CellVertices> cells) {
+RowError MeshIntake::check_entities(std::span<CellVertices> cells) {
     const auto [cell, what] = cell_check_.check_entities(cells);
     if (!what.empty()) return {cell, what};
     for (const CellVertices& vertices : cells) repeated_cells_->add(vertices);
     return {};
 }
 
-WrongRow MeshIntake::check_entities(std::span<const FacetVertices> facets) {
+RowError MeshIntake::check_entities(std::span<const FacetVertices> facets) {
     for (std::size_t i = 0; i < facets.size(); ++i) {
         const auto& [a, b, c] = facets[i];
         if (a == b || b == c || c == a) return {i, "the triangle has the same vertex twice"};
@@ -126,7 +126,7 @@ void MeshIntake::elements_complete() {
     growing_->all_complete(cell_kind);
 }
 
-void MeshIntake::check(bool has_lines, std::uint64_t end_place, const Fail& fail) {
+void MeshIntake::check(bool has_lines, std::uint64_t end_position, const Fail& fail) {
     if (options_->only_syntax) return;
     const Mesh& mesh = growing_->mesh;
     const auto lines_of = [has_lines](const Taken& taken) {
@@ -140,9 +140,9 @@ void MeshIntake::check(bool has_lines, std::uint64_t end_place, const Fail& fail
         fail(describe_wrong(wrong, name, markers, mesh, lines_of(of_kind)),
              of_kind.places.of(wrong.entry.value()));
     };
-    if (const std::string wrong = wrong_without_cells(cells_.count, facets_.count, left_out_);
+    if (const std::string wrong = error_without_cells(cells_.count, facets_.count, ignored_);
         !wrong.empty()) {
-        fail(wrong, facets_.count > 0 ? facets_.places.of(0) : end_place);
+        fail(wrong, facets_.count > 0 ? facets_.places.of(0) : end_position);
     }
     if (repeated_cells_) {
         const CellPair pair = repeated_cells_->find(mesh.cells, mesh.points.size());
@@ -163,7 +163,7 @@ void MeshIntake::add_notes(const std::string& path) const {
     if (const std::uint64_t fixed = cell_check_.fixed_count(); fixed > 0) {
         options_->note(fmt::format("{}: {} inverted cells were reversed", path, fixed));
     }
-    tell(left_out_, path, options_->note);
+    note_ignored(ignored_, path, options_->note);
 }
 
 ElementCounts MeshIntake::counts() const { return {cells_.count, facets_.count, edges_.count}; }
@@ -171,13 +171,13 @@ ElementCounts MeshIntake::counts() const { return {cells_.count, facets_.count, 
 template void MeshIntake::make_room(const EntityKind<CellIndex, 4>&, std::uint64_t);
 template void MeshIntake::make_room(const EntityKind<FacetIndex, 3>&, std::uint64_t);
 template void MeshIntake::make_room(const EntityKind<EdgeIndex, 2>&, std::uint64_t);
-template WrongRow MeshIntake::take(const EntityKind<CellIndex, 4>&,
+template RowError MeshIntake::take(const EntityKind<CellIndex, 4>&,
                                    std::span<const std::array<std::uint64_t, 4>>, Marker,
                                    std::uint64_t, std::uint64_t);
-template WrongRow MeshIntake::take(const EntityKind<FacetIndex, 3>&,
+template RowError MeshIntake::take(const EntityKind<FacetIndex, 3>&,
                                    std::span<const std::array<std::uint64_t, 3>>, Marker,
                                    std::uint64_t, std::uint64_t);
-template WrongRow MeshIntake::take(const EntityKind<EdgeIndex, 2>&,
+template RowError MeshIntake::take(const EntityKind<EdgeIndex, 2>&,
                                    std::span<const std::array<std::uint64_t, 2>>, Marker,
                                    std::uint64_t, std::uint64_t);
 

@@ -15,10 +15,10 @@
 #include "files/checks/cell_check.hpp"
 #include "files/gmsh/element_types.hpp"
 #include "files/gmsh/group_names.hpp"
-#include "files/gmsh/left_out.hpp"
+#include "files/gmsh/ignored.hpp"
 #include "files/gmsh/node_numbers.hpp"
-#include "files/gmsh/place_runs.hpp"
-#include "files/gmsh/wrong_row.hpp"
+#include "files/gmsh/position_runs.hpp"
+#include "files/gmsh/row_error.hpp"
 #include "files/input/growing_mesh.hpp"
 
 namespace octetra::gmsh {
@@ -44,7 +44,7 @@ public:
     /// Reads the names of physical groups.
     template <class Input>
     void take_names(Input& in) {
-        left_out_.names = read_group_names(in, growing_->mesh.group_names, untagged_);
+        ignored_.names = read_group_names(in, growing_->mesh.group_names, untagged_);
     }
 
     void expect_nodes(std::uint64_t count) { growing_->expect_points(count, 0, false); }
@@ -52,7 +52,7 @@ public:
     /// position of the tag.
     void take_tag(std::uint64_t tag, std::uint64_t place, std::uint64_t step) {
         nodes_.add(tag);
-        node_places_.add(place, step);
+        node_positions_.add(place, step);
     }
     void take_point(const Point& point) {
         growing_->mesh.points.push_back(point);
@@ -62,7 +62,7 @@ public:
     void nodes_complete(auto&& fail) {
         growing_->points_complete();
         if (const auto repeated = nodes_.complete()) {
-            fail(describe(*repeated), node_places_.of(repeated->node));
+            fail(describe(*repeated), node_positions_.of(repeated->node));
         }
     }
 
@@ -74,23 +74,23 @@ public:
     /// Takes at most `most_at_once` elements of a supported kind, given by the tags of their nodes.
     /// `place` is the position of the first row; rows are `step` bytes or lines long.
     template <class I, std::size_t N>
-    [[nodiscard]] WrongRow take(const EntityKind<I, N>& kind,
+    [[nodiscard]] RowError take(const EntityKind<I, N>& kind,
                                 std::span<const std::array<std::uint64_t, N>> rows, Marker marker,
                                 std::uint64_t place, std::uint64_t step);
     /// Count elements that are ignored: of other shapes, between partitions, or repeated for
     /// another group.
-    void skip(Shape shape, std::uint64_t count) { left_out_.add(shape, count); }
-    void skip_degenerate_line() { ++left_out_.degenerate_lines; }
-    void skip_interface(std::uint64_t count) { left_out_.interfaces += count; }
-    void skip_in_another_group() { ++left_out_.in_another_group; }
-    void note_missing_entity(std::uint64_t count) { left_out_.of_missing_entities += count; }
+    void skip(Shape shape, std::uint64_t count) { ignored_.add(shape, count); }
+    void skip_degenerate_line() { ++ignored_.degenerate_lines; }
+    void skip_interface(std::uint64_t count) { ignored_.interfaces += count; }
+    void skip_in_another_group() { ++ignored_.in_another_group; }
+    void note_missing_entity(std::uint64_t count) { ignored_.of_missing_entities += count; }
     void elements_complete();
 
     /// Checks properties of the whole mesh. Calls fail(what, place) for an error. `has_lines`:
-    /// positions are line numbers, so messages may name further ones. `end_place` is the end of the
-    /// file.
+    /// positions are line numbers, so messages may name further ones. `end_position` is the end of
+    /// the file.
     using Fail = std::function<void(const std::string& what, std::uint64_t place)>;
-    void check(bool has_lines, std::uint64_t end_place, const Fail& fail);
+    void check(bool has_lines, std::uint64_t end_position, const Fail& fail);
     /// Passes notes on ignored and modified entities to the options, for the file of this name.
     void add_notes(const std::string& path) const;
 
@@ -100,7 +100,7 @@ private:
     /// The elements of a kind read so far.
     struct Taken {
         std::uint64_t count = 0;
-        PlaceRuns places;
+        PositionRuns places;
     };
     template <class I, std::size_t N>
     Taken& taken(const EntityKind<I, N>& /*kind*/) {
@@ -108,10 +108,10 @@ private:
     }
     [[nodiscard]] static std::string describe(const NodeNumbers::Repeated& repeated);
     template <std::size_t N>
-    [[nodiscard]] WrongRow find_nodes(std::span<const std::array<std::uint64_t, N>> rows,
+    [[nodiscard]] RowError find_nodes(std::span<const std::array<std::uint64_t, N>> rows,
                                       std::span<std::array<VertexIndex, N>> found);
-    [[nodiscard]] WrongRow check_entities(std::span<CellVertices> cells);
-    [[nodiscard]] static WrongRow check_entities(std::span<const FacetVertices> facets);
+    [[nodiscard]] RowError check_entities(std::span<CellVertices> cells);
+    [[nodiscard]] static RowError check_entities(std::span<const FacetVertices> facets);
     template <class I, std::size_t N>
     void append(const EntityKind<I, N>& kind, std::span<const std::array<VertexIndex, N>> vertices,
                 Marker marker);
@@ -120,13 +120,13 @@ private:
     const ReadOptions* options_;
     std::optional<ElementCounts> expected_;
     NodeNumbers nodes_;
-    PlaceRuns node_places_;
+    PositionRuns node_positions_;
     Taken cells_;
     Taken facets_;
     Taken edges_;
     CellCheck cell_check_;
     std::optional<RepeatedCells> repeated_cells_;
-    LeftOut left_out_;
+    IgnoredContent ignored_;
     UntaggedGroups untagged_;
     std::string missing_;  // message about a missing node, referred to by the result of take()
 };

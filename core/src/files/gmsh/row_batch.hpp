@@ -8,7 +8,7 @@
 
 #include <octetra/core/error.hpp>
 
-#include "files/gmsh/wrong_row.hpp"
+#include "files/gmsh/row_error.hpp"
 #include "files/input/growing_mesh.hpp"
 
 namespace octetra::gmsh {
@@ -51,8 +51,8 @@ public:
     template <class I, std::size_t N>
     const std::array<std::uint64_t, N>& add(const EntityKind<I, N>& /*kind*/, Marker marker,
                                             std::uint64_t place, std::uint64_t step) {
-        const bool goes_on = marker == marker_ && step == step_ && place == next_place_;
-        if (!goes_on) {
+        const bool continues = marker == marker_ && step == step_ && place == next_place_;
+        if (!continues) {
             const auto row = rows_of<N>()[count_];
             pass_on();
             begin(N, marker, place, step);
@@ -67,9 +67,9 @@ public:
     template <class I, std::size_t N>
     [[nodiscard]] std::span<std::array<std::uint64_t, N>> next_rows(
         const EntityKind<I, N>& /*kind*/, Marker marker, std::uint64_t place, std::uint64_t step) {
-        const bool goes_on =
+        const bool continues =
             N == nodes_ && marker == marker_ && step == step_ && place == next_place_;
-        if (!goes_on) return {};
+        if (!continues) return {};
         if (count_ == Intake::most_at_once) pass_on();
         return std::span(rows_of<N>()).subspan(count_);
     }
@@ -109,7 +109,7 @@ private:
         using Row = std::array<std::uint64_t, N>;
         const std::uint64_t place = first_place_;
         const auto rows = std::span<const Row>(rows_of<N>()).first(std::exchange(count_, 0));
-        const WrongRow wrong = intake_->take(kind, rows, marker_, place, step_);
+        const RowError wrong = intake_->take(kind, rows, marker_, place, step_);
         first_place_ = next_place_;
         if (!wrong.what.empty()) in_->fail_at(wrong.what, place + wrong.row * step_);
     }

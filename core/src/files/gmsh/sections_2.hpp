@@ -99,11 +99,11 @@ bool is_same_element(const ListedElement<N>& a, const ListedElement<N>& b) {
 /// recognised.
 template <std::size_t N>
 struct ListedRun {
-    ListedElement<N> first;    ///< first element kept
-    ListedElement<N> last;     ///< last element kept
-    std::uint64_t kept = 0;    ///< number of elements kept
-    std::uint64_t alike = 0;   ///< kept elements at the beginning that equal the first
-    std::uint64_t others = 0;  ///< repetitions of it in other groups, which are ignored
+    ListedElement<N> first;            ///< first element kept
+    ListedElement<N> last;             ///< last element kept
+    std::uint64_t kept = 0;            ///< number of elements kept
+    std::uint64_t equal_to_first = 0;  ///< kept elements at the beginning that equal the first
+    std::uint64_t others = 0;          ///< repetitions of it in other groups, which are ignored
     std::array<std::int32_t, 6> groups_of_others{};  ///< the first of these groups
 
     /// The caller must set the nodes of `last` before they are read.
@@ -112,15 +112,15 @@ struct ListedRun {
         last.physical = physical;
         last.elementary = elementary;
         last.is_there = true;
-        if (kept == alike) {
+        if (kept == equal_to_first) {
             const ListedElement<N> one{nodes, physical, elementary, true};
             if (kept == 0) first = one;
-            if (is_same_element(one, first)) ++alike;
+            if (is_same_element(one, first)) ++equal_to_first;
         }
         ++kept;
     }
-    void leave_out(std::int32_t group) {
-        if (kept != alike) return;
+    void count_repetition(std::int32_t group) {
+        if (kept != equal_to_first) return;
         if (others < groups_of_others.size()) groups_of_others[others] = group;
         ++others;
     }
@@ -174,16 +174,16 @@ private:
         /// stall on the recent store.
         const std::array<std::uint64_t, N>* last_nodes = nullptr;
 
-        void know_last_nodes() {
+        void store_last_nodes() {
             if (last_nodes != nullptr) run.last.nodes = *std::exchange(last_nodes, nullptr);
         }
     };
 
     void fill(auto&& read_elements) {
         batch_.fill(read_elements);
-        cells_.know_last_nodes();
-        facets_.know_last_nodes();
-        edges_.know_last_nodes();
+        cells_.store_last_nodes();
+        facets_.store_last_nodes();
+        edges_.store_last_nodes();
     }
     void read_blocks(std::uint64_t count) {
         for (std::uint64_t left = count; left > 0;) {
@@ -195,10 +195,11 @@ private:
     void add_rows(const ElementBlock2& block, std::uint64_t count) requires(!Input::has_lines) {
         const auto add_rows_of = [&](const auto& kind, auto& of) {
             intake_->make_room(kind, count);
-            std::uint64_t one_by_one = 0;  // elements to read singly after a failed read_alike()
+            std::uint64_t one_by_one =
+                0;  // elements to read singly after a failed read_uniform_rows()
             for (std::uint64_t left = count; left > 0;) {
                 if (one_by_one == 0) {
-                    const std::uint64_t read = read_alike(kind, of, block.tags, left);
+                    const std::uint64_t read = read_uniform_rows(kind, of, block.tags, left);
                     left -= read;
                     if (read > 0) continue;
                     one_by_one = Intake::most_at_once;
@@ -222,16 +223,16 @@ private:
     /// Reads the next rows of a binary file, at most `left`, as many as fit into the batch, if all
     /// have the groups of the last row. Returns their number, or 0 if any row differs.
     template <class I, std::size_t N>
-    std::uint64_t read_alike(const EntityKind<I, N>& kind, OfKind<N>& of, std::size_t tags,
-                             std::uint64_t left) {
+    std::uint64_t read_uniform_rows(const EntityKind<I, N>& kind, OfKind<N>& of, std::size_t tags,
+                                    std::uint64_t left) {
         const ListedRun<N>& run = of.run;
         if (tags < 2) return 0;
         const std::size_t size = (1 + tags + N) * sizeof(std::int32_t);
         auto rows = batch_.next_rows(kind, run.last.physical, in_->begin_row("an element"), size);
         if (rows.empty()) return 0;
-        of.know_last_nodes();  // they are in slots that are overwritten below
+        of.store_last_nodes();  // they are in slots that are overwritten below
         rows = rows.first(std::min<std::uint64_t>(rows.size(), left));
-        const std::byte* row = in_->at_hand(rows.size() * size);
+        const std::byte* row = in_->peek(rows.size() * size);
         if (row == nullptr) return 0;
         const bool swaps_bytes = in_->swaps_bytes();
         const auto number = [&](std::size_t k) {
@@ -259,7 +260,7 @@ private:
     template <class I, std::size_t N>
     bool read_at_once(const EntityKind<I, N>& kind, OfKind<N>& of, std::size_t tags) {
         const std::size_t size = (1 + tags + N) * sizeof(std::int32_t);
-        const std::byte* const row = in_->at_hand(size);
+        const std::byte* const row = in_->peek(size);
         if (row == nullptr) return false;
         const auto number = [&](std::size_t k) {
             return number_at<std::int32_t>(row + k * sizeof(std::int32_t), in_->swaps_bytes());
@@ -305,7 +306,7 @@ private:
     }
     template <class I, std::size_t N>
     std::array<std::uint64_t, N>& next_row(const EntityKind<I, N>& kind, OfKind<N>& of) {
-        if (!batch_.is_of(kind)) of.know_last_nodes();
+        if (!batch_.is_of(kind)) of.store_last_nodes();
         return batch_.next_row(kind);
     }
     /// Adds the next row of the batch unless it repeats the last element for another group.
@@ -315,9 +316,9 @@ private:
         if (is_degenerate_line(nodes)) return intake_->skip_degenerate_line();
         ListedRun<N>& run = of.run;
         if (physical_ != run.last.physical) {
-            of.know_last_nodes();
+            of.store_last_nodes();
             if (is_same_element({nodes, physical_, elementary_, true}, run.last)) {
-                run.leave_out(physical_);
+                run.count_repetition(physical_);
                 return intake_->skip_in_another_group();
             }
         }

@@ -109,7 +109,7 @@ public:
         return fmt::format("{}:{}", reader_->path().native(), reader_->line_number());
     }
     /// Returns the position of the end of the file, once it has been read.
-    [[nodiscard]] std::uint64_t end_place() const { return reader_->line_number(); }
+    [[nodiscard]] std::uint64_t end_position() const { return reader_->line_number(); }
     /// Whether messages can refer to positions as lines.
     static constexpr bool has_lines = true;
 

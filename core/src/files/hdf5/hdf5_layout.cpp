@@ -38,17 +38,17 @@ herr_t note_reason(unsigned, const H5E_error2_t* error, void* reason) {
 }
 
 /// Suppresses the printing of errors by HDF5, and restores the program's setting.
-class Unprinted {
+class SilencedErrors {
 public:
-    Unprinted() {
+    SilencedErrors() {
         H5Eget_auto2(H5E_DEFAULT, &print_, &data_);
         H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
     }
-    ~Unprinted() { H5Eset_auto2(H5E_DEFAULT, print_, data_); }
-    Unprinted(const Unprinted&) = delete;
-    Unprinted& operator=(const Unprinted&) = delete;
-    Unprinted(Unprinted&&) = delete;
-    Unprinted& operator=(Unprinted&&) = delete;
+    ~SilencedErrors() { H5Eset_auto2(H5E_DEFAULT, print_, data_); }
+    SilencedErrors(const SilencedErrors&) = delete;
+    SilencedErrors& operator=(const SilencedErrors&) = delete;
+    SilencedErrors(SilencedErrors&&) = delete;
+    SilencedErrors& operator=(SilencedErrors&&) = delete;
 
 private:
     H5E_auto2_t print_ = nullptr;
@@ -204,7 +204,7 @@ private:
         throw SystemError(reason);
     }
 
-    Unprinted unprinted_;
+    SilencedErrors unprinted_;
     std::string path_;
     Handle file_;
     Handle creation_;
@@ -212,7 +212,7 @@ private:
 
 /// Throws SystemError if the file would exceed the limit of the process, since HDF5 does not
 /// recover from this error.
-void refuse_beyond_limit(const std::vector<Hdf5Dataset>& datasets) {
+void check_file_size_limit(const std::vector<Hdf5Dataset>& datasets) {
     constexpr std::uint64_t most_of_the_rest = std::uint64_t{1} << 16U;
     std::uint64_t size = most_of_the_rest;
     for (const Hdf5Dataset& dataset : datasets) size += size_of(dataset);
@@ -223,9 +223,9 @@ void refuse_beyond_limit(const std::vector<Hdf5Dataset>& datasets) {
 }
 
 /// Returns the bytes of the file outside the values.
-std::vector<Hdf5Bytes> all_but_values(const MemoryFile& file,
-                                      const std::vector<std::uint64_t>& values_at,
-                                      const std::vector<Hdf5Dataset>& datasets) {
+std::vector<Hdf5Bytes> bytes_outside_values(const MemoryFile& file,
+                                            const std::vector<std::uint64_t>& values_at,
+                                            const std::vector<Hdf5Dataset>& datasets) {
     std::vector<std::pair<std::uint64_t, std::uint64_t>> values;
     for (std::size_t k = 0; k < datasets.size(); ++k) {
         const std::uint64_t size = size_of(datasets[k]);
@@ -246,7 +246,7 @@ std::vector<Hdf5Bytes> all_but_values(const MemoryFile& file,
 
 Hdf5Skeleton make_hdf5_skeleton(const std::vector<Hdf5Group>& groups,
                                 const std::vector<Hdf5Dataset>& datasets) {
-    refuse_beyond_limit(datasets);
+    check_file_size_limit(datasets);
     const MemoryFile file;
     FileMaker maker(file.path());
     for (const Hdf5Group& group : groups) {
@@ -262,7 +262,7 @@ Hdf5Skeleton make_hdf5_skeleton(const std::vector<Hdf5Group>& groups,
         skeleton.values_at.push_back(maker.make_dataset(dataset));
     }
     maker.close();
-    skeleton.rest = all_but_values(file, skeleton.values_at, datasets);
+    skeleton.rest = bytes_outside_values(file, skeleton.values_at, datasets);
     return skeleton;
 }
 

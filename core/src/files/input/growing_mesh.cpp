@@ -15,7 +15,7 @@ void GrowingMesh::expect_points(std::uint64_t count, std::size_t attributes, boo
     mesh.attributes_per_point = attributes;
     facts_.vertices = count;
     facts_.attributes_per_point = attributes;
-    if (is_streaming()) points_per_block_ = MeshSink::longest_stretch / (1 + attributes);
+    if (is_streaming()) points_per_block_ = MeshSink::max_batch_size / (1 + attributes);
     const std::size_t at_once = std::min<std::size_t>(count, points_per_block_);
     reserve_in_huge_pages(mesh.points, at_once);
     reserve_in_huge_pages(mesh.point_attributes, at_once * attributes);
@@ -36,7 +36,7 @@ void GrowingMesh::flush_points() {
 template <class I, std::size_t N>
 void GrowingMesh::expect(const EntityKind<I, N>& kind, std::uint64_t count, bool has_markers) {
     facts_.*kind.count = count;
-    if (is_streaming()) entities_per_block_ = MeshSink::longest_stretch;
+    if (is_streaming()) entities_per_block_ = MeshSink::max_batch_size;
     const std::size_t at_once = std::min<std::size_t>(count, entities_per_block_);
     reserve_in_huge_pages(mesh.*kind.list, at_once);
     reserve_in_huge_pages(mesh.*kind.markers, has_markers ? at_once : 0);

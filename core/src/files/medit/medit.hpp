@@ -32,7 +32,7 @@ void stream_meshb(const std::filesystem::path& path, MeshSink& sink, const ReadO
 [[nodiscard]] std::string note_on_section(const std::filesystem::path& path,
                                           std::uint64_t keyword_at, std::int32_t code);
 /// Message for a file with neither the keyword End nor a section Tetrahedra.
-inline constexpr std::string_view ends_early =
+inline constexpr std::string_view truncated_file_error =
     "the file ends before the section Tetrahedra, and without the keyword End: was it cut off?";
 /// Returns the note on a file that only lacks the keyword End.
 [[nodiscard]] std::string note_on_missing_end(const std::filesystem::path& path);

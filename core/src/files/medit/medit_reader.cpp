@@ -14,7 +14,7 @@
 #include "files/input/in_order.hpp"
 #include "files/input/line_reader.hpp"
 #include "files/input/tokens.hpp"
-#include "files/medit/entry_places.hpp"
+#include "files/medit/entry_positions.hpp"
 #include "files/medit/keywords.hpp"
 #include "files/medit/medit.hpp"
 #include "files/medit/medit_head.hpp"
@@ -44,7 +44,7 @@ struct FeatureSection {
     std::uint64_t largest_line = 0;  ///< line of its first occurrence
 };
 
-class MeditReader final : private EntryPlaces {
+class MeditReader final : private EntryPositions {
 public:
     /// If `sink` is null, reads the mesh into memory.
     MeditReader(const std::filesystem::path& path, const ReadOptions& options, MeshSink* sink,
@@ -85,7 +85,7 @@ private:
         const std::string keyword = next_keyword();
         if (keyword.empty()) {
             if (vertices_.keyword_line == 0) reader_.fail("there is no section Vertices");
-            if (tetrahedra_.keyword_line == 0) reader_.fail(std::string(ends_early));
+            if (tetrahedra_.keyword_line == 0) reader_.fail(std::string(truncated_file_error));
             options_->note(note_on_missing_end(reader_.path()));
             return false;
         }
@@ -191,7 +191,7 @@ private:
         if (largest > numbered.count) {
             reader_.fail(no_such_entity(numbered, static_cast<std::int64_t>(largest)), line);
         }
-        put_in_order(mesh_.features[feature]);
+        sort_unique(mesh_.features[feature]);
     }
 
     /// Reads the count of a section and its entries, calling read_entry() for each.
@@ -261,7 +261,7 @@ private:
                 (mesh_.*kind.list).push_back(vertices);
                 (mesh_.*kind.markers).push_back(tokens_.marker("the reference"));
                 if (growing_.is_streaming()) {
-                    look_for_out_of_range(vertices, entry++, out_of_range);
+                    find_out_of_range(vertices, entry++, out_of_range);
                 }
                 growing_.entity_complete(kind);
             });
@@ -271,8 +271,8 @@ private:
     }
 
     /// Records the first entry that refers to a missing vertex, and stops streaming from there on.
-    void look_for_out_of_range(std::span<const VertexIndex> vertices, std::uint64_t entry,
-                               std::optional<OutOfRange>& first) {
+    void find_out_of_range(std::span<const VertexIndex> vertices, std::uint64_t entry,
+                           std::optional<OutOfRange>& first) {
         for (const VertexIndex vertex : vertices) {
             if (vertex < streamed_vertices_ || first) continue;
             first = {entry, vertex};

@@ -6,7 +6,7 @@
 
 #include "files/input/byte_reader.hpp"
 #include "files/input/growing_mesh.hpp"
-#include "files/medit/entry_places.hpp"
+#include "files/medit/entry_positions.hpp"
 #include "files/medit/medit.hpp"
 #include "files/medit/meshb_layout.hpp"
 #include "files/medit/meshb_rows.hpp"
@@ -16,7 +16,7 @@ namespace {
 
 /// Reads the sections in file order, except that vertices are read first, because entities that
 /// refer to them are checked as they are read.
-class MeshbReader final : private EntryPlaces {
+class MeshbReader final : private EntryPositions {
 public:
     /// If `sink` is null, reads the mesh into memory.
     MeshbReader(const std::filesystem::path& path, const ReadOptions& options, MeshSink* sink)
@@ -89,7 +89,7 @@ private:
             rows_.append_numbers(feature, done, std::min(count - done, at_once), numbers);
             if (growing_.is_streaming()) numbers.clear();
         }
-        put_in_order(numbers);
+        sort_unique(numbers);
     }
 
     [[noreturn]] void fail_entry(Listed list, std::uint64_t entry,

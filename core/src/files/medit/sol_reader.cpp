@@ -108,7 +108,7 @@ bool is_sol(const std::filesystem::path& path) {
     return path.extension() == ".sol" || path.extension() == ".solb";
 }
 
-std::optional<std::filesystem::path> sol_beside(const std::filesystem::path& path) {
+std::optional<std::filesystem::path> sol_path_for(const std::filesystem::path& path) {
     if (path.extension() == ".mesh") return std::filesystem::path(path).replace_extension(".sol");
     if (path.extension() == ".meshb") return std::filesystem::path(path).replace_extension(".solb");
     return {};
@@ -118,6 +118,6 @@ bool sol_can_hold(const FieldFacts& field) {
     return sol_type(field.components) != 0 && field.type != FieldType::int64;
 }
 
-std::string name_in_sol(std::size_t number) { return fmt::format("sol_{}", number); }
+std::string sol_field_name(std::size_t number) { return fmt::format("sol_{}", number); }
 
 }  // namespace octetra

@@ -12,7 +12,7 @@
 
 namespace octetra {
 
-std::size_t place_in_sol(std::size_t component, std::size_t components) {
+std::size_t sol_component_position(std::size_t component, std::size_t components) {
     constexpr std::array<std::size_t, 6> of_symmetric{0, 2, 5, 1, 4, 3};
     return components == of_symmetric.size() ? of_symmetric.at(component) : component;
 }
@@ -41,8 +41,8 @@ std::string wrong_sol_count(const SolSection& section,
 }
 
 std::string wrong_field_count(std::int64_t fields) {
-    if (fields >= 1 && fields <= static_cast<std::int64_t>(most_sol_fields)) return {};
-    return fmt::format("the number of fields should be from 1 to {}, not {}", most_sol_fields,
+    if (fields >= 1 && fields <= static_cast<std::int64_t>(max_sol_fields)) return {};
+    return fmt::format("the number of fields should be from 1 to {}, not {}", max_sol_fields,
                        fields);
 }
 

@@ -43,7 +43,7 @@ inline constexpr std::array<std::size_t, 4> sol_components{1, 3, 6, 9};
 [[nodiscard]] std::int32_t sol_type(std::size_t components);
 
 /// Upper limit of the number of fields in a section, larger than needed in practice.
-inline constexpr std::size_t most_sol_fields = 1000;
+inline constexpr std::size_t max_sol_fields = 1000;
 
 /// The header of a section.
 struct SolSection {

@@ -41,7 +41,7 @@ std::vector<SectionToWrite> sections_of(const MeshSource& mesh) {
         for (std::size_t f = 0; f < mesh.fields().size(); ++f) {
             const FieldFacts& facts = mesh.fields()[f];
             if (facts.on != on || !sol_can_hold(facts)) continue;
-            if (section.columns.size() == most_sol_fields) break;
+            if (section.columns.size() == max_sol_fields) break;
             section.columns.push_back({f, facts, section.width});
             section.width += facts.components;
         }
@@ -57,7 +57,7 @@ void put_column(std::span<const std::byte> bytes, const Column& column, std::siz
     for (std::size_t i = 0; i < bytes.size() / sizeof(T); ++i) {
         T value;
         std::memcpy(&value, bytes.data() + i * sizeof(T), sizeof(T));
-        const std::size_t place = place_in_sol(i % components, components);
+        const std::size_t place = sol_component_position(i % components, components);
         rows[i / components * width + column.at + place] = static_cast<double>(value);
     }
 }
@@ -134,7 +134,7 @@ private:
         std::uint64_t most = 0;
         for (const SectionToWrite& section : *sections_) {
             most = std::max(most, section.count);
-            size += section.count * section.width * sizeof(double) + 8 * most_sol_fields;
+            size += section.count * section.width * sizeof(double) + 8 * max_sol_fields;
         }
         return lowest_meshb_version(most, size);
     }
@@ -147,7 +147,7 @@ private:
 
 }  // namespace
 
-void put_sol(OutputFile& out, MeshSource& mesh, bool is_binary) {
+void write_sol_contents(OutputFile& out, MeshSource& mesh, bool is_binary) {
     const std::vector<SectionToWrite> sections = sections_of(mesh);
     if (is_binary) return SolbWriter(out, mesh, sections).write();
     put_text(out, mesh, sections);
@@ -156,11 +156,11 @@ void put_sol(OutputFile& out, MeshSource& mesh, bool is_binary) {
 void commit_with_fields(std::unique_ptr<OutputFile> file, MeshSource& mesh,
                         const std::filesystem::path& path) {
     if (std::ranges::none_of(mesh.fields(), sol_can_hold)) return file->commit();
-    const std::filesystem::path beside = *sol_beside(path);
+    const std::filesystem::path beside = *sol_path_for(path);
     std::vector<std::unique_ptr<OutputFile>> files;
     files.push_back(std::move(file));
     files.push_back(std::make_unique<OutputFile>(beside, mesh.group()));
-    put_sol(*files.back(), mesh, beside.extension() == ".solb");
+    write_sol_contents(*files.back(), mesh, beside.extension() == ".solb");
     OutputFile::commit_all(files, mesh.group(), [] {});
 }
 

@@ -11,7 +11,7 @@ namespace octetra {
 
 /// Collective. Writes the fields that a solution file can hold: those of vertices, then those of
 /// cells, each in order.
-void put_sol(OutputFile& out, MeshSource& mesh, bool is_binary);
+void write_sol_contents(OutputFile& out, MeshSource& mesh, bool is_binary);
 
 /// Collective. Writes a Medit mesh to its final path and, if it has fields that a solution file can
 /// hold, also that file next to it: both files, or neither.

@@ -14,7 +14,7 @@
 #include <fmt/format.h>
 
 #include <octetra/core/error.hpp>
-#include <octetra/core/files/places.hpp>
+#include <octetra/core/files/output_paths.hpp>
 
 #include "files/output/places.hpp"
 
@@ -50,7 +50,7 @@ void sync_folder(const std::filesystem::path& folder) {
 OutputFile::OutputFile(std::filesystem::path path, const ProcessGroup& group)
     : group_(&group),
       path_(std::move(path)),
-      final_path_(place_of(path_)),
+      final_path_(resolved_path(path_)),
       buffer_(buffer_size),
       room_(buffer_size) {
     try {

@@ -10,7 +10,7 @@
 
 #include <octetra/core/error.hpp>
 #include <octetra/core/files/mesh_files.hpp>
-#include <octetra/core/files/places.hpp>
+#include <octetra/core/files/output_paths.hpp>
 
 namespace octetra {
 namespace {
@@ -45,7 +45,7 @@ void add(std::vector<fs::path>& paths, const fs::path& path) {
 void refuse_one_place_for_two(const std::vector<fs::path>& paths) {
     for (std::size_t i = 0; i < paths.size(); ++i) {
         for (std::size_t j = 0; j < i; ++j) {
-            if (!are_one_place(paths[i], paths[j])) continue;
+            if (!refer_to_same_file(paths[i], paths[j])) continue;
             throw InputError(fmt::format("{} and {} lead to the same file; choose another name",
                                          paths[j].native(), paths[i].native()));
         }
@@ -62,14 +62,16 @@ std::vector<fs::path> pieces_to_write(const fs::path& path, int pieces) {
 
 }  // namespace
 
-fs::path place_of(const fs::path& path) {
+fs::path resolved_path(const fs::path& path) {
     const fs::path end = end_of_links(path).value_or(path);
     std::error_code no_folder;
     const fs::path folder = fs::weakly_canonical(folder_of(end), no_folder);
     return no_folder ? end : folder / end.filename();
 }
 
-bool are_one_place(const fs::path& a, const fs::path& b) { return place_of(a) == place_of(b); }
+bool refer_to_same_file(const fs::path& a, const fs::path& b) {
+    return resolved_path(a) == resolved_path(b);
+}
 
 std::string write_obstacle(const fs::path& path) {
     if (!end_of_links(path)) return "is a link that refers to itself through other links";
@@ -86,7 +88,7 @@ std::string write_obstacle(const fs::path& path) {
     return {};
 }
 
-void check_place(const fs::path& path) {
+void check_output_path(const fs::path& path) {
     if (const std::string what = write_obstacle(path); !what.empty()) {
         throw InputError(fmt::format("{}: {}", path.native(), what));
     }
@@ -112,7 +114,7 @@ std::vector<fs::path> lists_read_with(const fs::path& path, std::string_view ext
     for (const char* const of_mesh : {".node", ".ele"}) {
         const fs::path name = fs::path(path).replace_extension(of_mesh);
         if (!fs::is_symlink(name)) continue;
-        const fs::path beside = place_of(name).replace_extension(extension);
+        const fs::path beside = resolved_path(name).replace_extension(extension);
         if (std::ranges::find(lists, beside) == lists.end()) lists.push_back(beside);
     }
     return lists;
@@ -139,8 +141,8 @@ std::vector<fs::path> files_to_write(const fs::path& path, int pieces) {
 }
 
 void check_places(const fs::path& path, int pieces) {
-    check_place(path);  // first, with the given name
-    for (const fs::path& file : files_to_write(path, pieces)) check_place(file);
+    check_output_path(path);  // first, with the given name
+    for (const fs::path& file : files_to_write(path, pieces)) check_output_path(file);
     refuse_one_place_for_two(is_in_pieces(path) ? pieces_to_write(path, pieces)
                                                 : files_of_mesh(path));
 }

@@ -26,7 +26,7 @@ public:
         return current_line() + 1;
     }
     /// Moves to a line. Lines within a short distance are skipped by reading.
-    void go_to(std::uint64_t line_to_come) {
+    void seek(std::uint64_t line_to_come) {
         constexpr std::uint64_t near = std::uint64_t{1} << 17U;
         if (line_to_come <= current_line() ||
             index_->position_before(line_to_come) > reader().next_position() + near) {

@@ -34,8 +34,8 @@ template <std::size_t N>
         if (known < run.others || std::ranges::find(groups, last.physical) != groups.end()) {
             return std::nullopt;
         }
-        if (r == rank) removed_count = run.alike;
-        if (run.alike < run.kept) last = run.last;
+        if (r == rank) removed_count = run.equal_to_first;
+        if (run.equal_to_first < run.kept) last = run.last;
     }
     return removed_count;
 }

@@ -73,7 +73,7 @@ private:
         switch (section) {
             case SectionKind::names: {
                 status_->attempt([&] {
-                    intake_.left_out.names = read_group_names(*in_, names_, intake_.untagged);
+                    intake_.ignored.names = read_group_names(*in_, names_, intake_.untagged);
                 });
                 break;
             }
@@ -112,7 +112,7 @@ private:
             behind = in_->here();
         });
         if (!broadcast_from_first(*status_, behind)) return false;
-        status_->attempt([&] { in_->go_to(behind); });
+        status_->attempt([&] { in_->seek(behind); });
         return status_->all_succeeded();
     }
 
@@ -125,10 +125,10 @@ private:
             rows = in_->here();
             constexpr std::uint64_t step = Input::row_step(node_bytes_2);
             const RowShare mine = take_node_share();
-            in_->go_to(rows + mine.first * step);
+            in_->seek(rows + mine.first * step);
             read_node_rows_2(*in_, mine.count, intake_);
             in_->end_rows();
-            in_->go_to(rows + node_count_ * step);
+            in_->seek(rows + node_count_ * step);
         });
         return nodes_complete();
     }
@@ -146,7 +146,7 @@ private:
             return Input::row_step(block.point_bytes());
         };
         const auto read_head = [&](const BlockStart& at) {
-            in_->go_to(at.position);
+            in_->seek(at.position);
             const NodeBlock block = read_node_block_4(*in_, node_count_ - at.first_row);
             const std::uint64_t rows = in_->here();
             const std::uint64_t length = block.count * (tag_step + point_step(block));
@@ -155,10 +155,10 @@ private:
         };
         const auto read_rows = [&](const ReadBlock<NodeBlock>& of, std::uint64_t first,
                                    std::uint64_t count) {
-            in_->go_to(of.rows + first * tag_step);
+            in_->seek(of.rows + first * tag_step);
             read_node_tags_4(*in_, count, intake_);
             in_->end_rows();
-            in_->go_to(of.rows + of.block.count * tag_step + first * point_step(of.block));
+            in_->seek(of.rows + of.block.count * tag_step + first * point_step(of.block));
             read_node_points_4(*in_, of.block, count, intake_);
             in_->end_rows();
         };
@@ -206,7 +206,7 @@ private:
             return Input::row_step(block.row_bytes());
         };
         const auto read_head = [&](const BlockStart& at) {
-            in_->go_to(at.position);
+            in_->seek(at.position);
             const ElementBlock block = read_element_block_4(*in_, count - at.first_row, entities_);
             const std::uint64_t rows = in_->here();
             return ReadBlock<ElementBlock>{
@@ -216,7 +216,7 @@ private:
         };
         const auto read_rows = [&](const ReadBlock<ElementBlock>& of, std::uint64_t first,
                                    std::uint64_t rows) {
-            in_->go_to(of.rows + first * step(of.block));
+            in_->seek(of.rows + first * step(of.block));
             read_element_rows_4(*in_, of.block, rows, intake_);
             in_->end_rows();
         };
@@ -229,10 +229,10 @@ private:
             const std::uint64_t count = read_element_count_2(*in_);
             const std::uint64_t rows = in_->here();
             const RowShare mine = share_of_rows(count, group());
-            in_->go_to(rows + mine.first);
+            in_->seek(rows + mine.first);
             elements.read_lines(mine.count);
             in_->end_rows();
-            in_->go_to(rows + count);
+            in_->seek(rows + count);
         });
         return status_->all_succeeded();
     }
@@ -253,7 +253,7 @@ private:
             return numbers * sizeof(std::int32_t);
         };
         const auto read_head = [&](const BlockStart& at) {
-            in_->go_to(at.position);
+            in_->seek(at.position);
             const ElementBlock2 block = read_element_block_2(*in_, at.blocks_left);
             const std::uint64_t rows = in_->here();
             in_->check_count(block.count, 1, row_bytes(block), "elements");
@@ -265,7 +265,7 @@ private:
         };
         const auto read_rows = [&](const ReadBlock<ElementBlock2>& of, std::uint64_t first,
                                    std::uint64_t rows) {
-            in_->go_to(of.rows + first * row_bytes(of.block));
+            in_->seek(of.rows + first * row_bytes(of.block));
             elements.read_rows(of.block, rows);
         };
         return read_shared_blocks(begin, count, read_head, read_rows);
@@ -283,7 +283,7 @@ private:
         list.erase(list.begin(), list.begin() + static_cast<std::ptrdiff_t>(*removed_count));
         markers.erase(markers.begin(),
                       markers.begin() + static_cast<std::ptrdiff_t>(*removed_count));
-        intake_.left_out.in_another_group += *removed_count;
+        intake_.ignored.in_another_group += *removed_count;
         return true;
     }
 
@@ -295,7 +295,7 @@ private:
         if (!share) return false;
         status_->attempt([&] {
             read_blocks(share_of_rows(row_count, group()), share->own, read_head, read_rows);
-            in_->go_to(share->end.position);
+            in_->seek(share->end.position);
         });
         return status_->all_succeeded();
     }
@@ -322,7 +322,7 @@ private:
     }
 
     bool add_notes() {
-        LeftOut& all = intake_.left_out;  // names are equal on all processes
+        IgnoredContent& all = intake_.ignored;  // names are equal on all processes
         for (std::uint64_t& count : all.of_shape) count = group().sum(count);
         all.interfaces = group().sum(all.interfaces);
         all.degenerate_lines = group().sum(all.degenerate_lines);
@@ -330,14 +330,14 @@ private:
         all.of_missing_entities = group().sum(all.of_missing_entities);
         status_->attempt([&] {
             const auto note = [&](const std::string& text) { share_.notes.push_back(text); };
-            tell_of_entities(entities_.in_several(), path_->native(), note);
-            tell(all, path_->native(), note);
+            note_entities_in_several_groups(entities_.in_several(), path_->native(), note);
+            note_ignored(all, path_->native(), note);
         });
         return status_->all_succeeded();
     }
 
     bool settle(const MeshFacts& counts) {
-        if (!wrong_without_cells(counts.cells, counts.facets, intake_.left_out).empty()) {
+        if (!error_without_cells(counts.cells, counts.facets, intake_.ignored).empty()) {
             return false;  // the first process reports the position
         }
         set_common_facts(counts, group(), share_);

@@ -12,8 +12,8 @@
 #include <octetra/core/huge_pages.hpp>
 
 #include "files/gmsh/group_names.hpp"
-#include "files/gmsh/left_out.hpp"
-#include "files/gmsh/wrong_row.hpp"
+#include "files/gmsh/ignored.hpp"
+#include "files/gmsh/row_error.hpp"
 #include "files/input/growing_mesh.hpp"
 #include "files/stretches/gmsh_node_tags.hpp"
 
@@ -50,7 +50,7 @@ public:
     }
     static constexpr std::size_t most_at_once = 128;
     template <class I, std::size_t N>
-    [[nodiscard]] WrongRow take(const EntityKind<I, N>& kind,
+    [[nodiscard]] RowError take(const EntityKind<I, N>& kind,
                                 std::span<const std::array<std::uint64_t, N>> rows, Marker marker,
                                 std::uint64_t /*place*/, std::uint64_t /*step*/) {
         const Marker kept_marker = untagged.marker_of(N - 1, marker);
@@ -68,14 +68,14 @@ public:
         }
         return {};
     }
-    void skip(Shape shape, std::uint64_t count) { left_out.add(shape, count); }
-    void skip_degenerate_line() { ++left_out.degenerate_lines; }
-    void skip_interface(std::uint64_t count) { left_out.interfaces += count; }
-    void skip_in_another_group() { ++left_out.in_another_group; }
-    void note_missing_entity(std::uint64_t count) { left_out.of_missing_entities += count; }
+    void skip(Shape shape, std::uint64_t count) { ignored.add(shape, count); }
+    void skip_degenerate_line() { ++ignored.degenerate_lines; }
+    void skip_interface(std::uint64_t count) { ignored.interfaces += count; }
+    void skip_in_another_group() { ++ignored.in_another_group; }
+    void note_missing_entity(std::uint64_t count) { ignored.of_missing_entities += count; }
 
     /// elements left out by this process
-    LeftOut left_out;
+    IgnoredContent ignored;
     UntaggedGroups untagged;
 
 private:

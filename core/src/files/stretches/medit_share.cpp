@@ -10,7 +10,7 @@
 #include "files/input/growing_mesh.hpp"
 #include "files/input/input_file.hpp"
 #include "files/input/line_reader.hpp"
-#include "files/medit/entry_places.hpp"
+#include "files/medit/entry_positions.hpp"
 #include "files/medit/keywords.hpp"
 #include "files/medit/medit.hpp"
 #include "files/stretches/keyword_scan.hpp"

@@ -6,7 +6,7 @@
 
 #include "files/input/byte_reader.hpp"
 #include "files/input/growing_mesh.hpp"
-#include "files/medit/entry_places.hpp"
+#include "files/medit/entry_positions.hpp"
 #include "files/medit/meshb_layout.hpp"
 #include "files/medit/meshb_rows.hpp"
 #include "files/stretches/readers.hpp"

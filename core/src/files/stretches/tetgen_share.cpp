@@ -51,7 +51,7 @@ ListHead plan_list(const fs::path& path, Body& body) {
     if (head.count == 0 || !reader.next()) return head;
     Fields fields(reader);
     for (std::size_t k = 0; k < 1 + N + head.markers; ++k) (void)fields.text();
-    body.has_adjacent_cells = goes_on_with_cells<N>(fields, head) ? 1 : 0;
+    body.has_adjacent_cells = ends_with_adjacent_cells<N>(fields, head) ? 1 : 0;
     return head;
 }
 

@@ -108,7 +108,7 @@ void read_tagged(Fields& fields, const LineReader& reader, std::string_view name
 /// Returns whether this line, from which a facet or edge and its marker have been read, ends with
 /// as many fields as there are adjacent cells. If the first line does, all lines do.
 template <std::size_t N>
-[[nodiscard]] bool goes_on_with_cells(const Fields& fields, const ListHead& head) {
+[[nodiscard]] bool ends_with_adjacent_cells(const Fields& fields, const ListHead& head) {
     return head.markers == 1 && fields.count_left() == adjacent_cells<N>;
 }
 template <std::size_t N>

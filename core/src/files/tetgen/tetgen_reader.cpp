@@ -51,20 +51,20 @@ std::uint32_t read_entries(LineReader& reader, std::uint64_t count, std::size_t 
 
 /// Advances the reader from the beginning of the file to the line of an entry. Used only for
 /// errors.
-void go_to_entry(LineReader& reader, std::uint64_t entry) {
+void seek_entry(LineReader& reader, std::uint64_t entry) {
     for (std::uint64_t line = 0; line < entry + 2; ++line) (void)reader.next();  // and the header
 }
 
 [[noreturn]] void fail_entry(const fs::path& path, std::uint64_t entry, std::string_view what) {
     LineReader reader(path);
-    go_to_entry(reader, entry);
+    seek_entry(reader, entry);
     reader.fail(what);
 }
 
 LineOf lines_of(const fs::path& path) {
     return [path](std::uint64_t entry) {
         LineReader reader(path);
-        go_to_entry(reader, entry);
+        seek_entry(reader, entry);
         return reader.line_number();
     };
 }
@@ -91,7 +91,7 @@ public:
         : mesh_(&mesh), path_(&path), check_(mesh, options), repeated_(count) {}
 
     /// Called after a cell has been read.
-    void go_on() {
+    void cell_read() {
         if (mesh_->cells.size() - judged_ == at_once) check_entities();
     }
     /// Throws InputError if one of the cells read since the last call is invalid.
@@ -138,7 +138,7 @@ void read_ele(const fs::path& path, const ReadOptions& options, GrowingMesh& gro
     };
     const auto complete = [&] {
         growing.entity_complete(cell_kind);
-        if (cells) cells->go_on();
+        if (cells) cells->cell_read();
     };
     try {
         read_entries(reader, head.count, head.field_count(), mesh.index_base, read_cell, complete);
@@ -162,7 +162,7 @@ void read_entities(const fs::path& path, std::string_view name, const EntityKind
     std::optional<bool> has_adjacent_cells;  // determined by the first entry
     const auto read_entity = [&](Fields& fields) {
         read_tagged(fields, reader, name, kind, head, numbers, options.only_syntax, mesh);
-        if (!has_adjacent_cells) has_adjacent_cells = goes_on_with_cells<N>(fields, head);
+        if (!has_adjacent_cells) has_adjacent_cells = ends_with_adjacent_cells<N>(fields, head);
         if (*has_adjacent_cells) skip_adjacent_cells<N>(fields);
     };
     read_entries(reader, head.count, 1 + N + head.markers, mesh.index_base, read_entity,

@@ -2,7 +2,7 @@
 #include <span>
 #include <vector>
 
-#include <octetra/core/files/places.hpp>
+#include <octetra/core/files/output_paths.hpp>
 
 #include "files/output/entity_list.hpp"
 #include "files/output/output_file.hpp"
@@ -81,7 +81,7 @@ void write_list(OutputFile& out, MeshSource& mesh, const EntityList<N>& list) {
 void remove_stale_lists(const fs::path& path, const char* extension, bool was_written) {
     const fs::path written = fs::path(path).replace_extension(extension);
     for (const fs::path& list : lists_read_with(path, extension)) {
-        if (!was_written || !are_one_place(list, written)) fs::remove(list);
+        if (!was_written || !refer_to_same_file(list, written)) fs::remove(list);
     }
 }
 

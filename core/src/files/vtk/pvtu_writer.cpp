@@ -52,7 +52,7 @@ void remove_stale_pieces(const fs::path& path, int pieces) {
 }
 
 /// Collective. Runs `work` on all processes; a SystemError on any of them is thrown on all.
-void together(const ProcessGroup& group, auto&& work) {
+void run_collectively(const ProcessGroup& group, auto&& work) {
     std::string failure;
     try {
         work();
@@ -67,12 +67,12 @@ void together(const ProcessGroup& group, auto&& work) {
 std::string write_pvtu(MeshSource& piece, const ProcessGroup& group, const fs::path& path) {
     const VtuData data = vtu_data_of_piece(piece, group.rank());
     std::unique_ptr<OutputFile> out;
-    together(group, [&] {
+    run_collectively(group, [&] {
         out = std::make_unique<OutputFile>(piece_path(path, group.rank()));
         put_vtu(*out, piece, data);
         out->close();
     });
-    together(group, [&] { out->commit(); });
+    run_collectively(group, [&] { out->commit(); });
     group.on_first([&] {
         const bool replaces = fs::exists(path);
         write_index(path, piece, data, group.size());

@@ -13,7 +13,7 @@
 #include <fmt/format.h>
 
 #include <octetra/core/error.hpp>
-#include <octetra/core/files/places.hpp>
+#include <octetra/core/files/output_paths.hpp>
 #include <octetra/core/standard_arithmetic.hpp>
 
 #include "files/hdf5/hdf5_writer.hpp"
@@ -102,7 +102,7 @@ FilledDataset numbers(const std::string& name, std::vector<std::int64_t> values,
 }
 
 /// Returns number(step) for each step.
-std::vector<std::int64_t> of_steps(const std::vector<KeptStep>& steps, auto&& number) {
+std::vector<std::int64_t> values_of_steps(const std::vector<KeptStep>& steps, auto&& number) {
     std::vector<std::int64_t> all;
     for (const KeptStep& step : steps) all.push_back(static_cast<std::int64_t>(number(step)));
     return all;
@@ -133,17 +133,20 @@ std::vector<std::int64_t> bits_of_times(const std::vector<KeptStep>& steps) {
 std::vector<FilledDataset> datasets_of_steps(const std::vector<KeptStep>& steps,
                                              const std::vector<KeptArray>& arrays) {
     const std::uint64_t n = steps.size();
-    const auto points = of_steps(steps, [](const KeptStep& step) { return step.points; });
-    const auto cells = of_steps(steps, [](const KeptStep& step) { return step.cells; });
-    const auto connectivity = of_steps(steps, [](const KeptStep& step) { return 4 * step.cells; });
+    const auto points = values_of_steps(steps, [](const KeptStep& step) { return step.points; });
+    const auto cells = values_of_steps(steps, [](const KeptStep& step) { return step.cells; });
+    const auto connectivity =
+        values_of_steps(steps, [](const KeptStep& step) { return 4 * step.cells; });
     std::int64_t part = 0;
     std::vector<FilledDataset> all{
         numbers("NumberOfPoints", points, {n}),
         numbers("NumberOfCells", cells, {n}),
         numbers("NumberOfConnectivityIds", connectivity, {n}),
         numbers("Steps/Values", bits_of_times(steps), {n}),
-        numbers("Steps/PartOffsets", of_steps(steps, [&](const KeptStep&) { return part++; }), {n}),
-        numbers("Steps/NumberOfParts", of_steps(steps, [](const KeptStep&) { return 1; }), {n}),
+        numbers("Steps/PartOffsets",
+                values_of_steps(steps, [&](const KeptStep&) { return part++; }), {n}),
+        numbers("Steps/NumberOfParts", values_of_steps(steps, [](const KeptStep&) { return 1; }),
+                {n}),
         numbers("Steps/PointOffsets", begins(points), {n}),
         numbers("Steps/CellOffsets", begins(cells), {n, 1}),
         numbers("Steps/ConnectivityIdOffsets", begins(connectivity), {n, 1})};
@@ -165,8 +168,8 @@ struct MeshSeries::Parts {
     fs::path path;
     const ProcessGroup* group;
     OutputFile out;
-    std::optional<OutputFile> beside;  ///< temporary file with the steps, until commit()
-    std::uint64_t end = 0;             ///< size of the temporary file
+    std::optional<OutputFile> steps_file;  ///< temporary file with the steps, until commit()
+    std::uint64_t end = 0;                 ///< size of the temporary file
     std::vector<KeptStep> steps;
     std::uint64_t facets = 0;
     std::uint64_t edges = 0;
@@ -177,7 +180,7 @@ struct MeshSeries::Parts {
         : path(name),
           group(&processes),
           out(name, processes),
-          beside(std::in_place, name.native() + ".steps", processes) {}
+          steps_file(std::in_place, name.native() + ".steps", processes) {}
 
     KeptArray keep(const VtkhdfArray& one) {
         const VtuArray& array = one.array;
@@ -186,13 +189,13 @@ struct MeshSeries::Parts {
                        array.components, end,        values / array.components};
         if (one.begins_with_0) {
             constexpr std::int64_t zero = 0;
-            if (group->is_first()) beside->overwrite(end, &zero, sizeof zero);
+            if (group->is_first()) steps_file->overwrite(end, &zero, sizeof zero);
             end += sizeof zero;
             ++kept.rows;
         }
         for_each_slice(array, *group, [&](const Window& window, const std::vector<char>& bytes) {
             const std::uint64_t before = window.begin_of(group->rank()) * array.entity_size();
-            beside->overwrite(end + before, bytes.data(), bytes.size());
+            steps_file->overwrite(end + before, bytes.data(), bytes.size());
         });
         end += values * array.value_size;
         return kept;
@@ -235,11 +238,11 @@ struct MeshSeries::Parts {
     }
 
     void put() {
-        beside->close();
+        steps_file->close();
         std::string failure;
         std::optional<InputFile> file;
         try {
-            file.emplace(beside->temporary());
+            file.emplace(steps_file->temporary());
         } catch (const std::exception& error) {
             failure = error.what();
         }
@@ -327,7 +330,7 @@ std::string MeshSeries::commit() {
     }
     parts_->put();
     parts_->out.commit();
-    parts_->beside.reset();
+    parts_->steps_file.reset();
     return parts_->lost();
 }
 

@@ -22,7 +22,7 @@ struct History {
 /// history. Each is bitwise equal to the mesh that refinement produced, with the same numbering.
 /// Throws InputError as refine() does, where a step counts as a level.
 [[nodiscard]] std::vector<Refinement> replay(const History& history,
-                                             std::size_t max_cells = any_number);
+                                             std::size_t max_cells = unlimited);
 
 /// One element for each cell of a mesh: nonzero if the cell is marked.
 using CellMarks = IndexVector<CellIndex, char>;
@@ -33,7 +33,7 @@ using CellMarks = IndexVector<CellIndex, char>;
 /// bisects no edge is not recorded.
 [[nodiscard]] History refined(const History& history, const CellMarks& marked, Scheme scheme);
 
-/// Coarsens the cells marked in `may_go` by one generation each, where possible.
+/// Coarsens the cells marked in `may_coarsen` by one generation each, where possible.
 ///
 /// The vertices that are kept are the least set K such that
 ///  (a) K contains the vertices of the input, of every present cell that is not marked, and of
@@ -45,6 +45,6 @@ using CellMarks = IndexVector<CellIndex, char>;
 ///
 /// If midpoints were rounded, a cell without them may be flat or inverted although its children
 /// were not: replay() of the result then throws.
-[[nodiscard]] History coarsened(const History& history, const CellMarks& may_go);
+[[nodiscard]] History coarsened(const History& history, const CellMarks& may_coarsen);
 
 }  // namespace octetra::reference

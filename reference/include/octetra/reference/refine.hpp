@@ -12,7 +12,7 @@
 /// checked by inspection.
 namespace octetra::reference {
 
-inline constexpr std::size_t any_number = std::numeric_limits<std::size_t>::max();
+inline constexpr std::size_t unlimited = std::numeric_limits<std::size_t>::max();
 
 struct Refinement {
     Mesh mesh;
@@ -34,6 +34,6 @@ struct Refinement {
 /// rounded to binary64, would make a cell flat or inverted, if the result has more entities than
 /// can be numbered, or before a level that would make more than `max_cells` cells.
 [[nodiscard]] Refinement refine(const Mesh& mesh, const Selection& selection, Scheme scheme,
-                                int levels, std::size_t max_cells = any_number);
+                                int levels, std::size_t max_cells = unlimited);
 
 }  // namespace octetra::reference

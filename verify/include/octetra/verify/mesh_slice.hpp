@@ -39,7 +39,7 @@ struct MeshSlice {
 /// Collective. Distributes the slices of a mesh held by the first process, which must satisfy the
 /// first invariant of struct Mesh except that indices may be out of range. The arguments of other
 /// processes are ignored.
-[[nodiscard]] MeshSlice share_out(const Mesh& mesh, const ProcessGroup& group);
+[[nodiscard]] MeshSlice distribute_slices(const Mesh& mesh, const ProcessGroup& group);
 
 /// Collective. Returns the slices of a mesh file, which the first process reads and distributes
 /// without holding all of it. Only the option `note` is used, as by stream_mesh(). Throws the

@@ -92,7 +92,7 @@ struct Verdict {
     std::vector<TagSum> volumes;
     std::vector<TagSum> areas;
     Arithmetic arithmetic;
-    std::uint64_t looked_at = 0;  ///< pairs and boxes tested in spatial searches: their cost
+    std::uint64_t search_tests = 0;  ///< pairs and boxes tested in spatial searches: their cost
 
     [[nodiscard]] std::uint64_t count(Code code) const {
         return counts[static_cast<std::size_t>(code)];

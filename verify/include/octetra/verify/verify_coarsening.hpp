@@ -15,8 +15,8 @@ namespace octetra::verify {
 struct CoarseningRequest {
     /// `cells` are indices in the mesh before coarsening, in file order; allowed only with a single
     /// level.
-    Selection may_go;
-    bool outside = false;  ///< select the cells that `may_go` does not mark instead
+    Selection may_coarsen;
+    bool outside = false;  ///< select the cells that `may_coarsen` does not mark instead
     /// The criteria are applied to the coarser mesh each time, until nothing changes.
     int levels = 1;
 };

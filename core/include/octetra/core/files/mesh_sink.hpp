@@ -13,7 +13,7 @@ namespace octetra {
 
 /// Receives a mesh file from stream_mesh(). For each kind of entity in the file, expect_...() is
 /// called once with the number of entities and the data that they have; then take_...() is called
-/// with exactly that many entities, in file order, in batches of 1 to longest_stretch. Points
+/// with exactly that many entities, in file order, in batches of 1 to max_batch_size. Points
 /// precede everything else, whatever the file's order; cells, facets and edges follow in file
 /// order, one kind after the other or, for `.msh` files, interleaved. Vertices are numbered from 0
 /// and in range; coordinates are finite. Nothing else is checked (ReadOptions::only_syntax).
@@ -24,7 +24,7 @@ class MeshSink {
 public:
     /// The maximum number of entities in a batch. Batches of points are smaller if these have
     /// attributes.
-    static constexpr std::size_t longest_stretch = 16384;
+    static constexpr std::size_t max_batch_size = 16384;
 
     MeshSink() = default;
     virtual ~MeshSink() = default;

@@ -1,0 +1,34 @@
+#include "adapt/step_texts.hpp"
+
+#include <fmt/format.h>
+
+#include "grouped.hpp"
+
+namespace octetra::cli {
+
+std::string levels_done(std::string_view done, int levels) {
+    return fmt::format("{}, {} level{}", done, levels, levels == 1 ? "" : "s");
+}
+
+std::string sizes_before(std::uint64_t vertices, std::uint64_t cells) {
+    return fmt::format("  (before: {}, {})", grouped(vertices), grouped(cells));
+}
+
+std::string with_level(std::string_view what, int level, int levels) {
+    return fmt::format(
+        "{} (levels count all steps that have made this mesh; this is level {} of {} here)", what,
+        level, levels);
+}
+
+std::vector<std::string> idle_levels(int done, int levels, std::string_view reason) {
+    if (levels == 0) return {"--levels 0: the mesh is unchanged"};
+    if (done == levels) return {};
+    if (done == 0) return {fmt::format("{}: the mesh is unchanged", reason)};
+    return {fmt::format("{} any more after level {} of {}", reason, done, levels)};
+}
+
+std::string_view idle_coarsening_reason(bool is_any_marked) {
+    return is_any_marked ? "no vertex could be removed" : "no cell was marked";
+}
+
+}  // namespace octetra::cli

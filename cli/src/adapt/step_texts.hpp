@@ -1,0 +1,33 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+/// Texts of the report on a step.
+namespace octetra::cli {
+
+struct StepDone {
+    std::string what;  ///< "refined, 2 levels"
+    std::vector<std::string> remarks = {};
+    bool changes_mesh = true;
+};
+
+/// Returns "refined, 2 levels" etc.
+[[nodiscard]] std::string levels_done(std::string_view done, int levels);
+
+/// Returns "  (before: 1,026, 3,103)", given the numbers of vertices and cells.
+[[nodiscard]] std::string sizes_before(std::uint64_t vertices, std::uint64_t cells);
+
+/// Returns the message of an error in a level of a step that is not the first of a script.
+[[nodiscard]] std::string with_level(std::string_view what, int level, int levels);
+
+/// Returns the reason why fewer levels than requested changed the mesh; nothing if all did.
+[[nodiscard]] std::vector<std::string> idle_levels(int done, int levels, std::string_view reason);
+
+/// Returns the reason for coarsening.
+[[nodiscard]] std::string_view idle_coarsening_reason(bool is_any_marked);
+inline constexpr std::string_view idle_refinement_reason = "no cell was marked";
+
+}  // namespace octetra::cli

@@ -18,8 +18,8 @@
 
 #include "level/tuning.hpp"
 #include "measuring.hpp"
-#include "memory_at_hand.hpp"
 #include "pattern_tables.hpp"
+#include "reserve_memory.hpp"
 #include "support/meshes.hpp"
 
 namespace octetra::bench {

@@ -14,8 +14,8 @@
 #include <octetra/distributed/communicator.hpp>
 #include <octetra/distributed/out_of_memory.hpp>
 
-#include "answer.hpp"
 #include "commands/commands.hpp"
+#include "negative_answer.hpp"
 #include "terminal.hpp"
 #include "usage_errors.hpp"
 

@@ -6,9 +6,9 @@
 #include <octetra/distributed/communicator.hpp>
 #include <octetra/verify/compare.hpp>
 
-#include "answer.hpp"
 #include "commands/commands.hpp"
 #include "commands/mesh_options.hpp"
+#include "negative_answer.hpp"
 #include "verdict/print_verdict.hpp"
 
 namespace octetra::cli {

@@ -25,7 +25,6 @@
 #include <octetra/reference/refine.hpp>
 
 #include "adapt/adaptation.hpp"
-#include "answer.hpp"
 #include "commands/commands.hpp"
 #include "commands/distinct_files.hpp"
 #include "commands/input_check.hpp"
@@ -38,6 +37,7 @@
 #include "commands/refine/report.hpp"
 #include "commands/refinement_options.hpp"
 #include "commands/report_line.hpp"
+#include "negative_answer.hpp"
 #include "stopwatch.hpp"
 #include "terminal.hpp"
 

@@ -15,13 +15,13 @@
 #include <octetra/distributed/communicator.hpp>
 #include <octetra/verify/verify.hpp>
 
-#include "answer.hpp"
 #include "commands/commands.hpp"
 #include "commands/distinct_files.hpp"
 #include "commands/mesh_options.hpp"
 #include "commands/number_options.hpp"
 #include "commands/refinement_options.hpp"
 #include "commands/verify/coarsened.hpp"
+#include "negative_answer.hpp"
 #include "verdict/check_progress.hpp"
 #include "verdict/print_verdict.hpp"
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cassert>
 #include <compare>
 #include <cstddef>
 #include <cstdint>
@@ -24,7 +25,10 @@ public:
     static constexpr Value limit = none_value;
 
     constexpr Index() = default;
-    constexpr explicit Index(std::size_t number) : number_(static_cast<Value>(number)) {}
+    /// `number` is at most none_value.
+    constexpr explicit Index(std::size_t number) : number_(static_cast<Value>(number)) {
+        assert(number <= none_value);
+    }
 
     static constexpr Index none() { return Index{none_value}; }
 

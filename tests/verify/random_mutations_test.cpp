@@ -109,7 +109,7 @@ TEST(RandomMutations, DoNotPassUnlessTheMeshIsTheSame) {
                                                {.request = c.request});
             if (group.is_first()) together = std::move(of_one);
         });
-        RC_ASSERT(test::text_of(together) == test::text_of(verdict));
+        RC_ASSERT(test::verdict_text(together) == test::verdict_text(verdict));
     });
     EXPECT_TRUE(holds);
 }
